@@ -1,0 +1,124 @@
+"""Function expressions: the resolved nodes.
+
+A resolved expression contains no names to look up any more: constants are numbers, ids are
+:class:`Ref`, bare names are calls of ``VARVAL``, omitted optional arguments are filled in.
+Nodes are immutable, hashable and compare by content.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+NEGATE = "neg"
+_LEVEL = {"+": 1, "-": 1, NEGATE: 1, "*": 2, "/": 2, "**": 3}
+
+
+@dataclass(frozen=True, slots=True)
+class Num:
+    """A number; angles written in degrees are radians here."""
+
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
+class Time:
+    """The time of the simulation."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mode:
+    """The kind of analysis being run, 4 in dynamics."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ref:
+    """A statement named by keyword and id; ``Ref("MARKER", 0)`` is the ground frame."""
+
+    kind: str
+    id: int | str
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A function of the deck language; ``name`` is in capitals."""
+
+    name: str
+    args: tuple[Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Op:
+    """Arithmetic: ``op`` is one of ``+ - * / ** neg``."""
+
+    op: str
+    args: tuple[Node, ...]
+
+
+Node = Num | Time | Mode | Ref | Call | Op
+
+GROUND_FRAME = Ref("MARKER", 0)
+TIME = Time()
+MODE = Mode()
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """The node and everything below it, parents first."""
+    pending = [node]
+    while pending:
+        top = pending.pop()
+        yield top
+        if type(top) is Call or type(top) is Op:
+            pending.extend(reversed(top.args))
+
+
+def calls(node: Node, *names: str) -> Iterator[Call]:
+    """The calls inside ``node``; only those of the given functions when there are any."""
+    for each in walk(node):
+        if type(each) is Call and (not names or each.name in names):
+            yield each
+
+
+def rebuild(node: Node, change: Callable[[Node], Node]) -> Node:
+    """A copy in which ``change`` was applied to every node, leaves first."""
+    if type(node) is Call:
+        node = Call(node.name, tuple(rebuild(arg, change) for arg in node.args))
+    elif type(node) is Op:
+        node = Op(node.op, tuple(rebuild(arg, change) for arg in node.args))
+    return change(node)
+
+
+def to_text(node: Node) -> str:
+    """The expression in deck syntax; reading it again gives the same node."""
+    return _text(node, 0)
+
+
+def _text(node: Node, level: int) -> str:
+    match node:
+        case Num(value):
+            text = f"{value:.17g}" if float(f"{value:.12g}") != value else f"{value:.12g}"
+            return f"({text})" if value < 0 and level else text
+        case Time() | Mode():
+            return type(node).__name__.upper()
+        case Ref(_, id):
+            return str(id)
+        case Call("IF", args):
+            first, *rest = (_text(arg, 0) for arg in args)
+            return f"IF({first}: {', '.join(rest)})"
+        case Call(name, args):
+            return f"{name}({', '.join(_text(arg, 0) for arg in args)})"
+        case Op(op, args):
+            text = _operation(op, args)
+            return f"({text})" if _LEVEL[op] < level or (op == NEGATE and level) else text
+    raise TypeError(f"not an expression node: {node!r}")
+
+
+def _operation(op: str, args: tuple[Node, ...]) -> str:
+    own = _LEVEL[op]
+    if op == NEGATE:
+        return f"-{_text(args[0], own + 1)}"
+    # Operators group to the left, ** to the right: the other side needs brackets at equal level.
+    sides = (own + 1, own) if op == "**" else (own, own + 1)
+    left, right = (_text(arg, side) for arg, side in zip(args, sides, strict=True))
+    blank = " " if own == 1 else ""
+    return f"{left}{blank}{op}{blank}{right}"

@@ -1,0 +1,221 @@
+"""What a statement is: a frozen dataclass whose fields declare how they are written in a deck.
+
+>>> @statement("SFORCE")
+... class Sforce(Statement):
+...     i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
+...     function: Node = expression("FUNCTION", required=True, help="size of the force")
+
+Nothing else describes or validates the arguments; readers, checkers and manuals ask the class.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from adamslite.diagnostics import Span, Spans
+
+STATEMENTS: dict[str, type[Statement]] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """How one field of a statement is written in a deck.
+
+    Parameters
+    ----------
+    kind : str
+        ``number vector integer flag choice reference references expression text texts words``.
+    keys : tuple of str
+        The keyword and its aliases, in capitals.
+    help, unit : str
+        Meaning and physical unit, for the manual.
+    default : Any
+        Value of the field when the argument is omitted.
+    required : bool
+        Whether omitting it is a mistake.
+    sizes : tuple of int
+        Least and greatest number of values of a vector.
+    to : str
+        Keyword of the statement a reference names.
+    options : tuple of str
+        Words a choice may take.
+    supported : tuple of str
+        Those options the program can run; empty means all.
+    bare : bool
+        A choice whose options are written as flags, without ``KEY=``.
+    name : str
+        Name of the field.
+    """
+
+    kind: str
+    keys: tuple[str, ...]
+    help: str
+    unit: str = ""
+    default: Any = None
+    required: bool = False
+    sizes: tuple[int, int] = (1, 1)
+    to: str = ""
+    options: tuple[str, ...] = ()
+    supported: tuple[str, ...] = ()
+    bare: bool = False
+    name: str = ""
+
+    @property
+    def key(self) -> str:
+        """The keyword to show to people."""
+        return self.keys[0] if self.keys else " | ".join(self.options)
+
+
+def _declare(kind: str, keys: tuple[str, ...], **facts: Any) -> Any:
+    argument = Argument(kind=kind, keys=keys, **facts)
+    return field(default=argument.default, metadata={"argument": argument})
+
+
+def number(*keys: str, help: str, unit: str, **facts: Any) -> Any:
+    """One real number (a constant expression is worked out)."""
+    return _declare("number", keys, help=help, unit=unit, **facts)
+
+
+def vector(*keys: str, size: int, help: str, unit: str, most: int = 0, **facts: Any) -> Any:
+    """``size`` real numbers, or from ``size`` to ``most``."""
+    sizes = (size, most or size)
+    return _declare("vector", keys, help=help, unit=unit, sizes=sizes, **facts)
+
+
+def integer(*keys: str, help: str, unit: str = "", **facts: Any) -> Any:
+    """One whole number."""
+    return _declare("integer", keys, help=help, unit=unit, **facts)
+
+
+def flag(*keys: str, help: str) -> Any:
+    """A word without a value."""
+    return _declare("flag", keys, help=help, default=False)
+
+
+def choice(*keys: str, options: tuple[str, ...], help: str, **facts: Any) -> Any:
+    """One word of several: ``KEY=WORD``, or just ``WORD`` when no key is given."""
+    return _declare("choice", keys, help=help, options=options, bare=not keys, **facts)
+
+
+def reference(*keys: str, to: str, help: str, **facts: Any) -> Any:
+    """The id or name of another statement; a marker may also be written ``KEY_MARKER=``."""
+    if to == "MARKER":
+        keys += tuple(f"{key}_MARKER" for key in keys if not key.endswith("MARKER"))
+    return _declare("reference", keys, help=help, to=to, **facts)
+
+
+def references(*keys: str, to: str, help: str, **facts: Any) -> Any:
+    """Ids or names of several statements."""
+    return _declare("references", keys, help=help, to=to, default=(), **facts)
+
+
+def expression(*keys: str, help: str, unit: str = "", **facts: Any) -> Any:
+    """A function expression; the last argument, or closed by a backslash."""
+    return _declare("expression", keys, help=help, unit=unit, **facts)
+
+
+def text(*keys: str, help: str, **facts: Any) -> Any:
+    """Free text up to the next comma."""
+    return _declare("text", keys, help=help, **facts)
+
+
+def texts(*keys: str, help: str, **facts: Any) -> Any:
+    """Several texts, separated by commas."""
+    return _declare("texts", keys, help=help, default=(), **facts)
+
+
+def words(*keys: str, options: tuple[str, ...], help: str, **facts: Any) -> Any:
+    """Words separated by colons, as in ``X:Y:PSI``."""
+    return _declare("words", keys, help=help, options=options, default=(), **facts)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Statement:
+    """A statement of the deck as data.
+
+    Parameters
+    ----------
+    id : int or str
+        A number (leading zeros dropped) or the name as written; 0 for statements without id.
+    name : str or None
+        The name from the ``! adams_view_name='...'`` comment before the statement.
+    spans : Spans
+        Places of the arguments that were given, by field name.
+    """
+
+    keyword: ClassVar[str] = ""
+    arguments: ClassVar[Mapping[str, Argument]] = {}
+    singleton: ClassVar[bool] = False
+    repeatable: ClassVar[bool] = False
+    place: ClassVar[str] = "deck"
+    ends: ClassVar[bool] = False
+    ignored: ClassVar[bool] = False
+
+    id: int | str = 0
+    name: str | None = None
+    spans: Spans = field(default_factory=Spans)
+
+    @property
+    def span(self) -> Span:
+        """The place of the whole statement."""
+        return self.spans.whole
+
+    @property
+    def label(self) -> str:
+        """What results and messages call it: ``SFORCE/5``, ``VARIABLE/Dm``."""
+        return self.keyword if self.singleton else f"{self.keyword}/{self.id}"
+
+    @property
+    def key(self) -> int | str:
+        """The id as references to this statement hold it: a number or a name in capitals."""
+        return self.id.upper() if isinstance(self.id, str) else self.id
+
+    def given(self, field_name: str) -> bool:
+        """Whether the deck has this argument."""
+        return field_name in self.spans
+
+
+def statement(
+    keyword: str,
+    *,
+    singleton: bool = False,
+    repeatable: bool = False,
+    place: str = "deck",
+    ends: bool = False,
+    ignored: bool = False,
+) -> Callable[[type[Statement]], type[Statement]]:
+    """Register a class as the statement ``keyword``.
+
+    Parameters
+    ----------
+    keyword : str
+        In capitals.
+    singleton : bool
+        Written without id (``UNITS/...``), so the first item is an argument already.
+    repeatable : bool
+        A singleton that may stand more than once.
+    place : str
+        Where it may stand: ``"deck"``, ``"command"`` or ``"both"``.
+    ends : bool
+        Reading stops after it.
+    ignored : bool
+        Its arguments are not read.
+    """
+
+    def register(cls: type[Statement]) -> type[Statement]:
+        made = dataclass(frozen=True, kw_only=True, eq=False)(cls)
+        made.keyword = keyword
+        made.arguments = {
+            f.name: dataclasses.replace(f.metadata["argument"], name=f.name)
+            for f in dataclasses.fields(made)
+            if "argument" in f.metadata
+        }
+        made.singleton, made.repeatable, made.place = singleton, repeatable, place
+        made.ends, made.ignored = ends, ignored
+        STATEMENTS[keyword] = made
+        return made
+
+    return register
