@@ -1,0 +1,40 @@
+"""How a run can end: each outcome's value is the sentence shown to the user, with the remedy."""
+
+from enum import Enum
+
+
+class Outcome(Enum):
+    """The ways a run ends; the value says what happened and what to do about it."""
+
+    DONE = "The run reached its end."
+    SINGULAR_ACCELERATION = (
+        "The effective mass has vanished: a force that depends on an acceleration cancels the mass, so "
+        "the equations no longer determine the motion. Look at the sign of that force "
+        "(`adamslite check` prints the effective mass) or end the run before this time."
+    )
+    STEP_TOO_SMALL = (
+        "The steps needed to meet ERROR became too small to advance the time. Look for a jump in a "
+        "force or a motion (use STEP instead of IF), a stiffness that is far too large, or a larger ERROR."
+    )
+    NEWTON_FAILED = (
+        "The corrector did not converge even with the smallest step. Look for a jump or a pole in the "
+        "named force, or for a mechanism that locks; a smaller HMAX may help."
+    )
+    INITIAL_CONDITIONS_FAILED = (
+        "No starting state satisfies all constraints. Look at the positions of the named joint's "
+        "markers, at initial velocities that contradict a constraint, and at EXACT."
+    )
+    NOT_FINITE = (
+        "An expression gave infinity or not-a-number. Look for a division by zero, the root or the "
+        "logarithm of a negative number, or DM of coinciding markers in the named statement."
+    )
+    INTERRUPTED = "The run was interrupted; everything computed until then is kept."
+    STEP_LIMIT = (
+        "The largest allowed number of steps was taken before the end. The scene may be stiffer than "
+        "the integrator suits: use an implicit one, a larger ERROR, or a shorter run."
+    )
+    NO_END_TIME = (
+        "Nothing says how long to run. Give SIMULATE/DYNAMIC, END=..., STEPS=... in a command file "
+        "(second argument, or a .acf of the deck's name beside it), or in the deck itself, "
+        "or use the flags --end T --steps N."
+    )

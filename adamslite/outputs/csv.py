@@ -1,0 +1,133 @@
+"""Comma-separated values: comment lines, one header row of result names, one row per output time.
+
+    # adamslite 0.1.0
+    # deck: cable.adm
+    # units: meter kilogram newton second
+    time,PART/2.x,PART/2.vx
+    0.0,0.01,0.0
+
+Numbers are written with the fewest digits (17 at most) that read back to the same bits,
+so the same run gives the same bytes and nothing is lost.
+"""
+
+import csv
+import io
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+import numpy as np
+
+import adamslite
+from adamslite.outcomes import Outcome
+from adamslite.outputs.whole import whole_file
+from adamslite.results import Results
+
+
+class FormatError(ValueError):
+    """A file that is not a result file; says where and why."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A file as read: its results, and its comment lines as (line number, text) pairs."""
+
+    results: Results
+    comments: tuple[tuple[int, str], ...]
+
+
+def write(results: Results, path: str | Path) -> None:
+    """Write `results` to the file `path`, whole or not at all."""
+    with whole_file(path) as stream:
+        write_to(results, stream)
+
+
+def write_to(results: Results, stream: TextIO) -> None:
+    """Write `results` to an open text stream."""
+    stream.write(f"# adamslite {adamslite.__version__}\n")
+    for key, value in results.meta.items():
+        stream.write(f"# {key}: {_one_line(value)}\n")
+    if results.outcome is not Outcome.DONE:
+        stream.write(f"# outcome: {results.outcome.name} {_one_line(results.message)}\n")
+    header = csv.writer(stream, lineterminator="\n")
+    header.writerow(["time", *results.names])
+    for time, row in zip(results.time.tolist(), results.values, strict=True):
+        stream.write(",".join(map(repr, (time, *row.tolist()))) + "\n")
+
+
+def read(path: str | Path) -> Table:
+    """Read a result file.
+
+    Raises
+    ------
+    FormatError
+        When a row has the wrong number of values or something that is not a number.
+    """
+    lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+    comments, start = _leading_comments(lines)
+    meta = dict(_key_and_value(text) for _, text in comments if ": " in text)
+    if start == len(lines):
+        empty = Results(time=np.empty(0), names=(), values=np.empty((0, 0)), meta=meta)
+        return Table(empty, comments)
+    names = _header(lines[start], f"{path}:{start + 1}")
+    numbers = _numbers(lines, start + 1, len(names), path)
+    results = Results(time=numbers[:, 0], names=names[1:], values=numbers[:, 1:], meta=meta)
+    return Table(results, comments)
+
+
+def _one_line(text: str) -> str:
+    return " ".join(str(text).split())
+
+
+def _leading_comments(lines: list[str]) -> tuple[tuple[tuple[int, str], ...], int]:
+    comments = []
+    for index, line in enumerate(lines):
+        if line.startswith("#"):
+            comments.append((index + 1, line[1:].strip()))
+        elif line.strip():
+            return tuple(comments), index
+    return tuple(comments), len(lines)
+
+
+def _key_and_value(text: str) -> tuple[str, str]:
+    key, _, value = text.partition(": ")
+    return key, value.strip()
+
+
+def _header(line: str, place: str) -> tuple[str, ...]:
+    names = tuple(name.strip() for name in next(csv.reader(io.StringIO(line))))
+    if names[0].casefold() != "time":
+        raise FormatError(f"{place}: the header row must start with 'time', not '{names[0]}'")
+    seen = set()
+    for name in map(str.casefold, names):
+        if name in seen:
+            raise FormatError(f"{place}: the column '{name}' is there twice")
+        seen.add(name)
+    return names
+
+
+def _numbers(lines: list[str], start: int, width: int, path: str | Path) -> np.ndarray:
+    rows = [line for line in lines[start:] if line.strip()]
+    if not rows:
+        return np.empty((0, width))
+    try:
+        numbers = np.loadtxt(rows, delimiter=",", ndmin=2, comments=None)
+        if numbers.shape[1] == width:
+            return numbers
+    except ValueError:
+        pass  # the search below says which line is wrong, and why
+    raise FormatError(_first_fault(lines, start, width, path))
+
+
+def _first_fault(lines: list[str], start: int, width: int, path: str | Path) -> str:
+    for index in range(start, len(lines)):
+        cells = lines[index].split(",")
+        place = f"{path}:{index + 1}"
+        if lines[index].strip() and len(cells) != width:
+            return f"{place}: {len(cells)} values where the header has {width} columns"
+        for cell in filter(str.strip, cells):
+            try:
+                float(cell)
+            except ValueError:
+                return f"{place}: '{cell.strip()}' is not a number"
+    return f"{path}: the table has an empty cell"
