@@ -1,0 +1,197 @@
+"""Angles between the axes of two markers.
+
+R is the attitude of marker i seen from marker j: R[a][b] = (axis a of j) . (axis b of i).  A
+body-fixed sequence a-b-c turns about axis a, then about the new b, then about the new c:
+
+    R = R_a(q1) R_b(q2) R_c(q3)
+
+Where the middle angle lines the first axis up with the last, only their sum counts: q3 is then 0.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.algebra import choose, norm, sp
+from adamslite.function import Mistake, function
+from adamslite.symbolic import Scope, dot
+
+SEQUENCES = (
+    *((0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (1, 0, 2), (2, 1, 0)),
+    *((0, 1, 0), (0, 2, 0), (1, 0, 1), (1, 2, 1), (2, 0, 2), (2, 1, 2)),
+)
+BODY_313 = 11
+BODY_321 = 6
+EULER_PARAMETERS = 27
+# Square of the sine below which rounding, not the attitude, would decide the outer angles.
+ALIGNED = 1e-20
+
+Matrix = tuple[tuple[Any, ...], ...]
+
+
+def _attitude(scope: Scope, i: Any, j: Any) -> Matrix:
+    return tuple(tuple(dot(a, b) for b in scope.axes(i)) for a in scope.axes(j))
+
+
+def _sequence_angle(r: Matrix, sequence: tuple[int, int, int], component: int) -> Any:
+    """Angle 1, 2 or 3 of ``sequence``, read off the row and column that hold only two angles."""
+    a, b, c = sequence
+    other = 3 - a - b
+    e = 1 if (b - a) % 3 == 1 else -1
+    if a == c:
+        last = (r[b][a], -e * r[other][a], r[a][a])
+        first = (r[a][b], e * r[a][other])
+        middle = (norm((last[0], last[1], 0)), r[a][a])
+    else:
+        last = (-e * r[b][c], r[c][c])
+        first = (-e * r[a][b], r[a][a])
+        middle = (e * r[a][c], norm((r[a][a], r[a][b], 0)))
+    if component == 2:
+        return sp.atan2(*middle)
+    sine, cosine = last[:2] if component == 1 else first
+    together = sp.atan2(e * r[other][b], r[b][b]) if component == 1 else 0
+    return choose((sp.atan2(sine, cosine), sine**2 + cosine**2 > ALIGNED), otherwise=together)
+
+
+def _euler_parameter(r: Matrix, component: int) -> Any:
+    """P0..P3 for ``component`` 1..4, from the largest of them and signed so that P0 >= 0.
+
+    With 4 P_a P_b known for every pair, row a of the table holds 4 P_a (P0, P1, P2, P3).
+    """
+    skew = (r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1])
+    symmetric = [[r[a][b] + r[b][a] for b in range(3)] for a in range(3)]
+    table = [(1 + r[0][0] + r[1][1] + r[2][2], *skew)]
+    for a in range(3):
+        own = 1 + 2 * r[a][a] - r[0][0] - r[1][1] - r[2][2]
+        row = [own if a == b else symmetric[a][b] for b in range(3)]
+        sign = choose((1, skew[a] >= 0), otherwise=-1)
+        table.append(tuple(sign * entry for entry in (skew[a], *row)))
+    roots = [row[component - 1] / (2 * sp.sqrt(_own(r, n))) for n, row in enumerate(table)]
+    trace = r[0][0] + r[1][1] + r[2][2]
+    return choose(
+        (roots[0], trace >= 0),
+        (roots[1], sp.And(r[0][0] >= r[1][1], r[0][0] >= r[2][2])),
+        (roots[2], r[1][1] >= r[2][2]),
+        otherwise=roots[3],
+    )
+
+
+def _own(r: Matrix, n: int) -> Any:
+    """4 P_n**2."""
+    trace = r[0][0] + r[1][1] + r[2][2]
+    return 1 + trace if n == 0 else 1 + 2 * r[n - 1][n - 1] - trace
+
+
+def _components_fit(system: float | None, component: float | None, *_: Any) -> Mistake | None:
+    if component == 4 and system not in (None, EULER_PARAMETERS):
+        return 1, "only system 27 (Euler parameters) of ORIENT has a component 4"
+    return None
+
+
+@function("AX", "i:marker j:marker=0")
+def ax(scope: Scope, i: Any, j: Any) -> Any:
+    """Rotation of i about the x axis of j: atan2(-z_i . y_j, z_i . z_j), full turns counted.
+
+    Unit: rad.  Meant for attitudes whose other two rotations are small.
+    Source: Adams/Solver function AX.
+    """
+    z, (_, yj, zj) = scope.axes(i)[2], scope.axes(j)
+    return scope.angle(-dot(z, yj), dot(z, zj))
+
+
+@function("AY", "i:marker j:marker=0")
+def ay(scope: Scope, i: Any, j: Any) -> Any:
+    """Rotation of i about the y axis of j: atan2(z_i . x_j, z_i . z_j), full turns counted.
+
+    Unit: rad.  Meant for attitudes whose other two rotations are small.
+    Source: Adams/Solver function AY.
+    """
+    z, (xj, _, zj) = scope.axes(i)[2], scope.axes(j)
+    return scope.angle(dot(z, xj), dot(z, zj))
+
+
+@function("AZ", "i:marker j:marker=0")
+def az(scope: Scope, i: Any, j: Any) -> Any:
+    """Rotation of i about the z axis of j: atan2(x_i . y_j, x_i . x_j), full turns counted.
+
+    Unit: rad.  Meant for attitudes whose other two rotations are small.
+    Source: Adams/Solver function AZ.
+    """
+    x, (xj, yj, _) = scope.axes(i)[0], scope.axes(j)
+    return scope.angle(dot(x, yj), dot(x, xj))
+
+
+@function("PSI", "i:marker j:marker=0")
+def psi(scope: Scope, i: Any, j: Any) -> Any:
+    """First angle of the body-fixed 3-1-3 sequence that turns j into i, in -pi..pi.
+
+    Unit: rad.  Where THETA is 0 or pi the whole turn about z is PSI and PHI is 0.
+    Source: Adams/Solver function PSI.
+    """
+    return orient(scope, BODY_313, 1, i, j)
+
+
+@function("THETA", "i:marker j:marker=0")
+def theta(scope: Scope, i: Any, j: Any) -> Any:
+    """Second angle of the body-fixed 3-1-3 sequence that turns j into i, in 0..pi.
+
+    Unit: rad.  Its derivative at 0 and pi does not exist and is taken as 0.
+    Source: Adams/Solver function THETA.
+    """
+    return orient(scope, BODY_313, 2, i, j)
+
+
+@function("PHI", "i:marker j:marker=0")
+def phi(scope: Scope, i: Any, j: Any) -> Any:
+    """Third angle of the body-fixed 3-1-3 sequence that turns j into i, in -pi..pi.
+
+    Unit: rad.  Where THETA is 0 or pi it is 0.  Source: Adams/Solver function PHI.
+    """
+    return orient(scope, BODY_313, 3, i, j)
+
+
+@function("YAW", "i:marker j:marker=0")
+def yaw(scope: Scope, i: Any, j: Any) -> Any:
+    """First angle (about z) of the body-fixed 3-2-1 sequence that turns j into i, in -pi..pi.
+
+    Unit: rad.  Source: Adams/Solver function YAW.
+    """
+    return orient(scope, BODY_321, 1, i, j)
+
+
+@function("PITCH", "i:marker j:marker=0")
+def pitch(scope: Scope, i: Any, j: Any) -> Any:
+    """Second angle (about y) of the body-fixed 3-2-1 sequence, with its sign reversed.
+
+    Unit: rad; positive when the x axis of i points along +z of j.
+    Source: Adams/Solver function PITCH.
+    """
+    return -orient(scope, BODY_321, 2, i, j)
+
+
+@function("ROLL", "i:marker j:marker=0")
+def roll(scope: Scope, i: Any, j: Any) -> Any:
+    """Third angle (about x) of the body-fixed 3-2-1 sequence that turns j into i, in -pi..pi.
+
+    Unit: rad.  Where PITCH is a quarter turn it is 0.  Source: Adams/Solver function ROLL.
+    """
+    return orient(scope, BODY_321, 3, i, j)
+
+
+@function(
+    "ORIENT",
+    "system:constant{1..12,27} component:constant{1..4} i:marker j:marker=0",
+    rule=_components_fit,
+)
+def orient(scope: Scope, system: int, component: int, i: Any, j: Any) -> Any:
+    """Component of the attitude of i seen from j, in a numbered system of coordinates.
+
+    1 to 12 are the body-fixed sequences 1-2-3, 2-3-1, 3-1-2, 1-3-2, 2-1-3, 3-2-1, 1-2-1, 1-3-1,
+    2-1-2, 2-3-2, 3-1-3, 3-2-3, component 1 to 3 their angles [rad].  27 are the Euler parameters,
+    component 1 to 4: P0 = cos(half the angle) >= 0, P1, P2, P3.
+    Source: Adams/Solver function ORIENT.
+    """
+    r = _attitude(scope, i, j)
+    if system == EULER_PARAMETERS:
+        return _euler_parameter(r, component)
+    return _sequence_angle(r, SEQUENCES[system - 1], component)

@@ -1,0 +1,18 @@
+"""Choice between expressions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.algebra import choose
+from adamslite.function import function
+from adamslite.symbolic import Scope
+
+
+@function("IF", "e:number: a:number b:number c:number", edges=lambda e, a, b, c: (e,), order=-1)
+def if_(scope: Scope, e: Any, a: Any, b: Any, c: Any) -> Any:
+    """a where e < 0, b where e = 0, c where e > 0.
+
+    Unit: that of a, b and c.  Source: Adams/Solver function IF.
+    """
+    return choose((a, e < 0), (c, e > 0), otherwise=b)

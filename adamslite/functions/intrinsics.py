@@ -1,0 +1,226 @@
+"""The arithmetic functions a deck shares with FORTRAN; angles are in radians."""
+
+from __future__ import annotations
+
+import math
+from functools import reduce
+from typing import Any
+
+from adamslite.algebra import choose, floor, sp
+from adamslite.function import function
+from adamslite.symbolic import Scope
+
+
+def _truncated(x: Any) -> Any:
+    return choose((floor(x), x >= 0), otherwise=-floor(-x))
+
+
+def _larger(a: Any, b: Any) -> Any:
+    return choose((a, a >= b), otherwise=b)
+
+
+def _smaller(a: Any, b: Any) -> Any:
+    return choose((a, a <= b), otherwise=b)
+
+
+def _against_first(*a: Any) -> tuple[Any, ...]:
+    return tuple(x - y for index, x in enumerate(a) for y in a[index + 1 :])
+
+
+@function("ABS", "x:number", edges=lambda x: (x,), order=0)
+def abs_(scope: Scope, x: Any) -> Any:
+    """Absolute value |x|.
+
+    Unit: that of x.  Source: FORTRAN intrinsic ABS.
+    """
+    return choose((x, x >= 0), otherwise=-x)
+
+
+@function("MAX", "*x1:number[2..]", edges=_against_first, order=0)
+def max_(scope: Scope, *a: Any) -> Any:
+    """The largest of its arguments.
+
+    Unit: theirs.  Source: FORTRAN intrinsic MAX.
+    """
+    return reduce(_larger, a)
+
+
+@function("MIN", "*x1:number[2..]", edges=_against_first, order=0)
+def min_(scope: Scope, *a: Any) -> Any:
+    """The smallest of its arguments.
+
+    Unit: theirs.  Source: FORTRAN intrinsic MIN.
+    """
+    return reduce(_smaller, a)
+
+
+@function("DIM", "a:number b:number", edges=lambda a, b: (a - b,), order=0)
+def dim(scope: Scope, a: Any, b: Any) -> Any:
+    """Positive difference: a - b where a > b, else 0.
+
+    Unit: that of a and b.  Source: FORTRAN intrinsic DIM.
+    """
+    return choose((a - b, a > b), otherwise=0)
+
+
+@function("SIGN", "a:number b:number", edges=lambda a, b: (a, b), order=-1)
+def sign(scope: Scope, a: Any, b: Any) -> Any:
+    """|a| where b >= 0, -|a| where b < 0.
+
+    Unit: that of a.  Source: FORTRAN intrinsic SIGN.
+    """
+    size = abs_(scope, a)
+    return choose((size, b >= 0), otherwise=-size)
+
+
+@function("MOD", "a:number b:number", edges=lambda a, b: (sp.sin(math.pi * a / b),), order=-1)
+def mod(scope: Scope, a: Any, b: Any) -> Any:
+    """Remainder a - AINT(a/b) b; it has the sign of a.
+
+    Unit: that of a and b.  Source: FORTRAN intrinsic MOD.
+    """
+    return a - _truncated(a / b) * b
+
+
+@function("AINT", "x:number", edges=lambda x: (sp.sin(math.pi * x),), order=-1)
+def aint(scope: Scope, x: Any) -> Any:
+    """x without its fraction (towards 0).
+
+    Unit: none.  Source: FORTRAN intrinsic AINT.
+    """
+    return _truncated(x)
+
+
+@function("ANINT", "x:number", edges=lambda x: (sp.cos(math.pi * x),), order=-1)
+def anint(scope: Scope, x: Any) -> Any:
+    """The whole number nearest to x, halves away from 0.
+
+    Unit: none.  Source: FORTRAN intrinsic ANINT.
+    """
+    return choose((floor(x + 0.5), x >= 0), otherwise=-floor(0.5 - x))
+
+
+@function("SQRT", "x:number")
+def sqrt(scope: Scope, x: Any) -> Any:
+    """Square root of x >= 0.  Its derivative at 0 does not exist.
+
+    Source: FORTRAN intrinsic SQRT.
+    """
+    return sp.sqrt(x)
+
+
+@function("EXP", "x:number")
+def exp(scope: Scope, x: Any) -> Any:
+    """e to the power x.
+
+    Unit: none.  Source: FORTRAN intrinsic EXP.
+    """
+    return sp.exp(x)
+
+
+@function("LOG", "x:number")
+def log(scope: Scope, x: Any) -> Any:
+    """Natural logarithm of x > 0.
+
+    Unit: none.  Source: FORTRAN intrinsic LOG.
+    """
+    return sp.log(x)
+
+
+@function("LOG10", "x:number")
+def log10(scope: Scope, x: Any) -> Any:
+    """Logarithm of x > 0 to base 10.
+
+    Unit: none.  Source: FORTRAN intrinsic LOG10.
+    """
+    return sp.log(x) / math.log(10.0)
+
+
+@function("SIN", "x:number")
+def sin(scope: Scope, x: Any) -> Any:
+    """Sine of x radians.
+
+    Source: FORTRAN intrinsic SIN.
+    """
+    return sp.sin(x)
+
+
+@function("COS", "x:number")
+def cos(scope: Scope, x: Any) -> Any:
+    """Cosine of x radians.
+
+    Source: FORTRAN intrinsic COS.
+    """
+    return sp.cos(x)
+
+
+@function("TAN", "x:number")
+def tan(scope: Scope, x: Any) -> Any:
+    """Tangent of x radians.
+
+    Source: FORTRAN intrinsic TAN.
+    """
+    return sp.tan(x)
+
+
+@function("ASIN", "x:number")
+def asin(scope: Scope, x: Any) -> Any:
+    """Angle in -pi/2..pi/2 radians whose sine is x, |x| <= 1.
+
+    Source: FORTRAN intrinsic ASIN.
+    """
+    return sp.asin(x)
+
+
+@function("ACOS", "x:number")
+def acos(scope: Scope, x: Any) -> Any:
+    """Angle in 0..pi radians whose cosine is x, |x| <= 1.
+
+    Source: FORTRAN intrinsic ACOS.
+    """
+    return sp.acos(x)
+
+
+@function("ATAN", "x:number")
+def atan(scope: Scope, x: Any) -> Any:
+    """Angle in -pi/2..pi/2 radians whose tangent is x.
+
+    Source: FORTRAN intrinsic ATAN.
+    """
+    return sp.atan(x)
+
+
+@function("ATAN2", "y:number x:number")
+def atan2(scope: Scope, y: Any, x: Any) -> Any:
+    """Angle in -pi..pi radians of the point (x, y); it jumps by a full turn across y = 0, x < 0.
+
+    Source: FORTRAN intrinsic ATAN2.
+    """
+    return sp.atan2(y, x)
+
+
+@function("SINH", "x:number")
+def sinh(scope: Scope, x: Any) -> Any:
+    """Hyperbolic sine of x.
+
+    Source: FORTRAN intrinsic SINH.
+    """
+    return sp.sinh(x)
+
+
+@function("COSH", "x:number")
+def cosh(scope: Scope, x: Any) -> Any:
+    """Hyperbolic cosine of x.
+
+    Source: FORTRAN intrinsic COSH.
+    """
+    return sp.cosh(x)
+
+
+@function("TANH", "x:number")
+def tanh(scope: Scope, x: Any) -> Any:
+    """Hyperbolic tangent of x.
+
+    Source: FORTRAN intrinsic TANH.
+    """
+    return sp.tanh(x)

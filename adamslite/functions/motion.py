@@ -1,0 +1,246 @@
+"""Positions, velocities and accelerations of markers.
+
+With r = r_i - r_j, w = w_i - w_j, and derivatives in frame l written with those in ground (')
+
+    v_l = r' - w_l x r
+    a_l = r'' - al_l x r - 2 w_l x v_l - w_l x (w_l x r)
+    b_l = w' - w_l x w
+
+a measure is the length of one of these vectors or its component along an axis of marker k.  A
+frame l that does not turn leaves the derivative in ground alone.  Markers that are omitted or 0
+are the ground frame.  Accelerations are purely kinematic: gravity is not part of them.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.algebra import norm, sp
+from adamslite.function import function
+from adamslite.symbolic import Scope, Vector, cross, dot, minus, scale
+
+
+def _velocity(scope: Scope, i: Any, j: Any, frame: Any) -> Vector:
+    velocity = scope.velocity(i, j)
+    if scope.is_ground(frame):
+        return velocity
+    return minus(velocity, cross(scope.omega(frame), scope.position(i, j)))
+
+
+def _acceleration(scope: Scope, i: Any, j: Any, frame: Any) -> Vector:
+    acceleration = scope.acceleration(i, j)
+    if scope.is_ground(frame):
+        return acceleration
+    turn, arm = scope.omega(frame), scope.position(i, j)
+    coriolis = scale(2, cross(turn, _velocity(scope, i, j, frame)))
+    centripetal = cross(turn, cross(turn, arm))
+    euler = cross(scope.alpha(frame), arm)
+    return minus(minus(minus(acceleration, euler), coriolis), centripetal)
+
+
+def _spin_rate(scope: Scope, i: Any, j: Any, frame: Any) -> Vector:
+    rate = scope.alpha(i, j)
+    if scope.is_ground(frame):
+        return rate
+    return minus(rate, cross(scope.omega(frame), scope.omega(i, j)))
+
+
+@function("DM", "i:marker j:marker=0")
+def dm(scope: Scope, i: Any, j: Any) -> Any:
+    """Distance of marker i from marker j: |r_i - r_j|.
+
+    Unit: length; never negative.  Where the markers coincide its derivative does not exist.
+    Source: Adams/Solver function DM.
+    """
+    arm = scope.position(i, j)
+    return sp.sqrt(dot(arm, arm))
+
+
+@function("DX", "i:marker j:marker=0 k:marker=0")
+def dx(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+    """Displacement of i from j along the x axis of k: (r_i - r_j) . x_k.
+
+    Unit: length.  Without k the axes are those of ground, not those of j.
+    Source: Adams/Solver function DX.
+    """
+    return dot(scope.position(i, j), scope.axes(k)[0])
+
+
+@function("DY", "i:marker j:marker=0 k:marker=0")
+def dy(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+    """Displacement of i from j along the y axis of k: (r_i - r_j) . y_k.
+
+    Unit: length.  Without k the axes are those of ground, not those of j.
+    Source: Adams/Solver function DY.
+    """
+    return dot(scope.position(i, j), scope.axes(k)[1])
+
+
+@function("DZ", "i:marker j:marker=0 k:marker=0")
+def dz(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+    """Displacement of i from j along the z axis of k: (r_i - r_j) . z_k.
+
+    Unit: length.  Without k the axes are those of ground, not those of j.
+    Source: Adams/Solver function DZ.
+    """
+    return dot(scope.position(i, j), scope.axes(k)[2])
+
+
+@function("VM", "i:marker j:marker=0 l:marker=0")
+def vm(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
+    """Speed of i against j: the length of d/dt(r_i - r_j) taken in frame l.
+
+    Unit: length/time; never negative.  At rest its derivative is taken as 0.
+    Source: Adams/Solver function VM.
+    """
+    return norm(_velocity(scope, i, j, frame))
+
+
+@function("VR", "i:marker j:marker=0 l:marker=0")
+def vr(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
+    """Separation speed of i and j: d/dt(r_i - r_j) along the unit vector from j to i.
+
+    Unit: length/time; positive when the markers move apart.  w_l x r is square to r, so frame l
+    makes no difference.  Not defined where the markers coincide.
+    Source: Adams/Solver function VR.
+    """
+    arm = scope.position(i, j)
+    return dot(scope.velocity(i, j), arm) / sp.sqrt(dot(arm, arm))
+
+
+@function("VX", "i:marker j:marker=0 k:marker=0 l:marker=0")
+def vx(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+    """Velocity of i against j along the x axis of k: d/dt(r_i - r_j) in frame l, times x_k.
+
+    Unit: length/time.  Source: Adams/Solver function VX.
+    """
+    return dot(_velocity(scope, i, j, frame), scope.axes(k)[0])
+
+
+@function("VY", "i:marker j:marker=0 k:marker=0 l:marker=0")
+def vy(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+    """Velocity of i against j along the y axis of k: d/dt(r_i - r_j) in frame l, times y_k.
+
+    Unit: length/time.  Source: Adams/Solver function VY.
+    """
+    return dot(_velocity(scope, i, j, frame), scope.axes(k)[1])
+
+
+@function("VZ", "i:marker j:marker=0 k:marker=0 l:marker=0")
+def vz(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+    """Velocity of i against j along the z axis of k: d/dt(r_i - r_j) in frame l, times z_k.
+
+    Unit: length/time.  Source: Adams/Solver function VZ.
+    """
+    return dot(_velocity(scope, i, j, frame), scope.axes(k)[2])
+
+
+@function("ACCM", "i:marker j:marker=0 l:marker=0")
+def accm(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
+    """Length of the acceleration of i against j: d2/dt2(r_i - r_j) taken in frame l.
+
+    Unit: length/time**2; never negative; without gravity.  At 0 its derivative is taken as 0.
+    Source: Adams/Solver function ACCM.
+    """
+    return norm(_acceleration(scope, i, j, frame))
+
+
+@function("ACCX", "i:marker j:marker=0 k:marker=0 l:marker=0")
+def accx(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+    """Acceleration of i against j along the x axis of k: d2/dt2(r_i - r_j) in frame l, times x_k.
+
+    Unit: length/time**2; without gravity.  Source: Adams/Solver function ACCX.
+    """
+    return dot(_acceleration(scope, i, j, frame), scope.axes(k)[0])
+
+
+@function("ACCY", "i:marker j:marker=0 k:marker=0 l:marker=0")
+def accy(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+    """Acceleration of i against j along the y axis of k: d2/dt2(r_i - r_j) in frame l, times y_k.
+
+    Unit: length/time**2; without gravity.  Source: Adams/Solver function ACCY.
+    """
+    return dot(_acceleration(scope, i, j, frame), scope.axes(k)[1])
+
+
+@function("ACCZ", "i:marker j:marker=0 k:marker=0 l:marker=0")
+def accz(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+    """Acceleration of i against j along the z axis of k: d2/dt2(r_i - r_j) in frame l, times z_k.
+
+    Unit: length/time**2; without gravity.  Source: Adams/Solver function ACCZ.
+    """
+    return dot(_acceleration(scope, i, j, frame), scope.axes(k)[2])
+
+
+@function("WM", "i:marker j:marker=0")
+def wm(scope: Scope, i: Any, j: Any) -> Any:
+    """Length of the angular velocity of i against j: |w_i - w_j|.
+
+    Unit: rad/time; never negative.  At rest its derivative is taken as 0.
+    Source: Adams/Solver function WM.
+    """
+    return norm(scope.omega(i, j))
+
+
+@function("WX", "i:marker j:marker=0 k:marker=0")
+def wx(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+    """Angular velocity of i against j along the x axis of k: (w_i - w_j) . x_k.
+
+    Unit: rad/time.  Source: Adams/Solver function WX.
+    """
+    return dot(scope.omega(i, j), scope.axes(k)[0])
+
+
+@function("WY", "i:marker j:marker=0 k:marker=0")
+def wy(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+    """Angular velocity of i against j along the y axis of k: (w_i - w_j) . y_k.
+
+    Unit: rad/time.  Source: Adams/Solver function WY.
+    """
+    return dot(scope.omega(i, j), scope.axes(k)[1])
+
+
+@function("WZ", "i:marker j:marker=0 k:marker=0")
+def wz(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+    """Angular velocity of i against j along the z axis of k: (w_i - w_j) . z_k.
+
+    Unit: rad/time.  Source: Adams/Solver function WZ.
+    """
+    return dot(scope.omega(i, j), scope.axes(k)[2])
+
+
+@function("WDTM", "i:marker j:marker=0 l:marker=0")
+def wdtm(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
+    """Length of the angular acceleration of i against j: d/dt(w_i - w_j) taken in frame l.
+
+    Unit: rad/time**2; never negative.  At 0 its derivative is taken as 0.
+    Source: Adams/Solver function WDTM.
+    """
+    return norm(_spin_rate(scope, i, j, frame))
+
+
+@function("WDTX", "i:marker j:marker=0 k:marker=0 l:marker=0")
+def wdtx(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+    """Angular acceleration of i against j along the x axis of k: d/dt(w_i - w_j) in l, times x_k.
+
+    Unit: rad/time**2.  Source: Adams/Solver function WDTX.
+    """
+    return dot(_spin_rate(scope, i, j, frame), scope.axes(k)[0])
+
+
+@function("WDTY", "i:marker j:marker=0 k:marker=0 l:marker=0")
+def wdty(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+    """Angular acceleration of i against j along the y axis of k: d/dt(w_i - w_j) in l, times y_k.
+
+    Unit: rad/time**2.  Source: Adams/Solver function WDTY.
+    """
+    return dot(_spin_rate(scope, i, j, frame), scope.axes(k)[1])
+
+
+@function("WDTZ", "i:marker j:marker=0 k:marker=0 l:marker=0")
+def wdtz(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+    """Angular acceleration of i against j along the z axis of k: d/dt(w_i - w_j) in l, times z_k.
+
+    Unit: rad/time**2.  Source: Adams/Solver function WDTZ.
+    """
+    return dot(_spin_rate(scope, i, j, frame), scope.axes(k)[2])

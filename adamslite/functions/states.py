@@ -1,0 +1,44 @@
+"""Values of the deck's own variables and differential equations."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.function import function
+from adamslite.symbolic import Scope
+
+
+@function("VARVAL", "id:variable")
+def varval(scope: Scope, id: Any) -> Any:
+    """Present value of VARIABLE id.
+
+    Unit: that of the variable.  Source: Adams/Solver function VARVAL.
+    """
+    return scope.variable(id)
+
+
+@function("DIF", "id:diff")
+def dif(scope: Scope, id: Any) -> Any:
+    """State of DIFF id.
+
+    Unit: that of the state.  Source: Adams/Solver function DIF.
+    """
+    return scope.dif(id)
+
+
+@function("DIF1", "id:diff")
+def dif1(scope: Scope, id: Any) -> Any:
+    """Time derivative of the state of DIFF id.
+
+    Unit: that of the state, per time.  Source: Adams/Solver function DIF1.
+    """
+    return scope.dif1(id)
+
+
+@function("DDT", "id:variable")
+def ddt(scope: Scope, id: Any) -> Any:
+    """Total time derivative of VARIABLE id, formed from its expression.
+
+    Unit: that of the variable, per time.  Source: an extension; the meaning of VARVAL(d(id)/dt).
+    """
+    return scope.derivative(scope.variable(id))

@@ -1,0 +1,104 @@
+"""Smooth steps and one-sided contacts.
+
+With D = (x - x0)/(x1 - x0), held at 0 before x0 and at 1 behind x1, a step is h0 + (h1 - h0) s(D):
+
+    STEP    s = D**2 (3 - 2 D)                    first derivative continuous
+    STEP5   s = D**3 (10 - 15 D + 6 D**2)         second derivative continuous
+    HAVSIN  s = (1 - cos(pi D))/2                 first derivative continuous
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from adamslite.algebra import choose, sp
+from adamslite.function import Mistake, ascending, function
+from adamslite.symbolic import Scope
+
+STEP_SIGNATURE = "x:number x0:number h0:number x1:number h1:number"
+STEP5_ENDS = ascending(1, 3, "STEP5 must begin below its end: x0 < x1")
+
+
+def _apart(x: Any, x0: float | None, h0: Any, x1: float | None, h1: Any) -> Mistake | None:
+    if x0 is not None and x0 == x1:
+        return 3, "a step needs a width: x1 must differ from x0"
+    return None
+
+
+def _edges(x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> tuple[Any, ...]:
+    return (x - x0, x - x1)
+
+
+def _blend(shape: Callable[[Any], Any], x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
+    # The conditions are D <= 0 and D >= 1 without the division: x1 < x0 is a step to the left, and
+    # x1 = x0 (a contact without damping depth) stays finite.
+    width = x1 - x0
+    rise = h0 + (h1 - h0) * shape((x - x0) / width)
+    return choose((h0, (x - x0) * width <= 0), (h1, (x - x1) * width >= 0), otherwise=rise)
+
+
+@function("STEP", STEP_SIGNATURE, edges=_edges, order=1, rule=_apart)
+def step(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
+    """Cubic step from h0 (x <= x0) to h1 (x >= x1): h0 + (h1 - h0) D**2 (3 - 2 D).
+
+    D = (x - x0)/(x1 - x0); with x1 < x0 the step goes to the left.
+    Unit: that of h0 and h1.  Source: Adams/Solver function STEP.
+    """
+    return _blend(lambda d: d**2 * (3 - 2 * d), x, x0, h0, x1, h1)
+
+
+@function("STEP5", STEP_SIGNATURE, edges=_edges, order=2, rule=STEP5_ENDS)
+def step5(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
+    """Quintic step from h0 (x <= x0) to h1 (x >= x1): h0 + (h1 - h0) D**3 (10 - 15 D + 6 D**2).
+
+    D = (x - x0)/(x1 - x0).  Unit: that of h0 and h1.  Source: Adams/Solver function STEP5.
+    """
+    return _blend(lambda d: d**3 * (10 - 15 * d + 6 * d**2), x, x0, h0, x1, h1)
+
+
+@function("HAVSIN", STEP_SIGNATURE, edges=_edges, order=1, rule=_apart)
+def havsin(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
+    """Haversine step from h0 (x <= x0) to h1 (x >= x1): h0 + (h1 - h0) (1 - cos(pi D))/2.
+
+    D = (x - x0)/(x1 - x0).  Unit: that of h0 and h1.  Source: Adams/Solver function HAVSIN.
+    """
+    return _blend(lambda d: (1 - sp.cos(math.pi * d)) / 2, x, x0, h0, x1, h1)
+
+
+@function(
+    "IMPACT",
+    "x:number v:number x1:number k:number e:number cmax:number d:number",
+    edges=lambda x, v, x1, k, e, cmax, d: (x - x1, x - (x1 - d)),
+    order=0,
+)
+def impact(scope: Scope, x: Any, v: Any, x1: Any, k: Any, e: Any, cmax: Any, d: Any) -> Any:
+    """One-sided contact where x < x1: max(0, k (x1 - x)**e - v STEP(x, x1 - d, cmax, x1, 0)).
+
+    v is the time derivative of x; the damping grows to cmax over the depth d.  Never negative: it
+    pushes x up and does not pull.  Unit: force.  Source: Adams/Solver function IMPACT.
+    """
+    force = k * (x1 - x) ** e - v * step(scope, x, x1 - d, cmax, x1, 0)
+    return choose((choose((force, force > 0), otherwise=0), x < x1), otherwise=0)
+
+
+@function(
+    "BISTOP",
+    "x:number v:number x1:number x2:number k:number e:number cmax:number d:number",
+    edges=lambda x, v, x1, x2, k, e, cmax, d: (x - x1, x - (x1 - d), x - x2, x - (x2 + d)),
+    order=0,
+    rule=ascending(2, 3, "the lower stop must lie below the upper one: x1 < x2"),
+)
+def bistop(
+    scope: Scope, x: Any, v: Any, x1: Any, x2: Any, k: Any, e: Any, cmax: Any, d: Any
+) -> Any:
+    """Stops at x1 and x2: IMPACT up from x1, its mirror image down from x2, 0 between them.
+
+    x < x1: max(0, k (x1 - x)**e - v STEP(x, x1 - d, cmax, x1, 0));
+    x > x2: min(0, -k (x - x2)**e - v STEP(x, x2, 0, x2 + d, cmax)).
+    Unit: force; positive pushes x up.  Source: Adams/Solver function BISTOP.
+    """
+    lower = impact(scope, x, v, x1, k, e, cmax, d)
+    upper = impact(scope, -x, -v, -x2, k, e, cmax, d)
+    return lower - upper
