@@ -153,6 +153,7 @@ class Statement:
     place: ClassVar[str] = "deck"
     ends: ClassVar[bool] = False
     ignored: ClassVar[bool] = False
+    planned: ClassVar[tuple[str, ...]] = ()
 
     id: int | str = 0
     name: str | None = None
@@ -186,6 +187,7 @@ def statement(
     place: str = "deck",
     ends: bool = False,
     ignored: bool = False,
+    planned: tuple[str, ...] = (),
 ) -> Callable[[type[Statement]], type[Statement]]:
     """Register a class as the statement ``keyword``.
 
@@ -203,6 +205,8 @@ def statement(
         Reading stops after it.
     ignored : bool
         Its arguments are not read.
+    planned : tuple of str
+        Keywords that are part of the language and cannot be run yet.
     """
 
     def register(cls: type[Statement]) -> type[Statement]:
@@ -214,7 +218,7 @@ def statement(
             if "argument" in f.metadata
         }
         made.singleton, made.repeatable, made.place = singleton, repeatable, place
-        made.ends, made.ignored = ends, ignored
+        made.ends, made.ignored, made.planned = ends, ignored, planned
         STATEMENTS[keyword] = made
         return made
 

@@ -1,0 +1,28 @@
+"""DIFF: a first-order differential equation.
+
+Equation::
+
+    explicit   dy/dt = FUNCTION
+    IMPLICIT   0 = FUNCTION(y, dy/dt)         y = DIF(id), dy/dt = DIF1(id)
+"""
+
+from __future__ import annotations
+
+from adamslite.expression import Node
+from adamslite.statement import Statement, expression, flag, statement, vector
+
+
+@statement("DIFF", planned=("ROUTINE",))
+class Diff(Statement):
+    """A user-defined state, integrated together with the mechanics."""
+
+    ic: tuple[float, ...] = vector(
+        "IC", size=1, most=2, unit="that of y, that of y per time", default=(0.0,),
+        help="value of y at the start and, for IMPLICIT, a guess of dy/dt",
+    )  # fmt: skip
+    implicit: bool = flag("IMPLICIT", help="FUNCTION is a residual that must vanish")
+    static_hold: bool = flag("STATIC_HOLD", help="y keeps its value in a static analysis")
+    dynamic_hold: bool = flag("DYNAMIC_HOLD", help="y keeps its value in a dynamic analysis")
+    function: Node = expression(
+        "FUNCTION", required=True, unit="that of y per time", help="dy/dt, or the residual"
+    )

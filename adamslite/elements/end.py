@@ -1,0 +1,13 @@
+"""END: the end of the deck.
+
+Equation: none.
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, statement
+
+
+@statement("END", singleton=True, ends=True)
+class End(Statement):
+    """Whatever follows is not read."""

@@ -1,0 +1,18 @@
+"""FILE: names the deck a command file is for.
+
+Equation: none.
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, statement, text
+
+
+@statement("FILE", singleton=True, repeatable=True, place="command", planned=("COMMAND",))
+class File(Statement):
+    """The first line of a command file; the deck is the one given on the command line."""
+
+    model: str | None = text("MODEL", help="name of the deck")
+    output_prefix: str | None = text(
+        "OUTPUT_PREFIX", help="first part of the names of output files"
+    )

@@ -1,0 +1,13 @@
+"""GRAPHICS: shapes for display.
+
+Equation: none; read and left out.
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, statement
+
+
+@statement("GRAPHICS", ignored=True)
+class Graphics(Statement):
+    """Display geometry; its arguments are not read."""

@@ -1,0 +1,50 @@
+"""INTEGRATOR: method and settings of the time integration.
+
+Equation (local error test of the step)::
+
+    || error estimate of the controlled coordinates || <= ERROR
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, choice, integer, number, statement, words
+
+
+@statement("INTEGRATOR", singleton=True, repeatable=True, place="both", planned=("SCALE",))
+class Integrator(Statement):
+    """Settings of the integrator; what is omitted stays as it was.
+
+    May also stand in a command file, before the SIMULATE it is meant for.
+    """
+
+    method: str | None = choice(
+        options=("ABAM", "CONSTANT_BDF", "GSTIFF", "HASTIFF", "HHT", "NEWMARK", "WSTIFF"),
+        supported=("GSTIFF",), help="variable-order BDF (GSTIFF) unless given",
+    )  # fmt: skip
+    formulation: str | None = choice(
+        options=("I3", "SI1", "SI2"), supported=("I3", "SI2"),
+        help="index 3, or stabilised index 2 (SI2, unless given)",
+    )  # fmt: skip
+    error: float | None = number("ERROR", unit="that of the coordinates", help="error tolerance")
+    hmax: float | None = number(
+        "HMAX", unit="time", help="largest step; the output step unless given"
+    )
+    hmin: float | None = number("HMIN", unit="time", help="smallest step")
+    hinit: float | None = number("HINIT", unit="time", help="first step")
+    kmax: int | None = integer("KMAX", help="highest order")
+    maxit: int | None = integer("MAXIT", help="most corrector iterations of a step")
+    interpolate: str | None = choice(
+        "INTERPOLATE", options=("ON", "OFF"), help="step past output times and interpolate"
+    )
+    adaptivity: float | None = number(
+        "ADAPTIVITY", unit="time", help="loosens the corrector by this over the step"
+    )
+    corrector: str | None = choice(
+        "CORRECTOR", options=("ORIGINAL", "MODIFIED", "ORIG_CONSTANT"), help="what must converge"
+    )
+    pattern: tuple[str, ...] = words(
+        "PATTERN", options=("T", "F"), help="iterations that renew the Jacobian"
+    )
+    alpha: float | None = number("ALPHA", unit="1", help="of HHT, from -1/3 to 0")
+    beta: float | None = number("BETA", unit="1", help="of NEWMARK")
+    gamma: float | None = number("GAMMA", unit="1", help="of NEWMARK")

@@ -1,0 +1,48 @@
+"""MARKER: a point with axes on a body.
+
+Equation (position and axes in ground of a marker on a body at ``r`` with attitude ``A``)::
+
+    r_marker = r + A QP,    A_marker = A Rz(a) Rx(b) Rz(c)       REULER=a,b,c
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, flag, reference, statement, vector
+
+
+@statement("MARKER", planned=("FLEX_BODY", "NODE", "RM"))
+class Marker(Statement):
+    """A frame fixed to a PART or POINT_MASS.
+
+    Without PART or POINT_MASS it belongs to the nearest one before it in the deck.
+    A FLOATING marker is placed by the solver and serves as JFLOAT of a force.
+    """
+
+    part: int | str | None = reference("PART", to="PART", help="the part it is fixed to")
+    point_mass: int | str | None = reference(
+        "POINT_MASS", to="POINT_MASS", help="the point mass it is fixed to"
+    )
+    qp: tuple[float, ...] = vector(
+        "QP", size=3, unit="length", default=(0.0, 0.0, 0.0), help="origin, in the body frame"
+    )
+    reuler: tuple[float, ...] = vector(
+        "REULER", "EULER", size=3, unit="angle", default=(0.0, 0.0, 0.0),
+        help="body 3-1-3 angles of its axes in the body frame",
+    )  # fmt: skip
+    zp: tuple[float, ...] | None = vector(
+        "ZP", size=3, unit="length",
+        help="point of the body on its +z axis (with USEXP: in its +xz half-plane)",
+    )  # fmt: skip
+    xp: tuple[float, ...] | None = vector(
+        "XP", size=3, unit="length",
+        help="point of the body in its +xz half-plane (with USEXP: on its +x axis)",
+    )  # fmt: skip
+    usexp: bool = flag("USEXP", help="XP gives the x axis exactly, ZP the plane")
+    floating: bool = flag("FLOATING", help="placed by the solver")
+
+    @property
+    def owner(self) -> tuple[str, int | str] | None:
+        """Keyword and id of the body it is fixed to."""
+        if self.point_mass is not None:
+            return "POINT_MASS", self.point_mass
+        return None if self.part is None else ("PART", self.part)

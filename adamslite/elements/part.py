@@ -1,0 +1,61 @@
+"""PART: a rigid body with six degrees of freedom, or the ground.
+
+Equation (Newton-Euler, about the centre of mass)::
+
+    mass * a = force * UCF,    J alpha + omega x J omega = torque * UCF
+
+The orientation of the body frame is ``R = Rz(a) Rx(b) Rz(c)`` from ``REULER=a,b,c`` (body 3-1-3);
+its columns are the body axes in ground.
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, flag, number, reference, statement, text, vector, words
+
+
+@statement("PART", planned=("VM", "WM"))
+class Part(Statement):
+    """A rigid body.
+
+    ``PART/1, GROUND`` is the inertial reference; a deck has exactly one.
+    ``IP=xx,yy,zz,xy,xz,yz`` holds products of inertia as positive integrals (``Ixy = int xy dm``),
+    so the inertia tensor about the origin of IM, in IM axes, is::
+
+        [[ xx, -xy, -xz],
+         [-xy,  yy, -yz],
+         [-xz, -yz,  zz]]
+    """
+
+    ground: bool = flag("GROUND", help="this part is the inertial reference")
+    mass: float | None = number("MASS", unit="mass", help="mass")
+    cm: int | str | None = reference("CM", to="MARKER", help="marker at the centre of mass")
+    im: int | str | None = reference(
+        "IM", to="MARKER", help="marker whose origin and axes IP refers to; default: the CM marker"
+    )
+    ip: tuple[float, ...] | None = vector(
+        "IP", size=3, most=6, unit="mass length^2", help="inertia xx,yy,zz[,xy,xz,yz] at IM"
+    )
+    qg: tuple[float, ...] = vector(
+        "QG", size=3, unit="length", default=(0.0, 0.0, 0.0), help="origin of the body, in ground"
+    )
+    reuler: tuple[float, ...] = vector(
+        "REULER", "EULER", size=3, unit="angle", default=(0.0, 0.0, 0.0),
+        help="body 3-1-3 angles of the body frame in ground",
+    )  # fmt: skip
+    zg: tuple[float, ...] | None = vector(
+        "ZG", size=3, unit="length", help="point in ground on the +z axis of the body"
+    )
+    xg: tuple[float, ...] | None = vector(
+        "XG", size=3, unit="length", help="point in ground in the +xz half-plane of the body"
+    )
+    vx: float = number("VX", unit="length/time", default=0.0, help="initial velocity of CM, x")
+    vy: float = number("VY", unit="length/time", default=0.0, help="initial velocity of CM, y")
+    vz: float = number("VZ", unit="length/time", default=0.0, help="initial velocity of CM, z")
+    wx: float = number("WX", unit="angle/time", default=0.0, help="initial rate about x of CM")
+    wy: float = number("WY", unit="angle/time", default=0.0, help="initial rate about y of CM")
+    wz: float = number("WZ", unit="angle/time", default=0.0, help="initial rate about z of CM")
+    exact: tuple[str, ...] = words(
+        "EXACT", options=("X", "Y", "Z", "PSI", "THETA", "PHI"),
+        help="coordinates the initial conditions must keep",
+    )  # fmt: skip
+    material: str | None = text("MATERIAL", help="for display; not used")

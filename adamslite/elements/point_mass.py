@@ -1,0 +1,42 @@
+"""POINT_MASS: a body with three degrees of freedom and a fixed orientation.
+
+Equation::
+
+    mass * a = force * UCF
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, number, reference, statement, vector, words
+
+
+@statement("POINT_MASS")
+class PointMass(Statement):
+    """A mass without rotation: it takes forces, no torques, and costs three unknowns.
+
+    The orientation of its frame (REULER, or ZG and XG) stays what it is at the start.
+    """
+
+    mass: float = number("MASS", unit="mass", required=True, help="mass, above zero")
+    cm: int | str | None = reference(
+        "CM", to="MARKER", help="marker at the mass; default: the origin of the body"
+    )
+    qg: tuple[float, ...] = vector(
+        "QG", size=3, unit="length", default=(0.0, 0.0, 0.0), help="origin of the body, in ground"
+    )
+    reuler: tuple[float, ...] = vector(
+        "REULER", "EULER", size=3, unit="angle", default=(0.0, 0.0, 0.0),
+        help="body 3-1-3 angles of the body frame in ground",
+    )  # fmt: skip
+    zg: tuple[float, ...] | None = vector(
+        "ZG", size=3, unit="length", help="point in ground on the +z axis of the body"
+    )
+    xg: tuple[float, ...] | None = vector(
+        "XG", size=3, unit="length", help="point in ground in the +xz half-plane of the body"
+    )
+    vx: float = number("VX", unit="length/time", default=0.0, help="initial velocity, x in ground")
+    vy: float = number("VY", unit="length/time", default=0.0, help="initial velocity, y in ground")
+    vz: float = number("VZ", unit="length/time", default=0.0, help="initial velocity, z in ground")
+    exact: tuple[str, ...] = words(
+        "EXACT", options=("X", "Y", "Z"), help="coordinates the initial conditions must keep"
+    )

@@ -1,0 +1,60 @@
+"""REQUEST: up to eight quantities to write at every output time.
+
+Values (components F1 ... F8; I relative to J, along the axes of RM, ground when omitted)::
+
+    DISPLACEMENT   DM  DX  DY  DZ    0   PSI  THETA PHI
+    VELOCITY       VM  VX  VY  VZ    WM  WX   WY    WZ
+    ACCELERATION   ACCM ACCX ACCY ACCZ  WDTM WDTX WDTY WDTZ
+    FORCE          FM  FX  FY  FZ    TM  TX   TY    TZ     force on I of the elements between I and J
+    F1=e\\ ...     the expressions
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.expression import Node
+from adamslite.statement import (
+    Statement,
+    choice,
+    expression,
+    reference,
+    statement,
+    text,
+    texts,
+)
+
+
+def _component(number: int) -> Any:
+    return expression(f"F{number}", unit="the user's", help=f"component {number}")
+
+
+@statement("REQUEST", planned=("FUNCTION", "ROUTINE", "VARIABLES"))
+class Request(Statement):
+    """Output of a marker's motion, of a force, or of expressions."""
+
+    kind: str | None = choice(
+        options=("DISPLACEMENT", "VELOCITY", "ACCELERATION", "FORCE"), help="what is written"
+    )
+    i: int | str | None = reference("I", to="MARKER", help="marker that is measured")
+    j: int | str = reference("J", to="MARKER", default=0, help="marker it is measured from")
+    rm: int | str = reference("RM", to="MARKER", default=0, help="marker whose axes are used")
+    f1: Node | None = _component(1)
+    f2: Node | None = _component(2)
+    f3: Node | None = _component(3)
+    f4: Node | None = _component(4)
+    f5: Node | None = _component(5)
+    f6: Node | None = _component(6)
+    f7: Node | None = _component(7)
+    f8: Node | None = _component(8)
+    comment: str | None = text("COMMENT", help="a title")
+    title: str | None = text("TITLE", help="titles of the components")
+    cnames: tuple[str, ...] = texts("CNAMES", help="names of the components")
+    clabels: tuple[str, ...] = texts("CLABELS", help="labels of the components")
+    cunits: tuple[str, ...] = texts("CUNITS", help="units of the components")
+    results_name: str | None = text("RESULTS_NAME", help="name of the result set")
+
+    @property
+    def functions(self) -> tuple[Node | None, ...]:
+        """F1 ... F8, None where omitted."""
+        return (self.f1, self.f2, self.f3, self.f4, self.f5, self.f6, self.f7, self.f8)

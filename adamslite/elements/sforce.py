@@ -1,0 +1,37 @@
+"""SFORCE: a force along a line or a torque about an axis, given by an expression.
+
+Equation::
+
+    TRANSLATIONAL              force on I = e u,  -force on J,   u = (r_I - r_J) / |r_I - r_J|
+    TRANSLATIONAL, ACTIONONLY  force on I = e z_J
+    ROTATIONAL                 torque on I = e z_J,  -torque on J (not with ACTIONONLY)
+
+Sign: positive pushes I and J apart, so a spring is ``-k*(DM(I,J)-L0)``::
+
+      <---- J o - - - - - - o I ---->     e > 0
+"""
+
+from __future__ import annotations
+
+from adamslite.expression import Node
+from adamslite.statement import Statement, choice, expression, flag, reference, statement
+
+
+@statement("SFORCE", planned=("ROUTINE",))
+class Sforce(Statement):
+    """A single-component force (or torque) between two markers.
+
+    ``J_PART`` names the part that takes the reaction; the ground takes it without a trace.
+    """
+
+    kind: str = choice(
+        options=("TRANSLATIONAL", "ROTATIONAL"), default="TRANSLATIONAL",
+        help="force along the line between the markers, or torque about z of J",
+    )  # fmt: skip
+    i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
+    j: int | str = reference("J", to="MARKER", required=True, help="marker that takes the reaction")
+    j_part: int | str | None = reference("J_PART", to="PART", help="part that takes the reaction")
+    actiononly: bool = flag("ACTIONONLY", help="along z of J, and nothing acts on J")
+    function: Node = expression(
+        "FUNCTION", required=True, unit="force, or torque", help="the force on I"
+    )

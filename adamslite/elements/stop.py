@@ -1,0 +1,13 @@
+"""STOP: the end of a command file.
+
+Equation: none.
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, statement
+
+
+@statement("STOP", singleton=True, place="command", ends=True)
+class Stop(Statement):
+    """Whatever follows is not read."""

@@ -1,0 +1,37 @@
+"""VFORCE: a force given by its three components.
+
+Equation::
+
+    force on I at I's origin = FX x_RM + FY y_RM + FZ z_RM
+
+The opposite force acts on the part of JFLOAT at the present place of I::
+
+      part of I  o ---->  F         part of JFLOAT  o <----  -F     (same point in space)
+"""
+
+from __future__ import annotations
+
+from adamslite.expression import Node, Num
+from adamslite.statement import Statement, expression, reference, statement
+
+
+@statement("VFORCE", planned=("FXYZ", "FUNCTION", "ROUTINE"))
+class Vforce(Statement):
+    """A vector force on marker I.
+
+    The reaction goes to the part of the floating marker JFLOAT, or to the part ``J_PART`` directly;
+    the ground takes it without a trace.  Omitted components are zero; without RM the components are
+    along the ground axes.
+    """
+
+    i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
+    jfloat: int | str | None = reference(
+        "JFLOAT", "J", to="MARKER", help="floating marker on the part that takes the reaction"
+    )
+    j_part: int | str | None = reference("J_PART", to="PART", help="part that takes the reaction")
+    rm: int | str = reference(
+        "RM", to="MARKER", default=0, help="marker whose axes the components refer to"
+    )
+    fx: Node = expression("FX", unit="force", default=Num(0.0), help="component along x of RM")
+    fy: Node = expression("FY", unit="force", default=Num(0.0), help="component along y of RM")
+    fz: Node = expression("FZ", unit="force", default=Num(0.0), help="component along z of RM")
