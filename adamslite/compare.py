@@ -150,7 +150,7 @@ def fits(pattern: str, name: str) -> bool:
 def sampler(
     results: Results, times: np.ndarray, interpolate: str | None
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """Return the function that takes a history of `results`, shape (nt,), to its values at `times`."""
+    """Return the function from a history of `results`, shape (nt,), to its values at `times`."""
     if times.size == 0:
         return lambda history: history[:0]
     if results.time.size == 0:

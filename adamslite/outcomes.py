@@ -8,17 +8,18 @@ class Outcome(Enum):
 
     DONE = "The run reached its end."
     SINGULAR_ACCELERATION = (
-        "The effective mass has vanished: a force that depends on an acceleration cancels the mass, so "
+        "An effective mass is zero: a force that depends on an acceleration cancels the mass: "
         "the equations no longer determine the motion. Look at the sign of that force "
         "(`adamslite check` prints the effective mass) or end the run before this time."
     )
     STEP_TOO_SMALL = (
-        "The steps needed to meet ERROR became too small to advance the time. Look for a jump in a "
-        "force or a motion (use STEP instead of IF), a stiffness that is far too large, or a larger ERROR."
+        "The steps needed to meet ERROR became too small to advance the time. Look for a jump in "
+        "a force or a motion (use STEP instead of IF) or a stiffness that is far too large, or "
+        "allow a larger ERROR."
     )
     NEWTON_FAILED = (
-        "The corrector did not converge even with the smallest step. Look for a jump or a pole in the "
-        "named force, or for a mechanism that locks; a smaller HMAX may help."
+        "The corrector did not converge even with the smallest step. Look for a jump or a pole in "
+        "the named force, or for a mechanism that locks; a smaller HMAX may help."
     )
     INITIAL_CONDITIONS_FAILED = (
         "No starting state satisfies all constraints. Look at the positions of the named joint's "
@@ -30,8 +31,8 @@ class Outcome(Enum):
     )
     INTERRUPTED = "The run was interrupted; everything computed until then is kept."
     STEP_LIMIT = (
-        "The largest allowed number of steps was taken before the end. The scene may be stiffer than "
-        "the integrator suits: use an implicit one, a larger ERROR, or a shorter run."
+        "The largest allowed number of steps was taken before the end. The scene may be stiffer "
+        "than the integrator suits: use an implicit one, a larger ERROR, or a shorter run."
     )
     NO_END_TIME = (
         "Nothing says how long to run. Give SIMULATE/DYNAMIC, END=..., STEPS=... in a command file "

@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def find(name: str) -> Path:
-    """Return the folder `name` ("grammar" or "decks"): inside the package first, then next to it."""
+    """Return the folder `name` ("grammar", "decks"): inside the package first, then next to it."""
     package = Path(__file__).parent
     inside = package / name
     return inside if inside.is_dir() else package.parent / name

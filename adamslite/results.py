@@ -85,5 +85,9 @@ class Results:
     def _unknown(self, name: str) -> str:
         close = get_close_matches(name.casefold(), self._column, n=3, cutoff=0.6)
         near = [self.names[self._column[key]] for key in close] or list(self.names[:3])
-        hint = f"; did you mean {' or '.join(near)}?" if close else f"; there are {', '.join(near)}, ..."
+        hint = (
+            f"; did you mean {' or '.join(near)}?"
+            if close
+            else f"; there are {', '.join(near)}, ..."
+        )
         return f"no result is called '{name}'{hint if near else ' (the results are empty)'}"

@@ -1,1 +1,1 @@
-"""One module per result format, each with `write(results, path)` and, where it can be read, `read(path)`."""
+"""One module per result format, each with `write(results, path)` and, if any, `read(path)`."""

@@ -19,13 +19,10 @@ from typing import TextIO
 import numpy as np
 
 import adamslite
+from adamslite.faults import FormatError
 from adamslite.outcomes import Outcome
 from adamslite.outputs.whole import whole_file
 from adamslite.results import Results
-
-
-class FormatError(ValueError):
-    """A file that is not a result file; says where and why."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import TextIO
 
 @contextmanager
 def whole_file(path: str | Path) -> Iterator[TextIO]:
-    """Open `path` for writing text; it takes its name only when the block ends without an exception.
+    """Open `path` for writing text; a file of that name changes only when the block succeeds.
 
     The text goes to a file beside it first, so the final rename stays on one disk and is atomic.
     What is not a regular file (`/dev/null`, a pipe) is written directly.

@@ -1,0 +1,56 @@
+"""what is wrong with a deck, and what it contains
+
+Prints every error and warning with its place, then what the deck consists of. Exit code 3 when
+there are errors; warnings alone do not count.
+"""
+
+import argparse
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from adamslite.commands.codes import DECK_ERRORS, DONE
+
+if TYPE_CHECKING:
+    from adamslite.diagnostics import DeckError
+    from adamslite.runs import Scene
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `adamslite check`."""
+    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print what there is to say; return the exit code."""
+    from adamslite.diagnostics import DeckError, render
+    from adamslite.runs import load_scene
+
+    try:
+        scene = load_scene(args.deck, args.commands)
+    except DeckError as fault:
+        sys.stdout.write(f"{render(fault.diagnostics)}\n\n{_tally(fault)}\n")
+        return DECK_ERRORS
+    if scene.warnings:
+        sys.stdout.write(render(scene.warnings) + "\n\n")
+    sys.stdout.write(_contents(args.deck, scene))
+    return DONE
+
+
+def _tally(fault: "DeckError") -> str:
+    errors = len(fault.errors)
+    warnings = len(fault.diagnostics) - errors
+    return f"{_many(errors, 'error')}, {_many(warnings, 'warning')}"
+
+
+def _contents(deck_path: Path, scene: "Scene") -> str:
+    counted = Counter(statement.keyword for statement in scene.deck.statements)
+    listed = ", ".join(f"{number} {keyword}" for keyword, number in counted.items())
+    warnings = _many(len(scene.warnings), "warning") if scene.warnings else "no mistakes found"
+    return f"{deck_path.name}: {warnings}\n  {_many(counted.total(), 'statement')}: {listed}\n"
+
+
+def _many(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"

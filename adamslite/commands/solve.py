@@ -1,0 +1,141 @@
+"""run a deck and write the results
+
+How long to run: --end, else SIMULATE in COMMANDS.acf, else in the .acf of the deck's name beside
+the deck, else in the deck itself. The results go to DECK's name with .csv in the current directory,
+or to OUT; `-o -` writes them to standard output. All the command says goes to standard error.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from adamslite.commands.codes import DONE, STOPPED_EARLY
+from adamslite.flags import add_run_flags, run_options
+
+if TYPE_CHECKING:
+    from adamslite.results import Results
+    from adamslite.runs import Scene
+
+#: OUT that means standard output.
+STDOUT = "-"
+
+SUMMARY = """\
+{deck}: {sentence}
+  reached              t = {t_end:g}
+  degrees of freedom   {dof}
+  steps                {steps} and {rejected} rejected
+  Newton iterations    {newton}
+  Jacobians            {jacobians}, factorizations {factorizations}
+  CPU                  {setup_cpu_s:.2f} s to set up, {solve_cpu_s:.2f} s to solve
+  constraints          violated by {max_violation:.1e} at most
+  results              {output}
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `adamslite solve`."""
+    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    parser.add_argument("-o", "--output", metavar="OUT.csv", help="result file, or - for stdout")
+    add_run_flags(parser)
+    talk = parser.add_argument_group("talk")
+    talk.add_argument("--quiet", action="store_true", help="say nothing unless something is wrong")
+    talk.add_argument(
+        "--summary",
+        choices=("text", "json"),
+        default="text",
+        help="summary as text to standard error (default) or as JSON to standard output",
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Solve and write; return the exit code."""
+    from adamslite.faults import UsageError
+    from adamslite.outcomes import Outcome
+    from adamslite.progress import Progress, TalkingProgress
+    from adamslite.runs import load_scene, run_scene
+
+    output = args.output or f"{args.deck.stem}.csv"
+    if output == STDOUT and args.summary == "json":
+        raise UsageError(
+            "'-o -' and '--summary json' both want standard output; give -o a file name"
+        )
+    scene = load_scene(args.deck, args.commands)
+    _need_writable(output)
+    if not args.quiet:
+        _tell_warnings(scene)
+    progress = Progress() if args.quiet else TalkingProgress()
+    try:
+        results = run_scene(scene, run_options(args), progress)
+    finally:
+        progress.close()
+    if results.outcome is Outcome.NO_END_TIME:
+        raise UsageError(results.message or results.outcome.value)
+    _write(results, output)
+    _summarize(args, results, output)
+    return DONE if results.outcome is Outcome.DONE else STOPPED_EARLY
+
+
+def _need_writable(output: str) -> None:
+    """Fail now rather than after a long run."""
+    import os
+
+    folder = Path(output).absolute().parent
+    if output == STDOUT:
+        return
+    if not folder.is_dir():
+        raise FileNotFoundError(
+            2, "the results cannot be written there: no such folder", str(folder)
+        )
+    if Path(output).is_dir():
+        raise IsADirectoryError(21, "the results cannot be written there: it is a folder", output)
+    if not os.access(folder, os.W_OK):
+        raise PermissionError(13, "the results cannot be written there: no permission", str(folder))
+
+
+def _write(results: "Results", output: str) -> None:
+    if output == STDOUT:
+        from adamslite.outputs.csv import write_to
+
+        write_to(results, sys.stdout)
+    else:
+        results.save(output)
+
+
+def _tell_warnings(scene: "Scene") -> None:
+    from adamslite.diagnostics import render
+
+    if scene.warnings:
+        sys.stderr.write(render(scene.warnings) + "\n\n")
+
+
+def _summarize(args: argparse.Namespace, results: "Results", output: str) -> None:
+    from adamslite.outcomes import Outcome
+
+    if args.summary == "json":
+        sys.stdout.write(_as_json({**results.summary, "output": output}) + "\n")
+    elif not args.quiet:
+        shown = "standard output" if output == STDOUT else output
+        sentence = (
+            results.outcome.value
+            if results.outcome is Outcome.DONE
+            else f"stopped early ({results.outcome.name})"
+        )
+        sys.stderr.write(
+            SUMMARY.format(deck=args.deck, sentence=sentence, **results.summary, output=shown)
+        )
+    if results.outcome is not Outcome.DONE:
+        sys.stderr.write(f"adamslite: {results.message or results.outcome.value}\n")
+
+
+def _as_json(summary: dict[str, Any]) -> str:
+    """JSON knows neither infinity nor not-a-number: both become null."""
+    import json
+    from math import isfinite
+
+    plain = {
+        key: None if isinstance(value, float) and not isfinite(value) else value
+        for key, value in summary.items()
+    }
+    return json.dumps(plain, allow_nan=False)

@@ -1,0 +1,83 @@
+"""From the files of a run to its results: what `solve` and `verify` share."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import adamslite
+from adamslite.diagnostics import DeckError, Diagnostic
+from adamslite.faults import UsageError
+from adamslite.outcomes import Outcome
+from adamslite.progress import Progress
+from adamslite.results import Results
+from adamslite.statement import STATEMENTS
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene:
+    """A deck and the commands of its run.
+
+    Parameters
+    ----------
+    deck : Deck
+        Without errors.
+    commands : tuple of Statement
+        What the command file says; empty when there is none.
+    warnings : tuple of Diagnostic
+        What `check` has to say about the deck.
+    """
+
+    deck: Any
+    commands: tuple[Any, ...]
+    warnings: tuple[Diagnostic, ...]
+
+
+def load_scene(deck_path: Path, commands_path: Path | None = None) -> Scene:
+    """Read and check a deck and its command file, by default the `.acf` of its name beside it.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong in the two files.
+    """
+    from adamslite.deck import read_commands
+
+    deck = adamslite.read(deck_path)
+    beside = commands_path or command_file_beside(deck_path)
+    commands = tuple(read_commands(beside, deck)) if beside else ()
+    diagnostics = tuple(adamslite.check(deck))
+    if any(diagnostic.is_error for diagnostic in diagnostics):
+        raise DeckError(diagnostics)
+    return Scene(deck=deck, commands=commands, warnings=diagnostics)
+
+
+def command_file_beside(deck_path: Path) -> Path | None:
+    """Return the command file that has the name of the deck, if there is one."""
+    candidates = (deck_path.with_suffix(suffix) for suffix in (".acf", ".ACF"))
+    return next((path for path in candidates if path.is_file()), None)
+
+
+def run_scene(
+    scene: Scene, options: Mapping[str, Any], progress: Progress | None = None
+) -> Results:
+    """Simulate a scene; `options` are keyword arguments of `simulate`.
+
+    Raises
+    ------
+    UsageError
+        When nothing says how long to run.
+    """
+    statements = (*scene.commands, *scene.deck.statements)
+    timed = any(statement.keyword == "SIMULATE" for statement in statements)
+    if not timed and "end" not in options:
+        raise UsageError(Outcome.NO_END_TIME.value)
+    if "integrator" in options:
+        _need_integrator(options["integrator"])
+    return adamslite.simulate(scene.deck, commands=scene.commands, progress=progress, **options)
+
+
+def _need_integrator(name: str) -> None:
+    known = STATEMENTS["INTEGRATOR"].arguments["method"].supported
+    if name not in known:
+        raise UsageError(f"--integrator {name}: there are {', '.join(known)}")

@@ -1,0 +1,87 @@
+"""Stand-ins for the pipeline, so that the command line is tested without solving anything."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pytest
+
+import adamslite
+from adamslite.outcomes import Outcome
+from adamslite.results import Results
+
+SUMMARY: Mapping[str, Any] = {
+    "outcome": "DONE",
+    "t_end": 1.0,
+    "dof": 6,
+    "steps": 10,
+    "rejected": 0,
+    "newton": 20,
+    "jacobians": 2,
+    "factorizations": 3,
+    "setup_cpu_s": 0.1,
+    "solve_cpu_s": 0.2,
+    "max_violation": 0.0,
+}
+
+
+def fall(steps: int = 10, **facts: Any) -> Results:
+    """Return x = t^2 / 2 and v = t of PART/2 at `steps` + 1 times from 0 to 1."""
+    time = np.linspace(0.0, 1.0, steps + 1)
+    return Results(
+        time=time,
+        names=("PART/2.x", "PART/2.vx"),
+        values=np.column_stack([time**2 / 2, time]),
+        **{"summary": SUMMARY, **facts},
+    )
+
+
+@dataclass
+class Pipeline:
+    """What `read`, `check`, `read_commands` and `simulate` shall give, and what they were given."""
+
+    statements: tuple[Any, ...] = ()
+    diagnostics: tuple[Any, ...] = ()
+    results: Results = field(default_factory=fall)
+    calls: list[dict[str, Any]] = field(default_factory=list)
+    commands_read: list[Any] = field(default_factory=list)
+
+    def simulate(self, deck: Any, **options: Any) -> Results:
+        self.calls.append(options)
+        return self.results
+
+
+@dataclass(frozen=True)
+class Named:
+    """A statement of which only the keyword matters."""
+
+    keyword: str
+
+
+@dataclass(frozen=True)
+class FakeDeck:
+    statements: tuple[Any, ...]
+
+
+def stopped(outcome: Outcome, **facts: Any) -> Results:
+    """Return `fall` with another end."""
+    return fall(outcome=outcome, summary={**SUMMARY, "outcome": outcome.name}, **facts)
+
+
+def install(monkeypatch: pytest.MonkeyPatch, pipeline: Pipeline) -> None:
+    """Put `pipeline` in the place of the real one."""
+    import adamslite.deck as deck_module
+
+    def read_commands(path: Any, deck: Any) -> tuple[Any, ...]:
+        pipeline.commands_read.append(path)
+        return (Named("SIMULATE"),)
+
+    fakes = {
+        "read": lambda path: FakeDeck(pipeline.statements),
+        "check": lambda deck: pipeline.diagnostics,
+        "simulate": pipeline.simulate,
+    }
+    for name, fake in fakes.items():
+        monkeypatch.setitem(vars(adamslite), name, fake)
+    monkeypatch.setattr(deck_module, "read_commands", read_commands)

@@ -1,0 +1,98 @@
+"""How far results are from a reference."""
+
+import numpy as np
+import pytest
+from fakes import fall
+
+from adamslite import compare
+from adamslite.compare import Mismatch, Tolerance, fits
+from adamslite.results import Results
+
+
+def moved(by: float, start: int = 0, **facts) -> Results:
+    """Return `fall` with x moved by `by` from row `start` on."""
+    results = fall(**facts)
+    results.values[start:, 0] += by
+    return results
+
+
+def test_equal_results_are_inside_every_tolerance() -> None:
+    comparison = compare(fall(), fall(), Tolerance())
+    assert comparison.inside
+    assert [difference.worst for difference in comparison] == [0.0, 0.0]
+
+
+def test_the_worst_difference_its_time_and_when_it_leaves() -> None:
+    results = moved(2e-3, start=3)
+    results.values[7, 0] += 1e-3
+    x, vx = compare(results, fall(), Tolerance(abs=1e-3))
+    assert not x.inside and vx.inside
+    assert x.worst == pytest.approx(3e-3) and x.allowed == 1e-3
+    assert x.time == pytest.approx(0.7) and x.leaves == pytest.approx(0.3)
+    assert vx.leaves is None
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "inside"),
+    [
+        (Tolerance(abs=1.1e-3), True),
+        (Tolerance(peak=3e-3), True),  # x grows to 0.5
+        (Tolerance(peak=1e-3), False),
+        (Tolerance(rel=0.1), False),  # x starts at 0
+        (Tolerance(), False),
+    ],
+)
+def test_the_three_kinds_of_tolerance(tolerance: Tolerance, inside: bool) -> None:
+    assert compare(moved(1e-3), fall(), tolerance).inside is inside
+
+
+def test_a_value_that_is_no_number_is_outside() -> None:
+    for bad in (np.nan, np.inf):
+        comparison = compare(moved(bad, start=4), fall(), Tolerance(abs=1e9))
+        assert not comparison.inside
+        assert comparison.worst.name == "PART/2.x" and comparison.worst.leaves == 0.4
+    assert not compare(moved(np.nan), moved(np.nan), Tolerance(abs=1)).inside
+
+
+def test_the_worst_of_all_is_the_one_that_uses_up_its_tolerance() -> None:
+    results = moved(1e-3)
+    results.values[:, 1] += 1e-2
+    allowed = {"PART/2.x": Tolerance(abs=1e-3 / 0.9), "PART/2.vx": Tolerance(abs=1e-1)}
+    assert compare(results, fall(), allowed.__getitem__).worst.name == "PART/2.x"
+
+
+def test_reference_columns_may_be_a_subset_but_not_more() -> None:
+    reference = Results(time=fall().time, names=("part/2.VX",), values=fall().values[:, 1:])
+    assert compare(fall(), reference).inside
+    with pytest.raises(Mismatch, match="no channel 'PART/2.x' and 1 more"):
+        compare(Results(time=fall().time, names=(), values=np.empty((11, 0))), fall())
+
+
+def test_times_must_match_unless_interpolation_is_stated() -> None:
+    coarse, fine = fall(10), fall(40)
+    assert compare(fine, coarse).inside
+    with pytest.raises(Mismatch, match="t = 0.025 is not an output time"):
+        compare(coarse, fine)
+    assert compare(coarse, fine, interpolate="cubic").inside
+    linear = compare(coarse, fine, interpolate="linear")
+    assert linear.worst.worst == pytest.approx(0.1**2 / 8, rel=0.01)
+
+
+def test_times_match_as_printed() -> None:
+    third = fall(3)
+    printed = Results(time=third.time.round(10), names=third.names, values=third.values)
+    assert compare(third, printed).inside
+
+
+def test_a_reference_that_goes_further_than_the_results_is_refused() -> None:
+    short = Results(time=fall().time[:5], names=fall().names, values=fall().values[:5])
+    for interpolate in (None, "cubic"):
+        with pytest.raises(Mismatch, match="the results only from 0 to 0.4"):
+            compare(short, fall(), interpolate=interpolate)
+    with pytest.raises(Mismatch, match="no output time"):
+        compare(Results(time=np.empty(0), names=fall().names, values=np.empty((0, 2))), fall())
+
+
+def test_patterns() -> None:
+    assert fits("PART/*.x", "part/12.X") and not fits("PART/*.x", "PART/12.vx")
+    assert fits("*", "anything")
