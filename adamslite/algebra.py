@@ -1,4 +1,8 @@
-"""The one door to sympy: ``sp`` imports it at the first use; reading a deck never pays for it."""
+"""The one door to sympy: ``sp`` imports it at the first use; reading a deck never pays for it.
+
+Beside it stand the few operations where the form sympy gives is not what a kernel needs: choices,
+floors, powers and lengths whose derivatives stay finite, explicit and quick to form.
+"""
 
 from __future__ import annotations
 
@@ -21,23 +25,67 @@ sp = _Sympy()
 
 
 @cache
-def _floor_class() -> type:
+def _nodes() -> tuple[type, type]:
+    """Our Piecewise and floor, named as sympy's own because printers go by the name."""
+    from sympy.functions.elementary.piecewise import ExprCondPair
+
+    # sympy's folds a choice inside a condition into all combinations and asks every condition what
+    # it implies: seconds for a contact force.  This one only drops what is decided.
+    class Piecewise(sp.Expr):
+        is_commutative = True
+        is_extended_real = True
+
+        def __new__(cls, *pairs: Any) -> Any:
+            kept = []
+            for pair in pairs:
+                piece = ExprCondPair(*pair)
+                if piece.cond != sp.false:
+                    kept.append(piece)
+                if piece.cond == sp.true:
+                    break
+            if all(piece.expr == kept[-1].expr for piece in kept):
+                return kept[-1].expr
+            return sp.Expr.__new__(cls, *kept)
+
+        def _eval_derivative(self, symbol: Any) -> Any:
+            return self.func(*[(piece.expr.diff(symbol), piece.cond) for piece in self.args])
+
     # sympy leaves d floor(x)/dx as an unevaluated Derivative; between its jumps it is zero.
     class floor(sp.floor):  # noqa: N801  printers look rules up by this name
         def _eval_derivative(self, symbol: Any) -> Any:
             return sp.S.Zero
 
-    return floor
-
-
-def floor(x: Any) -> Any:
-    """Largest integer not above ``x``, with derivative zero."""
-    return _floor_class()(x)
+    return Piecewise, floor
 
 
 def choose(*pieces: tuple[Any, Any], otherwise: Any) -> Any:
     """The value of the first ``(value, condition)`` that holds, else ``otherwise``."""
-    return sp.Piecewise(*pieces, (otherwise, True))
+    return _nodes()[0](*pieces, (otherwise, True))
+
+
+def floor(x: Any) -> Any:
+    """Largest integer not above ``x``, with derivative zero."""
+    return _nodes()[1](x)
+
+
+def magnitude(x: Any) -> Any:
+    """|x|, with the derivative 1 at zero."""
+    return choose((x, x >= 0), otherwise=-x)
+
+
+def power(base: Any, exponent: Any) -> Any:
+    """``base**exponent`` of real numbers; a whole or half exponent is kept as an exact fraction."""
+    exponent = sp.S.Zero + exponent
+    if exponent.is_Float and 2 * exponent == int(2 * exponent):
+        exponent = sp.Rational(int(2 * exponent), 2)
+    result = (sp.S.Zero + base) ** exponent
+    # sympy knows that sqrt(x**2) is |x|, whose derivative it can only call sign(x).
+    return result.replace(sp.Abs, magnitude) if result.has(sp.Abs) else result
+
+
+def root(x: Any) -> Any:
+    """Square root of ``x`` >= 0."""
+    return power(x, sp.S.Half)
 
 
 def norm(vector: tuple[Any, Any, Any]) -> Any:
@@ -46,4 +94,4 @@ def norm(vector: tuple[Any, Any, Any]) -> Any:
     A speed or a reaction is often exactly zero, where sqrt alone would have the derivative 0/0.
     """
     square = sum(component**2 for component in vector)
-    return choose((sp.sqrt(square), square > 0), otherwise=0)
+    return choose((root(square), square > 0), otherwise=0)

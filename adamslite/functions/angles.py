@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.algebra import choose, norm, sp
+from adamslite.algebra import choose, norm, root, sp
 from adamslite.function import Mistake, function
 from adamslite.symbolic import Scope, dot
 
@@ -34,21 +34,21 @@ def _attitude(scope: Scope, i: Any, j: Any) -> Matrix:
 
 
 def _sequence_angle(r: Matrix, sequence: tuple[int, int, int], component: int) -> Any:
-    """Angle 1, 2 or 3 of ``sequence``, read off the row and column that hold only two angles."""
+    """Angle 1, 2 or 3 of ``sequence``, from the row and the column of R that hold but two."""
     a, b, c = sequence
     other = 3 - a - b
     e = 1 if (b - a) % 3 == 1 else -1
     if a == c:
-        last = (r[b][a], -e * r[other][a], r[a][a])
-        first = (r[a][b], e * r[a][other])
-        middle = (norm((last[0], last[1], 0)), r[a][a])
+        first = (r[b][a], -e * r[other][a])
+        middle = (norm((*first, 0)), r[a][a])
+        last = (r[a][b], e * r[a][other])
     else:
-        last = (-e * r[b][c], r[c][c])
-        first = (-e * r[a][b], r[a][a])
-        middle = (e * r[a][c], norm((r[a][a], r[a][b], 0)))
+        first = (-e * r[b][c], r[c][c])
+        middle = (e * r[a][c], norm((*first, 0)))
+        last = (-e * r[a][b], r[a][a])
     if component == 2:
         return sp.atan2(*middle)
-    sine, cosine = last[:2] if component == 1 else first
+    sine, cosine = first if component == 1 else last
     together = sp.atan2(e * r[other][b], r[b][b]) if component == 1 else 0
     return choose((sp.atan2(sine, cosine), sine**2 + cosine**2 > ALIGNED), otherwise=together)
 
@@ -56,30 +56,25 @@ def _sequence_angle(r: Matrix, sequence: tuple[int, int, int], component: int) -
 def _euler_parameter(r: Matrix, component: int) -> Any:
     """P0..P3 for ``component`` 1..4, from the largest of them and signed so that P0 >= 0.
 
-    With 4 P_a P_b known for every pair, row a of the table holds 4 P_a (P0, P1, P2, P3).
+    Row n of the table holds 4 P_n (P0, P1, P2, P3).
     """
+    trace = r[0][0] + r[1][1] + r[2][2]
     skew = (r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1])
-    symmetric = [[r[a][b] + r[b][a] for b in range(3)] for a in range(3)]
-    table = [(1 + r[0][0] + r[1][1] + r[2][2], *skew)]
+    table = [(1 + trace, *skew)]
     for a in range(3):
-        own = 1 + 2 * r[a][a] - r[0][0] - r[1][1] - r[2][2]
-        row = [own if a == b else symmetric[a][b] for b in range(3)]
-        sign = choose((1, skew[a] >= 0), otherwise=-1)
-        table.append(tuple(sign * entry for entry in (skew[a], *row)))
-    roots = [row[component - 1] / (2 * sp.sqrt(_own(r, n))) for n, row in enumerate(table)]
-    trace = r[0][0] + r[1][1] + r[2][2]
+        pairs = [r[a][b] + r[b][a] for b in range(3)]
+        pairs[a] += 1 - trace
+        table.append((skew[a], *pairs))
+    values = []
+    for n, row in enumerate(table):
+        value = row[component - 1] / (2 * root(row[n]))
+        values.append(choose((value, row[0] >= 0), otherwise=-value))
     return choose(
-        (roots[0], trace >= 0),
-        (roots[1], sp.And(r[0][0] >= r[1][1], r[0][0] >= r[2][2])),
-        (roots[2], r[1][1] >= r[2][2]),
-        otherwise=roots[3],
+        (values[0], trace >= 0),
+        (values[1], sp.And(r[0][0] >= r[1][1], r[0][0] >= r[2][2])),
+        (values[2], r[1][1] >= r[2][2]),
+        otherwise=values[3],
     )
-
-
-def _own(r: Matrix, n: int) -> Any:
-    """4 P_n**2."""
-    trace = r[0][0] + r[1][1] + r[2][2]
-    return 1 + trace if n == 0 else 1 + 2 * r[n - 1][n - 1] - trace
 
 
 def _components_fit(system: float | None, component: float | None, *_: Any) -> Mistake | None:

@@ -6,7 +6,7 @@ import math
 from functools import reduce
 from typing import Any
 
-from adamslite.algebra import choose, floor, sp
+from adamslite.algebra import choose, floor, magnitude, root, sp
 from adamslite.function import function
 from adamslite.symbolic import Scope
 
@@ -33,7 +33,7 @@ def abs_(scope: Scope, x: Any) -> Any:
 
     Unit: that of x.  Source: FORTRAN intrinsic ABS.
     """
-    return choose((x, x >= 0), otherwise=-x)
+    return magnitude(x)
 
 
 @function("MAX", "*x1:number[2..]", edges=_against_first, order=0)
@@ -69,7 +69,7 @@ def sign(scope: Scope, a: Any, b: Any) -> Any:
 
     Unit: that of a.  Source: FORTRAN intrinsic SIGN.
     """
-    size = abs_(scope, a)
+    size = magnitude(a)
     return choose((size, b >= 0), otherwise=-size)
 
 
@@ -106,7 +106,7 @@ def sqrt(scope: Scope, x: Any) -> Any:
 
     Source: FORTRAN intrinsic SQRT.
     """
-    return sp.sqrt(x)
+    return root(x)
 
 
 @function("EXP", "x:number")

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.algebra import norm, sp
+from adamslite.algebra import norm, root
 from adamslite.function import function
 from adamslite.symbolic import Scope, Vector, cross, dot, minus, scale
 
@@ -53,7 +53,7 @@ def dm(scope: Scope, i: Any, j: Any) -> Any:
     Source: Adams/Solver function DM.
     """
     arm = scope.position(i, j)
-    return sp.sqrt(dot(arm, arm))
+    return root(dot(arm, arm))
 
 
 @function("DX", "i:marker j:marker=0 k:marker=0")
@@ -105,7 +105,7 @@ def vr(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
     Source: Adams/Solver function VR.
     """
     arm = scope.position(i, j)
-    return dot(scope.velocity(i, j), arm) / sp.sqrt(dot(arm, arm))
+    return dot(scope.velocity(i, j), arm) / root(dot(arm, arm))
 
 
 @function("VX", "i:marker j:marker=0 k:marker=0 l:marker=0")

@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from adamslite.algebra import choose, sp
+from adamslite.algebra import choose, power, sp
 from adamslite.function import Mistake, ascending, function
 from adamslite.symbolic import Scope
 
@@ -79,8 +79,10 @@ def impact(scope: Scope, x: Any, v: Any, x1: Any, k: Any, e: Any, cmax: Any, d: 
     v is the time derivative of x; the damping grows to cmax over the depth d.  Never negative: it
     pushes x up and does not pull.  Unit: force.  Source: Adams/Solver function IMPACT.
     """
-    force = k * (x1 - x) ** e - v * step(scope, x, x1 - d, cmax, x1, 0)
-    return choose((choose((force, force > 0), otherwise=0), x < x1), otherwise=0)
+    touching = x < x1
+    depth = choose((x1 - x, touching), otherwise=0)
+    force = k * power(depth, e) - v * step(scope, x, x1 - d, cmax, x1, 0)
+    return choose((force, sp.And(touching, force > 0)), otherwise=0)
 
 
 @function(
