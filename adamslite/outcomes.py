@@ -8,7 +8,7 @@ class Outcome(Enum):
 
     DONE = "The run reached its end."
     SINGULAR_ACCELERATION = (
-        "An effective mass is zero: a force that depends on an acceleration cancels the mass: "
+        "A force that depends on an acceleration cancels the mass: the effective mass is zero and "
         "the equations no longer determine the motion. Look at the sign of that force "
         "(`adamslite check` prints the effective mass) or end the run before this time."
     )

@@ -11,7 +11,6 @@ from adamslite.faults import UsageError
 from adamslite.outcomes import Outcome
 from adamslite.progress import Progress
 from adamslite.results import Results
-from adamslite.statement import STATEMENTS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,6 +77,8 @@ def run_scene(
 
 
 def _need_integrator(name: str) -> None:
-    known = STATEMENTS["INTEGRATOR"].arguments["method"].supported
+    from adamslite.elements.integrator import Integrator
+
+    known = Integrator.arguments["method"].supported
     if name not in known:
         raise UsageError(f"--integrator {name}: there are {', '.join(known)}")

@@ -1,7 +1,9 @@
 """Stand-ins for the pipeline, so that the command line is tested without solving anything."""
 
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -71,7 +73,6 @@ def stopped(outcome: Outcome, **facts: Any) -> Results:
 
 def install(monkeypatch: pytest.MonkeyPatch, pipeline: Pipeline) -> None:
     """Put `pipeline` in the place of the real one."""
-    import adamslite.deck as deck_module
 
     def read_commands(path: Any, deck: Any) -> tuple[Any, ...]:
         pipeline.commands_read.append(path)
@@ -84,4 +85,6 @@ def install(monkeypatch: pytest.MonkeyPatch, pipeline: Pipeline) -> None:
     }
     for name, fake in fakes.items():
         monkeypatch.setitem(vars(adamslite), name, fake)
-    monkeypatch.setattr(deck_module, "read_commands", read_commands)
+    deck_module = ModuleType("adamslite.deck")
+    deck_module.read_commands = read_commands
+    monkeypatch.setitem(sys.modules, "adamslite.deck", deck_module)

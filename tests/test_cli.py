@@ -1,0 +1,292 @@
+"""The command line: what it prints, where, and with which exit code."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fakes import Named, Pipeline, fall, install, stopped
+
+from adamslite.cli import main
+from adamslite.diagnostics import Diagnostic, Span
+from adamslite.outcomes import Outcome
+from adamslite.progress import TalkingProgress
+from adamslite.results import Results
+
+WARNING = Diagnostic(
+    "W1", "warning", "the effective mass is m0 - Dm", Span("cable.adm", 3, 1, 3, 7), "use minus"
+)
+ERROR = Diagnostic("E1", "error", "there is no MARKER/7", Span("cable.adm", 2, 4, 2, 5))
+SIMULATE = Named("SIMULATE")
+
+
+@pytest.fixture
+def pipeline(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Pipeline:
+    """An empty folder with cable.adm as current directory, and a pipeline that solves nothing."""
+    monkeypatch.chdir(tmp_path)
+    Path("cable.adm").write_text("a cable\nEND\n")
+    fake = Pipeline(statements=(Named("PART"), Named("PART"), SIMULATE))
+    install(monkeypatch, fake)
+    return fake
+
+
+def test_results_go_to_the_decks_name_in_the_current_directory(pipeline, capsys) -> None:
+    Path("decks").mkdir()
+    Path("cable.adm").rename("decks/cable.adm")
+    assert main(["solve", "decks/cable.adm"]) == 0
+    out, err = capsys.readouterr()
+    assert out == "" and "cable.csv" in err and "degrees of freedom   6" in err
+    assert np.array_equal(Results.load("cable.csv").values, fall().values)
+    assert sorted(os.listdir()) == ["cable.csv", "decks"]
+
+
+def test_the_same_run_gives_the_same_bytes(pipeline) -> None:
+    main(["solve", "cable.adm", "-o", "a.csv"])
+    main(["solve", "cable.adm", "-o", "b.csv"])
+    assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
+
+
+def test_flags_reach_simulate(pipeline) -> None:
+    flags = "--end 2 --steps 50 --integrator gstiff --formulation i3 --error 1e-7 --hmax 0.1"
+    assert main(["solve", "cable.adm", *flags.split()]) == 0
+    (call,) = pipeline.calls
+    call.pop("progress")
+    assert call == {
+        "commands": (),
+        "end": 2.0,
+        "steps": 50,
+        "integrator": "GSTIFF",
+        "formulation": "I3",
+        "error": 1e-7,
+        "hmax": 0.1,
+    }
+
+
+@pytest.mark.parametrize(
+    "flags",
+    [
+        ["--end", "-1"],
+        ["--end", "soon"],
+        ["--steps", "0"],
+        ["--error", "inf"],
+        ["--formulation", "I4"],
+        ["--integrator", "EULER"],
+        ["--bogus"],
+        ["-o", "-", "--summary", "json"],
+    ],
+)
+def test_wrong_flags_are_usage(pipeline, capsys, flags: list[str]) -> None:
+    assert main(["solve", "cable.adm", *flags]) == 2
+    assert "Traceback" not in capsys.readouterr().err
+    assert pipeline.calls == []
+
+
+def test_without_an_end_time_the_three_ways_are_told(pipeline, capsys) -> None:
+    pipeline.statements = ()
+    assert main(["solve", "cable.adm"]) == 2
+    err = capsys.readouterr().err
+    assert all(way in err for way in ("command file", "in the deck itself", "--end"))
+    assert not Path("cable.csv").exists()
+    assert main(["solve", "cable.adm", "--end", "1"]) == 0
+
+
+def test_the_command_file_given_wins_over_the_one_beside_the_deck(pipeline) -> None:
+    pipeline.statements = ()
+    Path("cable.acf").write_text("SIMULATE/DYNAMIC, END=1, STEPS=10\n")
+    assert main(["solve", "cable.adm"]) == 0
+    assert main(["solve", "cable.adm", "other.acf"]) == 0
+    assert [path.name for path in pipeline.commands_read] == ["cable.acf", "other.acf"]
+    assert [call["commands"] for call in pipeline.calls] == [(SIMULATE,), (SIMULATE,)]
+
+
+def test_an_early_end_writes_what_there_is(pipeline, capsys) -> None:
+    pipeline.results = stopped(Outcome.SINGULAR_ACCELERATION, message="VFORCE/2, line 9: no mass")
+    assert main(["solve", "cable.adm", "--quiet"]) == 4
+    assert "VFORCE/2, line 9: no mass" in capsys.readouterr().err
+    assert Results.load("cable.csv").time.size == 11
+
+
+def test_the_summary_as_json(pipeline, capsys) -> None:
+    pipeline.results = fall(summary={**fall().summary, "max_violation": float("nan")})
+    assert main(["solve", "cable.adm", "--summary", "json", "--quiet"]) == 0
+    out, err = capsys.readouterr()
+    summary = json.loads(out)
+    assert err == ""
+    assert list(summary) == [*fall().summary, "output"]
+    assert summary["output"] == "cable.csv" and summary["max_violation"] is None
+
+
+def test_the_table_on_standard_output(pipeline, capsys) -> None:
+    assert main(["solve", "cable.adm", "-o", "-"]) == 0
+    out, err = capsys.readouterr()
+    assert "time,PART/2.x" in out and "steps" in err
+    assert not Path("-").exists() and not Path("cable.csv").exists()
+
+
+def test_warnings_are_told_on_standard_error(pipeline, capsys) -> None:
+    pipeline.diagnostics = (WARNING,)
+    assert main(["solve", "cable.adm"]) == 0
+    out, err = capsys.readouterr()
+    assert "cable.adm:3:1: warning: the effective mass" in err and out == ""
+    assert main(["solve", "cable.adm", "--quiet"]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_errors_of_the_deck(pipeline, capsys) -> None:
+    pipeline.diagnostics = (WARNING, ERROR)
+    assert main(["solve", "cable.adm"]) == 3
+    assert "cable.adm:2:4: error: there is no MARKER/7" in capsys.readouterr().err
+    assert pipeline.calls == []
+    assert main(["check", "cable.adm"]) == 3
+    assert capsys.readouterr().out.endswith("\n\n1 error, 1 warning\n")
+
+
+def test_check_tells_warnings_and_contents(pipeline, capsys) -> None:
+    pipeline.diagnostics = (WARNING,)
+    assert main(["check", "cable.adm"]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("cable.adm:3:1: warning:")
+    assert "cable.adm: 1 warning\n  3 statements: 2 PART, 1 SIMULATE\n" in out
+
+
+@pytest.mark.parametrize(
+    ("argv", "said"),
+    [
+        (["diff", "no.csv", "cable.adm"], "'no.csv': No such file"),
+        (["diff", "cable.adm", "cable.adm"], "cable.adm:1: the header row"),
+        (["solve", "cable.adm", "-o", "no/out.csv"], "no such folder"),
+        (["solve", "cable.adm", "-o", "."], "it is a folder"),
+        (["verify", "nowhere"], "'nowhere': no such deck or folder"),
+    ],
+)
+def test_what_cannot_be_read_or_written(pipeline, capsys, argv: list[str], said: str) -> None:
+    assert main(argv) == 5
+    assert said in capsys.readouterr().err
+    assert pipeline.calls == []
+
+
+def test_a_fault_of_the_program_is_one_sentence(pipeline, capsys, monkeypatch) -> None:
+    def broken(deck, **options):
+        raise ZeroDivisionError("the\nslip")
+
+    monkeypatch.setattr(pipeline, "simulate", broken)
+    install(monkeypatch, pipeline)
+    assert main(["solve", "cable.adm"]) == 70
+    err = capsys.readouterr().err
+    assert "ZeroDivisionError: the slip" in err and "report it" in err and "Traceback" not in err
+    with pytest.raises(ZeroDivisionError):
+        main(["solve", "cable.adm", "--debug"])
+
+
+def test_an_interruption_before_there_are_results(pipeline, capsys, monkeypatch) -> None:
+    def interrupted(deck, **options):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(pipeline, "simulate", interrupted)
+    install(monkeypatch, pipeline)
+    assert main(["solve", "cable.adm"]) == 4
+    assert capsys.readouterr().err == "adamslite: interrupted\n"
+
+
+def test_diff_of_two_files(pipeline, capsys) -> None:
+    results = fall()
+    results.save("b.csv")
+    results.values[3:, 0] += 1e-4
+    results.save("a.csv")
+    assert main(["diff", "a.csv", "a.csv"]) == 0
+    assert "2 compared, all within their tolerances" in capsys.readouterr().out
+    assert main(["diff", "a.csv", "b.csv"]) == 1
+    table = capsys.readouterr().out.splitlines()
+    assert table[1].split() == ["PART/2.x", "1.000e-04", "1.500e-06", "0.3", "0.3"]
+    assert table[-1] == "2 compared, 1 outside its tolerance"
+    assert main(["diff", "a.csv", "b.csv", "--tol", "1e-3"]) == 0
+    assert main(["diff", "a.csv", "b.csv", "--tol", "abs 1e-3"]) == 0
+    assert main(["diff", "a.csv", "b.csv", "--tol", "rel"]) == 2
+
+
+def test_diff_uses_the_tolerances_of_the_reference(pipeline, capsys) -> None:
+    fall().save("a.csv")
+    Path("b.csv").write_text("# tolerance: abs 1e-3\ntime,PART/2.x\n0.5,0.1255\n")
+    assert main(["diff", "a.csv", "b.csv"]) == 0
+    Path("b.csv").write_text("time,PART/2.x\n0.55,0.15125\n")
+    assert main(["diff", "a.csv", "b.csv"]) == 1
+    assert "different: t = 0.55 is not an output time" in capsys.readouterr().out
+    assert main(["diff", "a.csv", "b.csv", "--interpolate", "cubic"]) == 0
+
+
+def test_verify_prints_one_line_each(pipeline, capsys) -> None:
+    Path("reference.csv").write_text("# tolerance: abs 1e-3\ntime,PART/2.x\n1,0.5\n")
+    Path("reference-bad.csv").write_text("# tolerance: abs 1e-3\ntime,PART/2.x\n1,0.6\n")
+    assert main(["verify", "."]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith("ok    ") and lines[1].startswith("FAIL  ")
+    assert lines[2] == "1 of 2 references met"
+    Path("reference-bad.csv").unlink()
+    assert main(["verify", "cable.adm"]) == 0
+    Path("reference.csv").unlink()
+    assert main(["verify", "cable.adm"]) == 2
+
+
+def test_verify_reports_a_broken_deck_and_goes_on(pipeline, capsys, monkeypatch) -> None:
+    pipeline.diagnostics = (ERROR,)
+    Path("reference.csv").write_text("# tolerance: abs 1e-3\ntime,PART/2.x\n1,0.5\n")
+    assert main(["verify", "."]) == 1
+    out = capsys.readouterr().out
+    assert "the deck has errors: cable.adm:2:4: there is no MARKER/7" in out
+
+
+def test_help_starts_fast_and_without_numpy() -> None:
+    program = (
+        "import sys\n"
+        "from adamslite.cli import main\n"
+        "main(['--help'])\n"
+        "heavy = {'numpy', 'scipy', 'sympy', 'numba', 'lark'} & set(sys.modules)\n"
+        "assert not heavy, heavy\n"
+    )
+    took = []
+    for _ in range(3):
+        begun = time.perf_counter()
+        subprocess.run([sys.executable, "-c", program], check=True, stdout=subprocess.DEVNULL)
+        took.append(time.perf_counter() - begun)
+    assert min(took) < 0.15
+
+
+def test_a_reader_that_goes_away_is_no_fault(tmp_path: Path) -> None:
+    fall(2000).save(tmp_path / "a.csv")
+    file = tmp_path / "a.csv"
+    command = f"{sys.executable} -m adamslite diff {file} {file} | true"
+    run = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
+    assert run.stderr == ""
+
+
+class Terminal:
+    """A stream that claims to be a terminal."""
+
+    def __init__(self, live: bool) -> None:
+        self.live = live
+        self.text = ""
+
+    def isatty(self) -> bool:
+        return self.live
+
+    def write(self, text: str) -> None:
+        self.text += text
+
+    def flush(self) -> None:
+        pass
+
+
+def test_progress_is_drawn_on_a_terminal_only() -> None:
+    terminal, file = Terminal(True), Terminal(False)
+    for stream in (terminal, file):
+        progress = TalkingProgress(stream)
+        progress(0.5, 2.0)
+        progress(0.6, 2.0)  # too soon to be drawn
+        progress.say("compiling once")
+        progress.close()
+    assert terminal.text == "\rt = 0.5 of 2\r" + " " * 12 + "\rcompiling once\n"
+    assert file.text == "compiling once\n"
