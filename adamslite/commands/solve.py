@@ -138,4 +138,9 @@ def _as_json(summary: dict[str, Any]) -> str:
         key: None if isinstance(value, float) and not isfinite(value) else value
         for key, value in summary.items()
     }
-    return json.dumps(plain, allow_nan=False)
+    return json.dumps(plain, allow_nan=False, default=_plain_number)
+
+
+def _plain_number(number: Any) -> Any:
+    """A numpy number as one of Python."""
+    return number.item()
