@@ -62,6 +62,15 @@ TIME = Time()
 MODE = Mode()
 
 
+# comp of FX FY FZ TX TY TZ in the functions that measure an element.
+COMPONENTS = (2, 3, 4, 6, 7, 8)
+
+
+def measure(name: str, element: Ref, comp: int, rm: Ref = GROUND_FRAME, jflag: int = 0) -> Call:
+    """The call ``NAME(id, jflag, comp, rm)``."""
+    return Call(name, (element, Num(jflag), Num(comp), rm))
+
+
 def walk(node: Node) -> Iterator[Node]:
     """The node and everything below it, parents first."""
     pending = [node]

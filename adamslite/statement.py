@@ -13,6 +13,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any, ClassVar
 
 from adamslite.diagnostics import Span, Spans
@@ -154,6 +155,7 @@ class Statement:
     ends: ClassVar[bool] = False
     ignored: ClassVar[bool] = False
     planned: ClassVar[tuple[str, ...]] = ()
+    body: ClassVar[bool] = False
 
     id: int | str = 0
     name: str | None = None
@@ -174,9 +176,33 @@ class Statement:
         """The id as references to this statement hold it: a number or a name in capitals."""
         return self.id.upper() if isinstance(self.id, str) else self.id
 
+    @classmethod
+    def build(cls, values: Mapping[str, Any]) -> Statement:
+        """An instance with these field values and the defaults of the others."""
+        made = cls.__new__(cls)
+        # The dictionary directly: the frozen initialiser costs more than reading the statement.
+        made.__dict__.update(_defaults(cls), **values)
+        return made
+
+    @classmethod
+    def completed(
+        cls, values: dict[str, Any], body: tuple[str, int | str] | None
+    ) -> dict[str, Any]:
+        """Values that follow from keyword and id of the nearest body before the statement."""
+        return {}
+
+    def constants(self) -> dict[str, float]:
+        """Numbers this statement gives a name that expressions may use, names in capitals."""
+        return {}
+
     def given(self, field_name: str) -> bool:
         """Whether the deck has this argument."""
         return field_name in self.spans
+
+
+@cache
+def _defaults(cls: type[Statement]) -> dict[str, Any]:
+    return {"id": 0, "name": None} | {a.name: a.default for a in cls.arguments.values()}
 
 
 def statement(
@@ -188,6 +214,7 @@ def statement(
     ends: bool = False,
     ignored: bool = False,
     planned: tuple[str, ...] = (),
+    body: bool = False,
 ) -> Callable[[type[Statement]], type[Statement]]:
     """Register a class as the statement ``keyword``.
 
@@ -207,6 +234,8 @@ def statement(
         Its arguments are not read.
     planned : tuple of str
         Keywords that are part of the language and cannot be run yet.
+    body : bool
+        Markers without an owner behind it belong to it.
     """
 
     def register(cls: type[Statement]) -> type[Statement]:
@@ -218,7 +247,7 @@ def statement(
             if "argument" in f.metadata
         }
         made.singleton, made.repeatable, made.place = singleton, repeatable, place
-        made.ends, made.ignored, made.planned = ends, ignored, planned
+        made.ends, made.ignored, made.planned, made.body = ends, ignored, planned, body
         STATEMENTS[keyword] = made
         return made
 

@@ -21,3 +21,7 @@ class Accgrav(Statement):
     igrav: float = number("IGRAV", unit="length/time^2", default=0.0, help="x component in ground")
     jgrav: float = number("JGRAV", unit="length/time^2", default=0.0, help="y component in ground")
     kgrav: float = number("KGRAV", unit="length/time^2", default=0.0, help="z component in ground")
+
+    def constants(self) -> dict[str, float]:
+        """The components, by the names of the arguments."""
+        return {"IGRAV": self.igrav, "JGRAV": self.jgrav, "KGRAV": self.kgrav}

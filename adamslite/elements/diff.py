@@ -8,8 +8,11 @@ Equation::
 
 from __future__ import annotations
 
-from adamslite.expression import Node
+from typing import Any
+
+from adamslite.expression import Call, Node, Ref
 from adamslite.statement import Statement, expression, flag, statement, vector
+from adamslite.symbolic import Scope
 
 
 @statement("DIFF", planned=("ROUTINE",))
@@ -26,3 +29,16 @@ class Diff(Statement):
     function: Node = expression(
         "FUNCTION", required=True, unit="that of y per time", help="dy/dt, or the residual"
     )
+
+    def equation(self, scope: Scope) -> Any:
+        """dy/dt - FUNCTION, or FUNCTION itself."""
+        return self.function if self.implicit else self.unknowns[1] - self.function
+
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """The state itself has no suffix."""
+        return ("",)
+
+    def outputs(self, model: Any) -> list[Node]:
+        """Values of ``result_names``."""
+        return [Call("DIF", (Ref("DIFF", self.key),))]

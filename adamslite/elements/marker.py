@@ -7,6 +7,8 @@ Equation (position and axes in ground of a marker on a body at ``r`` with attitu
 
 from __future__ import annotations
 
+from typing import Any
+
 from adamslite.statement import Statement, flag, reference, statement, vector
 
 
@@ -39,6 +41,16 @@ class Marker(Statement):
     )  # fmt: skip
     usexp: bool = flag("USEXP", help="XP gives the x axis exactly, ZP the plane")
     floating: bool = flag("FLOATING", help="placed by the solver")
+
+    @classmethod
+    def completed(
+        cls, values: dict[str, Any], body: tuple[str, int | str] | None
+    ) -> dict[str, Any]:
+        """The nearest body before it owns a marker that names none."""
+        if body is None or "part" in values or "point_mass" in values:
+            return {}
+        keyword, id = body
+        return {"part" if keyword == "PART" else "point_mass": id}
 
     @property
     def owner(self) -> tuple[str, int | str] | None:

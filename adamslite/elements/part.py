@@ -13,7 +13,7 @@ from __future__ import annotations
 from adamslite.statement import Statement, flag, number, reference, statement, text, vector, words
 
 
-@statement("PART", planned=("VM", "WM"))
+@statement("PART", planned=("VM", "WM"), body=True)
 class Part(Statement):
     """A rigid body.
 

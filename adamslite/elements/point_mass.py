@@ -10,7 +10,7 @@ from __future__ import annotations
 from adamslite.statement import Statement, number, reference, statement, vector, words
 
 
-@statement("POINT_MASS")
+@statement("POINT_MASS", body=True)
 class PointMass(Statement):
     """A mass without rotation: it takes forces, no torques, and costs three unknowns.
 

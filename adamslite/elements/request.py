@@ -13,7 +13,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.expression import Node
+from adamslite.expression import GROUND_FRAME, Call, Node, Num, Op, Ref, measure
+from adamslite.function import FUNCTIONS
 from adamslite.statement import (
     Statement,
     choice,
@@ -23,6 +24,16 @@ from adamslite.statement import (
     text,
     texts,
 )
+
+MEASURES = {
+    "DISPLACEMENT": ("DM", "DX", "DY", "DZ", None, "PSI", "THETA", "PHI"),
+    "VELOCITY": ("VM", "VX", "VY", "VZ", "WM", "WX", "WY", "WZ"),
+    "ACCELERATION": ("ACCM", "ACCX", "ACCY", "ACCZ", "WDTM", "WDTX", "WDTY", "WDTZ"),
+}
+
+SIZES = ("DM", "VM", "ACCM", "WM", "WDTM")
+# Elements a FORCE request adds up, and the function that measures each.
+LOADED = {"SFORCE": "SFORCE", "VFORCE": "VFORCE", "SPRINGDAMPER": "SPDP", "JOINT": "JOINT"}
 
 
 def _component(number: int) -> Any:
@@ -58,3 +69,55 @@ class Request(Statement):
     def functions(self) -> tuple[Node | None, ...]:
         """F1 ... F8, None where omitted."""
         return (self.f1, self.f2, self.f3, self.f4, self.f5, self.f6, self.f7, self.f8)
+
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """F1 ... F8: all of them for a kind, those given otherwise."""
+        given = [self.kind is not None or f is not None for f in self.functions]
+        return tuple(f"F{n}" for n, is_there in enumerate(given, 1) if is_there)
+
+    def outputs(self, model: Any) -> list[Node]:
+        """Values of ``result_names``."""
+        if self.kind is None:
+            return [f for f in self.functions if f is not None]
+        if self.kind == "FORCE":
+            return self._forces(model)
+        frames = (Ref("MARKER", self.i), Ref("MARKER", self.j), Ref("MARKER", self.rm))
+        return [self._measure(name, frames) for name in MEASURES[self.kind]]
+
+    def _measure(self, name: str | None, frames: tuple[Ref, Ref, Ref]) -> Node:
+        if name is None:
+            return Num(0.0)
+        taken = FUNCTIONS[name].parameters
+        # Angles and sizes take two frames; a fourth is the frame of the derivative, ground here.
+        args = frames[:2] if len(taken) == 2 or name in SIZES else frames
+        return Call(name, args + (GROUND_FRAME,) * (len(taken) - len(args)))
+
+    def _forces(self, model: Any) -> list[Node]:
+        """FM FX FY FZ TM TX TY TZ on I of all elements between I and J."""
+        found = [s for s in model.deck.statements if s.keyword in LOADED and self._joins(s)]
+        total = {c: _sum([self._load(s, c) for s in found]) for c in (2, 3, 4, 6, 7, 8)}
+        force, torque = ([total[c] for c in three] for three in ((2, 3, 4), (6, 7, 8)))
+        return [_size(force), *force, _size(torque), *torque]
+
+    def _joins(self, element: Statement) -> bool:
+        other = getattr(element, "jfloat", None) or getattr(element, "j", 0)
+        if self.j == 0:
+            return self.i in (element.i, other)
+        return {element.i, other} == {self.i, self.j}
+
+    def _load(self, element: Statement, component: int) -> Node:
+        jflag = 0 if element.i == self.i else 1
+        ref = Ref(element.keyword, element.key)
+        return measure(LOADED[element.keyword], ref, component, Ref("MARKER", self.rm), jflag)
+
+
+def _sum(terms: list[Node]) -> Node:
+    total: Node = Num(0.0)
+    for term in terms:
+        total = term if total == Num(0.0) else Op("+", (total, term))
+    return total
+
+
+def _size(components: list[Node]) -> Node:
+    return Call("SQRT", (_sum([Op("*", (c, c)) for c in components]),))

@@ -13,8 +13,11 @@ Sign: positive pushes I and J apart, so a spring is ``-k*(DM(I,J)-L0)``::
 
 from __future__ import annotations
 
+from typing import Any
+
 from adamslite.expression import Node
 from adamslite.statement import Statement, choice, expression, flag, reference, statement
+from adamslite.symbolic import ZERO, Load, Scope, scale, towards
 
 
 @statement("SFORCE", planned=("ROUTINE",))
@@ -35,3 +38,23 @@ class Sforce(Statement):
     function: Node = expression(
         "FUNCTION", required=True, unit="force, or torque", help="the force on I"
     )
+
+    def loads(self, scope: Scope) -> list[Load]:
+        """The force on I and its reaction on J."""
+        reaction = None if self.actiononly else self.j
+        if self.kind == "ROTATIONAL":
+            torque = scale(self.function, scope.axes(self.j)[2])
+            return [Load(self.i, ZERO, torque, reaction)]
+        along = (
+            scope.axes(self.j)[2] if self.actiononly else towards(scope.position(self.i, self.j))
+        )
+        return [Load(self.i, scale(self.function, along), ZERO, reaction)]
+
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """f: the value of FUNCTION."""
+        return ("f",)
+
+    def outputs(self, model: Any) -> list[Node]:
+        """Values of ``result_names``."""
+        return [self.function]

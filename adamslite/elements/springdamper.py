@@ -12,7 +12,12 @@ with ``u = (r_I - r_J)/|r_I - r_J|``; the opposite acts on J.  Sign: positive pu
 
 from __future__ import annotations
 
+from typing import Any
+
+from adamslite.expression import COMPONENTS, GROUND_FRAME, Call, Node, Op, Ref, measure
+from adamslite.function import FUNCTIONS
 from adamslite.statement import Statement, choice, number, reference, statement
+from adamslite.symbolic import ORIGIN, ZERO, Load, Scope, scale, towards
 
 
 @statement("SPRINGDAMPER")
@@ -33,3 +38,31 @@ class Springdamper(Statement):
     ct: float = number("CT", unit="torque time/angle", default=0.0, help="torsional damping")
     torque: float = number("TORQUE", unit="torque", default=0.0, help="torque at ANGLE")
     angle: float = number("ANGLE", unit="angle", default=0.0, help="angle at which it is TORQUE")
+
+    def loads(self, scope: Scope) -> list[Load]:
+        """The force or torque on I and its reaction on J."""
+        i, j = self.i, self.j
+        if self.kind == "ROTATIONAL":
+            twist = FUNCTIONS["AZ"].body(scope, i, j) - self.angle
+            value = self.torque - self.kt * twist - self.ct * FUNCTIONS["WZ"].body(scope, i, j, j)
+            return [Load(i, ZERO, scale(value, scope.axes(j)[2]), j)]
+        stretch = FUNCTIONS["DM"].body(scope, i, j) - self.length
+        speed = FUNCTIONS["VR"].body(scope, i, j, ORIGIN)
+        value = self.force - self.k * stretch - self.c * speed
+        return [Load(i, scale(value, towards(scope.position(i, j))), ZERO, j)]
+
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """f: the force or torque on I, positive when it pushes apart."""
+        return ("f",)
+
+    def outputs(self, model: Any) -> list[Node]:
+        """Values of ``result_names``: the load on I along the line, or about z of J."""
+        own, i, j = (Ref("SPRINGDAMPER", self.key), Ref("MARKER", self.i), Ref("MARKER", self.j))
+        if self.kind == "ROTATIONAL":
+            return [measure("SPDP", own, 8, j)]
+        along = [
+            Op("*", (measure("SPDP", own, c), Call(name, (i, j, GROUND_FRAME))))
+            for c, name in zip(COMPONENTS, ("DX", "DY", "DZ"), strict=False)
+        ]
+        return [Op("/", (Op("+", (Op("+", (along[0], along[1])), along[2])), Call("DM", (i, j))))]

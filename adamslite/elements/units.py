@@ -46,3 +46,7 @@ class Units(Statement):
         if self.ucf is not None:
             return self.ucf
         return units.conversion(*self.names) if self.names else 1.0
+
+    def constants(self) -> dict[str, float]:
+        """``Gc``, the factor UCF."""
+        return {"GC": self.factor}

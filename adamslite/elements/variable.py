@@ -7,8 +7,11 @@ Equation::
 
 from __future__ import annotations
 
-from adamslite.expression import Node
+from typing import Any
+
+from adamslite.expression import Call, Node, Ref
 from adamslite.statement import Statement, expression, number, statement
+from adamslite.symbolic import Scope
 
 
 @statement("VARIABLE", planned=("ROUTINE",))
@@ -24,3 +27,16 @@ class Variable(Statement):
     function: Node = expression(
         "FUNCTION", required=True, unit="the user's", help="what the variable equals"
     )
+
+    def equation(self, scope: Scope) -> Any:
+        """V - FUNCTION, for a variable that has to be solved for."""
+        return self.unknowns[0] - self.function
+
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """The variable itself has no suffix."""
+        return ("",)
+
+    def outputs(self, model: Any) -> list[Node]:
+        """Values of ``result_names``."""
+        return [Call("VARVAL", (Ref("VARIABLE", self.key),))]

@@ -11,8 +11,11 @@ The opposite force acts on the part of JFLOAT at the present place of I::
 
 from __future__ import annotations
 
+from typing import Any
+
 from adamslite.expression import Node, Num
 from adamslite.statement import Statement, expression, reference, statement
+from adamslite.symbolic import ZERO, Load, Scope, along_axes
 
 
 @statement("VFORCE", planned=("FXYZ", "FUNCTION", "ROUTINE"))
@@ -35,3 +38,18 @@ class Vforce(Statement):
     fx: Node = expression("FX", unit="force", default=Num(0.0), help="component along x of RM")
     fy: Node = expression("FY", unit="force", default=Num(0.0), help="component along y of RM")
     fz: Node = expression("FZ", unit="force", default=Num(0.0), help="component along z of RM")
+
+    def loads(self, scope: Scope) -> list[Load]:
+        """The force on I; the reaction follows I."""
+        force = along_axes(scope.axes(self.rm), (self.fx, self.fy, self.fz))
+        reaction = self.jfloat if self.jfloat is not None else self.j_part
+        return [Load(self.i, force, ZERO, reaction, follows=True)]
+
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """Components along the axes of RM."""
+        return ("fx", "fy", "fz")
+
+    def outputs(self, model: Any) -> list[Node]:
+        """Values of ``result_names``."""
+        return [self.fx, self.fy, self.fz]

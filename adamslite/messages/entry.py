@@ -1,0 +1,31 @@
+"""One row of the table of messages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from adamslite.diagnostics import ERROR
+
+
+@dataclass(frozen=True)
+class Message:
+    """A message and the decks that provoke it.
+
+    Parameters
+    ----------
+    sentence, hint : str
+        With ``{words}`` to fill in.
+    broken : tuple of str
+        Each one provokes this message and no other.  Statements to append to
+        :data:`adamslite.messages.START`, or a whole deck when it begins with ``title``.
+    commands : tuple of str
+        The same, as command files for that deck.
+    severity : str
+        ``"error"`` or ``"warning"``.
+    """
+
+    sentence: str
+    hint: str = ""
+    broken: tuple[str, ...] = ()
+    commands: tuple[str, ...] = ()
+    severity: str = ERROR

@@ -1,0 +1,192 @@
+"""Messages about what the statements mean together."""
+
+from __future__ import annotations
+
+from adamslite.diagnostics import WARNING
+from adamslite.messages.entry import Message
+
+MODEL: dict[str, Message] = {
+    "no-ground": Message(
+        "no part is the ground",
+        "add PART/1, GROUND",
+        ("title\nPOINT_MASS/1, MASS=1\nMARKER/1\nEND",),
+    ),
+    "two-grounds": Message(
+        "{label} is a second ground part", "exactly one part is GROUND", ("PART/4, GROUND",)
+    ),
+    "ground-with-data": Message(
+        "the ground part has {word}, which has no effect",
+        "",
+        ("title\nPART/1, GROUND, VX=1\n", "title\nPART/1, GROUND, MASS=3\n"),
+        severity=WARNING,
+    ),
+    "no-mass": Message(
+        "{label} has no mass",
+        "every body but the ground needs MASS= above zero",
+        ("PART/4", "POINT_MASS/4, MASS=0", "POINT_MASS/4, MASS=-1"),
+    ),
+    "no-cm": Message(
+        "{label} has a mass but no CM",
+        "CM= names the marker at the centre of mass",
+        ("PART/4, MASS=1",),
+    ),
+    "no-inertia": Message(
+        "{label} has no inertia IP",
+        "a body that does not rotate is a POINT_MASS; else give IP=xx,yy,zz",
+        ("PART/4, MASS=1, CM=4\nMARKER/4, PART=4",),
+        severity=WARNING,
+    ),
+    "bad-inertia": Message(
+        "the inertia of {label} belongs to no body",
+        "moments are not negative and none exceeds the sum of the other two",
+        ("PART/4, MASS=1, CM=4, IP=1,1,3\nMARKER/4, PART=4",
+         "PART/4, MASS=1, CM=4, IP=-1,1,1\nMARKER/4, PART=4"),
+        severity=WARNING,
+    ),
+    "foreign-marker": Message(
+        "{word} of {label} is on another body",
+        "MARKER/{key} belongs to {owner}",
+        ("PART/4, MASS=1, CM=2, IP=1,1,1",
+         "PART/4, MASS=1, CM=4, IM=2, IP=1,1,1\nMARKER/4, PART=4"),
+    ),
+    "no-owner": Message(
+        "{label} belongs to no body",
+        "give PART= or POINT_MASS=, or put it after the body",
+        ("title\nMARKER/1, QP=1,2,3\nPART/1, GROUND\n",),
+    ),
+    "two-owners": Message(
+        "{label} has both PART and POINT_MASS", "", ("MARKER/4, PART=2, POINT_MASS=3",)
+    ),
+    "orientation-twice": Message(
+        "{label} gives its axes by angles and by points",
+        "give REULER, or the points, not both",
+        ("MARKER/4, PART=1, REULER=1,2,3, ZP=0,0,1",
+         "POINT_MASS/4, MASS=1, REULER=1,2,3, XG=1,0,0"),
+    ),
+    "orientation-incomplete": Message(
+        "{label} gives only one of the two points it needs",
+        "{word}",
+        ("MARKER/4, PART=1, USEXP, ZP=0,0,1", "MARKER/4, PART=1, USEXP"),
+    ),
+    "floating-placed": Message(
+        "{label} is FLOATING and has a place of its own",
+        "the solver places it: leave out QP, REULER, ZP and XP",
+        ("MARKER/4, PART=1, FLOATING, QP=1,2,3\nVFORCE/1, I=2, JFLOAT=4, FX=1",),
+    ),
+    "floating-unused": Message(
+        "{label} is FLOATING but no force uses it as JFLOAT",
+        "",
+        ("MARKER/4, PART=1, FLOATING",),
+    ),
+    "floating-misused": Message(
+        "{word} of {label} is a FLOATING marker",
+        "only JFLOAT may be floating; MARKER/{key} has no place of its own",
+        ("MARKER/4, PART=1, FLOATING\nVFORCE/1, I=2, JFLOAT=4, FX=1\n"
+         "SFORCE/1, I=2, J=4, FUNCTION=1",
+         "MARKER/4, PART=1, FLOATING\nVFORCE/1, I=2, JFLOAT=4, FX=DX(2,4)"),
+    ),
+    "not-floating": Message(
+        "JFLOAT of {label} is not a FLOATING marker",
+        "add FLOATING to MARKER/{key}, or name the part: J_PART=",
+        ("VFORCE/1, I=2, JFLOAT=1, FX=1",),
+    ),
+    "no-reaction": Message(
+        "{label} does not say where its reaction goes",
+        "give JFLOAT= or J_PART=; J_PART=ground drops it",
+        ("VFORCE/1, I=2, FX=1",),
+    ),
+    "two-reactions": Message(
+        "{label} has both JFLOAT and J_PART", "", (
+            "MARKER/4, PART=1, FLOATING\nVFORCE/1, I=2, JFLOAT=4, J_PART=1, FX=1",)
+    ),
+    "reaction-on-other-part": Message(
+        "the reaction of {label} is to act on {word}, but marker J is on {owner}",
+        "J_PART= is the part of marker J, or ground to drop the reaction",
+        ("PART/4, MASS=1, CM=4, IP=1,1,1\nMARKER/4, PART=4\n"
+         "SFORCE/1, I=3, J=2, J_PART=4, FUNCTION=1",),
+    ),
+    "same-marker": Message(
+        "I and J of {label} are the same marker",
+        "a force along the line between them has no direction; ACTIONONLY acts along z of J",
+        ("SFORCE/1, I=2, J=2, FUNCTION=1", "SPRINGDAMPER/1, I=2, J=2, K=1"),
+    ),
+    "same-body": Message(
+        "I and J of {label} are on the same body",
+        "both belong to {owner}, which the statement then does not act on",
+        ("MARKER/4, PART=2\nJOINT/1, FIXED, I=2, J=4",
+         "VFORCE/1, I=2, J_PART=2, FX=1"),
+    ),
+    "internal-force": Message(
+        "I and J of {label} are on the same body",
+        "both belong to {owner}, and the force cancels itself",
+        ("MARKER/4, PART=2\nSFORCE/1, I=2, J=4, FUNCTION=1",),
+        severity=WARNING,
+    ),
+    "torque-on-point": Message(
+        "{label} puts a torque on {owner}",
+        "a POINT_MASS cannot rotate; make it a PART",
+        ("SFORCE/1, ROTATIONAL, I=3, J=1, FUNCTION=1", "JOINT/1, REVOLUTE, I=1, J=3"),
+    ),
+    "no-effect": Message(
+        "{word} has no effect in {label}",
+        "{reason}",
+        ("SPRINGDAMPER/1, I=2, J=1, KT=1", "MARKER/4, PART=1, USEXP, XP=1,0,0, ZP=0,0,1\n"
+         "SPRINGDAMPER/1, ROTATIONAL, I=2, J=4, K=1"),
+        severity=WARNING,
+    ),
+    "units-incomplete": Message(
+        "UNITS gives only {word}",
+        "give FORCE, MASS, LENGTH and TIME together, or SYSTEM, or UCF",
+        ("UNITS/FORCE=NEWTON",),
+    ),
+    "units-twice": Message(
+        "UNITS is given in two ways",
+        "give the four units, or SYSTEM, or UCF",
+        ("UNITS/SYSTEM=MKS, UCF=1",),
+    ),
+    "not-positive": Message(
+        "{word} of {label} must be above zero",
+        "",
+        ("UNITS/UCF=0", "INTEGRATOR/ERROR=0", "INTEGRATOR/HMAX=-1", "INTEGRATOR/KMAX=0",
+         "SIMULATE/DYNAMICS, END=1, STEPS=0", "SIMULATE/DYNAMICS, DURATION=0, STEPS=1"),
+    ),
+    "out-of-range": Message(
+        "{word} of {label} must lie between {low} and {high}",
+        "",
+        ("INTEGRATOR/ALPHA=-0.5",),
+    ),
+    "steps-disordered": Message(
+        "HMIN of INTEGRATOR is larger than HMAX", "", ("INTEGRATOR/HMIN=1, HMAX=0.1",)
+    ),
+    "no-end": Message(
+        "SIMULATE does not say when to end",
+        "give END= or DURATION=",
+        ("SIMULATE/DYNAMICS, STEPS=9",),
+    ),
+    "two-ends": Message(
+        "SIMULATE has both END and DURATION", "", ("SIMULATE/DYNAMICS, END=1, DURATION=1, STEPS=9",)
+    ),
+    "no-output-step": Message(
+        "SIMULATE does not say how often to write",
+        "give STEPS= or DTOUT=",
+        ("SIMULATE/DYNAMICS, END=1",),
+    ),
+    "two-output-steps": Message(
+        "SIMULATE has both STEPS and DTOUT", "", ("SIMULATE/DYNAMICS, END=1, STEPS=9, DTOUT=1",)
+    ),
+    "empty-request": Message(
+        "{label} asks for nothing",
+        "give DISPLACEMENT, VELOCITY, ACCELERATION or FORCE with I=, or expressions F1= to F8=",
+        ("REQUEST/1", "REQUEST/1, DISPLACEMENT", "REQUEST/1, I=2"),
+    ),
+    "two-requests": Message(
+        "{label} asks for {word} and for expressions",
+        "make two requests of it",
+        ("REQUEST/1, DISPLACEMENT, I=2, F1=1",),
+    ),
+    "reserved-name": Message(
+        "{label} has a name with a meaning of its own",
+        "{word} in an expression always means something else; choose another name",
+        ("VARIABLE/Time, FUNCTION=1", "VARIABLE/pi, FUNCTION=1"),
+    ),
+}  # fmt: skip

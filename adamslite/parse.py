@@ -1,0 +1,307 @@
+"""From text to syntax: tokens, statements, the form of a statement and of an expression.
+
+::
+
+    text --scan--> tokens --join--> statements --statement_form--> items
+                                                --expression_form--> tree of token numbers
+
+The grammar files say what tokens and forms are.  A deck holds thousands of statements of few forms,
+so the parser sees each sequence of token *kinds* once; the form it returns refers to tokens by number
+and serves every statement written the same way.  Tokens carry their offset in the text, so joining
+continuation lines moves no column.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from functools import cache, lru_cache
+from typing import Any, NamedTuple
+
+from lark import Lark, Token, Transformer
+from lark.exceptions import UnexpectedToken
+from lark.lexer import Lexer
+
+from adamslite import places
+
+Lexeme = tuple[str, str, int]
+"""Kind, text and offset of a token."""
+
+Tree = tuple
+"""An expression: ``(rule, number of its token, branch, branch ...)``."""
+
+CLOSES = {"LPAR": "RPAR", "LSQB": "RSQB"}
+OPERATORS = {"PLUS", "MINUS", "STAR", "SLASH", "POWER"}
+_JOINTS = {"LINE_END", "SEMICOLON", "AMPERSAND", "COMMENT", *CLOSES, *CLOSES.values()}
+
+
+class Fault(NamedTuple):
+    """Where a form breaks: the number of the first token that does not fit (or how many there are)."""
+
+    at: int
+
+
+class Item(NamedTuple):
+    """One item of a statement by token numbers: ``key`` (-1: none), value from ``start`` to ``end``.
+
+    ``closed`` tells that a backslash follows.
+    """
+
+    key: int
+    start: int
+    end: int
+    closed: bool
+
+
+class Logical(NamedTuple):
+    """The tokens of one statement, joined from its lines; ``name`` is its adams_view_name."""
+
+    tokens: list[Lexeme]
+    name: str | None
+
+
+def end_of(token: Lexeme) -> int:
+    """Offset one past the last character of a token."""
+    return token[2] + len(token[1])
+
+
+# ---- the parsers ------------------------------------------------------------------------------
+
+
+class _Replay(Lexer):
+    """Hands token kinds to the parser; each token knows its number."""
+
+    def __init__(self, conf: Any) -> None:
+        pass
+
+    def lex(self, kinds: Sequence[str]) -> Iterator[Token]:
+        for number, kind in enumerate(kinds):
+            yield Token(kind, "", start_pos=number)
+
+
+class _Forms(Transformer):
+    """Builds items and trees while parsing."""
+
+    def item(self, tokens: list[Token]) -> Item:
+        first, last = tokens[0].start_pos, tokens[-1].start_pos
+        if len(tokens) > 1 and tokens[1].type == "EQUAL":
+            return Item(first, first + 2, last + 1, False)
+        return Item(-1, first, last + 1, False)
+
+    def separator(self, tokens: list[Token]) -> Token:
+        return tokens[0]
+
+    def statement(self, children: list[Any]) -> tuple[Item, ...]:
+        items: list[Item] = []
+        for child in children:
+            if isinstance(child, Item):
+                items.append(child)
+            elif child.type == "BACKSLASH":
+                items[-1] = items[-1]._replace(closed=True)
+        return tuple(items)
+
+    def operation(self, children: list[Any]) -> Tree:
+        left, token, right = children
+        return ("operation", token.start_pos, left, right)
+
+    def negation(self, children: list[Any]) -> Tree:
+        return ("negation", children[0].start_pos, children[1])
+
+    def same(self, children: list[Any]) -> Tree:
+        return children[1]
+
+    def number(self, children: list[Token]) -> Tree:
+        return ("number", children[0].start_pos)
+
+    def name(self, children: list[Token]) -> Tree:
+        return ("name", children[0].start_pos)
+
+    def arguments(self, children: list[Any]) -> tuple[str, list[Tree]]:
+        separators = "".join(":" if c.type == "COLON" else "," for c in children[1::2])
+        return separators, children[::2]
+
+    def call(self, children: list[Any]) -> Tree:
+        separators, branches = children[2] if len(children) == 4 else ("", [])
+        return ("call", children[0].start_pos, separators, *branches)
+
+
+@cache
+def _parser(grammar: str, start: str) -> Lark:
+    """The parser of ``grammar/<grammar>.lark``, built when first needed."""
+    return Lark.open(
+        str(places.find("grammar") / f"{grammar}.lark"),
+        start=start,
+        parser="lalr",
+        lexer=_Replay,
+        keep_all_tokens=True,
+        transformer=_Forms(),
+    )
+
+
+def _form(parser: Lark, kinds: tuple[str, ...]) -> Any:
+    try:
+        return parser.parse(kinds)
+    except UnexpectedToken as unexpected:
+        at = unexpected.token.start_pos
+        return Fault(len(kinds) if unexpected.token.type == "$END" else at)
+
+
+@lru_cache(maxsize=8192)
+def statement_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
+    """The items of a statement from the kinds of its tokens."""
+    return _form(_parser("deck", "statement"), kinds)
+
+
+@lru_cache(maxsize=8192)
+def expression_form(kinds: tuple[str, ...]) -> Tree | Fault:
+    """The tree of an expression from the kinds of its tokens."""
+    return _form(_parser("expression", "expression"), kinds)
+
+
+# ---- scanning ---------------------------------------------------------------------------------
+
+
+@cache
+def _scanner() -> re.Pattern[str]:
+    """One pattern of all terminals of the deck grammar, in the order of the file."""
+    terminals = {t.name: t.pattern.to_regexp() for t in _parser("deck", "statement").terminals}
+    blank = terminals.pop("BLANK")
+    choices = "|".join(f"(?P<{name}>{regexp})" for name, regexp in terminals.items())
+    return re.compile(f"(?:{blank})?+(?:{choices})")
+
+
+def scan(text: str, start: int = 0) -> list[Lexeme]:
+    """The tokens of ``text`` from offset ``start``; any character belongs to some token."""
+    return [
+        (match.lastgroup, match[match.lastindex], match.start(match.lastindex))
+        for match in _scanner().finditer(text, start)
+    ]
+
+
+# ---- joining lines ----------------------------------------------------------------------------
+
+
+class _Joiner:
+    """Collects the tokens of a statement until it ends."""
+
+    def __init__(self, tokens: list[Lexeme], ampersand: bool) -> None:
+        self.tokens = tokens
+        self.ampersand = ampersand
+        self.current: list[Lexeme] = []
+        self.depth = 0
+        self.name: str | None = None
+
+    def statements(self) -> Iterator[Logical]:
+        tokens, count, position = self.tokens, len(self.tokens), 0
+        while position < count:
+            token = tokens[position]
+            position += 1
+            kind = token[0]
+            if kind not in _JOINTS:
+                self.current.append(token)
+            elif kind == "LINE_END" or kind == "SEMICOLON":
+                if kind == "LINE_END" and self.current and self._kind(position) == "COMMA":
+                    self._leading_comma(position)
+                    position += 1
+                    continue
+                yield from self._finish()
+                self.name = view_name(token[1])
+            else:
+                position = self._joint(token, position)
+        yield from self._finish()
+
+    def _kind(self, position: int) -> str:
+        return self.tokens[position][0] if position < len(self.tokens) else ""
+
+    def _joint(self, token: Lexeme, position: int) -> int:
+        """A bracket, an ampersand or a last comment; returns where to go on."""
+        kind = token[0]
+        if kind == "AMPERSAND" and self.ampersand and self._kind(position) == "LINE_END":
+            position += 1
+            if self.current and self._kind(position) == "COMMA":
+                self._leading_comma(position)
+                position += 1
+        elif kind != "COMMENT":
+            self.depth = max(0, self.depth + (kind in CLOSES) - (kind in CLOSES.values()))
+            self.current.append(token)
+        return position
+
+    def _leading_comma(self, position: int) -> None:
+        """The comma that begins a continuation line: a separator, or nothing but a mark."""
+        current, last = self.current, self.current[-1]
+        argument = self._kind(position + 1) == "NAME" and self._kind(position + 2) == "EQUAL"
+        if last[0] == "SLASH" and len(current) > 2 and argument:
+            current[-1] = ("BACKSLASH", *last[1:])
+        elif last[0] == "COMMA":
+            if len(current) > 1 and (current[-2][0] in OPERATORS or current[-2][0] in CLOSES):
+                current.pop()
+        elif self.depth == 0 or argument:
+            current.append(self.tokens[position])
+        if argument:
+            self.depth = 0
+
+    def _finish(self) -> Iterator[Logical]:
+        current, name = self.current, self.name
+        if len(current) > 2 and current[-1][0] == "SLASH":
+            current.pop()
+        self.current, self.depth, self.name = [], 0, None
+        if current:
+            yield Logical(current, name)
+
+
+def join(tokens: list[Lexeme], ampersand: bool = False) -> Iterator[Logical]:
+    """The statements in a sequence of tokens.
+
+    A line that begins with a comma continues the statement above it.  In a list of arguments that
+    comma separates; inside brackets it only marks the continuation, also when the line before ended
+    with a comma; after an operator or an opening bracket such a comma vanishes as well.  A slash at
+    the end of a line that an argument or nothing follows is the old form of the backslash.
+
+    Parameters
+    ----------
+    tokens : list of Lexeme
+    ampersand : bool
+        Whether ``&`` at the end of a line continues it, as in command files.
+    """
+    return _Joiner(tokens, ampersand).statements()
+
+
+def view_name(comments: str) -> str | None:
+    """The name given by an ``! adams_view_name='...'`` comment on the lines before a statement."""
+    if "adams_view_name" not in comments.lower():
+        return None
+    for line in reversed(comments.splitlines()):
+        word, _, rest = line.strip("! \t").partition("=")
+        if word.strip().lower() == "adams_view_name" and rest.count("'") >= 2:
+            return rest.split("'")[1].strip() or None
+        if word and not word.lower().startswith("adams_view"):
+            return None
+    return None
+
+
+# ---- spelling ---------------------------------------------------------------------------------
+
+
+def spelled(name: str) -> str:
+    """A name in plain letters: ``\\Delta L`` and a Greek letter followed by L are ``DeltaL``."""
+    if name.isascii() and name[0] != "\\":
+        return name
+    return _spelled(name)
+
+
+@lru_cache(maxsize=4096)
+def _spelled(name: str) -> str:
+    import unicodedata
+
+    def plain(letter: str) -> str:
+        words = unicodedata.name(letter, "").split()
+        if letter == "\N{INCREMENT}":
+            return "Delta"
+        if words[:1] == ["MICRO"]:
+            return "mu"
+        if words[:1] == ["GREEK"] and "LETTER" in words:
+            spelling = words[words.index("LETTER") + 1].lower()
+            return spelling.capitalize() if "CAPITAL" in words else spelling
+        return letter
+
+    return "".join(map(plain, name.removeprefix("\\").replace(" ", "").replace("\t", "")))
