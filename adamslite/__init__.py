@@ -30,7 +30,7 @@ _HOME = {
     "assemble": "model",
     "check": "check",
     "compare": "compare",
-    "compile_model": "kernel",
+    "compile_model": "compiled",
     "read": "deck",
     "simulate": "simulate",
 }

@@ -3,14 +3,16 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import adamslite
 from adamslite.diagnostics import DeckError, Diagnostic
 from adamslite.faults import UsageError
 from adamslite.outcomes import Outcome
 from adamslite.progress import Progress
-from adamslite.results import Results
+
+if TYPE_CHECKING:  # numpy is not needed to check a deck
+    from adamslite.results import Results
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +61,7 @@ def command_file_beside(deck_path: Path) -> Path | None:
 
 def run_scene(
     scene: Scene, options: Mapping[str, Any], progress: Progress | None = None
-) -> Results:
+) -> "Results":
     """Simulate a scene; `options` are keyword arguments of `simulate`.
 
     Raises

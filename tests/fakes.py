@@ -56,9 +56,11 @@ class Pipeline:
 
 @dataclass(frozen=True)
 class Named:
-    """A statement of which only the keyword matters."""
+    """A statement of which only the keyword and its constraint rows matter."""
 
     keyword: str
+    n_rows: int = 0
+    ground: bool = False
 
 
 @dataclass(frozen=True)

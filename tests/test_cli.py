@@ -151,6 +151,10 @@ def test_check_tells_warnings_and_contents(pipeline, capsys) -> None:
     out = capsys.readouterr().out
     assert out.startswith("cable.adm:3:1: warning:")
     assert "cable.adm: 1 warning\n  3 statements: 2 PART, 1 SIMULATE\n" in out
+    pipeline.statements = (Named("PART", ground=True), Named("PART"), Named("JOINT", n_rows=5))
+    assert main(["check", "cable.adm"]) == 0
+    out = capsys.readouterr().out
+    assert "  1 degrees of freedom: 1 moving part, 0 point masses, 5 constraint rows\n" in out
 
 
 @pytest.mark.parametrize(

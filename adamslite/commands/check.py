@@ -7,6 +7,7 @@ there are errors; warnings alone do not count.
 import argparse
 import sys
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,7 @@ from adamslite.commands.codes import DECK_ERRORS, DONE
 if TYPE_CHECKING:
     from adamslite.diagnostics import DeckError
     from adamslite.runs import Scene
+    from adamslite.statement import Statement
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,8 +51,24 @@ def _contents(deck_path: Path, scene: "Scene") -> str:
     counted = Counter(statement.keyword for statement in scene.deck.statements)
     listed = ", ".join(f"{number} {keyword}" for keyword, number in counted.items())
     warnings = _many(len(scene.warnings), "warning") if scene.warnings else "no mistakes found"
-    return f"{deck_path.name}: {warnings}\n  {_many(counted.total(), 'statement')}: {listed}\n"
+    return (
+        f"{deck_path.name}: {warnings}\n"
+        f"  {_many(counted.total(), 'statement')}: {listed}\n"
+        f"  {_freedom(scene.deck.statements)}\n"
+    )
 
 
-def _many(number: int, noun: str) -> str:
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+def _freedom(statements: Sequence["Statement"]) -> str:
+    """Six coordinates for a part and three for a point mass, less one for each constraint row."""
+    parts = sum(each.keyword == "PART" and not each.ground for each in statements)
+    points = sum(each.keyword == "POINT_MASS" for each in statements)
+    rows = sum(getattr(each, "n_rows", 0) for each in statements)
+    return (
+        f"{6 * parts + 3 * points - rows} degrees of freedom: "
+        f"{_many(parts, 'moving part')}, {_many(points, 'point mass', 'point masses')}, "
+        f"{_many(rows, 'constraint row')}"
+    )
+
+
+def _many(number: int, one: str, several: str = "") -> str:
+    return f"{number} {one if number == 1 else several or one + 's'}"
