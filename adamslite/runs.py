@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import adamslite
 from adamslite.diagnostics import DeckError, Diagnostic
 from adamslite.faults import UsageError
-from adamslite.outcomes import Outcome
 from adamslite.progress import Progress
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
@@ -67,12 +66,8 @@ def run_scene(
     Raises
     ------
     UsageError
-        When nothing says how long to run.
+        When there is no such integrator, or nothing says how long to run.
     """
-    statements = (*scene.commands, *scene.deck.statements)
-    timed = any(statement.keyword == "SIMULATE" for statement in statements)
-    if not timed and "end" not in options:
-        raise UsageError(Outcome.NO_END_TIME.value)
     if "integrator" in options:
         _need_integrator(options["integrator"])
     return adamslite.simulate(scene.deck, commands=scene.commands, progress=progress, **options)

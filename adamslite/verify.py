@@ -14,6 +14,7 @@ from adamslite.compare import Comparison, Mismatch
 from adamslite.diagnostics import DeckError
 from adamslite.faults import FormatError, UsageError
 from adamslite.outcomes import Outcome
+from adamslite.progress import Progress
 from adamslite.reference import Reference, read_reference
 from adamslite.results import Results
 from adamslite.runs import load_scene, run_scene
@@ -71,9 +72,9 @@ def verify(cases: Iterable[Case], run: Run | None = None) -> Iterator[Verdict]:
     cases : iterable of Case
         Those of one deck should follow each other: a run with the same flags is not repeated.
     run : function of a deck's path and run options, optional
-        Returns Results; by default reads, checks and simulates the deck.
+        Returns Results; by default `solve_quietly`.
     """
-    run = _remembering(run or _solve)
+    run = _remembering(run or solve_quietly)
     for case in cases:
         try:
             yield _judge(case, run)
@@ -82,6 +83,16 @@ def verify(cases: Iterable[Case], run: Run | None = None) -> Iterator[Verdict]:
             yield Verdict(case, False, f"the deck has errors: {first.span}: {first.message}")
         except (Mismatch, FormatError, UsageError) as fault:
             yield Verdict(case, False, str(fault))
+
+
+def solve_quietly(
+    deck: Path, options: Mapping[str, Any], progress: Progress | None = None
+) -> Results:
+    """Read, check and simulate a deck; unlike `solve`, an interruption is not a result."""
+    results = run_scene(load_scene(deck), options, progress)
+    if results.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    return results
 
 
 def _references(glob: Callable[[str], Iterable[Path]]) -> list[Path]:
@@ -97,13 +108,6 @@ def _deck_of(file: Path) -> Path | None:
         return named if named.is_file() else None
     decks = list(file.parent.glob("*.adm"))
     return decks[0] if len(decks) == 1 else None
-
-
-def _solve(deck: Path, options: Mapping[str, Any]) -> Results:
-    results = run_scene(load_scene(deck), options)
-    if results.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
-    return results
 
 
 def _remembering(run: Run) -> Run:

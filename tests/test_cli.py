@@ -22,6 +22,13 @@ WARNING = Diagnostic(
 )
 ERROR = Diagnostic("E1", "error", "there is no MARKER/7", Span("cable.adm", 2, 4, 2, 5))
 SIMULATE = Named("SIMULATE")
+FALLING = """\
+a falling mass
+PART/1, GROUND
+POINT_MASS/2, MASS=1
+ACCGRAV/JGRAV=-9.81
+END
+"""
 
 
 @pytest.fixture
@@ -85,8 +92,9 @@ def test_wrong_flags_are_usage(pipeline, capsys, flags: list[str]) -> None:
     assert pipeline.calls == []
 
 
-def test_without_an_end_time_the_three_ways_are_told(pipeline, capsys) -> None:
-    pipeline.statements = ()
+def test_without_an_end_time_the_three_ways_are_told(tmp_path, monkeypatch, capsys) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("cable.adm").write_text(FALLING)
     assert main(["solve", "cable.adm"]) == 2
     err = capsys.readouterr().err
     assert all(way in err for way in ("command file", "in the deck itself", "--end"))

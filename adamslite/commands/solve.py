@@ -70,8 +70,6 @@ def run(args: argparse.Namespace) -> int:
         results = run_scene(scene, run_options(args), progress)
     finally:
         progress.close()
-    if results.outcome is Outcome.NO_END_TIME:
-        raise UsageError(results.message or results.outcome.value)
     _write(results, output)
     _summarize(args, results, output)
     return DONE if results.outcome is Outcome.DONE else STOPPED_EARLY

@@ -7,6 +7,7 @@ with the program. A new deck folder joins by being there; decks/README.md says w
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 
 from adamslite.commands.codes import DONE, OUTSIDE_TOLERANCE
@@ -21,7 +22,8 @@ def run(args: argparse.Namespace) -> int:
     """Print one line per reference; return the exit code."""
     from adamslite.faults import UsageError
     from adamslite.places import find
-    from adamslite.verify import find_cases, verify
+    from adamslite.progress import TalkingProgress
+    from adamslite.verify import find_cases, solve_quietly, verify
 
     paths = args.paths or [find("decks")]
     cases = find_cases(paths)
@@ -29,7 +31,9 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(f"there is no deck with a reference.csv in {', '.join(map(str, paths))}")
     width = max(len(case.name) for case in cases)
     failed = 0
-    for verdict in verify(cases):
+    progress = TalkingProgress()
+    for verdict in verify(cases, partial(solve_quietly, progress=progress)):
+        progress.close()
         failed += not verdict.passed
         mark = "ok  " if verdict.passed else "FAIL"
         sys.stdout.write(f"{mark}  {verdict.case.name:{width}}  {verdict.text}\n")
