@@ -94,6 +94,9 @@ class Spans(Mapping[str, Span]):
         start, end = self.ranges[field]
         return self.source.span(start, end) if self.source else NOWHERE
 
+    def __contains__(self, field: object) -> bool:
+        return field in self.ranges
+
     def __iter__(self) -> Iterator[str]:
         return iter(self.ranges)
 

@@ -106,7 +106,7 @@ def _text(node: Node, level: int) -> str:
     match node:
         case Num(value):
             text = f"{value:.17g}" if float(f"{value:.12g}") != value else f"{value:.12g}"
-            return f"({text})" if value < 0 and level else text
+            return f"({text})" if value < 0 and level > 1 else text
         case Time() | Mode():
             return type(node).__name__.upper()
         case Ref(_, id):
@@ -118,7 +118,7 @@ def _text(node: Node, level: int) -> str:
             return f"{name}({', '.join(_text(arg, 0) for arg in args)})"
         case Op(op, args):
             text = _operation(op, args)
-            return f"({text})" if _LEVEL[op] < level or (op == NEGATE and level) else text
+            return f"({text})" if _LEVEL[op] < level else text
     raise TypeError(f"not an expression node: {node!r}")
 
 

@@ -23,6 +23,7 @@ from lark.exceptions import UnexpectedToken
 from lark.lexer import Lexer
 
 from adamslite import places
+from adamslite.native import cache_folder
 
 Lexeme = tuple[str, str, int]
 """Kind, text and offset of a token."""
@@ -36,13 +37,13 @@ _JOINTS = {"LINE_END", "SEMICOLON", "AMPERSAND", "COMMENT", *CLOSES, *CLOSES.val
 
 
 class Fault(NamedTuple):
-    """Where a form breaks: the number of the first token that does not fit (or how many there are)."""
+    """Where a form breaks: the number of the first token that does not fit, or of the end."""
 
     at: int
 
 
 class Item(NamedTuple):
-    """One item of a statement by token numbers: ``key`` (-1: none), value from ``start`` to ``end``.
+    """One item of a statement by token numbers: ``key`` (-1: none), value ``start`` to ``end``.
 
     ``closed`` tells that a backslash follows.
     """
@@ -127,7 +128,7 @@ class _Forms(Transformer):
 
 @cache
 def _parser(grammar: str, start: str) -> Lark:
-    """The parser of ``grammar/<grammar>.lark``, built when first needed."""
+    """The parser of ``grammar/<grammar>.lark``, built when first needed and kept on disk."""
     return Lark.open(
         str(places.find("grammar") / f"{grammar}.lark"),
         start=start,
@@ -135,6 +136,7 @@ def _parser(grammar: str, start: str) -> Lark:
         lexer=_Replay,
         keep_all_tokens=True,
         transformer=_Forms(),
+        cache=str(cache_folder() / f"{grammar}.parser"),
     )
 
 
@@ -235,7 +237,7 @@ class _Joiner:
         elif last[0] == "COMMA":
             if len(current) > 1 and (current[-2][0] in OPERATORS or current[-2][0] in CLOSES):
                 current.pop()
-        elif self.depth == 0 or argument:
+        elif last[0] != "EQUAL" and (self.depth == 0 or argument):
             current.append(self.tokens[position])
         if argument:
             self.depth = 0
@@ -253,9 +255,9 @@ def join(tokens: list[Lexeme], ampersand: bool = False) -> Iterator[Logical]:
     """The statements in a sequence of tokens.
 
     A line that begins with a comma continues the statement above it.  In a list of arguments that
-    comma separates; inside brackets it only marks the continuation, also when the line before ended
-    with a comma; after an operator or an opening bracket such a comma vanishes as well.  A slash at
-    the end of a line that an argument or nothing follows is the old form of the backslash.
+    comma separates; inside brackets, and after a comma or an equal sign, it only marks the
+    continuation.  A comma at the end of a line vanishes too after an operator or an opening bracket.
+    A slash at the end of a line that an argument or nothing follows is the old form of the backslash.
 
     Parameters
     ----------

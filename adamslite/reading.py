@@ -230,4 +230,4 @@ class Reading:
         values["id"] = entry.id
         values["name"] = syntax.name
         values["spans"] = Spans(self.log.source, syntax.range, ranges)
-        return cls.build(values)
+        return cls(**values)

@@ -82,7 +82,7 @@ def to_number(text: str) -> float:
         return float(text)
     except ValueError:
         if text[-1] in "dD":
-            return math.radians(float(text[:-1]))
+            return math.radians(to_number(text[:-1]))
         return float(text.upper().replace("D", "E"))
 
 
@@ -325,7 +325,7 @@ class Resolver:
         return found
 
     def _derivative(self, function: Function, tree: Tree) -> Node:
-        """``VARVAL(d(x)/dt)``: the VARIABLE of that very name, else the derivative of VARIABLE x."""
+        """``VARVAL(d(x)/dt)``: the VARIABLE of that very name, else the rate of VARIABLE x."""
         _, slash, top, bottom = tree
         text = [spelled(token[1]).upper() for token in self.tokens]
         rate = (

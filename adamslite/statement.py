@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import FrozenInstanceError, dataclass, field
 from functools import cache
 from typing import Any, ClassVar
 
@@ -133,9 +133,9 @@ def words(*keys: str, options: tuple[str, ...], help: str, **facts: Any) -> Any:
     return _declare("words", keys, help=help, options=options, default=(), **facts)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(init=False, repr=False, eq=False)
 class Statement:
-    """A statement of the deck as data.
+    """A statement of the deck as data; frozen, all fields by keyword.
 
     Parameters
     ----------
@@ -176,13 +176,22 @@ class Statement:
         """The id as references to this statement hold it: a number or a name in capitals."""
         return self.id.upper() if isinstance(self.id, str) else self.id
 
-    @classmethod
-    def build(cls, values: Mapping[str, Any]) -> Statement:
-        """An instance with these field values and the defaults of the others."""
-        made = cls.__new__(cls)
-        # The dictionary directly: the frozen initialiser costs more than reading the statement.
-        made.__dict__.update(_defaults(cls), **values)
-        return made
+    def __init__(self, **values: Any) -> None:
+        # One initialiser for all classes, and the dictionary directly: generated ones cost more
+        # than reading the deck.
+        defaults = _defaults(type(self))
+        if not values.keys() <= defaults.keys():
+            unknown = ", ".join(sorted(values.keys() - defaults.keys()))
+            raise TypeError(f"{type(self).__name__} has no field {unknown}")
+        self.__dict__.update(defaults)
+        self.__dict__.update(values)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise FrozenInstanceError(f"cannot assign to field {name!r}")
+
+    def __repr__(self) -> str:
+        given = ", ".join(f"{name}={getattr(self, name)!r}" for name in self.spans)
+        return f"<{self.label} {given}>"
 
     @classmethod
     def completed(
@@ -202,7 +211,8 @@ class Statement:
 
 @cache
 def _defaults(cls: type[Statement]) -> dict[str, Any]:
-    return {"id": 0, "name": None} | {a.name: a.default for a in cls.arguments.values()}
+    arguments = {argument.name: argument.default for argument in cls.arguments.values()}
+    return {"id": 0, "name": None, "spans": Spans(), **arguments}
 
 
 def statement(
@@ -239,7 +249,7 @@ def statement(
     """
 
     def register(cls: type[Statement]) -> type[Statement]:
-        made = dataclass(frozen=True, kw_only=True, eq=False)(cls)
+        made = dataclass(init=False, repr=False, eq=False)(cls)
         made.keyword = keyword
         made.arguments = {
             f.name: dataclasses.replace(f.metadata["argument"], name=f.name)
