@@ -5,7 +5,7 @@ Values (components F1 ... F8; I relative to J, along the axes of RM, ground when
     DISPLACEMENT   DM  DX  DY  DZ    0   PSI  THETA PHI
     VELOCITY       VM  VX  VY  VZ    WM  WX   WY    WZ
     ACCELERATION   ACCM ACCX ACCY ACCZ  WDTM WDTX WDTY WDTZ
-    FORCE          FM  FX  FY  FZ    TM  TX   TY    TZ     force on I of the elements between I and J
+    FORCE          FM  FX  FY  FZ    TM  TX   TY    TZ     on I, of the elements between I and J
     F1=e\\ ...     the expressions
 """
 

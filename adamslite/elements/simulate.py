@@ -2,7 +2,9 @@
 
 Equation (output times of a dynamic analysis from ``t0``)::
 
-    t0 + k (END - t0) / STEPS,   k = 0 ... STEPS         END = t0 + DURATION, STEPS = (END - t0)/DTOUT
+    t0 + k (END - t0) / STEPS,   k = 0 ... STEPS
+
+with ``END = t0 + DURATION`` and ``STEPS = (END - t0) / DTOUT``.
 """
 
 from __future__ import annotations

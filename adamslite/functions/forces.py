@@ -19,8 +19,8 @@ from adamslite.function import function
 from adamslite.symbolic import Scope, dot
 
 
-def measured(name: str, what: str) -> None:
-    """Register the function that measures ``what`` of the statements called ``name``."""
+def measured(name: str, what: str, keyword: str = "") -> None:
+    """Register the function that measures ``what`` of the statements ``keyword`` (default: ``name``)."""
 
     def component(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
         vector = scope.load(name, id, jflag)[(comp - 1) // 4]
@@ -32,7 +32,7 @@ def measured(name: str, what: str) -> None:
     comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, along the axes of marker rm.
     Unit: force, or force times length.  Source: Adams/Solver function {name}.
     """
-    function(name, f"id:{name.lower()} jflag:constant{{0,1}} comp:constant{{1..8}} rm:marker=0")(
+    function(name, f"id:{(keyword or name).lower()} jflag:constant{{0,1}} comp:constant{{1..8}} rm:marker=0")(
         component
     )
 
@@ -40,3 +40,4 @@ def measured(name: str, what: str) -> None:
 measured("JOINT", "the reaction of")
 measured("SFORCE", "the force or torque of")
 measured("VFORCE", "the force of")
+measured("SPDP", "the force or torque of", "SPRINGDAMPER")

@@ -1,0 +1,79 @@
+"""A dynamic run: native integration in a worker thread, so that it can be watched and stopped."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from adamslite.integrators import base
+from adamslite.outcomes import Outcome
+from adamslite.system import BDF, System
+
+OUTCOMES = {
+    base.DONE: Outcome.DONE,
+    base.STEP_TOO_SMALL: Outcome.STEP_TOO_SMALL,
+    base.NEWTON_FAILED: Outcome.NEWTON_FAILED,
+    base.SINGULAR_MASS: Outcome.SINGULAR_ACCELERATION,
+    base.NOT_FINITE: Outcome.NOT_FINITE,
+    base.BROKEN_START: Outcome.SINGULAR_ACCELERATION,
+    base.INTERRUPTED: Outcome.INTERRUPTED,
+}
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Integration settings after deck, commands and flags: see the INTEGRATOR statement."""
+
+    method: str = "GSTIFF"
+    formulation: str = "SI2"
+    error: float = 1e-3
+    hmax: float | None = None
+    hmin: float | None = None
+    hinit: float | None = None
+    kmax: int = 5
+    maxit: int = 10
+
+
+def run_dynamic(
+    system: System,
+    times: np.ndarray,
+    settings: Settings,
+    watch: Callable[[float, float], None] | None,
+) -> Outcome:
+    """Integrate over ``times`` (nt,) and fill ``system.record``."""
+    start, end = float(times[0]), float(times[-1])
+    hmax = settings.hmax or (float(times[1]) - start if len(times) > 1 else end - start)
+    system.settings[:8] = (
+        start, end, settings.error, hmax, settings.hmin or 1e-14 * max(abs(end), hmax),
+        settings.hinit or 0.0, settings.kmax, settings.maxit,
+    )  # fmt: skip
+    system.settings[base.STOP] = 0.0
+    system.times = np.ascontiguousarray(times)
+    row = system.nw + int(system.sizes[base.N_OUT])
+    system.record = np.zeros(len(times) * row)
+    system.count[:] = 0
+    return OUTCOMES[_watched(system, watch, end)]
+
+
+def _watched(system: System, watch: Callable[[float, float], None] | None, end: float) -> int:
+    found: list[int] = []
+    worker = threading.Thread(target=lambda: found.append(system.run(BDF)), daemon=True)
+    worker.start()
+    while worker.is_alive():
+        try:
+            worker.join(0.1)
+            if watch and worker.is_alive():
+                watch(float(system.report[base.AT]), end)
+        except KeyboardInterrupt:
+            system.settings[base.STOP] = 1.0
+    return found[0]
+
+
+def counters(system: System) -> dict[str, Any]:
+    """Counts of the run under their public names."""
+    names = ("steps", "rejected", "newton", "jacobians", "factorizations")
+    return {name: int(system.count[base.COUNTS.index(name)]) for name in names}

@@ -1,0 +1,147 @@
+"""Initial conditions: the nearest state that satisfies every constraint.
+
+Positions:   min sum w_i^2 (q_i - q_i0)^2  subject to g(t0, q) = 0       Gauss-Newton
+Velocities:  min sum w_i^2 (u_i - u_i0)^2  subject to G u + g_t = 0      one linear solve
+
+The weight of a rotation is the part's radius of gyration, that of an EXACT coordinate ``EXACT``.
+Accelerations and multipliers follow from the equations of motion when the run starts.
+Reference: Haug, Computer Aided Kinematics and Dynamics, 1989, section 4.3.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from adamslite.integrators import base
+from adamslite.model import PART
+from adamslite.system import JACOBIAN, RESIDUAL, System
+
+EXACT = 1e4
+MAX_ITERATIONS = 30
+# |g| below this share of the model's size counts as closed.
+CLOSED = 1e-13
+# Singular values below this share of the largest are redundant rows.
+RANK = 1e-9
+
+
+@dataclass
+class Unclosed:
+    """A constraint the initial conditions cannot satisfy, and by how much."""
+
+    statement: object
+    size: float
+    level: str
+
+
+def initial_conditions(system: System) -> Unclosed | None:
+    """Put the nearest consistent positions and velocities into ``system``; None when it worked."""
+    if system.m == 0:
+        return None
+    if system.holonomic:
+        unclosed = _positions(system)
+        if unclosed:
+            return unclosed
+    return _velocities(system)
+
+
+def _positions(system: System) -> Unclosed | None:
+    rows = np.arange(system.n, system.n + system.holonomic)
+    size = max(1.0, float(np.abs(system.q).max()))
+    best = np.inf
+    for _ in range(MAX_ITERATIONS):
+        g = _residual(system, base.POSITION_ROWS)[rows]
+        best = float(np.abs(g).max())
+        if best <= CLOSED * size:
+            break
+        step = _least_change(system, _gradient(system, base.POSITION_ROWS, 0, rows), g)
+        _move(system, step)
+        if np.abs(step).max() <= 1e-15 * size:
+            break
+    if best > 1e-9 * size:
+        return Unclosed(_owner(system, int(np.argmax(np.abs(g)))), best, "position")
+    return None
+
+
+def _velocities(system: System) -> Unclosed | None:
+    phases = base.VELOCITY_ROWS | base.RATE_ROWS
+    first = system.nz - system.holonomic if system.stabilised else system.n
+    holonomic = np.arange(first, first + system.holonomic)
+    rates = np.arange(system.n + system.holonomic, system.n + system.m)
+    rows = np.concatenate([holonomic, rates])
+    for _ in range(3):
+        defect = _residual(system, phases)[rows]
+        step = _least_change(system, _gradient(system, phases, 1, rows), defect)
+        system.u[: system.n] -= step
+    defect = _residual(system, phases)[rows]
+    size = max(1.0, float(np.abs(system.u).max()))
+    if np.abs(defect).max() > 1e-8 * size:
+        worst = int(np.argmax(np.abs(defect)))
+        return Unclosed(_owner(system, worst), float(np.abs(defect[worst])), "velocity")
+    return None
+
+
+def _residual(system: System, phases: int) -> np.ndarray:
+    system.run(RESIDUAL, phases)
+    return system.F.copy()
+
+
+def _gradient(system: System, phases: int, kind: int, rows: np.ndarray) -> np.ndarray:
+    """Derivative of constraint rows with respect to positions (kind 0) or velocities (1), dense."""
+    system.coef[:5] = 0.0
+    system.coef[kind] = 1.0
+    system.run(JACOBIAN, phases)
+    full = np.zeros((system.nz, system.n))
+    for (row, column), at in system.blocks.items():
+        r, c = system.starts[row], system.starts[column]
+        if r < system.n or c >= system.n:
+            continue
+        h, w = system.widths[row], system.widths[column]
+        full[r : r + h, c : c + w] = system.J[at : at + h * w].reshape(h, w)
+    return full[rows]
+
+
+def _least_change(system: System, gradient: np.ndarray, defect: np.ndarray) -> np.ndarray:
+    """Smallest weighted step that removes the defect to first order (redundant rows are shared)."""
+    scale = 1.0 / weights(system)
+    step, *_ = np.linalg.lstsq(gradient * scale, defect, rcond=RANK)
+    return scale * step
+
+
+def weights(system: System) -> np.ndarray:
+    """(n,) weights of the coordinates."""
+    w = np.ones(system.n)
+    for b, body in enumerate(system.model.bodies):
+        i = system.starts[b]
+        if body.width == PART:
+            w[i + 3 : i + 6] = system.weight[b] ** -0.5
+        exact = body.statement.exact
+        for c, words in enumerate((("X",), ("Y",), ("Z",), ("PSI", "THETA", "PHI"))):
+            if any(word in exact for word in words):
+                w[i + c if c < 3 else slice(i + 3, i + 6)] *= EXACT
+    return w
+
+
+def _move(system: System, step: np.ndarray) -> None:
+    """Apply a step of positions and ground-axes rotations; attitudes are counted from the new ones."""
+    for b, body in enumerate(system.model.bodies):
+        i = system.starts[b]
+        system.q[i : i + 3] -= step[i : i + 3]
+        if body.width == PART:
+            turned = _cayley(-step[i + 3 : i + 6]) @ system.base[9 * b : 9 * b + 9].reshape(3, 3)
+            system.base[9 * b : 9 * b + 9] = turned.ravel()
+
+
+def _cayley(c: np.ndarray) -> np.ndarray:
+    skew = np.array([[0.0, -c[2], c[1]], [c[2], 0.0, -c[0]], [-c[1], c[0], 0.0]])
+    return np.eye(3) + (skew + 0.5 * skew @ skew) / (1.0 + 0.25 * c @ c)
+
+
+def _owner(system: System, row: int) -> object:
+    """The constraint that owns multiplier row ``row``."""
+    for constraint in system.model.constraints:
+        row -= constraint.n_rows
+        if row < 0:
+            return constraint
+    raise IndexError("no constraint has this row")

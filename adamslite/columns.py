@@ -1,0 +1,58 @@
+"""Result columns from the record of a run: names as in the deck."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from adamslite.kinematics import ACCELERATION, ALPHA, ATTITUDE, OMEGA, POSITION, VELOCITY
+from adamslite.model import PART
+from adamslite.system import System
+
+# Below this sine of theta the first and third angle of the 3-1-3 sequence are one angle.
+ALIGNED = 1e-10
+
+
+def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
+    """Names and values (nt, nc) of every body and every statement that writes something.
+
+    A body gives position, 3-1-3 angles, velocity, angular velocity, acceleration and angular
+    acceleration of its centre-of-mass marker in ground axes; a point mass the translational ones.
+    """
+    names: list[str] = []
+    parts: list[np.ndarray] = []
+    for b, body in enumerate(system.model.bodies):
+        w = record[:, system.w_at["BODY", b] :]
+        label = body.statement.label
+        names += [f"{label}.{c}" for c in _components(body.width == PART)]
+        parts.append(_part(system, b, w) if body.width == PART else w[:, :9])
+    for statement, suffixes in system.kernels.outputs:
+        names += [f"{statement.label}.{s}" if s else statement.label for s in suffixes]
+    parts.append(record[:, system.nw :])
+    values = np.concatenate(parts, axis=1) if parts else np.zeros((len(record), 0))
+    return tuple(names), values
+
+
+def _components(part: bool) -> list[str]:
+    words = "x y z psi theta phi vx vy vz wx wy wz ax ay az alx aly alz".split()
+    return words if part else [w for w in words if w[0] in "xyz" or w[0] in "va" and w[1] in "xyz"]
+
+
+def _part(system: System, b: int, w: np.ndarray) -> np.ndarray:
+    attitude = w[:, ATTITUDE : ATTITUDE + 9].reshape(-1, 3, 3)
+    cm = system.model.bodies[b].statement.cm
+    if cm is not None:
+        attitude = attitude @ system.model.marker(cm).axes
+    columns = [w[:, POSITION : POSITION + 3], angles_313(attitude), w[:, VELOCITY : VELOCITY + 3]]
+    columns += [w[:, OMEGA : OMEGA + 3], w[:, ACCELERATION : ACCELERATION + 3]]
+    return np.concatenate([*columns, w[:, ALPHA : ALPHA + 3]], axis=1)
+
+
+def angles_313(r: np.ndarray) -> np.ndarray:
+    """psi, theta, phi (nt, 3) of attitudes (nt, 3, 3); phi = 0 where the two turns are one."""
+    sine = np.hypot(r[:, 0, 2], r[:, 1, 2])
+    regular = sine > ALIGNED
+    psi = np.where(
+        regular, np.arctan2(r[:, 0, 2], -r[:, 1, 2]), np.arctan2(r[:, 1, 0], r[:, 0, 0])
+    )
+    phi = np.where(regular, np.arctan2(r[:, 2, 0], r[:, 2, 1]), 0.0)
+    return np.column_stack([psi, np.arctan2(sine, r[:, 2, 2]), phi])

@@ -1,0 +1,32 @@
+"""The one native entry: tables of addresses in, an outcome out."""
+
+from __future__ import annotations
+
+from adamslite.integrators.acceleration import accelerations, put_state
+from adamslite.integrators.base import BROKEN_START, DONE, Plan, Problem, T
+from adamslite.integrators.bdf import bdf
+from adamslite.integrators.equations import jacobian, residual
+from adamslite.translate import native, translate
+
+RESIDUAL, JACOBIAN, ACCELERATIONS, BDF = range(4)
+
+
+@native
+def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
+    """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``."""
+    if operation == BDF:
+        return bdf(P, L)
+    if operation == ACCELERATIONS:
+        good = accelerations(P, L, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
+        return DONE if good else BROKEN_START
+    put_state(P, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
+    if operation == RESIDUAL:
+        residual(P, phases, P.F)
+    else:
+        jacobian(P, phases, P.coef, P.J)
+    return DONE
+
+
+def engine_text() -> str:
+    """LLVM assembly of the whole engine."""
+    return translate("run", [Problem, Plan])

@@ -1,0 +1,271 @@
+"""Block elimination with an order fixed once per model.
+
+The Newton matrix is stored as dense blocks between nodes (a point mass 3 unknowns, a part 6, the
+multipliers of one joint, one variable).  :mod:`adamslite.ordering` fixes the elimination order and the
+fill; here is the numeric work only:
+
+    A_kk <- A_kk^-1,   A_ik <- A_ik A_kk^-1,   A_ij <- A_ij - A_ik A_kj        for i, j after k.
+
+Rows are pivoted inside a diagonal block.  A small model is one node, hence ordinary dense elimination with
+partial pivoting.  Reference: Duff, Erisman, Reid, Direct Methods for Sparse Matrices, 2017, ch. 7 and 11.
+"""
+
+from __future__ import annotations
+
+from adamslite.translate import native
+
+TINY = 1e-300
+
+
+@native
+def invert3(A: Reals, o: int) -> float:
+    """Replace the 3 x 3 block at ``o`` with its inverse; returns its determinant."""
+    a, b, c = A[o], A[o + 1], A[o + 2]
+    d, e, f = A[o + 3], A[o + 4], A[o + 5]
+    g, h, i = A[o + 6], A[o + 7], A[o + 8]
+    p, q, r = e * i - f * h, f * g - d * i, d * h - e * g
+    det = a * p + b * q + c * r
+    w = 1.0 / det
+    A[o], A[o + 1], A[o + 2] = p * w, (c * h - b * i) * w, (b * f - c * e) * w
+    A[o + 3], A[o + 4], A[o + 5] = q * w, (a * i - c * g) * w, (c * d - a * f) * w
+    A[o + 6], A[o + 7], A[o + 8] = r * w, (b * g - a * h) * w, (a * e - b * d) * w
+    return det
+
+
+@native
+def negative_pivots(A: Reals, o: int, s: int, work: Reals, found: Reals, at: int) -> int:
+    """Negative pivots of a block eliminated without pivoting; the pivots go to ``found``.
+
+    Their number is the signature when the matrix is symmetric (Sylvester) and changes when it becomes
+    singular.
+    """
+    for i in range(s * s):
+        work[i] = A[o + i]
+    count = 0
+    for k in range(s):
+        pivot = work[k * s + k]
+        found[at + k] = pivot
+        if pivot < 0.0:
+            count += 1
+        for i in range(k + 1, s):
+            factor = work[i * s + k] / pivot
+            for j in range(k + 1, s):
+                work[i * s + j] -= factor * work[k * s + j]
+    return count
+
+
+@native
+def lu_dense(A: Reals, o: int, s: int, pivots: Ints, po: int) -> bool:
+    """LU of the s x s block at ``o`` with row pivoting; False when it is singular."""
+    for k in range(s):
+        best, p = 0.0, k
+        for i in range(k, s):
+            size = abs(A[o + i * s + k])
+            if size > best:
+                best, p = size, i
+        if not best > TINY:
+            return False
+        pivots[po + k] = p
+        if p != k:
+            for j in range(s):
+                A[o + k * s + j], A[o + p * s + j] = A[o + p * s + j], A[o + k * s + j]
+        w = 1.0 / A[o + k * s + k]
+        for i in range(k + 1, s):
+            factor = A[o + i * s + k] * w
+            A[o + i * s + k] = factor
+            if factor != 0.0:
+                for j in range(k + 1, s):
+                    A[o + i * s + j] -= factor * A[o + k * s + j]
+    return True
+
+
+@native
+def solve_dense(A: Reals, o: int, s: int, pivots: Ints, po: int, x: Reals, xo: int) -> None:
+    """Solve with the factors of :func:`lu_dense` in place."""
+    for k in range(s):
+        p = pivots[po + k]
+        x[xo + k], x[xo + p] = x[xo + p], x[xo + k]
+        for j in range(k):
+            x[xo + k] -= A[o + k * s + j] * x[xo + j]
+    for k in range(s - 1, -1, -1):
+        total = x[xo + k]
+        for j in range(k + 1, s):
+            total -= A[o + k * s + j] * x[xo + j]
+        x[xo + k] = total / A[o + k * s + k]
+
+
+@native
+def invert(A: Reals, o: int, s: int, pivots: Ints, po: int, work: Reals) -> bool:
+    """Replace the s x s block at ``o`` with its inverse (Gauss-Jordan, row pivoting)."""
+    if not lu_dense(A, o, s, pivots, po):
+        return False
+    for j in range(s):
+        for i in range(s):
+            work[j * s + i] = 0.0
+        work[j * s + j] = 1.0
+        solve_dense(A, o, s, pivots, po, work, j * s)
+    for i in range(s):
+        for j in range(s):
+            A[o + i * s + j] = work[j * s + i]
+    return True
+
+
+@native
+def times3(A: Reals, l: int, u: int, d: int) -> None:
+    """A[d] -= A[l] A[u] for 3 x 3 blocks."""
+    for i in range(3):
+        x, y, z = A[l + 3 * i], A[l + 3 * i + 1], A[l + 3 * i + 2]
+        for j in range(3):
+            A[d + 3 * i + j] -= x * A[u + j] + y * A[u + 3 + j] + z * A[u + 6 + j]
+
+
+@native
+def right_times3(A: Reals, l: int, d: int) -> None:
+    """A[l] = A[l] A[d] for 3 x 3 blocks."""
+    for i in range(3):
+        x, y, z = A[l + 3 * i], A[l + 3 * i + 1], A[l + 3 * i + 2]
+        for j in range(3):
+            A[l + 3 * i + j] = x * A[d + j] + y * A[d + 3 + j] + z * A[d + 6 + j]
+
+
+@native
+def times(A: Reals, l: int, u: int, d: int, si: int, sk: int, sj: int) -> None:
+    """A[d] -= A[l] A[u], sizes (si, sk) and (sk, sj)."""
+    for i in range(si):
+        for k in range(sk):
+            x = A[l + i * sk + k]
+            if x != 0.0:
+                for j in range(sj):
+                    A[d + i * sj + j] -= x * A[u + k * sj + j]
+
+
+@native
+def right_times(A: Reals, l: int, d: int, si: int, sk: int, work: Reals) -> None:
+    """A[l] = A[l] A[d], sizes (si, sk) and (sk, sk)."""
+    for i in range(si):
+        for j in range(sk):
+            work[j] = 0.0
+        for k in range(sk):
+            x = A[l + i * sk + k]
+            for j in range(sk):
+                work[j] += x * A[d + k * sk + j]
+        for j in range(sk):
+            A[l + i * sk + j] = work[j]
+
+
+@native
+def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
+    """Eliminate in place; returns False when a pivot block is singular.
+
+    ``L`` is the elimination plan of :mod:`adamslite.ordering`: size, first unknown and diagonal block of
+    each node; for the entries e below node k (``first[k]:first[k+1]``) the other node, its lower and upper
+    block; ``target`` the blocks updated, entry by entry.
+    """
+    n = L.size.size
+    if n == 1:
+        return lu_dense(LV, 0, L.size[0], pivots, 0)
+    at = 0
+    for k in range(n):
+        s, o = L.size[k], L.diagonal[k]
+        if s == 3:
+            det = invert3(LV, o)
+            if not abs(det) > TINY:
+                return False
+        elif not invert(LV, o, s, pivots, L.start[k], work):
+            return False
+        lo, hi = L.first[k], L.first[k + 1]
+        for e in range(lo, hi):
+            si = L.size[L.node[e]]
+            if s == 3 and si == 3:
+                right_times3(LV, L.lower[e], o)
+            else:
+                right_times(LV, L.lower[e], o, si, s, work)
+            for f in range(lo, hi):
+                sj = L.size[L.node[f]]
+                if s == 3 and si == 3 and sj == 3:
+                    times3(LV, L.lower[e], L.upper[f], L.target[at])
+                else:
+                    times(LV, L.lower[e], L.upper[f], L.target[at], si, s, sj)
+                at += 1
+    return True
+
+
+@native
+def signature(L: Plan, LV: Reals, pivots: Ints, work: Reals, found: Reals) -> int:
+    """Factor and count negative pivots; -1 when singular."""
+    n = L.size.size
+    if n == 1:
+        return negative_pivots(LV, 0, L.size[0], work, found, 0)
+    at, count = 0, 0
+    for k in range(n):
+        s, o = L.size[k], L.diagonal[k]
+        count += negative_pivots(LV, o, s, work, found, L.start[k])
+        if not invert(LV, o, s, pivots, L.start[k], work):
+            return -1
+        lo, hi = L.first[k], L.first[k + 1]
+        for e in range(lo, hi):
+            si = L.size[L.node[e]]
+            right_times(LV, L.lower[e], o, si, s, work)
+            for f in range(lo, hi):
+                times(LV, L.lower[e], L.upper[f], L.target[at], si, s, L.size[L.node[f]])
+                at += 1
+    return count
+
+
+@native
+def solve(L: Plan, LV: Reals, pivots: Ints, b: Reals, x: Reals, work: Reals) -> None:
+    """Solve with the factors: ``b`` in unknown order is replaced by the solution; ``x`` and ``work`` are workspace."""
+    n = L.size.size
+    for i in range(L.place.size):
+        x[L.place[i]] = b[i]
+    if n == 1:
+        solve_dense(LV, 0, L.size[0], pivots, 0, x, 0)
+    else:
+        forward(L, LV, x)
+        backward(L, LV, x, work)
+    for i in range(L.place.size):
+        b[i] = x[L.place[i]]
+
+
+@native
+def forward(L: Plan, LV: Reals, x: Reals) -> None:
+    """x_i -= A_ik x_k for every i after k."""
+    for k in range(L.size.size):
+        s, p = L.size[k], L.start[k]
+        for e in range(L.first[k], L.first[k + 1]):
+            i, l = L.node[e], L.lower[e]
+            r = L.start[i]
+            if s == 3:
+                a, b, c = x[p], x[p + 1], x[p + 2]
+                for m in range(L.size[i]):
+                    x[r + m] -= LV[l + 3 * m] * a + LV[l + 3 * m + 1] * b + LV[l + 3 * m + 2] * c
+            else:
+                for m in range(L.size[i]):
+                    for j in range(s):
+                        x[r + m] -= LV[l + m * s + j] * x[p + j]
+
+
+@native
+def backward(L: Plan, LV: Reals, x: Reals, y: Reals) -> None:
+    """x_k = A_kk^-1 (x_k - sum A_kj x_j); ``y`` is workspace."""
+    for k in range(L.size.size - 1, -1, -1):
+        s, p, o = L.size[k], L.start[k], L.diagonal[k]
+        for e in range(L.first[k], L.first[k + 1]):
+            j, u = L.node[e], L.upper[e]
+            q, sj = L.start[j], L.size[j]
+            for m in range(s):
+                total = 0.0
+                for r in range(sj):
+                    total += LV[u + m * sj + r] * x[q + r]
+                x[p + m] -= total
+        if s == 3:
+            a, b, c = x[p], x[p + 1], x[p + 2]
+            for m in range(3):
+                x[p + m] = LV[o + 3 * m] * a + LV[o + 3 * m + 1] * b + LV[o + 3 * m + 2] * c
+        else:
+            for m in range(s):
+                y[m] = 0.0
+                for r in range(s):
+                    y[m] += LV[o + m * s + r] * x[p + r]
+            for m in range(s):
+                x[p + m] = y[m]

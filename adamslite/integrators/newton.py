@@ -1,0 +1,138 @@
+"""Newton's method on the reduced unknowns, shared by the implicit integrators.
+
+An implicit formula makes q', u' and s' linear in the increments of q, u and s with one coefficient
+cu = 1/(beta h).  Velocities and accelerations follow from q, so Newton works on
+
+    z = (dphi and dx of bodies, lam, V, s [, mu])          n + m (index 3) or n + 2m (stabilised)
+
+with dF/dz = F_q + (F_u + cu F_a)(cu I + E), E the part of d(omega)/d(phi) that comes from the attitude.
+In the stabilised form u = T(q) q' + W G^T mu, hence the columns of mu are (F_u + cu F_a) W G^T.
+References: Gear, Gupta, Leimkuhler, J. Comp. Appl. Math. 12 (1985) 77; Hairer, Wanner, Solving ODE II,
+1996, sections VI.7 and VII.2.
+"""
+
+from __future__ import annotations
+
+from adamslite.translate import native
+
+from adamslite.integrators.base import FACTORIZATIONS, HOLONOMIC, NB, NS, NV, M, N
+from adamslite.integrators.equations import (
+    BODY,
+    PART,
+    back_rotate,
+    jacobian,
+    spread,
+)
+from adamslite.integrators.linalg import factor
+
+
+# Relative increments of positions below this are round-off.
+ROUND_OFF = 4e-15
+
+
+@native
+def newton_matrix(P: Problem, L: Plan, phases: int, cu: float, q: Reals, v: Reals, u: Reals) -> bool:
+    """Assemble and factor dF/dz at the workspace's state; ``v`` holds q'."""
+    c = P.coef
+    c[0], c[1], c[2], c[3], c[4] = 1.0, cu, cu * cu, 1.0, cu
+    jacobian(P, phases, c, P.J)
+    if P.turning.size or P.mixed.size:
+        c[0], c[1], c[2], c[3], c[4] = 0.0, 1.0, cu, 0.0, 0.0
+        jacobian(P, phases, c, P.D)
+        for k in range(0, P.turning.size, 3):
+            add_attitude_part(P, P.turning[k], P.turning[k + 1], P.turning[k + 2], q, v, u)
+        for k in range(0, P.mixed.size, 7):
+            add_mixed_product(P, k)
+    spread(P, P.LV)
+    P.count[FACTORIZATIONS] += 1
+    return factor(L, P.LV, P.pivots, P.work)
+
+
+@native
+def add_attitude_part(P: Problem, at: int, rows: int, b: int, q: Reals, v: Reals, u: Reals) -> None:
+    """J[:, 3:6] += D[:, 3:6] E on one block.
+
+    From w = (c' + c x c'/2)/sigma, sigma = 1 + c.c/4:  dw = (dc x c'/2 - w (c.dc)/2)/sigma at fixed c',
+    and dc = (I - [c]/2 + c c^T/4) dphi.
+    """
+    J, D = P.J, P.D
+    i = P.body[BODY * b + 1]
+    c0, c1, c2 = q[i + 3], q[i + 4], q[i + 5]
+    d0, d1, d2 = v[i + 3], v[i + 4], v[i + 5]
+    w0, w1, w2 = u[i + 3], u[i + 4], u[i + 5]
+    half = 0.5 / (1.0 + 0.25 * (c0 * c0 + c1 * c1 + c2 * c2))
+    for column in range(3):
+        e0 = 1.0 if column == 0 else 0.0
+        e1 = 1.0 if column == 1 else 0.0
+        e2 = 1.0 if column == 2 else 0.0
+        k = 0.25 * (c0 * e0 + c1 * e1 + c2 * e2)
+        p0 = e0 - 0.5 * (c1 * e2 - c2 * e1) + k * c0
+        p1 = e1 - 0.5 * (c2 * e0 - c0 * e2) + k * c1
+        p2 = e2 - 0.5 * (c0 * e1 - c1 * e0) + k * c2
+        along = c0 * p0 + c1 * p1 + c2 * p2
+        x0 = half * (p1 * d2 - p2 * d1 - w0 * along)
+        x1 = half * (p2 * d0 - p0 * d2 - w1 * along)
+        x2 = half * (p0 * d1 - p1 * d0 - w2 * along)
+        for r in range(rows):
+            o = at + 6 * r
+            J[o + 3 + column] += D[o + 3] * x0 + D[o + 4] * x1 + D[o + 5] * x2
+
+
+@native
+def add_mixed_product(P: Problem, k: int) -> None:
+    """J[row, mu_j] += D[row, body] W G[j, body]^T."""
+    mixed, J, D = P.mixed, P.J, P.D
+    target, m, source, rows = mixed[k], mixed[k + 1], mixed[k + 2], mixed[k + 3]
+    width, gradient, b = mixed[k + 4], mixed[k + 5], mixed[k + 6]
+    for r in range(rows):
+        for j in range(m):
+            total = 0.0
+            for c in range(width):
+                value = D[source + r * width + c] * J[gradient + j * width + c]
+                total += value * P.weight[b] if c > 2 else value
+            J[target + r * m + j] += total
+
+
+@native
+def apply_increment(P: Problem, dz: Reals, q: Reals, z: Reals, mu: Reals, si2: bool) -> None:
+    """Subtract the Newton increment from the unknowns."""
+    body = P.body
+    n = P.sizes[N]
+    for b in range(P.sizes[NB]):
+        i = body[BODY * b + 1]
+        if body[BODY * b] == PART:
+            back_rotate(q, dz, i, dz)
+            for k in range(3, 6):
+                q[i + k] -= dz[i + k]
+        for k in range(3):
+            q[i + k] -= dz[i + k]
+    rest = P.sizes[M] + P.sizes[NV] + P.sizes[NS]
+    for k in range(rest):
+        z[k] -= dz[n + k]
+    if si2:
+        for k in range(P.sizes[HOLONOMIC]):
+            mu[k] -= dz[n + rest + k]
+
+
+@native
+def increment_norm(P: Problem, dz: Reals, q: Reals, u: Reals, z: Reals, cu: float) -> float:
+    """Largest increment of what the error test looks at, each against max(1, |value|).
+
+    Positions and rotations; velocities (cu times those) when ``cu`` is not zero; variables and states.
+    Increments of q at round-off count as none, because at tiny steps they are all there is.
+    """
+    largest = 0.0
+    n = P.sizes[N]
+    for i in range(n):
+        change = abs(dz[i])
+        size = change / max(1.0, abs(q[i]))
+        if size > ROUND_OFF or not size <= ROUND_OFF:
+            size = max(size, cu * change / max(1.0, abs(u[i])))
+        if not size <= largest:
+            largest = size
+    first = P.sizes[M]
+    for k in range(first, first + P.sizes[NV] + P.sizes[NS]):
+        size = abs(dz[n + k]) / max(1.0, abs(z[k]))
+        if not size <= largest:
+            largest = size
+    return largest

@@ -1,0 +1,80 @@
+"""What is kept of a run: records at the asked times, the largest constraint violation."""
+
+from __future__ import annotations
+
+from adamslite.translate import native
+
+from adamslite.integrators.acceleration import accelerations
+from adamslite.integrators.base import (
+    HOLONOMIC,
+    N_OUT,
+    NS,
+    NV,
+    NW,
+    NZ,
+    OUTPUTS,
+    POSITION_ROWS,
+    RECORDS,
+    VIOLATION,
+    M,
+    N,
+)
+from adamslite.integrators.equations import run_groups
+
+
+@native
+def interpolate(D: Reals, w: int, k: int, t: float, h: float, at: float, y: Reals) -> None:
+    """The history's polynomial at time ``at``, into ``y``."""
+    for i in range(w):
+        y[i] = D[i]
+    p = 1.0
+    for j in range(k):
+        p *= (at - t + h * j) / (h * (j + 1))
+        for i in range(w):
+            y[i] += p * D[(j + 1) * w + i]
+
+
+@native
+def record_at(P: Problem, L: Plan, D: Reals, w: int, k: int, t: float, h: float, following: int) -> int:
+    """Write every asked time up to ``t``; returns the next one to write, -1 when it failed.
+
+    Positions, velocities and states are interpolated; accelerations, multipliers and variables are then
+    solved for, so that reactions are as exact as the motion.
+    """
+    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    while following < P.times.size and P.times[following] <= t + 1e-9 * h:
+        y = P.trial[0:]
+        interpolate(D, w, k, t, h, P.times[following], y)
+        for i in range(P.sizes[NS]):
+            P.z[first + i] = y[2 * n + i]
+        if not accelerations(P, L, P.times[following], y, y[n:], P.a, P.z, P.rd):
+            return -1
+        write_record(P, following)
+        following += 1
+    return following
+
+
+@native
+def write_record(P: Problem, row: int) -> None:
+    """Workspace and outputs into one row of the record."""
+    nw, n_out = P.sizes[NW], P.sizes[N_OUT]
+    o = row * (nw + n_out)
+    for i in range(nw):
+        P.record[o + i] = P.W[i]
+    out = P.record[o + nw:]
+    for i in range(n_out):
+        out[i] = 0.0
+    run_groups(P, OUTPUTS, out)
+    P.count[RECORDS] = row + 1
+
+
+@native
+def note_violation(P: Problem, t: float) -> None:
+    """Keep the largest |g| seen at an accepted step."""
+    if P.sizes[HOLONOMIC] == 0:
+        return
+    for i in range(P.sizes[NZ]):
+        P.F[i] = 0.0
+    run_groups(P, POSITION_ROWS, P.F)
+    for i in range(P.sizes[N], P.sizes[N] + P.sizes[M]):
+        P.report[VIOLATION] = max(P.report[VIOLATION], abs(P.F[i]))

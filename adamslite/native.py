@@ -1,0 +1,141 @@
+"""Native code on disk: LLVM text in, callable addresses out.
+
+Object code is cached under a hash of its LLVM text, the compiler version and the processor, so a deck
+seen before, or one whose expressions have the same shape, compiles nothing.  The cache folder is
+``ADAMSLITE_CACHE`` or the user's cache folder; it may be deleted at any time.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import json
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+
+def cache_folder() -> Path:
+    """The folder that holds compiled code; made when missing."""
+    chosen = os.environ.get("ADAMSLITE_CACHE")
+    if chosen:
+        folder = Path(chosen)
+    elif sys.platform == "win32":
+        folder = Path(os.environ.get("LOCALAPPDATA", Path.home())) / "adamslite" / "cache"
+    elif sys.platform == "darwin":
+        folder = Path.home() / "Library" / "Caches" / "adamslite"
+    else:
+        folder = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "adamslite"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        folder = Path(tempfile.gettempdir()) / "adamslite-cache"
+        folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def store(path: Path, data: bytes) -> None:
+    """Write a file whole or not at all; a full disk only costs the cache entry."""
+    try:
+        handle, name = tempfile.mkstemp(dir=path.parent)
+        with os.fdopen(handle, "wb") as out:
+            out.write(data)
+        os.replace(name, path)
+    except OSError:
+        return
+
+
+def recall(key: str, suffix: str, make: Callable[[], bytes]) -> bytes:
+    """The cached bytes of ``key``, made and stored on first use."""
+    path = cache_folder() / f"{key}{suffix}"
+    try:
+        return path.read_bytes()
+    except OSError:
+        data = make()
+        store(path, data)
+        return data
+
+
+def digest(*parts: str) -> str:
+    """Content hash of texts, compiler and processor."""
+    text = "\0".join((*parts, processor()))
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+@functools.cache
+def processor() -> str:
+    """What decides whether object code made earlier may run here."""
+    import llvmlite
+    import llvmlite.binding as llvm
+
+    features = llvm.get_host_cpu_features().flatten()
+    return f"{llvmlite.__version__} {llvm.get_process_triple()} {llvm.get_host_cpu_name()} {features}"
+
+
+@functools.cache
+def target_machine() -> Any:
+    """The optimising code generator for this processor."""
+    import llvmlite.binding as llvm
+
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    return llvm.Target.from_default_triple().create_target_machine(
+        cpu=llvm.get_host_cpu_name(),
+        features=llvm.get_host_cpu_features().flatten(),
+        opt=3,
+        reloc="static",
+        codemodel="jitdefault",
+    )
+
+
+def object_code(text: str, speed: int = 3) -> bytes:
+    """Compile LLVM assembly to object code at full optimisation."""
+    import llvmlite.binding as llvm
+
+    machine = target_machine()
+    module = llvm.parse_assembly(text)
+    module.triple = machine.triple
+    module.data_layout = str(machine.target_data)
+    tuning = llvm.create_pipeline_tuning_options(speed_level=speed)
+    tuning.loop_vectorization = tuning.slp_vectorization = speed > 2
+    passes = llvm.create_pass_builder(machine, tuning)
+    passes.getModulePassManager().run(module, passes)
+    return machine.emit_object(module)
+
+
+@functools.cache
+def linker() -> Any:
+    """The one in-process linker; code added to it lives as long as the process."""
+    import llvmlite.binding as llvm
+
+    machine = target_machine()
+    empty = llvm.parse_assembly("")
+    return llvm.create_mcjit_compiler(empty, machine)
+
+
+def addresses(parts: Iterable[tuple[bytes, list[str]]]) -> dict[str, int]:
+    """Addresses of the names in each object code; one linked earlier is not linked again."""
+    import llvmlite.binding as llvm
+
+    engine, known, found = linker(), _linked, {}
+    for code, names in parts:
+        if names[0] not in known:
+            # The linker reads code and object later without owning them.
+            _kept.append((code, llvm.ObjectFileRef.from_data(code)))
+            engine.add_object_file(_kept[-1][1])
+            engine.finalize_object()
+            known.update((name, engine.get_function_address(name)) for name in names)
+        found.update((name, known[name]) for name in names)
+    return found
+
+
+_linked: dict[str, int] = {}
+_kept: list[tuple[bytes, Any]] = []
+
+
+def recall_json(key: str, make: Callable[[], Any]) -> Any:
+    """A cached JSON value."""
+    return json.loads(recall(key, ".json", lambda: json.dumps(make()).encode()))

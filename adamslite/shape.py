@@ -1,0 +1,324 @@
+"""From a statement to its shape and back: what 1000 equal statements share.
+
+:class:`Binder` walks a statement's declared arguments and replaces every id, number and marker by a slot.
+What remains, written as text, is the *key* of the shape; what was taken out is the instance.  The walk
+needs no sympy, so a deck whose shapes are cached compiles nothing.  :func:`symbolic_view` does the reverse:
+the statement as its physics sees it, with frames for markers and symbols for numbers.
+
+A bound tree is one of
+
+    ("p", n) parameter    ("c", value) constant of the shape    ("t",) ("mode",)    ("m", frame)
+    ("o", op, args)       ("f", function, args)                 ("z", node, component) unknown
+    ("dif", node)         ("sig", n, order) time-only variable  ("e", n) element    ("d", tree)
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+from adamslite import functions  # noqa: F401  registers the deck functions
+from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time
+from adamslite.function import FUNCTIONS
+from adamslite.statement import Statement
+from adamslite.symbolic import ORIGIN, Load, Scope, Slot
+
+Tree = tuple
+IGNORED = ("text", "texts", "references")
+
+
+class ForceLoop(Exception):
+    """An element's force depends on itself without a VARIABLE between."""
+
+
+@dataclass
+class Binding:
+    """One instance: what fills the slots of its shape."""
+
+    markers: list[Any] = field(default_factory=list)
+    bodies: list[int] = field(default_factory=list)
+    nodes: list[Any] = field(default_factory=list)
+    params: list[float] = field(default_factory=list)
+    signals: list[Any] = field(default_factory=list)
+
+
+class Binder:
+    """Binds statements of one model; ``model`` answers what a marker or a variable is."""
+
+    def __init__(self, model: Any) -> None:
+        self.model = model
+        self.instance = Binding()
+        self.slots: list[Slot] = []
+        self.elements: list[tuple[str, Tree]] = []
+        self.element_at: dict[tuple[str, Any], int] = {}
+
+    def marker(self, marker_id: Any) -> Tree:
+        """The frame of a marker, of a part's mass centre for ``("PART", id)``."""
+        if marker_id == 0:
+            return ("m", ORIGIN)
+        place = self.model.marker(marker_id)
+        if place is None:
+            return ("c", None)
+        known = self.instance.markers
+        if marker_id not in known:
+            body = -1
+            if place.kind != "ground":
+                if place.body not in self.instance.bodies:
+                    self.instance.bodies.append(place.body)
+                body = self.instance.bodies.index(place.body)
+            known.append(marker_id)
+            self.slots.append(Slot(place.kind, body, place.offset, place.turned))
+        return ("m", known.index(marker_id))
+
+    def node_slot(self, node: Any) -> int:
+        """Slot of a scalar node, counted after the bodies once binding is finished."""
+        if node not in self.instance.nodes:
+            self.instance.nodes.append(node)
+        return self.instance.nodes.index(node)
+
+    def number(self, value: float) -> Tree:
+        if value == 0.0:
+            return ("c", 0.0)
+        self.instance.params.append(value)
+        return ("p", len(self.instance.params) - 1)
+
+    def statement(self, statement: Statement) -> Tree:
+        """All arguments of a statement: (("field", tree), ...)."""
+        fields = []
+        for name, argument in statement.arguments.items():
+            if argument.kind in IGNORED:
+                continue
+            fields.append((name, self._argument(argument, getattr(statement, name))))
+        return tuple(fields)
+
+    def _argument(self, argument: Any, value: Any) -> Tree:
+        if value is None:
+            return ("c", None)
+        if argument.kind == "expression":
+            return self.expression(value)
+        if argument.kind == "number":
+            return self.number(value)
+        if argument.kind == "vector":
+            return ("v", tuple(self.number(v) for v in value))
+        if argument.kind == "reference":
+            if argument.to == "MARKER":
+                return self.marker(value)
+            return self.marker(("PART", value)) if argument.to == "PART" else ("c", None)
+        return ("c", value)
+
+    def expression(self, node: Node) -> Tree:
+        constant = self.model.constant(node)
+        if constant is not None:
+            return self.number(constant)
+        match node:
+            case Time():
+                return ("t",)
+            case Mode():
+                return ("mode",)
+            case Op("**", (base, exponent)) if self.model.constant(exponent) is not None:
+                return ("o", "**", (self.expression(base), ("c", self.model.constant(exponent))))
+            case Op(op, args):
+                return ("o", op, tuple(self.expression(a) for a in args))
+            case Call():
+                return self.call(node)
+        raise TypeError(f"not an expression: {node!r}")
+
+    def call(self, node: Call) -> Tree:
+        parameters = FUNCTIONS[node.name]
+        args = tuple(
+            self.argument(parameters.parameter(n).kind, a) for n, a in enumerate(node.args)
+        )
+        return ("f", node.name, args)
+
+    def argument(self, kind: str, node: Node) -> Tree:
+        if isinstance(node, Ref):
+            return self.reference(node)
+        if kind == "constant":
+            return ("c", int(node.value))
+        return self.expression(node)
+
+    def reference(self, ref: Ref) -> Tree:
+        if ref.kind == "MARKER":
+            return self.marker(ref.id)
+        if ref.kind == "VARIABLE":
+            return self.variable(ref.id)
+        if ref.kind == "DIFF":
+            return ("dif", self.node_slot(("DIFF", ref.id)))
+        return self.element(ref)
+
+    def variable(self, variable_id: Any) -> Tree:
+        kind = self.model.variable_kind(variable_id)
+        if kind == "loop":
+            return ("z", self.node_slot(("VARIABLE", variable_id)), 0)
+        if kind == "signal":
+            signals = self.instance.signals
+            if variable_id not in signals:
+                signals.append(variable_id)
+            return ("sig", signals.index(variable_id), 0)
+        return self.expression(self.model.variable(variable_id).function)
+
+    def element(self, ref: Ref) -> Tree:
+        """Another element whose load is measured: bound into this shape."""
+        key = (ref.kind, ref.id)
+        if key not in self.element_at:
+            self.element_at[key] = -1
+            statement = self.model.element(ref.kind, ref.id)
+            tree = (ref.kind, self.statement(statement), self.unknowns(statement))
+            self.elements.append(tree)
+            self.element_at[key] = len(self.elements) - 1
+        if self.element_at[key] < 0:
+            raise ForceLoop(f"{ref.kind}/{ref.id}")
+        return ("e", self.element_at[key])
+
+    def unknowns(self, statement: Statement) -> int:
+        """Node slot of a statement's own unknowns (multipliers, V, s), -1 for a force."""
+        node = (statement.keyword, statement.key)
+        return self.node_slot(node) if self.model.has_unknowns(node) else -1
+
+    def key(self, face: str, body: Any) -> str:
+        """Everything that decides the native code."""
+        at = self.instance
+        widths = [self.model.body_width(b) for b in at.bodies]
+        scalars = [self.model.node_width(n) for n in at.nodes]
+        counts = (len(at.params), len(at.signals))
+        return repr((face, body, self.elements, self.slots, widths, scalars, counts))
+
+
+class View:
+    """A statement as its physics sees it: frames, symbols, expressions, words."""
+
+    def __init__(self, cls: type[Statement], fields: dict[str, Any], unknowns: list[Any]) -> None:
+        self.__dict__.update(fields)
+        self.cls = cls
+        self.unknowns = unknowns
+
+    def own_loads(self, scope: Scope) -> list[Load]:
+        """Loads of a force, or the reactions of a constraint."""
+        if hasattr(self.cls, "loads"):
+            return self.cls.loads(self, scope)
+        return reactions(self, scope)
+
+    @property
+    def reaction_frame(self) -> int | None:
+        """The frame called J."""
+        for name in ("j", "jfloat", "j_part"):
+            frame = self.__dict__.get(name)
+            if frame is not None:
+                return frame
+        return None
+
+
+def reactions(view: View, scope: Scope) -> list[Load]:
+    """-G^T lam as loads: what the constraint exerts.
+
+    A row g gives the force -lam dg/dd on I of each relative position d(i,j), the opposite on J, and the
+    torque -lam sum x_c cross dg/dx_c on the part of each axis used; for velocity rows d and x are replaced
+    by v and w (Jourdain's principle).
+    """
+    from adamslite.algebra import sp
+    from adamslite.symbolic import ZERO, cross, scale
+
+    loads = []
+    for row, lam in zip(view.cls.constraints(view, scope), view.unknowns, strict=True):
+        row = sp.S.Zero + row
+        groups: dict[tuple, list[Any]] = {}
+        for symbol in sorted(row.free_symbols, key=str):
+            leaf = scope.leaves[symbol]
+            if leaf[0] in ("d", "x", "v", "w"):
+                groups.setdefault(leaf[:-1], [sp.S.Zero] * 3)[leaf[-1]] = sp.diff(row, symbol)
+        rates = any(leaf[0] in ("v", "w") for leaf in groups)
+        for leaf, slope in groups.items():
+            pull = scale(-lam, tuple(slope))
+            if leaf[0] == ("v" if rates else "d"):
+                loads.append(Load(leaf[1], pull, ZERO, leaf[2]))
+            elif leaf[0] == "w":
+                loads.append(Load(leaf[1], ZERO, pull, leaf[2]))
+            elif leaf[0] == "x" and not rates and scope.turns(leaf[1]):
+                axis = scope.vector("x", leaf[1], leaf[2])
+                loads.append(Load(leaf[1], ZERO, cross(axis, pull)))
+    return loads
+
+
+class Reader:
+    """Turns bound trees into sympy with a scope."""
+
+    def __init__(self, scope: Scope, n_bodies: int) -> None:
+        self.scope = scope
+        self.n_bodies = n_bodies
+        self.memo: dict[Tree, Any] = {}
+
+    def __call__(self, tree: Tree) -> Any:
+        if tree not in self.memo:
+            self.memo[tree] = self._read(tree)
+        return self.memo[tree]
+
+    def _read(self, tree: Tree) -> Any:
+        kind = tree[0]
+        if kind == "p":
+            return self.scope.symbol("p", tree[1])
+        if kind == "c":
+            return _exact(tree[1]) if isinstance(tree[1], float) else tree[1]
+        if kind == "t":
+            return self.scope.time
+        if kind == "mode":
+            return self.scope.mode
+        if kind == "m":
+            return tree[1]
+        if kind == "v":
+            return tuple(self(t) for t in tree[1])
+        if kind == "z":
+            return self.scope.symbol("z", self.n_bodies + tree[1], tree[2])
+        if kind == "sig":
+            return self.scope.symbol("sig", tree[1], tree[2])
+        if kind == "o":
+            return self._operation(tree[1], [self(t) for t in tree[2]])
+        return self._call(tree)
+
+    def _call(self, tree: Tree) -> Any:
+        function = FUNCTIONS[tree[1]]
+        args = []
+        for n, arg in enumerate(tree[2]):
+            statement = function.parameter(n).statement
+            if statement is None or statement == "MARKER":
+                args.append(self(arg))
+            else:
+                args.append(self._shifted(arg))
+        return function.body(self.scope, *args)
+
+    def _shifted(self, arg: Tree) -> Tree:
+        return ("dif", self.n_bodies + arg[1]) if arg[0] == "dif" else arg
+
+    def _operation(self, op: str, args: list[Any]) -> Any:
+        from adamslite.algebra import power
+
+        if op == "neg":
+            return -args[0]
+        a, b = args
+        if op == "**":
+            return power(a, b)
+        return {"+": lambda: a + b, "-": lambda: a - b, "*": lambda: a * b, "/": lambda: a / b}[op]()
+
+
+def _exact(value: float) -> Any:
+    from adamslite.algebra import sp
+
+    doubled = 2.0 * value
+    if math.isfinite(doubled) and doubled == int(doubled) and abs(doubled) < 1e6:
+        return sp.Rational(int(doubled), 2)
+    return sp.Float(value, 17)
+
+
+def symbolic_view(
+    keyword: str, fields: Tree, node: int, width: int, scope: Scope, n_bodies: int
+) -> View:
+    """The statement of bound fields; ``node`` is the slot of its own unknowns or -1."""
+    from adamslite.statement import STATEMENTS
+
+    cls = STATEMENTS[keyword]
+    values = {name: scope.read(tree) for name, tree in fields}
+    if keyword == "DIFF" and node >= 0:
+        own = [scope.symbol(kind, n_bodies + node) for kind in ("dif", "dif1")]
+    else:
+        own = [scope.symbol("z", n_bodies + node, c) for c in range(width)] if node >= 0 else []
+    return View(cls, values, own)
