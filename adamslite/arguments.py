@@ -63,15 +63,15 @@ class Grouping:
         meaning = self.words.look_up(token[1], True)
         self._warn_open(item.key)
         self.current, self.skipping = None, True
-        if isinstance(meaning, Argument):
-            pieces = self._open(meaning, token)
-            if pieces:
-                pieces.values.append(self.tokens[item.start : item.end])
-                self.current, self.skipping = pieces, False
-        elif isinstance(meaning, str):
+        if isinstance(meaning, str):
             self._planned(meaning, token)
-        else:
-            self._unknown(token, meaning, True)
+            return
+        if not isinstance(meaning, Argument):
+            meaning = self._unknown(token, meaning, True)
+        pieces = self._open(meaning, token) if meaning else None
+        if pieces:
+            pieces.values.append(self.tokens[item.start : item.end])
+            self.current, self.skipping = pieces, False
 
     def _open(self, argument: Argument, token: Lexeme) -> Pieces | None:
         if argument.name in self.found:
@@ -91,17 +91,16 @@ class Grouping:
                 return False
             self._warn_open(item.start)
         meaning = self.words.look_up(token[1], False)
-        if type(meaning) is tuple:
+        if type(meaning) is not tuple:
+            if self._takes_more() or self.skipping:
+                return False
+            meaning = self._unknown(token, meaning, False)
+        if meaning:
             argument, option = meaning
             self.current, self.skipping = None, False
             pieces = self._open(argument, token)
             if pieces:
                 pieces.values.append([("NAME", option, token[2])])
-                pieces.start = token[2]
-        elif self._takes_more() or self.skipping:
-            return False
-        else:
-            self._unknown(token, meaning, False)
         return True
 
     def _inside_expression(self) -> bool:
@@ -144,8 +143,11 @@ class Grouping:
             word=key, keyword=keyword,
         )  # fmt: skip
 
-    def _unknown(self, token: Lexeme, meaning: Any, valued: bool) -> None:
-        """A keyword that fits nothing, or too much, or a flag with a value."""
+    def _unknown(self, token: Lexeme, meaning: Any, valued: bool) -> Any:
+        """A keyword that fits nothing, or too much, or a flag with a value.
+
+        Returns what it was meant to be, when there is but one guess.
+        """
         word = spelled(token[1]).upper()
         place = token[2], end_of(token)
         if isinstance(meaning, Ambiguous):
@@ -156,11 +158,16 @@ class Grouping:
         elif not valued and type(planned := self.words.look_up(token[1], True)) is str:
             self._planned(planned, token)
         else:
+            table = self.words.valued if valued else self.words.bare
+            others = self.words.bare if valued else self.words.valued
+            hint = did_you_mean(word, table) or did_you_mean(word, others)
             self.log.add(
                 "unknown-argument", *place, word=token[1], keyword=self.cls.keyword,
-                known=", ".join(self.words.known),
-                hint=did_you_mean(word, [*self.words.valued, *self.words.bare]),
+                known=", ".join(self.words.known), hint=hint,
             )  # fmt: skip
+            guess = table.get(hint.removeprefix("did you mean ").rstrip("?"))
+            return None if isinstance(guess, str) else guess
+        return None
 
 
 def read_arguments(
@@ -182,8 +189,10 @@ def read_arguments(
     if syntax.whole:
         for name, argument in cls.arguments.items():
             if argument.required and name not in found:
-                reader.log.add(
-                    "missing-argument", *syntax.range, label=label, word=argument.key,
-                    help=f"{argument.key}: {argument.help}",
-                )  # fmt: skip
+                hint = f"{argument.key}: {argument.help}"
+                if argument.bare:
+                    hint = f"one of {', '.join(argument.options)}"
+                word = argument.help if argument.bare else argument.key
+                place = syntax.range
+                reader.log.add("missing-argument", *place, label=label, word=word, hint=hint)
     return values, ranges

@@ -1,8 +1,8 @@
 """What the statements of a deck must mean together: a list of small rules.
 
-A rule takes a deck and yields diagnostics; statements with mistakes of their own are not in the deck
-it gets.  :data:`RULES` are quick and run whenever a deck is read; :data:`ADVICE` may take its time and
-runs in :func:`check` only.
+A rule takes a deck and yields diagnostics; statements with mistakes of their own are not in the
+deck it gets.  :data:`RULES` are quick and run whenever a deck is read; :data:`ADVICE` may take its
+time and runs in :func:`check` only.
 """
 
 from __future__ import annotations
@@ -78,8 +78,8 @@ def _is_ground(deck: Deck, body: Body | None) -> bool:
 def one_ground(deck: Deck) -> Iterator[Diagnostic]:
     grounds = [part for part in deck.of("PART") if part.ground]
     if not grounds:
-        last = deck.statements[-1] if deck.statements else Statement()
-        yield say(last, "no-ground")
+        source = deck.source
+        yield compose("no-ground", source.span(0, len(source.line(1))), source.line(1))
     for part in grounds[1:]:
         yield say(part, "two-grounds", "ground")
 

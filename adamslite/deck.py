@@ -148,7 +148,7 @@ def read_commands(source: str | Path, deck: Deck) -> tuple[Statement, ...]:
 
 @contextmanager
 def _no_collection() -> Iterator[None]:
-    """No garbage collection inside: reading only makes things, and a fifth of its time goes there."""
+    """No garbage collection inside: reading only makes things, and it would take a fifth longer."""
     if not gc.isenabled():
         yield
         return

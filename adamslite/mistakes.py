@@ -1,7 +1,7 @@
 """What is wrong with a statement or an expression that has no form: which message, and where.
 
-A faulty item is cut out of its statement and the rest is read on, so that one slip does not hide the
-others.
+A faulty item is cut out of its statement and the rest is read on, so that one slip does not hide
+the others.
 """
 
 from __future__ import annotations
@@ -20,6 +20,9 @@ from adamslite.parse import (
     spelled,
     statement_form,
 )
+
+MOST_MISTAKES = 20
+"""After so many in one statement the rest of it is given up."""
 
 _SEPARATORS = ("COMMA", "BACKSLASH")
 
@@ -62,7 +65,7 @@ def statement_syntax(logical: Logical) -> tuple[Syntax | None, list[tuple[Mistak
             return Syntax(tokens, form, logical.name, not found), found
         mistake = _statement_mistake(tokens, form.at)
         found.append((mistake, tokens))
-        if form.at < 2:
+        if form.at < 2 or len(found) == MOST_MISTAKES:
             return None, found
         tokens = _without_item(tokens, form.at)
 
@@ -129,7 +132,7 @@ def _without_item(tokens: list[Lexeme], at: int) -> list[Lexeme]:
         end = at
         while end < len(tokens) and tokens[end][0] not in _SEPARATORS:
             end += 1
-    left, right = tokens[:start], tokens[max(end, start) :]
+    left, right = tokens[:start], tokens[max(end, start + 1) :]
     while len(left) > 2 and left[-1][0] in _SEPARATORS:
         left.pop()
     while right and right[0][0] in _SEPARATORS:

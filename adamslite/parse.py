@@ -6,9 +6,9 @@
                                                 --expression_form--> tree of token numbers
 
 The grammar files say what tokens and forms are.  A deck holds thousands of statements of few forms,
-so the parser sees each sequence of token *kinds* once; the form it returns refers to tokens by number
-and serves every statement written the same way.  Tokens carry their offset in the text, so joining
-continuation lines moves no column.
+so the parser sees each sequence of token *kinds* once; the form it returns refers to tokens by
+number and serves every statement written the same way.  Tokens carry their offset in the text, so
+joining continuation lines moves no column.
 """
 
 from __future__ import annotations
@@ -256,8 +256,9 @@ def join(tokens: list[Lexeme], ampersand: bool = False) -> Iterator[Logical]:
 
     A line that begins with a comma continues the statement above it.  In a list of arguments that
     comma separates; inside brackets, and after a comma or an equal sign, it only marks the
-    continuation.  A comma at the end of a line vanishes too after an operator or an opening bracket.
-    A slash at the end of a line that an argument or nothing follows is the old form of the backslash.
+    continuation.  A comma at the end of a line vanishes too after an operator or an opening
+    bracket.  A slash at the end of a line that an argument or nothing follows is the old form of
+    the backslash.
 
     Parameters
     ----------

@@ -31,6 +31,8 @@ class Entry(NamedTuple):
     syntax: Syntax
     id: Key
     body: Body | None
+    again: bool = False
+    """Another one has its id already."""
 
     @property
     def label(self) -> str:
@@ -132,7 +134,7 @@ class Reading:
     def _unknown(self, syntax: Syntax, place: tuple[int, int]) -> None:
         hint = did_you_mean(syntax.keyword, self._table)
         self.log.add("unknown-statement", *place, word=syntax.tokens[0][1], hint=hint)
-        guesses = [keyword for keyword in STATEMENTS if keyword in hint.split()]
+        guesses = [keyword for keyword in STATEMENTS if keyword in hint.strip("?").split()]
         self.broken.update(guesses)
         for keyword in guesses:
             self._remember(keyword, syntax)
@@ -151,18 +153,20 @@ class Reading:
         start = syntax.tokens[0][2]
         if cls.singleton:
             first = self._started.setdefault(cls.keyword, start)
-            if first != start and not cls.repeatable:
+            again = first != start and not cls.repeatable
+            if again:
                 line, _ = self.log.source.place(first)
                 self.log.add("duplicate-statement", *syntax.range, word=cls.keyword, line=line)
-            self.entries.append(Entry(cls, syntax, 0, None))
+            self.entries.append(Entry(cls, syntax, 0, None, again))
             return
         id = self._id(cls, syntax)
         if id is None:
             self.broken.add(cls.keyword)
             return
-        entry = Entry(cls, syntax, id, self._body)
         key = canonical(id)
-        if not self.names.add(cls.keyword, key, syntax.name, start):
+        again = not self.names.add(cls.keyword, key, syntax.name, start)
+        entry = Entry(cls, syntax, id, self._body, again)
+        if again:
             line, _ = self.log.source.place(self.names.ids[cls.keyword][key])
             end = end_of(syntax.tokens[syntax.items[0].end - 1])
             self.log.add("duplicate-id", start, end, label=entry.label, line=line)
@@ -223,7 +227,7 @@ class Reading:
             errors = self.log.errors
             items = syntax.items if cls.singleton else syntax.items[1:]
             values, ranges = read_arguments(cls, syntax, items, reader, entry.label)
-            if self.log.errors != errors or not syntax.whole:
+            if self.log.errors != errors or entry.again or not syntax.whole:
                 self.broken.add(cls.keyword)
                 return None
         values.update(cls.completed(values, entry.body))

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from adamslite.expression import Node
-from adamslite.messages import Log
+from adamslite.messages import Log, did_you_mean
 from adamslite.parse import CLOSES, Lexeme, end_of, spelled
 from adamslite.resolve import Key, Names, Resolver, Unresolved, to_number
 from adamslite.statement import Argument, Statement
@@ -167,7 +167,7 @@ class Reader:
         if not isinstance(found, str):
             self._refuse(
                 "unknown-choice", tokens, word=argument.key, text=self._written(tokens),
-                known=", ".join(argument.options),
+                known=", ".join(argument.options), hint=did_you_mean(word, argument.options),
             )  # fmt: skip
         return found
 

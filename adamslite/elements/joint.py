@@ -30,7 +30,7 @@ class Joint(Statement):
     """An ideal joint between markers I and J of two different parts."""
 
     kind: str = choice(
-        options=KINDS, required=True, help="type of joint",
+        options=KINDS, required=True, help="a type of joint",
         supported=("REVOLUTE", "SPHERICAL", "TRANSLATIONAL", "FIXED"),
     )  # fmt: skip
     i: int | str = reference("I", to="MARKER", required=True, help="marker on the first part")

@@ -21,7 +21,7 @@ class Simulate(Statement):
 
     kind: str = choice(
         options=("DYNAMICS", "INITIAL_CONDITIONS", "KINEMATICS", "STATICS", "TRANSIENT"),
-        supported=("DYNAMICS",), required=True, help="the analysis",
+        supported=("DYNAMICS",), required=True, help="a kind of analysis",
     )  # fmt: skip
     end: float | None = number("END", unit="time", help="time at which it ends")
     duration: float | None = number("DURATION", unit="time", help="time it lasts")

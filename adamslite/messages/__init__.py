@@ -19,6 +19,9 @@ from adamslite.messages.statements import STATEMENTS
 
 MESSAGES: dict[str, Message] = STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL
 
+BODIES = {"PART": "POINT_MASS", "POINT_MASS": "PART"}
+"""Which kind of body is easily written for which."""
+
 START = """a deck to add broken statements to
 PART/1, GROUND
 MARKER/1, PART=1
@@ -84,9 +87,9 @@ class Log:
 
     def missing(self, names: Any, kind: str, key: int | str, start: int, end: int) -> None:
         """Say that a statement is referred to and does not exist."""
-        others = [other for other in names.ids if key in names.ids[other] and other != kind]
-        if others:
-            hint = f"there is a {others[0]}/{key}"
+        other = BODIES.get(kind)
+        if other and names.find(other, key) is not None:
+            hint = f"there is a {other}/{key}"
         else:
             hint = did_you_mean(str(key), names.known(kind))
         self.add("missing-reference", start, end, kind=kind, key=key, hint=hint)

@@ -9,7 +9,8 @@ ARGUMENTS: dict[str, Message] = {
     "unknown-argument": Message(
         "{keyword} has no argument {word}",
         "its arguments are {known}",
-        ("MARKER/4, PART=1, QQ=1,2,3", "PART/4, MAS5=1, QG=1,2,3", "MARKER/4, PART=1, FLOTING"),
+        ("MARKER/4, PART=1, QQ=1,2,3", "PART/4, MAS5=1, CM=4, IP=1,1,1\nMARKER/4, PART=4",
+         "SFORCE/1, I=1, J=2, FUNCION=1", "JOINT/1, REVOLVE, I=1, J=2", "MARKER/4, PART=1, XYZW"),
     ),
     "ambiguous-argument": Message(
         "{word} may mean {choices}", "write more letters", ("PART/4, V=1, MASS=1, CM=2",)
@@ -30,8 +31,8 @@ ARGUMENTS: dict[str, Message] = {
     ),
     "missing-argument": Message(
         "{label} needs {word}",
-        "{help}",
-        ("VARIABLE/1", "SFORCE/1, I=1, FUNCTION=1", "JOINT/1, I=1, J=2"),
+        "",
+        ("VARIABLE/1", "SFORCE/1, I=1, FUNCTION=1", "JOINT/1, I=1, J=2", "SIMULATE/END=1"),
     ),
     "flag-with-value": Message(
         "{word} is a flag and takes no value",

@@ -168,8 +168,9 @@ MODEL: dict[str, Message] = {
     ),
     "no-output-step": Message(
         "SIMULATE does not say how often to write",
-        "give STEPS= or DTOUT=",
+        "give STEPS= or DTOUT=; without them 100 steps are written",
         ("SIMULATE/DYNAMICS, END=1",),
+        severity=WARNING,
     ),
     "two-output-steps": Message(
         "SIMULATE has both STEPS and DTOUT", "", ("SIMULATE/DYNAMICS, END=1, STEPS=9, DTOUT=1",)
