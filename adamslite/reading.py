@@ -64,6 +64,7 @@ class Reading:
         self.broken: set[str] = set()
         """Keywords of statements that could not be read, or not wholly."""
         self._body: Body | None = None
+        self._guesses: list[tuple[str, Syntax]] = []
         self._started: dict[str, int] = {}
         self._meanings: dict[str, Any] = {}
         commands = place == "command"
@@ -92,6 +93,8 @@ class Reading:
                 self._enter(cls, syntax)
                 if cls.ends:
                     break
+        for keyword, syntax in self._guesses:
+            self._remember(keyword, syntax)
         return self._second_pass()
 
     # ---- first pass ---------------------------------------------------------------------------
@@ -134,10 +137,12 @@ class Reading:
     def _unknown(self, syntax: Syntax, place: tuple[int, int]) -> None:
         hint = did_you_mean(syntax.keyword, self._table)
         self.log.add("unknown-statement", *place, word=syntax.tokens[0][1], hint=hint)
-        guesses = [keyword for keyword in STATEMENTS if keyword in hint.strip("?").split()]
-        self.broken.update(guesses)
-        for keyword in guesses:
-            self._remember(keyword, syntax)
+        for keyword in hint.strip("?").split():
+            if keyword in STATEMENTS:
+                self.broken.add(keyword)
+                self._guesses.append((keyword, syntax))
+                if STATEMENTS[keyword].body:
+                    self._body = (keyword, None)
 
     def _remember(self, keyword: str, syntax: Syntax) -> None:
         """Note the id of a statement that is not read, so that references to it are no mistakes."""
@@ -146,7 +151,7 @@ class Reading:
         id = to_id(syntax.tokens[first.start : first.end]) if first else None
         if id is not None:
             self.names.add(keyword, canonical(id), syntax.name, syntax.tokens[0][2])
-        if keyword == "FLEX_BODY" or keyword in STATEMENTS and STATEMENTS[keyword].body:
+        if keyword == "FLEX_BODY":
             self._body = (keyword, None)
 
     def _enter(self, cls: type[Statement], syntax: Syntax) -> None:

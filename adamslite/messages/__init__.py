@@ -43,10 +43,13 @@ def compose(code: str, span: Span, source_line: str = "", **words: Any) -> Diagn
 
 def did_you_mean(word: str, candidates: Iterable[str]) -> str:
     """A hint naming the closest candidates; empty when none is close."""
-    from difflib import get_close_matches
+    from difflib import SequenceMatcher, get_close_matches
 
-    found = get_close_matches(word.upper(), [c.upper() for c in candidates], 3, 0.6)
-    return f"did you mean {' or '.join(dict.fromkeys(found))}?" if found else ""
+    word = word.upper()
+    close = get_close_matches(word, dict.fromkeys(c.upper() for c in candidates), 3, 0.6)
+    likeness = [SequenceMatcher(None, each, word).ratio() for each in close]
+    found = [each for each, ratio in zip(close, likeness, strict=True) if ratio > likeness[0] - 0.1]
+    return f"did you mean {' or '.join(found)}?" if found else ""
 
 
 @dataclass

@@ -1,0 +1,37 @@
+"""Short decks for tests: a few bodies to hang statements on."""
+
+from __future__ import annotations
+
+from adamslite.deck import Deck, read
+from adamslite.diagnostics import DeckError, Diagnostic
+from adamslite.expression import Node
+from adamslite.messages import START
+from adamslite.statement import Statement
+
+
+def deck_with(statements: str) -> Deck:
+    """A deck of a ground (MARKER/1), a part (MARKER/2), a point mass (MARKER/3) and these."""
+    return read(START + statements + "\n")
+
+
+def last(statements: str) -> Statement:
+    """The last of these statements."""
+    return deck_with(statements).statements[-1]
+
+
+def function(text: str, statements: str = "") -> Node:
+    """What an expression is read as, in a deck that has these statements too."""
+    return last(f"{statements}\nVARIABLE/999, FUNCTION={text}").function
+
+
+def told(text: str) -> list[Diagnostic]:
+    """Everything said about a deck."""
+    try:
+        return list(read(text).warnings)
+    except DeckError as error:
+        return list(error.diagnostics)
+
+
+def codes(statements: str) -> list[str]:
+    """The codes of everything said about these statements."""
+    return [diagnostic.code for diagnostic in told(START + statements + "\n")]

@@ -1,0 +1,149 @@
+"""The table of messages: every broken deck in it yields its message, and nothing else."""
+
+from __future__ import annotations
+
+import pytest
+from decklets import told
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from adamslite.deck import read, read_commands
+from adamslite.diagnostics import DeckError
+from adamslite.messages import MESSAGES, START
+
+BROKEN = [(code, deck) for code, message in MESSAGES.items() for deck in message.broken]
+COMMANDS = [(code, text) for code, message in MESSAGES.items() for text in message.commands]
+
+
+def whole(code: str, broken: str) -> str:
+    """The deck an entry of the table stands for."""
+    alone = broken.startswith("title") or code == "title-like-statement"
+    return (broken if alone else START + broken) + "\n"
+
+
+def test_the_start_is_a_healthy_deck() -> None:
+    assert told(START) == []
+
+
+@pytest.mark.parametrize(("code", "broken"), BROKEN)
+def test_a_broken_deck_yields_its_message_only(code: str, broken: str) -> None:
+    assert {diagnostic.code for diagnostic in told(whole(code, broken))} == {code}
+
+
+@pytest.mark.parametrize(("code", "broken"), COMMANDS)
+def test_a_broken_command_file_yields_its_message_only(code: str, broken: str) -> None:
+    with pytest.raises(DeckError) as error:
+        read_commands(broken + "\n", read(START))
+    assert {diagnostic.code for diagnostic in error.value.diagnostics} == {code}
+
+
+@pytest.mark.parametrize("code", MESSAGES)
+def test_a_message_has_an_example_and_fits_on_a_line(code: str) -> None:
+    message = MESSAGES[code]
+    assert message.broken or message.commands
+    assert "\n" not in message.sentence + message.hint
+    assert not message.sentence.endswith(".")
+
+
+@pytest.mark.parametrize(("code", "broken"), BROKEN)
+def test_a_message_shows_its_place(code: str, broken: str) -> None:
+    text = whole(code, broken)
+    for diagnostic in told(text):
+        line = text.split("\n")[diagnostic.span.line - 1]
+        assert diagnostic.source_line == line
+        assert 1 <= diagnostic.span.column <= len(line) + 1
+        assert f"<text>:{diagnostic.span.line}:{diagnostic.span.column}: " in diagnostic.render()
+
+
+def test_all_mistakes_are_told_at_once_and_in_order() -> None:
+    text = START + "".join(
+        f"{line}\n"
+        for line in (
+            "FORSE/1, I=1, J=2",
+            "SFORCE/1, I=1, J=99, FUNCTION=SINN(1) + nobody*MAX(1) + (2",
+            "VFORCE/1, I=2, J_PART=1, FX=(1\\",
+            ", FY=whatever",
+            "MARKER/1, PART=12, QP=1,2",
+        )
+    )
+    found = told(text)
+    assert [d.code for d in found] == [
+        "unknown-statement",
+        "missing-reference",
+        "unclosed-bracket",
+        "unclosed-bracket",
+        "unknown-name",
+        "duplicate-id",
+        "missing-reference",
+        "value-count",
+    ]
+    assert [d.span.line for d in found] == [8, 9, 9, 10, 11, 12, 12, 12]
+
+
+@pytest.mark.parametrize(
+    ("broken", "hint"),
+    [
+        ("SFORSE/1, I=1, J=2, FUNCTION=1", "did you mean SFORCE?"),
+        ("SFORCE/1, I=1, J=2, FUNCION=1", "did you mean FUNCTION?"),
+        ("JOINT/1, REVOLVE, I=1, J=2", "did you mean REVOLUTE?"),
+        ("VARIABLE/1, FUNCTION=SQR(2)", "did you mean SQRT?"),
+        ("VARIABLE/mass, FUNCTION=1\nVARIABLE/1, FUNCTION=2*mas", "did you mean MASS?"),
+        ("VARIABLE/1, FUNCTION=TIM", "did you mean TIME?"),
+        ("MARKER/wheel, PART=1\nVARIABLE/1, FUNCTION=DX(weel)", "did you mean WHEEL?"),
+        ("UNITS/SYSTEM=MKSA", "did you mean MKS?"),
+        ("MARKER/4, PART=3", "there is a POINT_MASS/3"),
+        ("VARIABLE/a, FUNCTION=1\nVARIABLE/1, FUNCTION=a(2)", "a is a VARIABLE"),
+        ("VARIABLE/1, FUNCTION=DX + 1", "DX is a function: write DX(i[, j][, k])"),
+    ],
+)
+def test_hints_name_what_was_meant(broken: str, hint: str) -> None:
+    (diagnostic,) = told(START + broken + "\n")
+    assert diagnostic.hint.startswith(hint)
+
+
+def test_what_is_not_supported_is_told_once_with_its_number() -> None:
+    """A reference to a statement that cannot be run is no mistake of its own."""
+    text = "BEAM/1, I=1\nBEAM/2, I=1\nSPLINE/1, X=1\nVARIABLE/1, FUNCTION=USER(1)+USER(2)"
+    found = told(START + text + "\n")
+    assert [d.message for d in found] == [
+        "not supported yet: BEAM (2 times, first here)",
+        "not supported yet: SPLINE",
+        "not supported yet: function USER (2 times, first here)",
+    ]
+
+
+def test_carets_stand_below_what_is_meant() -> None:
+    (diagnostic,) = told(START + "VARIABLE/1, FUNCTION=2*SQR(3)\n")
+    assert diagnostic.render() == (
+        "<text>:8:24: error: there is no function SQR [unknown-function]\n"
+        "  8 | VARIABLE/1, FUNCTION=2*SQR(3)\n"
+        "    |                        ^^^\n"
+        "    = did you mean SQRT?"
+    )
+
+
+# ---- any text ---------------------------------------------------------------------------------
+
+PIECES = [
+    *"()[],;:=/\\*+-!&'\"\n .019DEaΔ%\x00", "\n, ", "PART/", "MARKER/4", "SFORCE/1, ", "I=1", "IF(1:",
+    "MAX(", "DX(1", "VARVAL(d(Dm)/dt)", "FUNCTION=", "QP=", "ACCGRAV/", "END", "1D-3", "90D", "E999",
+    "\\Delta ", "ground", "! adams_view_name='a'\n", "VARIABLE/a, FUNCTION=", "INTEGRATOR/", "SIM/D,",
+]  # fmt: skip
+
+
+@settings(deadline=None, max_examples=300)
+@given(st.lists(st.sampled_from(PIECES), max_size=40).map("".join))
+def test_no_text_leads_to_anything_but_messages(text: str) -> None:
+    deck = read(START)
+    for diagnostic in told(START + text + "\n"):
+        assert diagnostic.code in MESSAGES and diagnostic.span.line >= 1
+    try:
+        read_commands(text + "\n", deck)
+    except DeckError as error:
+        assert str(error)
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.text(max_size=80))
+def test_nor_do_any_characters(text: str) -> None:
+    told(text + "\n")
