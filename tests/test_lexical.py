@@ -51,7 +51,9 @@ def test_line_ends_of_all_systems(end: str) -> None:
 
 
 def test_case_and_blanks_do_not_matter() -> None:
-    deck = deck_with("marker / 4 ,\tpart = 1 , qp = 1 , 2,3\nVariable/a,function = max ( Time , PI )")
+    deck = deck_with(
+        "marker / 4 ,\tpart = 1 , qp = 1 , 2,3\nVariable/a,function = max ( Time , PI )"
+    )
     assert deck.find("MARKER", 4).qp == (1, 2, 3)
     assert to_text(deck.find("VARIABLE", "A").function) == "MAX(TIME, 3.1415926535897931)"
 
@@ -214,7 +216,9 @@ def test_a_marker_without_owner_belongs_to_the_body_before_it() -> None:
 
 
 def test_references_may_point_forward() -> None:
-    deck = deck_with("VARIABLE/1, FUNCTION=late + DX(far)\nMARKER/far, PART=1\nVAR/late, FUNCTION=1")
+    deck = deck_with(
+        "VARIABLE/1, FUNCTION=late + DX(far)\nMARKER/far, PART=1\nVAR/late, FUNCTION=1"
+    )
     assert to_text(deck.find("VARIABLE", 1).function) == "VARVAL(LATE) + DX(FAR, 0, 0)"
 
 

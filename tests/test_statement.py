@@ -1,0 +1,54 @@
+"""The register of statements: every one is documented, and none is known twice."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from pathlib import Path
+
+import pytest
+
+import adamslite.elements
+from adamslite import functions, places, unsupported
+from adamslite.function import FUNCTIONS
+from adamslite.statement import STATEMENTS, Statement
+
+CLASSES = [pytest.param(cls, id=keyword) for keyword, cls in STATEMENTS.items()]
+NUMERIC = ("number", "vector", "expression")
+
+
+def test_there_is_one_file_for_each_statement() -> None:
+    files = {Path(inspect.getfile(cls)).name for cls in STATEMENTS.values()}
+    folder = Path(adamslite.elements.__file__).parent
+    assert files == {path.name for path in folder.glob("*.py")} - {"__init__.py"}
+    assert len(files) == len(STATEMENTS)
+
+
+@pytest.mark.parametrize("cls", CLASSES)
+def test_a_statement_says_what_it_is(cls: type[Statement]) -> None:
+    assert cls.__doc__
+    assert "Equation" in sys.modules[cls.__module__].__doc__ or cls.keyword == "REQUEST"
+    for argument in cls.arguments.values():
+        assert argument.help and not argument.help.endswith(".")
+        assert argument.unit or argument.kind not in NUMERIC
+        assert set(argument.supported) <= set(argument.options)
+
+
+@pytest.mark.parametrize("cls", CLASSES)
+def test_keywords_of_a_statement_are_distinct(cls: type[Statement]) -> None:
+    keys = [key for a in cls.arguments.values() for key in a.keys or a.options]
+    assert len(keys) == len(set(keys))
+    assert not set(keys) & set(cls.planned)
+    assert all(key == key.upper() for key in keys)
+
+
+def test_what_is_supported_is_not_listed_as_missing() -> None:
+    assert not set(STATEMENTS) & (unsupported.STATEMENTS | unsupported.COMMANDS)
+    assert functions and not set(FUNCTIONS) & unsupported.FUNCTIONS
+
+
+def test_the_grammar_knows_form_and_no_vocabulary() -> None:
+    words = {*STATEMENTS, *FUNCTIONS, *unsupported.STATEMENTS}
+    for path in places.find("grammar").glob("*.lark"):
+        rules = "\n".join(line.partition("//")[0] for line in path.read_text().splitlines())
+        assert not words & set(rules.replace("|", " ").split())
