@@ -125,10 +125,22 @@ def test_carets_stand_below_what_is_meant() -> None:
 # ---- any text ---------------------------------------------------------------------------------
 
 PIECES = [
-    *"()[],;:=/\\*+-!&'\"\n .019DEaΔ%\x00", "\n, ", "PART/", "MARKER/4", "SFORCE/1, ", "I=1", "IF(1:",
-    "MAX(", "DX(1", "VARVAL(d(Dm)/dt)", "FUNCTION=", "QP=", "ACCGRAV/", "END", "1D-3", "90D", "E999",
-    "\\Delta ", "ground", "! adams_view_name='a'\n", "VARIABLE/a, FUNCTION=", "INTEGRATOR/", "SIM/D,",
-]  # fmt: skip
+    *"()[],;:=/\\*+-!&'\"\n .019DEaΔ%\x00",
+    *(
+        "\n, ",
+        "PART/",
+        "MARKER/4",
+        "SFORCE/1, ",
+        "I=1",
+        "IF(1:",
+        "MAX(",
+        "DX(1",
+        "FUNCTION=",
+        "QP=",
+    ),
+    *("VARVAL(d(Dm)/dt)", "ACCGRAV/", "END", "1D-3", "90D", "E999", "\\Delta ", "ground"),
+    *("! adams_view_name='a'\n", "VARIABLE/a, FUNCTION=", "INTEGRATOR/", "SIM/D,"),
+]
 
 
 @settings(deadline=None, max_examples=300)
