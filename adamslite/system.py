@@ -124,7 +124,7 @@ class System:
         self.W, self.F, self.x = np.zeros(self.nw + 1), np.zeros(nz + 1), np.zeros(nz + 1)
         self.pivot0 = np.zeros(nz + 1)
         self.history, self.trial = np.zeros(8 * w + 160), np.zeros(3 * w + 3)
-        self.coef, self.report = np.zeros(12), np.zeros(len(base.REPORT))
+        self.coef, self.report = np.zeros(16), np.zeros(len(base.REPORT))
         self.settings, self.count = np.zeros(len(base.SETTINGS)), _ints([0] * len(base.COUNTS))
         self.times, self.record = np.zeros(1), np.zeros(1)
         self.gravity = np.asarray(self.model.deck.gravity, dtype=float)

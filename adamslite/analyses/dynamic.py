@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import Any
 
@@ -60,17 +60,17 @@ def run_dynamic(
 
 
 def _watched(system: System, watch: Callable[[float, float], None] | None, end: float) -> int:
-    found: list[int] = []
-    worker = threading.Thread(target=lambda: found.append(system.run(BDF)), daemon=True)
-    worker.start()
-    while worker.is_alive():
-        try:
-            worker.join(0.1)
-            if watch and worker.is_alive():
-                watch(float(system.report[base.AT]), end)
-        except KeyboardInterrupt:
-            system.settings[base.STOP] = 1.0
-    return found[0]
+    # Not Thread.join: in Python 3.11 an interrupted join takes a running thread for finished.
+    with ThreadPoolExecutor(max_workers=1) as pool:
+        running = pool.submit(system.run, BDF)
+        while not running.done():
+            try:
+                wait([running], timeout=0.1)
+                if watch and not running.done():
+                    watch(float(system.report[base.AT]), end)
+            except KeyboardInterrupt:
+                system.settings[base.STOP] = 1.0
+        return running.result()
 
 
 def counters(system: System) -> dict[str, Any]:

@@ -78,14 +78,25 @@ MAX_ORDER = 5
 ROWS = MAX_ORDER + 3
 # Newton stops when the estimated remaining error is this share of ERROR.
 CORRECTOR_SHARE = 0.05
+# The next step aims at an estimated error below ERROR by these factors (at a higher order: more caution).
+SAFETY, SAFETY_UP = 3.0, 4.5
 # The factored matrix is kept while its cu is within this ratio of the present one.
 KEEP_RATIO = 0.25
+# ... and for this many steps.
+KEEP_STEPS = 20.0
+# The rate of convergence is not believed to be better than this, and is doubted twice as much after every
+# step that needed one iteration, because the matrix grows old unseen.
+LEAST_RATE = 0.02
 # Rotation vectors are counted anew from the present attitude beyond this length (squared).
-REBASE = 0.25
+REBASE = 0.01
 # A sign change of the effective mass is approached to this share of HMAX.
 SINGULAR_RESOLUTION = 1e-6
-# Order is cut to 2 when this many of the last 50 tries at order 3 or more were rejected.
-STIFF_REJECTIONS = 8
+# Orders above 2 are unstable on weakly damped stiff modes; the symptom is many rejections while the run
+# advances far less than before.  In a window of tries: more rejections than this at order 3 and above,
+# and less than this share of the time covered by the best window.
+WINDOW = 50
+STIFF_REJECTIONS = 7
+STIFF_SHARE = 0.2
 
 
 @native
@@ -188,28 +199,30 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, state: Reals, si2: bool
     last = 0.0
     for iteration in range(int(P.settings[MAX_IT])):
         motion_from_increments(P, cu, yp, psi, si2)
-        if state[0] == 0.0 or abs(cu / state[0] - 1.0) > KEEP_RATIO:
+        if state[0] == 0.0 or abs(cu / state[0] - 1.0) > KEEP_RATIO or state[4] >= KEEP_STEPS:
             if not newton_matrix(P, L, phases, cu, P.q, v, P.u):
                 state[0] = 0.0
                 return False
-            state[0], state[1], state[2] = cu, 1.0, 1.0
+            state[0], state[1], state[2], state[4] = cu, 1.0, 1.0, 0.0
         residual(P, phases, P.F)
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
         ratio = 2.0 / (1.0 + cu / state[0])
         if ratio != 1.0:
             for k in range(P.sizes[NZ]):
                 P.F[k] *= ratio
-        size = increment_norm(P, P.F, P.q, P.u, P.z, tested)
+        size = increment_norm(P, P.F, tested, si2)
         apply_increment(P, P.F, P.q, P.z, P.mu, si2)
         P.count[NEWTON] += 1
         if not size < 1e12:
             return False
         if iteration > 0:
-            state[1] = max(0.2 * state[1], size / last)
+            state[1] = max(LEAST_RATE, size / last)
             if state[1] > 0.9 and size > tolerance:
                 return False
         if size * min(1.0, state[1] / max(1e-3, 1.0 - min(state[1], 0.999))) <= tolerance:
             motion_from_increments(P, cu, yp, psi, si2)
+            if iteration == 0:
+                state[1] = min(1.0, 2.0 * state[1])
             return True
         last = size
     return False
@@ -331,8 +344,9 @@ def bdf(P: Problem, L: Plan) -> int:
     track(P)
     next_record = record_at(P, L, D, w, 0, t, h, 0)
     k, equal, fresh_starts, tries, bad = 1, 0, 0, 0, 0
+    travelled, farthest = 0.0, 0.0
     state = P.coef[5:]
-    state[0], state[1], state[2] = 0.0, 1.0, 0.0
+    state[0], state[1], state[2], state[4] = 0.0, 1.0, 0.0, 0.0
     while t < t_end:
         if h > P.settings[H_MAX] * 1.0000001:
             change_step(D, w, k, P.settings[H_MAX] / h)
@@ -387,10 +401,10 @@ def bdf(P: Problem, L: Plan) -> int:
             if not norm < 1e12:
                 leave(P, D, w)
                 return NOT_FINITE
-            factor = max(0.2, 0.9 * norm ** (-1.0 / (k + 1)))
+            factor = max(0.2, (SAFETY * norm) ** (-1.0 / (k + 1)))
             bad += 1 if k > 2 else 0
-            if bad >= STIFF_REJECTIONS and k > 2:
-                k_max, k, bad = 2, 2, 0
+            if bad > STIFF_REJECTIONS and travelled < STIFF_SHARE * farthest:
+                k_max, k, bad = 2, min(k, 2), 0
             for i in range(first):
                 P.z[i] = P.rz[i]
             change_step(D, w, k, factor)
@@ -409,6 +423,7 @@ def bdf(P: Problem, L: Plan) -> int:
             continue
         P.count[STEPS] += 1
         state[2], fresh_starts = 0.0, 0
+        state[4] += 1.0
         for i in range(w):
             D[above + i] = psi[i] - D[row + i]
             D[row + i] = psi[i]
@@ -429,8 +444,10 @@ def bdf(P: Problem, L: Plan) -> int:
         track(P)
         rebase(P, D, w, k)
         equal += 1
-        if tries % 50 == 0:
-            bad = 0
+        travelled += h
+        if tries % WINDOW == 0:
+            farthest = max(farthest, travelled)
+            travelled, bad = 0.0, 0
         if equal < k + 1:
             continue
         k_new = choose_order(P, D, w, n, ns, si2, k, k_max, norm, h, state)
@@ -461,17 +478,17 @@ def choose_order(P: Problem, D: Reals, w: int, n: int, ns: int, si2: bool, k: in
     """
     y = D[0:]
     tol = P.settings[ERROR]
-    same = 0.9 * max(norm, 1e-10) ** (-1.0 / (k + 1))
+    same = max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))
     best, factor = k, same
     if k > 1:
         low = weighted(D, k, w, n, ns, y, si2, P.report) / (k * tol)
-        f = 0.9 * max(low, 1e-10) ** (-1.0 / k)
+        f = max(SAFETY * low, 1e-10) ** (-1.0 / k)
         capped = h * min(f, same) >= P.settings[H_MAX]
         if f > factor and not capped:
             best, factor = k - 1, f
     if k < k_max:
         high = weighted(D, k + 2, w, n, ns, y, si2, P.report) / ((k + 2) * tol)
-        f = 0.9 * max(high, 1e-10) ** (-1.0 / (k + 2))
+        f = max(SAFETY_UP * high, 1e-10) ** (-1.0 / (k + 2))
         capped = h * min(f, factor) >= P.settings[H_MAX]
         if f > factor or (capped and high < norm):
             best, factor = k + 1, f

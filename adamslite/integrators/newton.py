@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from adamslite.translate import native
 
-from adamslite.integrators.base import FACTORIZATIONS, HOLONOMIC, NB, NS, NV, M, N
+from adamslite.integrators.base import FACTORIZATIONS, HOLONOMIC, NB, NS, NV, NZ, M, N
 from adamslite.integrators.equations import (
     BODY,
     PART,
@@ -115,19 +115,25 @@ def apply_increment(P: Problem, dz: Reals, q: Reals, z: Reals, mu: Reals, si2: b
 
 
 @native
-def increment_norm(P: Problem, dz: Reals, q: Reals, u: Reals, z: Reals, cu: float) -> float:
+def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
     """Largest increment of what the error test looks at, each against max(1, |value|).
 
     Positions and rotations; velocities (cu times those) when ``cu`` is not zero; variables and states.
+    When constraints tie velocities of different size together (``tied``), an error that is small
+    against one is large against another, so increments of bodies count as they are,
+    and so do those of mu, which are velocities.
     Increments of q at round-off count as none, because at tiny steps they are all there is.
     """
     largest = 0.0
-    n = P.sizes[N]
+    n, q, u, z = P.sizes[N], P.q, P.u, P.z
     for i in range(n):
         change = abs(dz[i])
         size = change / max(1.0, abs(q[i]))
-        if size > ROUND_OFF or not size <= ROUND_OFF:
-            size = max(size, cu * change / max(1.0, abs(u[i])))
+        if size > ROUND_OFF:
+            if tied:
+                size = max(change, cu * change)
+            else:
+                size = max(size, cu * change / max(1.0, abs(u[i])))
         if not size <= largest:
             largest = size
     first = P.sizes[M]
@@ -135,4 +141,8 @@ def increment_norm(P: Problem, dz: Reals, q: Reals, u: Reals, z: Reals, cu: floa
         size = abs(dz[n + k]) / max(1.0, abs(z[k]))
         if not size <= largest:
             largest = size
+    if tied:
+        for k in range(P.sizes[NZ] - P.sizes[HOLONOMIC], P.sizes[NZ]):
+            if not abs(dz[k]) <= largest:
+                largest = abs(dz[k])
     return largest
