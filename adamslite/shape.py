@@ -8,7 +8,8 @@ the statement as its physics sees it, with frames for markers and symbols for nu
 A bound tree is one of
 
     ("p", n) parameter    ("c", value) constant of the shape    ("t",) ("mode",)    ("m", frame)
-    ("o", op, args)       ("f", function, args)                 ("z", node, component) unknown
+    ("o", op, args)       ("f", function, args)    ("s", keyword, arguments) another statement
+    ("v", trees)          ("z", node, component) unknown
     ("dif", node)         ("sig", n, order) time-only variable  ("e", n) element    ("d", tree)
 """
 
@@ -21,11 +22,11 @@ from typing import Any
 from adamslite import functions  # noqa: F401  registers the deck functions
 from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.function import FUNCTIONS
-from adamslite.statement import Statement
+from adamslite.statement import STATEMENTS, Statement
 from adamslite.symbolic import ORIGIN, Load, Scope, Slot
 
 Tree = tuple
-IGNORED = ("text", "texts", "references")
+IGNORED = ("text", "texts")
 
 
 class ForceLoop(Exception):
@@ -102,10 +103,18 @@ class Binder:
         if argument.kind == "vector":
             return ("v", tuple(self.number(v) for v in value))
         if argument.kind == "reference":
-            if argument.to == "MARKER":
-                return self.marker(value)
-            return self.marker(("PART", value)) if argument.to == "PART" else ("c", None)
+            return self._referred(argument.to, value)
+        if argument.kind == "references":
+            return ("v", tuple(self._referred(argument.to, v) for v in value))
         return ("c", value)
+
+    def _referred(self, keyword: str, value: Any) -> Tree:
+        """A marker or part as a frame; any other statement with its own arguments."""
+        if keyword == "MARKER":
+            return self.marker(value)
+        if keyword == "PART":
+            return self.marker(("PART", value))
+        return ("s", keyword, self.statement(self.model.element(keyword, value)))
 
     def expression(self, node: Node) -> Tree:
         constant = self.model.constant(node)
@@ -267,6 +276,8 @@ class Reader:
             return tree[1]
         if kind == "v":
             return tuple(self(t) for t in tree[1])
+        if kind == "s":
+            return View(STATEMENTS[tree[1]], {name: self(t) for name, t in tree[2]}, [])
         if kind == "z":
             return self.scope.symbol("z", self.n_bodies + tree[1], tree[2])
         if kind == "sig":
@@ -313,8 +324,6 @@ def symbolic_view(
     keyword: str, fields: Tree, node: int, width: int, scope: Scope, n_bodies: int
 ) -> View:
     """The statement of bound fields; ``node`` is the slot of its own unknowns or -1."""
-    from adamslite.statement import STATEMENTS
-
     cls = STATEMENTS[keyword]
     values = {name: scope.read(tree) for name, tree in fields}
     if keyword == "DIFF" and node >= 0:

@@ -118,12 +118,13 @@ class System:
         w = 2 * n + self.ns
         for name in ("q", "u", "a", "ra"):
             setattr(self, name, np.zeros(n + 1))
-        for name in ("z", "rz"):
+        for name in ("z", "rz", "pz"):
             setattr(self, name, np.zeros(rest + 1))
         self.rd, self.mu = np.zeros(self.ns + 1), np.zeros(self.holonomic + 1)
         self.W, self.F, self.x = np.zeros(self.nw + 1), np.zeros(nz + 1), np.zeros(nz + 1)
         self.pivot0 = np.zeros(nz + 1)
         self.history, self.trial = np.zeros(8 * w + 160), np.zeros(3 * w + 3)
+        self.control = np.zeros(24)
         self.coef, self.report = np.zeros(16), np.zeros(len(base.REPORT))
         self.settings, self.count = np.zeros(len(base.SETTINGS)), _ints([0] * len(base.COUNTS))
         self.times, self.record = np.zeros(1), np.zeros(1)

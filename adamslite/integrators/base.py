@@ -32,6 +32,7 @@ ra rz rd    accelerations, the rest and derivatives of states where a record is 
 W F         workspace, residual;  J D Jacobian blocks;  LV LA factors (Newton, acceleration)
 x work coef   workspace;  pivots pivots_a   row orders of LV and LA;  pivot0 (nz,) pivots of the first acceleration matrix
 history     backward differences of (q, u, s);  trial three such vectors
+control pz  the integrator's own numbers;  multipliers and variables one step earlier
 record      (nt, nw + n_out) workspace and outputs at the asked times
 ==========  =============================================================================================
 """
@@ -65,7 +66,7 @@ DONE, STEP_TOO_SMALL, NEWTON_FAILED, SINGULAR_MASS, NOT_FINITE, BROKEN_START, IN
 INT_FIELDS = set("sizes body scalar group copies turning mixed unit count pivots pivots_a".split())
 FIELDS = (
     "sizes body mass inertia weight gravity base scalar group copies turning mixed unit settings count times "
-    "report q u a z mu ra rz rd W F J D LV LA x work coef pivots pivots_a pivot0 history trial record"
+    "report q u a z mu ra rz rd W F J D LV LA x work coef pivots pivots_a pivot0 history trial control pz record"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

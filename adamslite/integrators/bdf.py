@@ -94,9 +94,20 @@ SINGULAR_RESOLUTION = 1e-6
 # Orders above 2 are unstable on weakly damped stiff modes; the symptom is many rejections while the run
 # advances far less than before.  In a window of tries: more rejections than this at order 3 and above,
 # and less than this share of the time covered by the best window.
-WINDOW = 50
-STIFF_REJECTIONS = 7
+WINDOW = 50.0
+STIFF_REJECTIONS = 7.0
 STIFF_SHARE = 0.2
+# A step grows only when it pays for a new matrix, and never by more than this at once.
+LEAST_GROWTH, MOST_GROWTH = 1.2, 10.0
+# A pivot of the acceleration matrix below this share of its first value has vanished.
+VANISHING = 1e-3
+
+RUNNING = -1
+# Places in P.control.
+(
+    NOW, H, K, K_TOP, EQUAL, NEXT, H_LAST, FACTORED, RATE, FRESH, AGE, RETRIES, TRIES, BAD, TRAVELLED,
+    FARTHEST, SIGNATURE,
+) = range(17)  # fmt: skip
 
 
 @native
@@ -186,12 +197,9 @@ def motion_from_increments(P: Problem, cu: float, yp: Reals, psi: Reals, si2: bo
 
 
 @native
-def correct(P: Problem, L: Plan, phases: int, cu: float, state: Reals, si2: bool) -> bool:
-    """Newton iterations from the predictor; True when converged.
-
-    ``state``: cu of the factored matrix (0: none), convergence rate, matrix made in this step.
-    """
-    n = P.sizes[N]
+def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
+    """Newton iterations from the predictor; True when converged."""
+    n, C = P.sizes[N], P.control
     w = 2 * n + P.sizes[NS]
     yp, psi, v = P.trial[0:], P.trial[w:], P.trial[2 * w:]
     tolerance = CORRECTOR_SHARE * P.settings[ERROR]
@@ -199,33 +207,46 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, state: Reals, si2: bool
     last = 0.0
     for iteration in range(int(P.settings[MAX_IT])):
         motion_from_increments(P, cu, yp, psi, si2)
-        if state[0] == 0.0 or abs(cu / state[0] - 1.0) > KEEP_RATIO or state[4] >= KEEP_STEPS:
+        if not keeps_matrix(C, cu):
             if not newton_matrix(P, L, phases, cu, P.q, v, P.u):
-                state[0] = 0.0
+                C[FACTORED] = 0.0
                 return False
-            state[0], state[1], state[2], state[4] = cu, 1.0, 1.0, 0.0
+            C[FACTORED], C[RATE], C[FRESH], C[AGE] = cu, 1.0, 1.0, 0.0
         residual(P, phases, P.F)
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
-        ratio = 2.0 / (1.0 + cu / state[0])
-        if ratio != 1.0:
-            for k in range(P.sizes[NZ]):
-                P.F[k] *= ratio
+        scale_increment(P, 2.0 / (1.0 + cu / C[FACTORED]))
         size = increment_norm(P, P.F, tested, si2)
         apply_increment(P, P.F, P.q, P.z, P.mu, si2)
         P.count[NEWTON] += 1
         if not size < 1e12:
             return False
         if iteration > 0:
-            state[1] = max(LEAST_RATE, size / last)
-            if state[1] > 0.9 and size > tolerance:
+            C[RATE] = max(LEAST_RATE, size / last)
+            if C[RATE] > 0.9 and size > tolerance:
                 return False
-        if size * min(1.0, state[1] / max(1e-3, 1.0 - min(state[1], 0.999))) <= tolerance:
+        if size * min(1.0, C[RATE] / max(1e-3, 1.0 - min(C[RATE], 0.999))) <= tolerance:
             motion_from_increments(P, cu, yp, psi, si2)
             if iteration == 0:
-                state[1] = min(1.0, 2.0 * state[1])
+                C[RATE] = min(1.0, 2.0 * C[RATE])
             return True
         last = size
     return False
+
+
+@native
+def keeps_matrix(C: Reals, cu: float) -> bool:
+    """Whether the factored matrix still serves for ``cu``."""
+    if C[FACTORED] == 0.0 or C[AGE] >= KEEP_STEPS:
+        return False
+    return abs(cu / C[FACTORED] - 1.0) <= KEEP_RATIO
+
+
+@native
+def scale_increment(P: Problem, ratio: float) -> None:
+    """Correct the increment for a matrix factored with another cu (Brenan et al., eq. 5.2.12)."""
+    if ratio != 1.0:
+        for k in range(P.sizes[NZ]):
+            P.F[k] *= ratio
 
 
 @native
@@ -324,176 +345,257 @@ def to_values(D: Reals, w: int, i: int, rows: int) -> None:
 @native
 def bdf(P: Problem, L: Plan) -> int:
     """Integrate to the end time; returns an outcome."""
-    n, ns, si2 = P.sizes[N], P.sizes[NS], P.sizes[SI2] == 1
-    stabilised = si2 and P.sizes[HOLONOMIC] > 0
-    w = 2 * n + ns
-    phases = STABILISED if stabilised else INDEX3
-    D, yp, psi = P.history, P.trial[0:], P.trial[w:]
-    t, t_end, error = P.settings[T], P.settings[T_END], P.settings[ERROR]
-    k_max = min(MAX_ORDER, int(P.settings[K_MAX]))
-    if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
-        P.report[AT] = t
+    outcome = begin(P, L)
+    while outcome == RUNNING:
+        outcome = advance(P, L)
+    restore_state(P, P.history, 2 * P.sizes[N] + P.sizes[NS], P.control[NOW])
+    P.report[AT] = P.control[NOW]
+    return outcome
+
+
+@native
+def begin(P: Problem, L: Plan) -> int:
+    """Accelerations at the start, history of order 1, first record."""
+    C, t = P.control, P.settings[T]
+    w = 2 * P.sizes[N] + P.sizes[NS]
+    for i in range(P.control.size):
+        C[i] = 0.0
+    C[NOW], C[RATE], C[K], C[K_TOP] = t, 1.0, 1.0, min(float(MAX_ORDER), P.settings[K_MAX])
+    started = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
+    h = first_step(P, w)
+    C[H] = h
+    start_values(P, P.history, w, h)
+    if not started:
         return BROKEN_START
-    signature = mass_signature(P, L, P.pivot0) if P.sizes[IMPLICIT_MASS] else 0
-    for i in range(n):
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
+    keep_algebraic(P)
+    for i in range(P.z.size):
+        P.pz[i] = P.rz[i]
+    for i in range(P.sizes[N]):
         P.ra[i] = P.a[i]
+    track(P)
+    C[NEXT] = float(record_at(P, L, P.history, w, 0, t, h, 0))
+    restore_state(P, P.history, w, t)
+    return RUNNING
+
+
+@native
+def advance(P: Problem, L: Plan) -> int:
+    """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
+    C = P.control
+    n, ns = P.sizes[N], P.sizes[NS]
+    w = 2 * n + ns
+    if C[NOW] >= P.settings[T_END]:
+        return DONE
+    if P.settings[STOP] != 0.0:
+        return INTERRUPTED
+    limit_step(P, w)
+    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], C[K]
+    if C[H] < P.settings[H_MIN]:
+        return stuck(P, L, w)
+    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    cu = gamma(int(C[K])) / C[H]
+    start_try(P, w)
+    if not correct(P, L, STABILISED if stabilised else INDEX3, cu, stabilised):
+        return after_failure(P, w)
+    norm = local_error(P, w)
+    P.report[HOW_MUCH] = norm
+    if not norm <= 1.0:
+        return after_rejection(P, w, norm)
+    if P.sizes[IMPLICIT_MASS]:
+        if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
+            return near_singularity(P, w)
+    return accept(P, L, w, norm)
+
+
+@native
+def limit_step(P: Problem, w: int) -> None:
+    """Keep the step within HMAX and the end time."""
+    C = P.control
+    if C[H] > P.settings[H_MAX] * 1.0000001:
+        resize(P, w, P.settings[H_MAX] / C[H])
+    if C[NOW] + C[H] * 1.0000001 > P.settings[T_END]:
+        resize(P, w, (P.settings[T_END] - C[NOW]) / C[H])
+
+
+@native
+def resize(P: Problem, w: int, factor: float) -> None:
+    """Change the step and with it the history."""
+    change_step(P.history, w, int(P.control[K]), factor)
+    P.control[H] *= factor
+    P.control[EQUAL] = 0.0
+
+
+@native
+def start_try(P: Problem, w: int) -> None:
+    """Predicted values of all unknowns at the end of the step."""
+    n, ns, C = P.sizes[N], P.sizes[NS], P.control
+    first = P.sizes[M] + P.sizes[NV]
+    yp = P.trial[0:]
+    predict(P.history, w, int(C[K]), yp, P.trial[w:])
+    for i in range(n):
+        P.q[i] = yp[i]
+    for i in range(ns):
+        P.z[first + i] = yp[2 * n + i]
+    ahead = C[H] / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
+    for i in range(first):
+        P.z[i] = P.rz[i] + min(ahead, 2.0) * (P.rz[i] - P.pz[i])
+    for i in range(P.mu.size):
+        P.mu[i] = 0.0
+    put_time(P, C[NOW] + C[H])
+
+
+@native
+def after_failure(P: Problem, w: int) -> int:
+    """The corrector failed: renew an old matrix, else cut the step."""
+    C = P.control
+    P.count[FAILURES] += 1
+    old = C[FRESH] == 0.0 and C[FACTORED] != 0.0
+    C[FACTORED] = 0.0
+    if old:
+        return RUNNING
+    C[RETRIES] += 1.0
+    C[FRESH] = 0.0
+    resize(P, w, 0.25)
+    return RUNNING
+
+
+@native
+def local_error(P: Problem, w: int) -> float:
+    """Estimated error over ERROR; leaves d in psi's place and y in the prediction's."""
+    n, ns, C = P.sizes[N], P.sizes[NS], P.control
+    first = P.sizes[M] + P.sizes[NV]
+    y, d = P.trial[0:], P.trial[w:]
+    for i in range(w):
+        value = P.q[i] if i < n else (P.u[i - n] if i < 2 * n else P.z[first + i - 2 * n])
+        d[i] = value - y[i]
+        y[i] = value
+    C[TRIES] += 1.0
+    size = weighted(d, 0, 0, n, ns, y, P.sizes[SI2] == 1, P.report)
+    return size / ((C[K] + 1.0) * P.settings[ERROR])
+
+
+@native
+def after_rejection(P: Problem, w: int, norm: float) -> int:
+    """The error was too large: a smaller step, and order 2 when the symptoms say so."""
+    C = P.control
+    P.count[REJECTED] += 1
+    C[RETRIES], C[FRESH] = 0.0, 0.0
+    if not norm < 1e12:
+        return NOT_FINITE
+    factor = max(0.2, (SAFETY * norm) ** (-1.0 / (C[K] + 1.0)))
+    if C[K] > 2.0:
+        C[BAD] += 1.0
+    if C[BAD] > STIFF_REJECTIONS and C[TRAVELLED] < STIFF_SHARE * C[FARTHEST]:
+        C[K_TOP], C[K], C[BAD] = 2.0, min(C[K], 2.0), 0.0
+    resize(P, w, factor)
+    return RUNNING
+
+
+@native
+def near_singularity(P: Problem, w: int) -> int:
+    """The acceleration matrix became singular within the step: approach the place, never pass it."""
+    if P.control[H] < SINGULAR_RESOLUTION * P.settings[H_MAX]:
+        return SINGULAR_MASS
+    P.control[FRESH] = 0.0
+    resize(P, w, 0.25)
+    return RUNNING
+
+
+@native
+def stuck(P: Problem, L: Plan, w: int) -> int:
+    """Why the step became too small: a vanishing pivot of the acceleration matrix, or something else."""
+    restore_state(P, P.history, w, P.control[NOW])
+    if P.sizes[IMPLICIT_MASS]:
+        if mass_signature(P, L, P.x) != int(P.control[SIGNATURE]):
+            return SINGULAR_MASS
+        for k in range(P.sizes[NZ]):
+            if not abs(P.x[k]) > VANISHING * abs(P.pivot0[k]):
+                return SINGULAR_MASS
+    return NEWTON_FAILED if P.control[RETRIES] > 2.0 else STEP_TOO_SMALL
+
+
+@native
+def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
+    """Move the history on, write records, choose the next order and step."""
+    C, D = P.control, P.history
+    k = int(C[K])
+    P.count[STEPS] += 1
+    C[RETRIES], C[FRESH] = 0.0, 0.0
+    C[AGE] += 1.0
+    extend_history(D, P.trial[w:], w, k)
+    t, h = C[NOW] + C[H], C[H]
+    if t + 1e-7 * h > P.settings[T_END]:
+        t = P.settings[T_END]
+    C[NOW], C[H_LAST] = t, h
+    for i in range(P.z.size):
+        P.pz[i] = P.rz[i]
+    keep_algebraic(P)
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    note_violation(P, t)
+    following = record_at(P, L, D, w, k, t, h, int(C[NEXT]))
+    if following < 0:
+        return SINGULAR_MASS
+    C[NEXT] = float(following)
+    restore_state(P, D, w, t)
+    track(P)
+    rebase(P, D, w, k)
+    C[EQUAL] += 1.0
+    C[TRAVELLED] += h
+    if C[TRIES] >= WINDOW:
+        C[FARTHEST] = max(C[FARTHEST], C[TRAVELLED])
+        C[TRAVELLED], C[BAD], C[TRIES] = 0.0, 0.0, 0.0
+    if C[EQUAL] > C[K]:
+        choose_order(P, w, norm)
+    return RUNNING
+
+
+@native
+def extend_history(D: Reals, d: Reals, w: int, k: int) -> None:
+    """Differences of the accepted value: D_{k+1} = d, D_j += D_{j+1}."""
+    row, above = (k + 1) * w, (k + 2) * w
+    for i in range(w):
+        D[above + i] = d[i] - D[row + i]
+        D[row + i] = d[i]
+    for j in range(k, -1, -1):
+        for i in range(w):
+            D[j * w + i] += D[(j + 1) * w + i]
+
+
+@native
+def keep_algebraic(P: Problem) -> None:
+    """Remember multipliers and variables of the accepted state."""
     for i in range(P.z.size):
         P.rz[i] = P.z[i]
-    h = first_step(P, w)
-    start_values(P, D, w, h)
-    track(P)
-    next_record = record_at(P, L, D, w, 0, t, h, 0)
-    k, equal, fresh_starts, tries, bad = 1, 0, 0, 0, 0
-    travelled, farthest = 0.0, 0.0
-    state = P.coef[5:]
-    state[0], state[1], state[2], state[4] = 0.0, 1.0, 0.0, 0.0
-    while t < t_end:
-        if h > P.settings[H_MAX] * 1.0000001:
-            change_step(D, w, k, P.settings[H_MAX] / h)
-            h, equal = P.settings[H_MAX], 0
-        if t + h * 1.0000001 > t_end:
-            change_step(D, w, k, (t_end - t) / h)
-            h, equal = t_end - t, 0
-        if P.settings[STOP] != 0.0:
-            leave(P, D, w)
-            return INTERRUPTED
-        P.report[AT], P.report[STEP], P.report[ORDER] = t, h, k
-        if h < P.settings[H_MIN]:
-            leave(P, D, w)
-            return STEP_TOO_SMALL if fresh_starts < 3 else NEWTON_FAILED
-        cu = gamma(k) / h
-        predict(D, w, k, yp, psi)
-        for i in range(n):
-            P.q[i] = yp[i]
-        first = P.sizes[M] + P.sizes[NV]
-        for i in range(ns):
-            P.z[first + i] = yp[2 * n + i]
-        for i in range(P.mu.size):
-            P.mu[i] = 0.0
-        put_time(P, t + h)
-        converged = correct(P, L, phases, cu, state, stabilised)
-        if not converged:
-            P.count[FAILURES] += 1
-            for i in range(first):
-                P.z[i] = P.rz[i]
-            if state[2] == 0.0 and state[0] != 0.0:
-                state[0] = 0.0
-                continue
-            fresh_starts += 1
-            change_step(D, w, k, 0.25)
-            h, equal = 0.25 * h, 0
-            state[0], state[2] = 0.0, 0.0
-            continue
-        tries += 1
-        # d goes where the history expects the next difference, D_{k+1}, after its old value moves on
-        row, above = (k + 1) * w, (k + 2) * w
-        for i in range(w):
-            y = P.q[i] if i < n else (P.u[i - n] if i < 2 * n else P.z[first + i - 2 * n])
-            d = y - yp[i]
-            psi[i] = d
-            yp[i] = y
-        size = difference_size(psi, yp, n, ns, si2, P.report)
-        norm = size / ((k + 1) * error)
-        P.report[HOW_MUCH] = norm
-        if not norm <= 1.0:
-            P.count[REJECTED] += 1
-            fresh_starts = 0
-            if not norm < 1e12:
-                leave(P, D, w)
-                return NOT_FINITE
-            factor = max(0.2, (SAFETY * norm) ** (-1.0 / (k + 1)))
-            bad += 1 if k > 2 else 0
-            if bad > STIFF_REJECTIONS and travelled < STIFF_SHARE * farthest:
-                k_max, k, bad = 2, min(k, 2), 0
-            for i in range(first):
-                P.z[i] = P.rz[i]
-            change_step(D, w, k, factor)
-            h, equal = h * factor, 0
-            state[2] = 0.0
-            continue
-        if P.sizes[IMPLICIT_MASS] and mass_signature(P, L, P.x) != signature:
-            if h < SINGULAR_RESOLUTION * P.settings[H_MAX]:
-                leave(P, D, w)
-                return SINGULAR_MASS
-            for i in range(first):
-                P.z[i] = P.rz[i]
-            change_step(D, w, k, 0.25)
-            h, equal = 0.25 * h, 0
-            state[2] = 0.0
-            continue
-        P.count[STEPS] += 1
-        state[2], fresh_starts = 0.0, 0
-        state[4] += 1.0
-        for i in range(w):
-            D[above + i] = psi[i] - D[row + i]
-            D[row + i] = psi[i]
-        for j in range(k, -1, -1):
-            for i in range(w):
-                D[j * w + i] += D[(j + 1) * w + i]
-        t = t_end if t + h * 1.0000001 > t_end else t + h
-        for i in range(first):
-            P.rz[i] = P.z[i]
-        for i in range(n):
-            P.ra[i] = P.a[i]
-        note_violation(P, t)
-        next_record = record_at(P, L, D, w, k, t, h, next_record)
-        if next_record < 0:
-            leave(P, D, w)
-            return SINGULAR_MASS
-        restore_state(P, D, w, t)
-        track(P)
-        rebase(P, D, w, k)
-        equal += 1
-        travelled += h
-        if tries % WINDOW == 0:
-            farthest = max(farthest, travelled)
-            travelled, bad = 0.0, 0
-        if equal < k + 1:
-            continue
-        k_new = choose_order(P, D, w, n, ns, si2, k, k_max, norm, h, state)
-        factor = state[3]
-        if k_new != k or factor >= 1.2 or factor < 0.9:
-            if factor > 1.0 or k_new != k:
-                factor = min(factor, 10.0)
-            k = k_new
-            change_step(D, w, k, factor)
-            h, equal = h * factor, 0
-    leave(P, D, w)
-    P.report[AT] = t
-    return DONE
 
 
 @native
-def difference_size(d: Reals, y: Reals, n: int, ns: int, si2: bool, report: Reals) -> float:
-    """Largest |d| against max(1, |y|) over the tested variables."""
-    return weighted(d, 0, 0, n, ns, y, si2, report)
-
-
-@native
-def choose_order(P: Problem, D: Reals, w: int, n: int, ns: int, si2: bool, k: int, k_max: int, norm: float, h: float, state: Reals) -> int:
+def choose_order(P: Problem, w: int, norm: float) -> None:
     """The order and the step ratio that promise the largest next step.
 
     When HMAX caps the step, the present order is kept unless a higher one is more accurate, because
-    "largest step" would always pick the lowest.  The ratio goes to ``state[3]``.
+    "largest step" would always pick the lowest.
     """
-    y = D[0:]
-    tol = P.settings[ERROR]
+    C, D, n, ns = P.control, P.history, P.sizes[N], P.sizes[NS]
+    k, si2, tol, room = int(C[K]), P.sizes[SI2] == 1, P.settings[ERROR], P.settings[H_MAX] / C[H]
     same = max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))
     best, factor = k, same
     if k > 1:
-        low = weighted(D, k, w, n, ns, y, si2, P.report) / (k * tol)
+        low = weighted(D, k, w, n, ns, D, si2, P.report) / (k * tol)
         f = max(SAFETY * low, 1e-10) ** (-1.0 / k)
-        capped = h * min(f, same) >= P.settings[H_MAX]
-        if f > factor and not capped:
+        if f > factor and min(f, same) < room:
             best, factor = k - 1, f
-    if k < k_max:
-        high = weighted(D, k + 2, w, n, ns, y, si2, P.report) / ((k + 2) * tol)
+    if k < int(C[K_TOP]):
+        high = weighted(D, k + 2, w, n, ns, D, si2, P.report) / ((k + 2) * tol)
         f = max(SAFETY_UP * high, 1e-10) ** (-1.0 / (k + 2))
-        capped = h * min(f, factor) >= P.settings[H_MAX]
-        if f > factor or (capped and high < norm):
+        if f > factor or (min(f, factor) >= room and high < norm):
             best, factor = k + 1, f
-    state[3] = min(factor, P.settings[H_MAX] / h)
-    return best
+    factor = min(factor, min(room, MOST_GROWTH))
+    if best != k or factor >= LEAST_GROWTH or factor < 0.9:
+        C[K] = float(best)
+        resize(P, w, factor)
 
 
 @native
@@ -507,9 +609,3 @@ def restore_state(P: Problem, D: Reals, w: int, t: float) -> None:
     for i in range(P.sizes[NS]):
         P.z[first + i] = D[2 * n + i]
     put_state(P, t, P.q, P.u, P.ra, P.z, P.rd)
-
-
-@native
-def leave(P: Problem, D: Reals, w: int) -> None:
-    """Leave the last accepted state in q, u and z."""
-    restore_state(P, D, w, P.report[AT])
