@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from adamslite.diagnostics import Diagnostic, sort_by_place
+from adamslite.effective_mass import effective_masses
 from adamslite.expression import Ref, walk
 from adamslite.messages import compose
 from adamslite.resolve import RESERVED
@@ -328,4 +329,4 @@ RULES: list[Rule] = [
     unit_system,
     *RUN_RULES,
 ]
-ADVICE: list[Rule] = []
+ADVICE: list[Rule] = [effective_masses]

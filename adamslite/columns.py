@@ -51,8 +51,6 @@ def angles_313(r: np.ndarray) -> np.ndarray:
     """psi, theta, phi (nt, 3) of attitudes (nt, 3, 3); phi = 0 where the two turns are one."""
     sine = np.hypot(r[:, 0, 2], r[:, 1, 2])
     regular = sine > ALIGNED
-    psi = np.where(
-        regular, np.arctan2(r[:, 0, 2], -r[:, 1, 2]), np.arctan2(r[:, 1, 0], r[:, 0, 0])
-    )
+    psi = np.where(regular, np.arctan2(r[:, 0, 2], -r[:, 1, 2]), np.arctan2(r[:, 1, 0], r[:, 0, 0]))
     phi = np.where(regular, np.arctan2(r[:, 2, 0], r[:, 2, 1]), 0.0)
     return np.column_stack([psi, np.arctan2(sine, r[:, 2, 2]), phi])

@@ -64,7 +64,7 @@ def compile_model(model: Model, progress: Any = None) -> Kernels:
         if getattr(statement, "result_names", ()):
             outputs.append((statement, statement.result_names))
             _add(groups, model, statement, "output")
-    fresh = sum(_compile(group) for group in groups.values())
+    fresh = sum(_compile(group, progress) for group in groups.values())
     addresses = native.addresses((group.code, _entry_points(group)) for group in groups.values())
     return Kernels(model, list(groups.values()), outputs, addresses, fresh)
 
@@ -173,12 +173,14 @@ def _rates(scope: Scope, expr: Any, order: int) -> list[Any]:
     return found
 
 
-def _compile(group: Group) -> bool:
+def _compile(group: Group, progress: Any) -> bool:
     """Fetch or make the object code; True when it was made."""
     made: list[tuple[str, dict]] = []
 
     def text_and_meta() -> tuple[str, dict]:
         if not made:
+            if progress is not None and group.face == "loads":
+                progress.say(f"compiling the expressions of {group.instances[0][0].label} (kept for later)")
             made.append(group.make())
         return made[0]
 

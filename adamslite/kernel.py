@@ -122,7 +122,9 @@ class Writer:
         if kind == "p":
             return self.b.real_at(leaf[1])
         if kind in ("t", "mode"):
-            return self.b.emit((kind,), f"load double, ptr {self._head(TIME if kind == 't' else MODE)}")
+            return self.b.emit(
+                (kind,), f"load double, ptr {self._head(TIME if kind == 't' else MODE)}"
+            )
         if kind in ("z", "dif"):
             return self.b.read("W", self.b.int_at(leaf[1]), leaf[2] if kind == "z" else 0)
         if kind == "dif1":
@@ -150,7 +152,9 @@ class Writer:
             for body, sign, lever in self._ends(load):
                 self._add_load(body, sign, force, torque, lever)
         for node, component, expr in out.rows:
-            self.b.accumulate("F", self.b.int_at(self.shape.row_at(node)), component, self.value(expr))
+            self.b.accumulate(
+                "F", self.b.int_at(self.shape.row_at(node)), component, self.value(expr)
+            )
 
     def _ends(self, load: Load) -> list[tuple[Slot, float, Vec]]:
         """The loaded bodies: slot, sign in the residual, lever of the force about the mass centre."""

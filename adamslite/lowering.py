@@ -159,7 +159,9 @@ class Builder:
         first = self.emit(("p", array, base), f"getelementptr double, ptr %{array}, i64 {base}")
         if not shift:
             return first
-        return self.emit(("p", array, base, shift), f"getelementptr double, ptr {first}, i64 {shift}")
+        return self.emit(
+            ("p", array, base, shift), f"getelementptr double, ptr {first}, i64 {shift}"
+        )
 
     def read(self, array: str, base: str, shift: int) -> str:
         """``array[base + shift]`` of an array this kernel does not write."""
@@ -207,9 +209,18 @@ class Lowering:
         rule = getattr(self, f"_{name}", None)
         if rule is not None:
             return rule
-        if name in ("sin", "cos", "exp", "log", "floor", "tan", "asin", "acos", "atan", "atan2") or (
-            name in ("sinh", "cosh", "tanh")
-        ):
+        if name in (
+            "sin",
+            "cos",
+            "exp",
+            "log",
+            "floor",
+            "tan",
+            "asin",
+            "acos",
+            "atan",
+            "atan2",
+        ) or (name in ("sinh", "cosh", "tanh")):
             return lambda e: self.b.call(name, *[self(a) for a in e.args])
         raise TypeError(f"no native code for {name}")
 

@@ -124,7 +124,9 @@ class Model:
         self.body_index: dict[tuple[str, Any], int] = {}
         self.bodies: list[Body] = []
         for statement in deck.statements:
-            if statement.keyword in ("PART", "POINT_MASS") and not getattr(statement, "ground", False):
+            if statement.keyword in ("PART", "POINT_MASS") and not getattr(
+                statement, "ground", False
+            ):
                 self.body_index[statement.keyword, statement.key] = len(self.bodies)
                 self.bodies.append(self._body(statement))
         found = [s for s in deck.statements if hasattr(s, "constraints")]

@@ -19,7 +19,7 @@ from adamslite.integrators import base
 from adamslite.model import Model, assemble
 from adamslite.outcomes import Outcome
 from adamslite.results import Results
-from adamslite.system import System
+from adamslite.system import System, engine
 
 TOLERANCE_OF_TIME = 1e-9
 
@@ -56,10 +56,12 @@ def simulate(
         When nothing says how long to run.
     """
     began = clock.process_time()
-    kernels = _compiled(scene, progress)
-    statements = (*kernels.model.deck.statements, *commands)
+    deck = _deck(scene)
+    statements = (*deck.statements, *commands)
     settings = _settings(statements, method=integrator, formulation=formulation, error=error, hmax=hmax)
     times = _times(statements, end, steps)
+    kernels = _compiled(scene, progress)
+    engine(progress)
     system = System(kernels, settings.formulation == "SI2")
     ready = clock.process_time()
     unclosed = initial_conditions(system)
@@ -69,6 +71,12 @@ def simulate(
         outcome = run_dynamic(system, times, settings, progress)
     done = clock.process_time()
     return _results(system, outcome, unclosed, settings, (ready - began, done - ready))
+
+
+def _deck(scene: Any) -> Any:
+    if isinstance(scene, Kernels):
+        return scene.model.deck
+    return scene.deck if isinstance(scene, Model) else scene
 
 
 def _compiled(scene: Any, progress: Any) -> Kernels:

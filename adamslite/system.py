@@ -7,7 +7,6 @@ stabilised form, multipliers of the velocity rows; every equation has the row of
 from __future__ import annotations
 
 import ctypes
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -34,12 +33,22 @@ PHASES = {
 RESIDUAL, JACOBIAN, ACCELERATIONS, BDF = range(4)
 
 
-@cache
-def engine() -> Any:
+def engine(progress: Any = None) -> Any:
     """The native entry ``run(P, L, operation, phases)``; built once per version and processor."""
+    if not _engine:
+        _engine.append(_load_engine(progress))
+    return _engine[0]
+
+
+_engine: list[Any] = []
+
+
+def _load_engine(progress: Any) -> Any:
     key = "engine" + native.digest(version_of("integrators", "translate", "lowering"))
 
     def build() -> bytes:
+        if progress is not None:
+            progress.say("compiling the integrators, once after installing: takes a few seconds")
         from adamslite.integrators.entry import engine_text
 
         return native.object_code(engine_text())

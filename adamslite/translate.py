@@ -32,10 +32,31 @@ METADATA = """!0 = !{!"adamslite"}
 !5 = !{!"integer", !0}
 !6 = !{!"address", !0}
 !7 = !{}"""
-INT_OPS = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.FloorDiv: "sdiv", ast.Mod: "srem", ast.BitAnd: "and"}
+INT_OPS = {
+    ast.Add: "add",
+    ast.Sub: "sub",
+    ast.Mult: "mul",
+    ast.FloorDiv: "sdiv",
+    ast.Mod: "srem",
+    ast.BitAnd: "and",
+}
 FLOAT_OPS = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
-INT_TESTS = {ast.Lt: "slt", ast.LtE: "sle", ast.Gt: "sgt", ast.GtE: "sge", ast.Eq: "eq", ast.NotEq: "ne"}
-FLOAT_TESTS = {ast.Lt: "olt", ast.LtE: "ole", ast.Gt: "ogt", ast.GtE: "oge", ast.Eq: "oeq", ast.NotEq: "une"}
+INT_TESTS = {
+    ast.Lt: "slt",
+    ast.LtE: "sle",
+    ast.Gt: "sgt",
+    ast.GtE: "sge",
+    ast.Eq: "eq",
+    ast.NotEq: "ne",
+}
+FLOAT_TESTS = {
+    ast.Lt: "olt",
+    ast.LtE: "ole",
+    ast.Gt: "ogt",
+    ast.GtE: "oge",
+    ast.Eq: "oeq",
+    ast.NotEq: "une",
+}
 
 REGISTERED: dict[str, Callable[..., Any]] = {}
 
@@ -204,7 +225,9 @@ class Translator:
     def on_AugAssign(self, node: ast.AugAssign) -> None:
         if isinstance(node.target, ast.Name):
             old = self.load_local(node.target.id)
-            self.assign(node.target, self.arithmetic(node, node.op, old, self.expression(node.value)))
+            self.assign(
+                node.target, self.arithmetic(node, node.op, old, self.expression(node.value))
+            )
             return
         address, kind = self.element(node.target)
         old = self.load(address, kind)
@@ -362,7 +385,9 @@ class Translator:
     def of_BinOp(self, node: ast.BinOp) -> Value:
         if isinstance(node.op, ast.Pow):
             return self.power(node)
-        return self.arithmetic(node, node.op, self.expression(node.left), self.expression(node.right))
+        return self.arithmetic(
+            node, node.op, self.expression(node.left), self.expression(node.right)
+        )
 
     def arithmetic(self, node: ast.AST, op: ast.operator, a: Value, b: Value) -> Value:
         if a.kind == b.kind == "i64" and type(op) in INT_OPS:
@@ -373,7 +398,9 @@ class Translator:
         return self.value("double", f"{FLOAT_OPS[type(op)]} {FAST} double {x.text}, {y.text}")
 
     def power(self, node: ast.BinOp) -> Value:
-        base, exponent = (self.convert(self.expression(n), "double") for n in (node.left, node.right))
+        base, exponent = (
+            self.convert(self.expression(n), "double") for n in (node.left, node.right)
+        )
         if exponent.text == literal(0.5):
             return self.library("llvm.sqrt.f64", base)
         return self.library("llvm.pow.f64", base, exponent)
@@ -394,7 +421,11 @@ class Translator:
         return self.value("double", f"fneg double {value.text}")
 
     def of_Compare(self, node: ast.Compare) -> Value:
-        op, a, b = type(node.ops[0]), self.expression(node.left), self.expression(node.comparators[0])
+        op, a, b = (
+            type(node.ops[0]),
+            self.expression(node.left),
+            self.expression(node.comparators[0]),
+        )
         if len(node.ops) > 1:
             raise self.fail(node, "chained comparisons are not translated")
         if a.kind == b.kind and a.kind in ("i64", "i1"):
@@ -450,7 +481,11 @@ class Translator:
         if name == "float":
             return self.convert(args[0], "double")
         if name == "int":
-            return args[0] if args[0].kind == "i64" else self.value("i64", f"fptosi double {args[0].text} to i64")
+            return (
+                args[0]
+                if args[0].kind == "i64"
+                else self.value("i64", f"fptosi double {args[0].text} to i64")
+            )
         if name == "call_address":
             return self.call_address(args)
         return self.call_native(node, name, args)

@@ -20,7 +20,7 @@ from adamslite.symbolic import Scope, dot
 
 
 def measured(name: str, what: str, keyword: str = "") -> None:
-    """Register the function that measures ``what`` of the statements ``keyword`` (default: ``name``)."""
+    """Register the function that measures ``what`` of the statements ``keyword`` (or ``name``)."""
 
     def component(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
         vector = scope.load(name, id, jflag)[(comp - 1) // 4]
@@ -32,9 +32,10 @@ def measured(name: str, what: str, keyword: str = "") -> None:
     comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, along the axes of marker rm.
     Unit: force, or force times length.  Source: Adams/Solver function {name}.
     """
-    function(name, f"id:{(keyword or name).lower()} jflag:constant{{0,1}} comp:constant{{1..8}} rm:marker=0")(
-        component
-    )
+    function(
+        name,
+        f"id:{(keyword or name).lower()} jflag:constant{{0,1}} comp:constant{{1..8}} rm:marker=0",
+    )(component)
 
 
 measured("JOINT", "the reaction of")

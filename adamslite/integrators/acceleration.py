@@ -8,8 +8,6 @@ inertia; :func:`mass_signature` sees that between two steps.
 
 from __future__ import annotations
 
-from adamslite.translate import native
-
 from adamslite.integrators.base import (
     ACCELERATION,
     FACTORIZATIONS,
@@ -19,6 +17,8 @@ from adamslite.integrators.base import (
     NZ,
     M,
     N,
+    Plan,
+    Problem,
 )
 from adamslite.integrators.equations import (
     jacobian,
@@ -30,6 +30,7 @@ from adamslite.integrators.equations import (
     spread,
 )
 from adamslite.integrators.linalg import factor, signature, solve
+from adamslite.translate import Reals, native
 
 MAX_ITERATIONS = 12
 ROUND_OFF = 1e-11
@@ -58,7 +59,9 @@ def acceleration_matrix(P: Problem) -> None:
 
 
 @native
-def accelerations(P: Problem, L: Plan, t: float, q: Reals, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool:
+def accelerations(
+    P: Problem, L: Plan, t: float, q: Reals, u: Reals, a: Reals, z: Reals, sd: Reals
+) -> bool:
     """Solve for a, lam, V and s' in place; False when the matrix is singular or Newton fails."""
     put_state(P, t, q, u, a, z, sd)
     acceleration_matrix(P)
@@ -87,7 +90,7 @@ def accelerations(P: Problem, L: Plan, t: float, q: Reals, u: Reals, a: Reals, z
 
 @native
 def correct_rates(P: Problem, a: Reals, z: Reals, sd: Reals) -> float:
-    """Subtract the increment in ``P.F``; returns its size relative to the largest unknown of its kind."""
+    """Subtract the increment in ``P.F``; returns its size against the largest unknown of a kind."""
     n, algebraic = P.sizes[N], P.sizes[M] + P.sizes[NV]
     change, top = 0.0, 0.0
     for k in range(n):

@@ -2,34 +2,34 @@
 
     F = M(q) a + w x J w - f(t,q,u,a,lam,V,s) + G^T lam,   g(t,q),   dg/dt,   V - e,   s' - r
 
-The attitude of a part is R = cay(c) R0 with the Cayley (Gibbs) vector c counted from the attitude R0:
+The attitude of a part is R = cay(c) R0, the Cayley (Gibbs) vector c counted from attitude R0:
 
     R = (I + ([c] + [c]^2/2)/(1 + c.c/4)) R0,   w = (c' + c x c'/2)/(1 + c.c/4)
 
-which is rational, exact and regular for rotations below pi from R0.  Newton increments of rotations are
-taken in ground axes (dR = [dphi] R), hence dc = (I - [c]/2 + c c^T/4) dphi.
+which is rational, exact and regular for rotations below pi from R0.  Newton increments of
+rotations are taken in ground axes (dR = [dphi] R), hence dc = (I - [c]/2 + c c^T/4) dphi.
 Reference: O. A. Bauchau, Flexible Multibody Dynamics, 2011, section 13.6.
 """
 
 from __future__ import annotations
 
-from adamslite.translate import native
-
 from adamslite.integrators.base import (
+    HOLONOMIC,
     JACOBIANS,
-    N,
+    N_HEAD,
     NB,
     NG,
     NS,
     NV,
     NZ,
     REACTIONS,
-    HOLONOMIC,
-    N_HEAD,
     RESIDUALS,
     SIGNALS,
     M,
+    N,
+    Problem,
 )
+from adamslite.translate import Reals, native
 
 POINT, PART = 3, 6
 GROUP = 8
@@ -133,13 +133,13 @@ def track(P: Problem) -> None:
 @native
 def rotated_inertia(P: Problem, b: int, o: int, J: Reals) -> None:
     """J = R I R^T, inertia about the mass centre in ground axes."""
-    W, I = P.W, P.inertia
+    W, tensor = P.W, P.inertia
     for i in range(3):
         for j in range(3):
             total = 0.0
             for k in range(3):
                 for m in range(3):
-                    total += W[o + 15 + 3 * i + k] * I[9 * b + 3 * k + m] * W[o + 15 + 3 * j + m]
+                    total += W[o + 15 + 3 * i + k] * tensor[9 * b + 3 * k + m] * W[o + 15 + 3 * j + m]
             J[3 * i + j] = total
 
 
@@ -183,7 +183,9 @@ def put_skew(S: Reals, o: int, x: float, y: float, z: float) -> None:
 
 
 @native
-def rotation_block(P: Problem, b: int, o: int, cq: float, cu: float, ca: float, J: Reals, at: int) -> None:
+def rotation_block(
+    P: Problem, b: int, o: int, cq: float, cu: float, ca: float, J: Reals, at: int
+) -> None:
     """Add the derivative of J al + w x J w to rows and columns 3..5 of a part's own block.
 
     d/dphi: [J x]-terms from dJ = [dphi] J - J [dphi];  d/dw: [w] J - [J w];  d/dal: J.

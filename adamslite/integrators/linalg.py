@@ -1,18 +1,20 @@
 """Block elimination with an order fixed once per model.
 
 The Newton matrix is stored as dense blocks between nodes (a point mass 3 unknowns, a part 6, the
-multipliers of one joint, one variable).  :mod:`adamslite.ordering` fixes the elimination order and the
-fill; here is the numeric work only:
+multipliers of one joint, one variable).  :mod:`adamslite.ordering` fixes the elimination order
+and the fill; here is the numeric work only:
 
     A_kk <- A_kk^-1,   A_ik <- A_ik A_kk^-1,   A_ij <- A_ij - A_ik A_kj        for i, j after k.
 
-Rows are pivoted inside a diagonal block.  A small model is one node, hence ordinary dense elimination with
-partial pivoting.  Reference: Duff, Erisman, Reid, Direct Methods for Sparse Matrices, 2017, ch. 7 and 11.
+Rows are pivoted inside a diagonal block.  A small model is one node, hence ordinary dense
+elimination with partial pivoting.  Reference: Duff, Erisman, Reid, Direct Methods for Sparse
+Matrices, 2017, ch. 7 and 11.
 """
 
 from __future__ import annotations
 
-from adamslite.translate import native
+from adamslite.integrators.base import Plan
+from adamslite.translate import Ints, Reals, native
 
 TINY = 1e-300
 
@@ -36,8 +38,8 @@ def invert3(A: Reals, o: int) -> float:
 def negative_pivots(A: Reals, o: int, s: int, work: Reals, found: Reals, at: int) -> int:
     """Negative pivots of a block eliminated without pivoting; the pivots go to ``found``.
 
-    Their number is the signature when the matrix is symmetric (Sylvester) and changes when it becomes
-    singular.
+    Their number is the signature when the matrix is symmetric (Sylvester) and changes when it
+    becomes singular.
     """
     for i in range(s * s):
         work[i] = A[o + i]
@@ -111,55 +113,55 @@ def invert(A: Reals, o: int, s: int, pivots: Ints, po: int, work: Reals) -> bool
 
 
 @native
-def times3(A: Reals, l: int, u: int, d: int) -> None:
-    """A[d] -= A[l] A[u] for 3 x 3 blocks."""
+def times3(A: Reals, low: int, u: int, d: int) -> None:
+    """A[d] -= A[low] A[u] for 3 x 3 blocks."""
     for i in range(3):
-        x, y, z = A[l + 3 * i], A[l + 3 * i + 1], A[l + 3 * i + 2]
+        x, y, z = A[low + 3 * i], A[low + 3 * i + 1], A[low + 3 * i + 2]
         for j in range(3):
             A[d + 3 * i + j] -= x * A[u + j] + y * A[u + 3 + j] + z * A[u + 6 + j]
 
 
 @native
-def right_times3(A: Reals, l: int, d: int) -> None:
-    """A[l] = A[l] A[d] for 3 x 3 blocks."""
+def right_times3(A: Reals, low: int, d: int) -> None:
+    """A[low] = A[low] A[d] for 3 x 3 blocks."""
     for i in range(3):
-        x, y, z = A[l + 3 * i], A[l + 3 * i + 1], A[l + 3 * i + 2]
+        x, y, z = A[low + 3 * i], A[low + 3 * i + 1], A[low + 3 * i + 2]
         for j in range(3):
-            A[l + 3 * i + j] = x * A[d + j] + y * A[d + 3 + j] + z * A[d + 6 + j]
+            A[low + 3 * i + j] = x * A[d + j] + y * A[d + 3 + j] + z * A[d + 6 + j]
 
 
 @native
-def times(A: Reals, l: int, u: int, d: int, si: int, sk: int, sj: int) -> None:
-    """A[d] -= A[l] A[u], sizes (si, sk) and (sk, sj)."""
+def times(A: Reals, low: int, u: int, d: int, si: int, sk: int, sj: int) -> None:
+    """A[d] -= A[low] A[u], sizes (si, sk) and (sk, sj)."""
     for i in range(si):
         for k in range(sk):
-            x = A[l + i * sk + k]
+            x = A[low + i * sk + k]
             if x != 0.0:
                 for j in range(sj):
                     A[d + i * sj + j] -= x * A[u + k * sj + j]
 
 
 @native
-def right_times(A: Reals, l: int, d: int, si: int, sk: int, work: Reals) -> None:
-    """A[l] = A[l] A[d], sizes (si, sk) and (sk, sk)."""
+def right_times(A: Reals, low: int, d: int, si: int, sk: int, work: Reals) -> None:
+    """A[low] = A[low] A[d], sizes (si, sk) and (sk, sk)."""
     for i in range(si):
         for j in range(sk):
             work[j] = 0.0
         for k in range(sk):
-            x = A[l + i * sk + k]
+            x = A[low + i * sk + k]
             for j in range(sk):
                 work[j] += x * A[d + k * sk + j]
         for j in range(sk):
-            A[l + i * sk + j] = work[j]
+            A[low + i * sk + j] = work[j]
 
 
 @native
 def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
     """Eliminate in place; returns False when a pivot block is singular.
 
-    ``L`` is the elimination plan of :mod:`adamslite.ordering`: size, first unknown and diagonal block of
-    each node; for the entries e below node k (``first[k]:first[k+1]``) the other node, its lower and upper
-    block; ``target`` the blocks updated, entry by entry.
+    ``L`` is the elimination plan of :mod:`adamslite.ordering`: size, first unknown and diagonal
+    block of each node; for the entries e below node k (``first[k]:first[k+1]``) the other node,
+    its lower and upper block; ``target`` the blocks updated, entry by entry.
     """
     n = L.size.size
     if n == 1:
@@ -214,7 +216,7 @@ def signature(L: Plan, LV: Reals, pivots: Ints, work: Reals, found: Reals) -> in
 
 @native
 def solve(L: Plan, LV: Reals, pivots: Ints, b: Reals, x: Reals, work: Reals) -> None:
-    """Solve with the factors: ``b`` in unknown order is replaced by the solution; ``x`` and ``work`` are workspace."""
+    """Replace ``b``, in the order of the unknowns, by the solution; ``x``, ``work``: workspace."""
     n = L.size.size
     for i in range(L.place.size):
         x[L.place[i]] = b[i]
@@ -233,16 +235,16 @@ def forward(L: Plan, LV: Reals, x: Reals) -> None:
     for k in range(L.size.size):
         s, p = L.size[k], L.start[k]
         for e in range(L.first[k], L.first[k + 1]):
-            i, l = L.node[e], L.lower[e]
+            i, low = L.node[e], L.lower[e]
             r = L.start[i]
             if s == 3:
                 a, b, c = x[p], x[p + 1], x[p + 2]
                 for m in range(L.size[i]):
-                    x[r + m] -= LV[l + 3 * m] * a + LV[l + 3 * m + 1] * b + LV[l + 3 * m + 2] * c
+                    x[r + m] -= LV[low + 3 * m] * a + LV[low + 3 * m + 1] * b + LV[low + 3 * m + 2] * c
             else:
                 for m in range(L.size[i]):
                     for j in range(s):
-                        x[r + m] -= LV[l + m * s + j] * x[p + j]
+                        x[r + m] -= LV[low + m * s + j] * x[p + j]
 
 
 @native

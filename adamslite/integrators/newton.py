@@ -13,9 +13,18 @@ References: Gear, Gupta, Leimkuhler, J. Comp. Appl. Math. 12 (1985) 77; Hairer, 
 
 from __future__ import annotations
 
-from adamslite.translate import native
-
-from adamslite.integrators.base import FACTORIZATIONS, HOLONOMIC, NB, NS, NV, NZ, M, N
+from adamslite.integrators.base import (
+    FACTORIZATIONS,
+    HOLONOMIC,
+    NB,
+    NS,
+    NV,
+    NZ,
+    M,
+    N,
+    Plan,
+    Problem,
+)
 from adamslite.integrators.equations import (
     BODY,
     PART,
@@ -24,14 +33,16 @@ from adamslite.integrators.equations import (
     spread,
 )
 from adamslite.integrators.linalg import factor
-
+from adamslite.translate import Reals, native
 
 # Relative increments of positions below this are round-off.
 ROUND_OFF = 4e-15
 
 
 @native
-def newton_matrix(P: Problem, L: Plan, phases: int, cu: float, q: Reals, v: Reals, u: Reals) -> bool:
+def newton_matrix(
+    P: Problem, L: Plan, phases: int, cu: float, q: Reals, v: Reals, u: Reals
+) -> bool:
     """Assemble and factor dF/dz at the workspace's state; ``v`` holds q'."""
     c = P.coef
     c[0], c[1], c[2], c[3], c[4] = 1.0, cu, cu * cu, 1.0, cu

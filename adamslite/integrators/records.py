@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from adamslite.translate import native
-
 from adamslite.integrators.acceleration import accelerations
 from adamslite.integrators.base import (
     HOLONOMIC,
@@ -18,8 +16,11 @@ from adamslite.integrators.base import (
     VIOLATION,
     M,
     N,
+    Plan,
+    Problem,
 )
 from adamslite.integrators.equations import run_groups
+from adamslite.translate import Reals, native
 
 
 @native
@@ -35,7 +36,9 @@ def interpolate(D: Reals, w: int, k: int, t: float, h: float, at: float, y: Real
 
 
 @native
-def record_at(P: Problem, L: Plan, D: Reals, w: int, k: int, t: float, h: float, following: int) -> int:
+def record_at(
+    P: Problem, L: Plan, D: Reals, w: int, k: int, t: float, h: float, following: int
+) -> int:
     """Write every asked time up to ``t``; returns the next one to write, -1 when it failed.
 
     Positions, velocities and states are interpolated; accelerations, multipliers and variables are then
@@ -61,7 +64,7 @@ def write_record(P: Problem, row: int) -> None:
     o = row * (nw + n_out)
     for i in range(nw):
         P.record[o + i] = P.W[i]
-    out = P.record[o + nw:]
+    out = P.record[o + nw :]
     for i in range(n_out):
         out[i] = 0.0
     run_groups(P, OUTPUTS, out)

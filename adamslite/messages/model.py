@@ -6,6 +6,17 @@ from adamslite.diagnostics import WARNING
 from adamslite.messages.entry import Message
 
 MODEL: dict[str, Message] = {
+    "effective-mass": Message(
+        "{label} pushes {body} along its own acceleration: its effective mass along {axis} is {mass}",
+        "",
+        (
+            "PART/4, MASS=1, CM=4, IP=1,1,1\nMARKER/4, PART=4\n"
+            "VFORCE/4, I=4, J_part=(ground), FX=0.5*ACCX(4)",
+            "VARIABLE/Dm, FUNCTION=10*TIME\n"
+            "VFORCE/4, I=2, J_part=(ground), FY=VARVAL(Dm)/Gc*(ACCY(2,0,0)-JGRAV)",
+        ),
+        severity=WARNING,
+    ),
     "no-ground": Message(
         "no part is the ground",
         "add PART/1, GROUND",
