@@ -1,17 +1,19 @@
 """Native kernels of one expression shape: residual, Jacobian, angle memory.
 
-A *shape* is a statement with every id, number and marker replaced by a slot.  Its sympy loads and rows
-are differentiated once with respect to the local inputs of :class:`~adamslite.symbolic.Scope`, chained to
-body coordinates by :mod:`adamslite.kinematics`, and written as one loop over all instances:
+A *shape* is a statement with every id, number and marker replaced by a slot.  Its sympy loads and
+rows are differentiated once with respect to the local inputs of
+:class:`~adamslite.symbolic.Scope`, chained to body coordinates by :mod:`adamslite.kinematics`,
+and written as one loop over all instances:
 
-    residual(n, ints, reals, W, F)              F[row] -= load,  F[row] += row expression
-    jacobian(n, ints, reals, W, c, J)           J[block] += c0 F_q + c1 F_u + c2 F_a + c3 F_z + c4 F_s'
-    track   (n, ints, reals, W)                 remembers angles at an accepted step
+    residual(n, ints, reals, W, F)           F[row] -= load,  F[row] += row expression
+    jacobian(n, ints, reals, W, c, J)        J[block] += c0 F_q + c1 F_u + c2 F_a + c3 F_z + c4 F_s'
+    track   (n, ints, reals, W)              remembers angles at an accepted step
 
 q holds positions and rotations of bodies (and states s of DIFF), z multipliers and variables.
-W is the workspace (:mod:`adamslite.kinematics`), ``c`` five coefficients.  The integers of an instance are
+W is the workspace (:mod:`adamslite.kinematics`), ``c`` five coefficients.  The integers of an
+instance are
 
-    W offset of each node | W offset of each signal | row of each node | block offset of each pair used
+    W offset of each node | W offset of each signal | row of each node | block offset of each pair
 
 and its reals: parameters, remembered angles, marker levers and axes.
 """
@@ -28,8 +30,14 @@ from adamslite.kinematics import HEAD, MODE, TIME, Columns, Geometry, Vec
 from adamslite.lowering import Builder, Lowering, Value
 from adamslite.symbolic import Load, Scope, Slot
 
-RESIDUAL_HEAD = "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias {reals} %reals, ptr noalias readonly %W, ptr noalias %F) nounwind"
-JACOBIAN_HEAD = "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias readonly %reals, ptr noalias readonly %W, ptr noalias readonly %c, ptr noalias %F) nounwind"
+RESIDUAL_HEAD = (
+    "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias {reals} %reals, "
+    "ptr noalias readonly %W, ptr noalias %F) nounwind"
+)
+JACOBIAN_HEAD = (
+    "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias readonly %reals, "
+    "ptr noalias readonly %W, ptr noalias readonly %c, ptr noalias %F) nounwind"
+)
 LOOP = """{head} {{
 entry:
 {prelude}  %some = icmp sgt i64 %n, 0
@@ -54,9 +62,9 @@ exit:
 class Shape:
     """The structure shared by all instances of a shape.
 
-    ``slots``: markers.  ``widths``: unknowns of each node, bodies first (3 point, 6 part), then scalar
-    nodes.  ``n_bodies``: how many nodes are bodies.  ``n_params``, ``n_angles``, ``n_signals``: counts.
-    ``outputs``: writes loads and rows with a scope.
+    ``slots``: markers.  ``widths``: unknowns of each node, bodies first (3 point, 6 part), then
+    scalar nodes.  ``n_bodies``: how many nodes are bodies.  ``n_params``, ``n_angles``,
+    ``n_signals``: counts.  ``outputs``: writes loads and rows with a scope.
     """
 
     slots: list[Slot]
@@ -131,6 +139,8 @@ class Writer:
             return self.b.read("W", self.b.int_at(leaf[1]), 1)
         if kind == "sig":
             return self.b.read("W", self.b.int_at(len(self.shape.widths) + leaf[1]), leaf[2])
+        if kind == "nan":
+            return math.nan
         return self._turns(leaf[1])
 
     def _head(self, position: int) -> str:
@@ -157,7 +167,7 @@ class Writer:
             )
 
     def _ends(self, load: Load) -> list[tuple[Slot, float, Vec]]:
-        """The loaded bodies: slot, sign in the residual, lever of the force about the mass centre."""
+        """The loaded bodies: slot, sign in the residual, lever about the mass centre."""
         ends = []
         slot = self._moving(load.frame)
         if slot is not None:
@@ -198,7 +208,7 @@ class Writer:
     def _load_rows(
         self, load: Load, slot: Slot, lever: Vec, force: list, torque: list, reaction: bool
     ) -> list[Columns]:
-        """Rows of a load on one body: three of force, for a part three of torque about its mass centre."""
+        """Rows of a load on one body: force, and for a part torque about its mass centre."""
         rows = [columns for _, columns in force]
         if slot.kind != "part":
             return rows
@@ -245,7 +255,7 @@ class Writer:
         vectors: dict[tuple, Vec] = {}
         for symbol in sorted(expr.free_symbols, key=str):
             leaf = self.scope.leaves[symbol]
-            if leaf[0] in ("p", "t", "mode", "sig", "turn"):
+            if leaf[0] in ("p", "t", "mode", "sig", "turn", "nan"):
                 continue
             slope = self.value(sp.diff(expr, symbol))
             if leaf[0] in ("z", "dif", "dif1"):
@@ -310,9 +320,9 @@ def write_kernels(shape: Shape, name: str, with_jacobian: bool) -> tuple[str, di
     Returns
     -------
     text, meta
-        ``meta["blocks"]``: pairs (row node, column node) of Jacobian blocks in the order of the integers;
-        ``meta["n_ints"]``: integers of an instance; ``meta["angles"]``: how many angles it remembers;
-        ``meta["mass"]``: a force depends on accelerations.
+        ``meta["blocks"]``: pairs (row node, column node) of Jacobian blocks in the order of the
+        integers; ``meta["n_ints"]``: integers of an instance; ``meta["angles"]``: how many angles
+        it remembers; ``meta["mass"]``: a force depends on accelerations.
     """
     scope = Scope(shape.slots)
     out = shape.outputs(scope)

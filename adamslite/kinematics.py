@@ -12,9 +12,9 @@ and with dphi the rotation of the part in ground axes (dR = [dphi] R)
     dv   = du + dw x s + w x (dphi x s)
     dacc = da + dal x s + al x (dphi x s) + dw x (w x s) + w x (dw x s) + w x (w x (dphi x s)).
 
-A *row* is the derivative of one scalar with respect to a vector; the functions below carry rows from
-local inputs to a body's (x, phi), weighted with ``cq`` for positions, ``cu`` for velocities and ``ca``
-for accelerations, so that one kernel serves every integration method.
+A *row* is the derivative of one scalar with respect to a vector; the functions below carry rows
+from local inputs to a body's (x, phi), weighted with ``cq`` for positions, ``cu`` for velocities
+and ``ca`` for accelerations, so that one kernel serves every integration method.
 """
 
 from __future__ import annotations
@@ -158,7 +158,7 @@ class Geometry:
 
 
 class Columns:
-    """Derivatives of one scalar with respect to the unknowns: a row for each body, a value for each scalar."""
+    """Derivatives of one scalar by the unknowns: a row for a body, a value for a scalar."""
 
     def __init__(self, geometry: Geometry) -> None:
         self.g = geometry

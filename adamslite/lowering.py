@@ -17,6 +17,7 @@ Value = float | str
 
 FAST = "reassoc nsz arcp contract"
 COMMUTATIVE = {"fadd", "fmul"}
+LIBRARY = frozenset("sin cos tan asin acos atan atan2 sinh cosh tanh exp log floor".split())
 INTRINSICS = {"sqrt", "sin", "cos", "exp", "log", "floor", "pow"}
 COMPARISONS = {"<": "olt", "<=": "ole", ">": "ogt", ">=": "oge", "==": "oeq", "!=": "une"}
 
@@ -209,18 +210,7 @@ class Lowering:
         rule = getattr(self, f"_{name}", None)
         if rule is not None:
             return rule
-        if name in (
-            "sin",
-            "cos",
-            "exp",
-            "log",
-            "floor",
-            "tan",
-            "asin",
-            "acos",
-            "atan",
-            "atan2",
-        ) or (name in ("sinh", "cosh", "tanh")):
+        if name in LIBRARY:
             return lambda e: self.b.call(name, *[self(a) for a in e.args])
         raise TypeError(f"no native code for {name}")
 

@@ -1,8 +1,8 @@
 """The model: bodies, markers and what expressions may take as known.
 
-Frames.  A body's coordinates are the position x of its mass centre and, for a part, the attitude R of
-its body frame, both in ground.  A marker on a part is fixed at p from the mass centre, in body axes.
-Masses and inertias are divided by UCF, so that forces keep the deck's unit:
+Frames.  A body's coordinates are the position x of its mass centre and, for a part, the attitude
+R of its body frame, both in ground.  A marker on a part is fixed at p from the mass centre, in
+body axes.  Masses and inertias are divided by UCF, so that forces keep the deck's unit:
 force * UCF = mass * acceleration.
 """
 
@@ -76,7 +76,7 @@ def frame_axes(statement: Statement, origin: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a marker sits: ``p`` from the mass centre (ground: from the origin), ``axes`` in body axes."""
+    """Where a marker sits: ``p`` from the mass centre or ground origin, ``axes`` in body axes."""
 
     kind: str
     body: int
@@ -94,7 +94,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Body:
-    """A moving body: ``width`` 3 or 6 unknowns, start values in ground, inertia in body axes over UCF."""
+    """A moving body: ``width`` 3 or 6 unknowns, start in ground, inertia in body axes over UCF."""
 
     statement: Statement
     width: int
@@ -164,7 +164,7 @@ class Model:
         return axes @ given @ axes.T - mass * (d @ d * IDENTITY - np.outer(d, d))
 
     def marker(self, marker_id: Any) -> Place | None:
-        """Where a marker sits; ``("PART", id)`` is the mass centre of a part, None for the ground part."""
+        """Where a marker sits; ``("PART", id)`` is a part's mass centre, None for the ground."""
         if marker_id not in self.places:
             self.places[marker_id] = self._place(marker_id)
         return self.places[marker_id]

@@ -1,8 +1,8 @@
 """Native code on disk: LLVM text in, callable addresses out.
 
-Object code is cached under a hash of its LLVM text, the compiler version and the processor, so a deck
-seen before, or one whose expressions have the same shape, compiles nothing.  The cache folder is
-``ADAMSLITE_CACHE`` or the user's cache folder; it may be deleted at any time.
+Object code is cached under a hash of its LLVM text, the compiler version and the processor, so a
+deck seen before, or one whose expressions have the same shape, compiles nothing.  The cache
+folder is ``ADAMSLITE_CACHE`` or the user's cache folder; it may be deleted at any time.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """The elimination order of the Newton matrix, fixed once per model.
 
-Nodes are eliminated by least degree, a constraint's multipliers only after a body they act on, because
-before that their own block is zero.  On a chain this works from the free ends inwards and on a tree
-from the leaves to the root: no fill, cost proportional to the number of bodies.
+Nodes are eliminated by least degree, a constraint's multipliers only after a body they act on,
+because before that their own block is zero.  On a chain this works from the free ends inwards and
+on a tree from the leaves to the root: no fill, cost proportional to the number of bodies.
 Reference: George, Liu, SIAM Review 31 (1989) 1 (minimum degree).
 """
 

@@ -1,8 +1,8 @@
-"""What an expression sees of the model: the scope that deck functions and elements write sympy with.
+"""What an expression sees of the model: the scope in which functions and elements write sympy.
 
-A marker is a *frame*: a small integer, its position in the shape's list of markers, or ``ORIGIN`` for
-the global frame.  The scope hands out real symbols for the local kinematic inputs, always in ground
-axes, always as differences, because no deck function depends on anything else:
+A marker is a *frame*: a small integer, its position in the shape's list of markers, or ``ORIGIN``
+for the global frame.  The scope hands out real symbols for the local kinematic inputs, always in
+ground axes, always as differences, because no deck function depends on anything else:
 
 ===========  ===================================================  ==========================
 leaf         meaning                                              time derivative
@@ -15,8 +15,8 @@ w(i,j)       angular velocity of i less that of j                 al(i,j)
 al(i,j)      its derivative in ground                             (none)
 ===========  ===================================================  ==========================
 
-Forces and constraint rows are written with these symbols; :mod:`adamslite.kernel` differentiates them
-and chains the result to body coordinates.
+Forces and constraint rows are written with these symbols; :mod:`adamslite.kernel` differentiates
+them and chains the result to body coordinates.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ ZERO: Vector = (0, 0, 0)
 class Load(NamedTuple):
     """A force and a torque on the body of ``frame`` at that marker's origin, in ground axes.
 
-    ``reaction`` names the frame whose body gets the opposite, at its own origin, or at the origin of
-    ``frame`` when ``follows`` is true (a floating marker); ``None`` means nothing reacts.
+    ``reaction`` names the frame whose body gets the opposite, at its own origin, or at the origin
+    of ``frame`` when ``follows`` is true (a floating marker); ``None`` means nothing reacts.
     """
 
     frame: int
@@ -48,7 +48,7 @@ class Load(NamedTuple):
 
 @dataclass(frozen=True)
 class Slot:
-    """What a kernel must know of a marker: ``kind`` ground, point or part; ``body`` its body slot."""
+    """What a kernel must know of a marker; ``kind`` ground, point or part; ``body`` its slot."""
 
     kind: str
     body: int
@@ -236,7 +236,7 @@ class Scope:
             return self.symbol("sig", leaf[1], leaf[2] + 1)
         if kind == "dif":
             return self.symbol("dif1", leaf[1])
-        if kind in ("p", "turn", "mode"):
+        if kind in ("p", "turn", "mode", "nan"):
             return 0
         raise UndefinedRate(kind)
 

@@ -1,10 +1,11 @@
 """Native code from a small, typed part of Python: what the integrators are written in.
 
-A function marked :func:`native` may use ``int`` (64 bit), ``float``, ``bool``, arrays (``Ints``, ``Reals``),
-fields of one :class:`Table`, ``if``, ``while``, ``for .. in range``, assignments, arithmetic, comparisons,
-``abs min max float int sqrt floor``, slices ``a[k:]`` (a shifted array), calls of other native functions and
-``call_address``.  Arguments carry annotations; a local variable has the type of its first assignment.
-There is no bounds check, and division follows the processor.
+A function marked :func:`native` may use ``int`` (64 bit), ``float``, ``bool``, arrays (``Ints``,
+``Reals``), fields of one :class:`Table`, ``if``, ``while``, ``for .. in range``, assignments,
+arithmetic, comparisons, ``abs min max float int sqrt floor``, slices ``a[k:]`` (a shifted array),
+calls of other native functions and ``call_address``.  Arguments carry annotations; a local
+variable has the type of its first assignment. There is no bounds check, and division follows the
+processor.
 
 The same functions run under plain Python on numpy arrays, which is how tests compare the two.
 """
@@ -12,6 +13,7 @@ The same functions run under plain Python on numpy arrays, which is how tests co
 from __future__ import annotations
 
 import ast
+import ctypes
 import inspect
 import textwrap
 from collections.abc import Callable
@@ -71,6 +73,15 @@ def native(function: Callable[..., Any]) -> Callable[..., Any]:
         raise Untranslatable(f"two native functions are called {function.__name__}")
     REGISTERED[function.__name__] = function
     return function
+
+
+def call_address(address: int, *arguments: Any) -> None:
+    """Call the kernel at an address; natively a plain call, under Python one through ctypes."""
+    given = [
+        ctypes.c_void_p(a.ctypes.data) if hasattr(a, "ctypes") else ctypes.c_int64(int(a))
+        for a in arguments
+    ]
+    ctypes.CFUNCTYPE(None, *[type(a) for a in given])(int(address))(*given)
 
 
 class Table:
@@ -152,7 +163,8 @@ class Translator:
         head = ", ".join(f"{llvm_type(kind)} %arg.{name}" for name, kind in arguments)
         linkage = "internal " if internal else ""
         body = "\n".join(["entry:", *self.allocations, *self.lines])
-        return f"define {linkage}{self.result} @{self.function.__name__}({head}) nounwind {{\n{body}\n}}"
+        name = self.function.__name__
+        return f"define {linkage}{self.result} @{name}({head}) nounwind {{\n{body}\n}}"
 
     def fail(self, node: ast.AST, why: str) -> Untranslatable:
         line = getattr(node, "lineno", 0)

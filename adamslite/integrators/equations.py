@@ -29,7 +29,7 @@ from adamslite.integrators.base import (
     N,
     Problem,
 )
-from adamslite.translate import Reals, native
+from adamslite.translate import Reals, call_address, native
 
 POINT, PART = 3, 6
 GROUP = 8
@@ -139,7 +139,9 @@ def rotated_inertia(P: Problem, b: int, o: int, J: Reals) -> None:
             total = 0.0
             for k in range(3):
                 for m in range(3):
-                    total += W[o + 15 + 3 * i + k] * tensor[9 * b + 3 * k + m] * W[o + 15 + 3 * j + m]
+                    total += (
+                        W[o + 15 + 3 * i + k] * tensor[9 * b + 3 * k + m] * W[o + 15 + 3 * j + m]
+                    )
             J[3 * i + j] = total
 
 

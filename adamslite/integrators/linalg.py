@@ -240,7 +240,8 @@ def forward(L: Plan, LV: Reals, x: Reals) -> None:
             if s == 3:
                 a, b, c = x[p], x[p + 1], x[p + 2]
                 for m in range(L.size[i]):
-                    x[r + m] -= LV[low + 3 * m] * a + LV[low + 3 * m + 1] * b + LV[low + 3 * m + 2] * c
+                    o = low + 3 * m
+                    x[r + m] -= LV[o] * a + LV[o + 1] * b + LV[o + 2] * c
             else:
                 for m in range(L.size[i]):
                     for j in range(s):

@@ -5,10 +5,11 @@ cu = 1/(beta h).  Velocities and accelerations follow from q, so Newton works on
 
     z = (dphi and dx of bodies, lam, V, s [, mu])          n + m (index 3) or n + 2m (stabilised)
 
-with dF/dz = F_q + (F_u + cu F_a)(cu I + E), E the part of d(omega)/d(phi) that comes from the attitude.
-In the stabilised form u = T(q) q' + W G^T mu, hence the columns of mu are (F_u + cu F_a) W G^T.
-References: Gear, Gupta, Leimkuhler, J. Comp. Appl. Math. 12 (1985) 77; Hairer, Wanner, Solving ODE II,
-1996, sections VI.7 and VII.2.
+with dF/dz = F_q + (F_u + cu F_a)(cu I + E), E the part of d(omega)/d(phi) that comes from the
+attitude.  In the stabilised form u = T(q) q' + W G^T mu, hence the columns of mu are
+(F_u + cu F_a) W G^T.
+References: Gear, Gupta, Leimkuhler, J. Comp. Appl. Math. 12 (1985) 77; Hairer, Wanner, Solving
+ODE II, 1996, sections VI.7 and VII.2.
 """
 
 from __future__ import annotations
@@ -63,8 +64,8 @@ def newton_matrix(
 def add_attitude_part(P: Problem, at: int, rows: int, b: int, q: Reals, v: Reals, u: Reals) -> None:
     """J[:, 3:6] += D[:, 3:6] E on one block.
 
-    From w = (c' + c x c'/2)/sigma, sigma = 1 + c.c/4:  dw = (dc x c'/2 - w (c.dc)/2)/sigma at fixed c',
-    and dc = (I - [c]/2 + c c^T/4) dphi.
+    From w = (c' + c x c'/2)/sigma, sigma = 1 + c.c/4:  dw = (dc x c'/2 - w (c.dc)/2)/sigma at
+    fixed c', and dc = (I - [c]/2 + c c^T/4) dphi.
     """
     J, D = P.J, P.D
     i = P.body[BODY * b + 1]
@@ -129,11 +130,11 @@ def apply_increment(P: Problem, dz: Reals, q: Reals, z: Reals, mu: Reals, si2: b
 def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
     """Largest increment of what the error test looks at, each against max(1, |value|).
 
-    Positions and rotations; velocities (cu times those) when ``cu`` is not zero; variables and states.
-    When constraints tie velocities of different size together (``tied``), an error that is small
-    against one is large against another, so increments of bodies count as they are,
-    and so do those of mu, which are velocities.
-    Increments of q at round-off count as none, because at tiny steps they are all there is.
+    Positions and rotations; velocities (cu times those) when ``cu`` is not zero; variables and
+    states.  When constraints tie velocities of different size together (``tied``), an error that
+    is small against one is large against another, so increments of bodies count as they are, and
+    so do those of mu, which are velocities.  Increments of q at round-off count as none, because
+    at tiny steps they are all there is.
     """
     largest = 0.0
     n, q, u, z = P.sizes[N], P.q, P.u, P.z

@@ -41,8 +41,8 @@ def record_at(
 ) -> int:
     """Write every asked time up to ``t``; returns the next one to write, -1 when it failed.
 
-    Positions, velocities and states are interpolated; accelerations, multipliers and variables are then
-    solved for, so that reactions are as exact as the motion.
+    Positions, velocities and states are interpolated; accelerations, multipliers and variables
+    are then solved for, so that reactions are as exact as the motion.
     """
     n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
     while following < P.times.size and P.times[following] <= t + 1e-9 * h:
