@@ -264,9 +264,13 @@ def spread(P: Problem, LV: Reals) -> None:
     for k in range(0, P.copies.size, 5):
         source, rows, columns = copies[k], copies[k + 1], copies[k + 2]
         at, lead = copies[k + 3], copies[k + 4]
-        for i in range(rows):
-            for j in range(columns):
-                LV[at + i * lead + j] = J[source + i * columns + j]
+        if lead == columns:
+            for i in range(rows * columns):
+                LV[at + i] = J[source + i]
+        else:
+            for i in range(rows):
+                for j in range(columns):
+                    LV[at + i * lead + j] = J[source + i * columns + j]
 
 
 @native

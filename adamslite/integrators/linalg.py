@@ -235,17 +235,11 @@ def forward(L: Plan, LV: Reals, x: Reals) -> None:
     for k in range(L.size.size):
         s, p = L.size[k], L.start[k]
         for e in range(L.first[k], L.first[k + 1]):
-            i, low = L.node[e], L.lower[e]
-            r = L.start[i]
-            if s == 3:
-                a, b, c = x[p], x[p + 1], x[p + 2]
-                for m in range(L.size[i]):
-                    o = low + 3 * m
-                    x[r + m] -= LV[o] * a + LV[o + 1] * b + LV[o + 2] * c
+            i, l = L.node[e], L.lower[e]
+            if s == 3 and L.size[i] == 3:
+                subtract3(LV[l:], x[p:], x[L.start[i]:])
             else:
-                for m in range(L.size[i]):
-                    for j in range(s):
-                        x[r + m] -= LV[low + m * s + j] * x[p + j]
+                subtract(LV[l:], L.size[i], s, x[p:], x[L.start[i]:])
 
 
 @native
@@ -255,20 +249,53 @@ def backward(L: Plan, LV: Reals, x: Reals, y: Reals) -> None:
         s, p, o = L.size[k], L.start[k], L.diagonal[k]
         for e in range(L.first[k], L.first[k + 1]):
             j, u = L.node[e], L.upper[e]
-            q, sj = L.start[j], L.size[j]
-            for m in range(s):
-                total = 0.0
-                for r in range(sj):
-                    total += LV[u + m * sj + r] * x[q + r]
-                x[p + m] -= total
+            if s == 3 and L.size[j] == 3:
+                subtract3(LV[u:], x[L.start[j]:], x[p:])
+            else:
+                subtract(LV[u:], s, L.size[j], x[L.start[j]:], x[p:])
         if s == 3:
-            a, b, c = x[p], x[p + 1], x[p + 2]
-            for m in range(3):
-                x[p + m] = LV[o + 3 * m] * a + LV[o + 3 * m + 1] * b + LV[o + 3 * m + 2] * c
+            replace3(LV[o:], x[p:])
         else:
-            for m in range(s):
-                y[m] = 0.0
-                for r in range(s):
-                    y[m] += LV[o + m * s + r] * x[p + r]
-            for m in range(s):
-                x[p + m] = y[m]
+            replace(LV[o:], s, x[p:], y)
+
+
+@native
+def subtract3(A: Reals, x: Reals, y: Reals) -> None:
+    """y -= A x for a 3 x 3 block."""
+    a, b, c = x[0], x[1], x[2]
+    p = A[0] * a + A[1] * b + A[2] * c
+    q = A[3] * a + A[4] * b + A[5] * c
+    r = A[6] * a + A[7] * b + A[8] * c
+    y[0] -= p
+    y[1] -= q
+    y[2] -= r
+
+
+@native
+def subtract(A: Reals, rows: int, columns: int, x: Reals, y: Reals) -> None:
+    """y -= A x."""
+    for i in range(rows):
+        total = 0.0
+        for j in range(columns):
+            total += A[i * columns + j] * x[j]
+        y[i] -= total
+
+
+@native
+def replace3(A: Reals, x: Reals) -> None:
+    """x = A x for a 3 x 3 block."""
+    a, b, c = x[0], x[1], x[2]
+    x[0] = A[0] * a + A[1] * b + A[2] * c
+    x[1] = A[3] * a + A[4] * b + A[5] * c
+    x[2] = A[6] * a + A[7] * b + A[8] * c
+
+
+@native
+def replace(A: Reals, size: int, x: Reals, y: Reals) -> None:
+    """x = A x; ``y`` is workspace."""
+    for i in range(size):
+        y[i] = 0.0
+        for j in range(size):
+            y[i] += A[i * size + j] * x[j]
+    for i in range(size):
+        x[i] = y[i]
