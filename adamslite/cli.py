@@ -4,6 +4,7 @@
     adamslite solve  DECK [COMMANDS.acf]    run it and write the results
     adamslite diff   A B                    compare two result files
     adamslite verify [DIR|DECK ...]         run reference decks and compare
+    adamslite help   [NAME]                 what a statement, a function or a message means
 
 Exit codes: 0 done or equal, 1 outside tolerance, 2 usage, 3 the deck has errors,
 4 the solver stopped early (results so far are written), 5 reading or writing failed,
@@ -18,7 +19,7 @@ import sys
 from collections.abc import Sequence
 
 from adamslite import __version__
-from adamslite.commands import check, diff, solve, verify
+from adamslite.commands import check, diff, help, solve, verify
 from adamslite.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, STOPPED_EARLY, USAGE
 
 EXIT_CODES = """exit codes:
@@ -68,7 +69,7 @@ def _parser() -> argparse.ArgumentParser:
         "--debug", action="store_true", help="show the traceback of a program fault"
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for module in (check, solve, diff, verify):
+    for module in (check, solve, diff, verify, help):
         name = module.__name__.rpartition(".")[2]
         summary = module.__doc__.partition("\n")[0]
         command = commands.add_parser(

@@ -117,7 +117,7 @@ class Function:
         for index, value in enumerate(values):
             p = self.parameter(index)
             if p.allowed and value is not None and value not in p.allowed:
-                found.append((index, f"{p.name} of {self.name} must be {_listed(p.allowed)}"))
+                found.append((index, f"{p.name} of {self.name} must be {listed(p.allowed)}"))
         if self.rule and not found and len(values) >= len(self.parameters):
             mistake = self.rule(*values)
             if mistake:
@@ -192,7 +192,7 @@ def _values(text: str) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _listed(allowed: tuple[int, ...]) -> str:
+def listed(allowed: tuple[int, ...]) -> str:
     """``(1, 2, 3, 27)`` as "1..3 or 27"."""
     runs: list[list[int]] = []
     for value in allowed:

@@ -1,0 +1,211 @@
+"""The manual, written by the registers it describes: statements, functions, messages, outcomes.
+
+A page is Markdown that reads as well in a terminal.  `adamslite help NAME` prints one; the files in
+docs/ are all of them together.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Sequence
+from inspect import cleandoc
+
+from adamslite import elements, functions  # noqa: F401  register what there is to describe
+from adamslite.expression import Node, to_text
+from adamslite.faults import UsageError
+from adamslite.function import FUNCTIONS, Function, Parameter, listed
+from adamslite.messages import MESSAGES, did_you_mean
+from adamslite.messages.entry import Message
+from adamslite.outcomes import Outcome
+from adamslite.statement import STATEMENTS, Argument, Statement
+
+HEAD = "<!-- Written by docs/generate.py from the program itself: do not edit. -->\n"
+STATEMENTS_INTRO = """# Statements
+
+How a deck writes each statement, and what it means. Keywords may be shortened to any unambiguous
+beginning; `adamslite help NAME` prints a single page.
+"""
+FUNCTIONS_INTRO = """# Functions
+
+What an expression may call. Arguments in brackets may be left out: an omitted marker is the ground
+frame, an omitted number its default. `adamslite help NAME` prints a single entry.
+"""
+MESSAGES_INTRO = """# Messages
+
+Everything the program says about a deck, each with the smallest deck that provokes it: statements
+added to a sound deck, or a whole deck where they begin with a title. Words in braces are filled in.
+"""
+OUTCOMES_INTRO = """## How a run can end
+
+The name of the outcome is in the summary and in the result file; the sentence is what is said.
+"""
+LISTED = "`adamslite help` lists them"
+# Longer cells of a table stick out instead of widening their column.
+WIDEST = 44
+Row = Sequence[str]
+
+
+def statements() -> str:
+    """The page of all statements: docs/statements.md."""
+    pages = (statement(STATEMENTS[keyword]) for keyword in sorted(STATEMENTS))
+    return "\n".join([HEAD, STATEMENTS_INTRO, *pages])
+
+
+def deck_functions() -> str:
+    """The page of all functions by family: docs/functions.md."""
+    parts, family = [HEAD, FUNCTIONS_INTRO], ""
+    for each in FUNCTIONS.values():
+        if each.body.__module__ != family:
+            family = each.body.__module__
+            parts.append(f"## {_heading(sys.modules[family].__doc__)}\n")
+        parts.append(function(each))
+    return "\n".join(parts)
+
+
+def messages() -> str:
+    """The page of all messages and outcomes: docs/messages.md."""
+    said = (message(code, each) for code, each in MESSAGES.items())
+    outcomes = table(("outcome", "what is said"), [(f"`{o.name}`", o.value) for o in Outcome])
+    return "\n".join([HEAD, MESSAGES_INTRO, *said, OUTCOMES_INTRO, outcomes])
+
+
+def pages(name: str) -> str:
+    """Everything of this name: a statement, a function, a message.
+
+    Raises
+    ------
+    UsageError
+        When there is none.
+    """
+    found = [
+        describe(register[key])
+        for register, key, describe in (
+            (STATEMENTS, name.upper(), statement),
+            (FUNCTIONS, name.upper(), function),
+            (MESSAGES, name.lower(), lambda each: message(name.lower(), each)),
+        )
+        if key in register
+    ]
+    if not found:
+        hint = did_you_mean(name, [*STATEMENTS, *FUNCTIONS, *MESSAGES])
+        raise UsageError(f"there is no statement, function or message '{name}'; {hint or LISTED}")
+    return "\n".join(found)
+
+
+def contents() -> str:
+    """All names with their meaning in a line each."""
+    titles = [sys.modules[cls.__module__].__doc__ for cls in STATEMENTS.values()]
+    lines = ["Statements", *(f"  {_heading(title)}" for title in sorted(titles)), "", "Functions"]
+    lines += [f"  {each.usage}: {_heading(each.doc)}" for each in FUNCTIONS.values()]
+    return "\n".join(lines) + "\n"
+
+
+def statement(cls: type[Statement]) -> str:
+    """One statement: equation and sign from its module, its meaning, its arguments."""
+    title, _, equation = sys.modules[cls.__module__].__doc__.partition("\n\n")
+    parts = [f"## {title}\n", _markdown(cls.__doc__), _markdown(equation)]
+    if cls.arguments:
+        head = ("argument", "value", "unit", "default", "meaning")
+        parts.append(table(head, [_argument_row(each) for each in cls.arguments.values()]))
+    results = getattr(cls, "result_names", None)
+    if results:
+        parts.append(f"Results: {_lower_first(_heading(results.fget.__doc__))}.\n")
+    if cls.planned:
+        parts.append(f"Not supported yet: {_listed(cls.planned)}.\n")
+    return "\n".join(parts)
+
+
+def function(each: Function) -> str:
+    """One function: how it is called, what it is, what its arguments are."""
+    lines = [*each.doc.splitlines(), "", *map(_parameter, each.parameters)]
+    # A block of code, because ** in it means a power.
+    body = "".join(f"    {line}".rstrip() + "\n" for line in lines)
+    return f"### `{each.usage}`\n\n{body}"
+
+
+def message(code: str, each: Message) -> str:
+    """One message: sentence, hint and example."""
+    said = f"{each.severity}: {each.sentence}"
+    if each.hint:
+        said += f"  \nhint: {each.hint}"
+    example = (each.broken or each.commands)[0].rstrip("\n")
+    return f"## `{code}`\n\n{said}\n\n```\n{example}\n```\n"
+
+
+def table(head: Row, rows: Iterable[Row]) -> str:
+    """A Markdown table with its columns lined up."""
+    lines = [head, *([cell.replace("|", "\\|") for cell in row] for row in rows)]
+    widths = [min(WIDEST, max(map(len, column))) for column in zip(*lines, strict=True)]
+    lines.insert(1, ["-" * width for width in widths])
+    return "".join(
+        f"| {' | '.join(c.ljust(w) for c, w in zip(line, widths, strict=True))} |\n"
+        for line in lines
+    )
+
+
+def _argument_row(each: Argument) -> Row:
+    key = "(a word)" if each.bare else f"`{each.key}`"
+    aliases = f" ({_listed(each.keys[1:])})" if each.keys[1:] else ""
+    return (key + aliases, _value(each), each.unit, _default(each), each.help)
+
+
+def _value(each: Argument) -> str:
+    """What stands behind the equal sign, or instead of it."""
+    if each.kind == "choice":
+        ready = each.supported or each.options
+        later = [option for option in each.options if option not in ready]
+        return _listed(ready) + (f"; not yet {_listed(later)}" if later else "")
+    if each.kind == "vector":
+        low, high = each.sizes
+        return f"{low} numbers" if low == high else f"{low} to {high} numbers"
+    kinds = {
+        "reference": f"a {each.to}",
+        "references": f"several {each.to}",
+        "words": f"{_listed(each.options)}, joined by `:`",
+        "flag": "(no value)",
+    }
+    return kinds.get(each.kind, each.kind)
+
+
+def _default(each: Argument) -> str:
+    if each.required:
+        return "required"
+    if each.default is None or each.kind in ("flag", "texts", "words", "references"):
+        return ""
+    if each.kind == "reference":
+        return "ground"
+    if isinstance(each.default, Node):
+        return to_text(each.default)
+    if isinstance(each.default, tuple):
+        return ", ".join(f"{number:g}" for number in each.default)
+    return f"`{each.default}`" if isinstance(each.default, str) else f"{each.default:g}"
+
+
+def _parameter(p: Parameter) -> str:
+    kinds = {"number": "number", "constant": "number written in the deck"}
+    text = f"  {p.name:10}{kinds.get(p.kind, p.statement)}"
+    if p.allowed:
+        text += f", {listed(p.allowed)}"
+    if p.counts:
+        low, high = p.counts
+        text += f", {low} to {high} of them" if high else f", {low} or more"
+    if p.default is not None:
+        text += f" (default {'ground' if p.statement else f'{p.default:g}'})"
+    return text
+
+
+def _markdown(doc: str | None) -> str:
+    lines = cleandoc(doc or "").replace("``", "`").splitlines()
+    return "\n".join(line[:-1] if line.endswith("::") else line for line in lines) + "\n"
+
+
+def _heading(doc: str | None) -> str:
+    return (doc or "").strip().partition("\n")[0].rstrip(".")
+
+
+def _lower_first(text: str) -> str:
+    return text if text[:2].isupper() else text[:1].lower() + text[1:]
+
+
+def _listed(words: Iterable[str]) -> str:
+    return ", ".join(f"`{word}`" for word in words)
