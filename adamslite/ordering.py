@@ -1,7 +1,7 @@
 """The elimination order of the Newton matrix, fixed once per model.
 
-Nodes are eliminated by least degree, a constraint's multipliers only after a body they act on,
-because before that their own block is zero.  On a chain this works from the free ends inwards and
+Nodes are eliminated by least degree, a constraint's multipliers only after the bodies that make their own
+block regular (:mod:`adamslite.topology`).  On a chain this works from the free ends inwards and
 on a tree from the leaves to the root: no fill, cost proportional to the number of bodies.
 Reference: George, Liu, SIAM Review 31 (1989) 1 (minimum degree).
 """
@@ -31,14 +31,19 @@ class Elimination:
 
 
 def analyse(
-    widths: list[int], starts: list[int], pairs: set[tuple[int, int]], late: dict[int, set[int]]
+    widths: list[int],
+    starts: list[int],
+    pairs: set[tuple[int, int]],
+    late: dict[int, set[int]],
+    pivoting: bool = False,
 ) -> Elimination:
     """Order and fill for nodes of ``widths`` unknowns at ``starts`` coupled by ``pairs``.
 
-    ``late[node]``: nodes of which one must have been eliminated before ``node``.
+    ``late[node]``: nodes that must have been eliminated before ``node``; ``pivoting``: treat the matrix
+    as one dense block.
     """
     total = sum(widths)
-    if total <= DENSE:
+    if pivoting or total <= DENSE:
         return _dense(widths, starts, pairs, total)
     order, below = _order(len(widths), pairs, late)
     return _block_plan(widths, starts, order, below)
@@ -78,6 +83,10 @@ def _order(
     waiting = {node: set(before) for node, before in late.items() if before}
     heap = [(len(near[node]), node) for node in range(count) if node not in waiting]
     heapq.heapify(heap)
+    freed: dict[int, list[int]] = {}
+    for node, before in waiting.items():
+        for each in before:
+            freed.setdefault(each, []).append(node)
     order, below = [], []
     while len(order) < count:
         if not heap:
@@ -94,9 +103,12 @@ def _order(
         for other in rest:
             near[other] |= rest
             near[other] -= {other, node}
-            if other in waiting and node in waiting[other]:
-                waiting.pop(other)
-            if other not in waiting:
+        for other in [*rest, *freed.pop(node, ())]:
+            if other in waiting:
+                waiting[other].discard(node)
+                if not waiting[other]:
+                    waiting.pop(other)
+            if other not in waiting and not done[other]:
                 heapq.heappush(heap, (len(near[other]), other))
     return order, below
 

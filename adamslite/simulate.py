@@ -11,6 +11,7 @@ import numpy as np
 
 from adamslite.analyses.dynamic import Settings, counters, run_dynamic
 from adamslite.analyses.initial import initial_conditions
+from adamslite.analyses.redundancy import leave_out_redundant, row_name
 from adamslite.columns import columns
 from adamslite.compiled import Kernels, compile_model
 from adamslite.explain import explain
@@ -68,6 +69,7 @@ def simulate(
     if unclosed:
         outcome = Outcome.INITIAL_CONDITIONS_FAILED
     else:
+        leave_out_redundant(system)
         outcome = run_dynamic(system, times, settings, progress)
     done = clock.process_time()
     return _results(system, outcome, unclosed, settings, (ready - began, done - ready))
@@ -109,6 +111,8 @@ def _times(statements: tuple[Any, ...], end: float | None, steps: int | None) ->
     stop = end if end is not None else (last.end if last.end is not None else last.duration)
     if steps is None and last is not None and end is None:
         steps = last.steps
+    if stop < 0.0 or (steps is not None and steps < 1):
+        raise UsageError("The end time must not be negative and there must be at least one step.")
     dtout = last.dtout if last is not None else None
     if steps is None:
         steps = max(1, round(stop / dtout)) if dtout else 100
@@ -131,7 +135,7 @@ def _results(
     time = system.times[:made].copy()
     reached = float(system.report[base.AT]) if outcome is not Outcome.DONE else float(time[-1])
     summary = {
-        "outcome": outcome.name, "t_end": reached, "dof": system.model.dof, **counters(system),
+        "outcome": outcome.name, "t_end": reached, "dof": system.dof, **counters(system),
         "setup_cpu_s": cpu[0], "solve_cpu_s": cpu[1],
         "max_violation": float(system.report[base.VIOLATION]),
     }  # fmt: skip
@@ -150,4 +154,12 @@ def _meta(system: System, settings: Settings) -> Mapping[str, str]:
         "deck hash": deck.hash,
         "units": " ".join(units) if units else "as in the deck",
         "integrator": f"{settings.method} {settings.formulation} ERROR={settings.error:g}",
+        **_redundant(system),
     }
+
+
+def _redundant(system: System) -> dict[str, str]:
+    if not system.dropped:
+        return {}
+    names = "; ".join(row_name(system, row) for row in system.dropped)
+    return {"redundant, left out, reaction zero": names}

@@ -17,6 +17,7 @@ from adamslite.integrators import base
 from adamslite.model import PART, Body
 from adamslite.ordering import analyse
 from adamslite.shape import Binding
+from adamslite.topology import prerequisites
 
 HEAD = 2
 POINT_SIZE, PART_SIZE = 9, 24
@@ -64,16 +65,50 @@ class System:
     Every field of ``Problem`` is an attribute of that name.
     """
 
-    def __init__(self, kernels: Kernels, stabilised: bool) -> None:
+    def __init__(self, kernels: Kernels, stabilised: bool, pivoting: bool = False) -> None:
+        """``pivoting``: eliminate the whole matrix with row pivoting, whatever its size."""
+        self.pivoting = pivoting
         self.kernels = kernels
         self.model = kernels.model
         self.stabilised = stabilised
         self._number()
         self._allocate()
         self._bodies()
+        self._scalars()
         self._groups()
         self._elimination()
         self._tables()
+        self.drop([])
+
+    @property
+    def dof(self) -> int:
+        """Degrees of freedom: unknowns of the bodies less independent constraint rows."""
+        return self.n - self.m + len(self.dropped)
+
+    def drop(self, rows: list[int]) -> None:
+        """Leave out redundant constraint rows (counted from the first multiplier): lam = mu = 0."""
+        self.dropped = rows
+        dead = [self.n + r for r in rows]
+        if self.stabilised:
+            dead += [self.nz - self.holonomic + r for r in rows if r < self.holonomic]
+        self.dead = _ints(dead)
+        cut: list[int] = []
+        for (row, column), (at, lead) in self.places.items():
+            inside = range(self.widths[row]), range(self.widths[column])
+            r0, c0 = self.starts[row], self.starts[column]
+            for d in dead:
+                if d - r0 in inside[0]:
+                    cut += [at + (d - r0) * lead + c for c in inside[1]]
+                if d - c0 in inside[1]:
+                    cut += [at + r * lead + d - c0 for r in inside[0]]
+        self.cut = _ints(cut)
+        self.ones = _ints([self._diagonal(d) for d in dead])
+
+    def _diagonal(self, unknown: int) -> int:
+        """Place of a diagonal entry in the factor arrays."""
+        node = max(k for k, start in enumerate(self.starts) if start <= unknown)
+        at, lead = self.places[node, node]
+        return at + (unknown - self.starts[node]) * (lead + 1)
 
     def _number(self) -> None:
         """Nodes, first unknowns and workspace offsets."""
@@ -150,6 +185,14 @@ class System:
             self.q[i : i + 3], self.u[i : i + 3] = body.x, body.v
             if body.width == PART:
                 self.u[i + 3 : i + 6] = body.w
+
+    def _scalars(self) -> None:
+        """Start values of variables that are solved for and of DIFF states: their IC."""
+        for k, node in enumerate(n for n in self.nodes if n[0] in ("VARIABLE", "DIFF")):
+            ic = self.model.element(*node).ic
+            self.z[self.m + k] = ic if node[0] == "VARIABLE" else ic[0]
+            if node[0] == "DIFF":
+                self.rd[k - self.nv] = ic[1] if len(ic) > 1 else 0.0
 
     def _groups(self) -> None:
         """Instances as integers and reals, and the Jacobian blocks they write."""
@@ -232,16 +275,13 @@ class System:
         """Derived blocks, the elimination plan and where blocks are copied to."""
         self.mixed = _ints(self._mixed_products() if self.stabilised else [])
         self.turning = _ints(self._turning_blocks())
-        late: dict[int, set[int]] = {}
         mu = {k for k, node in enumerate(self.nodes) if node[0] == "MU"}
-        for row, column in self.blocks:
-            if self._is_multiplier(row) and self.nodes[column][0] == "BODY":
-                late.setdefault(row, set()).add(column)
+        late = self._late_nodes()
         for k in mu:
             late[k] = {self.node_at[self.nodes[k][1]]}
         pairs = set(self.blocks) | {(k, k) for k in range(len(self.nodes))}
-        found = analyse(self.widths, self.starts, pairs, late)
-        self.plan = found.plan
+        found = analyse(self.widths, self.starts, pairs, late, self.pivoting)
+        self.plan, self.places = found.plan, found.places
         copies = []
         for (row, column), offset in self.blocks.items():
             copies += [offset, self.widths[row], self.widths[column], *found.places[row, column]]
@@ -257,6 +297,15 @@ class System:
         self.LV, self.LA = np.zeros(found.size + 1), np.zeros(found.size + 1)
         self.pivots, self.pivots_a = _ints([0] * self.nz), _ints([0] * self.nz)
         self.work = np.zeros(max(80, found.widest**2))
+
+    def _late_nodes(self) -> dict[int, set[int]]:
+        """For each constraint's node, what must be eliminated before it."""
+        held: dict[int, set[int]] = {}
+        for row, column in self.blocks:
+            if self._is_multiplier(row) and self.nodes[column][0] == "BODY":
+                held.setdefault(row, set()).add(column)
+        constraints = [(k, frozenset(b), self.widths[k]) for k, b in sorted(held.items())]
+        return prerequisites(constraints, self.widths[: len(self.model.bodies)])
 
     def _is_multiplier(self, node: int) -> bool:
         return self.nodes[node][0] in self.model.constraint_kinds
@@ -291,7 +340,7 @@ class System:
         for b in range(len(self.model.bodies)):
             body += [self.widths[b], self.starts[b], self.w_at["BODY", b], self.blocks[b, b], 0]
         self.body = _ints(body)
-        mass = any(g.meta["mass"] and g.face == "loads" for g in self.kernels.groups)
+        mass = any(g.meta["mass"] for g in self.kernels.groups if g.face in ("loads", "equation"))
         facts = {
             "nb": len(self.model.bodies), "n": self.n, "m": self.m, "nv": self.nv, "ns": self.ns,
             "nw": self.nw, "ng": self.group.size // 8, "si2": int(self.stabilised),

@@ -19,7 +19,6 @@ OUTCOMES = {
     base.NEWTON_FAILED: Outcome.NEWTON_FAILED,
     base.SINGULAR_MASS: Outcome.SINGULAR_ACCELERATION,
     base.NOT_FINITE: Outcome.NOT_FINITE,
-    base.BROKEN_START: Outcome.SINGULAR_ACCELERATION,
     base.INTERRUPTED: Outcome.INTERRUPTED,
 }
 
@@ -56,7 +55,15 @@ def run_dynamic(
     row = system.nw + int(system.sizes[base.N_OUT])
     system.record = np.zeros(len(times) * row)
     system.count[:] = 0
-    return OUTCOMES[_watched(system, watch, end)]
+    return _named(system, _watched(system, watch, end))
+
+
+def _named(system: System, code: int) -> Outcome:
+    """The outcome of a return code; a start that failed on not-a-number is not a singular one."""
+    if code == base.BROKEN_START:
+        known = np.isfinite(system.F).all() and np.isfinite(system.LA).all()
+        return Outcome.SINGULAR_ACCELERATION if known else Outcome.NOT_FINITE
+    return OUTCOMES[code]
 
 
 def _watched(system: System, watch: Callable[[float, float], None] | None, end: float) -> int:

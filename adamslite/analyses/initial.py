@@ -66,10 +66,7 @@ def _positions(system: System) -> Unclosed | None:
 
 def _velocities(system: System) -> Unclosed | None:
     phases = base.VELOCITY_ROWS | base.RATE_ROWS
-    first = system.nz - system.holonomic if system.stabilised else system.n
-    holonomic = np.arange(first, first + system.holonomic)
-    rates = np.arange(system.n + system.holonomic, system.n + system.m)
-    rows = np.concatenate([holonomic, rates])
+    rows = _velocity_rows(system)
     for _ in range(3):
         defect = _residual(system, phases)[rows]
         step = _least_change(system, _gradient(system, phases, 1, rows), defect)
@@ -107,6 +104,19 @@ def _least_change(system: System, gradient: np.ndarray, defect: np.ndarray) -> n
     scale = 1.0 / weights(system)
     step, *_ = np.linalg.lstsq(gradient * scale, defect, rcond=RANK)
     return scale * step
+
+
+def constraint_gradient(system: System) -> np.ndarray:
+    """G: derivative of every constraint row with respect to velocities, (m, n)."""
+    phases = base.VELOCITY_ROWS | base.RATE_ROWS
+    return _gradient(system, phases, 1, _velocity_rows(system))
+
+
+def _velocity_rows(system: System) -> np.ndarray:
+    """Rows of the velocity conditions: holonomic ones (at mu when there is one), then rates."""
+    first = system.nz - system.holonomic if system.stabilised else system.n
+    rates = np.arange(system.n + system.holonomic, system.n + system.m)
+    return np.concatenate([np.arange(first, first + system.holonomic), rates])
 
 
 def weights(system: System) -> np.ndarray:

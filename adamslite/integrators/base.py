@@ -24,6 +24,7 @@ group       per group: phase, residual, jacobian, track (addresses), instances, 
 copies      per block: Jacobian offset, rows, columns, factor offset, leading dimension
 turning     per block with a rotating column: Jacobian offset, rows, body
 mixed       per product D W G^T: target, its width, D, rows, columns, G, body
+cut ones    places of the factors set to zero and one for redundant rows;  dead  those rows
 unit        places of the diagonal of mu, one in the acceleration matrix
 settings    ``SETTINGS``;  count ``COUNTS``;  report ``REPORT``;  times (nt,) asked times
 q u a       (n,) positions and rotation vectors, velocities, accelerations
@@ -63,9 +64,9 @@ MODE_DYNAMICS = 4.0
 
 DONE, STEP_TOO_SMALL, NEWTON_FAILED, SINGULAR_MASS, NOT_FINITE, BROKEN_START, INTERRUPTED = range(7)
 
-INT_FIELDS = set("sizes body scalar group copies turning mixed unit count pivots pivots_a".split())
+INT_FIELDS = set("sizes body scalar group copies turning mixed unit cut ones dead count pivots pivots_a".split())
 FIELDS = (
-    "sizes body mass inertia weight gravity base scalar group copies turning mixed unit settings count times "
+    "sizes body mass inertia weight gravity base scalar group copies turning mixed unit cut ones dead settings count times "
     "report q u a z mu ra rz rd W F J D LV LA x work coef pivots pivots_a pivot0 history trial control pz record"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})

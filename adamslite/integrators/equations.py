@@ -174,6 +174,8 @@ def residual(P: Problem, phases: int, F: Reals) -> None:
         F[k] = 0.0
     inertia_forces(P, F)
     run_groups(P, phases, F)
+    for k in range(P.dead.size):
+        F[P.dead[k]] = 0.0
     P.count[RESIDUALS] += 1
 
 
@@ -271,6 +273,10 @@ def spread(P: Problem, LV: Reals) -> None:
             for i in range(rows):
                 for j in range(columns):
                     LV[at + i * lead + j] = J[source + i * columns + j]
+    for k in range(P.cut.size):
+        LV[P.cut[k]] = 0.0
+    for k in range(P.ones.size):
+        LV[P.ones[k]] = 1.0
 
 
 @native
