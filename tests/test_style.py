@@ -39,3 +39,9 @@ def test_the_readme_opens_with_the_pipeline_of_the_package() -> None:
     diagram = adamslite.__doc__.strip().partition("\n\n")[0]
     readme = PACKAGE.parent / "README.md"
     assert diagram in readme.read_text()
+
+
+def test_the_first_deck_of_the_readme_is_the_one_in_decks() -> None:
+    deck = PACKAGE.parent / "decks" / "hanging-mass" / "hanging-mass.adm"
+    readme = (PACKAGE.parent / "README.md").read_text(encoding="utf-8")
+    assert f"```\n{deck.read_text(encoding='utf-8')}```\n" in readme
