@@ -1,0 +1,1 @@
+"""Speed against accuracy: adamslite beside other programs, on the same scenes in the same run."""
