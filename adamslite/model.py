@@ -16,7 +16,9 @@ from typing import Any
 import numpy as np
 
 from adamslite import elements  # noqa: F401  registers the statements
+from adamslite.between import written_out
 from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time, walk
+from adamslite.functions.forces import NET
 from adamslite.statement import Statement
 
 POINT, PART = 3, 6
@@ -245,10 +247,13 @@ class Model:
 
     def _uses(self, node: Node) -> Iterator[Any]:
         """Variables an expression depends on, through the elements it measures too."""
-        seen: set[Ref] = set()
+        seen: set[Node] = set()
         pending = [node]
         while pending:
             for each in walk(pending.pop()):
+                if isinstance(each, Call) and each.name in NET and each not in seen:
+                    seen.add(each)
+                    pending.append(written_out(each, self))
                 if not isinstance(each, Ref) or each in seen:
                     continue
                 seen.add(each)

@@ -20,8 +20,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from adamslite import functions  # noqa: F401  registers the deck functions
+from adamslite.between import written_out
 from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.function import FUNCTIONS
+from adamslite.functions.forces import NET
 from adamslite.statement import STATEMENTS, Statement
 from adamslite.symbolic import ORIGIN, Load, Scope, Slot
 
@@ -45,10 +47,15 @@ class Binding:
 
 
 class Binder:
-    """Binds statements of one model; ``model`` answers what a marker or a variable is."""
+    """Binds statements of one model; ``model`` answers what a marker or a variable is.
 
-    def __init__(self, model: Any) -> None:
+    Time-only variables are read from the workspace, except among themselves (``inline_signals``), so
+    that they need no order.
+    """
+
+    def __init__(self, model: Any, inline_signals: bool = False) -> None:
         self.model = model
+        self.inline_signals = inline_signals
         self.instance = Binding()
         self.slots: list[Slot] = []
         self.elements: list[tuple[str, Tree]] = []
@@ -91,7 +98,16 @@ class Binder:
             if argument.kind in IGNORED:
                 continue
             fields.append((name, self._argument(argument, getattr(statement, name))))
+        for name, value in statement.derived(self.model).items():
+            fields.append((name, self._derived(value)))
         return tuple(fields)
+
+    def _derived(self, value: Any) -> Tree:
+        if value is None or isinstance(value, str):
+            return ("c", value)
+        if isinstance(value, tuple):
+            return ("v", tuple(self._derived(v) for v in value))
+        return self.number(value) if isinstance(value, float) else self.expression(value)
 
     def _argument(self, argument: Any, value: Any) -> Tree:
         if value is None:
@@ -134,6 +150,8 @@ class Binder:
         raise TypeError(f"not an expression: {node!r}")
 
     def call(self, node: Call) -> Tree:
+        if node.name in NET:
+            return self.expression(written_out(node, self.model))
         parameters = FUNCTIONS[node.name]
         args = tuple(
             self.argument(parameters.parameter(n).kind, a) for n, a in enumerate(node.args)
@@ -160,7 +178,7 @@ class Binder:
         kind = self.model.variable_kind(variable_id)
         if kind == "loop":
             return ("z", self.node_slot(("VARIABLE", variable_id)), 0)
-        if kind == "signal":
+        if kind == "signal" and not self.inline_signals:
             signals = self.instance.signals
             if variable_id not in signals:
                 signals.append(variable_id)
@@ -206,16 +224,17 @@ class View:
         """Loads of a force, or the reactions of a constraint."""
         if hasattr(self.cls, "loads"):
             return self.cls.loads(self, scope)
-        return reactions(self, scope)
+        with scope.everything_moves():
+            return reactions(self, scope)
 
-    @property
-    def reaction_frame(self) -> int | None:
-        """The frame called J."""
-        for name in ("j", "jfloat", "j_part"):
-            frame = self.__dict__.get(name)
-            if frame is not None:
-                return frame
-        return None
+    def end(self, jflag: int) -> int | None:
+        """The frame called I (``jflag`` 0) or J: its own, or that of the (first) joint it acts on."""
+        known = self.__dict__
+        held = known.get("joint") or (known.get("joints") or (None,))[0]
+        if held is not None:
+            return held.end(jflag)
+        names = ("j", "jfloat", "j_part") if jflag else ("i",)
+        return next((known[name] for name in names if known.get(name) is not None), None)
 
 
 def reactions(view: View, scope: Scope) -> list[Load]:
@@ -259,8 +278,16 @@ class Reader:
 
     def __call__(self, tree: Tree) -> Any:
         if tree not in self.memo:
-            self.memo[tree] = self._read(tree)
+            self.memo[tree] = self._defined(self._read(tree))
         return self.memo[tree]
+
+    def _defined(self, value: Any) -> Any:
+        """What sympy knows to be undefined (a pole, a division by zero) becomes not-a-number."""
+        from adamslite.algebra import sp
+
+        if isinstance(value, sp.Basic) and value.has(sp.zoo, sp.nan):
+            return self.scope.symbol("nan")
+        return value
 
     def _read(self, tree: Tree) -> Any:
         kind = tree[0]

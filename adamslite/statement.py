@@ -28,7 +28,7 @@ class Argument:
     Parameters
     ----------
     kind : str
-        ``number vector integer flag choice reference references expression text texts words``.
+        ``number vector integer flag choice reference references ids expression text texts words``.
     keys : tuple of str
         The keyword and its aliases, in capitals.
     help, unit : str
@@ -113,6 +113,11 @@ def references(*keys: str, to: str, help: str, **facts: Any) -> Any:
     return _declare("references", keys, help=help, to=to, default=(), **facts)
 
 
+def ids(*keys: str, help: str, **facts: Any) -> Any:
+    """Ids or names of several statements, of a kind that another argument tells."""
+    return _declare("ids", keys, help=help, default=(), **facts)
+
+
 def expression(*keys: str, help: str, unit: str = "", **facts: Any) -> Any:
     """A function expression; the last argument, or closed by a backslash."""
     return _declare("expression", keys, help=help, unit=unit, **facts)
@@ -156,6 +161,9 @@ class Statement:
     ignored: ClassVar[bool] = False
     planned: ClassVar[tuple[str, ...]] = ()
     body: ClassVar[bool] = False
+    redefinable: ClassVar[bool] = False
+    alternatives: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
+    """Groups of fields that exclude each other: giving one in a command drops the other groups."""
 
     id: int | str = 0
     name: str | None = None
@@ -200,6 +208,17 @@ class Statement:
         """Values that follow from keyword and id of the nearest body before the statement."""
         return {}
 
+    def companions(self) -> tuple[Statement, ...]:
+        """Statements this one brings with it."""
+        return ()
+
+    def derived(self, model: Any) -> dict[str, Any]:
+        """Further values its physics need, from the model as drawn.
+
+        Numbers and expressions become symbols; words decide the form; tuples may hold either.
+        """
+        return {}
+
     def constants(self) -> dict[str, float]:
         """Numbers this statement gives a name that expressions may use, names in capitals."""
         return {}
@@ -225,6 +244,7 @@ def statement(
     ignored: bool = False,
     planned: tuple[str, ...] = (),
     body: bool = False,
+    redefinable: bool = False,
 ) -> Callable[[type[Statement]], type[Statement]]:
     """Register a class as the statement ``keyword``.
 
@@ -246,6 +266,8 @@ def statement(
         Keywords that are part of the language and cannot be run yet.
     body : bool
         Markers without an owner behind it belong to it.
+    redefinable : bool
+        A singleton of the deck that a command may change; statements with an id always are.
     """
 
     def register(cls: type[Statement]) -> type[Statement]:
@@ -258,6 +280,7 @@ def statement(
         }
         made.singleton, made.repeatable, made.place = singleton, repeatable, place
         made.ends, made.ignored, made.planned, made.body = ends, ignored, planned, body
+        made.redefinable = redefinable or (place == "deck" and not singleton and not ignored)
         STATEMENTS[keyword] = made
         return made
 

@@ -21,7 +21,8 @@ them and chains the result to body coordinates.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -104,6 +105,7 @@ class Scope:
         self.symbols: dict[tuple, Any] = {}
         self.angles: list[Any] = []
         self.elements: list[Any] = []
+        self._everything_moves = False
         self.read: Callable[[Any], Any] = _unbound
 
     def symbol(self, *leaf: Any) -> Any:
@@ -123,7 +125,22 @@ class Scope:
 
     def turns(self, frame: int) -> bool:
         """True when the axes of ``frame`` can rotate."""
-        return frame != ORIGIN and self.slots[frame].kind == "part"
+        if frame == ORIGIN:
+            return False
+        return self._everything_moves or self.slots[frame].kind == "part"
+
+    @contextmanager
+    def everything_moves(self) -> Iterator[None]:
+        """Meanwhile markers that stand still are symbols as others are.
+
+        Their velocities evaluate to zero, but what depends on them shows what acts on them: the
+        reaction at a marker of the ground.
+        """
+        self._everything_moves = True
+        try:
+            yield
+        finally:
+            self._everything_moves = False
 
     def _pair(self, name: str, i: int, j: int) -> Vector:
         if i == j:
@@ -133,7 +150,7 @@ class Scope:
         return scale(-1, self.vector(name, j, i))
 
     def _moving(self, i: int) -> int:
-        return ORIGIN if self.is_ground(i) else i
+        return ORIGIN if self.is_ground(i) and not self._everything_moves else i
 
     def _turning(self, i: int) -> int:
         return i if self.turns(i) else ORIGIN
@@ -160,7 +177,7 @@ class Scope:
 
     def axes(self, k: int) -> tuple[Vector, Vector, Vector]:
         """The x, y and z axes of marker k."""
-        if k == ORIGIN or (self.slots[k].kind != "part" and not self.slots[k].turned):
+        if k == ORIGIN or not (self.turns(k) or self.slots[k].turned):
             return ((1, 0, 0), (0, 1, 0), (0, 0, 1))
         return tuple(self.vector("x", k, c) for c in range(3))
 
@@ -200,7 +217,7 @@ class Scope:
 
     def net_load(self, view: Any, jflag: int) -> tuple[Vector, Vector]:
         """What an element, seen as a view, does to its marker I or J."""
-        end = view.i if jflag == 0 else view.reaction_frame
+        end = view.end(jflag)
         force, torque = ZERO, ZERO
         for load in view.own_loads(self):
             sign = (load.frame == end) - (load.reaction == end)

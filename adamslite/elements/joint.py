@@ -1,73 +1,142 @@
 """JOINT: a constraint between two parts.
 
-Equations (``d = r_I - r_J``, axes of the markers)::
+Equations (``d = r_I - r_J``, axes of the markers, theta the turn of I since the drawn posture)::
 
-    REVOLUTE       d = 0,  z_I . x_J = 0,  z_I . y_J = 0
     SPHERICAL      d = 0
-    TRANSLATIONAL  d . x_J = 0,  d . y_J = 0,  axes of I and J parallel
+    REVOLUTE       d = 0,  z_I . x_J = 0,  z_I . y_J = 0
     FIXED          d = 0,  axes of I and J parallel
+    TRANSLATIONAL  d . x_J = 0,  d . y_J = 0,  axes of I and J parallel
+    CYLINDRICAL    d . x_J = 0,  d . y_J = 0,  z_I . x_J = 0,  z_I . y_J = 0
+    PLANAR         d . z_J = 0,  z_I . x_J = 0,  z_I . y_J = 0
+    HOOKE          d = 0,  x_I . y_J = 0              z along the shafts
+    UNIVERSAL      d = 0,  z_I . z_J = 0              z along the arms of the cross
+    CONVEL         d = 0,  x_I . y_J = y_I . x_J      z along the shafts, away from the joint
+    SCREW          d . z_J - d0 = PITCH theta / (2 pi)         theta about z of J
+    RACKPIN        s - s0 = PD/2 theta,  s = -d . z_J          theta about z of I
 
 Sign: the reaction reported is the force and torque on I; the free coordinate is that of I relative
-to J along or about z of J.
+to J along or about z of J.  A positive PITCH is a right-handed screw.  RACKPIN: I is on the pinion,
+z its axis; J is on the rack, z along it.  A positive PD drives the rack along +z of J when the
+pinion turns about +z of I, and only the turn **seen from the rack** counts: a rack that is carried
+round the pinion winds up.  SCREW and RACKPIN start from the posture the deck draws (d0, s0, theta 0)
+and count full turns::
+
+          z_I (out of the page)
+             .--.
+            ( o  )  theta ccw          rack J  ====|====>  z_J,  s
+             '--'
 """
 
 from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from adamslite.expression import COMPONENTS, Node, Ref, measure
-from adamslite.statement import Statement, choice, reference, statement
+from adamslite.algebra import sp
+from adamslite.constraint import Constraint
+from adamslite.coordinates import (
+    angle_since,
+    built_slide,
+    built_turn,
+    built_turn_on_rack,
+    slide,
+    turn,
+    turn_on_rack,
+)
+from adamslite.statement import Statement, choice, number, reference, statement, vector
 from adamslite.symbolic import Scope, dot
 
-KINDS = (
-    "CONVEL", "CYLINDRICAL", "FIXED", "HOOKE", "PLANAR", "RACKPIN", "REVOLUTE", "SCREW",
-    "SPHERICAL", "TRANSLATIONAL", "UNIVERSAL",
-)  # fmt: skip
+Initial = tuple[str, float | None, float | None]
 
 
-@statement("JOINT", planned=("IC", "ICTRAN", "ICROT", "PITCH", "PD", "FRICTION"))
-class Joint(Statement):
+@statement("JOINT", planned=("FRICTION",))
+class Joint(Constraint, Statement):
     """An ideal joint between markers I and J of two different parts."""
 
     kind: str = choice(
-        options=KINDS, required=True, help="a type of joint",
-        supported=("REVOLUTE", "SPHERICAL", "TRANSLATIONAL", "FIXED"),
+        options=(
+            "CONVEL", "CYLINDRICAL", "FIXED", "HOOKE", "PLANAR", "RACKPIN", "REVOLUTE", "SCREW",
+            "SPHERICAL", "TRANSLATIONAL", "UNIVERSAL",
+        ),
+        required=True, help="a type of joint",
     )  # fmt: skip
     i: int | str = reference("I", to="MARKER", required=True, help="marker on the first part")
     j: int | str = reference("J", to="MARKER", required=True, help="marker on the second part")
+    pitch: float | None = number(
+        "PITCH", unit="length", help="SCREW: travel of I along z of J in one turn"
+    )
+    pd: float | None = number("PD", unit="length", help="RACKPIN: pitch diameter of the pinion")
+    ic: tuple[float, ...] | None = vector(
+        "IC", size=1, most=2, unit="length or angle, the same per time",
+        help="displacement and velocity at the start of the one freedom",
+    )  # fmt: skip
+    ictran: tuple[float, ...] | None = vector(
+        "ICTRAN", size=1, most=2, unit="length, length per time",
+        help="CYLINDRICAL: translation and its velocity at the start",
+    )  # fmt: skip
+    icrot: tuple[float, ...] | None = vector(
+        "ICROT", size=1, most=2, unit="angle, angle per time",
+        help="CYLINDRICAL: rotation and its velocity at the start",
+    )  # fmt: skip
 
-    rows: ClassVar[dict[str, int]] = {"REVOLUTE": 5, "SPHERICAL": 3, "TRANSLATIONAL": 5, "FIXED": 6}
+    rows: ClassVar[dict[str, int]] = {
+        "CONVEL": 4, "CYLINDRICAL": 4, "FIXED": 6, "HOOKE": 4, "PLANAR": 3, "RACKPIN": 1,
+        "REVOLUTE": 5, "SCREW": 1, "SPHERICAL": 3, "TRANSLATIONAL": 5, "UNIVERSAL": 4,
+    }  # fmt: skip
+    free: ClassVar[dict[str, tuple[str, ...]]] = {
+        "CYLINDRICAL": ("TRANSLATION", "ROTATION"),
+        "REVOLUTE": ("ROTATION",),
+        "TRANSLATIONAL": ("TRANSLATION",),
+    }
 
     @property
     def n_rows(self) -> int:
         """Constraint equations of this joint."""
         return self.rows[self.kind]
 
-    def is_rate(self, model: Any) -> bool:
-        """Whether the rows constrain velocities only."""
-        return False
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The freedoms that have a name: TRANSLATION along and ROTATION about z of J."""
+        return self.free.get(self.kind, ())
+
+    def initial(self) -> list[Initial]:
+        """(coordinate, displacement, velocity) asked for at the start; None where free."""
+        asked = {"TRANSLATION": self.ictran, "ROTATION": self.icrot}
+        if self.ic and len(self.coordinates) == 1:
+            asked[self.coordinates[0]] = self.ic
+        return [(name, *(*given, None)[:2]) for name, given in asked.items() if given]
+
+    def derived(self, model: Any) -> dict[str, Any]:
+        """Where SCREW and RACKPIN count from: the posture the deck draws."""
+        if self.kind == "SCREW":
+            found = built_turn(model, self.i, self.j)
+        elif self.kind == "RACKPIN":
+            found = built_turn_on_rack(model, self.i, self.j)
+        else:
+            return {}
+        return {"slid": built_slide(model, self.i, self.j), "turned": found}
 
     def constraints(self, scope: Scope) -> list[Any]:
         """Rows that vanish: positions first, then directions."""
-        d = scope.position(self.i, self.j)
-        xi, _, zi = scope.axes(self.i)
-        xj, yj, _ = scope.axes(self.j)
-        together = list(d)
-        on_line = [dot(d, xj), dot(d, yj)]
+        i, j = self.i, self.j
+        if self.kind == "SCREW":
+            angle = angle_since(scope, turn(scope, i, j), self.turned)
+            return [slide(scope, i, j) - self.slid - self.pitch / (2 * sp.pi) * angle]
+        if self.kind == "RACKPIN":
+            angle = angle_since(scope, turn_on_rack(scope, i, j), self.turned)
+            return [self.slid - slide(scope, i, j) - self.pd / 2 * angle]
+        together = list(scope.position(i, j))
+        (xi, yi, zi), (xj, yj, zj) = scope.axes(i), scope.axes(j)
+        on_line = [dot(together, xj), dot(together, yj)]
         parallel = [dot(zi, xj), dot(zi, yj)]
         same_turn = [dot(xi, yj)]
         return {
-            "SPHERICAL": together,
-            "REVOLUTE": together + parallel,
+            "CONVEL": [*together, dot(xi, yj) - dot(yi, xj)],
+            "CYLINDRICAL": on_line + parallel,
             "FIXED": together + parallel + same_turn,
+            "HOOKE": together + same_turn,
+            "PLANAR": [slide(scope, i, j), *parallel],
+            "REVOLUTE": together + parallel,
+            "SPHERICAL": together,
             "TRANSLATIONAL": on_line + parallel + same_turn,
+            "UNIVERSAL": [*together, dot(zi, zj)],
         }[self.kind]
-
-    @property
-    def result_names(self) -> tuple[str, ...]:
-        """Reaction on I, ground axes, torque about I's origin."""
-        return ("fx", "fy", "fz", "tx", "ty", "tz")
-
-    def outputs(self, model: Any) -> list[Node]:
-        """Values of ``result_names``."""
-        return [measure("JOINT", Ref("JOINT", self.key), c) for c in COMPONENTS]

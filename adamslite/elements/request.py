@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.expression import GROUND_FRAME, Call, Node, Num, Op, Ref, measure
+from adamslite.expression import GROUND_FRAME, Call, Node, Num, Ref
 from adamslite.function import FUNCTIONS
 from adamslite.statement import (
     Statement,
@@ -28,12 +28,11 @@ from adamslite.statement import (
 MEASURES = {
     "DISPLACEMENT": ("DM", "DX", "DY", "DZ", None, "PSI", "THETA", "PHI"),
     "VELOCITY": ("VM", "VX", "VY", "VZ", "WM", "WX", "WY", "WZ"),
+    "FORCE": ("FM", "FX", "FY", "FZ", "TM", "TX", "TY", "TZ"),
     "ACCELERATION": ("ACCM", "ACCX", "ACCY", "ACCZ", "WDTM", "WDTX", "WDTY", "WDTZ"),
 }
 
 SIZES = ("DM", "VM", "ACCM", "WM", "WDTM")
-# Elements a FORCE request adds up, and the function that measures each.
-LOADED = {"SFORCE": "SFORCE", "VFORCE": "VFORCE", "SPRINGDAMPER": "SPDP", "JOINT": "JOINT"}
 
 
 def _component(number: int) -> Any:
@@ -43,6 +42,8 @@ def _component(number: int) -> Any:
 @statement("REQUEST", planned=("FUNCTION", "ROUTINE", "VARIABLES"))
 class Request(Statement):
     """Output of a marker's motion, of a force, or of expressions."""
+
+    alternatives = ((("kind",), ("f1", "f2", "f3", "f4", "f5", "f6", "f7", "f8")),)
 
     kind: str | None = choice(
         options=("DISPLACEMENT", "VELOCITY", "ACCELERATION", "FORCE"), help="what is written"
@@ -80,8 +81,6 @@ class Request(Statement):
         """Values of ``result_names``."""
         if self.kind is None:
             return [f for f in self.functions if f is not None]
-        if self.kind == "FORCE":
-            return self._forces(model)
         frames = (Ref("MARKER", self.i), Ref("MARKER", self.j), Ref("MARKER", self.rm))
         return [self._measure(name, frames) for name in MEASURES[self.kind]]
 
@@ -92,32 +91,3 @@ class Request(Statement):
         # Angles and sizes take two frames; a fourth is the frame of the derivative, ground here.
         args = frames[:2] if len(taken) == 2 or name in SIZES else frames
         return Call(name, args + (GROUND_FRAME,) * (len(taken) - len(args)))
-
-    def _forces(self, model: Any) -> list[Node]:
-        """FM FX FY FZ TM TX TY TZ on I of all elements between I and J."""
-        found = [s for s in model.deck.statements if s.keyword in LOADED and self._joins(s)]
-        total = {c: _sum([self._load(s, c) for s in found]) for c in (2, 3, 4, 6, 7, 8)}
-        force, torque = ([total[c] for c in three] for three in ((2, 3, 4), (6, 7, 8)))
-        return [_size(force), *force, _size(torque), *torque]
-
-    def _joins(self, element: Statement) -> bool:
-        other = getattr(element, "jfloat", None) or getattr(element, "j", 0)
-        if self.j == 0:
-            return self.i in (element.i, other)
-        return {element.i, other} == {self.i, self.j}
-
-    def _load(self, element: Statement, component: int) -> Node:
-        jflag = 0 if element.i == self.i else 1
-        ref = Ref(element.keyword, element.key)
-        return measure(LOADED[element.keyword], ref, component, Ref("MARKER", self.rm), jflag)
-
-
-def _sum(terms: list[Node]) -> Node:
-    total: Node = Num(0.0)
-    for term in terms:
-        total = term if total == Num(0.0) else Op("+", (total, term))
-    return total
-
-
-def _size(components: list[Node]) -> Node:
-    return Call("SQRT", (_sum([Op("*", (c, c)) for c in components]),))

@@ -1,0 +1,72 @@
+"""COUPLER: two or three joints whose freedoms are proportional.
+
+Equation (q the translation or rotation of I relative to J of each joint, since the drawn posture)::
+
+    r1 (q1 - q1_0) + r2 (q2 - q2_0) [+ r3 (q3 - q3_0)] = 0
+
+Sign: q is positive along and about z of J; rotations count full turns.  A deck that draws its
+joints at zero has q_0 = 0; one that does not is coupled as it is drawn.
+The reaction reported acts on I of the first joint.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.constraint import Constraint
+from adamslite.coordinates import angle_since, built_slide, built_turn, slide, turn
+from adamslite.statement import Statement, references, statement, vector, words
+from adamslite.symbolic import Scope
+
+
+@statement("COUPLER", planned=("FUNCTION",))
+class Coupler(Constraint, Statement):
+    """Couples the freedoms of translational, revolute and cylindrical joints."""
+
+    joints: tuple[int | str, ...] = references(
+        "JOINTS", to="JOINT", required=True, help="two or three joints"
+    )
+    scales: tuple[float, ...] = vector(
+        "SCALES", size=1, most=3, required=True, unit="per length, or per angle",
+        help="r1, r2 and r3; r1 is 1 when one is missing",
+    )  # fmt: skip
+    type: tuple[str, ...] = words(
+        "TYPE", options=("TRANSLATIONAL", "ROTATIONAL"),
+        help="T or R for each joint; needed for cylindrical joints",
+    )  # fmt: skip
+
+    @property
+    def factors(self) -> tuple[float, ...]:
+        """r1, r2 and r3."""
+        missing = len(self.scales) < len(self.joints)
+        return (1.0, *self.scales) if missing else self.scales
+
+    def uses(self, number: int, freedoms: tuple[str, ...]) -> str | None:
+        """TRANSLATION or ROTATION of joint ``number`` with these freedoms; None when unclear."""
+        if number < len(self.type):
+            word = self.type[number].removesuffix("AL")
+            return word if word in freedoms else None
+        return freedoms[0] if len(freedoms) == 1 else None
+
+    def derived(self, model: Any) -> dict[str, Any]:
+        """The freedom used of each joint, its factor and where it counts from."""
+        chosen, since = [], []
+        for number, key in enumerate(self.joints):
+            joint = model.element("JOINT", key)
+            chosen.append(self.uses(number, joint.coordinates))
+            built = built_turn if chosen[-1] == "ROTATION" else built_slide
+            since.append(built(model, joint.i, joint.j))
+        return {"chosen": tuple(chosen), "since": tuple(since), "factors": self.factors}
+
+    def constraints(self, scope: Scope) -> list[Any]:
+        """The row that vanishes."""
+        row = 0
+        for joint, name, since, factor in zip(
+            self.joints, self.chosen, self.since, self.factors, strict=True
+        ):
+            if name == "ROTATION":
+                moved = angle_since(scope, turn(scope, joint.i, joint.j), since)
+            else:
+                moved = slide(scope, joint.i, joint.j) - since
+            row = row + factor * moved
+        return [row]

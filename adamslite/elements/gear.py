@@ -1,0 +1,70 @@
+"""GEAR: two joints on one carrier whose pitch points keep one speed.
+
+Equation (P the origin of CV, all seen from the carrier; z_CV the direction of the common velocity)::
+
+    s1 (q1 - q1_0) - s2 (q2 - q2_0) = 0
+
+    s = (z_J x (P - r_J)) . z_CV    for a rotation q about z of J
+    s = z_J . z_CV                  for a translation q along z of J
+
+The carrier holds the J markers of both joints and CV, so the factors s are constants of the deck
+and the speeds ds1/dt = s1 dq1/dt, ds2/dt of the two gears at P along z_CV are equal.  A cylindrical
+joint counts with both its freedoms.  The q count from the drawn posture, rotations with full turns.
+Sign: the reaction reported acts on I of the first joint.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.constraint import Constraint
+from adamslite.coordinates import angle_since, built_slide, built_turn, slide, turn
+from adamslite.statement import Statement, reference, references, statement
+from adamslite.symbolic import Scope
+
+
+@statement("GEAR")
+class Gear(Constraint, Statement):
+    """A pair of gears, or a rack and a pinion, on a common carrier."""
+
+    joints: tuple[int | str, ...] = references(
+        "JOINTS", to="JOINT", required=True, help="the joints of the two gears"
+    )
+    cv: int | str = reference(
+        "CV", to="MARKER", required=True, help="marker at the pitch point, z along its velocity"
+    )
+
+    def derived(self, model: Any) -> dict[str, Any]:
+        """For each joint (factor, built value) of its translation and of its rotation."""
+        pitch = model.marker(self.cv)
+        along = pitch.axes[:, 2]
+        slides, turns = [], []
+        for key in self.joints:
+            joint = model.element("JOINT", key)
+            place = model.marker(joint.j)
+            axis, arm = place.axes[:, 2], pitch.p - place.p
+            free = joint.coordinates
+            shift = float(axis @ along) if "TRANSLATION" in free else 0.0
+            lever = float(along @ _cross(axis, arm)) if "ROTATION" in free else 0.0
+            slides.append((shift, built_slide(model, joint.i, joint.j)))
+            turns.append((lever, *built_turn(model, joint.i, joint.j)))
+        return {"slides": tuple(slides), "turns": tuple(turns)}
+
+    def constraints(self, scope: Scope) -> list[Any]:
+        """The row that vanishes."""
+        row = 0
+        for sign, joint, (shift, slid), (lever, *turned) in zip(
+            (1, -1), self.joints, self.slides, self.turns, strict=True
+        ):
+            if shift != 0:
+                row = row + sign * shift * (slide(scope, joint.i, joint.j) - slid)
+            if lever != 0:
+                rotation = turn(scope, joint.i, joint.j)
+                row = row + sign * lever * angle_since(scope, rotation, tuple(turned))
+        return [row]
+
+
+def _cross(a: Any, b: Any) -> Any:
+    from numpy import cross
+
+    return cross(a, b)

@@ -1,0 +1,58 @@
+"""JPRIM: one geometric condition between two markers.
+
+Equations (``d = r_I - r_J``)::
+
+    ATPOINT        d = 0
+    INLINE         d . x_J = 0,  d . y_J = 0          I on the z axis of J
+    INPLANE        d . z_J = 0                        I in the xy plane of J
+    ORIENTATION    z_I . x_J = 0,  z_I . y_J = 0,  x_I . y_J = 0
+    PARALLEL_AXES  z_I . x_J = 0,  z_I . y_J = 0
+    PERPENDICULAR  z_I . z_J = 0
+
+Sign: the reaction reported is the force and torque on I.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from adamslite.constraint import Constraint
+from adamslite.statement import Statement, choice, reference, statement
+from adamslite.symbolic import Scope, dot
+
+
+@statement("JPRIM")
+class Jprim(Constraint, Statement):
+    """A joint primitive; ATPOINT, INLINE and INPLANE also hold a POINT_MASS."""
+
+    kind: str = choice(
+        options=("ATPOINT", "INLINE", "INPLANE", "ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR"),
+        required=True, help="a type of primitive",
+    )  # fmt: skip
+    i: int | str = reference("I", to="MARKER", required=True, help="marker that is held")
+    j: int | str = reference("J", to="MARKER", required=True, help="marker with the line or plane")
+
+    rows: ClassVar[dict[str, int]] = {
+        "ATPOINT": 3, "INLINE": 2, "INPLANE": 1, "ORIENTATION": 3, "PARALLEL_AXES": 2,
+        "PERPENDICULAR": 1,
+    }  # fmt: skip
+
+    @property
+    def n_rows(self) -> int:
+        """Constraint equations of this primitive."""
+        return self.rows[self.kind]
+
+    def constraints(self, scope: Scope) -> list[Any]:
+        """Rows that vanish."""
+        d = scope.position(self.i, self.j)
+        xi, _, zi = scope.axes(self.i)
+        xj, yj, zj = scope.axes(self.j)
+        parallel = [dot(zi, xj), dot(zi, yj)]
+        return {
+            "ATPOINT": list(d),
+            "INLINE": [dot(d, xj), dot(d, yj)],
+            "INPLANE": [dot(d, zj)],
+            "ORIENTATION": [*parallel, dot(xi, yj)],
+            "PARALLEL_AXES": parallel,
+            "PERPENDICULAR": [dot(zi, zj)],
+        }[self.kind]
