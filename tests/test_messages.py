@@ -103,10 +103,10 @@ def test_hints_name_what_was_meant(broken: str, hint: str) -> None:
 
 def test_what_is_not_supported_is_told_once_with_its_number() -> None:
     """A reference to a statement that cannot be run is no mistake of its own."""
-    text = "BEAM/1, I=1\nBEAM/2, I=1\nSPLINE/1, X=1\nVARIABLE/1, FUNCTION=USER(1)+USER(2)"
+    text = "NFORCE/1, J=1\nNFORCE/2, J=1\nSPLINE/1, X=1\nVARIABLE/1, FUNCTION=USER(1)+USER(2)"
     found = told(START + text + "\n")
     assert [d.message for d in found] == [
-        "not supported yet: BEAM (2 times, first here)",
+        "not supported yet: NFORCE (2 times, first here)",
         "not supported yet: SPLINE",
         "not supported yet: function USER (2 times, first here)",
     ]

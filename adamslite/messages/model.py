@@ -136,13 +136,26 @@ MODEL: dict[str, Message] = {
     "torque-on-point": Message(
         "{label} puts a torque on {owner}",
         "a POINT_MASS cannot rotate; make it a PART",
-        ("SFORCE/1, ROTATIONAL, I=3, J=1, FUNCTION=1", "JOINT/1, REVOLUTE, I=1, J=3"),
+        ("SFORCE/1, ROTATIONAL, I=3, J=1, FUNCTION=1", "JOINT/1, REVOLUTE, I=1, J=3",
+         "BUSHING/1, I=3, J=1, K=1,1,1",
+         "GFORCE/1, I=2, J_PART=1, TX=1\nVTORQUE/1, I=3, J_PART=1, TX=1"),
+    ),
+    "two-dampings": Message(
+        "{label} has both CRATIO and CMATRIX",
+        "CRATIO makes the damping from the stiffness; CMATRIX gives it outright",
+        ("FIELD/1, I=2, J=1, CRATIO=1, CMATRIX=" + ",".join(["1"] * 36),),
+    ),
+    "friction-not-there": Message(
+        "{label} cannot act in {joint}: friction of a joint {kind} is not supported",
+        "translational, revolute, cylindrical and spherical joints have friction",
+        ("JOINT/1, HOOKE, I=2, J=1\nFRICTION/1, JOINT=1",),
     ),
     "no-effect": Message(
         "{word} has no effect in {label}",
         "{reason}",
         ("SPRINGDAMPER/1, I=2, J=1, KT=1", "MARKER/4, PART=1, USEXP, XP=1,0,0, ZP=0,0,1\n"
-         "SPRINGDAMPER/1, ROTATIONAL, I=2, J=4, K=1"),
+         "SPRINGDAMPER/1, ROTATIONAL, I=2, J=4, K=1",
+         "JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1, MAX_STICTION_DEFORMATION=1"),
         severity=WARNING,
     ),
     "units-incomplete": Message(
@@ -168,23 +181,6 @@ MODEL: dict[str, Message] = {
     ),
     "steps-disordered": Message(
         "HMIN of INTEGRATOR is larger than HMAX", "", ("INTEGRATOR/HMIN=1, HMAX=0.1",)
-    ),
-    "no-end": Message(
-        "SIMULATE does not say when to end",
-        "give END= or DURATION=",
-        ("SIMULATE/DYNAMICS, STEPS=9",),
-    ),
-    "two-ends": Message(
-        "SIMULATE has both END and DURATION", "", ("SIMULATE/DYNAMICS, END=1, DURATION=1, STEPS=9",)
-    ),
-    "no-output-step": Message(
-        "SIMULATE does not say how often to write",
-        "give STEPS= or DTOUT=; without them 100 steps are written",
-        ("SIMULATE/DYNAMICS, END=1",),
-        severity=WARNING,
-    ),
-    "two-output-steps": Message(
-        "SIMULATE has both STEPS and DTOUT", "", ("SIMULATE/DYNAMICS, END=1, STEPS=9, DTOUT=1",)
     ),
     "empty-request": Message(
         "{label} asks for nothing",

@@ -63,7 +63,7 @@ STATEMENTS: dict[str, Message] = {
     "planned-statement": Message(
         "not supported yet: {word}{times}",
         "the statement exists in ADAMS; this program cannot run it",
-        ("BEAM/1, I=1, J=2, LENGTH=1", "CONTACT/1\nCONTACT/2, IGEOM=3"),
+        ("NFORCE/1, IMARKERS=1, J=2", "CONTACT/1\nCONTACT/2, IGEOM=3"),
     ),
     "command-in-deck": Message(
         "{word} is a command and does not belong in a deck",
@@ -73,7 +73,7 @@ STATEMENTS: dict[str, Message] = {
     "statement-in-commands": Message(
         "not supported yet: {word} as a command{times}",
         "put the statement in the deck",
-        commands=("VARIABLE/1, FUNCTION=2\nstop", "MARKER/1, QP=1,2,3\nMARKER/2, QP=1,2,3"),
+        commands=("UNITS/SYSTEM=MKS\nstop", "RESULTS/\nRESULTS/"),
     ),
     "unclosed-bracket": Message(
         "the bracket {word} is never closed",

@@ -1,0 +1,58 @@
+"""FIELD: a spring and damper whose six directions are coupled by matrices.
+
+Equation, components along the axes of J (d = r_I - r_J)::
+
+    x = (d, AX(I,J), AY(I,J), AZ(I,J)),    v = (velocity, angular velocity of I seen from J)
+
+    force, torque on I = FORCE - KMATRIX (x - LENGTH) - CMATRIX v
+    on J               = -force,  -torque - d x force
+
+CMATRIX = CRATIO KMATRIX when CRATIO is given.  The 36 values of a matrix stand column by column:
+the first six are what a unit of x along x of J does.  Sign: a positive diagonal pulls I back to
+LENGTH.  The angles are projections; two of the three must stay small.
+Source: Adams/Solver statement FIELD.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.statement import Statement, number, reference, statement, vector
+from adamslite.wrench import NOTHING, Compliance, by_columns, times
+
+
+@statement("FIELD", planned=("FUNCTION", "ROUTINE", "FORMULATION"))
+class Field(Compliance, Statement):
+    """A linear force and torque in all six directions, with coupling."""
+
+    i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
+    j: int | str = reference(
+        "J", to="MARKER", required=True, help="marker it is seen from, which takes the reaction"
+    )
+    kmatrix: tuple[float, ...] = vector(
+        "KMATRIX", size=36, unit="force/length, torque/angle, ...", default=NOTHING * 6,
+        help="stiffness, column by column",
+    )  # fmt: skip
+    cmatrix: tuple[float, ...] = vector(
+        "CMATRIX", size=36, unit="those of KMATRIX, times time", default=NOTHING * 6,
+        help="damping, column by column",
+    )  # fmt: skip
+    cratio: float | None = number("CRATIO", unit="time", help="damping over stiffness")
+    length: tuple[float, ...] = vector(
+        "LENGTH", size=6, unit="length, angle", default=NOTHING,
+        help="displacement at which the force is FORCE",
+    )  # fmt: skip
+    force: tuple[float, ...] = vector(
+        "FORCE", size=6, unit="force, torque", default=NOTHING, help="force and torque at LENGTH"
+    )
+
+    def derived(self, model: Any) -> dict[str, Any]:
+        """The matrices of the law."""
+        stiffness = by_columns(self.kmatrix)
+        damping = by_columns(self.cmatrix)
+        return {
+            "stiffness": stiffness,
+            "damping": damping if self.cratio is None else times(self.cratio, stiffness),
+            "rest": self.length,
+            "preload": self.force,
+        }

@@ -1,0 +1,59 @@
+"""GFORCE: a force and a torque given by their components.
+
+Equation::
+
+    force on I at I's origin = FX x_RM + FY y_RM + FZ z_RM
+    torque on I              = TX x_RM + TY y_RM + TZ z_RM
+
+The opposite force and torque act on the part of JFLOAT at the present place of I, so the pair adds
+no moment of its own::
+
+      part of I  o ---->  F, T       part of JFLOAT  o <----  -F, -T     (same point in space)
+
+Source: Adams/Solver statement GFORCE.
+"""
+
+from __future__ import annotations
+
+from adamslite.expression import Node, Num
+from adamslite.statement import Statement, expression, reference, statement
+from adamslite.symbolic import Load, Scope, along_axes
+from adamslite.wrench import Wrench
+
+
+def _component(key: str, unit: str) -> Node:
+    help = f"{unit.split()[0]} along {key[1].lower()} of RM"
+    return expression(key, unit=unit, default=Num(0.0), help=help)
+
+
+@statement("GFORCE", planned=("FXYZ", "TXYZ", "FUNCTION", "ROUTINE"))
+class Gforce(Wrench, Statement):
+    """A vector force and a vector torque on marker I.
+
+    The reaction goes to the part of the floating marker JFLOAT, or to the part ``J_PART`` directly;
+    the ground takes it without a trace.  Omitted components are zero; without RM the components are
+    along the ground axes.
+    """
+
+    i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
+    jfloat: int | str | None = reference(
+        "JFLOAT", "J", to="MARKER", help="floating marker on the part that takes the reaction"
+    )
+    j_part: int | str | None = reference("J_PART", to="PART", help="part that takes the reaction")
+    rm: int | str = reference(
+        "RM", to="MARKER", default=0, help="marker whose axes the components refer to"
+    )
+    fx: Node = _component("FX", "force")
+    fy: Node = _component("FY", "force")
+    fz: Node = _component("FZ", "force")
+    tx: Node = _component("TX", "torque")
+    ty: Node = _component("TY", "torque")
+    tz: Node = _component("TZ", "torque")
+
+    def loads(self, scope: Scope) -> list[Load]:
+        """Force and torque on I; the reaction follows I."""
+        axes = scope.axes(self.rm)
+        force = along_axes(axes, (self.fx, self.fy, self.fz))
+        torque = along_axes(axes, (self.tx, self.ty, self.tz))
+        reaction = self.jfloat if self.jfloat is not None else self.j_part
+        return [Load(self.i, force, torque, reaction, follows=True)]

@@ -1,0 +1,47 @@
+"""VTORQUE: a torque given by its three components.
+
+Equation::
+
+    torque on I = TX x_RM + TY y_RM + TZ z_RM
+
+The opposite torque acts on the part of JFLOAT.  Sign: right hand about the axes of RM::
+
+      part of I  o =>>  T         part of JFLOAT  o <<=  -T
+
+Source: Adams/Solver statement VTORQUE.
+"""
+
+from __future__ import annotations
+
+from adamslite.expression import Node, Num
+from adamslite.statement import Statement, expression, reference, statement
+from adamslite.symbolic import ZERO, Load, Scope, along_axes
+from adamslite.wrench import Wrench
+
+
+@statement("VTORQUE", planned=("TXYZ", "FUNCTION", "ROUTINE"))
+class Vtorque(Wrench, Statement):
+    """A vector torque on the part of marker I.
+
+    The reaction goes to the part of the floating marker JFLOAT, or to the part ``J_PART`` directly;
+    the ground takes it without a trace.  Omitted components are zero; without RM the components are
+    about the ground axes.
+    """
+
+    i: int | str = reference("I", to="MARKER", required=True, help="marker the torque acts on")
+    jfloat: int | str | None = reference(
+        "JFLOAT", "J", to="MARKER", help="floating marker on the part that takes the reaction"
+    )
+    j_part: int | str | None = reference("J_PART", to="PART", help="part that takes the reaction")
+    rm: int | str = reference(
+        "RM", to="MARKER", default=0, help="marker whose axes the components refer to"
+    )
+    tx: Node = expression("TX", unit="torque", default=Num(0.0), help="torque about x of RM")
+    ty: Node = expression("TY", unit="torque", default=Num(0.0), help="torque about y of RM")
+    tz: Node = expression("TZ", unit="torque", default=Num(0.0), help="torque about z of RM")
+
+    def loads(self, scope: Scope) -> list[Load]:
+        """The torque on I and its reaction."""
+        torque = along_axes(scope.axes(self.rm), (self.tx, self.ty, self.tz))
+        reaction = self.jfloat if self.jfloat is not None else self.j_part
+        return [Load(self.i, ZERO, torque, reaction, follows=True)]
