@@ -28,12 +28,16 @@ def _culprit(system: System, outcome: Outcome) -> str:
         found = [
             s
             for group in system.kernels.groups
-            if group.face == "loads" and group.meta["mass"]
+            if group.face in ("loads", "equation") and group.meta["mass"]
             for s, _ in group.instances
         ]
         if found:
             return ", ".join(f"{s.label} ({_place(s)})" for s in found[:3]) + ": "
-    where = int(system.report[base.WHERE]) % max(1, system.n)
+    where = int(system.report[base.WHERE])
+    if where >= 2 * system.n:
+        states = system.model.deck.of("DIFF")[where - 2 * system.n :]
+        return "".join(f"Most critical: {s.label} ({_place(s)}). " for s in states[:1])
+    where %= system.n
     for b, body in enumerate(system.model.bodies):
         i = system.starts[b]
         if i <= where < i + body.width:

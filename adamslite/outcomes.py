@@ -25,6 +25,18 @@ class Outcome(Enum):
         "No starting state satisfies all constraints. Look at the positions of the named joint's "
         "markers, at initial velocities that contradict a constraint, and at EXACT."
     )
+    NOT_KINEMATIC = (
+        "A kinematic analysis needs a model without degrees of freedom. Add MOTION statements, or use "
+        "SIMULATE/DYNAMIC."
+    )
+    UNDETERMINED = (
+        "The equations do not determine the accelerations. Look for a part without mass or inertia "
+        "that no constraint carries, or a posture in which a mechanism can move two ways."
+    )
+    NO_EQUILIBRIUM = (
+        "No static equilibrium was found. Look for a body that nothing holds against gravity, "
+        "start nearer to the equilibrium, or use a larger IMBALANCE or MAXIT in EQUILIBRIUM."
+    )
     NOT_FINITE = (
         "An expression gave infinity or not-a-number. Look for a division by zero, the root or the "
         "logarithm of a negative number, or DM of coinciding markers in the named statement."

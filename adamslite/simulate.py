@@ -4,25 +4,22 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.dynamic import Settings, counters, run_dynamic
-from adamslite.analyses.initial import initial_conditions
-from adamslite.analyses.redundancy import leave_out_redundant, row_name
-from adamslite.columns import columns
-from adamslite.compiled import Kernels, compile_model
+from adamslite.compiled import Kernels
 from adamslite.explain import explain
 from adamslite.faults import UsageError
 from adamslite.integrators import base
-from adamslite.model import Model, assemble
+from adamslite.model import Model
 from adamslite.outcomes import Outcome
+from adamslite.analyses.redundancy import row_name
 from adamslite.results import Results
-from adamslite.system import System, engine
+from adamslite.session import Session
+from adamslite.times import spread_times
 
-TOLERANCE_OF_TIME = 1e-9
+COUNTED = ("steps", "rejected", "newton", "jacobians", "factorizations")
 
 
 def simulate(
@@ -57,22 +54,46 @@ def simulate(
         When nothing says how long to run.
     """
     began = clock.process_time()
-    deck = _deck(scene)
-    statements = (*deck.statements, *commands)
-    settings = _settings(statements, method=integrator, formulation=formulation, error=error, hmax=hmax)
-    times = _times(statements, end, steps)
-    kernels = _compiled(scene, progress)
-    engine(progress)
-    system = System(kernels, settings.formulation == "SI2")
+    asked = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
+    flags = {name: value for name, value in asked.items() if value is not None}
+    plan = _plan(_deck(scene), tuple(commands), end, steps)
+    session = Session(scene, progress, flags)
     ready = clock.process_time()
-    unclosed = initial_conditions(system)
-    if unclosed:
-        outcome = Outcome.INITIAL_CONDITIONS_FAILED
-    else:
-        leave_out_redundant(system)
-        outcome = run_dynamic(system, times, settings, progress)
-    done = clock.process_time()
-    return _results(system, outcome, unclosed, settings, (ready - began, done - ready))
+    session.execute(plan)
+    cpu = (ready - began, clock.process_time() - ready)
+    return _results(session, cpu)
+
+
+class _Simulation:
+    """A dynamic run asked for by flags instead of a SIMULATE statement."""
+
+    keyword, kind = "SIMULATE", "DYNAMICS"
+
+    def __init__(self, end: float, steps: int | None, dtout: float | None) -> None:
+        spread_times(0.0, end, steps, dtout)
+        self.end, self.steps, self.dtout, self.duration = end, steps, dtout, None
+
+
+def _plan(deck: Any, commands: tuple[Any, ...], end: float | None, steps: int | None) -> list[Any]:
+    """What to carry out: settings of the deck, then the commands, or the deck's own SIMULATE statements.
+
+    Flags replace the last SIMULATE/DYNAMICS and what follows it.
+    """
+    own = [s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM", "SIMULATE")]
+    if any(c.keyword == "SIMULATE" for c in commands):
+        own = [s for s in own if s.keyword != "SIMULATE"]
+    plan = [*own, *commands]
+    runs = [k for k, s in enumerate(plan) if s.keyword == "SIMULATE"]
+    if end is None and not runs:
+        raise UsageError(Outcome.NO_END_TIME.value)
+    if end is None and steps is None:
+        return plan
+    last = plan[runs[-1]] if runs else None
+    stop = end if end is not None else last.end if last.end is not None else last.duration
+    dtout = last.dtout if last is not None and steps is None else None
+    chosen = steps if steps is not None or end is not None or last is None else last.steps
+    keep = [s for k, s in enumerate(plan) if k not in runs[-1:]]
+    return [*(s for s in keep if s.keyword != "STOP"), _Simulation(stop, chosen, dtout)]
 
 
 def _deck(scene: Any) -> Any:
@@ -81,84 +102,37 @@ def _deck(scene: Any) -> Any:
     return scene.deck if isinstance(scene, Model) else scene
 
 
-def _compiled(scene: Any, progress: Any) -> Kernels:
-    if isinstance(scene, Kernels):
-        return scene
-    model = scene if isinstance(scene, Model) else assemble(scene)
-    return compile_model(model, progress)
-
-
-def _settings(statements: Iterable[Any], **flags: Any) -> Settings:
-    """Settings of the last INTEGRATOR that gives each, flags first."""
-    settings = Settings()
-    given: dict[str, Any] = {}
-    for statement in statements:
-        if statement.keyword == "INTEGRATOR":
-            for name in Settings.__dataclass_fields__:
-                value = getattr(statement, name)
-                if value is not None:
-                    given[name] = value
-    given |= {name: value for name, value in flags.items() if value is not None}
-    return replace(settings, **given)
-
-
-def _times(statements: tuple[Any, ...], end: float | None, steps: int | None) -> np.ndarray:
-    """Output times from 0: flags, else the SIMULATE statements of the command file, else the deck's."""
-    asked = [s for s in statements if s.keyword == "SIMULATE"]
-    if not asked and end is None:
-        raise UsageError(Outcome.NO_END_TIME.value)
-    last = asked[-1] if asked else None
-    stop = end if end is not None else (last.end if last.end is not None else last.duration)
-    if steps is None and last is not None and end is None:
-        steps = last.steps
-    if stop < 0.0 or (steps is not None and steps < 1):
-        raise UsageError("The end time must not be negative and there must be at least one step.")
-    dtout = last.dtout if last is not None else None
-    if steps is None:
-        steps = max(1, round(stop / dtout)) if dtout else 100
-        if dtout and abs(steps * dtout - stop) > TOLERANCE_OF_TIME * stop:
-            return np.append(np.arange(0.0, stop, dtout), stop)
-    return np.linspace(0.0, stop, steps + 1)
-
-
-def _results(
-    system: System,
-    outcome: Outcome,
-    unclosed: Any,
-    settings: Settings,
-    cpu: tuple[float, float],
-) -> Results:
-    made = int(system.count[base.RECORDS])
-    row = system.nw + int(system.sizes[base.N_OUT])
-    record = system.record[: made * row].reshape(made, row)
-    names, values = columns(system, record)
-    time = system.times[:made].copy()
-    reached = float(system.report[base.AT]) if outcome is not Outcome.DONE else float(time[-1])
+def _results(session: Session, cpu: tuple[float, float]) -> Results:
+    system = session.system
+    time = np.concatenate([t for t, _ in session.pieces]) if session.pieces else np.zeros(0)
+    width = len(session.names)
+    values = np.concatenate([v for _, v in session.pieces]) if session.pieces else np.zeros((0, width))
+    counts = dict(zip(base.COUNTS, map(int, session.counts), strict=True))
     summary = {
-        "outcome": outcome.name, "t_end": reached, "dof": system.dof, **counters(system),
-        "setup_cpu_s": cpu[0], "solve_cpu_s": cpu[1],
-        "max_violation": float(system.report[base.VIOLATION]),
+        "outcome": session.outcome.name, "t_end": session.time, "dof": system.dof,
+        **{name: counts[name] for name in COUNTED}, "setup_cpu_s": cpu[0], "solve_cpu_s": cpu[1],
+        "max_violation": float(system.report[base.VIOLATION]), "assembly": session.assembled,
     }  # fmt: skip
-    message = "" if outcome is Outcome.DONE else explain(system, outcome, unclosed)
+    done = session.outcome is Outcome.DONE
     return Results(
-        time=time, names=names, values=values, meta=_meta(system, settings), outcome=outcome,
-        message=message, summary=summary,
+        time=time, names=session.names, values=values, meta=_meta(session), outcome=session.outcome,
+        message="" if done else explain(system, session.outcome, session.unclosed), summary=summary,
     )  # fmt: skip
 
 
-def _meta(system: System, settings: Settings) -> Mapping[str, str]:
-    deck = system.model.deck
+def _meta(session: Session) -> Mapping[str, str]:
+    deck, settings = session.deck, session.settings
     units = deck.single("UNITS").names
     return {
         "deck": deck.title,
         "deck hash": deck.hash,
         "units": " ".join(units) if units else "as in the deck",
         "integrator": f"{settings.method} {settings.formulation} ERROR={settings.error:g}",
-        **_redundant(system),
+        **_redundant(session.system),
     }
 
 
-def _redundant(system: System) -> dict[str, str]:
+def _redundant(system: Any) -> dict[str, str]:
     if not system.dropped:
         return {}
     names = "; ".join(row_name(system, row) for row in system.dropped)

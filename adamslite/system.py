@@ -20,6 +20,8 @@ from adamslite.shape import Binding
 from adamslite.topology import prerequisites
 
 HEAD = 2
+# Moves of the assembly below this are round-off.
+MOVED = 1e-9
 POINT_SIZE, PART_SIZE = 9, 24
 PHASES = {
     "loads": base.LOADS,
@@ -31,7 +33,7 @@ PHASES = {
     "signal": base.SIGNALS,
     "output": base.OUTPUTS,
 }
-RESIDUAL, JACOBIAN, ACCELERATIONS, BDF = range(4)
+RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET = range(10)
 
 
 def engine(progress: Any = None) -> Any:
@@ -349,11 +351,66 @@ class System:
         }  # fmt: skip
         self.sizes = _ints([facts[name] for name in base.SIZES])
 
+    def adopt(self, other: System) -> None:
+        """Take over the state of another system of (almost) the same model."""
+        for node, k in self.node_at.items():
+            at = other.node_at.get(self._named(node, other))
+            if at is None or other.widths[at] != self.widths[k]:
+                continue
+            i, j, w = self.starts[k], other.starts[at], self.widths[k]
+            if node[0] == "BODY":
+                for name in ("q", "u", "a"):
+                    getattr(self, name)[i : i + w] = getattr(other, name)[j : j + w]
+                b, c = 9 * node[1], 9 * other.nodes[at][1]
+                self.base[b : b + 9] = other.base[c : c + 9]
+            elif node[0] != "MU":
+                self.z[i - self.n : i - self.n + w] = other.z[j - other.n : j - other.n + w]
+
+    def _named(self, node: tuple[str, Any], other: System) -> tuple[str, Any]:
+        """The node of another system that is the same statement."""
+        if node[0] != "BODY":
+            return node
+        statement = self.model.bodies[node[1]].statement
+        return "BODY", other.model.body_index.get((statement.keyword, statement.key), -1)
+
+    def largest_changes(self) -> list[str]:
+        """The five largest moves of bodies from where the deck puts them, as text."""
+        moved = []
+        for b, body in enumerate(self.model.bodies):
+            i = self.starts[b]
+            turn = _turn_between(body.attitude, self.base[9 * b : 9 * b + 9].reshape(3, 3))
+            shift = float(np.abs(self.q[i : i + 3] - body.x).max())
+            if max(shift, turn) > MOVED:
+                text = f"{body.statement.label} by {shift:.3g}"
+                moved.append((max(shift, turn), text + (f" and {turn:.3g} rad" if turn > MOVED else "")))
+        return [text for _, text in sorted(moved, reverse=True)[:5]]
+
+    def dense_jacobian(self) -> np.ndarray:
+        """The Jacobian blocks as one matrix (nz, nz)."""
+        full = np.zeros((self.nz, self.nz))
+        for (row, column), at in self.blocks.items():
+            r, c, h, w = self.starts[row], self.starts[column], self.widths[row], self.widths[column]
+            full[r : r + h, c : c + w] = self.J[at : at + h * w].reshape(h, w)
+        return full
+
+    def start_record(self, times: np.ndarray) -> None:
+        """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier runs."""
+        self.times = np.ascontiguousarray(times, dtype=float)
+        self.record = np.zeros(len(times) * (self.nw + int(self.sizes[base.N_OUT])) + 1)
+        self.count[:] = 0
+
     def run(self, operation: int, phases: int = 0) -> int:
         """Call native code on the arrays as they are now."""
         problem = _table([getattr(self, name) for name in base.FIELDS])
         plan = _table([self.plan[name] for name in base.Plan.fields])
         return engine()(problem.ctypes.data, plan.ctypes.data, operation, phases)
+
+
+def _turn_between(a: np.ndarray, b: np.ndarray) -> float:
+    """Angle of the rotation from one attitude to another [rad]."""
+    spin = b @ a.T
+    axis = np.array([spin[2, 1] - spin[1, 2], spin[0, 2] - spin[2, 0], spin[1, 0] - spin[0, 1]])
+    return float(np.arctan2(np.linalg.norm(axis), np.trace(spin) - 1.0))
 
 
 def _table(arrays: list[np.ndarray]) -> np.ndarray:

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
 from adamslite.system import BDF, System
+
+# Native operation of each method of the INTEGRATOR statement.
+METHODS = {"GSTIFF": BDF, "WSTIFF": BDF}
 
 OUTCOMES = {
     base.DONE: Outcome.DONE,
@@ -51,25 +53,27 @@ def run_dynamic(
         settings.hinit or 0.0, settings.kmax, settings.maxit,
     )  # fmt: skip
     system.settings[base.STOP] = 0.0
-    system.times = np.ascontiguousarray(times)
-    row = system.nw + int(system.sizes[base.N_OUT])
-    system.record = np.zeros(len(times) * row)
-    system.count[:] = 0
-    return _named(system, _watched(system, watch, end))
+    system.start_record(times)
+    return _named(system, _watched(system, METHODS[settings.method], watch, end))
 
 
 def _named(system: System, code: int) -> Outcome:
     """The outcome of a return code; a start that failed on not-a-number is not a singular one."""
     if code == base.BROKEN_START:
         known = np.isfinite(system.F).all() and np.isfinite(system.LA).all()
-        return Outcome.SINGULAR_ACCELERATION if known else Outcome.NOT_FINITE
+        singular = bool(system.sizes[base.IMPLICIT_MASS])
+        if known:
+            return Outcome.SINGULAR_ACCELERATION if singular else Outcome.UNDETERMINED
+        return Outcome.NOT_FINITE
     return OUTCOMES[code]
 
 
-def _watched(system: System, watch: Callable[[float, float], None] | None, end: float) -> int:
+def _watched(
+    system: System, method: int, watch: Callable[[float, float], None] | None, end: float
+) -> int:
     # Not Thread.join: in Python 3.11 an interrupted join takes a running thread for finished.
     with ThreadPoolExecutor(max_workers=1) as pool:
-        running = pool.submit(system.run, BDF)
+        running = pool.submit(system.run, method)
         while not running.done():
             try:
                 wait([running], timeout=0.1)
@@ -79,8 +83,3 @@ def _watched(system: System, watch: Callable[[float, float], None] | None, end: 
                 system.settings[base.STOP] = 1.0
         return running.result()
 
-
-def counters(system: System) -> dict[str, Any]:
-    """Counts of the run under their public names."""
-    names = ("steps", "rejected", "newton", "jacobians", "factorizations")
-    return {name: int(system.count[base.COUNTS.index(name)]) for name in names}

@@ -19,9 +19,13 @@ from adamslite.model import PART
 from adamslite.system import JACOBIAN, RESIDUAL, System
 
 EXACT = 1e4
-MAX_ITERATIONS = 30
+MAX_ITERATIONS = 100
 # |g| below this share of the model's size counts as closed.
 CLOSED = 1e-13
+# Beyond this share a constraint is open.
+OPEN = 1e-9
+# Largest turn of a part in one step [rad], halvings of a step that does not help.
+MOST_TURN, HALVINGS = 0.5, 12
 # Singular values below this share of the largest are redundant rows.
 RANK = 1e-9
 
@@ -49,19 +53,45 @@ def initial_conditions(system: System) -> Unclosed | None:
 def _positions(system: System) -> Unclosed | None:
     rows = np.arange(system.n, system.n + system.holonomic)
     size = max(1.0, float(np.abs(system.q).max()))
-    best = np.inf
+    g = _residual(system, base.POSITION_ROWS)[rows]
     for _ in range(MAX_ITERATIONS):
-        g = _residual(system, base.POSITION_ROWS)[rows]
-        best = float(np.abs(g).max())
-        if best <= CLOSED * size:
+        if float(np.abs(g).max()) <= CLOSED * size:
             break
         step = _least_change(system, _gradient(system, base.POSITION_ROWS, 0, rows), g)
-        _move(system, step)
-        if np.abs(step).max() <= 1e-15 * size:
+        g, moved = _damped(system, step, g, rows)
+        if moved <= 1e-15 * size:
             break
-    if best > 1e-9 * size:
-        return Unclosed(_owner(system, int(np.argmax(np.abs(g)))), best, "position")
+    worst = float(np.abs(g).max())
+    if worst > OPEN * size:
+        return Unclosed(_owner(system, int(np.argmax(np.abs(g)))), worst, "position")
     return None
+
+
+def _damped(
+    system: System, step: np.ndarray, g: np.ndarray, rows: np.ndarray
+) -> tuple[np.ndarray, float]:
+    """Take the step, or the longest half, quarter ... of it that reduces |g|; turns stay below MOST_TURN."""
+    before = (system.q.copy(), system.base.copy())
+    share = min(1.0, MOST_TURN / max(1e-300, _largest_turn(system, step)))
+    for _ in range(HALVINGS):
+        move(system, share * step)
+        new = _residual(system, base.POSITION_ROWS)[rows]
+        if np.linalg.norm(new) < np.linalg.norm(g) or not np.abs(g).max() > CLOSED:
+            break
+        system.q[:], system.base[:] = before
+        share *= 0.5
+    else:
+        return g, 0.0
+    return new, float(share * np.abs(step).max())
+
+
+def _largest_turn(system: System, step: np.ndarray) -> float:
+    turns = [
+        float(np.linalg.norm(step[i + 3 : i + 6]))
+        for i, width in zip(system.starts, system.widths, strict=True)
+        if width == PART and i < system.n
+    ]
+    return max(turns, default=0.0)
 
 
 def _velocities(system: System) -> Unclosed | None:
@@ -89,14 +119,7 @@ def _gradient(system: System, phases: int, kind: int, rows: np.ndarray) -> np.nd
     system.coef[:5] = 0.0
     system.coef[kind] = 1.0
     system.run(JACOBIAN, phases)
-    full = np.zeros((system.nz, system.n))
-    for (row, column), at in system.blocks.items():
-        r, c = system.starts[row], system.starts[column]
-        if r < system.n or c >= system.n:
-            continue
-        h, w = system.widths[row], system.widths[column]
-        full[r : r + h, c : c + w] = system.J[at : at + h * w].reshape(h, w)
-    return full[rows]
+    return system.dense_jacobian()[rows, : system.n]
 
 
 def _least_change(system: System, gradient: np.ndarray, defect: np.ndarray) -> np.ndarray:
@@ -133,8 +156,8 @@ def weights(system: System) -> np.ndarray:
     return w
 
 
-def _move(system: System, step: np.ndarray) -> None:
-    """Apply a step of positions and ground-axes rotations; attitudes are counted from the new ones."""
+def move(system: System, step: np.ndarray) -> None:
+    """Subtract a step of positions and ground-axes rotations; attitudes are counted from the new ones."""
     for b, body in enumerate(system.model.bodies):
         i = system.starts[b]
         system.q[i : i + 3] -= step[i : i + 3]

@@ -19,7 +19,7 @@ class Integrator(Statement):
 
     method: str | None = choice(
         options=("ABAM", "CONSTANT_BDF", "GSTIFF", "HASTIFF", "HHT", "NEWMARK", "WSTIFF"),
-        supported=("GSTIFF",), help="variable-order BDF (GSTIFF) unless given",
+        supported=("GSTIFF", "WSTIFF"), help="variable-order BDF (GSTIFF) unless given",
     )  # fmt: skip
     formulation: str | None = choice(
         options=("I3", "SI1", "SI2"), supported=("I3", "SI2"),

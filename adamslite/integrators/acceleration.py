@@ -34,6 +34,8 @@ from adamslite.translate import Reals, native
 
 MAX_ITERATIONS = 12
 ROUND_OFF = 1e-11
+# The equations are linear but for loops of variables: a worse rate of convergence asks for a new matrix.
+SLOW = 0.03
 
 
 @native
@@ -80,7 +82,7 @@ def accelerations(
         put_scalars(P, z, sd)
         if size <= ROUND_OFF or (iteration > 1 and size >= 0.5 * last and size < 1e-7):
             return True
-        if iteration > 1 and size > 0.3 * last:
+        if iteration > 0 and size > SLOW * last:
             acceleration_matrix(P)
             if not factor(L, P.LA, P.pivots_a, P.work):
                 return False

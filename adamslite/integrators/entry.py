@@ -5,22 +5,29 @@ from __future__ import annotations
 from adamslite.integrators.acceleration import accelerations, put_state
 from adamslite.integrators.base import BROKEN_START, DONE, Plan, Problem, T
 from adamslite.integrators.bdf import bdf
-from adamslite.integrators.equations import jacobian, residual
+from adamslite.integrators.equations import jacobian, residual, track
+from adamslite.integrators.records import write_record
+from adamslite.integrators.static import equilibrium
 from adamslite.translate import native, translate
 
-RESIDUAL, JACOBIAN, ACCELERATIONS, BDF = range(4)
+RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET = range(10)
 
 
 @native
 def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
-    """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``."""
+    """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes row ``phases``."""
     if operation == BDF:
         return bdf(P, L)
+    if operation == EQUILIBRIUM:
+        return equilibrium(P, L)
     if operation == ACCELERATIONS:
         good = accelerations(P, L, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
         return DONE if good else BROKEN_START
     put_state(P, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
-    if operation == RESIDUAL:
+    if operation == RECORD:
+        write_record(P, phases)
+        track(P)
+    elif operation == RESIDUAL:
         residual(P, phases, P.F)
     else:
         jacobian(P, phases, P.coef, P.J)

@@ -1,0 +1,37 @@
+"""Kinematic analysis: positions, velocities and accelerations of a model that motions fully determine.
+
+At each output time  g(t, q) = 0,  G u = -g_t,  G a = -gamma,  and the multipliers that carry the forces.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from adamslite.analyses.initial import Unclosed, initial_conditions, move
+from adamslite.integrators import base
+from adamslite.outcomes import Outcome
+from adamslite.system import ACCELERATIONS, RECORD, System
+
+
+def run_kinematic(system: System, times: np.ndarray) -> tuple[Outcome, Unclosed | None]:
+    """Solve at each of ``times`` (nt,) and fill ``system.record``."""
+    system.start_record(times)
+    for row, time in enumerate(times):
+        if row:
+            _predict(system, float(time) - float(times[row - 1]))
+        system.settings[base.T] = time
+        system.report[base.AT] = time
+        unclosed = initial_conditions(system)
+        if unclosed:
+            return Outcome.INITIAL_CONDITIONS_FAILED, unclosed
+        if system.run(ACCELERATIONS) != base.DONE:
+            return Outcome.UNDETERMINED, None
+        system.run(RECORD, row)
+        system.count[base.COUNTS.index("steps")] += row > 0
+    return Outcome.DONE, None
+
+
+def _predict(system: System, h: float) -> None:
+    """Second-order Taylor step of positions and attitudes."""
+    n = system.n
+    move(system, -(h * system.u[:n] + 0.5 * h * h * system.a[:n]))

@@ -1,0 +1,51 @@
+"""Static equilibrium of the model as it stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from adamslite.integrators import base
+from adamslite.outcomes import Outcome
+from adamslite.system import EQUILIBRIUM, System
+
+
+@dataclass(frozen=True)
+class StaticSettings:
+    """Settings of the EQUILIBRIUM statement with their defaults.
+
+    ``alimit`` [rad] and ``tlimit`` [length] limit the increments of an iteration; ``error`` is the relative
+    correction and ``imbalance`` [force] the residual at which it is done; ``stability`` is added times the
+    mass matrix to the stiffness.
+    """
+
+    alimit: float = 10.0 * pi / 180.0
+    tlimit: float = 20.0
+    error: float = 1e-4
+    imbalance: float = 1e-4
+    stability: float = 1e-5
+    maxit: int = 25
+
+
+def run_static(system: System, settings: StaticSettings) -> Outcome:
+    """Move ``system`` to an equilibrium at its present time."""
+    control = system.control
+    control[:] = 0.0
+    control[:6] = (
+        settings.alimit, settings.tlimit, settings.error, settings.imbalance, settings.stability,
+        settings.maxit,
+    )  # fmt: skip
+    control[9] = model_size(system)
+    outcome = system.run(EQUILIBRIUM)
+    return Outcome.DONE if outcome == base.DONE else Outcome.NO_EQUILIBRIUM
+
+
+def model_size(system: System) -> float:
+    """Largest extent of the bodies' positions [length], at least the smallest positive number used."""
+    centres = [system.q[system.starts[b] : system.starts[b] + 3] for b in range(len(system.mass))]
+    if not centres:
+        return 1.0
+    reach = float(np.abs(np.array(centres)).max())
+    return reach if reach > 0.0 else 1.0

@@ -1,0 +1,241 @@
+"""One run: a model, its present state, and the commands carried out on it one after another.
+
+    INTEGRATOR EQUILIBRIUM              settings from here on
+    SIMULATE                            statics, dynamics, kinematics, initial conditions, from where it stands
+    ACTIVATE DEACTIVATE redefinitions   another deck; bodies, multipliers and states keep their values
+    LINEAR                              the model about the present state
+    STOP                                the end
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+
+from adamslite.analyses.dynamic import Settings, run_dynamic
+from adamslite.analyses.initial import Unclosed, initial_conditions
+from adamslite.analyses.joint_start import start_of_joints
+from adamslite.analyses.kinematic import run_kinematic
+from adamslite.analyses.linear import Linearization, linear
+from adamslite.analyses.redundancy import leave_out_redundant
+from adamslite.analyses.static import StaticSettings, run_static
+from adamslite.columns import columns
+from adamslite.compiled import Kernels, compile_model
+from adamslite.integrators import base
+from adamslite.model import Model, assemble
+from adamslite.outcomes import Outcome
+from adamslite.system import ACCELERATIONS, RECORD, System, engine
+from adamslite.times import output_times
+
+# Matrices up to this many unknowns may be eliminated densely when the block order meets a singular pivot.
+PIVOTING = 1500
+
+
+class Session:
+    """The state of a run.
+
+    Attributes
+    ----------
+    system : System
+        Equations and present state.
+    time : float
+        Time reached.
+    pieces : list of (times, values)
+        What the analyses wrote; ``names`` are the columns.
+    outcome, unclosed
+        How the last analysis ended; the constraint that stayed open, if one did.
+    linearizations : list of Linearization
+    """
+
+    def __init__(self, scene: Any, progress: Any, flags: dict[str, Any]) -> None:
+        self.progress = progress
+        self.flags = flags
+        self.kernels = _compiled(scene, progress)
+        engine(progress)
+        self.settings = replace(Settings(), **flags)
+        self.statics = StaticSettings()
+        self.time = 0.0
+        self.pieces: list[tuple[np.ndarray, np.ndarray]] = []
+        self.names: tuple[str, ...] = ()
+        self.outcome = Outcome.DONE
+        self.unclosed: Unclosed | None = None
+        self.linearizations: list[Linearization] = []
+        self.counts = np.zeros(len(base.COUNTS), dtype=np.int64)
+        self.assembled: list[str] = []
+        self._system: System | None = None
+        self._began_static = False
+
+    @property
+    def deck(self) -> Any:
+        return self.kernels.model.deck
+
+    @property
+    def system(self) -> System:
+        """The equations, numbered and assembled when first needed."""
+        if self._system is None:
+            self._system = self._numbered(False)
+            self.unclosed = start_of_joints(self._system, self.progress)
+            self._assemble()
+        return self._system
+
+    def execute(self, commands: Iterable[Any]) -> None:
+        """Carry out commands until one stops the run or an analysis ends early."""
+        for command in commands:
+            if command.keyword == "STOP" or self.outcome is not Outcome.DONE:
+                return
+            action = getattr(self, f"_do_{command.keyword.lower()}", None)
+            if action is not None:
+                action(command)
+            elif command.keyword not in ("FILE", "END"):
+                self._change(self.deck.redefined(command))
+
+    # settings
+
+    def _do_integrator(self, command: Any) -> None:
+        self.settings = replace(_updated(self.settings, command), **self.flags)
+
+    def _do_equilibrium(self, command: Any) -> None:
+        self.statics = _updated(self.statics, command)
+
+    # changes of the model
+
+    def _do_activate(self, command: Any) -> None:
+        self._change(self.deck.with_active(command.type, command.ids, True))
+
+    def _do_deactivate(self, command: Any) -> None:
+        self._change(self.deck.with_active(command.type, command.ids, False))
+
+    def _change(self, deck: Any) -> None:
+        """Go on with another deck from the present state."""
+        old = self._system
+        self.kernels = compile_model(assemble(deck), self.progress)
+        self._system = None
+        if old is not None:
+            self._system = self._numbered(False)
+            self._system.adopt(old)
+            self._assemble()
+
+    # analyses
+
+    def _do_simulate(self, command: Any) -> None:
+        times = output_times(command, self.time)
+        kind = command.kind
+        if kind == "TRANSIENT":
+            kind = "KINEMATICS" if self.system.dof == 0 else "DYNAMICS"
+        if self.outcome is not Outcome.DONE:
+            return
+        {
+            "DYNAMICS": self._dynamics,
+            "STATICS": self._statics,
+            "KINEMATICS": self._kinematics,
+            "INITIAL_CONDITIONS": self._initial,
+        }[kind](times)
+
+    def _dynamics(self, times: np.ndarray) -> None:
+        system = self.system
+        if self.outcome is not Outcome.DONE:
+            return
+        self.outcome = run_dynamic(system, times, self.settings, self.progress)
+        self.time = float(system.report[base.AT])
+        self._keep(times, False)
+
+    def _statics(self, times: np.ndarray) -> None:
+        system = self.system
+        for time in times if len(times) > 1 else [self.time]:
+            if self.outcome is not Outcome.DONE:
+                return
+            system.settings[base.T] = time
+            system.start_record(np.array([time]))
+            self.outcome = run_static(system, self.statics)
+            self.time = float(time)
+            system.report[base.AT] = time
+            if self.outcome is Outcome.DONE:
+                system.run(RECORD, 0)
+                self._keep(np.array([time]), True)
+
+    def _kinematics(self, times: np.ndarray) -> None:
+        system = self.system
+        if system.dof > 0:
+            self.outcome = Outcome.NOT_KINEMATIC
+            return
+        self.outcome, self.unclosed = run_kinematic(system, times)
+        self.time = float(system.report[base.AT])
+        self._keep(times, False)
+
+    def _initial(self, times: np.ndarray) -> None:
+        self._kinematics_free(self.system)
+
+    def _kinematics_free(self, system: System) -> None:
+        """Record the assembled state with its accelerations."""
+        system.settings[base.T] = self.time
+        system.start_record(np.array([self.time]))
+        if system.run(ACCELERATIONS) != base.DONE:
+            self.outcome = Outcome.UNDETERMINED
+            return
+        system.run(RECORD, 0)
+        self._keep(np.array([self.time]), True)
+
+    def _do_linear(self, command: Any) -> None:
+        self.linearizations.append(linear(self.system))
+
+    # helpers
+
+    def _numbered(self, pivoting: bool) -> System:
+        system = System(self.kernels, self.settings.formulation == "SI2", pivoting)
+        system.settings[base.T] = self.time
+        return system
+
+    def _assemble(self) -> None:
+        """Consistent positions and velocities, redundant rows, a regular elimination order."""
+        system = self._system
+        self.unclosed = self.unclosed or initial_conditions(system)
+        if self.unclosed:
+            self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
+            return
+        self.assembled += system.largest_changes()
+        leave_out_redundant(system)
+        system.settings[base.T] = self.time
+        small = system.nz <= PIVOTING and not system.pivoting
+        if small and system.run(ACCELERATIONS) != base.DONE and np.isfinite(system.F).all():
+            pivoting = self._numbered(True)
+            pivoting.adopt(system)
+            pivoting.drop(system.dropped)
+            self._system = pivoting
+
+    def _keep(self, times: np.ndarray, static: bool) -> None:
+        """Append the records made; a state both ends and begins two analyses only once."""
+        system = self._system
+        made = int(system.count[base.RECORDS])
+        row = system.nw + int(system.sizes[base.N_OUT])
+        self.names, values = columns(system, system.record[: made * row].reshape(made, row))
+        times = times[:made].copy()
+        if self.pieces and made and len(self.pieces[-1][0]) and self.pieces[-1][0][-1] == times[0]:
+            if self._began_static:
+                last_times, last_values = self.pieces[-1]
+                self.pieces[-1] = (last_times[:-1], last_values[:-1])
+            else:
+                times, values = times[1:], values[1:]
+        self._began_static = static
+        self.pieces.append((times, values))
+        self.counts += system.count
+
+
+def _updated(settings: Any, command: Any) -> Any:
+    """Settings with what the command gives."""
+    given = {
+        each.name: getattr(command, each.name)
+        for each in fields(settings)
+        if command.given(each.name) and getattr(command, each.name) is not None
+    }
+    return replace(settings, **given)
+
+
+def _compiled(scene: Any, progress: Any) -> Kernels:
+    if isinstance(scene, Kernels):
+        return scene
+    model = scene if isinstance(scene, Model) else assemble(scene)
+    return compile_model(model, progress)
+
