@@ -121,6 +121,8 @@ def climb(
         if points and predicted(points[-1], settings) > budget:
             break
         point = first_run(worker, Point(program.name, scene, n, settings))
+        if sys.stderr.isatty():
+            print(f"{scene} N={n} {program.name} {settings}: {point.error}", file=sys.stderr)
         points.append(point)
         left = [t for t in left if not point.meets(t)]
         if not left:

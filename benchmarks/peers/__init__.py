@@ -9,6 +9,7 @@ from benchmarks.peers import (
     casadi_chain,
     exudyn_chain,
     exudyn_mechanism,
+    exudyn_payout,
     limit,
     mujoco_chain,
     ours,
@@ -20,8 +21,8 @@ from benchmarks.peers.program import Program
 PROGRAMS: dict[str, Program] = {
     program.name: program
     for module in (
-        ours, exudyn_chain, exudyn_mechanism, casadi_chain, sundae_chain, scipy_chain,
-        mujoco_chain, limit,
+        ours, exudyn_chain, exudyn_mechanism, exudyn_payout, casadi_chain, sundae_chain,
+        scipy_chain, mujoco_chain, limit,
     )
     for program in module.PROGRAMS
 }  # fmt: skip
