@@ -4,9 +4,9 @@ A component F = e(..., A) with A the acceleration of the loaded body along that 
 
     m0 A = F + ...   hence   (m0 - de/dA) A = ...
 
-so de/dA > 0 takes inertia away: the body runs off where m0 - de/dA reaches zero.  The d'Alembert force
-of an added mass has de/dA = -(added mass).  The slope is formed on the expression itself; reading a
-deck does not wait for an algebra system.
+so de/dA > 0 takes inertia away: the body runs off where m0 - de/dA reaches zero.  The d'Alembert
+force of an added mass has de/dA = -(added mass).  The slope is formed on the expression itself;
+reading a deck does not wait for an algebra system.
 """
 
 from __future__ import annotations
@@ -56,7 +56,9 @@ def _own_slope(deck: Any, component: Node, name: str, body: Statement) -> Node:
 
 
 def slope_of(node: Node, unknown: Call) -> Node:
-    """Derivative of an expression with respect to one of its calls; zero where it stands inside others."""
+    """Derivative of an expression with respect to one of its calls; zero where it stands inside
+    others.
+    """
     if node == unknown:
         return ONE
     if not isinstance(node, Op):
@@ -133,11 +135,12 @@ def _warning(force: Statement, field: str, body: str, mass: float, slope: Node) 
     """``mass`` is in units of force per acceleration, as the slope is."""
     fields = [each for each in AXES if force.given(each)]
     lines = " \\\n      ".join(f", {each.upper()}= -( {_source(force, each)} )" for each in fields)
-    span = force.spans[field]
+    spans = force.spans.home(field)
+    span = spans[field]
     return compose(
         "effective-mass",
         span,
-        force.spans.source.line(span.line),
+        spans.source.line(span.line),
         label=force.label,
         body=body,
         axis=field[1],
@@ -154,8 +157,9 @@ def _in_product(slope: Node) -> str:
 
 def _source(force: Statement, field: str) -> str:
     """The expression as the deck has it, on one line."""
-    start, end = force.spans.ranges[field]
-    text = force.spans.source.text[start:end]
+    spans = force.spans.home(field)
+    start, end = spans.ranges[field]
+    text = spans.source.text[start:end]
     pieces = [piece.strip().removeprefix(",").strip() for piece in text.splitlines()]
     joined = " ".join(piece for piece in pieces if piece)
     return joined.partition("=")[2].strip().rstrip("\\/").strip()

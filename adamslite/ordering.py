@@ -1,9 +1,9 @@
 """The elimination order of the Newton matrix, fixed once per model.
 
-Nodes are eliminated by least degree, a constraint's multipliers only after the bodies that make their own
-block regular (:mod:`adamslite.topology`).  On a chain this works from the free ends inwards and
-on a tree from the leaves to the root: no fill, cost proportional to the number of bodies.
-Reference: George, Liu, SIAM Review 31 (1989) 1 (minimum degree).
+Nodes are eliminated by least degree, a constraint's multipliers only after the bodies that make
+their own block regular (:mod:`adamslite.topology`).  On a chain this works from the free ends
+inwards and on a tree from the leaves to the root: no fill, cost proportional to the number of
+bodies. Reference: George, Liu, SIAM Review 31 (1989) 1 (minimum degree).
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ def analyse(
 ) -> Elimination:
     """Order and fill for nodes of ``widths`` unknowns at ``starts`` coupled by ``pairs``.
 
-    ``late[node]``: nodes that must have been eliminated before ``node``; ``pivoting``: treat the matrix
-    as one dense block.
+    ``late[node]``: nodes that must have been eliminated before ``node``; ``pivoting``: treat the
+    matrix as one dense block.
     """
     total = sum(widths)
     if pivoting or total <= DENSE:
@@ -70,46 +70,71 @@ def _dense(
     return Elimination(plan, places, total * total, total)
 
 
+class _Graph:
+    """What is still to be eliminated: couplings, and what each node waits for."""
+
+    def __init__(self, count: int, pairs: set[tuple[int, int]], late: dict[int, set[int]]) -> None:
+        self.near: list[set[int]] = [set() for _ in range(count)]
+        for r, c in pairs:
+            if r != c:
+                self.near[r].add(c)
+                self.near[c].add(r)
+        self.waiting = {node: set(before) for node, before in late.items() if before}
+        self.frees: dict[int, list[int]] = {}
+        for node, before in self.waiting.items():
+            for each in before:
+                self.frees.setdefault(each, []).append(node)
+        self.done = [False] * count
+        self.heap: list[tuple[int, int]] = []
+        for node in range(count):
+            self.offer(node)
+
+    def offer(self, node: int) -> None:
+        """Put a node that waits for nothing on the heap with its present degree."""
+        if node not in self.waiting and not self.done[node]:
+            heapq.heappush(self.heap, (len(self.near[node]), node))
+
+    def least(self) -> int:
+        """The node of least degree; when all wait in a circle, the least coupled of those."""
+        while self.heap:
+            degree, node = heapq.heappop(self.heap)
+            if not self.done[node] and degree == len(self.near[node]):
+                return node
+        node = min(self.waiting, key=lambda n: len(self.near[n]))
+        self.waiting.pop(node)
+        return node
+
+    def eliminate(self, node: int) -> list[int]:
+        """Couple the neighbours of a node with each other; returns them."""
+        self.done[node] = True
+        rest = self.near[node]
+        for other in rest:
+            self.near[other] |= rest
+            self.near[other] -= {other, node}
+        for other in self.frees.pop(node, ()):
+            self._release(other, node)
+        for other in rest:
+            self.offer(other)
+        return sorted(rest)
+
+    def _release(self, waiting: int, node: int) -> None:
+        before = self.waiting.get(waiting)
+        if before is not None:
+            before.discard(node)
+            if not before:
+                self.waiting.pop(waiting)
+                self.offer(waiting)
+
+
 def _order(
     count: int, pairs: set[tuple[int, int]], late: dict[int, set[int]]
 ) -> tuple[list[int], list[list[int]]]:
     """Minimum degree order, and for each node those that stay coupled to it below."""
-    near: list[set[int]] = [set() for _ in range(count)]
-    for r, c in pairs:
-        if r != c:
-            near[r].add(c)
-            near[c].add(r)
-    done = [False] * count
-    waiting = {node: set(before) for node, before in late.items() if before}
-    heap = [(len(near[node]), node) for node in range(count) if node not in waiting]
-    heapq.heapify(heap)
-    freed: dict[int, list[int]] = {}
-    for node, before in waiting.items():
-        for each in before:
-            freed.setdefault(each, []).append(node)
+    graph = _Graph(count, pairs, late)
     order, below = [], []
     while len(order) < count:
-        if not heap:
-            node = min(waiting, key=lambda n: len(near[n]))
-            waiting.pop(node)
-            heap.append((len(near[node]), node))
-        degree, node = heapq.heappop(heap)
-        if done[node] or degree != len(near[node]):
-            continue
-        done[node] = True
-        order.append(node)
-        rest = near[node]
-        below.append(sorted(rest))
-        for other in rest:
-            near[other] |= rest
-            near[other] -= {other, node}
-        for other in [*rest, *freed.pop(node, ())]:
-            if other in waiting:
-                waiting[other].discard(node)
-                if not waiting[other]:
-                    waiting.pop(other)
-            if other not in waiting and not done[other]:
-                heapq.heappush(heap, (len(near[other]), other))
+        order.append(graph.least())
+        below.append(graph.eliminate(order[-1]))
     return order, below
 
 

@@ -1,10 +1,10 @@
 """One run: a model, its present state, and the commands carried out on it one after another.
 
-    INTEGRATOR EQUILIBRIUM              settings from here on
-    SIMULATE                            statics, dynamics, kinematics, initial conditions, from where it stands
-    ACTIVATE DEACTIVATE redefinitions   another deck; bodies, multipliers and states keep their values
-    LINEAR                              the model about the present state
-    STOP                                the end
+INTEGRATOR EQUILIBRIUM              settings from here on
+SIMULATE                            statics, dynamics, kinematics, initial conditions, from where
+it stands ACTIVATE DEACTIVATE redefinitions   another deck; bodies, multipliers and states keep
+their values LINEAR                              the model about the present state
+STOP                                the end
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ from adamslite.outcomes import Outcome
 from adamslite.system import ACCELERATIONS, RECORD, System, engine
 from adamslite.times import output_times
 
-# Matrices up to this many unknowns may be eliminated densely when the block order meets a singular pivot.
+# Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
+# pivot.
 PIVOTING = 1500
 
 
@@ -238,4 +239,3 @@ def _compiled(scene: Any, progress: Any) -> Kernels:
         return scene
     model = scene if isinstance(scene, Model) else assemble(scene)
     return compile_model(model, progress)
-

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.redundancy import row_name
 from adamslite.compiled import Kernels
 from adamslite.explain import explain
 from adamslite.faults import UsageError
 from adamslite.integrators import base
 from adamslite.model import Model
 from adamslite.outcomes import Outcome
-from adamslite.analyses.redundancy import row_name
 from adamslite.results import Results
 from adamslite.session import Session
 from adamslite.times import spread_times
@@ -75,7 +75,8 @@ class _Simulation:
 
 
 def _plan(deck: Any, commands: tuple[Any, ...], end: float | None, steps: int | None) -> list[Any]:
-    """What to carry out: settings of the deck, then the commands, or the deck's own SIMULATE statements.
+    """What to carry out: settings of the deck, then the commands, or the deck's own SIMULATE
+    statements.
 
     Flags replace the last SIMULATE/DYNAMICS and what follows it.
     """
@@ -106,7 +107,9 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
     system = session.system
     time = np.concatenate([t for t, _ in session.pieces]) if session.pieces else np.zeros(0)
     width = len(session.names)
-    values = np.concatenate([v for _, v in session.pieces]) if session.pieces else np.zeros((0, width))
+    values = (
+        np.concatenate([v for _, v in session.pieces]) if session.pieces else np.zeros((0, width))
+    )
     counts = dict(zip(base.COUNTS, map(int, session.counts), strict=True))
     summary = {
         "outcome": session.outcome.name, "t_end": session.time, "dof": system.dof,

@@ -1,7 +1,7 @@
 """The numbered equations of a model: the arrays that native code works on.
 
-Unknowns stand in the order bodies, multipliers (holonomic first), variables, states of DIFF and, in the
-stabilised form, multipliers of the velocity rows; every equation has the row of its unknown.
+Unknowns stand in the order bodies, multipliers (holonomic first), variables, states of DIFF and,
+in the stabilised form, multipliers of the velocity rows; every equation has the row of its unknown.
 """
 
 from __future__ import annotations
@@ -33,7 +33,9 @@ PHASES = {
     "signal": base.SIGNALS,
     "output": base.OUTPUTS,
 }
-RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET = range(10)
+RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET = range(
+    10
+)
 
 
 def engine(progress: Any = None) -> Any:
@@ -382,19 +384,28 @@ class System:
             shift = float(np.abs(self.q[i : i + 3] - body.x).max())
             if max(shift, turn) > MOVED:
                 text = f"{body.statement.label} by {shift:.3g}"
-                moved.append((max(shift, turn), text + (f" and {turn:.3g} rad" if turn > MOVED else "")))
+                moved.append(
+                    (max(shift, turn), text + (f" and {turn:.3g} rad" if turn > MOVED else ""))
+                )
         return [text for _, text in sorted(moved, reverse=True)[:5]]
 
     def dense_jacobian(self) -> np.ndarray:
         """The Jacobian blocks as one matrix (nz, nz)."""
         full = np.zeros((self.nz, self.nz))
         for (row, column), at in self.blocks.items():
-            r, c, h, w = self.starts[row], self.starts[column], self.widths[row], self.widths[column]
+            r, c, h, w = (
+                self.starts[row],
+                self.starts[column],
+                self.widths[row],
+                self.widths[column],
+            )
             full[r : r + h, c : c + w] = self.J[at : at + h * w].reshape(h, w)
         return full
 
     def start_record(self, times: np.ndarray) -> None:
-        """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier runs."""
+        """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier
+        runs.
+        """
         self.times = np.ascontiguousarray(times, dtype=float)
         self.record = np.zeros(len(times) * (self.nw + int(self.sizes[base.N_OUT])) + 1)
         self.count[:] = 0

@@ -34,7 +34,9 @@ def output_times(command: Any, start: float) -> np.ndarray:
 def spread_times(start: float, end: float, steps: int | None, dtout: float | None) -> np.ndarray:
     """Times from ``start`` to ``end``: ``steps`` equal intervals, or one every ``dtout``."""
     if end < start or (steps is not None and steps < 1):
-        raise UsageError(f"The end time {end:g} must not lie before {start:g}, with at least one step.")
+        raise UsageError(
+            f"The end time {end:g} must not lie before {start:g}, with at least one step."
+        )
     if steps is None and dtout:
         whole = (end - start) / dtout
         steps = max(1, round(whole))

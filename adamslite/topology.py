@@ -1,8 +1,8 @@
 """Which constraint holds which body: the spanning tree of a mechanism and what closes its loops.
 
-A multiplier's pivot block is -G X G^T with X what the bodies eliminated so far can move.  It is regular
-when the constraint carries its child in the tree, or, for a constraint that closes a loop, when all of
-the loop has been eliminated.  Hence the elimination order must respect
+A multiplier's pivot block is -G X G^T with X what the bodies eliminated so far can move.  It is
+regular when the constraint carries its child in the tree, or, for a constraint that closes a loop,
+when all of the loop has been eliminated.  Hence the elimination order must respect
 
     tree constraint   after its child body
     closing one       after every body and tree constraint on its loop
@@ -23,8 +23,8 @@ def prerequisites(
     Parameters
     ----------
     constraints : sequence of (node, bodies, rows)
-        Nodes of the constraints, the moving bodies each acts on, and its number of rows; a constraint
-        that acts on one body holds it to the ground.
+        Nodes of the constraints, the moving bodies each acts on, and its number of rows; a
+        constraint that acts on one body holds it to the ground.
     widths : sequence of int
         Unknowns of each body.
     """

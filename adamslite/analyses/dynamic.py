@@ -82,4 +82,3 @@ def _watched(
             except KeyboardInterrupt:
                 system.settings[base.STOP] = 1.0
         return running.result()
-

@@ -70,7 +70,9 @@ def _positions(system: System) -> Unclosed | None:
 def _damped(
     system: System, step: np.ndarray, g: np.ndarray, rows: np.ndarray
 ) -> tuple[np.ndarray, float]:
-    """Take the step, or the longest half, quarter ... of it that reduces |g|; turns stay below MOST_TURN."""
+    """Take the step, or the longest half, quarter ... of it that reduces |g|; turns stay below
+    MOST_TURN.
+    """
     before = (system.q.copy(), system.base.copy())
     share = min(1.0, MOST_TURN / max(1e-300, _largest_turn(system, step)))
     for _ in range(HALVINGS):
@@ -157,7 +159,9 @@ def weights(system: System) -> np.ndarray:
 
 
 def move(system: System, step: np.ndarray) -> None:
-    """Subtract a step of positions and ground-axes rotations; attitudes are counted from the new ones."""
+    """Subtract a step of positions and ground-axes rotations; attitudes are counted from the new
+    ones.
+    """
     for b, body in enumerate(system.model.bodies):
         i = system.starts[b]
         system.q[i : i + 3] -= step[i : i + 3]

@@ -1,7 +1,9 @@
-"""Initial conditions of joints: IC, ICTRAN, ICROT (and ICDISP of motions) as conditions at the start only.
+"""Initial conditions of joints: IC, ICTRAN, ICROT (and ICDISP of motions) as conditions at the
+start only.
 
-A freedom asked for as displacement d and velocity v is what a MOTION with FUNCTION = d + v*TIME demands
-at time zero.  The model with these motions added is assembled once, and its state handed on.
+A freedom asked for as displacement d and velocity v is what a MOTION with FUNCTION = d + v*TIME
+demands at time zero.  The model with these motions added is assembled once, and its state handed
+on.
 """
 
 from __future__ import annotations
@@ -23,9 +25,7 @@ def start_of_joints(system: System, progress: Any) -> Unclosed | None:
     extra = [m for s in deck.statements if hasattr(s, "initial") for m in _motions(s)]
     if not extra:
         return None
-    with_motions = Deck(
-        deck.source, deck.title, (*deck.statements, *extra), deck.names, deck.path
-    )
+    with_motions = Deck(deck.source, deck.title, (*deck.statements, *extra), deck.names, deck.path)
     asked = System(compile_model(assemble(with_motions), progress), system.stabilised)
     unclosed = initial_conditions(asked)
     if unclosed is None:

@@ -1,6 +1,8 @@
-"""Kinematic analysis: positions, velocities and accelerations of a model that motions fully determine.
+"""Kinematic analysis: positions, velocities and accelerations of a model that motions fully
+determine.
 
-At each output time  g(t, q) = 0,  G u = -g_t,  G a = -gamma,  and the multipliers that carry the forces.
+At each output time  g(t, q) = 0,  G u = -g_t,  G a = -gamma,  and the multipliers that carry the
+forces.
 """
 
 from __future__ import annotations

@@ -1,12 +1,12 @@
 """Linearisation: eigenvalues, modes and state matrices about the present state.
 
-With x = (y, y', s) in the directions y that all constraints leave free (N spans the null space of G,
-V eliminated)
+With x = (y, y', s) in the directions y that all constraints leave free (N spans the null space of
+G, V eliminated)
 
     M y'' + C y' + K y + (coupling with s) = 0,      M = N^T F_a N,  C = N^T F_u N,  K = N^T F_q N
 
-K holds the forces' derivatives and those of G^T lam, so tension and reactions stiffen as they should.
-Undamped frequencies come from (K, M) alone.
+K holds the forces' derivatives and those of G^T lam, so tension and reactions stiffen as they
+should. Undamped frequencies come from (K, M) alone.
 Reference: Negrut, Ortiz, J. Comput. Nonlinear Dynam. 1 (2006) 230.
 """
 
@@ -34,8 +34,8 @@ class Linearization:
     eigenvalues : (nx,) complex array
         Of the state matrix, by frequency [1/time].
     undamped : (f,) array
-        Natural frequencies without damping [1/time], imaginary parts as negative numbers for unstable
-        directions (a negative stiffness gives -sqrt|k/m|).
+        Natural frequencies without damping [1/time], imaginary parts as negative numbers for
+        unstable directions (a negative stiffness gives -sqrt|k/m|).
     modes : (n, nx) complex array
         Body coordinates (translations and rotations in ground axes) of each eigenvector.
     state_matrix : (nx, nx) array
@@ -72,8 +72,9 @@ def linear(system: System) -> Linearization:
     s = slice(n + first + system.nv, n + first + system.nv + system.ns)
     rows = np.r_[0:n, s]
     keep = {}
-    for name, full, columns in (("q", fq, slice(0, n)), ("u", fu, slice(0, n)), ("a", fa, slice(0, n)),
-                                ("s", fq, s), ("d", fd, s)):  # fmt: skip
+    bodies = slice(0, n)
+    parts = {"q": (fq, bodies), "u": (fu, bodies), "a": (fa, bodies), "s": (fq, s), "d": (fd, s)}
+    for name, (full, columns) in parts.items():
         part = full[:, columns]
         through = np.linalg.solve(fz[v, v], part[v]) if system.nv else np.zeros((0, part.shape[1]))
         keep[name] = (part - fz[:, v] @ through)[rows]

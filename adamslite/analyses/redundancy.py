@@ -1,8 +1,8 @@
 """Redundant constraint rows: found by a rank-revealing factorisation, named, left out.
 
 Rows of G W^-1/2 scaled to unit length; QR with column pivoting of the transpose orders them by
-independence, and those with |R_kk| <= RANK |R_11| are combinations of the others.  Their multipliers are
-zero, so reactions of the joints concerned are one choice among many.
+independence, and those with |R_kk| <= RANK |R_11| are combinations of the others.  Their
+multipliers are zero, so reactions of the joints concerned are one choice among many.
 References: Golub, Van Loan, Matrix Computations, 2013, section 5.4; Haug 1989, section 3.4.
 """
 

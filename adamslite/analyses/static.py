@@ -16,9 +16,9 @@ from adamslite.system import EQUILIBRIUM, System
 class StaticSettings:
     """Settings of the EQUILIBRIUM statement with their defaults.
 
-    ``alimit`` [rad] and ``tlimit`` [length] limit the increments of an iteration; ``error`` is the relative
-    correction and ``imbalance`` [force] the residual at which it is done; ``stability`` is added times the
-    mass matrix to the stiffness.
+    ``alimit`` [rad] and ``tlimit`` [length] limit the increments of an iteration; ``error`` is the
+    relative correction and ``imbalance`` [force] the residual at which it is done; ``stability``
+    is added times the mass matrix to the stiffness.
     """
 
     alimit: float = 10.0 * pi / 180.0
@@ -43,7 +43,9 @@ def run_static(system: System, settings: StaticSettings) -> Outcome:
 
 
 def model_size(system: System) -> float:
-    """Largest extent of the bodies' positions [length], at least the smallest positive number used."""
+    """Largest extent of the bodies' positions [length], at least the smallest positive number
+    used.
+    """
     centres = [system.q[system.starts[b] : system.starts[b] + 3] for b in range(len(system.mass))]
     if not centres:
         return 1.0

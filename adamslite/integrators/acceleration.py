@@ -34,7 +34,8 @@ from adamslite.translate import Reals, native
 
 MAX_ITERATIONS = 12
 ROUND_OFF = 1e-11
-# The equations are linear but for loops of variables: a worse rate of convergence asks for a new matrix.
+# The equations are linear but for loops of variables: a worse rate of convergence asks for a new
+# matrix.
 SLOW = 0.03
 
 

@@ -2,45 +2,66 @@
 
 An integrator is native code that
 
-1. sees the model only through :mod:`adamslite.integrators.equations` (residual, Jacobian, workspace);
+1. sees the model only through :mod:`adamslite.integrators.equations` (residual, Jacobian,
+workspace);
 2. advances from the present time to the end time and writes a record at every asked time;
 3. accepts a step only when Newton converged and the error test passed;
-4. never steps through a singular acceleration matrix, and never returns a state it did not converge to;
+4. never steps through a singular acceleration matrix, and never returns a state it did not
+converge to;
 5. counts what it does in ``P.count`` (names in ``COUNTS``);
 6. leaves the last accepted state behind, whatever the outcome;
 7. returns one of ``OUTCOMES``.
 
-Fields of :class:`Problem`, all one-dimensional; nb bodies, n body unknowns, m multipliers, nv variables,
-ns states of DIFF, nw workspace entries:
+Fields of :class:`Problem`, all one-dimensional; nb bodies, n body unknowns, m multipliers, nv
+variables, ns states of DIFF, nw workspace entries:
 
-==========  =============================================================================================
-sizes       ``SIZES`` below
-body        per body: kind (3 or 6), first unknown, workspace offset, block of its own, rotates
-mass        (nb,) [mass];  inertia (9 nb,) about the mass centre in part axes;  weight (nb,) of rotations
-gravity     (3,) in ground axes
-base        (9 nb,) attitude from which the rotation vector of the step is counted
-scalar      workspace offset of each multiplier, variable and DIFF state
-group       per group: phase, residual, jacobian, track (addresses), instances, ints, reals (addresses)
-copies      per block: Jacobian offset, rows, columns, factor offset, leading dimension
-turning     per block with a rotating column: Jacobian offset, rows, body
-mixed       per product D W G^T: target, its width, D, rows, columns, G, body
-cut ones    places of the factors set to zero and one for redundant rows;  dead  those rows
-unit        places of the diagonal of mu, one in the acceleration matrix
-settings    ``SETTINGS``;  count ``COUNTS``;  report ``REPORT``;  times (nt,) asked times
-q u a       (n,) positions and rotation vectors, velocities, accelerations
-z mu        (m + nv + ns,) multipliers, variables, states; (holonomic,) multipliers of velocity rows
-ra rz rd    accelerations, the rest and derivatives of states where a record is made
-W F         workspace, residual;  J D Jacobian blocks;  LV LA factors (Newton, acceleration)
-x work coef   workspace;  pivots pivots_a   row orders of LV and LA;  pivot0 (nz,) pivots of the first acceleration matrix
-history     backward differences of (q, u, s);  trial three such vectors
-control pz  the integrator's own numbers;  multipliers and variables one step earlier
-record      (nt, nw + n_out) workspace and outputs at the asked times
-==========  =============================================================================================
+==============  =================================================================================
+sizes           ``SIZES``
+body            per body: kind (3 or 6), first unknown, workspace offset, its own block, spare
+mass            (nb,) [mass]
+inertia         (9 nb,) about the mass centre in part axes
+weight          (nb,) of rotations in W G^T mu
+gravity         (3,) in ground axes
+base            (9 nb,) attitude from which the rotation vector is counted
+scalar          workspace offset of each multiplier, variable and DIFF state
+group           per group: phase, addresses of residual, Jacobian and track, number of instances,
+                addresses of their integers and reals, spare
+copies          per block: Jacobian offset, rows, columns, factor offset, leading dimension
+turning         per block with a rotating column: Jacobian offset, rows, body
+mixed           per product D W G^T: target, its width, D, rows, columns, G, body
+unit            places of the diagonal of mu, one in the acceleration matrix
+cut ones dead   places set to zero and to one for redundant rows; those rows
+settings        ``SETTINGS``;  count: ``COUNTS``;  report: ``REPORT``;  times (nt,) asked times
+q u a           (n,) positions and rotation vectors, velocities, accelerations
+z mu            (m + nv + ns,) multipliers, variables, states; multipliers of velocity rows
+ra rz rd pz     accepted accelerations and z, derivatives of the states, z one step earlier
+W F             workspace, residual
+J D LV LA       Jacobian blocks (all, of velocities); factors (Newton, acceleration)
+x work coef     workspace
+pivots pivots_a row orders of LV and LA;  pivot0: pivots of the first acceleration matrix
+history trial   backward differences of (q, u, s); three such vectors
+control         the integrator's own numbers
+record          (nt, nw + n_out) workspace and outputs at the asked times
+==============  =================================================================================
 """
 
 from adamslite.translate import Table
 
-SIZES = ("nb", "n", "m", "nv", "ns", "nw", "ng", "si2", "implicit_mass", "n_out", "nz", "holonomic", "n_head")
+SIZES = (
+    "nb",
+    "n",
+    "m",
+    "nv",
+    "ns",
+    "nw",
+    "ng",
+    "si2",
+    "implicit_mass",
+    "n_out",
+    "nz",
+    "holonomic",
+    "n_head",
+)
 NB, N, M, NV, NS, NW, NG, SI2, IMPLICIT_MASS, N_OUT, NZ, HOLONOMIC, N_HEAD = range(len(SIZES))
 
 SETTINGS = ("t", "t_end", "error", "h_max", "h_min", "h_init", "k_max", "max_it", "stop")
@@ -49,13 +70,32 @@ T, T_END, ERROR, H_MAX, H_MIN, H_INIT, K_MAX, MAX_IT, STOP = range(len(SETTINGS)
 REPORT = ("t", "h", "order", "violation", "where", "size")
 AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH = range(len(REPORT))
 
-COUNTS = ("steps", "rejected", "newton", "jacobians", "factorizations", "residuals", "failures", "records")
-STEPS, REJECTED, NEWTON, JACOBIANS, FACTORIZATIONS, RESIDUALS, FAILURES, RECORDS = range(len(COUNTS))
+COUNTS = (
+    "steps",
+    "rejected",
+    "newton",
+    "jacobians",
+    "factorizations",
+    "residuals",
+    "failures",
+    "records",
+)
+STEPS, REJECTED, NEWTON, JACOBIANS, FACTORIZATIONS, RESIDUALS, FAILURES, RECORDS = range(
+    len(COUNTS)
+)
 
 # What the groups of kernels contribute, one bit each.
-LOADS, REACTIONS, POSITION_ROWS, VELOCITY_ROWS, RATE_ROWS, ACCELERATION_ROWS, ROWS, SIGNALS, OUTPUTS = (
-    1 << k for k in range(9)
-)
+(
+    LOADS,
+    REACTIONS,
+    POSITION_ROWS,
+    VELOCITY_ROWS,
+    RATE_ROWS,
+    ACCELERATION_ROWS,
+    ROWS,
+    SIGNALS,
+    OUTPUTS,
+) = (1 << k for k in range(9))
 INDEX3 = LOADS | REACTIONS | POSITION_ROWS | RATE_ROWS | ROWS
 STABILISED = INDEX3 | VELOCITY_ROWS
 STATIC = LOADS | REACTIONS | POSITION_ROWS | ROWS
@@ -63,12 +103,24 @@ ACCELERATION = LOADS | REACTIONS | ACCELERATION_ROWS | ROWS
 
 MODE_DYNAMICS = 4.0
 
-DONE, STEP_TOO_SMALL, NEWTON_FAILED, SINGULAR_MASS, NOT_FINITE, BROKEN_START, INTERRUPTED, NOT_SETTLED = range(8)
+(
+    DONE,
+    STEP_TOO_SMALL,
+    NEWTON_FAILED,
+    SINGULAR_MASS,
+    NOT_FINITE,
+    BROKEN_START,
+    INTERRUPTED,
+    NOT_SETTLED,
+) = range(8)
 
-INT_FIELDS = set("sizes body scalar group copies turning mixed unit cut ones dead count pivots pivots_a".split())
+INT_FIELDS = set(
+    "sizes body scalar group copies turning mixed unit cut ones dead count pivots pivots_a".split()
+)
 FIELDS = (
-    "sizes body mass inertia weight gravity base scalar group copies turning mixed unit cut ones dead settings count times "
-    "report q u a z mu ra rz rd W F J D LV LA x work coef pivots pivots_a pivot0 history trial control pz record"
+    "sizes body mass inertia weight gravity base scalar group copies turning mixed unit cut ones "
+    "dead settings count times report q u a z mu ra rz rd W F J D LV LA x work coef pivots "
+    "pivots_a pivot0 history trial control pz record"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

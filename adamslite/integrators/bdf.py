@@ -9,14 +9,12 @@ With backward differences D_i of the past values on the present step h, for y = 
 Index 3 (I3): unknowns (q, lam), u = T q', errors of q tested.  Stabilised index 2 (SI2): also
 G u + g_t = 0 with multipliers mu, errors of q and u tested.  Both in the maximum norm with weights
 ERROR max(1, |y|).
-References: Gear, IEEE Trans. Circuit Theory 18 (1971) 89; Shampine, Reichelt, SIAM J. Sci. Comput. 18
-(1997) 1 (quasi-constant step, differences); Brenan, Campbell, Petzold, Numerical Solution of IVP in DAE,
-1996, section 5.2 (tests of the corrector).
+References: Gear, IEEE Trans. Circuit Theory 18 (1971) 89; Shampine, Reichelt, SIAM J. Sci. Comput.
+18 (1997) 1 (quasi-constant step, differences); Brenan, Campbell, Petzold, Numerical Solution of
+IVP in DAE, 1996, section 5.2 (tests of the corrector).
 """
 
 from __future__ import annotations
-
-from adamslite.translate import native
 
 from adamslite.integrators.acceleration import accelerations, mass_signature, put_state
 from adamslite.integrators.base import (
@@ -35,7 +33,6 @@ from adamslite.integrators.base import (
     INTERRUPTED,
     K_MAX,
     MAX_IT,
-    NB,
     NEWTON,
     NEWTON_FAILED,
     NOT_FINITE,
@@ -55,11 +52,11 @@ from adamslite.integrators.base import (
     WHERE,
     M,
     N,
+    Plan,
+    Problem,
     T,
 )
 from adamslite.integrators.equations import (
-    BODY,
-    PART,
     project_on_constraints,
     put_motion,
     put_pose,
@@ -70,30 +67,36 @@ from adamslite.integrators.equations import (
     vector_rates,
     velocities,
 )
+from adamslite.integrators.history import (
+    MAX_ORDER,
+    change_step,
+    extend_history,
+    gamma,
+    predict,
+    rebase,
+)
 from adamslite.integrators.linalg import solve
 from adamslite.integrators.newton import apply_increment, increment_norm, newton_matrix
 from adamslite.integrators.records import note_violation, record_at
+from adamslite.translate import Reals, native
 
-MAX_ORDER = 5
-ROWS = MAX_ORDER + 3
 # Newton stops when the estimated remaining error is this share of ERROR.
 CORRECTOR_SHARE = 0.05
-# The next step aims at an estimated error below ERROR by these factors (at a higher order: more caution).
+# The next step aims at an estimated error below ERROR by these factors (at a higher order: more
+# caution).
 SAFETY, SAFETY_UP = 3.0, 4.5
 # The factored matrix is kept while its cu is within this ratio of the present one.
 KEEP_RATIO = 0.25
 # ... and for this many steps.
 KEEP_STEPS = 20.0
-# The rate of convergence is not believed to be better than this, and is doubted twice as much after every
-# step that needed one iteration, because the matrix grows old unseen.
+# The rate of convergence is not believed to be better than this, and is doubted twice as much
+# after every step that needed one iteration, because the matrix grows old unseen.
 LEAST_RATE = 0.02
-# Rotation vectors are counted anew from the present attitude beyond this length (squared).
-REBASE = 0.01
 # A sign change of the effective mass is approached to this share of HMAX.
 SINGULAR_RESOLUTION = 1e-6
-# Orders above 2 are unstable on weakly damped stiff modes; the symptom is many rejections while the run
-# advances far less than before.  In a window of tries: more rejections than this at order 3 and above,
-# and less than this share of the time covered by the best window.
+# Orders above 2 are unstable on weakly damped stiff modes; the symptom is many rejections while
+# the run advances far less than before.  In a window of tries: more rejections than this at order
+# 3 and above, and less than this share of the time covered by the best window.
 WINDOW = 50.0
 STIFF_REJECTIONS = 7.0
 STIFF_SHARE = 0.2
@@ -105,80 +108,19 @@ VANISHING = 1e-3
 RUNNING = -1
 # Places in P.control.
 (
-    NOW, H, K, K_TOP, EQUAL, NEXT, H_LAST, FACTORED, RATE, FRESH, AGE, RETRIES, TRIES, BAD, TRAVELLED,
-    FARTHEST, SIGNATURE,
+    NOW, H, K, K_TOP, EQUAL, NEXT, H_LAST, FACTORED, RATE, FRESH, AGE, RETRIES, TRIES, BAD,
+    TRAVELLED, FARTHEST, SIGNATURE,
 ) = range(17)  # fmt: skip
 
 
 @native
-def gamma(k: int) -> float:
-    """1 + 1/2 + ... + 1/k"""
-    total = 0.0
-    for j in range(1, k + 1):
-        total += 1.0 / j
-    return total
-
-
-@native
-def predict(D: Reals, w: int, k: int, yp: Reals, psi: Reals) -> None:
-    """Extrapolate the history: the value and the known part of the derivative."""
-    for i in range(w):
-        yp[i] = D[i]
-        psi[i] = 0.0
-    g = 0.0
-    for j in range(1, k + 1):
-        g += 1.0 / j
-        for i in range(w):
-            yp[i] += D[j * w + i]
-            psi[i] += g * D[j * w + i]
-    for i in range(w):
-        psi[i] /= g
-
-
-@native
-def change_step(D: Reals, w: int, k: int, factor: float) -> None:
-    """Differences of the same polynomial on the step ``factor * h`` (Shampine, Reichelt, eq. 2.5)."""
-    table = D[ROWS * w:]
-    size = k + 1
-    ru = table[0:]
-    for i in range(size):
-        for j in range(size):
-            ru[i * size + j] = 0.0
-    r = table[size * size:]
-    u = table[2 * size * size:]
-    difference_matrix(r, size, factor)
-    difference_matrix(u, size, 1.0)
-    for i in range(size):
-        for m in range(size):
-            for j in range(size):
-                ru[i * size + j] += r[i * size + m] * u[m * size + j]
-    column = table[3 * size * size:]
-    for c in range(w):
-        for i in range(size):
-            total = 0.0
-            for j in range(size):
-                total += ru[j * size + i] * D[j * w + c]
-            column[i] = total
-        for i in range(size):
-            D[i * w + c] = column[i]
-
-
-@native
-def difference_matrix(r: Reals, size: int, factor: float) -> None:
-    """R_ij = prod_{m=1..i} (m - 1 - factor j)/m."""
-    for j in range(size):
-        r[j] = 1.0
-    for i in range(1, size):
-        for j in range(size):
-            r[i * size + j] = 0.0 if j == 0 else r[(i - 1) * size + j] * (i - 1 - factor * j) / i
-
-
-@native
 def motion_from_increments(P: Problem, cu: float, yp: Reals, psi: Reals, si2: bool) -> None:
-    """u and a from q, the history and (stabilised form) mu; writes the workspace; v = q' to trial."""
+    """u and a from q, the history and (stabilised form) mu; writes the workspace; v = q' to
+    trial.
+    """
     n = P.sizes[N]
     w = 2 * n + P.sizes[NS]
-    q, u, a, v = P.q, P.u, P.a, P.trial[2 * w:]
+    q, u, a, v = P.q, P.u, P.a, P.trial[2 * w :]
     for i in range(n):
         v[i] = (psi[i] + q[i] - yp[i]) * cu
     put_pose(P, q)
@@ -201,7 +143,7 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     """Newton iterations from the predictor; True when converged."""
     n, C = P.sizes[N], P.control
     w = 2 * n + P.sizes[NS]
-    yp, psi, v = P.trial[0:], P.trial[w:], P.trial[2 * w:]
+    yp, psi, v = P.trial[0:], P.trial[w:], P.trial[2 * w :]
     tolerance = CORRECTOR_SHARE * P.settings[ERROR]
     tested = cu if P.sizes[SI2] == 1 else 0.0
     last = 0.0
@@ -273,7 +215,9 @@ def first_step(P: Problem, w: int) -> float:
     tol = P.settings[ERROR]
     fastest = 0.0
     for i in range(n):
-        fastest = max(fastest, abs(P.a[i]) / max(1.0, abs(P.u[i])), abs(P.u[i]) / max(1.0, abs(P.q[i])))
+        fastest = max(
+            fastest, abs(P.a[i]) / max(1.0, abs(P.u[i])), abs(P.u[i]) / max(1.0, abs(P.q[i]))
+        )
     for k in range(P.sizes[NS]):
         fastest = max(fastest, abs(P.rd[k]))
     span = P.settings[T_END] - P.settings[T]
@@ -284,7 +228,9 @@ def first_step(P: Problem, w: int) -> float:
 
 
 @native
-def weighted(D: Reals, row: int, w: int, n: int, ns: int, y: Reals, si2: bool, report: Reals) -> float:
+def weighted(
+    D: Reals, row: int, w: int, n: int, ns: int, y: Reals, si2: bool, report: Reals
+) -> float:
     """Largest |D_row| against max(1, |y|) over the tested variables; remembers where."""
     top, where = 0.0, 0
     o = row * w
@@ -298,48 +244,6 @@ def weighted(D: Reals, row: int, w: int, n: int, ns: int, y: Reals, si2: bool, r
             top, where = size, i
     report[WHERE] = where
     return top
-
-
-@native
-def rebase(P: Problem, D: Reals, w: int, k: int) -> None:
-    """Count rotation vectors from the present attitude; the history follows exactly.
-
-    Past values y_j = sum_i (-1)^i C(j,i) D_i; composition of Cayley vectors
-    cay(a) cay(b) = cay((a + b + a x b/2)/(1 - a.b/4)), here with b = -c.
-    """
-    rows = min(k + 3, ROWS)
-    for b in range(P.sizes[NB]):
-        i = P.body[BODY * b + 1] + 3
-        if P.body[BODY * b] != PART:
-            continue
-        c0, c1, c2 = D[i], D[i + 1], D[i + 2]
-        if c0 * c0 + c1 * c1 + c2 * c2 < REBASE:
-            continue
-        o = P.body[BODY * b + 2]
-        for c in range(3):
-            P.q[i + c] = D[i + c]
-        put_pose(P, P.q)
-        for m in range(9):
-            P.base[9 * b + m] = P.W[o + 15 + m]
-        for c in range(3):
-            to_values(D, w, i + c, rows)
-        for j in range(rows):
-            p = j * w + i
-            a0, a1, a2 = D[p], D[p + 1], D[p + 2]
-            s = 1.0 / (1.0 + 0.25 * (a0 * c0 + a1 * c1 + a2 * c2))
-            D[p] = s * (a0 - c0 - 0.5 * (a1 * c2 - a2 * c1))
-            D[p + 1] = s * (a1 - c1 - 0.5 * (a2 * c0 - a0 * c2))
-            D[p + 2] = s * (a2 - c2 - 0.5 * (a0 * c1 - a1 * c0))
-        for c in range(3):
-            to_values(D, w, i + c, rows)
-
-
-@native
-def to_values(D: Reals, w: int, i: int, rows: int) -> None:
-    """Differences to past values and back: the map is its own inverse."""
-    for m in range(1, rows):
-        for j in range(rows - 1, m - 1, -1):
-            D[j * w + i] = D[(j - 1) * w + i] - D[j * w + i]
 
 
 @native
@@ -495,7 +399,9 @@ def after_rejection(P: Problem, w: int, norm: float) -> int:
 
 @native
 def near_singularity(P: Problem, w: int) -> int:
-    """The acceleration matrix became singular within the step: approach the place, never pass it."""
+    """The acceleration matrix became singular within the step: approach the place, never pass
+    it.
+    """
     if P.control[H] < SINGULAR_RESOLUTION * P.settings[H_MAX]:
         return SINGULAR_MASS
     P.control[FRESH] = 0.0
@@ -505,7 +411,9 @@ def near_singularity(P: Problem, w: int) -> int:
 
 @native
 def stuck(P: Problem, L: Plan, w: int) -> int:
-    """Why the step became too small: a vanishing pivot of the acceleration matrix, or something else."""
+    """Why the step became too small: a vanishing pivot of the acceleration matrix, or something
+    else.
+    """
     restore_state(P, P.history, w, P.control[NOW])
     if P.sizes[IMPLICIT_MASS]:
         if mass_signature(P, L, P.x) != int(P.control[SIGNATURE]):
@@ -550,18 +458,6 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     if C[EQUAL] > C[K]:
         choose_order(P, w, norm)
     return RUNNING
-
-
-@native
-def extend_history(D: Reals, d: Reals, w: int, k: int) -> None:
-    """Differences of the accepted value: D_{k+1} = d, D_j += D_{j+1}."""
-    row, above = (k + 1) * w, (k + 2) * w
-    for i in range(w):
-        D[above + i] = d[i] - D[row + i]
-        D[row + i] = d[i]
-    for j in range(k, -1, -1):
-        for i in range(w):
-            D[j * w + i] += D[(j + 1) * w + i]
 
 
 @native

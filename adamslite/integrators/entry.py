@@ -10,12 +10,16 @@ from adamslite.integrators.records import write_record
 from adamslite.integrators.static import equilibrium
 from adamslite.translate import native, translate
 
-RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET = range(10)
+RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET = range(
+    10
+)
 
 
 @native
 def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
-    """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes row ``phases``."""
+    """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
+    row ``phases``.
+    """
     if operation == BDF:
         return bdf(P, L)
     if operation == EQUILIBRIUM:

@@ -235,11 +235,11 @@ def forward(L: Plan, LV: Reals, x: Reals) -> None:
     for k in range(L.size.size):
         s, p = L.size[k], L.start[k]
         for e in range(L.first[k], L.first[k + 1]):
-            i, l = L.node[e], L.lower[e]
+            i, below = L.node[e], L.lower[e]
             if s == 3 and L.size[i] == 3:
-                subtract3(LV[l:], x[p:], x[L.start[i]:])
+                subtract3(LV[below:], x[p:], x[L.start[i] :])
             else:
-                subtract(LV[l:], L.size[i], s, x[p:], x[L.start[i]:])
+                subtract(LV[below:], L.size[i], s, x[p:], x[L.start[i] :])
 
 
 @native
@@ -250,9 +250,9 @@ def backward(L: Plan, LV: Reals, x: Reals, y: Reals) -> None:
         for e in range(L.first[k], L.first[k + 1]):
             j, u = L.node[e], L.upper[e]
             if s == 3 and L.size[j] == 3:
-                subtract3(LV[u:], x[L.start[j]:], x[p:])
+                subtract3(LV[u:], x[L.start[j] :], x[p:])
             else:
-                subtract(LV[u:], s, L.size[j], x[L.start[j]:], x[p:])
+                subtract(LV[u:], s, L.size[j], x[L.start[j] :], x[p:])
         if s == 3:
             replace3(LV[o:], x[p:])
         else:

@@ -1,10 +1,11 @@
 """Static equilibrium: F(q, 0, 0, lam, V, s) = 0, g(q) = 0, ds/dt = 0.
 
-Newton with limited increments on [K + sigma (M + C), G^T; G, 0]; sigma is the small STABILITY at first.
-When that does not settle, dynamic relaxation: implicit Euler steps from rest, the velocity dropped after
-each (pseudo-transient continuation), sigma = 1/h^2 with a step h that grows while it works.  Each step
-lowers the potential energy, so this ends in a stable equilibrium, and with h -> infinity it is Newton.
-References: Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508; Day, The Engineer 219 (1965) 218.
+Newton with limited increments on [K + sigma (M + C), G^T; G, 0]; sigma is the small STABILITY at
+first. When that does not settle, dynamic relaxation: implicit Euler steps from rest, the velocity
+dropped after each (pseudo-transient continuation), sigma = 1/h^2 with a step h that grows while it
+works.  Each step lowers the potential energy, so this ends in a stable equilibrium, and with h ->
+infinity it is Newton. References: Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508; Day, The
+Engineer 219 (1965) 218.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from adamslite.integrators.base import (
 from adamslite.integrators.equations import BODY, PART, jacobian, put_pose, residual, spread
 from adamslite.integrators.linalg import factor, solve
 from adamslite.integrators.newton import apply_increment
-from adamslite.translate import Reals, native
+from adamslite.translate import native
 
 # Places in P.control.
 ALIMIT, TLIMIT, CHANGE, IMBALANCE, STABILITY, ITERATIONS, SIGMA, WORST, MOVED, LENGTH = range(10)
@@ -113,7 +114,9 @@ def static_step(P: Problem, L: Plan) -> bool:
 
 @native
 def limited_move(P: Problem) -> bool:
-    """Apply the increment in P.F, shortened to TLIMIT and ALIMIT; attitudes are counted from the new ones."""
+    """Apply the increment in P.F, shortened to TLIMIT and ALIMIT; attitudes are counted from the
+    new ones.
+    """
     C, shrink, moved = P.control, 1.0, 0.0
     for b in range(P.sizes[NB]):
         i, kind = P.body[BODY * b + 1], P.body[BODY * b]
