@@ -31,6 +31,7 @@ _HOME = {
     "check": "check",
     "compare": "compare",
     "compile_model": "compiled",
+    "linearize": "simulate",
     "read": "deck",
     "simulate": "simulate",
 }

@@ -15,7 +15,7 @@ from adamslite.statement import Argument, Statement
 from adamslite.values import Reader, Refused
 from adamslite.vocabulary import Ambiguous, vocabulary
 
-_LISTS = ("vector", "references", "texts")
+_LISTS = ("vector", "references", "ids", "texts")
 
 
 class Pieces:
@@ -171,11 +171,16 @@ class Grouping:
 
 
 def read_arguments(
-    cls: type[Statement], syntax: Syntax, items: tuple[Item, ...], reader: Reader, label: str
+    cls: type[Statement],
+    syntax: Syntax,
+    items: tuple[Item, ...],
+    reader: Reader,
+    label: str,
+    partial: bool = False,
 ) -> tuple[dict[str, Any], dict[str, tuple[int, int]]]:
     """The field values of a statement and where they are written.
 
-    Fields with a mistake are left out of the values.
+    Fields with a mistake are left out of the values; ``partial`` statements need no argument.
     """
     found = Grouping(cls, syntax, reader).collect(items)
     values: dict[str, Any] = {}
@@ -186,7 +191,7 @@ def read_arguments(
             values[name] = reader.value(cls, pieces.argument, pieces.values)
         except Refused:
             continue
-    if syntax.whole:
+    if syntax.whole and not partial:
         for name, argument in cls.arguments.items():
             if argument.required and name not in found:
                 hint = f"{argument.key}: {argument.help}"

@@ -7,14 +7,16 @@ time and runs in :func:`check` only.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
+from adamslite.check_runs import RUN_RULES
 from adamslite.diagnostics import Diagnostic, sort_by_place
 from adamslite.effective_mass import effective_masses
 from adamslite.expression import Ref, walk
 from adamslite.messages import compose
 from adamslite.resolve import RESERVED
+from adamslite.rule import Rule, apply, needs, positive, say
 from adamslite.statement import Statement
 
 if TYPE_CHECKING:
@@ -22,39 +24,17 @@ if TYPE_CHECKING:
 
 Key = int | str
 Body = tuple[str, Key]
-Rule = Callable[["Deck"], Iterator[Diagnostic]]
 
 POINT = "POINT_MASS"
+# Forces whose reaction follows I, and all elements between two markers.
+FOLLOWING = ("VFORCE", "VTORQUE", "GFORCE")
+COMPLIANT = ("BUSHING", "FIELD", "BEAM")
+BETWEEN = ("SFORCE", "SPRINGDAMPER", "JOINT", *COMPLIANT, *FOLLOWING)
 
 
 def check(deck: Deck) -> list[Diagnostic]:
     """Everything to say about a deck that could be read: warnings and advice, in deck order."""
     return sort_by_place([*deck.warnings, *apply(ADVICE, deck)])
-
-
-def apply(rules: Sequence[Rule], deck: Deck) -> Iterator[Diagnostic]:
-    """What the rules say; those that need statements which could not be read are left out."""
-    for rule in rules:
-        if not deck.incomplete.intersection(getattr(rule, "needs", ())):
-            yield from rule(deck)
-
-
-def needs(*keywords: str) -> Callable[[Rule], Rule]:
-    """Mark a rule that draws conclusions from what is absent."""
-
-    def mark(rule: Rule) -> Rule:
-        rule.needs = keywords
-        return rule
-
-    return mark
-
-
-def say(statement: Statement, code: str, field: str = "", **words: Any) -> Diagnostic:
-    """A message about a statement, or about one of its arguments."""
-    spans = statement.spans
-    span = spans[field] if field in spans else spans.whole
-    source_line = spans.source.line(span.line) if spans.source else ""
-    return compose(code, span, source_line, label=statement.label, **words)
 
 
 # ---- bodies -----------------------------------------------------------------------------------
@@ -174,7 +154,7 @@ def _uses(statement: Statement) -> Iterator[tuple[str, Key]]:
 
 def floating_use(deck: Deck) -> Iterator[Diagnostic]:
     floating = {marker.key for marker in deck.of("MARKER") if marker.floating}
-    for force in deck.of("VFORCE"):
+    for force in _all(deck, FOLLOWING):
         if force.jfloat is not None and force.jfloat not in floating:
             if deck.find("MARKER", force.jfloat):
                 yield say(force, "not-floating", "jfloat", key=force.jfloat)
@@ -185,9 +165,9 @@ def floating_use(deck: Deck) -> Iterator[Diagnostic]:
                 yield say(statement, "floating-misused", field, word=word, key=key)
 
 
-@needs("VFORCE", "VTORQUE", "GFORCE", "PTCV", "CVCV")
+@needs(*FOLLOWING, "PTCV", "CVCV")
 def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
-    used = {force.jfloat for force in deck.of("VFORCE")}
+    used = {force.jfloat for force in _all(deck, FOLLOWING)}
     for marker in deck.of("MARKER"):
         if marker.floating and marker.key not in used:
             yield say(marker, "floating-unused")
@@ -197,7 +177,7 @@ def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def reactions(deck: Deck) -> Iterator[Diagnostic]:
-    for force in deck.of("VFORCE"):
+    for force in _all(deck, FOLLOWING):
         if force.jfloat is None and force.j_part is None:
             yield say(force, "no-reaction")
         elif force.jfloat is not None and force.j_part is not None:
@@ -210,20 +190,29 @@ def reactions(deck: Deck) -> Iterator[Diagnostic]:
             yield say(force, "reaction-on-other-part", "j_part", **words)
 
 
+def _all(deck: Deck, keywords: Sequence[str]) -> Iterator[Statement]:
+    return (each for keyword in keywords for each in deck.of(keyword))
+
+
+def _ends(deck: Deck, element: Statement) -> tuple[Body | None, Body | None]:
+    """The bodies an element acts on."""
+    j = element.jfloat if element.keyword in FOLLOWING else element.j
+    if j is not None:
+        return body_of(deck, element.i), body_of(deck, j)
+    part = element.j_part
+    return body_of(deck, element.i), None if part is None else ("PART", part)
+
+
 def distinct_ends(deck: Deck) -> Iterator[Diagnostic]:
-    for keyword in ("SFORCE", "SPRINGDAMPER", "JOINT", "VFORCE"):
-        for each in deck.of(keyword):
-            if getattr(each, "actiononly", False):
-                continue
-            j = each.jfloat if keyword == "VFORCE" else each.j
-            here, there = body_of(deck, each.i), body_of(deck, j)
-            if j is None:
-                there = None if each.j_part is None else ("PART", each.j_part)
-            if each.i == j and keyword != "JOINT":
-                yield say(each, "same-marker", "j")
-            elif here and here == there:
-                code = "same-body" if keyword in ("JOINT", "VFORCE") else "internal-force"
-                yield say(each, code, "j", owner=_label(here))
+    for each in _all(deck, BETWEEN):
+        if getattr(each, "actiononly", False):
+            continue
+        keyword, (here, there) = each.keyword, _ends(deck, each)
+        if keyword not in ("JOINT", *FOLLOWING) and each.i == each.j:
+            yield say(each, "same-marker", "j")
+        elif here and here == there:
+            code = "same-body" if keyword in ("JOINT", *FOLLOWING) else "internal-force"
+            yield say(each, code, "j", owner=_label(here))
 
 
 def torques_on_points(deck: Deck) -> Iterator[Diagnostic]:
@@ -235,6 +224,35 @@ def torques_on_points(deck: Deck) -> Iterator[Diagnostic]:
             for owner in (body_of(deck, end) for end in ends):
                 if each.kind != "SPHERICAL" and owner and owner[0] == POINT:
                     yield say(each, "torque-on-point", owner=_label(owner))
+
+
+def wrenches_on_points(deck: Deck) -> Iterator[Diagnostic]:
+    for each in _all(deck, (*COMPLIANT, "VTORQUE", "GFORCE")):
+        for owner in _ends(deck, each):
+            if owner and owner[0] == POINT:
+                yield say(each, "torque-on-point", owner=_label(owner))
+
+
+def sections(deck: Deck) -> Iterator[Diagnostic]:
+    for beam in deck.of("BEAM"):
+        yield from positive(beam, "length", "area", "ixx", "iyy", "izz", "emodulus", "gmodulus")
+    for each in _all(deck, ("BEAM", "FIELD")):
+        if each.given("cratio") and each.given("cmatrix"):
+            yield say(each, "two-dampings", "cmatrix")
+
+
+def frictions(deck: Deck) -> Iterator[Diagnostic]:
+    lengths = ("stiction_transition_velocity", "pin_radius", "ball_radius", "friction_arm")
+    for each in deck.of("FRICTION"):
+        yield from positive(
+            each, *lengths, "bending_reaction_arm", "reaction_arm", "initial_overlap"
+        )
+        joint = deck.find("JOINT", each.joint)
+        if joint and joint.kind not in each.joints:
+            yield say(each, "friction-not-there", "joint", joint=joint.label, kind=joint.kind)
+        if each.given("max_stiction_deformation"):
+            word, reason = "MAX_STICTION_DEFORMATION", "a joint at rest under load creeps instead"
+            yield say(each, "no-effect", "max_stiction_deformation", word=word, reason=reason)
 
 
 def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:
@@ -268,13 +286,6 @@ def requests(deck: Deck) -> Iterator[Diagnostic]:
 # ---- units and runs ---------------------------------------------------------------------------
 
 
-def _positive(statement: Statement, *fields: str) -> Iterator[Diagnostic]:
-    for field in fields:
-        value = getattr(statement, field)
-        if value is not None and value <= 0:
-            yield say(statement, "not-positive", field, word=field.upper())
-
-
 def unit_system(deck: Deck) -> Iterator[Diagnostic]:
     for units in deck.of("UNITS"):
         named = [f for f in ("force", "mass", "length", "time") if units.given(f)]
@@ -283,32 +294,9 @@ def unit_system(deck: Deck) -> Iterator[Diagnostic]:
             yield say(units, "units-twice")
         elif 0 < len(named) < 4:
             yield say(units, "units-incomplete", word=", ".join(named).upper())
-        yield from _positive(units, "ucf")
+        yield from positive(units, "ucf")
 
 
-def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
-    for each in deck.of("INTEGRATOR"):
-        yield from _positive(each, "error", "hmax", "hmin", "hinit", "kmax", "maxit")
-        if each.alpha is not None and not -1 / 3 - 1e-9 <= each.alpha <= 0:
-            yield say(each, "out-of-range", "alpha", word="ALPHA", low="-1/3", high="0")
-        if each.hmin is not None and each.hmax is not None and each.hmin > each.hmax:
-            yield say(each, "steps-disordered", "hmin")
-
-
-def simulation_times(deck: Deck) -> Iterator[Diagnostic]:
-    for each in deck.of("SIMULATE"):
-        yield from _positive(each, "duration", "dtout", "steps")
-        if each.end is None and each.duration is None:
-            yield say(each, "no-end")
-        elif each.end is not None and each.duration is not None:
-            yield say(each, "two-ends", "duration")
-        elif each.steps is None and each.dtout is None:
-            yield say(each, "no-output-step")
-        elif each.steps is not None and each.dtout is not None:
-            yield say(each, "two-output-steps", "dtout")
-
-
-RUN_RULES: list[Rule] = [integrator_values, simulation_times]
 RULES: list[Rule] = [
     one_ground,
     ground_without_data,
@@ -323,6 +311,9 @@ RULES: list[Rule] = [
     reactions,
     distinct_ends,
     torques_on_points,
+    wrenches_on_points,
+    sections,
+    frictions,
     idle_arguments,
     reserved_names,
     requests,

@@ -9,16 +9,23 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from adamslite.diagnostics import DeckError, Diagnostic, Source
+from adamslite.expression import Node, Num, rebuild
 from adamslite.reading import Reading
+from adamslite.redefinition import Redefinition, settled
 from adamslite.resolve import Key, Names
 from adamslite.statement import STATEMENTS, Statement
+from adamslite.switching import Switch
+
+SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
+ANALYSES = ("SIMULATE", "LINEAR")
 
 
 class Deck:
@@ -35,6 +42,8 @@ class Deck:
         Ids and names of all statements.
     path : Path or None
         The file it came from.
+    inactive : frozenset
+        (keyword, key) of the elements that are switched off: they contribute nothing.
     """
 
     def __init__(
@@ -44,18 +53,21 @@ class Deck:
         statements: tuple[Statement, ...],
         names: Names,
         path: Path | None = None,
+        inactive: frozenset[tuple[str, Key]] = frozenset(),
     ) -> None:
         self.source = source
         self.title = title
-        self.statements = statements
+        self.own = statements
+        self.statements = tuple(s for own in statements for s in (own, *own.companions()))
         self.names = names
         self.path = path
+        self.inactive = inactive
         self.warnings: tuple[Diagnostic, ...] = ()
         self.incomplete: set[str] = set()
         """Keywords of statements with mistakes, which are not among the statements."""
         self._of: dict[str, list[Statement]] = {}
         self._by_key: dict[tuple[str, Key], Statement] = {}
-        for each in statements:
+        for each in self.statements:
             self._of.setdefault(each.keyword, []).append(each)
             self._by_key.setdefault((each.keyword, each.key), each)
 
@@ -76,6 +88,48 @@ class Deck:
         """The only statement of that kind; with its defaults when the deck has none."""
         found = self.of(keyword)
         return found[-1] if found else STATEMENTS[keyword]()
+
+    def is_active(self, statement: Statement) -> bool:
+        """Whether an element acts; everything does that DEACTIVATE has not named."""
+        return (statement.keyword, statement.key) not in self.inactive
+
+    def settings(self, keyword: str) -> Statement:
+        """INTEGRATOR, EQUILIBRIUM or KINEMATICS after all statements of that kind."""
+        return settled(STATEMENTS[keyword], self.of(keyword))
+
+    def after(self, command: Any) -> Deck:
+        """The deck once a command has been carried out; SIMULATE and LINEAR do not change it."""
+        if isinstance(command, Redefinition):
+            return self.redefined(command)
+        if isinstance(command, Switch):
+            return self.with_active(command.kind, command.elements(self.names), command.on)
+        if command.keyword in SETTINGS:
+            return self._but(own=(*self.own, command))
+        return self
+
+    def redefined(self, command: Redefinition) -> Deck:
+        """The deck with one statement changed; what its constants name follows (KGRAV)."""
+        old = self.find(command.keyword, command.key)
+        if old is None and not command.of.singleton:
+            return self  # the statement has mistakes of its own
+        new = command.applied_to(old or command.of())
+        own = tuple(new if each is old else each for each in self.own)
+        own = own if old else (*own, new)
+        constants = {name: v for each in own for name, v in each.constants().items()}
+        renewed = own if new.constants() else (new,)
+        fresh = {id(each): _with_constants(each, constants) for each in renewed}
+        return self._but(own=tuple(fresh.get(id(each), each) for each in own))
+
+    def with_active(self, keyword: str, ids: Iterable[Key], on: bool) -> Deck:
+        """The deck with elements of one kind switched on or off."""
+        named = {(keyword, id.upper() if isinstance(id, str) else id) for id in ids}
+        return self._but(inactive=self.inactive - named if on else self.inactive | named)
+
+    def _but(self, **changes: Any) -> Deck:
+        facts = {"own": self.own, "inactive": self.inactive} | changes
+        deck = Deck(self.source, self.title, facts["own"], self.names, self.path, facts["inactive"])
+        deck.warnings, deck.incomplete = self.warnings, self.incomplete
+        return deck
 
     @property
     def gravity(self) -> tuple[float, float, float]:
@@ -99,6 +153,21 @@ class Deck:
         from hashlib import sha256
 
         return sha256(self.source.text.encode()).hexdigest()
+
+
+def _with_constants(statement: Statement, constants: dict[str, float]) -> Statement:
+    """The statement with its named numbers brought up to date."""
+
+    def renew(node: Node) -> Node:
+        known = type(node) is Num and node.name in constants
+        return Num(constants[node.name], node.name) if known else node
+
+    changed = {
+        field: rebuild(getattr(statement, field), renew)
+        for field, argument in statement.arguments.items()
+        if argument.kind == "expression" and getattr(statement, field) is not None
+    }
+    return replace(statement, **changed) if changed else statement
 
 
 def read(source: str | Path) -> Deck:
@@ -135,15 +204,46 @@ def read(source: str | Path) -> Deck:
     return deck
 
 
-def read_commands(source: str | Path, deck: Deck) -> tuple[Statement, ...]:
-    """Read a command file (.acf) for a deck; parameters and errors as for :func:`read`."""
-    from adamslite.check import RUN_RULES
+class Commands(tuple[Any, ...]):
+    """Commands in their order: statements, and :class:`Redefinition` for those that change one."""
+
+    warnings: tuple[Diagnostic, ...] = ()
+
+
+def read_commands(source: str | Path, deck: Deck) -> Commands:
+    """Read a command file (.acf) for a deck; parameters and errors as for :func:`read`.
+
+    The deck is checked as the commands leave it before each analysis and at the end.
+    """
+    from adamslite.check_runs import RUN_RULES
 
     text, path = _load(source)
-    reading = Reading(Source(text, str(path or "<commands>")), deck.names, "command")
-    statements = reading.statements(0)
-    _judged(Deck(reading.log.source, "", statements, deck.names, path), reading, RUN_RULES)
-    return statements
+    reading = Reading(Source(text, str(path or "<commands>")), deck.names, "command", deck)
+    commands = Commands(reading.statements(0))
+    plain = tuple(each for each in commands if isinstance(each, Statement))
+    run = Deck(reading.log.source, "", plain, deck.names, path)
+    reading.log.diagnostics += _caused(deck, commands)
+    commands.warnings = _judged(run, reading, RUN_RULES)
+    return commands
+
+
+def _caused(deck: Deck, commands: Iterable[Any]) -> list[Diagnostic]:
+    """What is wrong with the deck because of commands."""
+    from adamslite.check import RULES
+    from adamslite.rule import apply
+
+    if not any(isinstance(command, Redefinition) for command in commands):
+        return []
+    known = set(apply(RULES, deck))
+    found: dict[Diagnostic, None] = {}
+    unchecked = False
+    for command in (*commands, None):
+        if isinstance(command, Redefinition):
+            deck, unchecked = deck.redefined(command), True
+        elif unchecked and (command is None or command.keyword in ANALYSES):
+            found |= dict.fromkeys(each for each in apply(RULES, deck) if each not in known)
+            unchecked = False
+    return list(found)
 
 
 @contextmanager
@@ -161,12 +261,12 @@ def _no_collection() -> Iterator[None]:
 
 def _judged(deck: Deck, reading: Reading, rules: Sequence[Any]) -> tuple[Diagnostic, ...]:
     """What reading and rules have to say; raises when there are errors."""
-    from adamslite.check import apply
+    from adamslite.rule import apply
 
-    deck.incomplete = reading.broken
+    deck.incomplete |= reading.broken
     diagnostics = [*reading.log.finish(), *apply(rules, deck)]
     if any(diagnostic.is_error for diagnostic in diagnostics):
-        raise DeckError(diagnostics)
+        raise DeckError(diagnostics, deck)
     return tuple(diagnostics)
 
 

@@ -7,8 +7,9 @@ All of them are collected and raised once, as :class:`DeckError`.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 ERROR = "error"
 WARNING = "warning"
@@ -90,6 +91,10 @@ class Spans(Mapping[str, Span]):
         """The span of the whole statement."""
         return self.source.span(*self.whole_range) if self.source else NOWHERE
 
+    def home(self, field: str) -> Spans:
+        """The places, all in one source, that ``field`` is among."""
+        return self
+
     def __getitem__(self, field: str) -> Span:
         start, end = self.ranges[field]
         return self.source.span(start, end) if self.source else NOWHERE
@@ -102,6 +107,41 @@ class Spans(Mapping[str, Span]):
 
     def __len__(self) -> int:
         return len(self.ranges)
+
+
+class MergedSpans(Spans):
+    """The places of a statement that a later one changed: each argument where it stands last.
+
+    Parameters
+    ----------
+    older, newer : Spans
+        The statement itself is where ``older`` has it, unless that is nowhere.
+    dropped : collection of str
+        Fields of ``older`` that no longer count.
+    """
+
+    __slots__ = ("parts",)
+
+    def __init__(self, older: Spans, newer: Spans, dropped: Collection[str]) -> None:
+        whole = older if older.source else newer
+        super().__init__(whole.source, whole.whole_range)
+        kept = {field: older.home(field) for field in older if field not in dropped}
+        self.parts = kept | {field: newer.home(field) for field in newer}
+
+    def home(self, field: str) -> Spans:
+        return self.parts.get(field, self)
+
+    def __getitem__(self, field: str) -> Span:
+        return self.parts[field][field]
+
+    def __contains__(self, field: object) -> bool:
+        return field in self.parts
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.parts)
+
+    def __len__(self) -> int:
+        return len(self.parts)
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,10 +206,14 @@ def render(diagnostics: Iterable[Diagnostic]) -> str:
 
 
 class DeckError(Exception):
-    """A deck (or command file) with mistakes; carries every one of them."""
+    """A deck (or command file) with mistakes; carries every one of them.
 
-    def __init__(self, diagnostics: Iterable[Diagnostic]) -> None:
+    ``deck`` is what could be read, so that the command file can be looked at as well.
+    """
+
+    def __init__(self, diagnostics: Iterable[Diagnostic], deck: Any = None) -> None:
         self.diagnostics = tuple(sort_by_place(diagnostics))
+        self.deck = deck
         super().__init__(self.diagnostics)
 
     @property

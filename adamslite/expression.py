@@ -8,7 +8,7 @@ Nodes are immutable, hashable and compare by content.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 NEGATE = "neg"
 _LEVEL = {"+": 1, "-": 1, NEGATE: 1, "*": 2, "/": 2, "**": 3}
@@ -16,9 +16,14 @@ _LEVEL = {"+": 1, "-": 1, NEGATE: 1, "*": 2, "/": 2, "**": 3}
 
 @dataclass(frozen=True, slots=True)
 class Num:
-    """A number; angles written in degrees are radians here."""
+    """A number; angles written in degrees are radians here.
+
+    ``name`` is set where a statement gave the number a name (KGRAV), so that it can follow a
+    change of that statement.
+    """
 
     value: float
+    name: str = field(default="", compare=False)
 
 
 @dataclass(frozen=True, slots=True)

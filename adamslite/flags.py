@@ -24,6 +24,14 @@ def positive(text: str) -> float:
     return value
 
 
+def instant(text: str) -> float:
+    """Return the time written in `text`, finite and not negative."""
+    value = float(text)
+    if not 0 <= value < inf:
+        raise argparse.ArgumentTypeError(f"'{text}' must be a time, zero or above")
+    return value
+
+
 def count(text: str) -> int:
     """Return the whole number written in `text`, at least 1."""
     value = int(text)

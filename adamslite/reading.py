@@ -14,6 +14,7 @@ from adamslite.diagnostics import Source, Spans
 from adamslite.messages import Log, did_you_mean
 from adamslite.mistakes import Syntax, statement_syntax
 from adamslite.parse import end_of, join, scan
+from adamslite.redefinition import Redefinition
 from adamslite.resolve import Key, Names, Resolver
 from adamslite.statement import STATEMENTS, Statement
 from adamslite.unsupported import COMMANDS as PLANNED_COMMANDS
@@ -33,6 +34,8 @@ class Entry(NamedTuple):
     body: Body | None
     again: bool = False
     """Another one has its id already."""
+    changes: bool = False
+    """It is a command that changes the statement of this id."""
 
     @property
     def label(self) -> str:
@@ -54,12 +57,15 @@ class Reading:
         Filled by the first pass; those of the deck when commands are read.
     place : str
         ``"deck"`` or ``"command"``.
+    deck : Deck
+        The deck commands are for.
     """
 
-    def __init__(self, source: Source, names: Names, place: str) -> None:
+    def __init__(self, source: Source, names: Names, place: str, deck: Any = None) -> None:
         self.log = Log(source)
         self.names = names
         self.place = place
+        self.deck = deck
         self.entries: list[Entry] = []
         self.broken: set[str] = set()
         """Keywords of statements that could not be read, or not wholly."""
@@ -78,7 +84,7 @@ class Reading:
         if slash and keyword.strip().upper() in STATEMENTS:
             self.log.add("title-like-statement", 0, len(line))
 
-    def statements(self, start: int) -> tuple[Statement, ...]:
+    def statements(self, start: int) -> tuple[Any, ...]:
         """All statements from offset ``start`` on; those with mistakes are left out."""
         text = self.log.source.text
         for logical in join(scan(text, start), ampersand=self.place == "command"):
@@ -118,7 +124,7 @@ class Reading:
         found = self._meanings[word]
         place = token[2], end_of(token)
         if isinstance(found, type):
-            if self.place == "command" and found.place == "deck":
+            if self._changes(found) and not found.redefinable:
                 self.log.tally("statement-in-commands", word, *place, word=found.keyword)
                 return None
             return found
@@ -133,6 +139,10 @@ class Reading:
         else:
             self._unknown(syntax, place)
         return None
+
+    def _changes(self, cls: type[Statement]) -> bool:
+        """Whether a statement of this class changes one of the deck."""
+        return self.place == "command" and cls.place == "deck"
 
     def _unknown(self, syntax: Syntax, place: tuple[int, int]) -> None:
         hint = did_you_mean(syntax.keyword, self._table)
@@ -155,6 +165,9 @@ class Reading:
             self._body = (keyword, None)
 
     def _enter(self, cls: type[Statement], syntax: Syntax) -> None:
+        if self._changes(cls):
+            self._enter_change(cls, syntax)
+            return
         start = syntax.tokens[0][2]
         if cls.singleton:
             first = self._started.setdefault(cls.keyword, start)
@@ -179,6 +192,23 @@ class Reading:
             self._body = (cls.keyword, key)
         self.entries.append(entry)
 
+    def _enter_change(self, cls: type[Statement], syntax: Syntax) -> None:
+        """A command that changes the statement of its id, which must exist."""
+        id = 0 if cls.singleton else self._id(cls, syntax)
+        if id is None:
+            return
+        found = 0 if cls.singleton else self.names.find(cls.keyword, canonical(id))
+        tokens = syntax.tokens
+        if isinstance(found, list):
+            place = tokens[syntax.items[0].start][2], end_of(tokens[syntax.items[0].end - 1])
+            labels = ", ".join(f"{cls.keyword}/{key}" for key in found[:5])
+            self.log.add("ambiguous-name", *place, word=id, labels=labels)
+        elif found is not None:
+            self.entries.append(Entry(cls, syntax, found, None, changes=True))
+        elif cls.keyword not in self.deck.incomplete:
+            end = end_of(tokens[syntax.items[0].end - 1])
+            self.log.missing(self.names, cls.keyword, id, tokens[0][2], end)
+
     def _id(self, cls: type[Statement], syntax: Syntax) -> Key | None:
         """The id of a statement; None, with a message, when there is none."""
         first = syntax.items[0] if syntax.items else None
@@ -196,17 +226,18 @@ class Reading:
 
     # ---- second pass --------------------------------------------------------------------------
 
-    def _second_pass(self) -> tuple[Statement, ...]:
+    def _second_pass(self) -> tuple[Any, ...]:
         resolver = Resolver(self.names, self.log)
         reader = Reader(self.names, resolver, self.log, self._ground)
         givers = [cls for cls in STATEMENTS.values() if cls.constants is not Statement.constants]
-        made: dict[int, Statement] = {}
+        made: dict[int, Statement | Redefinition | None] = {}
         for number, entry in enumerate(self.entries):
             if entry.cls in givers:
                 made[number] = self._statement(entry, reader)
         for giver in givers:
             given = [each for each in made.values() if type(each) is giver]
-            resolver.constants |= (given[-1] if given else giver()).constants()
+            usual = self.deck.single(giver.keyword) if self.deck else giver()
+            resolver.constants |= (given[-1] if given else usual).constants()
         for number, entry in enumerate(self.entries):
             if number not in made:
                 made[number] = self._statement(entry, reader)
@@ -214,6 +245,8 @@ class Reading:
 
     def _ground(self) -> Key | None:
         """The id of the ground part, which may stand later in the deck."""
+        if self.deck:
+            return next((part.key for part in self.deck.of("PART") if part.ground), None)
         for entry in self.entries:
             if entry.cls.body and "ground" in entry.cls.arguments:
                 words = vocabulary(entry.cls)
@@ -223,7 +256,7 @@ class Reading:
                         return canonical(entry.id)
         return None
 
-    def _statement(self, entry: Entry, reader: Reader) -> Statement | None:
+    def _statement(self, entry: Entry, reader: Reader) -> Statement | Redefinition | None:
         """The statement with its arguments; None when something is wrong with it."""
         cls, syntax = entry.cls, entry.syntax
         if cls.ignored or cls.ends:
@@ -231,12 +264,15 @@ class Reading:
         else:
             errors = self.log.errors
             items = syntax.items if cls.singleton else syntax.items[1:]
-            values, ranges = read_arguments(cls, syntax, items, reader, entry.label)
+            values, ranges = read_arguments(cls, syntax, items, reader, entry.label, entry.changes)
             if self.log.errors != errors or entry.again or not syntax.whole:
                 self.broken.add(cls.keyword)
                 return None
+        spans = Spans(self.log.source, syntax.range, ranges)
+        if entry.changes:
+            return Redefinition(of=cls, key=entry.id, changes=values, spans=spans)
         values.update(cls.completed(values, entry.body))
         values["id"] = entry.id
         values["name"] = syntax.name
-        values["spans"] = Spans(self.log.source, syntax.range, ranges)
+        values["spans"] = spans
         return cls(**values)

@@ -222,7 +222,7 @@ class Resolver:
         if found is not None:
             return Call("VARVAL", (Ref("VARIABLE", found),))
         if word in self.constants:
-            return Num(self.constants[word])
+            return Num(self.constants[word], word)
         written = self.tokens[at][1]
         if word in FUNCTIONS:
             hint = f"{word} is a function: write {FUNCTIONS[word].usage}"

@@ -22,10 +22,10 @@ class Scene:
     ----------
     deck : Deck
         Without errors.
-    commands : tuple of Statement
+    commands : tuple of Statement or Redefinition
         What the command file says; empty when there is none.
     warnings : tuple of Diagnostic
-        What `check` has to say about the deck.
+        What `check` has to say about deck and commands.
     """
 
     deck: Any
@@ -41,14 +41,21 @@ def load_scene(deck_path: Path, commands_path: Path | None = None) -> Scene:
     DeckError
         With everything that is wrong in the two files.
     """
-    from adamslite.deck import read_commands
+    from adamslite.deck import Commands, read_commands
 
-    deck = adamslite.read(deck_path)
+    wrong: list[Diagnostic] = []
+    try:
+        deck = adamslite.read(deck_path)
+    except DeckError as fault:
+        deck, wrong = fault.deck, [*fault.diagnostics]
     beside = commands_path or command_file_beside(deck_path)
-    commands = tuple(read_commands(beside, deck)) if beside else ()
-    diagnostics = tuple(adamslite.check(deck))
+    try:
+        commands = read_commands(beside, deck) if beside and deck else Commands()
+    except DeckError as fault:
+        raise DeckError([*wrong, *fault.diagnostics], deck) from None
+    diagnostics = (*(wrong or adamslite.check(deck)), *commands.warnings)
     if any(diagnostic.is_error for diagnostic in diagnostics):
-        raise DeckError(diagnostics)
+        raise DeckError(diagnostics, deck)
     return Scene(deck=deck, commands=commands, warnings=diagnostics)
 
 

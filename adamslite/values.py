@@ -92,6 +92,7 @@ class Reader:
             "choice": self._choice,
             "reference": self._reference,
             "references": self._references,
+            "ids": self._ids,
             "expression": self._expression,
             "text": self._text,
             "texts": self._texts,
@@ -192,6 +193,13 @@ class Reader:
         self, cls: Any, argument: Argument, values: list[list[Lexeme]]
     ) -> tuple[Key, ...]:
         return tuple([self._refer(argument, tokens) for tokens in values])
+
+    def _ids(self, cls: Any, argument: Argument, values: list[list[Lexeme]]) -> tuple[Key, ...]:
+        found = [to_id(tokens) for tokens in values]
+        for key, tokens in zip(found, values, strict=True):
+            if not key:
+                self._refuse("bad-id", tokens, text=self._written(tokens))
+        return tuple([key.upper() if isinstance(key, str) else key for key in found])
 
     def _refer(self, argument: Argument, tokens: list[Lexeme]) -> Key:
         kind, key = argument.to, to_id(tokens)

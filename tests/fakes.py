@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import adamslite
+from adamslite.deck import Commands
 from adamslite.outcomes import Outcome
 from adamslite.results import Results
 
@@ -46,12 +47,17 @@ class Pipeline:
     statements: tuple[Any, ...] = ()
     diagnostics: tuple[Any, ...] = ()
     results: Results = field(default_factory=fall)
+    linearization: Any = None
     calls: list[dict[str, Any]] = field(default_factory=list)
     commands_read: list[Any] = field(default_factory=list)
 
     def simulate(self, deck: Any, **options: Any) -> Results:
         self.calls.append(options)
         return self.results
+
+    def linearize(self, deck: Any, **options: Any) -> Any:
+        self.calls.append(options)
+        return self.linearization
 
 
 @dataclass(frozen=True)
@@ -76,17 +82,19 @@ def stopped(outcome: Outcome, **facts: Any) -> Results:
 def install(monkeypatch: pytest.MonkeyPatch, pipeline: Pipeline) -> None:
     """Put `pipeline` in the place of the real one."""
 
-    def read_commands(path: Any, deck: Any) -> tuple[Any, ...]:
+    def read_commands(path: Any, deck: Any) -> Commands:
         pipeline.commands_read.append(path)
-        return (Named("SIMULATE"),)
+        return Commands([Named("SIMULATE")])
 
     fakes = {
         "read": lambda path: FakeDeck(pipeline.statements),
         "check": lambda deck: pipeline.diagnostics,
         "simulate": pipeline.simulate,
+        "linearize": pipeline.linearize,
     }
     for name, fake in fakes.items():
         monkeypatch.setitem(vars(adamslite), name, fake)
     deck_module = ModuleType("adamslite.deck")
     deck_module.read_commands = read_commands
+    deck_module.Commands = Commands
     monkeypatch.setitem(sys.modules, "adamslite.deck", deck_module)

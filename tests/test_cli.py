@@ -2,9 +2,11 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -251,6 +253,52 @@ def test_verify_reports_a_broken_deck_and_goes_on(pipeline, capsys, monkeypatch)
     assert "the deck has errors: cable.adm:2:4: there is no MARKER/7" in out
 
 
+@dataclass(frozen=True)
+class Modes:
+    """What `linearize` gives: a damped pair, a creeping mode and a free motion."""
+
+    eigenvalues: tuple[complex, ...] = (0j, -0.6 - 6j, -0.6 + 6j, -0.5 + 0j)
+    frequencies: tuple[float, ...] = (0.0, 0.95967, 0.95967, 0.0795775)
+    damping_ratios: tuple[float, ...] = (0.0, 0.0995037, 0.0995037, 1.0)
+    undamped: tuple[float, ...] = (0.0, 0.959)
+    modes: tuple[tuple[complex, ...], ...] = ((1 + 0j, 1j, -1j, 1 + 0j),)
+    state_matrix: tuple[tuple[float, ...], ...] = ((0.0, 1.0), (-1.0, 0.0))
+    coordinates: tuple[str, ...] = ("PART/2.x",)
+
+
+def test_linear_prints_a_table_of_modes(pipeline, capsys) -> None:
+    pipeline.linearization = Modes()
+    assert main(["linear", "cable.adm", "--time", "2"]) == 0
+    assert capsys.readouterr().out == (
+        "mode    frequency [Hz]     damping ratio              real         imaginary\n"
+        "   1                 0                 0                 0                 0\n"
+        "   2         0.0795775                 1              -0.5                 0\n"
+        "   3           0.95967         0.0995037              -0.6              +/-6\n"
+    )
+    assert pipeline.calls == [{"commands": (), "time": 2.0}]
+
+
+def test_linear_writes_the_modes_or_everything(pipeline) -> None:
+    pipeline.linearization = Modes()
+    Path("cable.acf").write_text("SIMULATE/STATICS\n")
+    assert main(["linear", "cable.adm", "-o", "a.csv"]) == 0
+    assert main(["linear", "cable.adm", "-o", "a.json"]) == 0
+    assert pipeline.calls[0] == {"commands": (SIMULATE,), "time": None}
+    head, *rows = Path("a.csv").read_text().splitlines()
+    assert head == "mode,frequency,damping_ratio,real,imaginary,pair"
+    assert rows[2] == "3,0.95967,0.0995037,-0.6,6.0,1" and len(rows) == 3
+    whole = json.loads(Path("a.json").read_text())
+    assert whole["eigenvalues"][1] == [-0.6, -6.0] and whole["coordinates"] == ["PART/2.x"]
+    assert whole["modes"] == [[[1, 0], [0, 1], [0, -1], [1, 0]]]
+    assert whole["state_matrix"] == [[0, 1], [-1, 0]]
+
+
+@pytest.mark.parametrize("flags", [["-o", "modes.txt"], ["--time", "-1"], ["--time", "later"]])
+def test_wrong_flags_of_linear_are_usage(pipeline, flags: list[str]) -> None:
+    assert main(["linear", "cable.adm", *flags]) == 2
+    assert pipeline.calls == []
+
+
 def test_help_starts_fast_and_without_numpy() -> None:
     program = (
         "import sys\n"
@@ -302,3 +350,16 @@ def test_progress_is_drawn_on_a_terminal_only() -> None:
         progress.close()
     assert terminal.text == "\rt = 0.5 of 2\r" + " " * 12 + "\rcompiling once\n"
     assert file.text == "compiling once\n"
+
+
+def test_ctrl_c_writes_what_is_computed(tmp_path: Path) -> None:
+    deck, output = tmp_path / "fall.adm", tmp_path / "fall.csv"
+    deck.write_text(FALLING)
+    flags = "--end 1000 --steps 1000 --hmax 1e-6"  # a thousand million steps: never done by itself
+    command = [sys.executable, "-m", "adamslite", "solve", str(deck), "-o", str(output)]
+    with subprocess.Popen([*command, *flags.split()], stderr=subprocess.PIPE, text=True) as run:
+        time.sleep(3.0)  # until it is past the imports
+        run.send_signal(signal.SIGINT)
+        said = run.communicate(timeout=60)[1]
+    assert run.returncode == 4, said
+    assert "# outcome: INTERRUPTED" in output.read_text() and "Traceback" not in said

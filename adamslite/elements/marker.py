@@ -20,6 +20,8 @@ class Marker(Statement):
     A FLOATING marker is placed by the solver and serves as JFLOAT of a force.
     """
 
+    alternatives = ((("part",), ("point_mass",)), (("reuler",), ("zp", "xp", "usexp")))
+
     part: int | str | None = reference("PART", to="PART", help="the part it is fixed to")
     point_mass: int | str | None = reference(
         "POINT_MASS", to="POINT_MASS", help="the point mass it is fixed to"

@@ -26,6 +26,8 @@ class Part(Statement):
          [-xz, -yz,  zz]]
     """
 
+    alternatives = ((("reuler",), ("zg", "xg")),)
+
     ground: bool = flag("GROUND", help="this part is the inertial reference")
     mass: float | None = number("MASS", unit="mass", help="mass")
     cm: int | str | None = reference("CM", to="MARKER", help="marker at the centre of mass")

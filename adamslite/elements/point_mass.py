@@ -17,6 +17,8 @@ class PointMass(Statement):
     The orientation of its frame (REULER, or ZG and XG) stays what it is at the start.
     """
 
+    alternatives = ((("reuler",), ("zg", "xg")),)
+
     mass: float = number("MASS", unit="mass", required=True, help="mass, above zero")
     cm: int | str | None = reference(
         "CM", to="MARKER", help="marker at the mass; default: the origin of the body"

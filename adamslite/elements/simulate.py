@@ -1,10 +1,10 @@
-"""SIMULATE: run an analysis.
+"""SIMULATE: run an analysis from the present time t0.
 
-Equation (output times of a dynamic analysis from ``t0``)::
+Equation (output times)::
 
     t0 + k (END - t0) / STEPS,   k = 0 ... STEPS
 
-with ``END = t0 + DURATION`` and ``STEPS = (END - t0) / DTOUT``.
+with ``END = t0 + DURATION``; for DTOUT ``t0 + k DTOUT`` up to END, and END itself.
 """
 
 from __future__ import annotations
@@ -14,16 +14,36 @@ from adamslite.statement import Statement, choice, integer, number, statement
 
 @statement("SIMULATE", singleton=True, repeatable=True, place="both")
 class Simulate(Statement):
-    """How long to simulate and how often to write.
+    """What to simulate, for how long and how often to write.
 
-    Stands in a command file; as an extension also in the deck itself.
+    Stands in a command file; as an extension also in the deck itself.  Several in a row go on from
+    the time that has been reached; END is a time and not a duration.  STATICS without END or
+    DURATION finds one equilibrium, with it one at every output time.  INITIAL_CONDITIONS stops
+    after displacements, velocities or (unless given) accelerations.
     """
 
     kind: str = choice(
         options=("DYNAMICS", "INITIAL_CONDITIONS", "KINEMATICS", "STATICS", "TRANSIENT"),
-        supported=("DYNAMICS",), required=True, help="a kind of analysis",
+        required=True, help="a kind of analysis",
     )  # fmt: skip
+    level: str | None = choice(
+        options=("DISPLACEMENT", "VELOCITY", "ACCELERATION"),
+        help="last of the INITIAL_CONDITIONS to find",
+    )
     end: float | None = number("END", unit="time", help="time at which it ends")
     duration: float | None = number("DURATION", unit="time", help="time it lasts")
     dtout: float | None = number("DTOUT", unit="time", help="time between outputs")
     steps: int | None = integer("STEPS", help="number of output steps")
+
+    @property
+    def at_once(self) -> bool:
+        """Whether it takes no time: initial conditions, or a single equilibrium."""
+        if self.kind == "STATICS":
+            return self.end is None and self.duration is None
+        return self.kind == "INITIAL_CONDITIONS"
+
+    def until(self, start: float) -> float:
+        """The time at which it ends [time] when it begins at ``start``."""
+        if self.at_once:
+            return start
+        return self.end if self.duration is None else start + self.duration

@@ -27,6 +27,8 @@ class Vforce(Statement):
     along the ground axes.
     """
 
+    alternatives = ((("jfloat",), ("j_part",)),)
+
     i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
     jfloat: int | str | None = reference(
         "JFLOAT", "J", to="MARKER", help="floating marker on the part that takes the reaction"

@@ -15,9 +15,10 @@ from adamslite.messages.arguments import ARGUMENTS
 from adamslite.messages.entry import Message
 from adamslite.messages.expressions import EXPRESSIONS
 from adamslite.messages.model import MODEL
+from adamslite.messages.runs import RUNS
 from adamslite.messages.statements import STATEMENTS
 
-MESSAGES: dict[str, Message] = STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL
+MESSAGES: dict[str, Message] = STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | RUNS
 
 BODIES = {"PART": "POINT_MASS", "POINT_MASS": "PART"}
 """Which kind of body is easily written for which."""

@@ -1,0 +1,117 @@
+"""Rules about the statements that run a deck; they hold in decks and in command files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from adamslite.diagnostics import Diagnostic
+from adamslite.messages import did_you_mean
+from adamslite.rule import Rule, positive, say
+from adamslite.statement import STATEMENTS, Statement
+from adamslite.switching import Switch
+
+if TYPE_CHECKING:
+    from adamslite.deck import Deck
+
+TIMES = ("end", "duration", "dtout", "steps")
+
+
+def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of("INTEGRATOR"):
+        yield from positive(each, "error", "hmax", "hmin", "hinit", "kmax", "maxit")
+        if each.alpha is not None and not -1 / 3 - 1e-9 <= each.alpha <= 0:
+            yield say(each, "out-of-range", "alpha", word="ALPHA", low="-1/3", high="0")
+        if each.hmin is not None and each.hmax is not None and each.hmin > each.hmax:
+            yield say(each, "steps-disordered", "hmin")
+
+
+def iteration_values(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of("EQUILIBRIUM"):
+        yield from positive(each, "alimit", "error", "imbalance", "maxit", "tlimit")
+        if each.stability < 0:
+            yield say(each, "negative", "stability", word="STABILITY")
+    for each in deck.of("KINEMATICS"):
+        yield from positive(each, "alimit", "error", "aerror", "maxit", "tlimit")
+
+
+def simulation_times(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of("SIMULATE"):
+        yield from positive(each, "duration", "dtout", "steps")
+        if each.level and each.kind != "INITIAL_CONDITIONS":
+            yield _idle(each, "level", each.level, "only INITIAL_CONDITIONS come in levels")
+        if each.kind == "INITIAL_CONDITIONS":
+            for field in filter(each.given, TIMES):
+                yield _idle(each, field, field.upper(), "initial conditions take no time")
+        elif not each.at_once or each.given("steps") or each.given("dtout"):
+            yield from _span_of_time(each)
+
+
+def _idle(statement: Statement, field: str, word: str, reason: str) -> Diagnostic:
+    return say(statement, "no-effect", field, word=word, reason=reason)
+
+
+def _span_of_time(run: Statement) -> Iterator[Diagnostic]:
+    if run.end is None and run.duration is None:
+        yield say(run, "no-end")
+    elif run.end is not None and run.duration is not None:
+        yield say(run, "two-ends", "duration")
+    elif run.steps is None and run.dtout is None:
+        yield say(run, "no-output-step")
+    elif run.steps is not None and run.dtout is not None:
+        yield say(run, "two-output-steps", "dtout")
+
+
+def ends_in_order(deck: Deck) -> Iterator[Diagnostic]:
+    if "SENSOR" in deck.names.ids:  # it may have ended the run before
+        return
+    time = 0.0
+    for each in deck.of("SIMULATE"):
+        if each.at_once or (each.end is None and each.duration is None):
+            continue
+        if each.duration is None and each.end <= time:
+            yield say(each, "end-not-later", "end", end=f"{each.end:g}", time=f"{time:g}")
+        time = max(time, each.until(time))
+
+
+def switched_elements(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.statements:
+        if not isinstance(each, Switch):
+            continue
+        if each.kind not in STATEMENTS:
+            yield say(each, "planned-statement", "kind", word=each.kind, times="")
+            continue
+        if not each.ids and each.range is None:
+            yield say(each, "missing-argument", word="ID", hint="ID=1,2 or RANGE=first,last")
+        for key in each.ids:
+            yield from _missing(deck, each, key)
+        if each.range and not each.elements(deck.names):
+            words = dict(zip(("low", "high"), map(int, each.range), strict=True))
+            yield say(each, "empty-range", "range", kind=each.kind, **words)
+
+
+def _missing(deck: Deck, switch: Statement, key: int | str) -> Iterator[Diagnostic]:
+    found = deck.names.find(switch.kind, key)
+    if isinstance(found, list):
+        labels = ", ".join(f"{switch.kind}/{each}" for each in found[:5])
+        yield say(switch, "ambiguous-name", "ids", word=key, labels=labels)
+    elif found is None:
+        hint = did_you_mean(str(key), deck.names.known(switch.kind))
+        yield say(switch, "missing-reference", "ids", kind=switch.kind, key=key, hint=hint)
+
+
+def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of("LINEAR"):
+        for field in ("file", "pinput", "poutput"):
+            if each.kind == "EIGENSOL" and each.given(field):
+                yield _idle(each, field, field.upper(), "EIGENSOL has neither input nor output")
+
+
+RUN_RULES: list[Rule] = [
+    integrator_values,
+    iteration_values,
+    simulation_times,
+    ends_in_order,
+    switched_elements,
+    linear_arguments,
+]

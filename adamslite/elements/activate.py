@@ -1,0 +1,25 @@
+"""ACTIVATE: elements that act again.
+
+Equation (a the switch of an element, 1 from here on)::
+
+    load = a * load,    a * constraint rows = 0
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, statement
+from adamslite.switching import Switch, element_ids, element_kind, element_range
+
+
+@statement("ACTIVATE", singleton=True, repeatable=True, place="command")
+class Activate(Switch, Statement):
+    """Switches elements on, after DEACTIVATE; holds from the next SIMULATE on.
+
+    An element that is on already stays so.
+    """
+
+    on = True
+
+    kind: str = element_kind()
+    ids: tuple[int | str, ...] = element_ids()
+    range: tuple[float, float] | None = element_range()

@@ -1,0 +1,25 @@
+"""DEACTIVATE: elements that act no more.
+
+Equation (a the switch of an element, 0 from here on)::
+
+    load = a * load,    a * constraint rows = 0
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, statement
+from adamslite.switching import Switch, element_ids, element_kind, element_range
+
+
+@statement("DEACTIVATE", singleton=True, repeatable=True, place="command")
+class Deactivate(Switch, Statement):
+    """Switches elements off, until ACTIVATE; holds from the next SIMULATE on.
+
+    Without effect an element keeps its result columns, filled with zeros.
+    """
+
+    on = False
+
+    kind: str = element_kind()
+    ids: tuple[int | str, ...] = element_ids()
+    range: tuple[float, float] | None = element_range()

@@ -1,0 +1,34 @@
+"""KINEMATICS: settings of the kinematic analysis.
+
+Equation (at each output time, with as many independent constraints as coordinates)::
+
+    g(q, t) = 0,    G u + g_t = 0,    M a + G^T lam = F
+"""
+
+from __future__ import annotations
+
+from math import radians
+
+from adamslite.statement import Statement, flag, integer, number, statement, words
+
+
+@statement(
+    "KINEMATICS", singleton=True, repeatable=True, place="both",
+    planned=("HMAX", "APATTERN", "AMAXIT"),
+)  # fmt: skip
+class Kinematics(Statement):
+    """How SIMULATE/KINEMATICS solves; what a command omits stays as it was."""
+
+    default: bool = flag("DEFAULT", help="takes back everything given before")
+    error: float = number("ERROR", unit="1", default=1e-4, help="position correction allowed")
+    aerror: float = number("AERROR", unit="1", default=1e-4, help="acceleration correction allowed")
+    tlimit: float = number(
+        "TLIMIT", unit="length", default=1e10, help="largest translation of an iteration"
+    )
+    alimit: float = number(
+        "ALIMIT", unit="angle", default=radians(30), help="largest rotation of an iteration"
+    )
+    maxit: int = integer("MAXIT", default=25, help="most iterations")
+    pattern: tuple[str, ...] = words(
+        "PATTERN", options=("T", "F"), help="iterations that renew the Jacobian; all unless given"
+    )

@@ -1,0 +1,19 @@
+"""PINPUT: inputs of the linearised model.
+
+Equation (V the VARIABLEs, see LINEAR)::
+
+    u = (V1, V2, ...)
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, references, statement
+
+
+@statement("PINPUT")
+class Pinput(Statement):
+    """Variables that are inputs into the model for LINEAR/STATEMAT."""
+
+    variables: tuple[int | str, ...] = references(
+        "VARIABLES", to="VARIABLE", required=True, help="the variables, in the order of the inputs"
+    )

@@ -1,0 +1,19 @@
+"""POUTPUT: outputs of the linearised model.
+
+Equation (V the VARIABLEs, see LINEAR)::
+
+    y = (V1, V2, ...)
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, references, statement
+
+
+@statement("POUTPUT")
+class Poutput(Statement):
+    """Variables that are outputs of the model for LINEAR/STATEMAT."""
+
+    variables: tuple[int | str, ...] = references(
+        "VARIABLES", to="VARIABLE", required=True, help="the variables, in the order of the outputs"
+    )

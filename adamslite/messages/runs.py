@@ -1,0 +1,40 @@
+"""Messages about the statements that run a deck."""
+
+from __future__ import annotations
+
+from adamslite.diagnostics import WARNING
+from adamslite.messages.entry import Message
+
+RUNS: dict[str, Message] = {
+    "no-end": Message(
+        "SIMULATE does not say when to end",
+        "give END= or DURATION=",
+        ("SIMULATE/DYNAMICS, STEPS=9",),
+    ),
+    "two-ends": Message(
+        "SIMULATE has both END and DURATION", "", ("SIMULATE/DYNAMICS, END=1, DURATION=1, STEPS=9",)
+    ),
+    "no-output-step": Message(
+        "SIMULATE does not say how often to write",
+        "give STEPS= or DTOUT=; without them 100 steps are written",
+        ("SIMULATE/DYNAMICS, END=1",),
+        severity=WARNING,
+    ),
+    "two-output-steps": Message(
+        "SIMULATE has both STEPS and DTOUT", "", ("SIMULATE/DYNAMICS, END=1, STEPS=9, DTOUT=1",)
+    ),
+    "end-not-later": Message(
+        "SIMULATE ends at {end}, but the time is {time} already",
+        "END is a time and must grow from run to run; a time span is written DURATION=",
+        ("SIMULATE/DYNAMICS, END=1, STEPS=9\nSIMULATE/DYNAMICS, END=0.5, STEPS=9",
+         "SIMULATE/DYNAMICS, END=0, STEPS=9"),
+        commands=("SIM/DYN, DURATION=2, STEPS=9\nSIM/STATICS\nSIM/DYN, END=2, STEPS=9",),
+    ),
+    "negative": Message("{word} of {label} must not be negative", "", ("EQUILIBRIUM/STAB=-1",)),
+    "empty-range": Message(
+        "no {kind} has an id from {low} to {high}",
+        "",
+        commands=("DEACTIVATE/JOINT, RANGE=10,20",),
+        severity=WARNING,
+    ),
+}  # fmt: skip
