@@ -98,6 +98,11 @@ def built_turn_on_rack(model: Any, i: Any, j: Any) -> tuple[float, float]:
     return _unit(-float(seen[1, 2]), float(seen[0, 2]))
 
 
+def faces_away(model: Any, i: Any, j: Any) -> bool:
+    """Whether the z axes of I and J make more than a right angle as the deck draws them."""
+    return float(pose(model, i)[1][:, 2] @ pose(model, j)[1][:, 2]) < -ALIGNED
+
+
 def _unit(sine: float, cosine: float) -> tuple[float, float]:
     size = (sine * sine + cosine * cosine) ** 0.5 or 1.0
     sine, cosine = sine / size, cosine / size

@@ -277,6 +277,8 @@ class Reader:
         self.memo: dict[Tree, Any] = {}
 
     def __call__(self, tree: Tree) -> Any:
+        if tree[0] == "c":  # not remembered: 0.0 and False are one key
+            return self._read(tree)
         if tree not in self.memo:
             self.memo[tree] = self._defined(self._read(tree))
         return self.memo[tree]

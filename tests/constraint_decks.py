@@ -32,6 +32,7 @@ PRIMITIVES = {
     "ATPOINT": 3, "INLINE": 2, "INPLANE": 1, "ORIENTATION": 3, "PARALLEL_AXES": 2,
     "PERPENDICULAR": 1,
 }  # fmt: skip
+TO_GROUND = {k: JOINTS[k] for k in ("REVOLUTE", "CONVEL", "SCREW", "RACKPIN")}
 SIZES = {"SCREW": ", PITCH=0.1", "RACKPIN": ", PD=0.2"}
 
 
@@ -42,7 +43,7 @@ def _joint(kind: str, ends: str = "I=21, J=31") -> str:
 # name -> (rows, statements)
 DECKS: dict[str, tuple[int, str]] = {
     **{f"JOINT {k}": (n, _joint(k)) for k, n in JOINTS.items()},
-    **{f"JOINT {k} to ground": (n, _joint(k, "I=2, J=21")) for k, n in JOINTS.items()},
+    **{f"JOINT {k} to ground": (n, _joint(k, "I=2, J=21")) for k, n in TO_GROUND.items()},
     **{f"JPRIM {k}": (n, f"JPRIM/1, {k}, I=21, J=31") for k, n in PRIMITIVES.items()},
     "JOINT SPHERICAL of a point": (3, _joint("SPHERICAL", "I=41, J=31")),
     "JPRIM ATPOINT of a point": (3, "JPRIM/1, ATPOINT, I=21, J=41"),
@@ -62,20 +63,23 @@ DECKS: dict[str, tuple[int, str]] = {
         PAIR.replace("J=2", "J=1") + "MARKER/3, PART=1, QP=0.5,0.6,0.7\nGEAR/1, JOINTS=1,2, CV=3",
     ),
     **{
-        f"MOTION {axis} {level}": (
-            1,
-            CURVED + f"MOTION/1, I=21, J=31, {axis}, {level}, FUNCTION=0.1*SIN(TIME)+VARVAL(w)",
+        f"MOTION {level}": (
+            6,
+            CURVED
+            + "".join(
+                f"MOTION/{n}, I=21, J=31, {axis}, {level}, FUNCTION=0.1*SIN(TIME)+VARVAL(w)\n"
+                for n, axis in enumerate(("X", "Y", "Z", "B1", "B2", "B3"), 1)
+            ),
         )
-        for axis in ("X", "Y", "Z", "B1", "B2", "B3")
         for level in ("DISPLACEMENT", "VELOCITY", "ACCELERATION")
     },
     **{
-        f"MOTION of a joint {word} {level}": (
-            5,
-            f"JOINT/1, CYLINDRICAL, I=21, J=31\nMOTION/1, JOINT=1, {word}, {level}, "
-            "FUNCTION=0.1*SIN(TIME)",
+        f"MOTION of a joint {level}": (
+            6,
+            "JOINT/1, CYLINDRICAL, I=21, J=31\n"
+            f"MOTION/1, JOINT=1, TRANSLATION, {level}, FUNCTION=0.1*SIN(TIME)\n"
+            f"MOTION/2, JOINT=1, ROTATION, {level}, FUNCTION=0.1*SIN(TIME)",
         )
-        for word in ("TRANSLATION", "ROTATION")
         for level in ("DISPLACEMENT", "VELOCITY", "ACCELERATION")
     },
     "MOTION of a point": (1, "MOTION/1, I=40, J=31, X, FUNCTION=0.1*TIME"),

@@ -1,6 +1,6 @@
 """GEAR: two joints on one carrier whose pitch points keep one speed.
 
-Equation (P the origin of CV, all seen from the carrier; z_CV the direction of the common velocity)::
+Equation (P the origin of CV, z_CV the direction of the common velocity, seen from the carrier)::
 
     s1 (q1 - q1_0) - s2 (q2 - q2_0) = 0
 

@@ -10,7 +10,8 @@ Equations (``d = r_I - r_J``, axes of the markers, theta the turn of I since the
     PLANAR         d . z_J = 0,  z_I . x_J = 0,  z_I . y_J = 0
     HOOKE          d = 0,  x_I . y_J = 0              z along the shafts
     UNIVERSAL      d = 0,  z_I . z_J = 0              z along the arms of the cross
-    CONVEL         d = 0,  x_I . y_J = y_I . x_J      z along the shafts, away from the joint
+    CONVEL         d = 0,  x_I . y_J = y_I . x_J      z along the shafts, both the same way
+                   d = 0,  x_I . y_J = -y_I . x_J     z along the shafts, both away from the joint
     SCREW          d . z_J - d0 = PITCH theta / (2 pi)         theta about z of J
     RACKPIN        s - s0 = PD/2 theta,  s = -d . z_J          theta about z of I
 
@@ -18,8 +19,9 @@ Sign: the reaction reported is the force and torque on I; the free coordinate is
 to J along or about z of J.  A positive PITCH is a right-handed screw.  RACKPIN: I is on the pinion,
 z its axis; J is on the rack, z along it.  A positive PD drives the rack along +z of J when the
 pinion turns about +z of I, and only the turn **seen from the rack** counts: a rack that is carried
-round the pinion winds up.  SCREW and RACKPIN start from the posture the deck draws (d0, s0, theta 0)
-and count full turns::
+round the pinion winds up.  SCREW and RACKPIN start from the posture the deck draws (d0, s0,
+theta 0) and count full turns.  The shafts of a CONVEL turn equally fast, in one sense seen along the line of
+shafts; which of its two forms applies is decided by the drawn z axes::
 
           z_I (out of the page)
              .--.
@@ -38,6 +40,7 @@ from adamslite.coordinates import (
     built_slide,
     built_turn,
     built_turn_on_rack,
+    faces_away,
     slide,
     turn,
     turn_on_rack,
@@ -106,13 +109,14 @@ class Joint(Constraint, Statement):
         return [(name, *(*given, None)[:2]) for name, given in asked.items() if given]
 
     def derived(self, model: Any) -> dict[str, Any]:
-        """Where SCREW and RACKPIN count from: the posture the deck draws."""
+        """From the posture the deck draws: where SCREW and RACKPIN start, how CONVEL faces."""
         if self.kind == "SCREW":
             found = built_turn(model, self.i, self.j)
         elif self.kind == "RACKPIN":
             found = built_turn_on_rack(model, self.i, self.j)
         else:
-            return {}
+            away = self.kind == "CONVEL" and faces_away(model, self.i, self.j)
+            return {"opposed": "yes" if away else None}
         return {"slid": built_slide(model, self.i, self.j), "turned": found}
 
     def constraints(self, scope: Scope) -> list[Any]:
@@ -129,8 +133,9 @@ class Joint(Constraint, Statement):
         on_line = [dot(together, xj), dot(together, yj)]
         parallel = [dot(zi, xj), dot(zi, yj)]
         same_turn = [dot(xi, yj)]
+        sense = -1 if self.opposed else 1
         return {
-            "CONVEL": [*together, dot(xi, yj) - dot(yi, xj)],
+            "CONVEL": [*together, dot(xi, yj) - sense * dot(yi, xj)],
             "CYLINDRICAL": on_line + parallel,
             "FIXED": together + parallel + same_turn,
             "HOOKE": together + same_turn,

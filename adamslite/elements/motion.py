@@ -7,8 +7,8 @@ Equation (q the freedom, e = FUNCTION)::
     ACCELERATION   dq/dt - s = 0,  ds/dt = e,  s(0) = ICVEL
 
 VELOCITY and ACCELERATION constrain the velocity: no position is held, it follows by integration
-from the start.  ACCELERATION brings a state s of its own, written as ``DIFF/MOTION_id``, so that the
-highest level a constraint is stated on stays the velocity.
+from the start.  ACCELERATION brings a state s of its own, written as ``DIFF/MOTION_id``, so that
+the highest level a constraint is stated on stays the velocity.
 
 Freedoms: translation along and rotation about z of J of a joint, or, between markers I and J,
 

@@ -18,7 +18,7 @@ ARGUMENTS: dict[str, Message] = {
     "planned-argument": Message(
         "not supported yet: argument {word} of {keyword}{times}",
         "the argument exists in ADAMS; this program cannot run it",
-        ("MARKER/4, PART=1, RM=1\nMARKER/5, PART=1, RM=1", "JOINT/1, REVOLUTE, I=1, J=2, IC=1,2"),
+        ("MARKER/4, PART=1, RM=1\nMARKER/5, PART=1, RM=1", "JOINT/1, REVOLUTE, I=1, J=2, FRICTION=1"),
     ),
     "duplicate-argument": Message(
         "{word} is given twice",
@@ -73,7 +73,7 @@ ARGUMENTS: dict[str, Message] = {
     "planned-choice": Message(
         "not supported yet: {keyword} of the kind {word}{times}",
         "supported are {known}",
-        ("JOINT/1, HOOKE, I=1, J=2\nJOINT/2, HOOKE, I=1, J=2", "SIMULATE/STATICS"),
+        ("INTEGRATOR/ABAM",),
     ),
     "expression-not-closed": Message(
         "the expression before {word} does not end with a backslash",

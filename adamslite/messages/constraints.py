@@ -1,0 +1,90 @@
+"""Messages about constraints."""
+
+from __future__ import annotations
+
+from adamslite.messages.entry import Message
+
+_PAIR = "JOINT/1, CYLINDRICAL, I=2, J=1\nPART/5, MASS=1, CM=5, IP=1,1,1\nMARKER/5, PART=5\n"
+_BALL = _PAIR + "JOINT/2, SPHERICAL, I=5, J=1\n"
+_PIN = _PAIR + "JOINT/2, REVOLUTE, I=5, J=1\n"
+
+CONSTRAINTS: dict[str, Message] = {
+    "joint-size": Message(
+        "{label} is a {kind} {word}",
+        "SCREW needs its PITCH, RACKPIN the pitch diameter PD of the pinion",
+        ("JOINT/1, SCREW, I=2, J=1", "JOINT/1, RACKPIN, I=2, J=1, PD=0"),
+    ),
+    "coupled-count": Message(
+        "{label} has {count} joints and couples {expected}",
+        "",
+        (_PIN + "COUPLER/1, JOINTS=2, SCALES=1", _PIN + "GEAR/1, JOINTS=1,2,1, CV=1"),
+    ),
+    "scale-count": Message(
+        "{label} has {count} scales for {joints} joints",
+        "give one for each joint; the first may be left out and is 1",
+        (_PIN + "COUPLER/1, JOINTS=1,2, SCALES=1,2,3, TYPE=T:R",),
+    ),
+    "type-count": Message(
+        "TYPE of {label} has {count} letters for {joints} joints",
+        "give T or R for each joint, separated by colons",
+        (_PIN + "COUPLER/1, JOINTS=1,2, SCALES=1,2, TYPE=R",),
+    ),
+    "freedom-unclear": Message(
+        "{label} does not say which freedom of {joint} it means",
+        "",
+        (_PIN + "COUPLER/1, JOINTS=1,2, SCALES=1,2", _PIN + "MOTION/1, JOINT=1, FUNCTION=TIME"),
+    ),
+    "no-such-freedom": Message(
+        "{label} needs a freedom that {joint}, {kind}, does not have",
+        "TRANSLATIONAL joints translate, REVOLUTE joints rotate, CYLINDRICAL joints do both",
+        (
+            _BALL + "COUPLER/1, JOINTS=1,2, SCALES=1,2, TYPE=R:R",
+            _PIN + "COUPLER/1, JOINTS=1,2, SCALES=1,2, TYPE=R:T",
+            _BALL + "MOTION/1, JOINT=2, FUNCTION=TIME",
+            _PIN + "MOTION/1, JOINT=2, TRANSLATION, FUNCTION=TIME",
+            _BALL + "GEAR/1, JOINTS=1,2, CV=1",
+        ),
+    ),
+    "not-on-carrier": Message(
+        "CV of {label} is on {owner}, the J marker of {joint} is not",
+        "the J markers of both joints and CV belong to the part that carries the gears",
+        (_PIN + "GEAR/1, JOINTS=1,2, CV=5",),
+    ),
+    "motion-nowhere": Message(
+        "{label} does not say what it drives",
+        "give JOINT=, or I= and J= with one of X, Y, Z, B1, B2, B3",
+        ("MOTION/1, FUNCTION=TIME", "MOTION/1, I=2, X, FUNCTION=TIME"),
+    ),
+    "motion-no-axis": Message(
+        "{label} does not say which freedom it drives",
+        "give one of X, Y, Z, B1, B2, B3; TRANSLATION and ROTATION are those of a joint",
+        ("MOTION/1, I=2, J=1, FUNCTION=TIME", "MOTION/1, I=2, J=1, ROTATION, FUNCTION=TIME"),
+    ),
+    "motion-two-ways": Message(
+        "{label} drives a JOINT and has markers too",
+        "leave out I and J: those of the joint are used",
+        (_PIN + "MOTION/1, JOINT=2, I=5, J=1, FUNCTION=TIME",),
+    ),
+    "motion-twice": Message(
+        "{label} drives what {other} drives already",
+        "both prescribe {freedom} of the same markers",
+        (
+            _PIN + "MOTION/1, JOINT=2, FUNCTION=TIME\nMOTION/2, JOINT=2, FUNCTION=2*TIME",
+            "MOTION/1, I=2, J=1, X, FUNCTION=TIME\nMOTION/2, I=2, J=1, X, FUNCTION=TIME",
+        ),
+    ),
+    "freedom-held": Message(
+        "{label} drives {freedom}, which {joint} holds",
+        "the joint between these markers leaves no such freedom",
+        (_PIN + "MOTION/1, I=5, J=1, X, FUNCTION=TIME",),
+    ),
+    "motion-not-of-time": Message(
+        "FUNCTION of {label} depends on {word}, not on TIME alone",
+        "a motion follows TIME and variables of TIME; use a force, or a GCON",
+        (
+            _PIN + "MOTION/1, JOINT=2, FUNCTION=AZ(2,1)",
+            _PIN + "VARIABLE/1, FUNCTION=DX(2)\nMOTION/1, JOINT=2, FUNCTION=VARVAL(1)*TIME",
+            _PIN + "MOTION/1, JOINT=2, FUNCTION=TIME*MODE",
+        ),
+    ),
+}

@@ -1,0 +1,197 @@
+"""Mechanisms with closed forms: what the joints do, not how they are written."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import adamslite
+from adamslite.results import Results
+
+START = """mechanism
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/2, PART=1, REULER=0,30D,0
+PART/2, MASS=1, CM=20, IP=1,1,1
+MARKER/20, PART=2
+PART/3, MASS=2, CM=30, IP=1,2,3
+MARKER/30, PART=3
+INTEGRATOR/ERROR=1e-8
+"""
+
+
+def run(text: str, end: float = 1.0) -> Results:
+    """Results of the start with more statements."""
+    deck = adamslite.read(f"{START}{text}\nEND\n")
+    results = adamslite.simulate(deck, end=end, steps=20)
+    assert results.outcome.name == "DONE", results.message
+    return results
+
+
+def shafts(kind: str, first: str, second: str) -> tuple[np.ndarray, np.ndarray]:
+    """Turn of the driving shaft and speed ratio of shafts at 30 degrees."""
+    results = run(
+        f"""PART/4, MASS=1, CM=40, IP=1,1,1, REULER=0,30D,0
+MARKER/40, PART=4
+MARKER/41, PART=4, {second}
+MARKER/21, PART=2, {first}
+JOINT/1, REVOLUTE, I=20, J=1
+JOINT/2, CYLINDRICAL, I=40, J=2
+JOINT/3, {kind}, I=21, J=41
+JOINT/4, FIXED, I=30, J=1
+MOTION/1, JOINT=1, FUNCTION=2*TIME
+REQUEST/1, F1=WZ(20,1,1)\\F2=WZ(40,2,2)\\F3=AZ(20,1)""",
+        end=4.0,
+    )
+    ratio = results["REQUEST/1.F2"] / results["REQUEST/1.F1"]
+    return results["REQUEST/1.F3"], ratio
+
+
+@pytest.mark.parametrize(
+    ("kind", "first", "second", "phase"),
+    [
+        ("HOOKE", "REULER=0,0,0", "REULER=0,0,0", np.pi / 2),
+        ("UNIVERSAL", "REULER=0,90D,0", "REULER=90D,90D,0", 0.0),
+    ],
+)
+def test_a_cross_joint_has_the_speed_ratio_of_hooke(
+    kind: str, first: str, second: str, phase: float
+) -> None:
+    turn, ratio = shafts(kind, first, second)
+    b = np.radians(30.0)
+    hooke = np.cos(b) / (1.0 - np.sin(b) ** 2 * np.cos(turn + phase) ** 2)
+    assert np.abs(ratio - hooke).max() < 1e-7
+
+
+@pytest.mark.parametrize("second", ["REULER=0,0,0", "REULER=0,180D,0"])
+def test_a_constant_velocity_joint_keeps_the_speed(second: str) -> None:
+    _, ratio = shafts("CONVEL", "REULER=0,0,0", second)
+    assert np.abs(ratio - 1.0).max() < 1e-7
+
+
+def test_a_screw_travels_its_pitch_in_a_turn_to_the_right() -> None:
+    results = run(
+        """JOINT/1, CYLINDRICAL, I=20, J=1
+JOINT/2, SCREW, I=20, J=1, PITCH=0.5
+JOINT/3, FIXED, I=30, J=1
+MOTION/1, JOINT=1, ROTATION, FUNCTION=10*PI*TIME
+REQUEST/1, F1=DZ(20,1,1)"""
+    )
+    assert results["REQUEST/1.F1"] == pytest.approx(2.5 * results.time, abs=1e-6)
+
+
+def test_a_pinion_drives_its_rack_over_many_turns() -> None:
+    results = run(
+        """MARKER/3, PART=1, QP=0,-0.1,0.7, REULER=90D,90D,0
+MARKER/31, PART=3, REULER=90D,90D,0, QP=0.3,-0.1,0
+JOINT/1, REVOLUTE, I=20, J=1
+JOINT/2, TRANSLATIONAL, I=31, J=3
+JOINT/3, RACKPIN, I=20, J=31, PD=0.2
+MOTION/1, JOINT=1, FUNCTION=20*TIME
+REQUEST/1, F1=DZ(31,3,3)"""
+    )
+    moved = results["REQUEST/1.F1"] - results["REQUEST/1.F1"][0]
+    assert moved == pytest.approx(0.1 * 20 * results.time, abs=1e-6)
+
+
+def test_a_coupler_divides_the_turns() -> None:
+    results = run(
+        """MARKER/3, PART=1, QP=1,0,0
+JOINT/1, REVOLUTE, I=20, J=1
+JOINT/2, TRANSLATIONAL, I=30, J=1
+COUPLER/1, JOINTS=1,2, SCALES=-4, TYPE=R:T
+MOTION/1, JOINT=1, FUNCTION=12*TIME
+SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=30, J=1, FUNCTION=7
+REQUEST/1, F1=DZ(30,1,1)\\F2=MOTION(1,0,8,0)"""
+    )
+    assert results["REQUEST/1.F1"] == pytest.approx(3.0 * results.time, abs=1e-6)
+    assert results["REQUEST/1.F2"] == pytest.approx(-7.0 / 4.0, abs=1e-6)
+
+
+def test_gears_turn_against_each_other_as_their_radii() -> None:
+    results = run(
+        """MARKER/3, PART=1, QP=3,0,0
+MARKER/4, PART=1, QP=1,0,0, REULER=0,-90D,0
+MARKER/31, PART=3, REULER=20D,0,0
+JOINT/1, REVOLUTE, I=20, J=1
+JOINT/2, REVOLUTE, I=31, J=3
+GEAR/1, JOINTS=1,2, CV=4
+MOTION/1, JOINT=1, FUNCTION=12*TIME
+REQUEST/1, F1=AZ(31,3)"""
+    )
+    turned = results["REQUEST/1.F1"] - results["REQUEST/1.F1"][0]
+    assert turned == pytest.approx(-6.0 * results.time, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("how", "distance"),
+    [
+        ("FUNCTION=TIME**2", lambda t: t**2),
+        ("VELOCITY, FUNCTION=2*TIME", lambda t: t**2),
+        ("ACCELERATION, ICVEL=3, FUNCTION=6*TIME", lambda t: 3 * t + t**3),
+    ],
+)
+def test_a_motion_follows_displacement_velocity_or_acceleration(how: str, distance) -> None:
+    results = run(
+        f"""JOINT/1, TRANSLATIONAL, I=20, J=1
+JOINT/2, FIXED, I=30, J=1
+MOTION/1, JOINT=1, {how}
+REQUEST/1, F1=DZ(20,1)\\F2=ACCZ(20)\\F3=MOTION(1,0,4,0)"""
+    )
+    assert results["REQUEST/1.F1"] == pytest.approx(distance(results.time), abs=1e-5)
+    assert results["REQUEST/1.F3"] == pytest.approx(results["REQUEST/1.F2"], abs=1e-5)
+
+
+def test_reactions_balance_at_both_ends_and_in_other_axes() -> None:
+    results = run(
+        """ACCGRAV/KGRAV=-10
+MARKER/21, PART=2, QP=-1,0,0, REULER=0,90D,0
+MARKER/3, PART=1, QP=-1,0,0, REULER=0,90D,0
+JOINT/1, FIXED, I=21, J=3
+JOINT/2, FIXED, I=1, J=30
+REQUEST/1, F1=FZ(21)\\F2=TY(21,3)\\F3=TY(3,21)\\F4=FY(21,3,3)\\F5=JOINT(2,1,4,0)\\
+, F6=FM(3)\\F7=TM(21,3)\\F8=FZ(1)
+REQUEST/2, FORCE, I=21, J=3"""
+    )
+    last = {n: results[f"REQUEST/1.F{n}"][-1] for n in range(1, 9)}
+    expected = {1: 10.0, 2: -10.0, 3: 10.0, 4: 10.0, 5: 20.0, 6: 10.0, 7: 10.0, 8: -20.0}
+    assert last == pytest.approx(expected, abs=1e-8)
+    assert results["REQUEST/2.F4"][-1] == pytest.approx(10.0, abs=1e-8)
+    assert results["JOINT/2.fz"][-1] == pytest.approx(-20.0, abs=1e-8)
+
+
+def test_a_point_mass_slides_like_a_part_that_is_kept_from_turning() -> None:
+    line = "MARKER/3, PART=1, REULER=0,60D,0\nACCGRAV/KGRAV=-10\n"
+    native = run(
+        line
+        + """POINT_MASS/4, MASS=1, CM=40
+MARKER/40, POINT_MASS=4
+JPRIM/1, INLINE, I=40, J=3
+REQUEST/1, F1=DZ(40)\\F2=JPRIM(1,0,1,0)"""
+    )
+    workaround = run(
+        line
+        + """JPRIM/1, INLINE, I=20, J=3
+JPRIM/2, ORIENTATION, I=20, J=1
+REQUEST/1, F1=DZ(20)\\F2=JPRIM(1,0,1,0)"""
+    )
+    fall = -0.5 * 10.0 * np.cos(np.radians(60.0)) ** 2 * native.time**2
+    assert native["REQUEST/1.F1"] == pytest.approx(fall, abs=1e-6)
+    for n in ("F1", "F2"):
+        assert native[f"REQUEST/1.{n}"] == pytest.approx(workaround[f"REQUEST/1.{n}"], abs=1e-9)
+
+
+def test_joints_tell_what_they_ask_for_at_the_start() -> None:
+    deck = adamslite.read(
+        START + "JOINT/1, CYLINDRICAL, I=20, J=1, ICTRAN=2, ICROT=90D,3\n"
+        "JOINT/2, REVOLUTE, I=30, J=1, IC=1,2\nMOTION/1, JOINT=1, ROTATION, VELOCITY, ICDISP=4,"
+        " FUNCTION=1\nEND\n"
+    )
+    first, second = deck.of("JOINT")
+    assert first.initial() == [
+        ("TRANSLATION", 2.0, None),
+        ("ROTATION", pytest.approx(np.pi / 2), 3),
+    ]
+    assert second.initial() == [("ROTATION", 1.0, 2.0)]
+    assert deck.of("MOTION")[0].initial() == [("ROTATION", 4.0, None)]
