@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from adamslite.check import check
 from adamslite.deck import Deck, read
 from adamslite.diagnostics import DeckError, Diagnostic
 from adamslite.expression import Node
@@ -27,7 +28,7 @@ def function(text: str, statements: str = "") -> Node:
 def told(text: str) -> list[Diagnostic]:
     """Everything said about a deck."""
     try:
-        return list(read(text).warnings)
+        return check(read(text))
     except DeckError as error:
         return list(error.diagnostics)
 
