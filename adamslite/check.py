@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from adamslite.check_constraints import CONSTRAINT_RULES
 from adamslite.check_runs import RUN_RULES
 from adamslite.diagnostics import Diagnostic, sort_by_place
 from adamslite.effective_mass import effective_masses
@@ -318,6 +319,7 @@ RULES: list[Rule] = [
     reserved_names,
     requests,
     unit_system,
+    *CONSTRAINT_RULES,
     *RUN_RULES,
 ]
 ADVICE: list[Rule] = [effective_masses]

@@ -12,13 +12,14 @@ from typing import Any
 
 from adamslite.diagnostics import ERROR, Diagnostic, Source, Span
 from adamslite.messages.arguments import ARGUMENTS
+from adamslite.messages.constraints import CONSTRAINTS
 from adamslite.messages.entry import Message
 from adamslite.messages.expressions import EXPRESSIONS
 from adamslite.messages.model import MODEL
 from adamslite.messages.runs import RUNS
 from adamslite.messages.statements import STATEMENTS
 
-MESSAGES: dict[str, Message] = STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | RUNS
+MESSAGES: dict[str, Message] = STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CONSTRAINTS | RUNS
 
 BODIES = {"PART": "POINT_MASS", "POINT_MASS": "PART"}
 """Which kind of body is easily written for which."""

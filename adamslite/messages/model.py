@@ -125,6 +125,8 @@ MODEL: dict[str, Message] = {
         "I and J of {label} are on the same body",
         "both belong to {owner}, which the statement then does not act on",
         ("MARKER/4, PART=2\nJOINT/1, FIXED, I=2, J=4",
+         "MARKER/4, PART=2\nJPRIM/1, INLINE, I=2, J=4",
+         "MARKER/4, PART=2\nMOTION/1, I=2, J=4, X, FUNCTION=TIME",
          "VFORCE/1, I=2, J_PART=2, FX=1"),
     ),
     "internal-force": Message(
@@ -137,6 +139,7 @@ MODEL: dict[str, Message] = {
         "{label} puts a torque on {owner}",
         "a POINT_MASS cannot rotate; make it a PART",
         ("SFORCE/1, ROTATIONAL, I=3, J=1, FUNCTION=1", "JOINT/1, REVOLUTE, I=1, J=3",
+         "JPRIM/1, ORIENTATION, I=1, J=3", "MOTION/1, I=3, J=1, B3, FUNCTION=TIME",
          "BUSHING/1, I=3, J=1, K=1,1,1",
          "GFORCE/1, I=2, J_PART=1, TX=1\nVTORQUE/1, I=3, J_PART=1, TX=1"),
     ),
@@ -153,7 +156,9 @@ MODEL: dict[str, Message] = {
     "no-effect": Message(
         "{word} has no effect in {label}",
         "{reason}",
-        ("SPRINGDAMPER/1, I=2, J=1, KT=1", "MARKER/4, PART=1, USEXP, XP=1,0,0, ZP=0,0,1\n"
+        ("JOINT/1, REVOLUTE, I=2, J=1, PITCH=1", "JOINT/1, SPHERICAL, I=2, J=1, IC=1",
+         "MOTION/1, I=2, J=1, X, ICDISP=1, FUNCTION=TIME",
+         "SPRINGDAMPER/1, I=2, J=1, KT=1", "MARKER/4, PART=1, USEXP, XP=1,0,0, ZP=0,0,1\n"
          "SPRINGDAMPER/1, ROTATIONAL, I=2, J=4, K=1",
          "JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1, MAX_STICTION_DEFORMATION=1"),
         severity=WARNING,
