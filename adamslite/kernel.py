@@ -98,10 +98,15 @@ class Shape:
 
 @dataclass
 class Outputs:
-    """Loads on bodies and scalar rows (node, component, expression) of one shape."""
+    """Loads on bodies and scalar rows (node, component, expression) of one shape.
+
+    ``rates_only``: only derivatives with respect to accelerations and multipliers are asked for, as
+    from the second derivative of a constraint; the others would be most of the code.
+    """
 
     loads: list[Load] = field(default_factory=list)
     rows: list[tuple[int, int, Any]] = field(default_factory=list)
+    rates_only: bool = False
 
 
 class Writer:
@@ -114,6 +119,7 @@ class Writer:
         self.g = Geometry(self.b, shape.slots, shape.marker_reals())
         self.lower = Lowering(self.b, {})
         self.blocks: list[tuple[int, int]] = []
+        self.rates_only = False
 
     def value(self, expr: Any) -> Value:
         """Lower an expression, loading the leaves it uses first."""
@@ -195,6 +201,7 @@ class Writer:
             self.b.accumulate("F", row, c, self.b.mul(sign, value))
 
     def jacobian(self, out: Outputs) -> None:
+        self.rates_only = out.rates_only
         for load in out.loads:
             force = [(self.value(f), self.columns(f)) for f in load.force]
             torque = [self.columns(t) for t in load.torque]
@@ -246,7 +253,7 @@ class Writer:
         return total
 
     def _coefficient(self, n: int) -> Value:
-        return f"%c{n}"
+        return 0.0 if self.rates_only and n < 2 else f"%c{n}"
 
     def columns(self, expr: Any) -> Columns:
         """Derivative of one scalar with respect to every unknown it touches."""
@@ -256,6 +263,8 @@ class Writer:
         for symbol in sorted(expr.free_symbols, key=str):
             leaf = self.scope.leaves[symbol]
             if leaf[0] in ("p", "t", "mode", "sig", "turn", "nan"):
+                continue
+            if self.rates_only and leaf[0] in ("d", "v", "x", "w", "dif"):
                 continue
             slope = self.value(sp.diff(expr, symbol))
             if leaf[0] in ("z", "dif", "dif1"):

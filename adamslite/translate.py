@@ -273,6 +273,10 @@ class Translator:
         self.start(after)
 
     def on_For(self, node: ast.For) -> None:
+        if not isinstance(node.iter, ast.Call) or ast.unparse(node.iter.func) != "range":
+            raise self.fail(node, "only a range is looped over")
+        if node.orelse:
+            raise self.fail(node, "else of a loop is not translated")
         bounds = [self.expression(a) for a in node.iter.args]
         low, high = (Value("0", "i64"), bounds[0]) if len(bounds) == 1 else bounds[:2]
         step = bounds[2] if len(bounds) > 2 else Value("1", "i64")
@@ -389,6 +393,8 @@ class Translator:
 
     def of_Subscript(self, node: ast.Subscript) -> Value:
         if isinstance(node.slice, ast.Slice):
+            if node.slice.lower is None or node.slice.upper or node.slice.step:
+                raise self.fail(node, "a slice has a start only")
             array = self.expression(node.value)
             return Value(self.shifted(array, self.expression(node.slice.lower)), array.kind)
         address, kind = self.element(node)
@@ -425,6 +431,8 @@ class Translator:
     def of_UnaryOp(self, node: ast.UnaryOp) -> Value:
         if isinstance(node.op, ast.Not):
             return self.value("i1", f"xor i1 {self.truth(node.operand).text}, true")
+        if not isinstance(node.op, ast.USub):
+            raise self.fail(node, f"{type(node.op).__name__} is not translated")
         if isinstance(node.operand, ast.Constant):
             return self.constant(node, -node.operand.value)
         value = self.expression(node.operand)
@@ -440,6 +448,8 @@ class Translator:
         )
         if len(node.ops) > 1:
             raise self.fail(node, "chained comparisons are not translated")
+        if op not in INT_TESTS:
+            raise self.fail(node, f"{op.__name__} is not translated")
         if a.kind == b.kind and a.kind in ("i64", "i1"):
             return self.value("i1", f"icmp {INT_TESTS[op]} {a.kind} {a.text}, {b.text}")
         x, y = self.convert(a, "double"), self.convert(b, "double")
@@ -482,6 +492,8 @@ class Translator:
         return self.value(first.kind, f"load {llvm_type(first.kind)}, ptr {result}")
 
     def of_Call(self, node: ast.Call) -> Value:
+        if not isinstance(node.func, ast.Name) or node.keywords:
+            raise self.fail(node, "only calls by name and by position are translated")
         name = node.func.id
         if name in ("min", "max"):
             return self.extreme(name, [self.expression(a) for a in node.args])

@@ -1,0 +1,193 @@
+"""Small mechanical scenes for tests of the numerics, and ways to look inside a run."""
+
+from __future__ import annotations
+
+import ctypes
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+import adamslite as al
+from adamslite.integrators import base, entry, equations
+from adamslite.results import Results
+from adamslite.system import JACOBIAN, RESIDUAL, System
+
+GROUND = "a scene\nPART/1, GROUND\nMARKER/1, PART=1\n"
+PENDULUM = """a pendulum of length 1 that starts level
+PART/1, GROUND
+MARKER/1, PART=1
+ACCGRAV/JGRAV=-9.81
+PART/2, MASS=2, CM=2, IP=0.1,0.2,0.3, QG=1,0,0
+MARKER/2, PART=2
+MARKER/3, PART=2, QP=-1,0,0
+JOINT/1, REVOLUTE, I=3, J=1
+END
+"""
+LENGTH, GRAVITY, MASS, INERTIA = 1.0, 9.81, 2.0, 0.3
+
+
+def run(deck: str, end: float, steps: int = 10, **options: Any) -> Results:
+    """Solve a deck of these lines."""
+    return al.simulate(al.read(deck), end=end, steps=steps, **options)
+
+
+def done(deck: str, end: float, steps: int = 10, **options: Any) -> Results:
+    """Solve a deck that must reach its end."""
+    results = run(deck, end, steps, **options)
+    assert results.outcome is al.Outcome.DONE, results.message
+    return results
+
+
+def system(deck: str, stabilised: bool = True) -> System:
+    """The numbered equations of a deck."""
+    return System(al.compile_model(al.assemble(al.read(deck))), stabilised)
+
+
+def chain(count: int, force: str = "") -> str:
+    """Point masses on springs, hanging from the ground; ``force`` with {id} acts on each."""
+    lines = [GROUND, "ACCGRAV/JGRAV=-9.81"]
+    for k in range(2, count + 2):
+        lines += [
+            f"POINT_MASS/{k}, MASS=1, CM={k}, QG={k - 1},0,0",
+            f"MARKER/{k}, POINT_MASS={k}",
+            f"SFORCE/{k}, TRANSLATIONAL, I={k}, J={k - 1}, FUNCTION=-200*(DM({k},{k - 1})-1)",
+            force.format(id=k),
+        ]
+    return "\n".join([*filter(None, lines), "END\n"])
+
+
+def links(count: int) -> str:
+    """A chain of rods hinged to each other and to the ground."""
+    lines = [GROUND, "ACCGRAV/JGRAV=-9.81"]
+    for k in range(2, count + 2):
+        before = 1 if k == 2 else 10 * (k - 1) + 2
+        lines += [
+            f"PART/{k}, MASS=1, CM={10 * k}, IP=0.1,0.1,0.1, QG={k - 1.5},0,0",
+            f"MARKER/{10 * k}, PART={k}",
+            f"MARKER/{10 * k + 1}, PART={k}, QP=-0.5,0,0",
+            f"MARKER/{10 * k + 2}, PART={k}, QP=0.5,0,0",
+            f"JOINT/{k}, REVOLUTE, I={10 * k + 1}, J={before}",
+        ]
+    return "\n".join([*lines, "END\n"])
+
+
+# ---- plain Python in the place of native code ----------------------------------------------------
+
+
+def call_address(address: int, *args: Any) -> None:
+    """Call native code from Python: arrays as addresses, the rest as integers."""
+    given = [
+        ctypes.c_void_p(a.ctypes.data) if isinstance(a, np.ndarray) else ctypes.c_int64(int(a))
+        for a in args
+    ]
+    ctypes.CFUNCTYPE(None, *[type(a) for a in given])(int(address))(*given)
+
+
+def tables(scene: System) -> tuple[SimpleNamespace, SimpleNamespace]:
+    """The two tables of native code as plain objects on the same arrays."""
+    problem = SimpleNamespace(**{name: getattr(scene, name) for name in base.FIELDS})
+    return problem, SimpleNamespace(**scene.plan)
+
+
+def run_in_python(scene: System, operation: int, phases: int = 0) -> int:
+    """What ``System.run`` does, interpreted; kernels stay native."""
+    return entry.run(*tables(scene), operation, phases)
+
+
+def interpreted(monkeypatch: Any) -> None:
+    """Let every run of this test interpret the engine."""
+    monkeypatch.setattr(equations, "call_address", call_address, raising=False)
+    monkeypatch.setattr(System, "run", run_in_python)
+
+
+# ---- derivatives ---------------------------------------------------------------------------------
+
+
+def random_state(scene: System, seed: int = 1) -> None:
+    """Any state: equations and their derivatives hold off the constraints too."""
+    some = np.random.default_rng(seed)
+    n = scene.n
+    scene.q[:n] += 0.3 * some.standard_normal(n)
+    for array in (scene.u, scene.a, scene.z, scene.rd):
+        array[:] = some.standard_normal(array.size)
+    scene.settings[base.T] = 0.3
+    settle(scene)
+
+
+def settle(scene: System) -> None:
+    """Count rotation vectors from the present attitudes, so that increments are turns in ground."""
+    scene.run(RESIDUAL, 0)
+    for b, body in enumerate(scene.model.bodies):
+        if body.width == 6:
+            at = scene.w_at["BODY", b] + 15
+            scene.base[9 * b : 9 * b + 9] = scene.W[at : at + 9]
+            scene.q[scene.starts[b] + 3 : scene.starts[b] + 6] = 0.0
+
+
+def rows(scene: System, phases: int) -> np.ndarray:
+    """All equations at the present state, (nz,)."""
+    scene.run(RESIDUAL, phases)
+    return scene.F[: scene.nz].copy()
+
+
+def exact(scene: System, phases: int, kind: int) -> np.ndarray:
+    """dF/d(q, u, a, (lam, V) or s') of the kernels, (nz, nz) in the columns of the unknowns."""
+    scene.coef[:5] = 0.0
+    scene.coef[kind] = 1.0
+    scene.run(JACOBIAN, phases)
+    full = np.zeros((scene.nz, scene.nz))
+    for (row, column), at in scene.blocks.items():
+        r, c, h, w = *(scene.starts[k] for k in (row, column)), scene.widths[row], 0
+        w = scene.widths[column]
+        full[r : r + h, c : c + w] = scene.J[at : at + h * w].reshape(h, w)
+    return full
+
+
+def differences(scene: System, phases: int, kind: int) -> np.ndarray:
+    """The same by central differences, where columns of that kind exist."""
+    n, states = scene.n, scene.n + scene.m + scene.nv
+    places = {
+        0: [(scene.q, k, k) for k in range(n)]
+        + [(scene.z, k - n, k) for k in range(states, states + scene.ns)],
+        1: [(scene.u, k, k) for k in range(n)],
+        2: [(scene.a, k, k) for k in range(n)],
+        3: [(scene.z, k - n, k) for k in range(n, states)],
+        4: [(scene.rd, k - states, k) for k in range(states, states + scene.ns)],
+    }[kind]
+    full = np.zeros((scene.nz, scene.nz))
+    for array, at, column in places:
+        h = 1e-5 * max(1.0, abs(array[at]))
+        middle = array[at]
+        found = []
+        for sign in (1, -1):
+            array[at] = middle + sign * h
+            found.append(rows(scene, phases))
+        array[at] = middle
+        full[:, column] = (found[0] - found[1]) / (2 * h)
+    return full
+
+
+def assert_derivatives(scene: System, phases: int, tolerance: float = 2e-7) -> None:
+    """Every block of the exact Jacobian against differences of the residual."""
+    for kind, letter in enumerate("qua"):
+        compare_derivatives(scene, phases, kind, f"d/d{letter}", tolerance)
+    compare_derivatives(scene, phases, 3, "d/d(lam, V)", tolerance)
+    compare_derivatives(scene, phases, 4, "d/ds'", tolerance)
+
+
+def compare_derivatives(
+    scene: System, phases: int, kind: int, name: str, tolerance: float = 2e-7
+) -> None:
+    """One kind of column, each row against its own largest entry."""
+    made, found = exact(scene, phases, kind), differences(scene, phases, kind)
+    scale = 1.0 + np.abs(found).max(axis=1, keepdims=True)
+    gap = np.abs(made - found) / scale
+    worst = np.unravel_index(gap.argmax(), gap.shape)
+    assert gap.max() < tolerance, (name, worst, made[worst], found[worst], owner(scene, worst[0]))
+
+
+def owner(scene: System, row: int) -> object:
+    """The node that a row belongs to."""
+    node = max(k for k, first in enumerate(scene.starts) if first <= row)
+    return scene.nodes[node]

@@ -1,0 +1,243 @@
+"""Exact derivatives of every element and every function, and what equal statements share."""
+
+from __future__ import annotations
+
+import itertools
+from functools import partial
+
+import numpy as np
+import pytest
+from scenes import (
+    GROUND,
+    assert_derivatives,
+    chain,
+    compare_derivatives,
+    done,
+    random_state,
+    system,
+)
+
+import adamslite as al
+import adamslite.functions  # noqa: F401  fills the registry
+from adamslite import native
+from adamslite.function import FUNCTIONS
+from adamslite.integrators import base
+from adamslite.system import engine
+
+BODIES = (
+    GROUND
+    + """MARKER/11, PART=1, QP=0.3,-0.2,0.5, REULER=0.4,0.7,-0.3
+MARKER/12, PART=1
+PART/2, MASS=2, CM=20, IP=1,2,3,0.1,0.2,0.3, QG=1,2,3, REULER=0.5,0.6,0.7
+MARKER/20, PART=2
+MARKER/21, PART=2, QP=0.2,0.4,-0.3, REULER=0.9,0.4,0.2
+MARKER/22, PART=2
+PART/3, MASS=3, CM=30, IP=2,2,1, QG=-1,0.5,1, REULER=-0.5,0.9,0.2
+MARKER/30, PART=3
+MARKER/31, PART=3, QP=-0.3,0.1,0.6, REULER=0.3,-0.8,0.4
+MARKER/32, PART=3, QP=0.5,0,0
+POINT_MASS/4, MASS=1, CM=40, QG=0.5,-2,0.4
+MARKER/40, POINT_MASS=4
+MARKER/41, POINT_MASS=4, QP=0.1,0.2,0.3, REULER=0.2,0.3,0.4
+"""
+)
+FLOATING = {
+    1: "MARKER/13, PART=1, FLOATING",
+    2: "MARKER/23, PART=2, FLOATING",
+    3: "MARKER/33, PART=3, FLOATING",
+    4: "MARKER/43, POINT_MASS=4, FLOATING",
+}
+# What stands for the parameters of a function: turned and offset markers on every kind of body.
+MARKERS = ((21, 31, 41, 11), (40, 11, 21, 32))
+# Arguments of functions of numbers: the first two move.
+X = "(0.5+0.3*SIN(DX(21,41)))"
+V = "(0.6*SIN(VX(31)))"
+NUMBERS = {
+    1: (X,),
+    2: (X, V),
+    4: (V, X, "DY(21)", "WZ(31)"),
+    5: (X, "0.1", V, "0.9", "DY(21)"),
+    6: (X, V, "1.2", "0.7", "0.3", "0.2"),
+    7: (X, V, "1.4", "2.5", "2.2", "0.3", "0.2"),
+    8: (X, V, "0.9", "1.2", "2.5", "2.2", "0.3", "0.2"),
+}
+OWN_NUMBERS = {"SWEEP": (X, "2.0", "0.1", "0.3", "0.9", "0.7", "0.2")}
+
+
+@pytest.fixture(autouse=True)
+def unoptimised(monkeypatch):
+    """Kernels of these tests run a few times only: compile them, not the engine, quickly."""
+    engine()
+    monkeypatch.setattr(native, "object_code", partial(native.object_code, speed=1))
+
+
+def with_markers(name: str, markers: tuple[int, ...]) -> str:
+    """A call with the first markers of a tuple."""
+    count = len(FUNCTIONS[name].parameters)
+    return f"{name}({','.join(map(str, markers[:count]))})"
+
+
+def measures() -> list[str]:
+    """Every function of markers, with every kind of marker in every place."""
+    names = [n for n, f in FUNCTIONS.items() if {p.kind for p in f.parameters} == {"marker"}]
+    return [with_markers(n, m) for n, m in itertools.product(names, MARKERS)]
+
+
+def intrinsics() -> list[str]:
+    """Every function of numbers, of arguments that move."""
+    found = []
+    for name, function in FUNCTIONS.items():
+        if {p.kind for p in function.parameters} == {"number"}:
+            repeated = function.parameters[-1].counts is not None
+            args = OWN_NUMBERS.get(name) or NUMBERS[len(function.parameters) + repeated]
+            first, *rest = args
+            found.append(f"{name}({first}{':' if function.colon else ','}{','.join(rest)})")
+            found[-1] = found[-1].replace(",)", ")")
+    return found
+
+
+def states(expressions: list[str]) -> str:
+    """One DIFF for each expression: a row of its own in the equations."""
+    lines = [f"DIFF/{100 + k}, FUNCTION={e}" for k, e in enumerate(expressions)]
+    return BODIES + "\n".join([*lines, "END\n"])
+
+
+@pytest.mark.parametrize("part", range(3))
+def test_derivatives_of_every_function_of_markers(part):
+    scene = system(states(measures()[part::3]))
+    random_state(scene)
+    assert_derivatives(scene, base.ROWS)
+
+
+def test_derivatives_of_every_function_of_numbers():
+    scene = system(states(intrinsics()))
+    random_state(scene)
+    assert_derivatives(scene, base.ROWS)
+
+
+ORIENTATIONS = [f"ORIENT({s},{c},21,31)" for s, c in ((5, 1), (27, 3))]
+REACTIONS = [
+    f"{name}(1,{jflag},{comp},{rm})"
+    for name, jflag, comp, rm in (
+        ("JOINT", 1, 2, 0), ("JOINT", 0, 7, 21), ("JOINT", 0, 1, 0), ("SFORCE", 1, 1, 0),
+        ("VFORCE", 0, 4, 21), ("SPDP", 0, 2, 0),
+    )
+]  # fmt: skip
+ELEMENTS = rf"""{FLOATING[1]}
+JOINT/1, REVOLUTE, I=21, J=31
+SFORCE/1, TRANSLATIONAL, I=21, J=32, FUNCTION=-3*(DM(21,32)-1)-VR(21,32)
+VFORCE/1, I=21, JFLOAT=13, RM=31, FX=ACCX(31)\FY=2*DX(21,31)\FZ=VM(21)
+SPRINGDAMPER/1, TRANSLATIONAL, I=31, J=40, K=3, C=0.2, LENGTH=1, FORCE=2
+VARIABLE/1, FUNCTION=0.5*SIN(VARVAL(1))+DX(21)
+VARIABLE/2, FUNCTION=TIME**2
+VARIABLE/3, FUNCTION=VX(21)*VARVAL(2)
+"""
+OTHERS = ["VARVAL(1)*DX(21)", "VARVAL(2)*DX(21)", "VARVAL(3)**3", "DIF1(100)*DIF(101)", "DDT(3)"]
+
+
+def test_derivatives_of_functions_of_elements_and_states():
+    scene = system(states([*ORIENTATIONS, *REACTIONS, *OTHERS]).replace("END", ELEMENTS + "END"))
+    random_state(scene)
+    assert_derivatives(scene, base.INDEX3)
+
+
+PAIRS = ["I=21, J=31", "I=11, J=31", "I=40, J=21", "I=31, J=41", "I=41, J=12", "I=20, J=32"]
+FORCES = [
+    "SFORCE/{id}, TRANSLATIONAL, {ij}, FUNCTION=({sign}3)*(VX(21)+DX(31)**2*ACCY(41))",
+    "SFORCE/{id}, TRANSLATIONAL, ACTIONONLY, {ij}, FUNCTION=({sign}3)*(VX(21)+DX(31)**2)",
+    "SFORCE/{id}, ROTATIONAL, {ij}, FUNCTION=({sign}2)*(WZ(21,31,31)+AZ(21,31))",
+    "SPRINGDAMPER/{id}, TRANSLATIONAL, {ij}, K={sign}3, C=0.2, LENGTH=1, FORCE=2",
+    "SPRINGDAMPER/{id}, ROTATIONAL, {ij}, KT={sign}3, CT=0.2, ANGLE=0.1, TORQUE=2",
+    "VFORCE/{id}, {ij}, RM=31, FX=({sign}2)*ACCX(21,31)\\FY=2*DX(21,31)\\FZ=VM(21)",
+]
+
+
+@pytest.mark.parametrize("force", FORCES, ids=lambda f: f.split(",")[0][:6] + f[14:26])
+def test_derivatives_of_forces_between_every_kind_of_marker(force):
+    """Loads on parts, point masses and ground, both signs, at offset and turned markers."""
+    rotational = "ROTATIONAL" in force.upper().split(",")[1]
+    pairs = [p for p in PAIRS if "4" not in p] if rotational else PAIRS
+    if "VFORCE" in force:
+        pairs = [p[:5] + p[5:].replace("J=", "JFLOAT=")[:-1] + "3" for p in pairs]
+    floating = FLOATING.values() if "VFORCE" in force else ()
+    for sign in ("", "-"):
+        lines = [force.format(id=k, ij=ij, sign=sign) for k, ij in enumerate(pairs, 1)]
+        scene = system(BODIES + "\n".join([*floating, *lines, "END\n"]))
+        random_state(scene)
+        assert_derivatives(scene, base.LOADS)
+
+
+KINDS = ("REVOLUTE", "SPHERICAL", "TRANSLATIONAL", "FIXED")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_derivatives_of_joints(kind):
+    """Rows at position, velocity and acceleration level, and the reactions."""
+    pairs = ("I=21, J=31", "I=12, J=32")
+    lines = [f"JOINT/{k}, {kind}, {ij}" for k, ij in enumerate(pairs, 1)]
+    scene = system(BODIES + "\n".join([*lines, "END\n"]))
+    for phases in (base.INDEX3, base.STABILISED):
+        random_state(scene)
+        assert_derivatives(scene, phases)
+    compare_derivatives(scene, base.ACCELERATION, 2, "d/da")
+    compare_derivatives(scene, base.ACCELERATION, 3, "d/d(lam, V)")
+
+
+def test_derivatives_of_constraints_by_expression():
+    """Holonomic and nonholonomic GCON, with functions of time and of variables."""
+    lines = [
+        "VARIABLE/1, FUNCTION=SIN(TIME)",
+        "GCON/1, FUNCTION=DX(21,31)**2+DM(41,31)-VARVAL(1)",
+        "GCON/2, FUNCTION=VX(21,31,31)*DY(40)+TIME",
+        "GCON/3, FUNCTION=AZ(21)-2*DZ(31)",
+        "END\n",
+    ]
+    scene = system(BODIES + "\n".join(lines))
+    for phases in (base.INDEX3, base.STABILISED):
+        random_state(scene)
+        assert_derivatives(scene, phases)
+    compare_derivatives(scene, base.ACCELERATION, 2, "d/da")
+    compare_derivatives(scene, base.ACCELERATION, 3, "d/d(lam, V)")
+
+
+# ---- shapes ------------------------------------------------------------------------------------
+
+
+def kernels(deck: str) -> al.compile_model:
+    return al.compile_model(al.assemble(al.read(deck)))
+
+
+def test_a_thousand_equal_forces_are_one_shape():
+    found = [g for g in kernels(chain(1001)).groups if g.face == "loads"]
+    assert sorted(len(g.instances) for g in found) == [1, 1000]  # the first hangs on the ground
+
+
+def test_numbers_and_ids_are_arguments_of_the_kernels():
+    """A deck with other numbers, other ids and another order compiles nothing."""
+    deck = BODIES + "SFORCE/1, TRANSLATIONAL, I=21, J=31, FUNCTION=-37*(DM(21,31)-0.125)\nEND\n"
+    kernels(deck)
+    numbers = deck.replace("37", "41.5").replace("0.125", "7").replace("QG=1,2,3", "QG=3,2,1")
+    assert kernels(numbers).compiled == 0
+    ids = numbers.replace("/21", "/7021").replace("(21", "(7021").replace("I=21", "I=7021")
+    assert kernels(ids).compiled == 0
+
+
+def test_an_exponent_and_a_flag_are_part_of_the_shape():
+    text = BODIES + "SFORCE/1, TRANSLATIONAL, I=21, J=31, FUNCTION=DM(21,31)**3\nEND\n"
+    names = {
+        g.name
+        for deck in (text, text.replace("**3", "**4"), text.replace("FUNC", "ACTIONONLY, FUNC"))
+        for g in kernels(deck).groups
+        if g.face == "loads"
+    }
+    assert len(names) == 3
+
+
+def test_results_do_not_depend_on_ids_or_on_the_order_of_statements():
+    deck = BODIES + ELEMENTS.replace("JOINT/1, REVOLUTE", "JOINT/1, SPHERICAL") + "END\n"
+    title, *lines = deck.replace("END\n", "").rstrip().split("\n")
+    ground, rest = lines[:1], lines[1:]
+    there = done(deck, 0.2, 4, error=1e-6)
+    back = done("\n".join([title, *ground, *rest[::-1], "END\n"]), 0.2, 4, error=1e-6)
+    for name in ("PART/2.x", "PART/3.phi", "JOINT/1.fx", "SFORCE/1.f"):
+        np.testing.assert_allclose(back[name], there[name], rtol=1e-7, atol=1e-8)

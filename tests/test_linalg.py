@@ -1,0 +1,143 @@
+"""Elimination of block patterns against numpy: chains, trees, loops, saddle points, mixed sizes."""
+
+from __future__ import annotations
+
+import itertools
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scenes import chain, links, system
+
+from adamslite.integrators import linalg
+from adamslite.ordering import DENSE, analyse
+
+PATTERNS = {
+    "chain": [(k, k + 1) for k in range(11)],
+    "tree": [((k - 1) // 2, k) for k in range(1, 12)],
+    "loop": [(k, (k + 1) % 12) for k in range(12)],
+    "ladder": [(k, k + 2) for k in range(10)] + [(k, k + 1) for k in range(0, 12, 2)],
+    "full": list(itertools.combinations(range(12), 2)),
+}
+WIDTHS = {"points": [3], "parts": [6], "mixed": [1, 3, 5, 6, 2]}
+
+
+def starts_of(widths: list[int]) -> list[int]:
+    return np.concatenate([[0], np.cumsum(widths)[:-1]]).tolist()
+
+
+def random_matrix(widths, pairs, seed, symmetric=False) -> np.ndarray:
+    """Random blocks at these pairs, heavy enough on the diagonal to be regular."""
+    some, first = np.random.default_rng(seed), starts_of(widths)
+    full = np.zeros((sum(widths),) * 2)
+    for r, c in pairs:
+        block = some.standard_normal((widths[r], widths[c]))
+        full[first[r] : first[r] + widths[r], first[c] : first[c] + widths[c]] = block
+    if symmetric:
+        full = full + full.T
+    return full + 4 * np.diag(some.choice((-1.0, 1.0), len(full)) if symmetric else [1] * len(full))
+
+
+def eliminate(full, widths, pairs, late=None):
+    """The plan, and the factor arrays filled with the matrix."""
+    found = analyse(widths, starts_of(widths), set(pairs), late or {})
+    values = np.zeros(found.size + 1)
+    first = starts_of(widths)
+    for (r, c), (at, lead) in found.places.items():
+        for i, j in itertools.product(range(widths[r]), range(widths[c])):
+            values[at + i * lead + j] = full[first[r] + i, first[c] + j]
+    plan = SimpleNamespace(**found.plan)
+    return plan, values, np.zeros(len(full), dtype=np.int64), np.zeros(max(80, found.widest**2))
+
+
+def solved(full, widths, pairs, b, late=None) -> np.ndarray:
+    plan, values, pivots, work = eliminate(full, widths, pairs, late)
+    assert linalg.factor(plan, values, pivots, work)
+    x = b.copy()
+    linalg.solve(plan, values, pivots, x, np.zeros(len(b)), work)
+    return x
+
+
+def both_ways(edges: list[tuple[int, int]], count: int) -> list[tuple[int, int]]:
+    return [*edges, *((c, r) for r, c in edges), *((k, k) for k in range(count))]
+
+
+@pytest.mark.parametrize("sizes", WIDTHS)
+@pytest.mark.parametrize("pattern", PATTERNS)
+def test_solutions_of_random_patterns(pattern, sizes):
+    """A x = b by blocks and by numpy, unsymmetric."""
+    widths = list(itertools.islice(itertools.cycle(WIDTHS[sizes]), 12))
+    pairs = both_ways(PATTERNS[pattern], 12)
+    full = random_matrix(widths, pairs, 3)
+    b = np.random.default_rng(4).standard_normal(len(full))
+    x = solved(full, widths, pairs, b)
+    np.testing.assert_allclose(x, np.linalg.solve(full, b), rtol=1e-8, atol=1e-9)
+
+
+def test_small_systems_are_dense_and_pivoted():
+    """A zero on every diagonal is no obstacle up to DENSE unknowns."""
+    widths = [3] * (DENSE // 3)
+    pairs = list(itertools.product(range(len(widths)), repeat=2))
+    full = random_matrix(widths, pairs, 5)
+    np.fill_diagonal(full, 0.0)
+    b = np.arange(1.0, DENSE + 1)
+    np.testing.assert_allclose(
+        solved(full, widths, pairs, b), np.linalg.solve(full, b), rtol=1e-8, atol=1e-10
+    )
+
+
+@pytest.mark.parametrize("count", (4, 9))
+def test_joints_are_saddle_points(count):
+    """A chain of bodies hinged in pairs: the multipliers' own blocks are zero."""
+    widths = [6] * count + [5] * count
+    edges = [(count + k, k) for k in range(count)] + [(count + k, k - 1) for k in range(1, count)]
+    pairs = both_ways(edges, 2 * count)
+    full = random_matrix(widths, pairs, 6, symmetric=True)
+    full[6 * count :, 6 * count :] = 0.0
+    full[: 6 * count, : 6 * count] = np.kron(np.eye(count), np.diag([3.0, 4, 5, 6, 7, 8]))
+    late = {count + k: {k, max(k - 1, 0)} for k in range(count)}
+    b = np.random.default_rng(7).standard_normal(len(full))
+    x = solved(full, widths, pairs, b, late)
+    np.testing.assert_allclose(x, np.linalg.solve(full, b), rtol=1e-7, atol=1e-8)
+
+
+@pytest.mark.parametrize("pattern", ("chain", "tree", "loop"))
+@pytest.mark.parametrize("sizes", WIDTHS)
+def test_negative_pivots_are_negative_eigenvalues(pattern, sizes):
+    """Sylvester: the signature of a symmetric matrix, by blocks and dense."""
+    for count, seed in itertools.product((4, 12), range(3)):
+        widths = list(itertools.islice(itertools.cycle(WIDTHS[sizes]), count))
+        edges = [e for e in PATTERNS[pattern] if max(e) < count]
+        full = random_matrix(widths, both_ways(edges, count), seed, symmetric=True)
+        arrays = eliminate(full, widths, both_ways(edges, count))
+        found = linalg.signature(*arrays, np.zeros(len(full)))
+        assert found == (np.linalg.eigvalsh(full) < 0).sum()
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_singular_matrices_are_refused():
+    widths = [3] * 13
+    pairs = both_ways(PATTERNS["chain"], 13)
+    full = random_matrix(widths, pairs, 8)
+    for zero in (slice(0, 3), slice(36, 39)):
+        broken = full.copy()
+        broken[zero] = broken[:, zero] = 0.0
+        plan, values, pivots, work = eliminate(broken, widths, pairs)
+        assert not linalg.factor(plan, values, pivots, work)
+
+
+def test_a_chain_has_no_fill():
+    """Every place in the factors is a place in the matrix."""
+    count = 200
+    pairs = both_ways([(k, k + 1) for k in range(count - 1)], count)
+    found = analyse([3] * count, starts_of([3] * count), set(pairs), {})
+    assert found.size == 9 * len(set(pairs))
+
+
+@pytest.mark.parametrize("stabilised", (True, False))
+@pytest.mark.parametrize("scene", (chain, links))
+def test_the_work_grows_like_the_number_of_bodies(scene, stabilised):
+    """Block updates and entries of the plan of a hanging chain and of a chain of hinged rods."""
+    small, large = (system(scene(n), stabilised) for n in (30, 60))
+    for measure in (lambda s: len(s.plan["target"]), lambda s: s.LV.size):
+        assert measure(large) < 2.2 * measure(small)

@@ -1,0 +1,254 @@
+"""Native functions against the same functions run by Python, and what is refused."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import threading
+from math import floor, sqrt
+
+import numpy as np
+import pytest
+from scenes import GROUND, PENDULUM, chain, interpreted, run
+
+from adamslite import native as code
+from adamslite import translate
+from adamslite.integrators import linalg
+from adamslite.integrators.base import Plan, Problem
+from adamslite.translate import REGISTERED, Table, Untranslatable, native
+
+ENGINE = set(REGISTERED)
+LIMIT = 3
+SMALL = Table("Small", {"reals": "Reals", "ints": "Ints"})
+
+
+@native
+def sample_helper(a: Reals, k: int) -> float:  # noqa: F821
+    a[k] *= 2.0
+    return a[k] if k > 0 else -1
+
+
+@native
+def sample_everything(P: Small, r: Reals, n: Ints) -> float:  # noqa: F821
+    """One of each construction."""
+    total, count = 0.0, 0
+    for i in range(LIMIT):
+        if i == 1:
+            continue
+        total += sample_helper(r, i)
+    for i in range(6, 0, -2):
+        total -= i
+        if total < -100.0 or not i > 2:
+            break
+    while count < 5 and total > -1e9:
+        count += 1
+        total = max(total, float(count), 0.5) - min(r[0], 2)
+    n[0], n[1] = n[1] // 3 + n[0] % 2, n[0] & 6
+    shifted = r[1:]
+    shifted[0] = abs(shifted[0]) ** 0.5 + shifted[1] ** 3 + sqrt(4.0) + floor(2.7)
+    P.reals[0] = P.reals.size + int(2.9) - (-n[0])
+    pass
+    return total / 3 + P.ints[0] * 0.25
+
+
+def native_call(entry: str, arrays: list, result: type = ctypes.c_double):
+    """Compile ``entry`` and call it on numpy arrays (a list of arrays is a table)."""
+    text = translate.translate(entry, [SMALL])
+    address = code.addresses([(code.object_code(text), [entry])])[entry]
+    given = []
+    for a in arrays:
+        table = a
+        if isinstance(a, list):
+            table = np.array([v for x in a for v in (x.ctypes.data, x.size)], dtype=np.int64)
+        given.append(table)
+    pointers = [ctypes.c_void_p(g.ctypes.data) for g in given]
+    return ctypes.CFUNCTYPE(result, *[ctypes.c_void_p] * len(given))(address)(*pointers)
+
+
+def test_every_construction_means_what_it_means_in_python():
+    class Small:
+        pass
+
+    arrays = [np.array([0.5, 0.1]), np.array([7, 3]), np.array([0.3, -1.2, 2.0]), np.array([5, 8])]
+    there, here = ([a.copy() for a in arrays] for _ in range(2))
+    P = Small()
+    P.reals, P.ints = here[0], here[1]
+    expected = sample_everything(P, here[2], here[3])
+    found = native_call("sample_everything", [[there[0], there[1]], there[2], there[3]])
+    assert found == pytest.approx(expected, rel=1e-14)
+    for a, b in zip(there, here, strict=True):
+        np.testing.assert_allclose(a, b, rtol=1e-14)
+
+
+# ---- the engine ----------------------------------------------------------------------------------
+
+ADDED_MASS = "VFORCE/{id}, I={id}, J_PART=1, FX=-0.2*ACCX({id})\\FY=VARVAL(7)"
+DECKS = {
+    "hinged": PENDULUM,
+    "long": chain(13, ADDED_MASS).replace("END", "VARIABLE/7, FUNCTION=SIN(TIME)\nEND"),
+    "states": GROUND
+    + """PART/2, MASS=1, CM=2, IP=1,2,3, WX=1, WY=2
+MARKER/2, PART=2
+POINT_MASS/3, MASS=1, CM=3, QG=1,0,0
+MARKER/3, POINT_MASS=3
+DIFF/1, IC=1, FUNCTION=-DIF(1)*DX(3)+AZ(2,1)
+VARIABLE/1, IC=1, FUNCTION=COS(VARVAL(1))
+GCON/1, FUNCTION=VX(3)-0.3
+SFORCE/1, TRANSLATIONAL, I=2, J=3, FUNCTION=-5*(DM(2,3)-1)
+END
+""",
+    "rods": GROUND
+    + """PART/2, MASS=1, CM=20, IP=1,1,1, QG=1,0,0, WZ=2
+MARKER/20, PART=2
+MARKER/21, PART=2, QP=-1,0,0
+"""
+    + "".join(
+        f"""PART/{k}, MASS=1, CM={k}0, IP=1,1,1, QG={2 * k - 3},0,0
+MARKER/{k}0, PART={k}
+MARKER/{k}1, PART={k}, QP=-1,0,0
+JOINT/{k}, SPHERICAL, I={k}1, J={k - 1}0
+"""
+        for k in range(3, 6)
+    )
+    + "JOINT/1, REVOLUTE, I=21, J=1\nEND\n",
+}
+
+
+def run_of(deck: str):
+    return run(deck, 0.4, 4, error=1e-4)
+
+
+@pytest.fixture(scope="module")
+def interpretations():
+    """Every deck run by Python, and the names of the native functions that were called."""
+    called: set[str] = set()
+
+    def watch(frame, event, argument):
+        if event == "call" and "integrators" in frame.f_code.co_filename:
+            called.add(frame.f_code.co_name)
+
+    with pytest.MonkeyPatch.context() as patch, np.errstate(all="ignore"):
+        interpreted(patch)
+        threading.setprofile(watch)
+        found = {name: run_of(deck) for name, deck in DECKS.items()}
+        threading.setprofile(None)
+    return found, called
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_the_engine_runs_the_same_interpreted_and_native(name, interpretations):
+    """Same steps, same iterations, same results to round-off."""
+    by_python, native_run = interpretations[0][name], run_of(DECKS[name])
+    assert by_python.outcome == native_run.outcome
+    for count in ("steps", "rejected", "newton", "jacobians", "factorizations"):
+        assert by_python.summary[count] == native_run.summary[count]
+    np.testing.assert_allclose(by_python.values, native_run.values, rtol=1e-8, atol=1e-8)
+
+
+def test_those_decks_reach_every_native_function(interpretations):
+    """Only what failing steps and early ends need is not reached; equilibria have tests of their own."""
+    of_dynamics = {n for n in ENGINE if not REGISTERED[n].__module__.endswith("static")}
+    rare = {"near_singularity", "stuck", "after_failure", "after_rejection"}
+    assert of_dynamics - interpretations[1] <= rare
+
+
+def test_the_engine_is_translated_whole():
+    text = translate.translate("run", [Problem, Plan])
+    assert all(f"@{name}(" in text for name in ENGINE)
+    assert text.count("define ") - text.count("define internal") == 1
+
+
+# ---- what is refused ------------------------------------------------------------------------------
+
+
+def chained(a: float) -> bool:
+    return 0.0 < a < 1.0
+
+
+def unknown(a: float) -> float:
+    return a + nowhere  # noqa: F821
+
+
+def listed(a: float) -> float:
+    return [a][0]
+
+
+def foreign(a: float) -> float:
+    return math.sin(a)
+
+
+def outsider(a: float) -> float:
+    return chained(a)
+
+
+def float_as_condition(a: float) -> float:
+    return 1.0 if a else 2.0
+
+
+def changes_type(a: float) -> float:
+    n = 1
+    n = a
+    return n
+
+
+def remainder_of_floats(a: float) -> float:
+    return a % 2.0
+
+
+def unpacks(a: float) -> float:
+    b, c = a
+    return b + c
+
+
+def loops_over_an_array(a: Reals) -> float:  # noqa: F821
+    for b in a:
+        return b
+
+
+def slices_between(a: Reals) -> float:  # noqa: F821
+    return a[1:2][0]
+
+
+def plus(a: float) -> float:
+    return +a
+
+
+def member(a: int) -> bool:
+    return a in (1, 2)
+
+
+def named(a: float) -> float:
+    return float(x=a)
+
+
+def text(a: float) -> float:
+    b = "text"
+    return b
+
+
+def raises(a: float) -> float:
+    raise ValueError(a)
+
+
+REFUSED = {
+    chained: "chained comparisons", unknown: "nowhere is not known", listed: "List is not",
+    foreign: "only calls by name", outsider: "chained is not a native function",
+    float_as_condition: "a condition must be", changes_type: "n is i64, not double",
+    remainder_of_floats: "Mod needs integers", unpacks: "several names need as many values",
+    loops_over_an_array: "only a range", slices_between: "a slice has a start only",
+    plus: "UAdd is not translated", member: "not translated", named: "by position",
+    text: "'text' is not a number", raises: "Raise is not translated",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("function", REFUSED, ids=lambda f: f.__name__)
+def test_unsupported_python_is_refused_by_name(function):
+    """The message names the function and, where there is one, the line and the reason."""
+    with pytest.raises(Untranslatable, match=REFUSED[function]) as caught:
+        translate.Translator(function, {}).define(internal=False)
+    assert function.__name__ in str(caught.value)
+
+
+def test_a_name_is_registered_once():
+    with pytest.raises(Untranslatable, match="two native functions are called factor"):
+        native(linalg.factor)
