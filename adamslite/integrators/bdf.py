@@ -102,6 +102,8 @@ STIFF_REJECTIONS = 7.0
 STIFF_SHARE = 0.2
 # A step grows only when it pays for a new matrix, and never by more than this at once.
 LEAST_GROWTH, MOST_GROWTH = 1.2, 10.0
+# Cuts of the step after corrector failures before other lengths are tried.
+CUTS = 3
 # A pivot of the acceleration matrix below this share of its first value has vanished.
 VANISHING = 1e-3
 
@@ -213,8 +215,9 @@ def first_step(P: Problem, w: int) -> float:
     """A step whose first-order error is a tenth of ERROR, judged by the accelerations."""
     n = P.sizes[N]
     tol = P.settings[ERROR]
-    fastest = 0.0
+    fastest, reach = 0.0, 1.0
     for i in range(n):
+        reach = max(reach, abs(P.q[i]))
         fastest = max(
             fastest, abs(P.a[i]) / max(1.0, abs(P.u[i])), abs(P.u[i]) / max(1.0, abs(P.q[i]))
         )
@@ -224,7 +227,9 @@ def first_step(P: Problem, w: int) -> float:
     h = min(P.settings[H_MAX], span)
     if P.settings[H_INIT] > 0.0:
         return min(h, P.settings[H_INIT])
-    return min(0.05 * h, tol**0.5 / max(fastest, 1e-12) * 0.3)
+    # Below this step round-off of positions alone would exceed ERROR in the velocities.
+    noise = 1e-14 * reach / tol if P.sizes[SI2] == 1 else 0.0
+    return min(0.05 * h, max(noise, tol**0.5 / max(fastest, 1e-12) * 0.3))
 
 
 @native
@@ -361,8 +366,30 @@ def after_failure(P: Problem, w: int) -> int:
         return RUNNING
     C[RETRIES] += 1.0
     C[FRESH] = 0.0
-    resize(P, w, 0.25)
+    resize(P, w, retry_factor(C))
     return RUNNING
+
+
+@native
+def retry_factor(C: Reals) -> float:
+    """Change of the step after a failed corrector: smaller at first.
+
+    Near a singular posture (dead centre, flattened parallelogram) ever smaller steps do not help, but
+    a step across does: after some cuts a few other lengths around the last good one are tried.
+    """
+    tried = int(C[RETRIES])
+    if C[H_LAST] > 0.0 and tried > CUTS and tried <= CUTS + 5:
+        leap = 0.7
+        if tried == CUTS + 1:
+            leap = 1.3
+        if tried == CUTS + 2:
+            leap = 1.9
+        if tried == CUTS + 3:
+            leap = 2.7
+        if tried == CUTS + 4:
+            leap = 4.0
+        return leap * C[H_LAST] / C[H]
+    return 0.25
 
 
 @native
@@ -385,7 +412,7 @@ def after_rejection(P: Problem, w: int, norm: float) -> int:
     """The error was too large: a smaller step, and order 2 when the symptoms say so."""
     C = P.control
     P.count[REJECTED] += 1
-    C[RETRIES], C[FRESH] = 0.0, 0.0
+    C[FRESH] = 0.0
     if not norm < 1e12:
         return NOT_FINITE
     factor = max(0.2, (SAFETY * norm) ** (-1.0 / (C[K] + 1.0)))

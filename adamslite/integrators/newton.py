@@ -36,8 +36,8 @@ from adamslite.integrators.equations import (
 from adamslite.integrators.linalg import factor
 from adamslite.translate import Reals, native
 
-# Relative increments of positions below this are round-off.
-ROUND_OFF = 4e-15
+# Increments of positions below this share of the largest position are round-off.
+ROUND_OFF = 2e-15
 
 
 @native
@@ -133,15 +133,18 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
     Positions and rotations; velocities (cu times those) when ``cu`` is not zero; variables and
     states.  When constraints tie velocities of different size together (``tied``), an error that
     is small against one is large against another, so increments of bodies count as they are, and
-    so do those of mu, which are velocities.  Increments of q at round-off count as none, because
-    at tiny steps they are all there is.
+    so do those of mu, which are velocities.  Increments at the round-off of positions count as
+    none (for velocities times cu), because at small steps they are all there is.
     """
-    largest = 0.0
     n, q, u, z = P.sizes[N], P.q, P.u, P.z
+    reach = 1.0
+    for i in range(n):
+        reach = max(reach, abs(q[i]))
+    noise, largest = ROUND_OFF * reach, 0.0
     for i in range(n):
         change = abs(dz[i])
         size = change / max(1.0, abs(q[i]))
-        if size > ROUND_OFF:
+        if change > noise:
             if tied:
                 size = max(change, cu * change)
             else:
@@ -155,6 +158,6 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
             largest = size
     if tied:
         for k in range(P.sizes[NZ] - P.sizes[HOLONOMIC], P.sizes[NZ]):
-            if not abs(dz[k]) <= largest:
+            if not abs(dz[k]) <= max(largest, cu * noise):
                 largest = abs(dz[k])
     return largest
