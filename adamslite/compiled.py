@@ -1,8 +1,8 @@
 """From a model to native kernels: statements grouped by shape, each shape compiled once.
 
-A statement shows several *faces*: the loads it exerts, its constraint rows at position, velocity and
-acceleration level, its algebraic or differential equation, the values it writes.  All instances of one
-face with one shape form a :class:`Group`, run by one kernel in one call.
+A statement shows several *faces*: the loads it exerts, its constraint rows at position, velocity
+and acceleration level, its algebraic or differential equation, the values it writes.  All
+instances of one face with one shape form a :class:`Group`, run by one kernel in one call.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ from adamslite.model import Model
 from adamslite.shape import Binder, Binding, Reader, Tree, reactions, symbolic_view
 from adamslite.statement import Statement
 from adamslite.symbolic import Scope
-
 
 HERE = Path(__file__).parent
 
@@ -83,7 +82,7 @@ def faces(statement: Statement, model: Model) -> Iterator[str]:
 
 
 def _add(groups: dict[str, Group], model: Model, statement: Statement, face: str) -> None:
-    binder = Binder(model)
+    binder = Binder(model, inline_signals=face == "signal")
     if face == "output":
         fields: Tree = tuple(binder.expression(node) for node in statement.outputs(model))
         own = binder.node_slot(("OUTPUT", statement))
@@ -160,9 +159,12 @@ class _Writer:
         if self.face == "equation":
             return Outputs(rows=[(row, 0, view.cls.equation(view, scope))])
         if self.face == "signal":
-            return Outputs(rows=[(row, n, e) for n, e in enumerate(_rates(scope, view.function, 2))])
+            return Outputs(
+                rows=[(row, n, e) for n, e in enumerate(_rates(scope, view.function, 2))]
+            )
         rows = [_rates(scope, e, self.level)[-1] for e in view.cls.constraints(view, scope)]
-        return Outputs(rows=[(row, n, e) for n, e in enumerate(rows)])
+        numbered = [(row, n, e) for n, e in enumerate(rows)]
+        return Outputs(rows=numbered, rates_only=self.face == "acceleration")
 
 
 def _rates(scope: Scope, expr: Any, order: int) -> list[Any]:
@@ -180,14 +182,14 @@ def _compile(group: Group, progress: Any) -> bool:
     def text_and_meta() -> tuple[str, dict]:
         if not made:
             if progress is not None and group.face == "loads":
-                progress.say(f"compiling the expressions of {group.instances[0][0].label} (kept for later)")
+                progress.say(
+                    f"compiling the expressions of {group.instances[0][0].label} (kept for later)"
+                )
             made.append(group.make())
         return made[0]
 
     group.meta = native.recall_json(group.name, lambda: text_and_meta()[1])
-    group.code = native.recall(
-        group.name, ".o", lambda: native.object_code(text_and_meta()[0])
-    )
+    group.code = native.recall(group.name, ".o", lambda: native.object_code(text_and_meta()[0]))
     return bool(made)
 
 
@@ -205,7 +207,9 @@ def version_of(*sources: str) -> str:
     """Changes whenever one of these modules or folders of the package changes."""
     stamps = []
     for source in sources:
-        for folder, _, files in sorted(os.walk(HERE / source)) or [(str(HERE), [], [f"{source}.py"])]:
+        for folder, _, files in sorted(os.walk(HERE / source)) or [
+            (str(HERE), [], [f"{source}.py"])
+        ]:
             for file in sorted(f for f in files if f.endswith(".py")):
                 facts = os.stat(os.path.join(folder, file))
                 stamps.append(f"{file} {facts.st_size} {facts.st_mtime_ns}")
@@ -214,4 +218,18 @@ def version_of(*sources: str) -> str:
 
 def generator_version() -> str:
     """Version of everything that decides the text of a kernel."""
-    return version_of("kernel", "kinematics", "lowering", "symbolic", "shape", "compiled", "algebra", "functions", "elements")
+    return version_of(
+        "kernel",
+        "kinematics",
+        "lowering",
+        "symbolic",
+        "shape",
+        "compiled",
+        "algebra",
+        "coordinates",
+        "constraint",
+        "spline_curve",
+        "wrench",
+        "functions",
+        "elements",
+    )

@@ -1,4 +1,4 @@
-"""What all tests share: one folder for compiled code, so that a shape is compiled once per session."""
+"""What all tests share: one folder of compiled code, so that a shape is compiled only once."""
 
 import os
 from collections.abc import Iterator

@@ -281,7 +281,8 @@ def test_the_largest_step_is_the_output_step():
     deck = (
         GROUND
         + "POINT_MASS/2, MASS=1, CM=2\nMARKER/2, POINT_MASS=2\n"
-        + "VFORCE/1, I=2, J_PART=1, FX=STEP(TIME,0.5,0,0.502,100)-STEP(TIME,0.508,0,0.51,100)\nEND\n"
+        + "VFORCE/1, I=2, J_PART=1, FX=STEP(TIME,0.5,0,0.502,100)"
+        + "-STEP(TIME,0.508,0,0.51,100)\nEND\n"
     )
     results = done(deck, 1.0, 200)
     assert results["POINT_MASS/2.vx"][-1] == pytest.approx(0.8, rel=0.02)
