@@ -83,7 +83,7 @@ def masses(deck: Deck) -> Iterator[Diagnostic]:
         elif part.cm is None:
             yield say(part, "no-cm")
     for point in deck.of(POINT):
-        if point.mass <= 0:
+        if point.given("mass") and point.mass <= 0:
             yield say(point, "no-mass", "mass")
 
 
@@ -168,7 +168,7 @@ def floating_use(deck: Deck) -> Iterator[Diagnostic]:
 
 @needs(*FOLLOWING, "PTCV", "CVCV")
 def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
-    used = {force.jfloat for force in _all(deck, FOLLOWING)}
+    used = {force.jfloat for force in _all(deck, (*FOLLOWING, "PTCV"))}
     for marker in deck.of("MARKER"):
         if marker.floating and marker.key not in used:
             yield say(marker, "floating-unused")

@@ -39,13 +39,13 @@ def _turns(deck: Deck, owner: tuple[str, int | str] | None) -> bool:
 
 
 def pairs(deck: Deck) -> Iterator[Diagnostic]:
-    for keyword in ("JPRIM", "MOTION"):
+    for keyword in ("JPRIM", "MOTION", "PTCV"):
         for each in deck.of(keyword):
             here, there = _owner(deck, each.i), _owner(deck, each.j)
             if here and here == there:
                 yield say(each, "same-body", "j", owner=f"{here[0]}/{here[1]}")
                 continue
-            kind = each.kind if keyword == "JPRIM" else each.axis or ""
+            kind = getattr(each, "kind", None) or getattr(each, "axis", None) or ""
             points = [o for o in (here, there) if o and o[0] == POINT]
             needs_turning = kind in TURNING or kind[:1] == "B"
             if needs_turning and points and not (_turns(deck, here) or _turns(deck, there)):
@@ -193,7 +193,25 @@ def motion_starts(deck: Deck) -> Iterator[Diagnostic]:
                 yield say(motion, "no-effect", field, word=field.upper(), reason=reason)
 
 
+def curves(deck: Deck) -> Iterator[Diagnostic]:
+    for matrix in deck.of("MATRIX"):
+        count, expected = len(matrix.values), matrix.rows * matrix.columns
+        if count != expected:
+            yield say(matrix, "matrix-size", "values", count=count, expected=expected)
+    for curve in deck.of("CURVE"):
+        matrix = deck.find("MATRIX", curve.matrix)
+        least = 4 if curve.form == "CLOSED" else 2
+        if matrix and (matrix.columns != 3 or matrix.rows < least):
+            yield say(curve, "curve-points", "matrix", matrix=matrix.label, least=least)
+    for each in deck.of("PTCV"):
+        floats, lies = _owner(deck, each.jfloat), _owner(deck, each.j)
+        if floats and lies and floats != lies:
+            words = {"word": "JFLOAT", "key": each.jfloat, "owner": f"{floats[0]}/{floats[1]}"}
+            yield say(each, "foreign-marker", "jfloat", **words)
+
+
 CONSTRAINT_RULES: list[Rule] = [
+    curves,
     pairs,
     joint_sizes,
     couplers,

@@ -107,6 +107,8 @@ class Binder:
             return ("c", value)
         if isinstance(value, tuple):
             return ("v", tuple(self._derived(v) for v in value))
+        if isinstance(value, Ref):
+            return self.reference(value)
         return self.number(value) if isinstance(value, float) else self.expression(value)
 
     def _argument(self, argument: Any, value: Any) -> Tree:
@@ -149,14 +151,26 @@ class Binder:
                 return self.call(node)
         raise TypeError(f"not an expression: {node!r}")
 
+    def output(self, node: Node, statement: Statement) -> Tree:
+        """A value to write: zero for an element that is switched off."""
+        return self.expression(node) if self.model.acts(statement) else ("c", 0.0)
+
     def call(self, node: Call) -> Tree:
         if node.name in NET:
             return self.expression(written_out(node, self.model))
+        if any(self._is_off(arg) for arg in node.args):
+            return ("c", 0.0)
         parameters = FUNCTIONS[node.name]
         args = tuple(
             self.argument(parameters.parameter(n).kind, a) for n, a in enumerate(node.args)
         )
         return ("f", node.name, args)
+
+    def _is_off(self, node: Node) -> bool:
+        """A reference to an element that is switched off: whatever it measures is zero."""
+        if not isinstance(node, Ref) or node.kind in ("MARKER", "VARIABLE", "DIFF"):
+            return False
+        return not self.model.acts(self.model.element(node.kind, node.id))
 
     def argument(self, kind: str, node: Node) -> Tree:
         if isinstance(node, Ref):

@@ -182,6 +182,25 @@ REQUEST/1, F1=DZ(20)\\F2=JPRIM(1,0,1,0)"""
         assert native[f"REQUEST/1.{n}"] == pytest.approx(workaround[f"REQUEST/1.{n}"], abs=1e-9)
 
 
+def test_a_bead_runs_round_a_closed_hoop() -> None:
+    angle = np.linspace(0.0, 2 * np.pi, 33)
+    points = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
+    points[-1] = points[0]
+    results = run(
+        f"""MATRIX/1, ROWS=33, COLUMNS=3, VALUES={",".join(f"{v:.12f}" for v in points.ravel())}
+CURVE/1, CLOSED, MATRIX=1, CURVE_POINTS
+POINT_MASS/4, MASS=2, CM=40, QG=1,0,0, VY=3
+MARKER/40, POINT_MASS=4
+PTCV/1, I=40, CURVE=1, RM=1
+REQUEST/1, F1=DM(40)\\F2=VM(40)\\F3=PTCV(1,0,1,0)\\F4=PTCV(1,1,1,0)""",
+        end=5.0,
+    )
+    assert results["REQUEST/1.F1"] == pytest.approx(1.0, abs=1e-5)
+    assert results["REQUEST/1.F2"] == pytest.approx(3.0, abs=1e-5)
+    assert results["REQUEST/1.F3"] == pytest.approx(2 * 3.0**2, rel=1e-2)
+    assert results["REQUEST/1.F4"] == pytest.approx(results["REQUEST/1.F3"], abs=1e-9)
+
+
 def test_joints_tell_what_they_ask_for_at_the_start() -> None:
     deck = adamslite.read(
         START + "JOINT/1, CYLINDRICAL, I=20, J=1, ICTRAN=2, ICROT=90D,3\n"

@@ -19,6 +19,8 @@ from adamslite.model import PART
 from adamslite.system import JACOBIAN, RESIDUAL, System
 
 EXACT = 1e4
+# What has no mass follows what has: it carries no state of its own worth keeping.
+MASSLESS = 1e-4
 MAX_ITERATIONS = 100
 # |g| below this share of the model's size counts as closed.
 CLOSED = 1e-13
@@ -151,6 +153,8 @@ def weights(system: System) -> np.ndarray:
         i = system.starts[b]
         if body.width == PART:
             w[i + 3 : i + 6] = system.weight[b] ** -0.5
+        if body.mass == 0.0:
+            w[i : i + body.width] *= MASSLESS
         exact = body.statement.exact
         for c, words in enumerate((("X",), ("Y",), ("Z",), ("PSI", "THETA", "PHI"))):
             if any(word in exact for word in words):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from adamslite.messages.entry import Message
 
+LINE = "MATRIX/1, ROWS=2, COLUMNS=3, VALUES=0,0,0,1,0,0\nCURVE/1, OPEN, MATRIX=1\n"
 _PAIR = "JOINT/1, CYLINDRICAL, I=2, J=1\nPART/5, MASS=1, CM=5, IP=1,1,1\nMARKER/5, PART=5\n"
 _BALL = _PAIR + "JOINT/2, SPHERICAL, I=5, J=1\n"
 _PIN = _PAIR + "JOINT/2, REVOLUTE, I=5, J=1\n"
@@ -49,6 +50,19 @@ CONSTRAINTS: dict[str, Message] = {
         "CV of {label} is on {owner}, the J marker of {joint} is not",
         "the J markers of both joints and CV belong to the part that carries the gears",
         (_PIN + "GEAR/1, JOINTS=1,2, CV=5",),
+    ),
+    "matrix-size": Message(
+        "{label} has {count} VALUES and needs {expected}",
+        "one for each of ROWS times COLUMNS",
+        ("MATRIX/1, ROWS=2, COLUMNS=3, VALUES=1,2,3,4,5",),
+    ),
+    "curve-points": Message(
+        "{label} cannot be laid through {matrix}",
+        "its rows are points x, y, z; at least {least} of them",
+        (
+            "MATRIX/1, ROWS=2, COLUMNS=2, VALUES=1,2,3,4\nCURVE/1, OPEN, MATRIX=1",
+            "MATRIX/1, ROWS=2, COLUMNS=3, VALUES=1,2,3,1,2,3\nCURVE/1, CLOSED, MATRIX=1",
+        ),
     ),
     "motion-nowhere": Message(
         "{label} does not say what it drives",

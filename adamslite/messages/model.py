@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from adamslite.diagnostics import WARNING
+from adamslite.messages.constraints import LINE
 from adamslite.messages.entry import Message
 
 MODEL: dict[str, Message] = {
@@ -58,7 +59,8 @@ MODEL: dict[str, Message] = {
         "{word} of {label} is on another body",
         "MARKER/{key} belongs to {owner}",
         ("PART/4, MASS=1, CM=2, IP=1,1,1",
-         "PART/4, MASS=1, CM=4, IM=2, IP=1,1,1\nMARKER/4, PART=4"),
+         "PART/4, MASS=1, CM=4, IM=2, IP=1,1,1\nMARKER/4, PART=4",
+         LINE + "MARKER/4, PART=2, FLOATING\nPTCV/1, I=3, JFLOAT=4, CURVE=1, RM=1"),
     ),
     "no-owner": Message(
         "{label} belongs to no body",
@@ -127,6 +129,7 @@ MODEL: dict[str, Message] = {
         ("MARKER/4, PART=2\nJOINT/1, FIXED, I=2, J=4",
          "MARKER/4, PART=2\nJPRIM/1, INLINE, I=2, J=4",
          "MARKER/4, PART=2\nMOTION/1, I=2, J=4, X, FUNCTION=TIME",
+         LINE + "MARKER/4, PART=2\nPTCV/1, I=2, CURVE=1, RM=4",
          "VFORCE/1, I=2, J_PART=2, FX=1"),
     ),
     "internal-force": Message(

@@ -1,0 +1,27 @@
+"""CURVE: a smooth curve through given points.
+
+Equation (s from 0 at the first point to 1 at the last, proportional to the length of the chords)::
+
+    c(s) = cubic spline through the rows of MATRIX     OPEN: third derivative continuous next to the
+                                                       ends; CLOSED: periodic, the last point being
+                                                       the first again
+"""
+
+from __future__ import annotations
+
+from adamslite.statement import Statement, choice, integer, reference, statement
+
+
+@statement("CURVE", planned=("FUNCTION", "MINPAR", "MAXPAR", "ROUTINE"))
+class Curve(Statement):
+    """Geometry for PTCV, in the axes of the marker that the curve is laid on."""
+
+    form: str = choice(options=("OPEN", "CLOSED"), default="OPEN", help="whether it has ends")
+    matrix: int | str = reference(
+        "MATRIX", to="MATRIX", required=True, help="points, one row x, y, z each"
+    )
+    points: str = choice(
+        options=("CURVE_POINTS", "CONTROL_POINTS"), supported=("CURVE_POINTS",),
+        default="CURVE_POINTS", help="what the rows of MATRIX are",
+    )  # fmt: skip
+    order: int = integer("ORDER", default=4, help="degree of the pieces plus one; 4 is meant")

@@ -1,0 +1,84 @@
+"""PTCV: a point that stays on a curve.
+
+Equation (``d = r_I - r_RM``, c the curve in the axes of RM, s its parameter, an unknown)::
+
+    d - c_x(s) x_RM - c_y(s) y_RM - c_z(s) z_RM = 0        s = s0 + p / length
+
+The path p is the x coordinate of a massless point of its own (``POINT_MASS/PTCV_id``, y and z kept
+at zero), so that it has a velocity and an acceleration like any coordinate.  Its equation of motion
+says that the reaction has no component along the curve.  s0 is the drawn posture's nearest point.
+
+Sign: the reaction reported acts on I; at the other end (jflag 1) the force acts on the part of RM,
+torque about RM's origin::
+
+           I o---> reaction
+        ~~~~~~~~~~~ curve, RM
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.algebra import choose, floor
+from adamslite.constraint import Constraint
+from adamslite.coordinates import pose
+from adamslite.expression import Ref
+from adamslite.spline_curve import through
+from adamslite.statement import STATEMENTS, Statement, reference, statement
+from adamslite.symbolic import ORIGIN, Scope, along_axes, minus
+
+
+@statement("PTCV", planned=("DISPLACEMENT", "VELOCITY", "IC"))
+class Ptcv(Constraint, Statement):
+    """Keeps marker I on a CURVE that is fixed to marker RM, without friction."""
+
+    i: int | str = reference("I", to="MARKER", required=True, help="marker that slides")
+    jfloat: int | str | None = reference(
+        "JFLOAT", to="MARKER", help="floating marker on the part of RM"
+    )
+    curve: int | str = reference("CURVE", to="CURVE", required=True, help="the curve")
+    j: int | str = reference("RM", to="MARKER", required=True, help="marker the curve is fixed to")
+
+    @property
+    def n_rows(self) -> int:
+        """Three for the point, two for the unused coordinates of the parameter."""
+        return 5
+
+    @property
+    def slider(self) -> str:
+        """Name of the massless point that carries the parameter."""
+        return f"PTCV_{self.key}"
+
+    def companions(self) -> tuple[Statement, ...]:
+        """The massless point and a marker on it."""
+        point = STATEMENTS["POINT_MASS"](id=self.slider, mass=0.0, spans=self.spans)
+        marker = STATEMENTS["MARKER"](id=self.slider, point_mass=point.key, spans=self.spans)
+        return (point, marker)
+
+    def derived(self, model: Any) -> dict[str, Any]:
+        """The spline, and its parameter in the drawn posture."""
+        curve = model.element("CURVE", self.curve)
+        closed = curve.form == "CLOSED"
+        spline = through(model.element("MATRIX", curve.matrix).table, closed)
+        (r, _), (origin, axes) = pose(model, self.i), pose(model, self.j)
+        return {
+            "path": Ref("MARKER", self.slider.upper()),
+            "start": spline.nearest((r - origin) @ axes),
+            "length": spline.length,
+            "knots": spline.knots,
+            "weights": tuple(tuple(map(float, w)) for w in spline.weights),
+            "closed": "yes" if closed else None,
+        }
+
+    def constraints(self, scope: Scope) -> list[Any]:
+        """Rows that vanish."""
+        p, *unused = scope.position(self.path, ORIGIN)
+        s = self.start + p / self.length
+        if self.closed:
+            s = s - floor(s)
+        powers = [1, s, s**2, s**3]
+        powers += [choose(((s - k) ** 3, s > k), otherwise=0) for k in self.knots]
+        terms = list(zip(powers, self.weights, strict=True))
+        point = tuple(sum(power * w[c] for power, w in terms) for c in range(3))
+        placed = along_axes(scope.axes(self.j), point)
+        return [*minus(scope.position(self.i, self.j), placed), *unused]
