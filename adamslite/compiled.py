@@ -228,7 +228,6 @@ def generator_version() -> str:
         "algebra",
         "coordinates",
         "constraint",
-        "spline_curve",
         "wrench",
         "functions",
         "elements",
