@@ -89,7 +89,7 @@ def _parser() -> argparse.ArgumentParser:
 def _explain(fault: Exception) -> int:
     """Tell the user what went wrong, in sentences, and return the exit code for it."""
     from adamslite.diagnostics import DeckError
-    from adamslite.faults import FormatError, UsageError
+    from adamslite.faults import FormatError, RunFailed, UsageError
 
     if isinstance(fault, DeckError):
         _tell(str(fault))
@@ -97,6 +97,9 @@ def _explain(fault: Exception) -> int:
     if isinstance(fault, UsageError):
         _tell(f"adamslite: {fault}")
         return USAGE
+    if isinstance(fault, RunFailed):
+        _tell(f"adamslite: {fault}")
+        return STOPPED_EARLY
     if isinstance(fault, FormatError):
         _tell(f"adamslite: {fault}")
         return IO_FAILED

@@ -70,9 +70,11 @@ def compile_model(model: Model, progress: Any = None) -> Kernels:
 
 def faces(statement: Statement, model: Model) -> Iterator[str]:
     """What a statement contributes to the equations."""
+    if not model.acts(statement):
+        return
     if hasattr(statement, "loads"):
         yield "loads"
-    if statement.keyword in model.constraint_kinds:
+    if (statement.keyword, statement.key) in model.held:
         rate = statement.is_rate(model)
         yield from ("reactions", "velocity", "acceleration") if rate else LEVELS
     if hasattr(statement, "equation"):
@@ -84,14 +86,14 @@ def faces(statement: Statement, model: Model) -> Iterator[str]:
 def _add(groups: dict[str, Group], model: Model, statement: Statement, face: str) -> None:
     binder = Binder(model, inline_signals=face == "signal")
     if face == "output":
-        fields: Tree = tuple(binder.expression(node) for node in statement.outputs(model))
+        fields: Tree = tuple(binder.output(node, statement) for node in statement.outputs(model))
         own = binder.node_slot(("OUTPUT", statement))
     else:
         fields = binder.statement(statement)
         own = binder.unknowns(statement)
         if face == "signal":
             own = binder.node_slot(("SIGNAL", statement.key))
-    rate = statement.keyword in model.constraint_kinds and statement.is_rate(model)
+    rate = (statement.keyword, statement.key) in model.held and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
     if key not in groups:
         name = "k" + native.digest(key, generator_version())
@@ -228,6 +230,7 @@ def generator_version() -> str:
         "algebra",
         "coordinates",
         "constraint",
+        "spline_curve",
         "wrench",
         "functions",
         "elements",

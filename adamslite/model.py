@@ -131,9 +131,9 @@ class Model:
             ):
                 self.body_index[statement.keyword, statement.key] = len(self.bodies)
                 self.bodies.append(self._body(statement))
-        found = [s for s in deck.statements if hasattr(s, "constraints")]
+        found = [s for s in deck.statements if hasattr(s, "constraints") and deck.is_active(s)]
         self.constraints = sorted(found, key=lambda s: s.is_rate(self))
-        self.constraint_kinds = {s.keyword for s in self.constraints}
+        self.held = {(s.keyword, s.key) for s in self.constraints}
 
     # bodies and markers
 
@@ -194,6 +194,10 @@ class Model:
 
     # variables and elements
 
+    def acts(self, statement: Statement) -> bool:
+        """Whether an element is switched on."""
+        return self.deck.is_active(statement)
+
     def element(self, keyword: str, element_id: Any) -> Statement:
         return self.deck.find(keyword, element_id)
 
@@ -204,11 +208,11 @@ class Model:
         """Whether a statement brings unknowns of its own."""
         if node[0] == "VARIABLE":
             return self.variable_kind(node[1]) == "loop"
-        return node[0] == "DIFF" or node[0] in self.constraint_kinds
+        return node[0] == "DIFF" or node in self.held
 
     def node_width(self, node: tuple[str, Any]) -> int:
         """Unknowns of a scalar node: (keyword, id)."""
-        if node[0] in self.constraint_kinds:
+        if node in self.held:
             return self.element(*node).n_rows
         return 1
 

@@ -91,7 +91,7 @@ class Session:
             if action is not None:
                 action(command)
             elif command.keyword not in ("FILE", "END"):
-                self._change(self.deck.redefined(command))
+                self._change(self.deck.after(command))
 
     # settings
 
@@ -99,15 +99,17 @@ class Session:
         self.settings = replace(_updated(self.settings, command), **self.flags)
 
     def _do_equilibrium(self, command: Any) -> None:
-        self.statics = _updated(self.statics, command)
+        self.statics = _updated(StaticSettings() if command.default else self.statics, command)
+
+    def _do_kinematics(self, command: Any) -> None:
+        """Its tolerances are looser than what is done anyway."""
 
     # changes of the model
 
     def _do_activate(self, command: Any) -> None:
-        self._change(self.deck.with_active(command.type, command.ids, True))
+        self._change(self.deck.after(command))
 
-    def _do_deactivate(self, command: Any) -> None:
-        self._change(self.deck.with_active(command.type, command.ids, False))
+    _do_deactivate = _do_activate
 
     def _change(self, deck: Any) -> None:
         """Go on with another deck from the present state."""
@@ -196,7 +198,8 @@ class Session:
         if self.unclosed:
             self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
             return
-        self.assembled += system.largest_changes()
+        if self.time == 0.0 and not self.pieces:
+            self.assembled = system.largest_changes()
         leave_out_redundant(system)
         system.settings[base.T] = self.time
         small = system.nz <= PIVOTING and not system.pivoting

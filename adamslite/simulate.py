@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.linear import Linearization, linear
 from adamslite.analyses.redundancy import row_name
 from adamslite.compiled import Kernels
 from adamslite.explain import explain
-from adamslite.faults import UsageError
+from adamslite.faults import RunFailed, UsageError
 from adamslite.integrators import base
 from adamslite.model import Model
 from adamslite.outcomes import Outcome
@@ -62,6 +63,27 @@ def simulate(
     session.execute(plan)
     cpu = (ready - began, clock.process_time() - ready)
     return _results(session, cpu)
+
+
+def linearize(scene: Any, commands: Iterable[Any] = (), time: float | None = None) -> Linearization:
+    """The model about one state: at the end of the commands, or integrated to ``time``.
+
+    Without commands, and without SIMULATE in the deck, the assembled start is taken as it is.  A LINEAR
+    command decides the state; otherwise it is the last one.
+
+    Raises
+    ------
+    RunFailed
+        When the state could not be reached.
+    """
+    session = Session(scene, None, {})
+    deck = _deck(scene)
+    plan = [s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM")]
+    session.execute([*plan, *commands, *([_Simulation(time, None, None)] if time else [])])
+    system = session.system
+    if session.outcome is not Outcome.DONE:
+        raise RunFailed(explain(system, session.outcome, session.unclosed))
+    return session.linearizations[-1] if session.linearizations else linear(system)
 
 
 class _Simulation:

@@ -312,7 +312,7 @@ class System:
         return prerequisites(constraints, self.widths[: len(self.model.bodies)])
 
     def _is_multiplier(self, node: int) -> bool:
-        return self.nodes[node][0] in self.model.constraint_kinds
+        return self.nodes[node] in self.model.held
 
     def _mixed_products(self) -> list[int]:
         """Columns of mu: D[row, body] W G[constraint, body]^T for every block of D."""
