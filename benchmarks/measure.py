@@ -11,10 +11,12 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from dataclasses import dataclass, field
 from statistics import median
+from threading import Timer
 from typing import Any
 
 from benchmarks.peers import PROGRAMS
@@ -26,6 +28,9 @@ NEXT_RUNG = 1.4
 ASYMPTOTIC = 0.05
 #: Runs of this CPU [s] are repeated less: (from, at most this often).
 SHORTER = ((8.0, 1), (2.0, 3))
+
+#: Wall time [s] after which a run is given up, whatever the budget.
+PATIENCE = 120.0
 
 ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
 
@@ -69,10 +74,10 @@ class Point:
 
 
 class Worker:
-    """The process of one program."""
+    """The process of one program; it is ended when an answer takes longer than its patience."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self, name: str, patience: float = PATIENCE) -> None:
+        self.name, self.patience = name, patience
         self.process: subprocess.Popen | None = None
 
     def ask(self, point: Point) -> dict[str, Any]:
@@ -86,12 +91,19 @@ class Worker:
         question = {"scene": point.scene, "n": point.n, "settings": point.settings}
         self.process.stdin.write(json.dumps(question) + "\n")
         self.process.stdin.flush()
+        alarm = Timer(self.patience, self.process.kill)
+        alarm.start()
         line = self.process.stdout.readline()
-        return json.loads(line) if line else {"ok": False, "reason": "the program crashed"}
+        alarm.cancel()
+        if line:
+            return json.loads(line)
+        self.process.wait()
+        late = self.process.returncode == -signal.SIGKILL
+        return {"ok": False, "reason": "it took too long" if late else "it crashed"}
 
     def close(self) -> None:
         """Let the process end."""
-        if self.process is not None:
+        if self.process is not None and self.process.poll() is None:
             self.process.stdin.close()
             self.process.wait()
 
@@ -169,7 +181,7 @@ def measure(
     scene: str, n: int, programs: list[str], targets: list[float], budget: float, repeats: int
 ) -> list[Point]:
     """All points of a scene at one N, those that are the cheapest for a target repeated."""
-    workers = {name: Worker(name) for name in programs}
+    workers = {name: Worker(name, max(4 * budget, 30.0)) for name in programs}
     by_program = {
         name: climb(workers[name], PROGRAMS[name], scene, n, targets, budget) for name in programs
     }

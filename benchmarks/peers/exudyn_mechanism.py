@@ -130,7 +130,7 @@ def solve(solver: str, scene: str, n: int, settings: Settings) -> Solution:
 
 def ladder(scene: str, n: int) -> list[Settings]:
     """Its second order needs many steps for ten turns."""
-    return [{"steps": steps} for steps in (1000, 10000, 50000, 200000)]
+    return [{"steps": steps} for steps in (1000, 10000, 50000, 200000, 500000)]
 
 
 PROGRAMS = [

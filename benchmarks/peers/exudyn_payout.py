@@ -10,8 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.peers.exudyn_chain import build, implicit_ladder, load, quiet_settings
-from benchmarks.peers.program import Laps, Program, Settings, Solution, module_found
+from benchmarks.peers.exudyn_chain import build, load, quiet_settings
+from benchmarks.peers.program import (
+    Laps,
+    Program,
+    Settings,
+    Solution,
+    module_found,
+    step_counts,
+)
 from benchmarks.scenes import Chain, chain
 
 
@@ -71,9 +78,14 @@ def solve(solver: str, scene: str, n: int, settings: Settings) -> Solution:
     return Solution(values, setup, took, settings["steps"], bool(ok) and np.isfinite(values).all())
 
 
+def ladder(scene: str, n: int) -> list[Settings]:
+    """Finer than S1 needs: the scene amplifies errors."""
+    return [{"steps": count} for count in step_counts(500, 64000)]
+
+
 PROGRAMS = [
     Program(
-        "Exudyn GeneralizedAlpha, growing", "implicit", ("S5",), implicit_ladder,
+        "Exudyn GeneralizedAlpha, growing", "implicit", ("S5",), ladder,
         partial(solve, "GeneralizedAlpha"), module_found("exudyn"), order=2,
     )
 ]  # fmt: skip

@@ -58,8 +58,8 @@ def four_bar_energy(results: Any, n: int) -> float:
 
 
 def ladder(scene: str, n: int) -> list[Settings]:
-    """ERROR from 1e-2 to 1e-9, two a decade."""
-    return [{"error": float(f"{x:.2g}")} for x in np.geomspace(1e-2, 1e-9, 15)]
+    """ERROR from 1e-2 to 1e-11, two a decade."""
+    return [{"error": float(f"{x:.2g}")} for x in np.geomspace(1e-2, 1e-11, 19)]
 
 
 def program(title: str, **options: Any) -> Program:
