@@ -25,12 +25,13 @@ T_a.  EFFECT=SLIDING takes MU_DYNAMIC for both coefficients, EFFECT=STICTION has
 Sign: against the slip of I relative to J; the opposite acts on J.
 
 What differs from ADAMS, or is not documented: below vs ADAMS holds the joint by a spring that
-yields up to MAX_STICTION_DEFORMATION; here a loaded joint creeps, at most at vs, and comes to rest
-only where the load does (the message about MAX_STICTION_DEFORMATION says so).  In a static analysis
+yields up to MAX_STICTION_DEFORMATION; here a joint under a load that friction can hold creeps,
+slower than vs (check warns when MAX_STICTION_DEFORMATION is given).  In a static analysis
 nothing slips and there is no friction, as with INACTIVE=STATIC.  The overlap of the sliding parts
-stays INITIAL_OVERLAP.  The weights of N in revolute, cylindrical and spherical joints follow the
-descriptions of their arguments; for the two axes of Hooke and universal joints there is no such
-description, and the joints are refused.
+stays INITIAL_OVERLAP.  The defaults of the coefficients and arms are those that Adams/View writes.
+The weights of N in revolute, cylindrical and spherical joints follow the descriptions of their
+arguments; for the two axes of Hooke and universal joints there is no such description, and the
+joints are refused.
 Source: Adams/Solver statement FRICTION; Adams/View help "Translational Joint" and "Friction Regime
 Determination".
 """
