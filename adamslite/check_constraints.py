@@ -199,6 +199,9 @@ def curves(deck: Deck) -> Iterator[Diagnostic]:
         if count != expected:
             yield say(matrix, "matrix-size", "values", count=count, expected=expected)
     for curve in deck.of("CURVE"):
+        if curve.matrix is None:
+            yield say(curve, "missing-argument", word="MATRIX")
+            continue
         matrix = deck.find("MATRIX", curve.matrix)
         least = 4 if curve.form == "CLOSED" else 2
         if matrix and (matrix.columns != 3 or matrix.rows < least):

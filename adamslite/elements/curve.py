@@ -17,9 +17,7 @@ class Curve(Statement):
     """Geometry for PTCV, in the axes of the marker that the curve is laid on."""
 
     form: str = choice(options=("OPEN", "CLOSED"), default="OPEN", help="whether it has ends")
-    matrix: int | str = reference(
-        "MATRIX", to="MATRIX", required=True, help="points, one row x, y, z each"
-    )
+    matrix: int | str | None = reference("MATRIX", to="MATRIX", help="points, one row x, y, z each")
     points: str = choice(
         options=("CURVE_POINTS", "CONTROL_POINTS"), supported=("CURVE_POINTS",),
         default="CURVE_POINTS", help="what the rows of MATRIX are",

@@ -32,7 +32,8 @@ ARGUMENTS: dict[str, Message] = {
     "missing-argument": Message(
         "{label} needs {word}",
         "",
-        ("VARIABLE/1", "SFORCE/1, I=1, FUNCTION=1", "JOINT/1, I=1, J=2", "SIMULATE/END=1"),
+        ("VARIABLE/1", "SFORCE/1, I=1, FUNCTION=1", "JOINT/1, I=1, J=2", "SIMULATE/END=1",
+         "CURVE/1"),
     ),
     "flag-with-value": Message(
         "{word} is a flag and takes no value",
