@@ -19,7 +19,7 @@ SAMPLES = 20
 
 @dataclass(frozen=True)
 class SplineCurve:
-    """``knots`` (k,); ``weights`` (4 + k, 3), a0..a3 and b for x, y, z; ``length`` of the chords."""
+    """``knots`` (k,); ``weights`` (4 + k, 3), a0..a3 and b for x, y, z; ``length`` of chords."""
 
     knots: tuple[float, ...]
     weights: Any
