@@ -78,13 +78,26 @@ def masses(deck: Deck) -> Iterator[Diagnostic]:
     for part in deck.of("PART"):
         if part.ground:
             continue
-        if part.mass is None or part.mass <= 0:
+        if not part.mass:
+            if not _is_held(deck, part):
+                yield say(part, "no-mass", "mass")
+        elif part.mass < 0:
             yield say(part, "no-mass", "mass")
         elif part.cm is None:
             yield say(part, "no-cm")
     for point in deck.of(POINT):
         if point.given("mass") and point.mass <= 0:
             yield say(point, "no-mass", "mass")
+
+
+def _is_held(deck: Deck, part: Statement) -> bool:
+    """Whether some constraint acts on a part: only then may it be without mass."""
+    own = {m.key for m in deck.of("MARKER") if m.owner == ("PART", part.key)}
+    return any(
+        getattr(s, "i", None) in own or getattr(s, "j", None) in own
+        for s in deck.statements
+        if hasattr(s, "constraints")
+    )
 
 
 def inertia(deck: Deck) -> Iterator[Diagnostic]:

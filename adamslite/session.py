@@ -82,6 +82,10 @@ class Session:
             self._assemble()
         return self._system
 
+    def prepare(self) -> None:
+        """Number and assemble the equations now."""
+        self._system = self.system
+
     def execute(self, commands: Iterable[Any]) -> None:
         """Carry out commands until one stops the run or an analysis ends early."""
         for command in commands:

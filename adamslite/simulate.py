@@ -20,6 +20,7 @@ from adamslite.results import Results
 from adamslite.session import Session
 from adamslite.times import spread_times
 
+SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
 COUNTED = ("steps", "rejected", "newton", "jacobians", "factorizations")
 
 
@@ -59,8 +60,11 @@ def simulate(
     flags = {name: value for name, value in asked.items() if value is not None}
     plan = _plan(_deck(scene), tuple(commands), end, steps)
     session = Session(scene, progress, flags)
+    first = next((k for k, c in enumerate(plan) if c.keyword not in SETTINGS), len(plan))
+    session.execute(plan[:first])
+    session.prepare()
     ready = clock.process_time()
-    session.execute(plan)
+    session.execute(plan[first:])
     cpu = (ready - began, clock.process_time() - ready)
     return _results(session, cpu)
 
@@ -102,10 +106,10 @@ def _plan(deck: Any, commands: tuple[Any, ...], end: float | None, steps: int | 
 
     Flags replace the last SIMULATE/DYNAMICS and what follows it.
     """
-    own = [s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM", "SIMULATE")]
-    if any(c.keyword == "SIMULATE" for c in commands):
-        own = [s for s in own if s.keyword != "SIMULATE"]
-    plan = [*own, *commands]
+    own = [s for s in deck.statements if s.keyword in SETTINGS]
+    runs = [s for s in deck.statements if s.keyword == "SIMULATE"]
+    given = any(c.keyword == "SIMULATE" for c in commands)
+    plan = [*own, *([] if given else runs), *commands]
     runs = [k for k, s in enumerate(plan) if s.keyword == "SIMULATE"]
     if end is None and not runs:
         raise UsageError(Outcome.NO_END_TIME.value)

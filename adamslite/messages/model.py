@@ -34,7 +34,7 @@ MODEL: dict[str, Message] = {
     ),
     "no-mass": Message(
         "{label} has no mass",
-        "every body but the ground needs MASS= above zero",
+        "every body needs MASS= above zero, except a PART that constraints carry",
         ("PART/4", "POINT_MASS/4, MASS=0", "POINT_MASS/4, MASS=-1"),
     ),
     "no-cm": Message(
