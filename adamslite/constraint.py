@@ -17,6 +17,13 @@ from typing import Any
 from adamslite.expression import COMPONENTS, Node, Ref, measure
 
 
+# What each kind of row keeps at zero, for messages.
+TOGETHER = ("x of I - J", "y of I - J", "z of I - J")
+ON_LINE = ("offset along x_J", "offset along y_J")
+PARALLEL = ("rotation about y_J (z_I . x_J)", "rotation about x_J (z_I . y_J)")
+SAME_TURN = ("rotation about z_J (x_I . y_J)",)
+
+
 class Constraint:
     """Mixed into statements that have ``constraints(self, scope)``: rows that vanish."""
 
@@ -28,6 +35,11 @@ class Constraint:
     def is_rate(self, model: Any) -> bool:
         """Whether the rows constrain velocities only."""
         return False
+
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """What each row keeps at zero."""
+        return tuple(f"condition {n + 1}" for n in range(self.n_rows))
 
     @property
     def result_names(self) -> tuple[str, ...]:

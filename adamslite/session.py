@@ -30,6 +30,8 @@ from adamslite.outcomes import Outcome
 from adamslite.system import ACCELERATIONS, RECORD, System, engine
 from adamslite.times import output_times
 
+# Outcomes after which the rank of the constraints is looked at again.
+STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
 # Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
 # pivot.
 PIVOTING = 1500
@@ -148,6 +150,22 @@ class Session:
         self.outcome = run_dynamic(system, times, self.settings, self.progress)
         self.time = float(system.report[base.AT])
         self._keep(times, False)
+        if self.outcome in STALLED and self._rank_changed():
+            self._continue(times)
+
+    def _rank_changed(self) -> bool:
+        """Look again for redundant rows; True when they are others than before."""
+        before = list(self._system.dropped)
+        leave_out_redundant(self._system)
+        return self._system.dropped != before
+
+    def _continue(self, times: np.ndarray) -> None:
+        """Go on from where a run stalled to the rest of its output times."""
+        self.outcome = Outcome.DONE
+        rest = np.append(self.time, times[times > self.time])
+        self.outcome = run_dynamic(self._system, rest, self.settings, self.progress)
+        self.time = float(self._system.report[base.AT])
+        self._keep(rest, False, own_start=False)
 
     def _statics(self, times: np.ndarray) -> None:
         system = self.system
@@ -213,14 +231,20 @@ class Session:
             pivoting.drop(system.dropped)
             self._system = pivoting
 
-    def _keep(self, times: np.ndarray, static: bool) -> None:
-        """Append the records made; a state both ends and begins two analyses only once."""
+    def _keep(self, times: np.ndarray, static: bool, own_start: bool = True) -> None:
+        """Append the records made; a state both ends and begins two analyses only once.
+
+        ``own_start``: the first time was asked for.
+        """
         system = self._system
         made = int(system.count[base.RECORDS])
         row = system.nw + int(system.sizes[base.N_OUT])
         self.names, values = columns(system, system.record[: made * row].reshape(made, row))
         times = times[:made].copy()
-        if self.pieces and made and len(self.pieces[-1][0]) and self.pieces[-1][0][-1] == times[0]:
+        if not own_start:
+            times, values = times[1:], values[1:]
+            made -= 1
+        if self.pieces and made > 0 and len(self.pieces[-1][0]) and self.pieces[-1][0][-1] == times[0]:
             if self._began_static:
                 last_times, last_values = self.pieces[-1]
                 self.pieces[-1] = (last_times[:-1], last_values[:-1])

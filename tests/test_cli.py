@@ -164,7 +164,7 @@ def test_check_tells_warnings_and_contents(pipeline, capsys) -> None:
     pipeline.statements = (Named("PART", ground=True), Named("PART"), Named("JOINT", n_rows=5))
     assert main(["check", "cable.adm"]) == 0
     out = capsys.readouterr().out
-    assert "  1 degrees of freedom: 1 moving part, 0 point masses, 5 constraint rows\n" in out
+    assert "  1 degree of freedom: 1 moving part, 0 point masses, 5 constraint rows\n" in out
 
 
 @pytest.mark.parametrize(

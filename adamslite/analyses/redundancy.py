@@ -40,10 +40,9 @@ def leave_out_redundant(system: System) -> list[str]:
 
 
 def row_name(system: System, row: int) -> str:
-    """``JOINT/3, z_I . x_J``: the constraint and which of its conditions."""
+    """``JOINT/3, rotation about y_J (z_I . x_J)``: the constraint and what the row keeps at zero."""
     for constraint in system.model.constraints:
         if row < constraint.n_rows:
-            names = getattr(constraint, "row_names", None)
-            return f"{constraint.label}, {names[row] if names else f'condition {row + 1}'}"
+            return f"{constraint.label}, {constraint.row_names[row]}"
         row -= constraint.n_rows
     raise IndexError("no constraint has this row")

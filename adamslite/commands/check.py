@@ -7,7 +7,6 @@ there are errors; warnings alone do not count.
 import argparse
 import sys
 from collections import Counter
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,8 +14,8 @@ from adamslite.commands.codes import DECK_ERRORS, DONE
 
 if TYPE_CHECKING:
     from adamslite.diagnostics import DeckError
+    from adamslite.deck import Deck
     from adamslite.runs import Scene
-    from adamslite.statement import Statement
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -54,20 +53,33 @@ def _contents(deck_path: Path, scene: "Scene") -> str:
     return (
         f"{deck_path.name}: {warnings}\n"
         f"  {_many(counted.total(), 'statement')}: {listed}\n"
-        f"  {_freedom(scene.deck.statements)}\n"
+        f"  {_freedom(scene.deck)}\n"
     )
 
 
-def _freedom(statements: Sequence["Statement"]) -> str:
-    """Six coordinates for a part and three for a point mass, less one for each constraint row."""
+def _freedom(deck: "Deck") -> str:
+    """Six coordinates for a part and three for a point mass, less one for each independent row."""
+    statements = deck.statements
     parts = sum(each.keyword == "PART" and not each.ground for each in statements)
     points = sum(each.keyword == "POINT_MASS" for each in statements)
-    rows = sum(getattr(each, "n_rows", 0) for each in statements)
+    held = [each.n_rows for each in statements if hasattr(each, "n_rows") and deck.is_active(each)]
+    found = _dropped(deck) if len(held) > parts + points else []
+    free = 6 * parts + 3 * points - sum(held) + len(found)
+    redundant = f"\n  redundant, left out: {'; '.join(found)}" if found else ""
     return (
-        f"{6 * parts + 3 * points - rows} degrees of freedom: "
+        f"{_many(free, 'degree')} of freedom: "
         f"{_many(parts, 'moving part')}, {_many(points, 'point mass', 'point masses')}, "
-        f"{_many(rows, 'constraint row')}"
+        f"{_many(sum(held), 'constraint row')}{redundant}"
     )
+
+
+def _dropped(deck: "Deck") -> list[str]:
+    """Names of redundant rows; only a mechanism with closed loops can have any."""
+    from adamslite.analyses.redundancy import row_name
+    from adamslite.session import Session
+
+    system = Session(deck, None, {}).system
+    return [row_name(system, row) for row in system.dropped]
 
 
 def _many(number: int, one: str, several: str = "") -> str:

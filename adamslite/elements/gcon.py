@@ -30,6 +30,11 @@ class Gcon(Statement):
         """Constraint equations."""
         return 1
 
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """What the row keeps at zero."""
+        return ("FUNCTION",)
+
     def is_rate(self, model: Any) -> bool:
         """Whether FUNCTION measures velocities, itself or through variables."""
         pending, seen = [self.function], set()

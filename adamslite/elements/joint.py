@@ -34,7 +34,7 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 from adamslite.algebra import sp
-from adamslite.constraint import Constraint
+from adamslite.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
 from adamslite.coordinates import (
     angle_since,
     built_slide,
@@ -95,6 +95,23 @@ class Joint(Constraint, Statement):
     def n_rows(self) -> int:
         """Constraint equations of this joint."""
         return self.rows[self.kind]
+
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """What each row keeps at zero."""
+        return {
+            "CONVEL": (*TOGETHER, "equal speed"),
+            "CYLINDRICAL": ON_LINE + PARALLEL,
+            "FIXED": TOGETHER + PARALLEL + SAME_TURN,
+            "HOOKE": TOGETHER + SAME_TURN,
+            "PLANAR": ("offset along z_J", *PARALLEL),
+            "RACKPIN": ("travel against turn",),
+            "REVOLUTE": TOGETHER + PARALLEL,
+            "SCREW": ("travel against turn",),
+            "SPHERICAL": TOGETHER,
+            "TRANSLATIONAL": ON_LINE + PARALLEL + SAME_TURN,
+            "UNIVERSAL": (*TOGETHER, "right angle (z_I . z_J)"),
+        }[self.kind]
 
     @property
     def coordinates(self) -> tuple[str, ...]:

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from adamslite.constraint import Constraint
+from adamslite.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
 from adamslite.statement import Statement, choice, reference, statement
 from adamslite.symbolic import Scope, dot
 
@@ -41,6 +41,18 @@ class Jprim(Constraint, Statement):
     def n_rows(self) -> int:
         """Constraint equations of this primitive."""
         return self.rows[self.kind]
+
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """What each row keeps at zero."""
+        return {
+            "ATPOINT": TOGETHER,
+            "INLINE": ON_LINE,
+            "INPLANE": ("offset along z_J",),
+            "ORIENTATION": PARALLEL + SAME_TURN,
+            "PARALLEL_AXES": PARALLEL,
+            "PERPENDICULAR": ("right angle (z_I . z_J)",),
+        }[self.kind]
 
     def constraints(self, scope: Scope) -> list[Any]:
         """Rows that vanish."""
