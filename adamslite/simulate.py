@@ -140,7 +140,7 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
     summary = {
         "outcome": session.outcome.name, "t_end": session.time, "dof": system.dof,
         **{name: counts[name] for name in COUNTED}, "setup_cpu_s": cpu[0], "solve_cpu_s": cpu[1],
-        "max_violation": float(system.report[base.VIOLATION]), "assembly": session.assembled,
+        "max_violation": float(system.report[base.VIOLATION]),
     }  # fmt: skip
     done = session.outcome is Outcome.DONE
     return Results(
@@ -157,12 +157,16 @@ def _meta(session: Session) -> Mapping[str, str]:
         "deck hash": deck.hash,
         "units": " ".join(units) if units else "as in the deck",
         "integrator": f"{settings.method} {settings.formulation} ERROR={settings.error:g}",
-        **_redundant(session.system),
+        **_notes(session),
     }
 
 
-def _redundant(system: Any) -> dict[str, str]:
-    if not system.dropped:
-        return {}
-    names = "; ".join(row_name(system, row) for row in system.dropped)
-    return {"redundant, left out, reaction zero": names}
+def _notes(session: Session) -> dict[str, str]:
+    """What the program did to the model on its own: moves of the assembly, rows left out."""
+    found = {}
+    if session.assembled:
+        found["assembled"] = "moved " + "; ".join(session.assembled)
+    rows = [row_name(session.system, row) for row in session.system.dropped]
+    if rows:
+        found["redundant"] = f"left out, their reactions are zero: {'; '.join(rows)}"
+    return found

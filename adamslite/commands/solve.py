@@ -32,6 +32,9 @@ SUMMARY = """\
   results              {output}
 """
 
+#: Comments of the results that the summary repeats: what was done to the model.
+NOTES = ("assembled", "redundant")
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite solve`."""
@@ -123,6 +126,9 @@ def _summarize(args: argparse.Namespace, results: "Results", output: str) -> Non
         sys.stderr.write(
             SUMMARY.format(deck=args.deck, sentence=sentence, **results.summary, output=shown)
         )
+        for note in NOTES:
+            if note in results.meta:
+                sys.stderr.write(f"  {note:<20} {results.meta[note]}\n")
     if results.outcome is not Outcome.DONE:
         sys.stderr.write(f"adamslite: {results.message or results.outcome.value}\n")
 

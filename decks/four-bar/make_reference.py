@@ -37,9 +37,7 @@ def energies(a, w):
     pin, top = linkage(a)
     base = sp.Matrix([BASE, 0])
     kinetic = potential = 0
-    for mass, p, q in zip(
-        MASSES, (sp.zeros(2, 1), pin, top), (pin, top, base), strict=True
-    ):
+    for mass, p, q in zip(MASSES, (sp.zeros(2, 1), pin, top), (pin, top, base), strict=True):
         u, v = sp.diff(p, a) * w, sp.diff(q, a) * w
         kinetic += mass / 6 * (u.dot(u) + u.dot(v) + v.dot(v))
         potential += mass * G * (p + q)[1] / 2

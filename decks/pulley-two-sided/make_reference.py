@@ -35,9 +35,7 @@ XYZ = "xyz"
 def mount(sides, angles, leans, lengths, tensions):
     """Force (3, nt) and torque (3, nt) of the mount on the pulley, as its ends are guided."""
     force, torque = 0, 0
-    for side, b, p, length, tension in zip(
-        sides, angles, leans, lengths, tensions, strict=True
-    ):
+    for side, b, p, length, tension in zip(sides, angles, leans, lengths, tensions, strict=True):
         r = np.array(side.frame(b)[0], float)
         k = np.array(side.direction(b, p), float)
         aside = -tension * side.radius * (1 - np.cos(p)) / (length * np.cos(p))

@@ -102,7 +102,9 @@ def main():
     t = np.linspace(0, 0.1, 201)
     columns = free(Crank(0.15, 0.3, (0.36, 0.151104, 0.075552)), 150.0, t)
     last = [columns[name][-1] for name in columns]
-    assert np.allclose(last, [12.135878188931363, 129.02682864754772, 0.4297105801152724], rtol=1e-9)
+    assert np.allclose(
+        last, [12.135878188931363, 129.02682864754772, 0.4297105801152724], rtol=1e-9
+    )
     write(HERE / "slider-crank.reference.csv", FREE, list(columns), [t, *columns.values()])
     t = np.linspace(0, 0.6, 61)
     columns = free(Crank(0.2, 0.2, (0.36, 0.151104, 0.075552)), 10.0, t)
