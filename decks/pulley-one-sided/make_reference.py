@@ -1,4 +1,4 @@
-"""Write the references of the one-sided pulley: involute in closed form, free motion by Lagrange."""
+"""Write the references of the one-sided pulley: involute in closed form, free by Lagrange."""
 
 import sys
 from pathlib import Path

@@ -6,7 +6,7 @@ and a cable of free length u (r, t, z: radius, tangent, axle; w: place along the
     contact = R r(b) + w z,   k = s cos(p) t(b) + sin(p) z,   end = contact + u k
     u = u0 + s R (f - b + b0)
 
-with the turn f of the pulley, s = 1 for a cable that leaves counterclockwise, -1 for the other side.
+with the turn f of the pulley, s = 1 for a cable that leaves counterclockwise, else -1.
 The angular velocity of turret and cable is b' z + p' s r (the axis of the turret is s r).
 """
 
@@ -18,7 +18,7 @@ from minimal import rate
 
 @dataclass(frozen=True)
 class Side:
-    """Data of one side; masses and inertias of link, turret (at the contact) and cable (its end)."""
+    """Data of one side; masses and inertias of link, turret (its contact) and cable (its end)."""
 
     radius: float
     sense: int
