@@ -62,7 +62,7 @@ def solve(
 
 
 def write(path: Path, lines: str, names: Sequence[str], columns: Sequence[Any]) -> None:
-    """Write a reference: instructions, header, table; a number in `columns` stands for all times."""
+    """Write a reference: instructions, header, table; a number in `columns` is constant."""
     wide = np.broadcast_arrays(*[np.atleast_1d(np.asarray(c, float)) for c in columns])
     table = np.round(np.column_stack(wide), 13) + 0.0
     top = "\n".join(f"# {line}" for line in lines.strip().splitlines())

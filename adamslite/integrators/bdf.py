@@ -240,13 +240,14 @@ def weighted(
     top, where = 0.0, 0
     o = row * w
     for i in range(2 * n if si2 else n):
-        size = abs(D[o + i]) / max(1.0, abs(y[i]))
-        if not size <= top:
-            top, where = size, i
+        # Compared before divided: few elements ever set a new maximum.
+        weight = max(1.0, abs(y[i]))
+        if not abs(D[o + i]) <= top * weight:
+            top, where = abs(D[o + i]) / weight, i
     for i in range(2 * n, 2 * n + ns):
-        size = abs(D[o + i]) / max(1.0, abs(y[i]))
-        if not size <= top:
-            top, where = size, i
+        weight = max(1.0, abs(y[i]))
+        if not abs(D[o + i]) <= top * weight:
+            top, where = abs(D[o + i]) / weight, i
     report[WHERE] = where
     return top
 
@@ -473,8 +474,9 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     following = record_at(P, L, D, w, k, t, h, int(C[NEXT]))
     if following < 0:
         return SINGULAR_MASS
+    if following > int(C[NEXT]):
+        restore_state(P, D, w, t)
     C[NEXT] = float(following)
-    restore_state(P, D, w, t)
     track(P)
     rebase(P, D, w, k)
     C[EQUAL] += 1.0

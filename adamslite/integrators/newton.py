@@ -143,14 +143,13 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
     noise, largest = ROUND_OFF * reach, 0.0
     for i in range(n):
         change = abs(dz[i])
-        size = change / max(1.0, abs(q[i]))
-        if change > noise:
+        if not change <= noise:
+            wq, wu = max(1.0, abs(q[i])), max(1.0, abs(u[i]))
             if tied:
-                size = max(change, cu * change)
-            else:
-                size = max(size, cu * change / max(1.0, abs(u[i])))
-        if not size <= largest:
-            largest = size
+                wq, wu = 1.0, 1.0
+            # Compared before divided: few elements ever set a new maximum.
+            if not change <= largest * wq or not cu * change <= largest * wu:
+                largest = max(change / wq, cu * change / wu)
     first = P.sizes[M]
     for k in range(first, first + P.sizes[NV] + P.sizes[NS]):
         size = abs(dz[n + k]) / max(1.0, abs(z[k]))

@@ -60,9 +60,9 @@ def standing(stages):
     words = {1: "One stage", 3: "Three stages"}[stages]
     deck = Deck(
         f"{words} of block and tackle, built misaligned, at rest",
-        f"{LOAD:g} N hang on the hook of stage 1; the parts weigh nothing (no gravity), so that the\n"
-        "ropes carry halves of it. Every part is up to 2 cm and 3 degrees off its place. Level 1 pulleys.\n"
-        "Written by make_reference.py",
+        f"{LOAD:g} N hang on the hook of stage 1; the parts weigh nothing (no gravity):\n"
+        "the ropes carry halves of it. Every part is up to 2 cm and 3 degrees off its place.\n"
+        "Level 1 pulleys. Written by make_reference.py",
         sloppy=(0.02, 3.0),
     )  # fmt: skip
     beckets, fall = anchors(stages)
@@ -89,9 +89,9 @@ def hoisting():
     """Three stages, a head sheave and an effort weight that lifts the cargo."""
     deck = Deck(
         "Three stages of block and tackle: 20 kg lift 100 kg",
-        "The fall goes up over a head sheave to the effort weight. Everything hangs plumb and starts\n"
-        "at rest; all dummies have their centre of mass on the axle of their pulley. Level 1 pulleys.\n"
-        "Written by make_reference.py",
+        "The fall goes up over a head sheave to the effort weight. Everything hangs plumb and\n"
+        "starts at rest; dummies have their centre of mass on the axle of their pulley.\n"
+        "Level 1 pulleys. Written by make_reference.py",
         gravity=f"ACCGRAV/JGRAV=-{G:g}",
     )  # fmt: skip
     beckets, _ = anchors(3)
