@@ -4,9 +4,10 @@ The Newton matrix is stored as dense blocks between nodes (a point mass 3 unknow
 multipliers of one joint, one variable).  :mod:`adamslite.ordering` fixes the elimination order
 and the fill; here is the numeric work only:
 
-    A_kk <- A_kk^-1,   A_ik <- A_ik A_kk^-1,   A_ij <- A_ij - A_ik A_kj,   A_kj <- A_kk A_kj
+    A_kk <- A_kk^-1,   A_ik <- A_ik A_kk^-1,   A_ij <- A_ij - A_ik A_kj        for i, j after k.
 
-for i, j after k; the last product keeps A_kk^-1 out of the chain of dependent operations when solving.
+In a chain of point masses also A_kj <- A_kk A_kj: it keeps the inverse out of the chain of dependent
+operations when solving.
 
 Rows are pivoted inside a diagonal block.  A small model is one node, hence ordinary dense
 elimination with partial pivoting.  Reference: Duff, Erisman, Reid, Direct Methods for Sparse
@@ -167,15 +168,11 @@ def left_times3(A: Reals, d: int, u: int) -> None:
 
 
 @native
-def left_times(A: Reals, d: int, u: int, s: int, sj: int, work: Reals) -> None:
-    """A[u] = A[d] A[u], sizes (s, s) and (s, sj)."""
-    for j in range(sj):
-        for i in range(s):
-            work[i] = 0.0
-            for k in range(s):
-                work[i] += A[d + i * s + k] * A[u + k * sj + j]
-        for i in range(s):
-            A[u + i * sj + j] = work[i]
+def is_link(L: Plan, k: int) -> bool:
+    """A point mass with one other point mass left to couple to: a link of a chain."""
+    if L.first[k + 1] - L.first[k] != 1:
+        return False
+    return L.size[k] == 3 and L.size[L.node[L.first[k]]] == 3
 
 
 @native
@@ -212,12 +209,8 @@ def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
                 else:
                     times(LV, L.lower[e], L.upper[f], L.target[at], si, s, sj)
                 at += 1
-        for e in range(lo, hi):
-            sj = L.size[L.node[e]]
-            if s == 3 and sj == 3:
-                left_times3(LV, o, L.upper[e])
-            else:
-                left_times(LV, o, L.upper[e], s, sj, work)
+        if is_link(L, k):
+            left_times3(LV, o, L.upper[lo])
     return True
 
 
@@ -273,19 +266,20 @@ def forward(L: Plan, LV: Reals, x: Reals) -> None:
 
 @native
 def backward(L: Plan, LV: Reals, x: Reals, y: Reals) -> None:
-    """x_k = A_kk^-1 x_k - sum A_kj x_j; ``y`` is workspace."""
+    """x_k = A_kk^-1 (x_k - sum A_kj x_j), in a chain with the product made before."""
     for k in range(L.size.size - 1, -1, -1):
-        s, p, o = L.size[k], L.start[k], L.diagonal[k]
-        if s == 3:
+        s, p, o, lo = L.size[k], L.start[k], L.diagonal[k], L.first[k]
+        if is_link(L, k):
             replace3(LV[o:], x[p:])
+            subtract3(LV[L.upper[lo] :], x[L.start[L.node[lo]] :], x[p:])
         else:
-            replace(LV[o:], s, x[p:], y)
-        for e in range(L.first[k], L.first[k + 1]):
-            j, u = L.node[e], L.upper[e]
-            if s == 3 and L.size[j] == 3:
-                subtract3(LV[u:], x[L.start[j] :], x[p:])
+            for e in range(lo, L.first[k + 1]):
+                j = L.node[e]
+                subtract(LV[L.upper[e] :], s, L.size[j], x[L.start[j] :], x[p:])
+            if s == 3:
+                replace3(LV[o:], x[p:])
             else:
-                subtract(LV[u:], s, L.size[j], x[L.start[j] :], x[p:])
+                replace(LV[o:], s, x[p:], y)
 
 
 @native
