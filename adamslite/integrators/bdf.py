@@ -76,12 +76,17 @@ from adamslite.integrators.history import (
     rebase,
 )
 from adamslite.integrators.linalg import solve
-from adamslite.integrators.newton import apply_increment, increment_norm, newton_matrix
+from adamslite.integrators.newton import (
+    apply_increment,
+    increment_norm,
+    newton_matrix,
+    velocity_change,
+)
 from adamslite.integrators.records import note_violation, record_at
 from adamslite.translate import Reals, native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
-CORRECTOR_SHARE = 0.05
+CORRECTOR_SHARE = 0.02
 # The next step aims at an estimated error below ERROR by these factors (at a higher order: more
 # caution).
 SAFETY, SAFETY_UP = 3.0, 4.5
@@ -149,8 +154,8 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     tolerance = CORRECTOR_SHARE * P.settings[ERROR]
     tested = cu if P.sizes[SI2] == 1 else 0.0
     last = 0.0
+    motion_from_increments(P, cu, yp, psi, si2)
     for iteration in range(int(P.settings[MAX_IT])):
-        motion_from_increments(P, cu, yp, psi, si2)
         if not keeps_matrix(C, cu):
             if not newton_matrix(P, L, phases, cu, P.q, v, P.u):
                 C[FACTORED] = 0.0
@@ -161,6 +166,11 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
         scale_increment(P, 2.0 / (1.0 + cu / C[FACTORED]))
         size = increment_norm(P, P.F, tested, si2)
         apply_increment(P, P.F, P.q, P.z, P.mu, si2)
+        for i in range(n):
+            P.x[i] = P.u[i]
+        motion_from_increments(P, cu, yp, psi, si2)
+        if si2:
+            size = max(size, velocity_change(P, P.x, cu))
         P.count[NEWTON] += 1
         if not size < 1e12:
             return False
@@ -169,7 +179,6 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
             if C[RATE] > 0.9 and size > tolerance:
                 return False
         if size * min(1.0, C[RATE] / max(1e-3, 1.0 - min(C[RATE], 0.999))) <= tolerance:
-            motion_from_increments(P, cu, yp, psi, si2)
             if iteration == 0:
                 C[RATE] = min(1.0, 2.0 * C[RATE])
             return True

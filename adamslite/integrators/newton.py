@@ -133,8 +133,8 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
     Positions and rotations; velocities (cu times those) when ``cu`` is not zero; variables and
     states.  When constraints tie velocities of different size together (``tied``), an error that
     is small against one is large against another, so increments of bodies count as they are, and
-    so do those of mu, which are velocities.  Increments at the round-off of positions count as
-    none (for velocities times cu), because at small steps they are all there is.
+    those at the round-off of positions count as none, because at small steps they are all there
+    is.
     """
     n, q, u, z = P.sizes[N], P.q, P.u, P.z
     reach = 1.0
@@ -155,8 +155,19 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
         size = abs(dz[n + k]) / max(1.0, abs(z[k]))
         if not size <= largest:
             largest = size
-    if tied:
-        for k in range(P.sizes[NZ] - P.sizes[HOLONOMIC], P.sizes[NZ]):
-            if not abs(dz[k]) <= max(largest, cu * noise):
-                largest = abs(dz[k])
     return largest
+
+
+@native
+def velocity_change(P: Problem, before: Reals, cu: float) -> float:
+    """Largest change of a velocity by an increment of q and mu, above the round-off of positions.
+
+    mu itself tells little: its share W G^T mu of the velocities may be a hundred times larger.
+    """
+    reach, largest = 1.0, 0.0
+    for i in range(P.sizes[N]):
+        reach = max(reach, abs(P.q[i]))
+        change = abs(P.u[i] - before[i])
+        if not change <= largest:
+            largest = change
+    return largest if largest > cu * ROUND_OFF * reach else 0.0
