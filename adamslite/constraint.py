@@ -16,7 +16,6 @@ from typing import Any
 
 from adamslite.expression import COMPONENTS, Node, Ref, measure
 
-
 # What each kind of row keeps at zero, for messages.
 TOGETHER = ("x of I - J", "y of I - J", "z of I - J")
 ON_LINE = ("offset along x_J", "offset along y_J")

@@ -26,8 +26,8 @@ class Outcome(Enum):
         "markers, at initial velocities that contradict a constraint, and at EXACT."
     )
     NOT_KINEMATIC = (
-        "A kinematic analysis needs a model without degrees of freedom. Add MOTION statements, or use "
-        "SIMULATE/DYNAMIC."
+        "A kinematic analysis needs a model without degrees of freedom. Add MOTION statements, or "
+        "use SIMULATE/DYNAMIC."
     )
     UNDETERMINED = (
         "The equations do not determine the accelerations. Look for a part without mass or inertia "

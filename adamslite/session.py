@@ -244,10 +244,10 @@ class Session:
         if not own_start:
             times, values = times[1:], values[1:]
             made -= 1
-        if self.pieces and made > 0 and len(self.pieces[-1][0]) and self.pieces[-1][0][-1] == times[0]:
+        last = self.pieces[-1] if self.pieces else (times[:0], values[:0])
+        if made > 0 and len(last[0]) and last[0][-1] == times[0]:
             if self._began_static:
-                last_times, last_values = self.pieces[-1]
-                self.pieces[-1] = (last_times[:-1], last_values[:-1])
+                self.pieces[-1] = (last[0][:-1], last[1][:-1])
             else:
                 times, values = times[1:], values[1:]
         self._began_static = static

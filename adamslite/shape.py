@@ -1,9 +1,10 @@
 """From a statement to its shape and back: what 1000 equal statements share.
 
-:class:`Binder` walks a statement's declared arguments and replaces every id, number and marker by a slot.
-What remains, written as text, is the *key* of the shape; what was taken out is the instance.  The walk
-needs no sympy, so a deck whose shapes are cached compiles nothing.  :func:`symbolic_view` does the reverse:
-the statement as its physics sees it, with frames for markers and symbols for numbers.
+:class:`Binder` walks a statement's declared arguments and replaces every id, number and marker by
+a slot. What remains, written as text, is the *key* of the shape; what was taken out is the
+instance.  The walk needs no sympy, so a deck whose shapes are cached compiles nothing.
+:func:`symbolic_view` does the reverse: the statement as its physics sees it, with frames for
+markers and symbols for numbers.
 
 A bound tree is one of
 
@@ -21,7 +22,7 @@ from typing import Any
 
 from adamslite import functions  # noqa: F401  registers the deck functions
 from adamslite.between import written_out
-from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time
+from adamslite.expression import Call, Mode, Node, Op, Ref, Time
 from adamslite.function import FUNCTIONS
 from adamslite.functions.forces import NET
 from adamslite.statement import STATEMENTS, Statement
@@ -49,8 +50,8 @@ class Binding:
 class Binder:
     """Binds statements of one model; ``model`` answers what a marker or a variable is.
 
-    Time-only variables are read from the workspace, except among themselves (``inline_signals``), so
-    that they need no order.
+    Time-only variables are read from the workspace, except among themselves (``inline_signals``),
+    so that they need no order.
     """
 
     def __init__(self, model: Any, inline_signals: bool = False) -> None:
@@ -242,7 +243,9 @@ class View:
             return reactions(self, scope)
 
     def end(self, jflag: int) -> int | None:
-        """The frame called I (``jflag`` 0) or J: its own, or that of the (first) joint it acts on."""
+        """The frame called I (``jflag`` 0) or J: its own, or that of the (first) joint it acts
+        on.
+        """
         known = self.__dict__
         held = known.get("joint") or (known.get("joints") or (None,))[0]
         if held is not None:
@@ -254,9 +257,9 @@ class View:
 def reactions(view: View, scope: Scope) -> list[Load]:
     """-G^T lam as loads: what the constraint exerts.
 
-    A row g gives the force -lam dg/dd on I of each relative position d(i,j), the opposite on J, and the
-    torque -lam sum x_c cross dg/dx_c on the part of each axis used; for velocity rows d and x are replaced
-    by v and w (Jourdain's principle).
+    A row g gives the force -lam dg/dd on I of each relative position d(i,j), the opposite on J,
+    and the torque -lam sum x_c cross dg/dx_c on the part of each axis used; for velocity rows d
+    and x are replaced by v and w (Jourdain's principle).
     """
     from adamslite.algebra import sp
     from adamslite.symbolic import ZERO, cross, scale
@@ -306,27 +309,24 @@ class Reader:
         return value
 
     def _read(self, tree: Tree) -> Any:
-        kind = tree[0]
-        if kind == "p":
-            return self.scope.symbol("p", tree[1])
-        if kind == "c":
-            return _exact(tree[1]) if isinstance(tree[1], float) else tree[1]
-        if kind == "t":
-            return self.scope.time
-        if kind == "mode":
-            return self.scope.mode
-        if kind == "m":
-            return tree[1]
-        if kind == "v":
-            return tuple(self(t) for t in tree[1])
-        if kind == "s":
-            return View(STATEMENTS[tree[1]], {name: self(t) for name, t in tree[2]}, [])
-        if kind == "z":
-            return self.scope.symbol("z", self.n_bodies + tree[1], tree[2])
-        if kind == "sig":
-            return self.scope.symbol("sig", tree[1], tree[2])
-        if kind == "o":
-            return self._operation(tree[1], [self(t) for t in tree[2]])
+        scope = self.scope
+        match tree:
+            case ("p", _) | ("sig", _, _):
+                return scope.symbol(*tree)
+            case ("c", value):
+                return _exact(value) if isinstance(value, float) else value
+            case ("t",) | ("mode",):
+                return scope.symbol(tree[0])
+            case ("m", frame):
+                return frame
+            case ("v", trees):
+                return tuple(self(t) for t in trees)
+            case ("s", keyword, fields):
+                return View(STATEMENTS[keyword], {name: self(t) for name, t in fields}, [])
+            case ("z", node, component):
+                return scope.symbol("z", self.n_bodies + node, component)
+            case ("o", op, args):
+                return self._operation(op, [self(t) for t in args])
         return self._call(tree)
 
     def _call(self, tree: Tree) -> Any:
@@ -351,7 +351,9 @@ class Reader:
         a, b = args
         if op == "**":
             return power(a, b)
-        return {"+": lambda: a + b, "-": lambda: a - b, "*": lambda: a * b, "/": lambda: a / b}[op]()
+        return {"+": lambda: a + b, "-": lambda: a - b, "*": lambda: a * b, "/": lambda: a / b}[
+            op
+        ]()
 
 
 def _exact(value: float) -> Any:

@@ -72,8 +72,8 @@ def simulate(
 def linearize(scene: Any, commands: Iterable[Any] = (), time: float | None = None) -> Linearization:
     """The model about one state: at the end of the commands, or integrated to ``time``.
 
-    Without commands, and without SIMULATE in the deck, the assembled start is taken as it is.  A LINEAR
-    command decides the state; otherwise it is the last one.
+    Without commands, and without SIMULATE in the deck, the assembled start is taken as it is.  A
+    LINEAR command decides the state; otherwise it is the last one.
 
     Raises
     ------

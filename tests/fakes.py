@@ -73,6 +73,9 @@ class Named:
 class FakeDeck:
     statements: tuple[Any, ...]
 
+    def is_active(self, statement: Any) -> bool:
+        return True
+
 
 def stopped(outcome: Outcome, **facts: Any) -> Results:
     """Return `fall` with another end."""

@@ -17,6 +17,7 @@ from sample_scope import DIGITS, GROUND, SampleScope
 
 import adamslite.functions  # noqa: F401  fills the registry
 from adamslite.function import FUNCTIONS, Function
+from adamslite.functions.forces import NET
 
 # What the native printer knows; anything else would only be noticed when a deck uses it.
 PRINTABLE = {
@@ -42,7 +43,9 @@ def forms(function: Function) -> list[tuple]:
     return [form for form in itertools.product(*choices) if not function.mistakes(form)]
 
 
-CASES = [(name, form) for name, f in sorted(FUNCTIONS.items()) for form in forms(f)]
+# Net forces are written out as sums of other functions before anything is evaluated.
+EVALUATED = {name: f for name, f in sorted(FUNCTIONS.items()) if name not in NET}
+CASES = [(name, form) for name, f in EVALUATED.items() for form in forms(f)]
 
 
 class Gradient:

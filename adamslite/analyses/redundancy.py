@@ -40,7 +40,9 @@ def leave_out_redundant(system: System) -> list[str]:
 
 
 def row_name(system: System, row: int) -> str:
-    """``JOINT/3, rotation about y_J (z_I . x_J)``: the constraint and what the row keeps at zero."""
+    """``JOINT/3, rotation about y_J (z_I . x_J)``: the constraint and what the row keeps at
+    zero.
+    """
     for constraint in system.model.constraints:
         if row < constraint.n_rows:
             return f"{constraint.label}, {constraint.row_names[row]}"

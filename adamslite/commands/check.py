@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 from adamslite.commands.codes import DECK_ERRORS, DONE
 
 if TYPE_CHECKING:
-    from adamslite.diagnostics import DeckError
     from adamslite.deck import Deck
+    from adamslite.diagnostics import DeckError
     from adamslite.runs import Scene
 
 
@@ -62,7 +62,8 @@ def _freedom(deck: "Deck") -> str:
     statements = deck.statements
     parts = sum(each.keyword == "PART" and not each.ground for each in statements)
     points = sum(each.keyword == "POINT_MASS" for each in statements)
-    held = [each.n_rows for each in statements if hasattr(each, "n_rows") and deck.is_active(each)]
+    rows = [getattr(each, "n_rows", 0) * deck.is_active(each) for each in statements]
+    held = [number for number in rows if number]
     found = _dropped(deck) if len(held) > parts + points else []
     free = 6 * parts + 3 * points - sum(held) + len(found)
     redundant = f"\n  redundant, left out: {'; '.join(found)}" if found else ""

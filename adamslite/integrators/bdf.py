@@ -169,21 +169,24 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
         for i in range(n):
             P.x[i] = P.u[i]
         motion_from_increments(P, cu, yp, psi, si2)
-        if si2:
-            size = max(size, velocity_change(P, P.x, cu))
+        size = max(size, velocity_change(P, P.x, cu) if si2 else 0.0)
         P.count[NEWTON] += 1
-        if not size < 1e12:
-            return False
         if iteration > 0:
             C[RATE] = max(LEAST_RATE, size / last)
-            if C[RATE] > 0.9 and size > tolerance:
-                return False
-        if size * min(1.0, C[RATE] / max(1e-3, 1.0 - min(C[RATE], 0.999))) <= tolerance:
+        if not size < 1e12 or (C[RATE] > 0.9 and iteration > 0 and size > tolerance):
+            return False
+        if remaining(C, size) <= tolerance:
             if iteration == 0:
                 C[RATE] = min(1.0, 2.0 * C[RATE])
             return True
         last = size
     return False
+
+
+@native
+def remaining(C: Reals, size: float) -> float:
+    """Error left after an increment of ``size`` when increments shrink by RATE each time."""
+    return size * min(1.0, C[RATE] / max(1e-3, 1.0 - min(C[RATE], 0.999)))
 
 
 @native
@@ -384,8 +387,8 @@ def after_failure(P: Problem, w: int) -> int:
 def retry_factor(C: Reals) -> float:
     """Change of the step after a failed corrector: smaller at first.
 
-    Near a singular posture (dead centre, flattened parallelogram) ever smaller steps do not help, but
-    a step across does: after some cuts a few other lengths around the last good one are tried.
+    Near a singular posture (dead centre, flattened parallelogram) ever smaller steps do not help,
+    but a step across does: after some cuts a few other lengths around the last good one are tried.
     """
     tried = int(C[RETRIES])
     if C[H_LAST] > 0.0 and tried > CUTS and tried <= CUTS + 5:

@@ -6,8 +6,8 @@ and the fill; here is the numeric work only:
 
     A_kk <- A_kk^-1,   A_ik <- A_ik A_kk^-1,   A_ij <- A_ij - A_ik A_kj        for i, j after k.
 
-In a chain of point masses also A_kj <- A_kk A_kj: it keeps the inverse out of the chain of dependent
-operations when solving.
+In a chain of point masses also A_kj <- A_kk A_kj: it keeps the inverse out of the chain of
+dependent operations when solving.
 
 Rows are pivoted inside a diagonal block.  A small model is one node, hence ordinary dense
 elimination with partial pivoting.  Reference: Duff, Erisman, Reid, Direct Methods for Sparse
@@ -176,6 +176,26 @@ def is_link(L: Plan, k: int) -> bool:
 
 
 @native
+def eliminate(L: Plan, LV: Reals, k: int, at: int, work: Reals) -> int:
+    """Take the inverted pivot block k out of the blocks after it; ``at`` counts the targets."""
+    s, o, lo, hi = L.size[k], L.diagonal[k], L.first[k], L.first[k + 1]
+    for e in range(lo, hi):
+        si = L.size[L.node[e]]
+        if s == 3 and si == 3:
+            right_times3(LV, L.lower[e], o)
+        else:
+            right_times(LV, L.lower[e], o, si, s, work)
+        for f in range(lo, hi):
+            sj = L.size[L.node[f]]
+            if s == 3 and si == 3 and sj == 3:
+                times3(LV, L.lower[e], L.upper[f], L.target[at])
+            else:
+                times(LV, L.lower[e], L.upper[f], L.target[at], si, s, sj)
+            at += 1
+    return at
+
+
+@native
 def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
     """Eliminate in place; returns False when a pivot block is singular.
 
@@ -195,22 +215,9 @@ def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
                 return False
         elif not invert(LV, o, s, pivots, L.start[k], work):
             return False
-        lo, hi = L.first[k], L.first[k + 1]
-        for e in range(lo, hi):
-            si = L.size[L.node[e]]
-            if s == 3 and si == 3:
-                right_times3(LV, L.lower[e], o)
-            else:
-                right_times(LV, L.lower[e], o, si, s, work)
-            for f in range(lo, hi):
-                sj = L.size[L.node[f]]
-                if s == 3 and si == 3 and sj == 3:
-                    times3(LV, L.lower[e], L.upper[f], L.target[at])
-                else:
-                    times(LV, L.lower[e], L.upper[f], L.target[at], si, s, sj)
-                at += 1
+        at = eliminate(L, LV, k, at, work)
         if is_link(L, k):
-            left_times3(LV, o, L.upper[lo])
+            left_times3(LV, o, L.upper[L.first[k]])
     return True
 
 

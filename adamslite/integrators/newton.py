@@ -20,7 +20,6 @@ from adamslite.integrators.base import (
     NB,
     NS,
     NV,
-    NZ,
     M,
     N,
     Plan,

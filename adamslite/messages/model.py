@@ -8,7 +8,8 @@ from adamslite.messages.entry import Message
 
 MODEL: dict[str, Message] = {
     "effective-mass": Message(
-        "{label} pushes {body} along its own acceleration: its effective mass along {axis} is {mass}",
+        "{label} pushes {body} along its own acceleration: "
+        "its effective mass along {axis} is {mass}",
         "",
         (
             "PART/4, MASS=1, CM=4, IP=1,1,1\nMARKER/4, PART=4\n"
