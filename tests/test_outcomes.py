@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import _thread
+import signal
 import threading
 
 import numpy as np
@@ -86,8 +87,16 @@ def test_time_only_variables_need_no_order():
     np.testing.assert_allclose(moved["POINT_MASS/2.ax"], 6 * moved.time)
 
 
+@pytest.fixture
+def listening():
+    """Ctrl-C raises KeyboardInterrupt, even in a process that a shell started to ignore it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.filterwarnings("ignore")
-def test_an_interrupted_run_keeps_what_it_has():
+def test_an_interrupted_run_keeps_what_it_has(listening):
     """Ctrl-C during a long run ends it by name, with the records made until then."""
 
     class Watch:
