@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ctypes
 import math
+import re
+import sys
 import threading
 from math import floor, sqrt
 
@@ -11,14 +13,15 @@ import numpy as np
 import pytest
 from scenes import GROUND, PENDULUM, chain, interpreted, run
 
+import adamslite as al
 from adamslite import native as code
 from adamslite import translate
+from adamslite.analyses.dynamic import METHODS
 from adamslite.integrators import linalg
 from adamslite.integrators.base import Plan, Problem
 from adamslite.translate import REGISTERED, Table, Untranslatable, native
 
 ENGINE = set(REGISTERED)
-USED = ("acceleration", "bdf", "equations", "history", "linalg", "newton", "records")
 LIMIT = 3
 SMALL = Table("Small", {"reals": "Reals", "ints": "Ints"})
 
@@ -128,14 +131,29 @@ JOINT/{k}, SPHERICAL, I={k}1, J={k - 1}0
 }
 
 
-def run_of(deck: str):
-    return run(deck, 0.4, 4, error=1e-4)
+# One method for each native integrator, on every deck; and equilibria, far ones too.
+INTEGRATORS = {operation: method for method, operation in reversed(METHODS.items())}.values()
+RUNS = {
+    f"{name} {method}": (deck, method) for name, deck in DECKS.items() for method in INTEGRATORS
+}
+RUNS |= {
+    "hangs": (PENDULUM.replace("END", "SIMULATE/STATICS\nEND"), None),
+    "falls": (PENDULUM.replace("END", "EQUILIBRIUM/MAXIT=1\nSIMULATE/STATICS\nEND"), None),
+}
+
+
+def run_of(name: str):
+    deck, method = RUNS[name]
+    if method is None:
+        return al.simulate(al.read(deck))
+    return run(deck, 0.4, 4, error=1e-4, integrator=method)
 
 
 @pytest.fixture(scope="module")
 def interpretations():
-    """Every deck run by Python, and the names of the native functions that were called."""
+    """Every run by Python, and the names of the native functions that were called."""
     called: set[str] = set()
+    before = sys.getprofile()
 
     def watch(frame, event, argument):
         if event == "call" and "integrators" in frame.f_code.co_filename:
@@ -143,26 +161,30 @@ def interpretations():
 
     with pytest.MonkeyPatch.context() as patch, np.errstate(all="ignore"):
         interpreted(patch)
+        sys.setprofile(watch)
         threading.setprofile(watch)
-        found = {name: run_of(deck) for name, deck in DECKS.items()}
+        found = {name: run_of(name) for name in RUNS}
         threading.setprofile(None)
+        sys.setprofile(before)
     return found, called
 
 
-@pytest.mark.parametrize("name", DECKS)
+@pytest.mark.parametrize("name", RUNS)
 def test_the_engine_runs_the_same_interpreted_and_native(name, interpretations):
     """Same steps, same iterations, same results to round-off."""
-    by_python, native_run = interpretations[0][name], run_of(DECKS[name])
+    by_python, native_run = interpretations[0][name], run_of(name)
     assert by_python.outcome == native_run.outcome
     for count in ("steps", "rejected", "newton", "jacobians", "factorizations"):
         assert by_python.summary[count] == native_run.summary[count]
     np.testing.assert_allclose(by_python.values, native_run.values, rtol=1e-8, atol=1e-8)
 
 
-def test_those_decks_reach_every_native_function(interpretations):
-    """All that the BDF uses."""
-    used = {n for n in ENGINE if REGISTERED[n].__module__.rpartition(".")[2] in USED}
-    assert used - interpretations[1] <= {"after_failure"}
+def test_those_runs_reach_every_native_function(interpretations):
+    """All that the registered entry calls."""
+    text = translate.translate("run", [Problem, Plan])
+    reached = set(re.findall(r"^define (?:internal )?\w+ @(\w+)\(", text, re.MULTILINE))
+    assert "write_record" in reached
+    assert reached <= interpretations[1]
 
 
 def test_the_engine_is_translated_whole():
