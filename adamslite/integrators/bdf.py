@@ -116,8 +116,8 @@ RUNNING = -1
 # Places in P.control.
 (
     NOW, H, K, K_TOP, EQUAL, NEXT, H_LAST, FACTORED, RATE, FRESH, AGE, RETRIES, TRIES, BAD,
-    TRAVELLED, FARTHEST, SIGNATURE,
-) = range(17)  # fmt: skip
+    TRAVELLED, FARTHEST, SIGNATURE, BLAMED,
+) = range(18)  # fmt: skip
 
 
 @native
@@ -379,8 +379,22 @@ def after_failure(P: Problem, w: int) -> int:
         return RUNNING
     C[RETRIES] += 1.0
     C[FRESH] = 0.0
+    C[BLAMED] = float(wildest(P))
     resize(P, w, retry_factor(C))
     return RUNNING
+
+
+@native
+def wildest(P: Problem) -> int:
+    """The unknown with the largest last increment, numbered as in the error test."""
+    n, first, where, top = P.sizes[N], P.sizes[M] + P.sizes[NV], 0, -1.0
+    for i in range(n):
+        if not abs(P.F[i]) <= top * max(1.0, abs(P.q[i])):
+            top, where = abs(P.F[i]) / max(1.0, abs(P.q[i])), i
+    for k in range(first, first + P.sizes[NS]):
+        if not abs(P.F[n + k]) <= top * max(1.0, abs(P.z[k])):
+            top, where = abs(P.F[n + k]) / max(1.0, abs(P.z[k])), 2 * n + k - first
+    return where
 
 
 @native
@@ -429,6 +443,9 @@ def after_rejection(P: Problem, w: int, norm: float) -> int:
     if not norm < 1e12:
         return NOT_FINITE
     factor = max(0.2, (SAFETY * norm) ** (-1.0 / (C[K] + 1.0)))
+    # At the last, tiny steps the error is round-off, and anybody's.
+    if C[H] > 1e-9 * P.settings[H_MAX]:
+        C[BLAMED] = P.report[WHERE]
     if C[K] > 2.0:
         C[BAD] += 1.0
     if C[BAD] > STIFF_REJECTIONS and C[TRAVELLED] < STIFF_SHARE * C[FARTHEST]:
@@ -461,6 +478,7 @@ def stuck(P: Problem, L: Plan, w: int) -> int:
         for k in range(P.sizes[NZ]):
             if not abs(P.x[k]) > VANISHING * abs(P.pivot0[k]):
                 return SINGULAR_MASS
+    P.report[WHERE] = P.control[BLAMED]
     return NEWTON_FAILED if P.control[RETRIES] > 2.0 else STEP_TOO_SMALL
 
 
@@ -520,12 +538,12 @@ def choose_order(P: Problem, w: int, norm: float) -> None:
     same = max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))
     best, factor = k, same
     if k > 1:
-        low = weighted(D, k, w, n, ns, D, si2, P.report) / (k * tol)
+        low = weighted(D, k, w, n, ns, D, si2, P.coef) / (k * tol)
         f = max(SAFETY * low, 1e-10) ** (-1.0 / k)
         if f > factor and min(f, same) < room:
             best, factor = k - 1, f
     if k < int(C[K_TOP]):
-        high = weighted(D, k + 2, w, n, ns, D, si2, P.report) / ((k + 2) * tol)
+        high = weighted(D, k + 2, w, n, ns, D, si2, P.coef) / ((k + 2) * tol)
         f = max(SAFETY_UP * high, 1e-10) ** (-1.0 / (k + 2))
         if f > factor or (min(f, factor) >= room and high < norm):
             best, factor = k + 1, f

@@ -14,7 +14,7 @@ from adamslite.translate import Reals, native
 MAX_ORDER = 5
 ROWS = MAX_ORDER + 3
 # Rotation vectors are counted anew from the present attitude beyond this length (squared).
-REBASE = 0.01
+REBASE = 0.0025
 
 
 @native
