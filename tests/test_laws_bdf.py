@@ -176,13 +176,14 @@ def test_a_torque_free_body_turns_through_gimbal_lock():
         + "PART/2, MASS=1, CM=2, IP=2,2,2, REULER=0,90D,0, "
         + "WX={:.17g}, WY={:.17g}, WZ={:.17g}\nMARKER/2, PART=2\nEND\n".format(*local)
     )
-    results = done(deck, 12.0, 120, error=1e-10)
+    error = 1e-10
+    results = done(deck, 12.0, 120, error=error)
     found = [attitude(*a) for a in vectors(results, "PART/2", "angles")]
     gaps = [
         np.abs(r - exponential(w * t) @ start).max()
         for r, t in zip(found, results.time, strict=True)
     ]
-    assert max(gaps) < 1e-8
+    assert max(gaps) < error * results.summary["steps"]  # at a constant speed step errors add up
 
 
 def test_the_intermediate_axis_flips_on_time():
