@@ -46,6 +46,10 @@ class Outcome(Enum):
         "The largest allowed number of steps was taken before the end. The scene may be stiffer "
         "than the integrator suits: use an implicit one, a larger ERROR, or a shorter run."
     )
+    UNSTABLE = (
+        "The steps asked for with HINIT are longer than an explicit integrator can take in this "
+        "scene. Give a smaller HINIT or none, or use an implicit integrator (GSTIFF)."
+    )
     NO_END_TIME = (
         "Nothing says how long to run. Give SIMULATE/DYNAMIC, END=..., STEPS=... in a command file "
         "(second argument, or a .acf of the deck's name beside it), or in the deck itself, "

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.choose import Choice, choose
 from adamslite.analyses.dynamic import Settings, run_dynamic
 from adamslite.analyses.initial import Unclosed, initial_conditions
 from adamslite.analyses.joint_start import start_of_joints
@@ -59,6 +60,7 @@ class Session:
         self.kernels = _compiled(scene, progress)
         engine(progress)
         self.settings = replace(Settings(), **flags)
+        self.chosen = Choice(self.settings)
         self.statics = StaticSettings()
         self.time = 0.0
         self.pieces: list[tuple[np.ndarray, np.ndarray]] = []
@@ -147,7 +149,8 @@ class Session:
         system = self.system
         if self.outcome is not Outcome.DONE:
             return
-        self.outcome = run_dynamic(system, times, self.settings, self.progress)
+        self.chosen = choose(system, times, self.settings)
+        self.outcome = run_dynamic(system, times, self.chosen.settings, self.progress)
         self.time = float(system.report[base.AT])
         self._keep(times, False)
         if self.outcome in STALLED and self._rank_changed():
@@ -163,7 +166,7 @@ class Session:
         """Go on from where a run stalled to the rest of its output times."""
         self.outcome = Outcome.DONE
         rest = np.append(self.time, times[times > self.time])
-        self.outcome = run_dynamic(self._system, rest, self.settings, self.progress)
+        self.outcome = run_dynamic(self._system, rest, self.chosen.settings, self.progress)
         self.time = float(self._system.report[base.AT])
         self._keep(rest, False, own_start=False)
 

@@ -150,13 +150,14 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
 
 
 def _meta(session: Session) -> Mapping[str, str]:
-    deck, settings = session.deck, session.settings
+    deck, settings = session.deck, session.chosen.settings
     units = deck.single("UNITS").names
     return {
         "deck": deck.title,
         "deck hash": deck.hash,
         "units": " ".join(units) if units else "as in the deck",
         "integrator": f"{settings.method} {settings.formulation} ERROR={settings.error:g}",
+        **({"integrator chosen": session.chosen.reason} if session.chosen.reason else {}),
         **_notes(session),
     }
 

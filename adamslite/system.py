@@ -33,9 +33,10 @@ PHASES = {
     "signal": base.SIGNALS,
     "output": base.OUTPUTS,
 }
-RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET = range(
-    10
-)
+(
+    RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
+    SPECTRUM,
+) = range(11)  # fmt: skip
 
 
 def engine(progress: Any = None) -> Any:
@@ -172,7 +173,7 @@ class System:
         self.W, self.F, self.x = np.zeros(self.nw + 1), np.zeros(nz + 1), np.zeros(nz + 1)
         self.pivot0 = np.zeros(nz + 1)
         self.history, self.trial = np.zeros(8 * w + 160), np.zeros(3 * w + 3)
-        self.control = np.zeros(24)
+        self.control, self.tableau = np.zeros(24), np.zeros(1)
         self.coef, self.report = np.zeros(16), np.zeros(len(base.REPORT))
         self.settings, self.count = np.zeros(len(base.SETTINGS)), _ints([0] * len(base.COUNTS))
         self.times, self.record = np.zeros(1), np.zeros(1)
@@ -290,6 +291,20 @@ class System:
         for (row, column), offset in self.blocks.items():
             copies += [offset, self.widths[row], self.widths[column], *found.places[row, column]]
         self.copies = _ints(copies)
+        self.product = _ints(
+            [
+                value
+                for (row, column), offset in self.blocks.items()
+                if max(row, column) < len(self.model.bodies)
+                for value in (
+                    offset,
+                    self.widths[row],
+                    self.widths[column],
+                    self.starts[row],
+                    self.starts[column],
+                )  # fmt: skip
+            ]
+        )
         self.unit = _ints(
             [
                 found.places[k, k][0] + c * (found.places[k, k][1] + 1)
@@ -401,6 +416,16 @@ class System:
             )
             full[r : r + h, c : c + w] = self.J[at : at + h * w].reshape(h, w)
         return full
+
+    def prepare_explicit(self) -> None:
+        """Coefficients and room for the stages of the explicit formula."""
+        from adamslite.integrators.dop853 import tableau
+        from adamslite.integrators.explicit import HISTORY_ROWS
+
+        room = HISTORY_ROWS * (2 * self.n + self.ns) + 9 * len(self.model.bodies) + 16
+        self.tableau = tableau()
+        if self.history.size < room:
+            self.history = np.zeros(room)
 
     def start_record(self, times: np.ndarray) -> None:
         """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier

@@ -4,8 +4,8 @@ A function marked :func:`native` may use ``int`` (64 bit), ``float``, ``bool``, 
 ``Reals``), fields of one :class:`Table`, ``if``, ``while``, ``for .. in range``, assignments,
 arithmetic, comparisons, ``abs min max float int sqrt floor``, slices ``a[k:]`` (a shifted array),
 calls of other native functions and ``call_address``.  Arguments carry annotations; a local
-variable has the type of its first assignment. There is no bounds check, and division follows the
-processor.
+variable has the type of its first assignment. ``Alone`` is an array of reals that no other argument
+reaches while the function runs. There is no bounds check, and division follows the processor.
 
 The same functions run under plain Python on numpy arrays, which is how tests compare the two.
 """
@@ -23,6 +23,7 @@ from adamslite.lowering import FAST, literal
 
 Ints = "Ints"
 Reals = "Reals"
+Alone = "Alone"
 SCALARS = {"int": "i64", "float": "double", "bool": "i1"}
 ARRAYS = {"Ints": "i64", "Reals": "double"}
 ALIAS = {"i64": "!2", "double": "!1", "ptr": "!3"}
@@ -107,7 +108,8 @@ def signature(function: Callable[..., Any]) -> tuple[list[tuple[str, str]], str]
     """Argument names with types, and the result type (``void`` for none)."""
     hints = function.__annotations__
     names = list(inspect.signature(function).parameters)
-    kinds = [(n, SCALARS.get(_word(hints[n]), _word(hints[n]))) for n in names]
+    words = [Reals if _word(hints[n]) == Alone else _word(hints[n]) for n in names]
+    kinds = [(n, SCALARS.get(word, word)) for n, word in zip(names, words, strict=True)]
     result = _word(hints.get("return", "None"))
     return kinds, "void" if result == "None" else SCALARS[result]
 
@@ -160,11 +162,16 @@ class Translator:
         self.block(tree.body)
         if self.open:
             self.line("ret void" if self.result == "void" else "unreachable")
-        head = ", ".join(f"{llvm_type(kind)} %arg.{name}" for name, kind in arguments)
+        head = ", ".join(f"{self.passed(name, kind)} %arg.{name}" for name, kind in arguments)
         linkage = "internal " if internal else ""
         body = "\n".join(["entry:", *self.allocations, *self.lines])
         name = self.function.__name__
         return f"define {linkage}{self.result} @{name}({head}) nounwind {{\n{body}\n}}"
+
+    def passed(self, name: str, kind: str) -> str:
+        """Type of an argument with what is promised of it."""
+        alone = _word(self.function.__annotations__[name]) == Alone
+        return llvm_type(kind) + (" noalias" if alone else "")
 
     def fail(self, node: ast.AST, why: str) -> Untranslatable:
         line = getattr(node, "lineno", 0)

@@ -8,12 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from adamslite.analyses.choose import METHODS
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
-from adamslite.system import BDF, System
-
-# Native operation of each method of the INTEGRATOR statement.
-METHODS = {"GSTIFF": BDF, "WSTIFF": BDF}
+from adamslite.system import EXPLICIT, System
 
 OUTCOMES = {
     base.DONE: Outcome.DONE,
@@ -22,6 +20,7 @@ OUTCOMES = {
     base.SINGULAR_MASS: Outcome.SINGULAR_ACCELERATION,
     base.NOT_FINITE: Outcome.NOT_FINITE,
     base.INTERRUPTED: Outcome.INTERRUPTED,
+    base.UNSTABLE: Outcome.UNSTABLE,
 }
 
 
@@ -54,7 +53,10 @@ def run_dynamic(
     )  # fmt: skip
     system.settings[base.STOP] = 0.0
     system.start_record(times)
-    return _named(system, _watched(system, METHODS[settings.method], watch, end))
+    method = METHODS[settings.method]
+    if method == EXPLICIT:
+        system.prepare_explicit()
+    return _named(system, _watched(system, method, watch, end))
 
 
 def _named(system: System, code: int) -> Outcome:

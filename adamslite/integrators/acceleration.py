@@ -70,6 +70,12 @@ def accelerations(
     acceleration_matrix(P)
     if not factor(L, P.LA, P.pivots_a, P.work):
         return False
+    return settle(P, L, u, a, z, sd)
+
+
+@native
+def settle(P: Problem, L: Plan, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool:
+    """Newton at the workspace's state with the matrix that is factored, renewed when it is slow."""
     last = 1e300
     for iteration in range(MAX_ITERATIONS):
         residual(P, ACCELERATION, P.F)

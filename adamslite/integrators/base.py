@@ -27,6 +27,7 @@ scalar          workspace offset of each multiplier, variable and DIFF state
 group           per group: phase, addresses of residual, Jacobian and track, number of instances,
                 addresses of their integers and reals, spare
 copies          per block: Jacobian offset, rows, columns, factor offset, leading dimension
+product         per block between bodies: Jacobian offset, rows, columns, first row, first column
 turning         per block with a rotating column: Jacobian offset, rows, body
 mixed           per product D W G^T: target, its width, D, rows, columns, G, body
 unit            places of the diagonal of mu, one in the acceleration matrix
@@ -40,6 +41,7 @@ J D LV LA       Jacobian blocks (all, of velocities); factors (Newton, accelerat
 x work coef     workspace
 pivots pivots_a row orders of LV and LA;  pivot0: pivots of the first acceleration matrix
 history trial   backward differences of (q, u, s); three such vectors
+tableau         coefficients of the explicit formula
 control         the integrator's own numbers
 record          (nt, nw + n_out) workspace and outputs at the asked times
 ==============  =================================================================================
@@ -112,15 +114,17 @@ MODE_DYNAMICS = 4.0
     BROKEN_START,
     INTERRUPTED,
     NOT_SETTLED,
-) = range(8)
+    UNSTABLE,
+) = range(9)
 
 INT_FIELDS = set(
-    "sizes body scalar group copies turning mixed unit cut ones dead count pivots pivots_a".split()
+    "sizes body scalar group copies product turning mixed unit cut ones dead count pivots "
+    "pivots_a".split()
 )
 FIELDS = (
-    "sizes body mass inertia weight gravity base scalar group copies turning mixed unit cut ones "
-    "dead settings count times report q u a z mu ra rz rd W F J D LV LA x work coef pivots "
-    "pivots_a pivot0 history trial control pz record"
+    "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
+    "cut ones dead settings count times report q u a z mu ra rz rd W F J D LV LA x work coef pivots "
+    "pivots_a pivot0 history trial tableau control pz record"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

@@ -6,13 +6,17 @@ from adamslite.integrators.acceleration import accelerations, put_state
 from adamslite.integrators.base import BROKEN_START, DONE, Plan, Problem, T
 from adamslite.integrators.bdf import bdf
 from adamslite.integrators.equations import jacobian, residual, track
+from adamslite.integrators.explicit import explicit
+from adamslite.integrators.free import spectrum
 from adamslite.integrators.records import write_record
 from adamslite.integrators.static import equilibrium
+from adamslite.integrators.verlet import verlet
 from adamslite.translate import native, translate
 
-RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET = range(
-    10
-)
+(
+    RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
+    SPECTRUM,
+) = range(11)  # fmt: skip
 
 
 @native
@@ -22,12 +26,18 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     """
     if operation == BDF:
         return bdf(P, L)
+    if operation == EXPLICIT:
+        return explicit(P, L)
+    if operation == VERLET:
+        return verlet(P, L)
     if operation == EQUILIBRIUM:
         return equilibrium(P, L)
     if operation == ACCELERATIONS:
         good = accelerations(P, L, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
         return DONE if good else BROKEN_START
     put_state(P, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
+    if operation == SPECTRUM:
+        return spectrum(P)
     if operation == RECORD:
         write_record(P, phases)
         track(P)

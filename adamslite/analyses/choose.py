@@ -1,0 +1,110 @@
+"""Which integrator a run gets: what the model proves, and what the statement asks for.
+
+AUTO, with rho the largest circular frequency of the linearised scene and dt the output step:
+
+1. constraints, variables that are solved for, DIFF states and forces of accelerations need a
+   factored matrix at every stage: implicit;
+2. otherwise explicit while rho dt stays below ``STEPS_WORTH`` radians, VERLET for point masses with
+   ERROR of ``COARSE`` and above, RKF45 for the rest;
+3. implicit: HHT with ERROR of ``COARSE`` and above for scenes that are stiff, else GSTIFF.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import sqrt
+from typing import Any
+
+import numpy as np
+
+from adamslite.faults import UsageError
+from adamslite.integrators import base
+from adamslite.model import PART
+from adamslite.system import BDF, EXPLICIT, SPECTRUM, VERLET, System
+
+# Native operation of each method of the INTEGRATOR statement.
+METHODS = {
+    "GSTIFF": BDF, "WSTIFF": BDF, "ABAM": EXPLICIT, "RKF45": EXPLICIT, "VERLET": VERLET,
+}  # fmt: skip
+AUTO = "AUTO"
+# An explicit step costs a few residuals and covers a few radians of the fastest oscillation; an
+# implicit one costs some ten, and motion worth recording takes some ten steps per output step.
+STEPS_WORTH = 3000.0
+# Formulas of second order pay from here on.
+COARSE = 1e-4
+
+
+@dataclass(frozen=True)
+class Choice:
+    """``settings`` with a method that exists; ``reason`` why, empty when it was asked for."""
+
+    settings: Any
+    reason: str = ""
+
+
+def choose(system: System, times: np.ndarray, settings: Any) -> Choice:
+    """The integrator of a run over ``times`` (nt,).
+
+    Raises
+    ------
+    UsageError
+        When the method asked for does not exist or cannot run this scene.
+    """
+    if settings.method == "VERLET":
+        obstacle = what_ties(system) or what_turns(system)
+        if obstacle:
+            raise UsageError(
+                f"VERLET cannot run this scene: {obstacle}. Use ABAM (explicit) or GSTIFF (implicit)."
+            )
+    if settings.method in METHODS:
+        return Choice(settings)
+    if settings.method != AUTO:
+        known = ", ".join([*METHODS, AUTO])
+        raise UsageError(f"There is no integrator {settings.method}. Known are {known}.")
+    method, reason = _picked(system, times, settings.error)
+    return Choice(replace(settings, method=method), reason)
+
+
+def what_ties(system: System) -> str:
+    """What keeps accelerations from following body by body, as words; empty when nothing does."""
+    for node in system.nodes:
+        if node[0] not in ("BODY", "MU"):
+            kind = {"VARIABLE": "is solved for", "DIFF": "is a state"}
+            return f"{node[0]}/{node[1]} {kind.get(node[0], 'is a constraint')}"
+    if system.sizes[base.IMPLICIT_MASS]:
+        return "a force depends on accelerations"
+    for body in system.model.bodies:
+        if not body.mass > 0.0 or (body.width == PART and np.linalg.matrix_rank(body.inertia) < 3):
+            return f"{body.statement.label} has no mass or inertia"
+    return ""
+
+
+def what_turns(system: System) -> str:
+    """A body that turns: its inertia forces depend on velocities."""
+    part = next((b for b in system.model.bodies if b.width == PART), None)
+    return f"{part.statement.label} turns, and its gyroscopic torque lags" if part else ""
+
+
+def fastest(system: System, time: float) -> float:
+    """Largest circular frequency or rate [rad/time] of the linearised scene, damping included."""
+    system.settings[base.T] = time
+    if system.run(SPECTRUM) != base.DONE:
+        return float("inf")
+    stiff, damp = (float(x) for x in system.control[:2])
+    return max(sqrt(stiff), damp)
+
+
+def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, str]:
+    """Method and reason."""
+    obstacle = what_ties(system)
+    coarse = "HHT" if error >= COARSE and "HHT" in METHODS else "GSTIFF"
+    if obstacle:
+        return "GSTIFF", f"implicit, because {obstacle}"
+    pace = float(np.diff(times).max()) if len(times) > 1 else 0.0
+    radians = fastest(system, float(times[0])) * pace
+    told = f"its fastest oscillation turns {radians:.3g} rad in an output step"
+    if not radians <= STEPS_WORTH:
+        return coarse, f"implicit, because {told}"
+    if error >= COARSE and not what_turns(system):
+        return "VERLET", f"explicit, because nothing ties the masses together and {told}"
+    return "RKF45", f"explicit, because nothing ties the bodies together and {told}"

@@ -1,0 +1,98 @@
+"""Back onto the constraints, by the shortest way in the mass metric.
+
+    [M, G^T; G, 0] (dq, .) = (0, g(q)),    q <- q - dq    until |g| is round-off
+    [M, G^T; G, 0] (du, .) = (0, G u + g_t),   u <- u - du
+
+with the acceleration matrix that is factored in ``P.LA``.  Where forces depend on accelerations M
+is the effective mass.  Reference: Hairer, Wanner, Solving ODE II, 1996, section VII.2.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.base import (
+    HOLONOMIC,
+    NB,
+    NZ,
+    POSITION_ROWS,
+    RATE_ROWS,
+    SI2,
+    VELOCITY_ROWS,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.equations import (
+    BODY,
+    PART,
+    back_rotate,
+    put_motion,
+    put_pose,
+    run_groups,
+)
+from adamslite.integrators.linalg import solve
+from adamslite.translate import Reals, native
+
+SWEEPS = 8
+# Violations below this share of the largest coordinate are round-off.
+ROUND_OFF = 4e-16
+
+RATES = VELOCITY_ROWS | RATE_ROWS
+
+
+@native
+def project(P: Problem, L: Plan, q: Reals, u: Reals) -> bool:
+    """Move q and u onto the constraints; False when positions do not come nearer."""
+    last = 1e300
+    reach = 1.0
+    for i in range(P.sizes[N]):
+        reach = max(reach, abs(q[i]))
+    for _sweep in range(SWEEPS):
+        put_pose(P, q)
+        size = violation(P, POSITION_ROWS)
+        if size <= ROUND_OFF * reach or (size < 1e-12 * reach and size > 0.5 * last):
+            put_motion(P, u, P.a)
+            violation(P, RATES)
+            solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
+            for i in range(P.sizes[N]):
+                u[i] -= P.F[i]
+            return True
+        if not size < 10.0 * last:
+            return False
+        last = size
+        solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
+        move(P, q)
+    return last < 1e-10 * reach
+
+
+@native
+def violation(P: Problem, phases: int) -> float:
+    """The rows of ``phases`` at the places of their multipliers in F; returns the largest."""
+    n, m, holonomic = P.sizes[N], P.sizes[M], P.sizes[HOLONOMIC]
+    for i in range(P.sizes[NZ]):
+        P.F[i] = 0.0
+    run_groups(P, phases, P.F)
+    if P.sizes[SI2] == 1 and phases & VELOCITY_ROWS:
+        for k in range(holonomic):
+            P.F[n + k] = P.F[P.sizes[NZ] - holonomic + k]
+            P.F[P.sizes[NZ] - holonomic + k] = 0.0
+    for k in range(P.dead.size):
+        P.F[P.dead[k]] = 0.0
+    largest = 0.0
+    for k in range(n, n + m):
+        if not abs(P.F[k]) <= largest:
+            largest = abs(P.F[k])
+    return largest
+
+
+@native
+def move(P: Problem, q: Reals) -> None:
+    """q <- q - dq with the turns of dq in ground axes."""
+    for b in range(P.sizes[NB]):
+        i = P.body[BODY * b + 1]
+        if P.body[BODY * b] == PART:
+            back_rotate(q, P.F, i, P.F)
+            for k in range(3, 6):
+                q[i + k] -= P.F[i + k]
+        for k in range(3):
+            q[i + k] -= P.F[i + k]

@@ -1,0 +1,207 @@
+"""VERLET: half a kick, drift, half a kick; for point masses that nothing ties together.
+
+    u+ = u- + h M^-1 f(t, q, u-),     q <- q + h u+         (u half a step away from q)
+
+Second order, in forces of velocities first, because those see the velocity of half a step earlier.
+Between two output times all steps are equal; their length keeps, with the largest eigenvalues
+kappa of M^-1 K and c of M^-1 C,
+
+    kappa h^2 + 2 c h <= 4 and the local error h^2 |change of a|/6 <= ERROR max(1, |q|);
+
+an interval in which it grew too large is done again with shorter steps.
+Reference: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006, sections I.1.4, VIII.4.
+"""
+
+from __future__ import annotations
+
+from math import floor
+
+from adamslite.integrators.acceleration import put_state
+from adamslite.integrators.base import (
+    AT,
+    DONE,
+    ERROR,
+    H_INIT,
+    H_MAX,
+    H_MIN,
+    HOW_MUCH,
+    INTERRUPTED,
+    LOADS,
+    NB,
+    ORDER,
+    REJECTED,
+    RESIDUALS,
+    STEP,
+    STEP_TOO_SMALL,
+    STEPS,
+    STOP,
+    UNSTABLE,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.equations import BODY, put_time, run_groups, track
+from adamslite.integrators.free import divide_by_mass, put_free, radius
+from adamslite.integrators.records import write_record
+from adamslite.translate import native
+
+# Share of the limit of stability; the power iteration comes to the eigenvalue from below.
+STABLE = 0.93
+# Steps from one look at the local error to the next.
+SAMPLE = 8
+# Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
+WORTH = 200.0
+SHRINK, GROW = 0.25, 2.0
+
+# Places in P.control.
+LIMIT, WANTED, SINCE = range(3)
+
+
+@native
+def verlet(P: Problem, L: Plan) -> int:
+    """Integrate over the output times; returns an outcome."""
+    C, fixed = P.control, P.settings[H_INIT] > 0.0
+    for i in range(P.control.size):
+        C[i] = 0.0
+    P.report[ORDER] = 2.0
+    synchronise(P, P.times[0], 0)
+    P.report[AT] = P.times[0]
+    C[SINCE] = WORTH
+    C[WANTED] = P.settings[H_INIT] if fixed else P.settings[H_MAX]
+    for row in range(1, P.times.size):
+        if P.settings[STOP] != 0.0:
+            return INTERRUPTED
+        look_at_stability(P)
+        outcome = cross(P, P.times[row - 1], P.times[row], fixed)
+        if outcome != DONE:
+            synchronise(P, P.times[row - 1], row - 1)
+            return outcome
+        synchronise(P, P.times[row], row)
+        P.report[AT] = P.times[row]
+        track(P)
+    return DONE
+
+
+@native
+def synchronise(P: Problem, t: float, row: int) -> None:
+    """Accelerations at the state in q and u, and a record of it."""
+    put_free(P, t, P.q, P.u)
+    run_groups(P, LOADS, P.F)
+    divide_by_mass(P, P.F, P.history, 0.0, P.a)
+    put_state(P, t, P.q, P.u, P.a, P.z, P.rd)
+    write_record(P, row)
+
+
+@native
+def look_at_stability(P: Problem) -> None:
+    """The longest stable step at the workspace's state, when enough steps were taken since."""
+    C = P.control
+    if C[SINCE] < WORTH:
+        return
+    C[SINCE] = 0.0
+    kappa, c = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
+    bottom = c + (c * c + 4.0 * kappa) ** 0.5
+    C[LIMIT] = 4.0 * STABLE / bottom if bottom > 0.0 else 1e300
+
+
+@native
+def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
+    """From one output time to the next; returns an outcome."""
+    C, n = P.control, P.sizes[N]
+    old = P.trial[0:]
+    for i in range(n):
+        old[i], old[n + i] = P.q[i], P.u[i]
+    wanted = min(C[WANTED], P.settings[H_MAX])
+    while P.settings[STOP] == 0.0:
+        if not fixed:
+            wanted = min(wanted, C[LIMIT])
+        h = (end - t) / max(1.0, 0.0 - floor(1e-9 - (end - t) / wanted))
+        P.report[STEP] = h
+        if h < P.settings[H_MIN]:
+            return STEP_TOO_SMALL
+        if fixed and STABLE * h > C[LIMIT]:
+            return UNSTABLE
+        error = march(P, t, h, int((end - t) / h + 0.5), fixed)
+        P.report[HOW_MUCH] = error
+        if error <= 1.0:
+            if not fixed and error < 0.5:
+                C[WANTED] = min(GROW, 0.9 * max(error, 1e-3) ** (-1.0 / 3.0)) * h
+            else:
+                C[WANTED] = wanted
+            return DONE
+        P.count[REJECTED] += 1
+        if fixed:
+            return UNSTABLE
+        wanted = h * (max(SHRINK, 0.8 * error ** (-1.0 / 3.0)) if error < 1e12 else SHRINK)
+        for i in range(n):
+            P.q[i], P.u[i] = old[i], old[n + i]
+    return INTERRUPTED
+
+
+@native
+def march(P: Problem, t: float, h: float, count: int, fixed: bool) -> float:
+    """``count`` steps; returns the largest local error seen against ERROR, 1e300 when it blew up."""
+    top = 0.0
+    put_free(P, t, P.q, P.u)
+    for s in range(count + 1):
+        if s > 0:
+            put_time(P, t + s * h)
+        run_groups(P, LOADS, P.F)
+        if not fixed:
+            if s % SAMPLE == 0:
+                divide_by_mass(P, P.F, P.history, 0.0, P.ra)
+            elif s % SAMPLE == 1:
+                divide_by_mass(P, P.F, P.history, 0.0, P.a)
+                top = max(top, sampled_error(P, h))
+                if not top < 1e6:
+                    return 1e300
+        kick = 0.5 * h if s == 0 or s == count else h
+        leap(P, kick, h if s < count else 0.0)
+    if not take_over(P):
+        return 1e300
+    P.count[STEPS] += count
+    P.count[RESIDUALS] += count + 1
+    P.control[SINCE] += float(count)
+    return top
+
+
+@native
+def leap(P: Problem, kick: float, drift: float) -> None:
+    """u -= kick M^-1 F, q += drift u in the workspace; minus the weights into F."""
+    W, F, body = P.W, P.F, P.body
+    gx, gy, gz = P.gravity[0], P.gravity[1], P.gravity[2]
+    for b in range(P.sizes[NB]):
+        i, o, m = body[BODY * b + 1], body[BODY * b + 2], P.mass[b]
+        p = kick / m
+        u, v, w = W[o + 3] - p * F[i], W[o + 4] - p * F[i + 1], W[o + 5] - p * F[i + 2]
+        W[o + 3], W[o + 4], W[o + 5] = u, v, w
+        W[o], W[o + 1], W[o + 2] = W[o] + drift * u, W[o + 1] + drift * v, W[o + 2] + drift * w
+        F[i], F[i + 1], F[i + 2] = -m * gx, -m * gy, -m * gz
+
+
+@native
+def sampled_error(P: Problem, h: float) -> float:
+    """h^2 |a - earlier a|/6 against ERROR max(1, |q|)."""
+    top = 0.0
+    for b in range(P.sizes[NB]):
+        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+        for k in range(3):
+            change = abs(P.a[i + k] - P.ra[i + k])
+            weight = max(1.0, abs(P.W[o + k]))
+            if not change <= top * weight:
+                top = change / weight
+    if not top < 1e200:
+        return 1e300
+    return top * h * h / (6.0 * P.settings[ERROR])
+
+
+@native
+def take_over(P: Problem) -> bool:
+    """Positions and velocities of the workspace into q and u; False when they are not numbers."""
+    for b in range(P.sizes[NB]):
+        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+        for k in range(3):
+            P.q[i + k], P.u[i + k] = P.W[o + k], P.W[o + 3 + k]
+            if not abs(P.W[o + k]) + abs(P.W[o + 3 + k]) < 1e200:
+                return False
+    return True
