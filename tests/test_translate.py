@@ -16,9 +16,11 @@ from scenes import GROUND, PENDULUM, chain, interpreted, run
 import adamslite as al
 from adamslite import native as code
 from adamslite import translate
-from adamslite.analyses.dynamic import METHODS
+from adamslite.analyses.choose import METHODS
+from adamslite.faults import UsageError
 from adamslite.integrators import linalg
 from adamslite.integrators.base import Plan, Problem
+from adamslite.statement import STATEMENTS
 from adamslite.translate import REGISTERED, Table, Untranslatable, native
 
 ENGINE = set(REGISTERED)
@@ -89,6 +91,8 @@ def test_every_construction_means_what_it_means_in_python():
 ADDED_MASS = "VFORCE/{id}, I={id}, J_PART=1, FX=-0.2*ACCX({id})\\FY=VARVAL(7)"
 DECKS = {
     "hinged": PENDULUM,
+    "loose": chain(2),
+    "spins": GROUND + "PART/2, MASS=1, CM=2, IP=1,2,3, WX=1, WY=2\nMARKER/2, PART=2\nEND\n",
     "long": chain(13, ADDED_MASS).replace("END", "VARIABLE/7, FUNCTION=SIN(TIME)\nEND"),
     "states": GROUND
     + """PART/2, MASS=1, CM=2, IP=1,2,3, WX=1, WY=2
@@ -132,7 +136,8 @@ JOINT/{k}, SPHERICAL, I={k}1, J={k - 1}0
 
 
 # One method for each native integrator, on every deck; and equilibria, far ones too.
-INTEGRATORS = {operation: method for method, operation in reversed(METHODS.items())}.values()
+SUPPORTED = STATEMENTS["INTEGRATOR"].arguments["method"].supported
+INTEGRATORS = {METHODS.get(method, method): method for method in SUPPORTED}.values()
 RUNS = {
     f"{name} {method}": (deck, method) for name, deck in DECKS.items() for method in INTEGRATORS
 }
@@ -143,10 +148,14 @@ RUNS |= {
 
 
 def run_of(name: str):
+    """The results, or None where the method says that it cannot run the deck."""
     deck, method = RUNS[name]
     if method is None:
         return al.simulate(al.read(deck))
-    return run(deck, 0.4, 4, error=1e-4, integrator=method)
+    try:
+        return run(deck, 0.4, 4, error=1e-4, integrator=method)
+    except UsageError:
+        return None
 
 
 @pytest.fixture(scope="module")
@@ -173,6 +182,9 @@ def interpretations():
 def test_the_engine_runs_the_same_interpreted_and_native(name, interpretations):
     """Same steps, same iterations, same results to round-off."""
     by_python, native_run = interpretations[0][name], run_of(name)
+    if by_python is None or native_run is None:
+        assert by_python is native_run
+        return
     assert by_python.outcome == native_run.outcome
     for count in ("steps", "rejected", "newton", "jacobians", "factorizations"):
         assert by_python.summary[count] == native_run.summary[count]
