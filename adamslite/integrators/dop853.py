@@ -7,6 +7,8 @@ estimate from section II.10.
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 NODES = (
@@ -76,12 +78,14 @@ DENSE = (
      15: -149.72683625798564},
 )  # fmt: skip
 
-# A row of the native table: number of terms (a multiple of four), then stage and weight of each.
-TERMS = 12
-ROW = 1 + 2 * TERMS
+# A row of the native table: number of terms (a multiple of four), sum of the weights, then stage,
+# weight, and weight of the stage's part in the second integral, w A.
+TERMS = 16
+ROW = 2 + 3 * TERMS
 RESULT, LATE, ERROR5, ERROR3, POWERS, TIMES = 11, 12, 15, 16, 17, 21
 
 
+@cache
 def tableau() -> np.ndarray:
     """The native table: stages, result, late stages, both errors, interpolation, nodes."""
     result = STAGES[RESULT]
@@ -91,7 +95,12 @@ def tableau() -> np.ndarray:
 
 
 def _row(terms: dict[int, float]) -> list[float]:
-    pairs = sorted(terms.items())
-    pairs += [(0, 0.0)] * (-len(pairs) % 4)
-    flat = [float(x) for pair in pairs for x in pair]
-    return [float(len(pairs)), *flat, *[0.0] * (ROW - 1 - len(flat))]
+    twice: dict[int, float] = {}
+    for stage, weight in terms.items():
+        for j, inner in STAGES[stage - 1].items() if stage else ():
+            twice[j] = twice.get(j, 0.0) + weight * inner
+    triples = [(j, terms.get(j, 0.0), twice.get(j, 0.0)) for j in sorted({**terms, **twice})]
+    triples += [(0, 0.0, 0.0)] * (-len(triples) % 4)
+    flat = [float(x) for triple in triples for x in triple]
+    head = [float(len(triples)), sum(terms.values())]
+    return [*head, *flat, *[0.0] * (ROW - 2 - len(flat))]

@@ -1,7 +1,7 @@
 """ABAM, RKF45: an explicit Runge-Kutta pair of order 8(5,3) with dense output of order 7.
 
     y = (q, u, s),   y' = f(t, y) = (T^-1 u, a, s'),     k_i = f(t + c_i h, y + h sum a_ij k_j)
-    y+ = y + h sum b_i k_i,     error = |e5|^2/sqrt(|e5|^2 + 0.01 |e3|^2)     against ERROR max(1, |y|)
+    y+ = y + h sum b_i k_i,    error = |e5|^2/sqrt(|e5|^2 + 0.01 |e3|^2)    over ERROR max(1, |y|)
 
 Accelerations come body by body when nothing ties bodies together
 (:mod:`adamslite.integrators.free`), else from the index-1 equations
@@ -65,7 +65,13 @@ from adamslite.integrators.dop853 import (
     TIMES,
 )
 from adamslite.integrators.equations import BODY, PART, track, vector_rates
-from adamslite.integrators.free import free_accelerations, invert_inertia, is_free
+from adamslite.integrators.free import (
+    free_accelerations,
+    invert_inertia,
+    is_free,
+    mass_accelerations,
+    mass_tables,
+)
 from adamslite.integrators.linalg import factor
 from adamslite.integrators.projection import project
 from adamslite.integrators.records import note_violation, write_record
@@ -84,21 +90,51 @@ SINGULAR_RESOLUTION = 1e-6
 
 RUNNING = -1
 # Places in P.control.
-CLOCK, H, FOLLOWING, LAST_ERROR, FREE, CAUTIOUS, SIGNATURE, FAILED = range(8)
+CLOCK, H, FOLLOWING, LAST_ERROR, FREE, CAUTIOUS, SIGNATURE, FAILED, WIDTH = range(9)
+# Kinds of scenes, in C[FREE]: tied, free bodies, point masses alone.
+BODIES, MASSES = 1.0, 2.0
 
 
 @native
-def blend(
-    x: Reals, a: Reals, b: Reals, c: Reals, d: Reals,
-    ca: float, cb: float, cc: float, cd: float, w: int, y: Alone,
-) -> None:  # fmt: skip
-    """y = x + ca a + cb b + cc c + cd d"""
-    for i in range(w):
-        y[i] = x[i] + (ca * a[i] + cb * b[i]) + (cc * c[i] + cd * d[i])
+def combine(P: Problem, row: int, w: int, h: float, x: Reals, y: Reals) -> None:
+    """y = x + h sum (weight k) over one row of the tableau."""
+    if P.control[FREE] == MASSES:
+        n, s = P.sizes[N], h * P.tableau[ROW * row + 1]
+        for i in range(n):
+            y[n + i] = x[n + i]
+            y[i] = x[i] + s * x[n + i]
+    else:
+        for i in range(w):
+            y[i] = x[i]
+    add_combined(P, row, w, h, y)
 
 
 @native
-def add_blend(
+def add_combined(P: Problem, row: int, w: int, h: float, y: Reals) -> None:
+    """y += h sum (weight k) over one row of the tableau.
+
+    Masses keep no rates of positions: those of stage i are u + h sum a_ij a_j, so that positions
+    get h^2 sum (weight A)_j a_j.
+    """
+    K, o, n = P.history, ROW * row, P.sizes[N]
+    for g in range(0, int(P.tableau[o]), 4):
+        V = P.tableau[o + 2 + 3 * g :]
+        if P.control[FREE] == MASSES:
+            add_twice(
+                K[n * int(V[0]) :], K[n * int(V[3]) :], K[n * int(V[6]) :], K[n * int(V[9]) :],
+                h * V[1], h * V[4], h * V[7], h * V[10],
+                h * P.control[H] * V[2], h * P.control[H] * V[5],
+                h * P.control[H] * V[8], h * P.control[H] * V[11], n, y, y[n:],
+            )  # fmt: skip
+        else:
+            add_once(
+                K[w * int(V[0]) :], K[w * int(V[3]) :], K[w * int(V[6]) :], K[w * int(V[9]) :],
+                h * V[1], h * V[4], h * V[7], h * V[10], w, y,
+            )  # fmt: skip
+
+
+@native
+def add_once(
     a: Reals, b: Reals, c: Reals, d: Reals,
     ca: float, cb: float, cc: float, cd: float, w: int, y: Alone,
 ) -> None:  # fmt: skip
@@ -108,27 +144,15 @@ def add_blend(
 
 
 @native
-def combine(P: Problem, row: int, w: int, h: float, x: Reals, y: Reals) -> None:
-    """y = x + h sum (weight k) over one row of the tableau."""
-    K, o = P.history, ROW * row
-    V = P.tableau[o:]
-    blend(
-        x, K[w * int(V[1]) :], K[w * int(V[3]) :], K[w * int(V[5]) :], K[w * int(V[7]) :],
-        h * V[2], h * V[4], h * V[6], h * V[8], w, y,
-    )  # fmt: skip
-    add_combined(P, row, 4, w, h, y)
-
-
-@native
-def add_combined(P: Problem, row: int, start: int, w: int, h: float, y: Reals) -> None:
-    """y += h sum (weight k) over one row of the tableau from term ``start``."""
-    K, o = P.history, ROW * row
-    for g in range(start, int(P.tableau[o]), 4):
-        V = P.tableau[o + 2 * g :]
-        add_blend(
-            K[w * int(V[1]) :], K[w * int(V[3]) :], K[w * int(V[5]) :], K[w * int(V[7]) :],
-            h * V[2], h * V[4], h * V[6], h * V[8], w, y,
-        )  # fmt: skip
+def add_twice(
+    a: Reals, b: Reals, c: Reals, d: Reals,
+    ca: float, cb: float, cc: float, cd: float,
+    ea: float, eb: float, ec: float, ed: float, n: int, q: Alone, u: Alone,
+) -> None:  # fmt: skip
+    """u += ca a + ..., q += ea a + ... in one pass."""
+    for i in range(n):
+        u[i] += (ca * a[i] + cb * b[i]) + (cc * c[i] + cd * d[i])
+        q[i] += (ea * a[i] + eb * b[i]) + (ec * c[i] + ed * d[i])
 
 
 @native
@@ -145,8 +169,11 @@ def explicit(P: Problem, L: Plan) -> int:
 def rates_at(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
     """k = f(t, y); False when the accelerations cannot be solved for."""
     n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
-    if P.control[FREE] != 0.0:
-        inverse = P.history[INVERSE * (2 * n) :]
+    inverse = P.history[INVERSE * (2 * n) :]
+    if P.control[FREE] == MASSES:
+        mass_accelerations(P, t, y, y[n:], inverse, inverse[n:], k)
+        return True
+    if P.control[FREE] == BODIES:
         free_accelerations(P, t, y, y[n:], inverse, k[n:])
         vector_rates(P, y, y[n:], k)
         return True
@@ -178,8 +205,9 @@ def exact_rates(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
     good = True
     if P.control[FREE] != 0.0:
         rates_at(P, L, t, y, k)
+        first = 0 if P.control[FREE] == MASSES else n
         for i in range(n):
-            P.a[i] = k[n + i]
+            P.a[i] = k[first + i]
         put_state(P, t, y, y[n:], P.a, P.z, P.rd)
     else:
         for i in range(P.sizes[NS]):
@@ -212,8 +240,12 @@ def begin_explicit(P: Problem, L: Plan) -> int:
         y[i], y[n + i] = P.q[i], P.u[i]
     for i in range(ns):
         y[2 * n + i] = P.z[first + i]
-    if is_free(P) and invert_inertia(P, P.history[INVERSE * w :]):
-        C[FREE] = 1.0
+    C[WIDTH] = float(w)
+    inverse = P.history[INVERSE * w :]
+    if is_free(P) and mass_tables(P, inverse, inverse[n:]):
+        C[FREE], C[WIDTH] = MASSES, float(n)
+    elif is_free(P) and invert_inertia(P, inverse):
+        C[FREE] = BODIES
     elif not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return BROKEN_START
     if P.sizes[IMPLICIT_MASS]:
@@ -253,18 +285,37 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
     room = min(P.settings[H_MAX], P.settings[T_END] - P.settings[T])
     if P.settings[H_INIT] > 0.0:
         return min(room, P.settings[H_INIT])
-    y, k, new = P.history[OLD * w :], P.history[0:], P.history[NEXT_STATE * w :]
-    d0, d1 = distance(P, y, y, w), distance(P, k, y, w)
+    y, new, width = P.history[OLD * w :], P.history[NEXT_STATE * w :], int(P.control[WIDTH])
+    h = euler(P, w, 1.0)
+    d0, d1 = distance(P, y, y, w), change(P, w) / h
     h = min(room, 0.01 * d0 / d1 if d0 > 1e-5 and d1 > 1e-5 else 1e-6)
-    for i in range(w):
-        new[i] = y[i] + h * k[i]
-    if not rates_at(P, L, P.settings[T] + h, new, P.history[w:]):
+    euler(P, w, h)
+    k = P.history[width:]
+    if not rates_at(P, L, P.settings[T] + h, new, k):
         return 0.01 * h
-    for i in range(w):
-        new[i] = P.history[w + i] - k[i]
-    d2 = max(d1, distance(P, new, y, w) / h)
+    d2, n = d1, P.sizes[N]
+    for i in range(w - n):
+        k[i] = k[width - w + n + i] - P.history[width - w + n + i]
+    d2 = max(d2, distance(P, k, y[n:], w - n) / h)
     later = (0.01 / d2) ** 0.125 if d2 > 1e-15 else max(1e-6, 1e-3 * h)
     return min(room, min(100.0 * h, later))
+
+
+@native
+def euler(P: Problem, w: int, h: float) -> float:
+    """The new state by Euler's formula; returns h."""
+    P.control[H] = h
+    combine(P, 0, w, h / P.tableau[3], P.history[OLD * w :], P.history[NEXT_STATE * w :])
+    return h
+
+
+@native
+def change(P: Problem, w: int) -> float:
+    """Distance of the new state from the old."""
+    y, new, e = P.history[OLD * w :], P.history[NEXT_STATE * w :], P.trial[0:]
+    for i in range(w):
+        e[i] = new[i] - y[i]
+    return distance(P, e, y, w)
 
 
 @native
@@ -321,7 +372,8 @@ def run_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
     y, new = K[OLD * w :], K[NEXT_STATE * w :]
     for i in range(1, RESULT + 1):
         combine(P, i - 1, w, h, y, new)
-        if not rates_at(P, L, t + h * P.tableau[ROW * TIMES + i], new, K[i * w :]):
+        at = t + h * P.tableau[ROW * TIMES + i]
+        if not rates_at(P, L, at, new, K[i * int(P.control[WIDTH]) :]):
             return False
     combine(P, RESULT, w, h, y, new)
     return True
@@ -329,7 +381,7 @@ def run_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
 
 @native
 def estimate(P: Problem, w: int, h: float) -> float:
-    """Error of the step against ERROR; the fifth order's, tamed where it is far below the third's."""
+    """Error of the step against ERROR: the fifth order's, tamed by the third's."""
     y, zero, e = P.history[NEXT_STATE * w :], P.history[BETWEEN * w :], P.trial[0:]
     for i in range(w):
         zero[i] = 0.0
@@ -351,10 +403,10 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
     h, t = C[H], C[CLOCK] + C[H]
     if t + 1e-7 * h > P.settings[T_END]:
         t = P.settings[T_END]
-    new = K[NEXT_STATE * w :]
+    new, width = K[NEXT_STATE * w :], int(C[WIDTH])
     if P.sizes[IMPLICIT_MASS] and changed_signature(P, L, t, new):
         return shorten(P, 0.25)
-    if not exact_rates(P, L, t, new, K[K_NEW * w :]):
+    if not exact_rates(P, L, t, new, K[K_NEW * width :]):
         return shorten(P, 0.25)
     P.count[STEPS] += 1
     C[FAILED] = 0.0
@@ -365,7 +417,8 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
     C[CLOCK] = t
     for i in range(w):
         K[OLD * w + i] = new[i]
-        K[i] = K[K_NEW * w + i]
+    for i in range(width):
+        K[i] = K[K_NEW * width + i]
     stand_again(P, w)
     track(P)
     base_here(P, w)
@@ -450,7 +503,7 @@ def late_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
     for i in range(K_NEW + 1, K_NEW + 4):
         combine(P, LATE + i - K_NEW - 1, w, h, K[OLD * w :], y)
         at = P.control[CLOCK] + h * P.tableau[ROW * TIMES + i]
-        if not rates_at(P, L, at, y, K[i * w :]):
+        if not rates_at(P, L, at, y, K[i * int(P.control[WIDTH]) :]):
             return False
     return True
 
@@ -462,9 +515,13 @@ def interpolated(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
     old, new = K[OLD * w :], K[NEXT_STATE * w :]
     a, b, c = x, x * z, x * x * z
     for i in range(w):
-        gain = new[i] - old[i]
-        y[i] = old[i] + (a - b + 2.0 * c) * gain + h * ((b - c) * K[i] - c * K[K_NEW * w + i])
+        y[i] = old[i] + (a - b + 2.0 * c) * (new[i] - old[i])
+    width = int(P.control[WIDTH])
+    for i in range(width):
+        y[w - width + i] += h * ((b - c) * K[i] - c * K[K_NEW * width + i])
+    for i in range(w - width):
+        y[i] += h * ((b - c) * old[width + i] - c * new[width + i])
     weight = h * x * x * z * z
     for j in range(4):
-        add_combined(P, POWERS + j, 0, w, weight, y)
+        add_combined(P, POWERS + j, w, weight, y)
         weight *= x if j % 2 == 0 else z

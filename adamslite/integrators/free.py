@@ -93,6 +93,38 @@ def free_accelerations(P: Problem, t: float, q: Reals, u: Reals, inverse: Reals,
 
 
 @native
+def mass_tables(P: Problem, inverse: Reals, weight: Reals) -> bool:
+    """-1/m and -m g of every unknown; False when a body turns."""
+    for b in range(P.sizes[NB]):
+        if P.body[BODY * b] == PART:
+            return False
+        for k in range(3):
+            inverse[3 * b + k] = -1.0 / P.mass[b]
+            weight[3 * b + k] = -P.mass[b] * P.gravity[k]
+    return True
+
+
+@native
+def mass_accelerations(
+    P: Problem, t: float, q: Reals, u: Reals, inverse: Reals, weight: Reals, a: Reals
+) -> None:
+    """a (n,) of point masses, with the tables made before; unknowns and workspace are in a row."""
+    n, W, F = P.sizes[N], P.W[P.body[2] :], P.F
+    put_time(P, t)
+    for b in range(P.sizes[NB]):
+        i, o = 3 * b, 9 * b
+        x, y, z = q[i], q[i + 1], q[i + 2]
+        vx, vy, vz = u[i], u[i + 1], u[i + 2]
+        W[o], W[o + 1], W[o + 2], W[o + 3], W[o + 4], W[o + 5] = x, y, z, vx, vy, vz
+    for i in range(n):
+        F[i] = weight[i]
+    run_groups(P, LOADS, F)
+    P.count[RESIDUALS] += 1
+    for i in range(n):
+        a[i] = inverse[i] * F[i]
+
+
+@native
 def divide_by_mass(P: Problem, F: Reals, inverse: Reals, turning: float, a: Reals) -> None:
     """a = -M^-1 F, for parts with ``turning`` times the gyroscopic torque of the workspace."""
     body = P.body

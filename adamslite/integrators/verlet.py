@@ -140,7 +140,7 @@ def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
 
 @native
 def march(P: Problem, t: float, h: float, count: int, fixed: bool) -> float:
-    """``count`` steps; returns the largest local error seen against ERROR, 1e300 when it blew up."""
+    """``count`` steps; returns the largest local error seen against ERROR, 1e300 for a blow-up."""
     top = 0.0
     put_free(P, t, P.q, P.u)
     for s in range(count + 1):
