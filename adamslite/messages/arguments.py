@@ -75,7 +75,7 @@ ARGUMENTS: dict[str, Message] = {
     "planned-choice": Message(
         "not supported yet: {keyword} of the kind {word}{times}",
         "supported are {known}",
-        ("INTEGRATOR/ABAM",),
+        ("INTEGRATOR/HASTIFF",),
     ),
     "expression-not-closed": Message(
         "the expression before {word} does not end with a backslash",
