@@ -212,7 +212,7 @@ class Session:
     # helpers
 
     def _numbered(self, pivoting: bool) -> System:
-        system = System(self.kernels, self.settings.formulation == "SI2", pivoting)
+        system = System(self.kernels, self.settings.form == "SI2", pivoting)
         system.settings[base.T] = self.time
         return system
 

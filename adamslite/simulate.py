@@ -156,7 +156,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         "deck": deck.title,
         "deck hash": deck.hash,
         "units": " ".join(units) if units else "as in the deck",
-        "integrator": f"{settings.method} {settings.formulation} ERROR={settings.error:g}",
+        "integrator": f"{settings.method} {settings.form} ERROR={settings.error:g}",
         **({"integrator chosen": session.chosen.reason} if session.chosen.reason else {}),
         **_notes(session),
     }

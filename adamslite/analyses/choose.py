@@ -20,11 +20,12 @@ import numpy as np
 from adamslite.faults import UsageError
 from adamslite.integrators import base
 from adamslite.model import PART
-from adamslite.system import BDF, EXPLICIT, SPECTRUM, VERLET, System
+from adamslite.system import BDF, EXPLICIT, HHT, SPECTRUM, VERLET, System
 
 # Native operation of each method of the INTEGRATOR statement.
 METHODS = {
-    "GSTIFF": BDF, "WSTIFF": BDF, "ABAM": EXPLICIT, "RKF45": EXPLICIT, "VERLET": VERLET,
+    "GSTIFF": BDF, "WSTIFF": BDF, "HHT": HHT, "NEWMARK": HHT,
+    "ABAM": EXPLICIT, "RKF45": EXPLICIT, "VERLET": VERLET,
 }  # fmt: skip
 AUTO = "AUTO"
 # An explicit step costs a few residuals and covers a few radians of the fastest oscillation; an
@@ -54,7 +55,8 @@ def choose(system: System, times: np.ndarray, settings: Any) -> Choice:
         obstacle = what_ties(system) or what_turns(system)
         if obstacle:
             raise UsageError(
-                f"VERLET cannot run this scene: {obstacle}. Use ABAM (explicit) or GSTIFF (implicit)."
+                f"VERLET cannot run this scene: {obstacle}. "
+                "Use ABAM (explicit) or GSTIFF (implicit)."
             )
     if settings.method in METHODS:
         return Choice(settings)

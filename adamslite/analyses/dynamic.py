@@ -36,6 +36,21 @@ class Settings:
     hinit: float | None = None
     kmax: int = 5
     maxit: int = 10
+    alpha: float = -0.3
+    beta: float = 0.36
+    gamma: float = 0.7
+
+    @property
+    def form(self) -> str:
+        """The formulation used; HHT and NEWMARK run on index 3 whatever was asked for."""
+        return "I3" if self.method in ("HHT", "NEWMARK") else self.formulation
+
+    @property
+    def second_order(self) -> tuple[float, float, float]:
+        """alpha, beta, gamma of HHT or NEWMARK."""
+        if self.method == "NEWMARK":
+            return 0.0, self.beta, self.gamma
+        return self.alpha, (1.0 - self.alpha) ** 2 / 4.0, 0.5 - self.alpha
 
 
 def run_dynamic(
@@ -52,6 +67,7 @@ def run_dynamic(
         settings.hinit or 0.0, settings.kmax, settings.maxit,
     )  # fmt: skip
     system.settings[base.STOP] = 0.0
+    system.settings[base.ALPHA : base.GAMMA + 1] = settings.second_order
     system.start_record(times)
     method = METHODS[settings.method]
     if method == EXPLICIT:

@@ -40,7 +40,7 @@ W F             workspace, residual
 J D LV LA       Jacobian blocks (all, of velocities); factors (Newton, acceleration)
 x work coef     workspace
 pivots pivots_a row orders of LV and LA;  pivot0: pivots of the first acceleration matrix
-history trial   backward differences of (q, u, s); three such vectors
+history trial   what the method remembers of accepted states; three vectors (q, u, s)
 tableau         coefficients of the explicit formula
 control         the integrator's own numbers
 record          (nt, nw + n_out) workspace and outputs at the asked times
@@ -66,8 +66,13 @@ SIZES = (
 )
 NB, N, M, NV, NS, NW, NG, SI2, IMPLICIT_MASS, N_OUT, NZ, HOLONOMIC, N_HEAD = range(len(SIZES))
 
-SETTINGS = ("t", "t_end", "error", "h_max", "h_min", "h_init", "k_max", "max_it", "stop")
-T, T_END, ERROR, H_MAX, H_MIN, H_INIT, K_MAX, MAX_IT, STOP = range(len(SETTINGS))
+SETTINGS = (
+    "t", "t_end", "error", "h_max", "h_min", "h_init", "k_max", "max_it", "stop",
+    "alpha", "beta", "gamma",
+)  # fmt: skip
+(
+    T, T_END, ERROR, H_MAX, H_MIN, H_INIT, K_MAX, MAX_IT, STOP, ALPHA, BETA, GAMMA,
+) = range(len(SETTINGS))  # fmt: skip
 
 REPORT = ("t", "h", "order", "violation", "where", "size")
 AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH = range(len(REPORT))
@@ -123,8 +128,8 @@ INT_FIELDS = set(
 )
 FIELDS = (
     "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
-    "cut ones dead settings count times report q u a z mu ra rz rd W F J D LV LA x work coef pivots "
-    "pivots_a pivot0 history trial tableau control pz record"
+    "cut ones dead settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
+    "pivots pivots_a pivot0 history trial tableau control pz record"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

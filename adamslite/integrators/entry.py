@@ -8,6 +8,7 @@ from adamslite.integrators.bdf import bdf
 from adamslite.integrators.equations import jacobian, residual, track
 from adamslite.integrators.explicit import explicit
 from adamslite.integrators.free import spectrum
+from adamslite.integrators.hht import hht
 from adamslite.integrators.records import write_record
 from adamslite.integrators.static import equilibrium
 from adamslite.integrators.verlet import verlet
@@ -26,6 +27,8 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     """
     if operation == BDF:
         return bdf(P, L)
+    if operation == HHT:
+        return hht(P, L)
     if operation == EXPLICIT:
         return explicit(P, L)
     if operation == VERLET:
