@@ -1,0 +1,69 @@
+"""The explicit integrators: order, exactness against the implicit ones, drift, what they refuse."""
+
+import numpy as np
+import pytest
+
+import adamslite as al
+from adamslite.faults import UsageError
+from adamslite.outcomes import Outcome
+
+SPRING = """two masses on springs
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=1, CM=2, QG=1.1,0,0
+MARKER/2, POINT_MASS=2
+POINT_MASS/3, MASS=2, CM=3, QG=2,0.3,0
+MARKER/3, POINT_MASS=3
+SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=1, K=50, LENGTH=1
+SPRINGDAMPER/2, TRANSLATIONAL, I=3, J=2, K=80, LENGTH=1
+END
+"""
+
+PENDULUM = """a rigid pendulum
+UNITS/SYSTEM=MKS
+ACCGRAV/JGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=1, CM=2, IP=0.1,0.1,0.1, QG=1,0,0
+MARKER/2, PART=2
+MARKER/3, PART=2, QP=-1,0,0
+JOINT/1, REVOLUTE, I=3, J=1
+END
+"""
+
+
+def run(deck: str, integrator: str, **settings):
+    return al.simulate(al.read(deck), end=2.0, steps=4, integrator=integrator, **settings)
+
+
+@pytest.mark.parametrize("deck", [SPRING, PENDULUM], ids=["springs", "pendulum"])
+@pytest.mark.parametrize("word", ["ABAM", "RKF45", "AUTO"])
+def test_explicit_and_implicit_agree(deck: str, word: str):
+    """Order 8 at 1e-9 against the BDF at 1e-9: positions within 1e-6."""
+    found, known = run(deck, word, error=1e-9), run(deck, "GSTIFF", error=1e-9)
+    assert found.outcome is Outcome.DONE
+    for name in known:
+        if name.endswith((".x", ".y")):
+            np.testing.assert_allclose(found[name], known[name], atol=1e-6)
+
+
+def test_projection_keeps_the_joint_closed():
+    """Ten seconds of the pendulum: the pin stays within 1e-10 of its place."""
+    results = al.simulate(al.read(PENDULUM), end=10.0, steps=20, integrator="ABAM", error=1e-8)
+    length = np.hypot(results["PART/2.x"], results["PART/2.y"])
+    np.testing.assert_allclose(length, 1.0, atol=1e-9)
+
+
+def test_verlet_is_of_order_two():
+    """Half the step, a quarter of the error."""
+    known = run(SPRING, "ABAM", error=1e-10)["POINT_MASS/3.x"][-1]
+    errors = [
+        abs(run(SPRING, "VERLET", hmax=h)["POINT_MASS/3.x"][-1] - known) for h in (0.002, 0.001)
+    ]
+    assert 3.0 < errors[0] / errors[1] < 5.0
+
+
+def test_verlet_refuses_constraints():
+    with pytest.raises(UsageError, match="VERLET"):
+        run(PENDULUM, "VERLET")
