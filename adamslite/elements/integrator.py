@@ -24,7 +24,8 @@ class Integrator(Statement):
         ),
         supported=("ABAM", "AUTO", "GSTIFF", "HHT", "NEWMARK", "RKF45", "VERLET", "WSTIFF"),
         help="variable-order BDF (GSTIFF) unless given; ABAM and RKF45: explicit Runge-Kutta of "
-        "order 8; VERLET: explicit of order 2, unconstrained point masses; AUTO: what suits the scene",
+        "order 8; VERLET: explicit of order 2, unconstrained point masses; AUTO: what suits the "
+        "scene",
     )  # fmt: skip
     formulation: str | None = choice(
         options=("I3", "SI1", "SI2"), supported=("I3", "SI2"),
@@ -50,6 +51,8 @@ class Integrator(Statement):
     pattern: tuple[str, ...] = words(
         "PATTERN", options=("T", "F"), help="iterations that renew the Jacobian"
     )
-    alpha: float | None = number("ALPHA", unit="1", help="of HHT, from -1/3 to 0; -0.3 unless given")
+    alpha: float | None = number(
+        "ALPHA", unit="1", help="of HHT, from -1/3 to 0; -0.3 unless given"
+    )
     beta: float | None = number("BETA", unit="1", help="of NEWMARK; 0.36 unless given")
     gamma: float | None = number("GAMMA", unit="1", help="of NEWMARK; 0.7 unless given")
