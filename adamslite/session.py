@@ -177,7 +177,7 @@ class Session:
                 return
             system.settings[base.T] = time
             system.start_record(np.array([time]))
-            self.outcome = run_static(system, self.statics)
+            self.outcome = self._at_rest(system)
             self.time = float(time)
             system.report[base.AT] = time
             if self.outcome is Outcome.DONE:
@@ -229,10 +229,32 @@ class Session:
         system.settings[base.T] = self.time
         small = system.nz <= PIVOTING and not system.pivoting
         if small and system.run(ACCELERATIONS) != base.DONE and np.isfinite(system.F).all():
-            pivoting = self._numbered(True)
-            pivoting.adopt(system)
-            pivoting.drop(system.dropped)
-            self._system = pivoting
+            self._system = self._pivoting(system)
+
+    def _pivoting(self, system: System) -> System:
+        """``system`` in its present state, eliminated with row pivoting."""
+        pivoting = self._numbered(True)
+        pivoting.adopt(system)
+        pivoting.drop(system.dropped)
+        return pivoting
+
+    def _at_rest(self, system: System) -> Outcome:
+        """Equilibrium.
+
+        A stiffness alone, other than with the inertia of a time step, need not have regular blocks
+        on its diagonal: elimination without pivoting may blow up where the equilibrium is regular.
+        """
+        start = [(x, x.copy()) for x in (system.q, system.z, system.base)]
+        outcome = run_static(system, self.statics)
+        if outcome is Outcome.DONE or system.pivoting or system.nz > PIVOTING:
+            return outcome
+        for array, before in start:
+            array[:] = before
+        spare = self._pivoting(system)
+        outcome = run_static(spare, self.statics)
+        system.adopt(spare)
+        system.count += spare.count
+        return outcome
 
     def _keep(self, times: np.ndarray, static: bool, own_start: bool = True) -> None:
         """Append the records made; a state both ends and begins two analyses only once.
