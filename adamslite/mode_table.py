@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from adamslite.faults import UsageError
+from adamslite.outputs.whole import whole_file
 
 HEAD = ("mode", "frequency [Hz]", "damping ratio", "real", "imaginary")
 # An eigenvalue within this share of the largest one of an axis lies on it.
@@ -67,16 +68,30 @@ def mode_table(linearization: Any) -> str:
 
 
 def save(linearization: Any, path: str | Path) -> None:
-    """Write the modes (.csv) or everything (.json).
+    """Write the modes (a name that ends with .csv) or everything (any other name, as JSON)."""
+    write = _csv if Path(path).suffix.lower() == ".csv" else _json
+    with whole_file(path) as stream:
+        stream.write(write(linearization))
 
-    Raises
-    ------
-    UsageError
-        For any other suffix.
+
+def save_beside(results: Any, output: str | Path) -> list[Path]:
+    """Write what the LINEAR commands of a run found, beside the file ``output``.
+
+    EIGENSOL goes to ``<output>.modes.csv``, STATEMAT to its FILE or ``<output>.states.json``; a
+    second one of a kind is numbered.
     """
-    need_suffix(path)
-    write = _json if Path(path).suffix.lower() == ".json" else _csv
-    Path(path).write_text(write(linearization), encoding="utf-8", newline="\n")
+    output, made = Path(output), []
+    for each in results.linearizations:
+        kind = "modes.csv" if each.kind == "EIGENSOL" else "states.json"
+        stem = output.with_suffix("").name
+        path = output.parent / (each.file or f"{stem}.{kind}")
+        number = 2
+        while path in made:
+            path = output.with_name(f"{stem}.{number}.{kind}")
+            number += 1
+        save(each.model, path)
+        made.append(path)
+    return made
 
 
 def need_suffix(path: str | Path) -> None:
@@ -106,7 +121,12 @@ def _json(linearization: Any) -> str:
         "damping_ratios": [float(each) for each in found.damping_ratios],
         "undamped": [float(each) for each in found.undamped],
         "modes": [list(_pairs(row)) for row in found.modes],
-        "state_matrix": [[float(each) for each in row] for row in found.state_matrix],
+        "state_matrix": found.state_matrix.tolist(),
+        "inputs": list(found.inputs),
+        "outputs": list(found.outputs),
+        "input_matrix": found.input_matrix.tolist(),
+        "output_matrix": found.output_matrix.tolist(),
+        "feedthrough": found.feedthrough.tolist(),
     }
     return json.dumps(whole, indent=1) + "\n"
 

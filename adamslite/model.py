@@ -232,16 +232,29 @@ class Model:
         """Value of a VARIABLE that never changes."""
         if variable_id not in self.folded:
             self.folded[variable_id] = None
+            if variable_id in self._plant:
+                return None
             self.folded[variable_id] = self.constant(self.variable(variable_id).function)
         return self.folded[variable_id]
 
     def variable_kind(self, variable_id: Any) -> str:
-        """``signal`` (depends on time only), ``loop`` (on itself) or ``inline``."""
+        """``signal`` (depends on time only), ``loop`` (solved for) or ``inline``.
+
+        Solved for are those that depend on themselves, and inputs and outputs of the plant.
+        """
         return self._kinds[variable_id]
 
     @cached_property
+    def _plant(self) -> set[Any]:
+        """VARIABLEs of every PINPUT and POUTPUT."""
+        ports = [*self.deck.of("PINPUT"), *self.deck.of("POUTPUT")]
+        return {key for port in ports for key in port.variables}
+
+    @cached_property
     def _kinds(self) -> dict[Any, str]:
-        loops = _in_loops({v.key: set(self._uses(v.function)) for v in self.deck.of("VARIABLE")})
+        loops = self._plant | _in_loops(
+            {v.key: set(self._uses(v.function)) for v in self.deck.of("VARIABLE")}
+        )
         return {
             v.key: "loop"
             if v.key in loops

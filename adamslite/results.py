@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,6 +17,17 @@ class UnknownChannel(KeyError):
 
     def __str__(self) -> str:
         return self.args[0]
+
+
+class Linearized(NamedTuple):
+    """One LINEAR command: ``kind`` EIGENSOL or STATEMAT, its FILE if it names one, the ``time`` of
+    the state, and the :class:`~adamslite.analyses.linear.Linearization`.
+    """
+
+    kind: str
+    file: str | None
+    time: float
+    model: Any
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -40,6 +51,8 @@ class Results:
     summary : mapping
         Counters of the run: outcome, t_end, dof, steps, rejected, newton, jacobians,
         factorizations, setup_cpu_s, solve_cpu_s, max_violation.
+    linearizations : tuple of Linearized
+        What the LINEAR commands found, in their order.
     """
 
     time: np.ndarray
@@ -49,6 +62,7 @@ class Results:
     outcome: Outcome = Outcome.DONE
     message: str = ""
     summary: Mapping[str, Any] = field(default_factory=dict)
+    linearizations: tuple[Linearized, ...] = ()
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return the (nt,) history called `name` (upper or lower case), or the times for "time"."""

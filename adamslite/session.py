@@ -20,7 +20,7 @@ from adamslite.analyses.dynamic import Settings, run_dynamic
 from adamslite.analyses.initial import Unclosed, initial_conditions
 from adamslite.analyses.joint_start import start_of_joints
 from adamslite.analyses.kinematic import run_kinematic
-from adamslite.analyses.linear import Linearization, linear
+from adamslite.analyses.linear import linear
 from adamslite.analyses.redundancy import leave_out_redundant
 from adamslite.analyses.static import StaticSettings, run_static
 from adamslite.columns import columns
@@ -28,6 +28,7 @@ from adamslite.compiled import Kernels, compile_model
 from adamslite.integrators import base
 from adamslite.model import Model, assemble
 from adamslite.outcomes import Outcome
+from adamslite.results import Linearized
 from adamslite.system import ACCELERATIONS, RECORD, System, engine
 from adamslite.times import output_times
 
@@ -51,7 +52,7 @@ class Session:
         What the analyses wrote; ``names`` are the columns.
     outcome, unclosed
         How the last analysis ended; the constraint that stayed open, if one did.
-    linearizations : list of Linearization
+    linearizations : list of Linearized
     """
 
     def __init__(self, scene: Any, progress: Any, flags: dict[str, Any]) -> None:
@@ -67,7 +68,7 @@ class Session:
         self.names: tuple[str, ...] = ()
         self.outcome = Outcome.DONE
         self.unclosed: Unclosed | None = None
-        self.linearizations: list[Linearization] = []
+        self.linearizations: list[Linearized] = []
         self.counts = np.zeros(len(base.COUNTS), dtype=np.int64)
         self.assembled: list[str] = []
         self._system: System | None = None
@@ -207,7 +208,12 @@ class Session:
         self._keep(np.array([self.time]), True)
 
     def _do_linear(self, command: Any) -> None:
-        self.linearizations.append(linear(self.system))
+        ports = (("PINPUT", command.pinput), ("POUTPUT", command.poutput))
+        inputs, outputs = (
+            self.deck.find(kind, key).variables if key is not None else () for kind, key in ports
+        )
+        found = linear(self.system, inputs, outputs, not command.nodamping, command.rm)
+        self.linearizations.append(Linearized(command.kind, command.file, self.time, found))
 
     # helpers
 

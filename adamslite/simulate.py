@@ -87,7 +87,8 @@ def linearize(scene: Any, commands: Iterable[Any] = (), time: float | None = Non
     system = session.system
     if session.outcome is not Outcome.DONE:
         raise RunFailed(explain(system, session.outcome, session.unclosed))
-    return session.linearizations[-1] if session.linearizations else linear(system)
+    made = session.linearizations
+    return made[-1].model if made else linear(system)
 
 
 class _Simulation:
@@ -146,6 +147,7 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
     return Results(
         time=time, names=session.names, values=values, meta=_meta(session), outcome=session.outcome,
         message="" if done else explain(system, session.outcome, session.unclosed), summary=summary,
+        linearizations=tuple(session.linearizations),
     )  # fmt: skip
 
 

@@ -4,7 +4,7 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -260,8 +260,13 @@ class Modes:
     damping_ratios: tuple[float, ...] = (0.0, 0.0995037, 0.0995037, 1.0)
     undamped: tuple[float, ...] = (0.0, 0.959)
     modes: tuple[tuple[complex, ...], ...] = ((1 + 0j, 1j, -1j, 1 + 0j),)
-    state_matrix: tuple[tuple[float, ...], ...] = ((0.0, 1.0), (-1.0, 0.0))
+    state_matrix: np.ndarray = field(default_factory=lambda: np.array([[0.0, 1.0], [-1.0, 0.0]]))
     coordinates: tuple[str, ...] = ("PART/2.x",)
+    input_matrix: np.ndarray = field(default_factory=lambda: np.array([[0.0], [1.0]]))
+    output_matrix: np.ndarray = field(default_factory=lambda: np.array([[1.0, 0.0]]))
+    feedthrough: np.ndarray = field(default_factory=lambda: np.zeros((1, 1)))
+    inputs: tuple[str, ...] = ("VARIABLE/1",)
+    outputs: tuple[str, ...] = ("VARIABLE/2",)
 
 
 def test_linear_prints_a_table_of_modes(pipeline, capsys) -> None:
@@ -289,6 +294,9 @@ def test_linear_writes_the_modes_or_everything(pipeline) -> None:
     assert whole["eigenvalues"][1] == [-0.6, -6.0] and whole["coordinates"] == ["PART/2.x"]
     assert whole["modes"] == [[[1, 0], [0, 1], [0, -1], [1, 0]]]
     assert whole["state_matrix"] == [[0, 1], [-1, 0]]
+    assert (whole["inputs"], whole["input_matrix"]) == (["VARIABLE/1"], [[0], [1]])
+    assert (whole["outputs"], whole["output_matrix"]) == (["VARIABLE/2"], [[1, 0]])
+    assert whole["feedthrough"] == [[0]]
 
 
 @pytest.mark.parametrize("flags", [["-o", "modes.txt"], ["--time", "-1"], ["--time", "later"]])

@@ -1,12 +1,15 @@
 """Linearisation: eigenvalues, modes and state matrices about the present state.
 
-With x = (y, y', s) in the directions y that all constraints leave free (N spans the null space of
-G, V eliminated)
+With N an orthonormal basis of the velocities all constraints allow, x = (y, y', s) the states
+(q = N y, u = N y', s those of DIFF) and inputs w added to the VARIABLEs of a PINPUT
 
-    M y'' + C y' + K y + (coupling with s) = 0,      M = N^T F_a N,  C = N^T F_u N,  K = N^T F_q N
+    [F_a N, F_lam, F_V, F_s'] (y'', lam, V, s') = E w - [F_q N, F_u N, F_s] x
 
-K holds the forces' derivatives and those of G^T lam, so tension and reactions stiffen as they
-should. Undamped frequencies come from (K, M) alone.
+are the equations of motion, of VARIABLEs and of DIFFs; solved for the left vector they are
+x' = A x + B w and, with the rows of V of a POUTPUT, v = C x + D w.
+
+F_q holds the forces' derivatives and those of G^T lam, so tension and reactions stiffen as they
+should. Undamped frequencies come from the columns of y and y'' alone.
 Reference: Negrut, Ortiz, J. Comput. Nonlinear Dynam. 1 (2006) 230.
 """
 
@@ -14,11 +17,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
+from typing import Any
 
 import numpy as np
 
 from adamslite.analyses.initial import constraint_gradient
 from adamslite.integrators import base
+from adamslite.model import PART
 from adamslite.system import ACCELERATIONS, JACOBIAN, System
 
 PHASES = base.LOADS | base.REACTIONS | base.ROWS
@@ -39,9 +44,11 @@ class Linearization:
     modes : (n, nx) complex array
         Body coordinates (translations and rotations in ground axes) of each eigenvector.
     state_matrix : (nx, nx) array
-        x' = A x with x = (y, y', s).
-    coordinates : tuple of str
-        Names of the rows of ``modes``.
+        A of x' = A x + B w with x = (y, y', s).
+    input_matrix, output_matrix, feedthrough : (nx, nw), (nv, nx), (nv, nw) arrays
+        B, C, D; w is added to the VARIABLEs of PINPUT, v = C x + D w is those of POUTPUT.
+    coordinates, inputs, outputs : tuple of str
+        Names of the rows of ``modes``, of w and of v.
     """
 
     eigenvalues: np.ndarray
@@ -49,6 +56,11 @@ class Linearization:
     modes: np.ndarray
     state_matrix: np.ndarray
     coordinates: tuple[str, ...]
+    input_matrix: np.ndarray
+    output_matrix: np.ndarray
+    feedthrough: np.ndarray
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
 
     @property
     def frequencies(self) -> np.ndarray:
@@ -62,46 +74,83 @@ class Linearization:
         return np.where(size > 0.0, -self.eigenvalues.real / np.where(size > 0.0, size, 1.0), 0.0)
 
 
-def linear(system: System) -> Linearization:
-    """Linearise ``system`` at the state it holds."""
-    system.run(ACCELERATIONS)
-    n, first = system.n, system.m
-    free = _free_directions(system)
-    fq, fu, fa, fz, fd = (_matrix(system, kind) for kind in range(5))
-    v = slice(n + first, n + first + system.nv)
-    s = slice(n + first + system.nv, n + first + system.nv + system.ns)
-    rows = np.r_[0:n, s]
-    keep = {}
-    bodies = slice(0, n)
-    parts = {"q": (fq, bodies), "u": (fu, bodies), "a": (fa, bodies), "s": (fq, s), "d": (fd, s)}
-    for name, (full, columns) in parts.items():
-        part = full[:, columns]
-        through = np.linalg.solve(fz[v, v], part[v]) if system.nv else np.zeros((0, part.shape[1]))
-        keep[name] = (part - fz[:, v] @ through)[rows]
-    return _assembled(system, free, keep, n)
-
-
-def _assembled(
-    system: System, free: np.ndarray, keep: dict[str, np.ndarray], n: int
+def linear(
+    system: System,
+    inputs: tuple[Any, ...] = (),
+    outputs: tuple[Any, ...] = (),
+    damping: bool = True,
+    relative_to: Any = None,
 ) -> Linearization:
-    """State matrix and its eigenvectors from the reduced matrices."""
-    f, ns = free.shape[1], system.ns
-    left = np.block([[free.T, np.zeros((f, ns))], [np.zeros((ns, n)), np.eye(ns)]])
-    k, c, m = (left @ keep[name] @ free for name in ("q", "u", "a"))
-    ks, cs = left @ keep["s"], left @ keep["d"]
-    # Rows (y'', s'): [m cs] (y'', s') = -[k ks] (y, s) - c y'
-    head = np.hstack([m, cs])
-    solved = -np.linalg.solve(head, np.hstack([k, c, ks]))
-    a = np.zeros((2 * f + ns, 2 * f + ns))
-    a[:f, f : 2 * f] = np.eye(f)
-    a[f:] = solved
+    """Linearise ``system`` at the state it holds.
+
+    Parameters
+    ----------
+    inputs, outputs : tuple of ids
+        VARIABLEs, those of a PINPUT and of a POUTPUT.
+    damping : bool
+        Without it, what depends on velocities is left out.
+    relative_to : id
+        A MARKER: modes show the motion relative to its body, in ground axes.
+    """
+    system.run(ACCELERATIONS)
+    free = _free_directions(system)
+    places = [system.starts[system.node_at["VARIABLE", key]] for key in inputs]
+    seen = [system.starts[system.node_at["VARIABLE", key]] - system.n for key in outputs]
+    solved = _solved(system, free, places, damping)
+    f, ns, nx = free.shape[1], system.ns, 2 * free.shape[1] + system.ns
+    rows = np.r_[0:f, len(solved) - ns : len(solved)]
+    whole = np.vstack([np.zeros((f, nx + len(places))), solved[rows]])
+    whole[:f, f : 2 * f] = np.eye(f)
+    a, b = whole[:, :nx], whole[:, nx:]
     values, vectors = np.linalg.eig(a)
     order = np.lexsort((-values.imag, np.round(np.abs(values), 12)))
-    stiffness = np.linalg.eigvals(np.linalg.solve(m[:f], k[:f])) if f else np.zeros(0)
-    real = np.sort(stiffness.real)
-    undamped = np.sign(real) * np.sqrt(np.abs(real))
-    modes = free @ vectors[:f, order]
-    return Linearization(values[order], undamped, modes, a, _names(system))
+    told = solved[[f + k for k in seen]]
+    modes = _relative(system, free @ vectors[:f, order], relative_to)
+    return Linearization(
+        values[order], _undamped(a[f : 2 * f, :f]), modes, a, _names(system),
+        b, told[:, :nx], told[:, nx:],
+        tuple(f"VARIABLE/{key}" for key in inputs), tuple(f"VARIABLE/{key}" for key in outputs),
+    )  # fmt: skip
+
+
+def _solved(
+    system: System, free: np.ndarray, places: list[int], damping: bool
+) -> np.ndarray:
+    """Derivatives (f + m + nv + ns, nx + nw) of (y'', lam, V, s') with respect to (x, w)."""
+    n, m = system.n, system.m
+    fq, fu, fa, fz, fd = (_matrix(system, kind) for kind in range(5))
+    z, s = slice(n, n + m + system.nv), slice(n + m + system.nv, n + m + system.nv + system.ns)
+    rows = np.r_[0:n, n + m : s.stop]
+    left = np.hstack([fa[:, :n] @ free, fz[:, z], fd[:, s]])[rows]
+    right = -np.hstack([fq[:, :n] @ free, damping * fu[:, :n] @ free, fq[:, s]])[rows]
+    pushes = np.zeros((len(fq), len(places)))
+    pushes[places, range(len(places))] = 1.0
+    # Least squares: multipliers of redundant rows are not determined.
+    return np.linalg.lstsq(left, np.hstack([right, pushes[rows]]), rcond=None)[0]
+
+
+def _undamped(minus_stiffness: np.ndarray) -> np.ndarray:
+    """Signed roots of the eigenvalues of M^-1 K, smallest first."""
+    squares = np.sort(np.linalg.eigvals(-minus_stiffness).real)
+    return np.sign(squares) * np.sqrt(np.abs(squares))
+
+
+def _relative(system: System, modes: np.ndarray, marker: Any) -> np.ndarray:
+    """Modes less the rigid motion of the marker's body."""
+    place = None if marker is None else system.model.marker(marker)
+    if place is None or place.kind == "ground":
+        return modes
+    i = system.starts[place.body]
+    moves, origin = modes.copy(), system.q[i : i + 3]
+    shift = modes[i : i + 3]
+    turn = modes[i + 3 : i + 6] if system.model.bodies[place.body].width == PART else 0.0 * shift
+    for b, body in enumerate(system.model.bodies):
+        k = system.starts[b]
+        arm = system.q[k : k + 3] - origin
+        moves[k : k + 3] -= shift + np.cross(turn.T, arm).T
+        if body.width == PART:
+            moves[k + 3 : k + 6] -= turn
+    return moves
 
 
 def _free_directions(system: System) -> np.ndarray:

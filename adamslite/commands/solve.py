@@ -2,7 +2,8 @@
 
 How long to run: --end, else SIMULATE in COMMANDS.acf, else in the .acf of the deck's name beside
 the deck, else in the deck itself. The results go to DECK's name with .csv in the current directory,
-or to OUT; `-o -` writes them to standard output. All the command says goes to standard error.
+or to OUT; `-o -` writes them to standard output. LINEAR/EIGENSOL writes OUT.modes.csv beside it,
+LINEAR/STATEMAT its FILE or OUT.states.json (matrices A, B, C, D). All the command says goes to standard error.
 """
 
 import argparse
@@ -73,8 +74,7 @@ def run(args: argparse.Namespace) -> int:
         results = run_scene(scene, run_options(args), progress)
     finally:
         progress.close()
-    _write(results, output)
-    _summarize(args, results, output)
+    _summarize(args, results, output, _write(results, output))
     return DONE if results.outcome is Outcome.DONE else STOPPED_EARLY
 
 
@@ -95,13 +95,19 @@ def _need_writable(output: str) -> None:
         raise PermissionError(13, "the results cannot be written there: no permission", str(folder))
 
 
-def _write(results: "Results", output: str) -> None:
+def _write(results: "Results", output: str) -> list[Path]:
+    """Write the time histories, and the files of LINEAR commands, whose names are returned."""
     if output == STDOUT:
         from adamslite.outputs.csv import write_to
 
         write_to(results, sys.stdout)
-    else:
-        results.save(output)
+        return []
+    results.save(output)
+    if not results.linearizations:
+        return []
+    from adamslite.mode_table import save_beside
+
+    return save_beside(results, output)
 
 
 def _tell_warnings(scene: "Scene") -> None:
@@ -111,7 +117,9 @@ def _tell_warnings(scene: "Scene") -> None:
         sys.stderr.write(render(scene.warnings) + "\n\n")
 
 
-def _summarize(args: argparse.Namespace, results: "Results", output: str) -> None:
+def _summarize(
+    args: argparse.Namespace, results: "Results", output: str, files: list[Path]
+) -> None:
     from adamslite.outcomes import Outcome
 
     if args.summary == "json":
@@ -126,6 +134,8 @@ def _summarize(args: argparse.Namespace, results: "Results", output: str) -> Non
         sys.stderr.write(
             SUMMARY.format(deck=args.deck, sentence=sentence, **results.summary, output=shown)
         )
+        for file in files:
+            sys.stderr.write(f"  linearised model     {file}\n")
         for note in NOTES:
             if note in results.meta:
                 sys.stderr.write(f"  {note:<20} {results.meta[note]}\n")
