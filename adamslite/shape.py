@@ -187,6 +187,8 @@ class Binder:
             return self.variable(ref.id)
         if ref.kind == "DIFF":
             return ("dif", self.node_slot(("DIFF", ref.id)))
+        if ref.kind == "GCON":
+            return ("z", self.node_slot(("GCON", ref.id)), 0)
         return self.element(ref)
 
     def variable(self, variable_id: Any) -> Tree:

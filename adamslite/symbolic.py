@@ -203,6 +203,10 @@ class Scope:
         """Value of a VARIABLE, given as its bound tree."""
         return self.read(tree)
 
+    def multiplier(self, tree: Any) -> Any:
+        """Multiplier of a GCON, given as its bound tree."""
+        return self.read(tree)
+
     def dif(self, tree: tuple) -> Any:
         """State of a DIFF."""
         return self.symbol("dif", tree[1])

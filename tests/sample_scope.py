@@ -148,6 +148,9 @@ class SampleScope:
     def variable(self, id):
         return self.symbol(f"variable_{id}", "1.5")
 
+    def multiplier(self, id):
+        return self.symbol(f"multiplier_{id}", "3.5")
+
     def dif(self, id):
         return self.symbol(f"dif_{id}", "2.5")
 

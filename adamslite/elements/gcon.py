@@ -50,3 +50,12 @@ class Gcon(Statement):
     def constraints(self, scope: Scope) -> list[Any]:
         """The row that vanishes."""
         return [self.function]
+
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """``f``: the strength of the constraint, see the function GCON."""
+        return ("f",)
+
+    def outputs(self, model: Any) -> list[Node]:
+        """Values of ``result_names``."""
+        return [Call("GCON", (Ref("GCON", self.key),))]
