@@ -13,6 +13,7 @@ from adamslite.switching import Switch
 
 if TYPE_CHECKING:
     from adamslite.deck import Deck
+    from adamslite.redefinition import Redefinition
 
 TIMES = ("end", "duration", "dtout", "steps")
 
@@ -60,6 +61,15 @@ def _span_of_time(run: Statement) -> Iterator[Diagnostic]:
         yield say(run, "no-output-step")
     elif run.steps is not None and run.dtout is not None:
         yield say(run, "two-output-steps", "dtout")
+
+
+def late_start_values(command: Redefinition) -> Iterator[Diagnostic]:
+    """Start values given anew to a model that has moved: it goes on from where it is."""
+    for field in command.changes:
+        argument = command.of.arguments[field]
+        if argument.start:
+            reason, word = "the model goes on from the state it has reached", argument.keys[0]
+            yield say(command, "no-effect", field, word=word, reason=reason)
 
 
 def ends_in_order(deck: Deck) -> Iterator[Diagnostic]:

@@ -230,19 +230,23 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
 def _caused(deck: Deck, commands: Iterable[Any]) -> list[Diagnostic]:
     """What is wrong with the deck because of commands."""
     from adamslite.check import RULES
+    from adamslite.check_runs import late_start_values
     from adamslite.rule import apply
 
     if not any(isinstance(command, Redefinition) for command in commands):
         return []
     known = set(apply(RULES, deck))
     found: dict[Diagnostic, None] = {}
-    unchecked = False
+    unchecked = started = False
     for command in (*commands, None):
         if isinstance(command, Redefinition):
             deck, unchecked = deck.redefined(command), True
+            if started:
+                found |= dict.fromkeys(late_start_values(command))
         elif unchecked and (command is None or command.keyword in ANALYSES):
             found |= dict.fromkeys(each for each in apply(RULES, deck) if each not in known)
             unchecked = False
+        started = started or getattr(command, "keyword", "") == "SIMULATE"
     return list(found)
 
 

@@ -41,9 +41,11 @@ def _culprit(system: System, outcome: Outcome) -> str:
     for b, body in enumerate(system.model.bodies):
         i = system.starts[b]
         if i <= where < i + body.width:
-            return f"Most critical: {body.statement.label}, {COORDINATES[where - i]}. "
+            found = f"{body.statement.label} ({_place(body.statement)})"
+            return f"Most critical: {found}, {COORDINATES[where - i]}. "
     return ""
 
 
 def _place(statement: Any) -> str:
-    return f"line {statement.span.line}"
+    """File, line and column of a statement in the deck."""
+    return str(statement.span)

@@ -47,6 +47,8 @@ class Argument:
         Those options the program can run; empty means all.
     bare : bool
         A choice whose options are written as flags, without ``KEY=``.
+    start : bool
+        A value that counts only where a model starts from.
     name : str
         Name of the field.
     """
@@ -62,6 +64,7 @@ class Argument:
     options: tuple[str, ...] = ()
     supported: tuple[str, ...] = ()
     bare: bool = False
+    start: bool = False
     name: str = ""
 
     @property

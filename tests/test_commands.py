@@ -82,6 +82,18 @@ def test_a_statement_as_command_changes_only_what_it_gives() -> None:
     assert (part.mass, part.cm, part.ip) == (3.0, 2, (1.0, 1.0, 1.0))
 
 
+def test_start_values_given_too_late_are_told() -> None:
+    """A model that has moved goes on from where it is."""
+    early = "PART/2, VX=3\nDIFF/13, IC=5\nSIM/DYN, END=1, STEPS=1\n"
+    assert not commands(early).warnings
+    late = early + "PART/2, VX=4, MASS=2\nDIFF/13, IC=6\nJOINT/10, IC=1\nVAR/5, FU=2\n"
+    found = commands(late + "SIM/DYN, END=2, STEPS=1\n").warnings
+    assert [(each.code, each.span.line, each.severity) for each in found] == [
+        ("no-effect", 4, "warning"), ("no-effect", 5, "warning"), ("no-effect", 6, "warning"),
+    ]  # fmt: skip
+    assert "VX has no effect in PART/2" in found[0].message
+
+
 @pytest.mark.parametrize(
     ("text", "keyword", "field", "value"),
     [

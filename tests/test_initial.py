@@ -89,5 +89,5 @@ def test_what_cannot_be_closed_is_named():
     results = run(deck, 1.0, 1)
     assert results.outcome is Outcome.INITIAL_CONDITIONS_FAILED
     assert "GCON/" in results.message
-    assert "line" in results.message
+    assert "(<text>:" in results.message
     assert len(results.time) == 0

@@ -113,9 +113,7 @@ def linear(
     )  # fmt: skip
 
 
-def _solved(
-    system: System, free: np.ndarray, places: list[int], damping: bool
-) -> np.ndarray:
+def _solved(system: System, free: np.ndarray, places: list[int], damping: bool) -> np.ndarray:
     """Derivatives (f + m + nv + ns, nx + nw) of (y'', lam, V, s') with respect to (x, w)."""
     n, m = system.n, system.m
     fq, fu, fa, fz, fd = (_matrix(system, kind) for kind in range(5))

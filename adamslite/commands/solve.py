@@ -2,8 +2,9 @@
 
 How long to run: --end, else SIMULATE in COMMANDS.acf, else in the .acf of the deck's name beside
 the deck, else in the deck itself. The results go to DECK's name with .csv in the current directory,
-or to OUT; `-o -` writes them to standard output. LINEAR/EIGENSOL writes OUT.modes.csv beside it,
-LINEAR/STATEMAT its FILE or OUT.states.json (matrices A, B, C, D). All the command says goes to standard error.
+or to OUT; `-o -` writes them to standard output. Beside it LINEAR/EIGENSOL writes OUT.modes.csv,
+LINEAR/STATEMAT its FILE or OUT.states.json (matrices A, B, C, D). All the command says goes to
+standard error.
 """
 
 import argparse

@@ -20,7 +20,7 @@ class Diff(Statement):
     """A user-defined state, integrated together with the mechanics."""
 
     ic: tuple[float, ...] = vector(
-        "IC", size=1, most=2, unit="that of y, that of y per time", default=(0.0,),
+        "IC", start=True, size=1, most=2, unit="that of y, that of y per time", default=(0.0,),
         help="value of y at the start and, for IMPLICIT, a guess of dy/dt",
     )  # fmt: skip
     implicit: bool = flag("IMPLICIT", help="FUNCTION is a residual that must vanish")

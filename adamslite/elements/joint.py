@@ -69,15 +69,15 @@ class Joint(Constraint, Statement):
     )
     pd: float | None = number("PD", unit="length", help="RACKPIN: pitch diameter of the pinion")
     ic: tuple[float, ...] | None = vector(
-        "IC", size=1, most=2, unit="length or angle, the same per time",
+        "IC", start=True, size=1, most=2, unit="length or angle, the same per time",
         help="displacement and velocity at the start of the one freedom",
     )  # fmt: skip
     ictran: tuple[float, ...] | None = vector(
-        "ICTRAN", size=1, most=2, unit="length, length per time",
+        "ICTRAN", start=True, size=1, most=2, unit="length, length per time",
         help="CYLINDRICAL: translation and its velocity at the start",
     )  # fmt: skip
     icrot: tuple[float, ...] | None = vector(
-        "ICROT", size=1, most=2, unit="angle, angle per time",
+        "ICROT", start=True, size=1, most=2, unit="angle, angle per time",
         help="CYLINDRICAL: rotation and its velocity at the start",
     )  # fmt: skip
 

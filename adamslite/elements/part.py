@@ -38,26 +38,47 @@ class Part(Statement):
         "IP", size=3, most=6, unit="mass length^2", help="inertia xx,yy,zz[,xy,xz,yz] at IM"
     )
     qg: tuple[float, ...] = vector(
-        "QG", size=3, unit="length", default=(0.0, 0.0, 0.0), help="origin of the body, in ground"
+        "QG",
+        start=True,
+        size=3,
+        unit="length",
+        default=(0.0, 0.0, 0.0),
+        help="origin of the body, in ground",
     )
     reuler: tuple[float, ...] = vector(
-        "REULER", "EULER", size=3, unit="angle", default=(0.0, 0.0, 0.0),
+        "REULER", "EULER", start=True, size=3, unit="angle", default=(0.0, 0.0, 0.0),
         help="body 3-1-3 angles of the body frame in ground",
     )  # fmt: skip
     zg: tuple[float, ...] | None = vector(
-        "ZG", size=3, unit="length", help="point in ground on the +z axis of the body"
+        "ZG", start=True, size=3, unit="length", help="point in ground on the +z axis of the body"
     )
     xg: tuple[float, ...] | None = vector(
-        "XG", size=3, unit="length", help="point in ground in the +xz half-plane of the body"
+        "XG",
+        start=True,
+        size=3,
+        unit="length",
+        help="point in ground in the +xz half-plane of the body",
     )
-    vx: float = number("VX", unit="length/time", default=0.0, help="initial velocity of CM, x")
-    vy: float = number("VY", unit="length/time", default=0.0, help="initial velocity of CM, y")
-    vz: float = number("VZ", unit="length/time", default=0.0, help="initial velocity of CM, z")
-    wx: float = number("WX", unit="angle/time", default=0.0, help="initial rate about x of CM")
-    wy: float = number("WY", unit="angle/time", default=0.0, help="initial rate about y of CM")
-    wz: float = number("WZ", unit="angle/time", default=0.0, help="initial rate about z of CM")
+    vx: float = number(
+        "VX", start=True, unit="length/time", default=0.0, help="initial velocity of CM, x"
+    )
+    vy: float = number(
+        "VY", start=True, unit="length/time", default=0.0, help="initial velocity of CM, y"
+    )
+    vz: float = number(
+        "VZ", start=True, unit="length/time", default=0.0, help="initial velocity of CM, z"
+    )
+    wx: float = number(
+        "WX", start=True, unit="angle/time", default=0.0, help="initial rate about x of CM"
+    )
+    wy: float = number(
+        "WY", start=True, unit="angle/time", default=0.0, help="initial rate about y of CM"
+    )
+    wz: float = number(
+        "WZ", start=True, unit="angle/time", default=0.0, help="initial rate about z of CM"
+    )
     exact: tuple[str, ...] = words(
-        "EXACT", options=("X", "Y", "Z", "PSI", "THETA", "PHI"),
+        "EXACT", start=True, options=("X", "Y", "Z", "PSI", "THETA", "PHI"),
         help="coordinates the initial conditions must keep",
     )  # fmt: skip
     material: str | None = text("MATERIAL", help="for display; not used")

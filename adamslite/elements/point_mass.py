@@ -24,21 +24,39 @@ class PointMass(Statement):
         "CM", to="MARKER", help="marker at the mass; default: the origin of the body"
     )
     qg: tuple[float, ...] = vector(
-        "QG", size=3, unit="length", default=(0.0, 0.0, 0.0), help="origin of the body, in ground"
+        "QG",
+        start=True,
+        size=3,
+        unit="length",
+        default=(0.0, 0.0, 0.0),
+        help="origin of the body, in ground",
     )
     reuler: tuple[float, ...] = vector(
-        "REULER", "EULER", size=3, unit="angle", default=(0.0, 0.0, 0.0),
+        "REULER", "EULER", start=True, size=3, unit="angle", default=(0.0, 0.0, 0.0),
         help="body 3-1-3 angles of the body frame in ground",
     )  # fmt: skip
     zg: tuple[float, ...] | None = vector(
-        "ZG", size=3, unit="length", help="point in ground on the +z axis of the body"
+        "ZG", start=True, size=3, unit="length", help="point in ground on the +z axis of the body"
     )
     xg: tuple[float, ...] | None = vector(
-        "XG", size=3, unit="length", help="point in ground in the +xz half-plane of the body"
+        "XG",
+        start=True,
+        size=3,
+        unit="length",
+        help="point in ground in the +xz half-plane of the body",
     )
-    vx: float = number("VX", unit="length/time", default=0.0, help="initial velocity, x in ground")
-    vy: float = number("VY", unit="length/time", default=0.0, help="initial velocity, y in ground")
-    vz: float = number("VZ", unit="length/time", default=0.0, help="initial velocity, z in ground")
+    vx: float = number(
+        "VX", start=True, unit="length/time", default=0.0, help="initial velocity, x in ground"
+    )
+    vy: float = number(
+        "VY", start=True, unit="length/time", default=0.0, help="initial velocity, y in ground"
+    )
+    vz: float = number(
+        "VZ", start=True, unit="length/time", default=0.0, help="initial velocity, z in ground"
+    )
     exact: tuple[str, ...] = words(
-        "EXACT", options=("X", "Y", "Z"), help="coordinates the initial conditions must keep"
+        "EXACT",
+        start=True,
+        options=("X", "Y", "Z"),
+        help="coordinates the initial conditions must keep",
     )

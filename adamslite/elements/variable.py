@@ -22,7 +22,11 @@ class Variable(Statement):
     """
 
     ic: float = number(
-        "IC", unit="that of FUNCTION", default=0.0, help="first guess where a loop must be solved"
+        "IC",
+        start=True,
+        unit="that of FUNCTION",
+        default=0.0,
+        help="first guess where a loop must be solved",
     )
     function: Node = expression(
         "FUNCTION", required=True, unit="the user's", help="what the variable equals"
