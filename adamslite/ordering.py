@@ -15,7 +15,7 @@ import numpy as np
 
 # With constraints, up to this many unknowns ordinary dense elimination with pivoting is as quick
 # and safer; without them every block is regular and blocks win from the first.
-DENSE = 36
+DENSE = 96
 
 
 @dataclass

@@ -314,7 +314,7 @@ class System:
         )
         self.J, self.D = np.zeros(self.size_j + 1), np.zeros(self.size_j + 1)
         self.LV, self.LA = np.zeros(found.size + 1), np.zeros(found.size + 1)
-        self.pivots, self.pivots_a = _ints([0] * self.nz), _ints([0] * self.nz)
+        self.pivots, self.pivots_a = _ints([0] * (self.nz + 1)), _ints([0] * (self.nz + 1))
         self.work = np.zeros(max(80, found.widest**2))
 
     def _late_nodes(self) -> dict[int, set[int]]:

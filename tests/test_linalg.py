@@ -47,7 +47,7 @@ def eliminate(full, widths, pairs, late=None):
         for i, j in itertools.product(range(widths[r]), range(widths[c])):
             values[at + i * lead + j] = full[first[r] + i, first[c] + j]
     plan = SimpleNamespace(**found.plan)
-    return plan, values, np.zeros(len(full), dtype=np.int64), np.zeros(max(80, found.widest**2))
+    return plan, values, np.zeros(len(full) + 1, dtype=np.int64), np.zeros(max(80, found.widest**2))
 
 
 def solved(full, widths, pairs, b, late=None) -> np.ndarray:

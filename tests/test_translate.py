@@ -129,7 +129,7 @@ MARKER/{k}0, PART={k}
 MARKER/{k}1, PART={k}, QP=-1,0,0
 JOINT/{k}, SPHERICAL, I={k}1, J={k - 1}0
 """
-        for k in range(3, 6)
+        for k in range(3, 10)
     )
     + "JOINT/1, REVOLUTE, I=21, J=1\nEND\n",
 }

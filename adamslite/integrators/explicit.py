@@ -29,6 +29,7 @@ from adamslite.integrators.base import (
     BROKEN_START,
     DONE,
     ERROR,
+    FACTORIZATIONS,
     FAILURES,
     H_INIT,
     H_MAX,
@@ -90,7 +91,7 @@ SINGULAR_RESOLUTION = 1e-6
 
 RUNNING = -1
 # Places in P.control.
-CLOCK, H, FOLLOWING, LAST_ERROR, FREE, CAUTIOUS, SIGNATURE, FAILED, WIDTH = range(9)
+CLOCK, H, FOLLOWING, LAST_ERROR, FREE, CAUTIOUS, SIGNATURE, FAILED, WIDTH, STALE = range(10)
 # Kinds of scenes, in C[FREE]: tied, free bodies, point masses alone.
 BODIES, MASSES = 1.0, 2.0
 
@@ -179,8 +180,14 @@ def rates_at(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
         return True
     for i in range(P.sizes[NS]):
         P.z[first + i] = y[2 * n + i]
-    put_state(P, t, y, y[n:], P.a, P.z, P.rd)
-    good = settle(P, L, y[n:], P.a, P.z, P.rd)
+    # Once the matrix of the step's start was too old for a stage, each of the rest gets its own.
+    before = P.count[FACTORIZATIONS]
+    if P.control[STALE] == 1.0:
+        good = accelerations(P, L, t, y, y[n:], P.a, P.z, P.rd)
+    else:
+        put_state(P, t, y, y[n:], P.a, P.z, P.rd)
+        good = settle(P, L, y[n:], P.a, P.z, P.rd)
+        P.control[STALE] = 1.0 if P.count[FACTORIZATIONS] > before else 0.0
     keep_rates(P, y, k)
     return good
 
@@ -370,6 +377,7 @@ def run_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
     """Rates of all stages and the new state; False when one could not be had."""
     K, t = P.history, P.control[CLOCK]
     y, new = K[OLD * w :], K[NEXT_STATE * w :]
+    P.control[STALE] = 0.0
     for i in range(1, RESULT + 1):
         combine(P, i - 1, w, h, y, new)
         at = t + h * P.tableau[ROW * TIMES + i]

@@ -17,9 +17,8 @@ Matrices, 2017, ch. 7 and 11.
 from __future__ import annotations
 
 from adamslite.integrators.base import Plan
+from adamslite.integrators.dense import TINY, lu_dense, negative_pivots, solve_dense
 from adamslite.translate import Ints, Reals, native
-
-TINY = 1e-300
 
 
 @native
@@ -35,68 +34,6 @@ def invert3(A: Reals, o: int) -> float:
     A[o + 3], A[o + 4], A[o + 5] = q * w, (a * i - c * g) * w, (c * d - a * f) * w
     A[o + 6], A[o + 7], A[o + 8] = r * w, (b * g - a * h) * w, (a * e - b * d) * w
     return det
-
-
-@native
-def negative_pivots(A: Reals, o: int, s: int, work: Reals, found: Reals, at: int) -> int:
-    """Negative pivots of a block eliminated without pivoting; the pivots go to ``found``.
-
-    Their number is the signature when the matrix is symmetric (Sylvester) and changes when it
-    becomes singular.
-    """
-    for i in range(s * s):
-        work[i] = A[o + i]
-    count = 0
-    for k in range(s):
-        pivot = work[k * s + k]
-        found[at + k] = pivot
-        if pivot < 0.0:
-            count += 1
-        for i in range(k + 1, s):
-            factor = work[i * s + k] / pivot
-            for j in range(k + 1, s):
-                work[i * s + j] -= factor * work[k * s + j]
-    return count
-
-
-@native
-def lu_dense(A: Reals, o: int, s: int, pivots: Ints, po: int) -> bool:
-    """LU of the s x s block at ``o`` with row pivoting; False when it is singular."""
-    for k in range(s):
-        best, p = 0.0, k
-        for i in range(k, s):
-            size = abs(A[o + i * s + k])
-            if size > best:
-                best, p = size, i
-        if not best > TINY:
-            return False
-        pivots[po + k] = p
-        if p != k:
-            for j in range(s):
-                A[o + k * s + j], A[o + p * s + j] = A[o + p * s + j], A[o + k * s + j]
-        w = 1.0 / A[o + k * s + k]
-        for i in range(k + 1, s):
-            factor = A[o + i * s + k] * w
-            A[o + i * s + k] = factor
-            if factor != 0.0:
-                for j in range(k + 1, s):
-                    A[o + i * s + j] -= factor * A[o + k * s + j]
-    return True
-
-
-@native
-def solve_dense(A: Reals, o: int, s: int, pivots: Ints, po: int, x: Reals, xo: int) -> None:
-    """Solve with the factors of :func:`lu_dense` in place."""
-    for k in range(s):
-        p = pivots[po + k]
-        x[xo + k], x[xo + p] = x[xo + p], x[xo + k]
-        for j in range(k):
-            x[xo + k] -= A[o + k * s + j] * x[xo + j]
-    for k in range(s - 1, -1, -1):
-        total = x[xo + k]
-        for j in range(k + 1, s):
-            total -= A[o + k * s + j] * x[xo + j]
-        x[xo + k] = total / A[o + k * s + k]
 
 
 @native
