@@ -173,10 +173,10 @@ class System:
         self.W, self.F, self.x = np.zeros(self.nw + 1), np.zeros(nz + 1), np.zeros(nz + 1)
         self.pivot0 = np.zeros(nz + 1)
         self.history, self.trial = np.zeros(8 * w + 160), np.zeros(3 * w + 3)
-        self.control, self.tableau = np.zeros(24), np.zeros(1)
+        self.control, self.tableau = np.zeros(48), np.zeros(1)
         self.coef, self.report = np.zeros(16), np.zeros(len(base.REPORT))
         self.settings, self.count = np.zeros(len(base.SETTINGS)), _ints([0] * len(base.COUNTS))
-        self.times, self.record = np.zeros(1), np.zeros(1)
+        self.times, self.record, self.undo = np.zeros(1), np.zeros(1), np.zeros(0)
         self.gravity = np.asarray(self.model.deck.gravity, dtype=float)
 
     def _bodies(self) -> None:
@@ -433,6 +433,9 @@ class System:
         """
         self.times = np.ascontiguousarray(times, dtype=float)
         self.record = np.zeros(len(times) * (self.nw + int(self.sizes[base.N_OUT])) + 1)
+        if self.m:
+            kept = (self.history, self.control, self.base, self.ra, self.rz, self.pz)
+            self.undo = np.zeros(sum(each.size for each in kept))
         self.count[:] = 0
 
     def run(self, operation: int, phases: int = 0) -> int:

@@ -43,6 +43,7 @@ pivots pivots_a row orders of LV and LA;  pivot0: pivots of the first accelerati
 history trial   what the method remembers of accepted states; three vectors (q, u, s)
 tableau         coefficients of the explicit formula
 control         the integrator's own numbers
+undo            the state before the last accepted one; empty without constraints
 record          (nt, nw + n_out) workspace and outputs at the asked times
 ==============  =================================================================================
 """
@@ -129,7 +130,7 @@ INT_FIELDS = set(
 FIELDS = (
     "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
     "cut ones dead settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
-    "pivots pivots_a pivot0 history trial tableau control pz record"
+    "pivots pivots_a pivot0 history trial tableau control pz undo record"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

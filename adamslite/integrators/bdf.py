@@ -83,10 +83,14 @@ from adamslite.integrators.newton import (
     velocity_change,
 )
 from adamslite.integrators.records import note_violation, record_at
+from adamslite.integrators.undo import bring_back, remember
 from adamslite.translate import Reals, native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
 CORRECTOR_SHARE = 0.02
+# Near a singular posture round-off keeps increments of velocities from shrinking further: with a
+# new matrix this share of ERROR is as good as it gets.
+STALL_SHARE = 0.2
 # The next step aims at an estimated error below ERROR by these factors (at a higher order: more
 # caution).
 SAFETY, SAFETY_UP = 3.0, 4.5
@@ -104,11 +108,16 @@ SINGULAR_RESOLUTION = 1e-6
 # 3 and above, and less than this share of the time covered by the best window.
 WINDOW = 50.0
 STIFF_REJECTIONS = 7.0
-STIFF_SHARE = 0.2
+STIFF_SHARE = 0.05
 # A step grows only when it pays for a new matrix, and never by more than this at once.
 LEAST_GROWTH, MOST_GROWTH = 1.2, 10.0
 # Cuts of the step after corrector failures before other lengths are tried.
 CUTS = 3
+# A step is noise, not truncation, when the error estimates of this many tries in turn keep more
+# than this share of the one before, although each was shorter.
+NOISY_TRIES, NOISY_SHARE = 2.0, 0.3
+# Accepted steps taken back in one place.
+MOST_BACKS = 6.0
 # A pivot of the acceleration matrix below this share of its first value has vanished.
 VANISHING = 1e-3
 
@@ -118,6 +127,7 @@ RUNNING = -1
     NOW, H, K, K_TOP, EQUAL, NEXT, H_LAST, FACTORED, RATE, FRESH, AGE, RETRIES, TRIES, BAD,
     TRAVELLED, FARTHEST, SIGNATURE, BLAMED,
 ) = range(18)  # fmt: skip
+NORM, NOISY, BACKS, PASSED, UNDOABLE = range(30, 35)
 
 
 @native
@@ -151,7 +161,8 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     n, C = P.sizes[N], P.control
     w = 2 * n + P.sizes[NS]
     yp, psi, v = P.trial[0:], P.trial[w:], P.trial[2 * w :]
-    tolerance = CORRECTOR_SHARE * P.settings[ERROR]
+    error = P.settings[ERROR]
+    tolerance = CORRECTOR_SHARE * error
     tested = cu if P.sizes[SI2] == 1 else 0.0
     last = 0.0
     motion_from_increments(P, cu, yp, psi, si2)
@@ -173,6 +184,8 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
         P.count[NEWTON] += 1
         if iteration > 0:
             C[RATE] = max(LEAST_RATE, size / last)
+        if iteration > 1 and C[RATE] > 0.5 and C[FRESH] == 1.0 and size <= STALL_SHARE * error:
+            return True
         if not size < 1e12 or (C[RATE] > 0.9 and iteration > 0 and size > tolerance):
             return False
         if remaining(C, size) <= tolerance:
@@ -315,7 +328,7 @@ def advance(P: Problem, L: Plan) -> int:
     limit_step(P, w)
     P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], C[K]
     if C[H] < P.settings[H_MIN]:
-        return stuck(P, L, w)
+        return RUNNING if land_elsewhere(P, w) else stuck(P, L, w)
     stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
     cu = gamma(int(C[K])) / C[H]
     start_try(P, w)
@@ -380,8 +393,24 @@ def after_failure(P: Problem, w: int) -> int:
     C[RETRIES] += 1.0
     C[FRESH] = 0.0
     C[BLAMED] = float(wildest(P))
-    resize(P, w, retry_factor(C))
+    if int(C[RETRIES]) != CUTS or not land_elsewhere(P, w):
+        resize(P, w, retry_factor(C))
     return RUNNING
+
+
+@native
+def land_elsewhere(P: Problem, w: int) -> bool:
+    """Take the last accepted step back and make it shorter; False when that was tried enough."""
+    C = P.control
+    if C[UNDOABLE] == 0.0 or C[BACKS] >= MOST_BACKS:
+        return False
+    backs, passed = C[BACKS] + 1.0, max(C[PASSED], C[NOW])
+    bring_back(P)
+    C[BACKS], C[PASSED], C[UNDOABLE], C[FACTORED] = backs, passed, 0.0, 0.0
+    restore_state(P, P.history, w, C[NOW])
+    # 0.6, 0.82, 0.33, 0.55, 0.77, 0.28: lengths that are no multiples of each other.
+    resize(P, w, 0.6 if backs == 1.0 else 0.25 + 0.75 * (0.38 * backs - int(0.38 * backs)))
+    return True
 
 
 @native
@@ -405,6 +434,8 @@ def retry_factor(C: Reals) -> float:
     but a step across does: after some cuts a few other lengths around the last good one are tried.
     """
     tried = int(C[RETRIES])
+    if tried == 1:
+        return 0.6
     if C[H_LAST] > 0.0 and tried > CUTS and tried <= CUTS + 5:
         leap = 0.7
         if tried == CUTS + 1:
@@ -446,6 +477,10 @@ def after_rejection(P: Problem, w: int, norm: float) -> int:
     # At the last, tiny steps the error is round-off, and anybody's.
     if C[H] > 1e-9 * P.settings[H_MAX]:
         C[BLAMED] = P.report[WHERE]
+    C[NOISY] = C[NOISY] + 1.0 if norm > NOISY_SHARE * C[NORM] and C[NORM] > 0.0 else 0.0
+    C[NORM] = norm
+    if C[NOISY] >= NOISY_TRIES and land_elsewhere(P, w):
+        return RUNNING
     if C[K] > 2.0:
         C[BAD] += 1.0
     if C[BAD] > STIFF_REJECTIONS and C[TRAVELLED] < STIFF_SHARE * C[FARTHEST]:
@@ -488,7 +523,12 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     C, D = P.control, P.history
     k = int(C[K])
     P.count[STEPS] += 1
-    C[RETRIES], C[FRESH] = 0.0, 0.0
+    C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0
+    if P.undo.size > 0:
+        remember(P)
+        C[UNDOABLE] = 1.0
+        if C[NOW] > C[PASSED]:
+            C[BACKS] = 0.0
     C[AGE] += 1.0
     extend_history(D, P.trial[w:], w, k)
     t, h = C[NOW] + C[H], C[H]

@@ -1,0 +1,52 @@
+"""Taking an accepted step back.
+
+Close to a posture in which constraints lose rank (dead centre, flattened parallelogram) they hold
+the motion on its branch with a lever d, the distance from that posture: round-off e of positions
+becomes an error e/d of the accepted position and e/d^2 of the velocity. A step that happens to land
+there can be accepted, but no step may start from it. The way out is to land somewhere else.
+Reference: Garcia de Jalon, Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994,
+section 5.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.base import Problem
+from adamslite.translate import Reals, native
+
+
+@native
+def remember(P: Problem) -> None:
+    """Keep the last accepted state before the next one replaces it."""
+    at = copied(P.history.size, P.history, P.undo, 0)
+    at = copied(P.control.size, P.control, P.undo, at)
+    at = copied(P.base.size, P.base, P.undo, at)
+    at = copied(P.ra.size, P.ra, P.undo, at)
+    at = copied(P.rz.size, P.rz, P.undo, at)
+    at = copied(P.pz.size, P.pz, P.undo, at)
+
+
+@native
+def bring_back(P: Problem) -> None:
+    """What :func:`remember` kept."""
+    at = taken(P.history.size, P.history, P.undo, 0)
+    at = taken(P.control.size, P.control, P.undo, at)
+    at = taken(P.base.size, P.base, P.undo, at)
+    at = taken(P.ra.size, P.ra, P.undo, at)
+    at = taken(P.rz.size, P.rz, P.undo, at)
+    at = taken(P.pz.size, P.pz, P.undo, at)
+
+
+@native
+def copied(n: int, x: Reals, y: Reals, at: int) -> int:
+    """x into y at a place; returns the place after it."""
+    for i in range(n):
+        y[at + i] = x[i]
+    return at + n
+
+
+@native
+def taken(n: int, x: Reals, y: Reals, at: int) -> int:
+    """x from y at a place; returns the place after it."""
+    for i in range(n):
+        x[i] = y[at + i]
+    return at + n
