@@ -5,6 +5,7 @@
     adamslite diff   A B                    compare two result files
     adamslite verify [DIR|DECK ...]         run reference decks and compare
     adamslite linear DECK [COMMANDS.acf]    eigenvalues and modes of small motions
+    adamslite chart  DECK [COMMANDS.acf]    what accuracy costs with each integrator
     adamslite help   [NAME]                 what a statement, a function or a message means
 
 Exit codes: 0 done or equal, 1 outside tolerance, 2 usage, 3 the deck has errors,
@@ -20,7 +21,7 @@ import sys
 from collections.abc import Sequence
 
 from adamslite import __version__
-from adamslite.commands import check, diff, help, linear, solve, verify
+from adamslite.commands import chart, check, diff, help, linear, solve, verify
 from adamslite.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, STOPPED_EARLY, USAGE
 
 EXIT_CODES = """exit codes:
@@ -70,7 +71,7 @@ def _parser() -> argparse.ArgumentParser:
         "--debug", action="store_true", help="show the traceback of a program fault"
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for module in (check, solve, diff, verify, linear, help):
+    for module in (check, solve, diff, verify, linear, chart, help):
         name = module.__name__.rpartition(".")[2]
         summary = module.__doc__.partition("\n")[0]
         command = commands.add_parser(

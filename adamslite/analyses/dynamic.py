@@ -11,7 +11,7 @@ import numpy as np
 from adamslite.analyses.choose import METHODS
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
-from adamslite.system import EXPLICIT, System
+from adamslite.system import BDF, EXPLICIT, System
 
 OUTCOMES = {
     base.DONE: Outcome.DONE,
@@ -42,8 +42,12 @@ class Settings:
 
     @property
     def form(self) -> str:
-        """The formulation used; HHT and NEWMARK run on index 3 whatever was asked for."""
-        return "I3" if self.method in ("HHT", "NEWMARK") else self.formulation
+        """The formulation used: only backward differences have a choice.
+
+        HHT and NEWMARK are written for index 3.  Explicit methods solve for accelerations, and
+        the multipliers of the other form would only be carried along.
+        """
+        return self.formulation if METHODS.get(self.method, BDF) == BDF else "I3"
 
     @property
     def second_order(self) -> tuple[float, float, float]:

@@ -58,6 +58,7 @@ def run(args: argparse.Namespace) -> int:
     """Solve and write; return the exit code."""
     from adamslite.faults import UsageError
     from adamslite.outcomes import Outcome
+    from adamslite.outputs.whole import need_writable
     from adamslite.progress import Progress, TalkingProgress
     from adamslite.runs import load_scene, run_scene
 
@@ -67,7 +68,8 @@ def run(args: argparse.Namespace) -> int:
             "'-o -' and '--summary json' both want standard output; give -o a file name"
         )
     scene = load_scene(args.deck, args.commands)
-    _need_writable(output)
+    if output != STDOUT:
+        need_writable(output)
     if not args.quiet:
         _tell_warnings(scene)
     progress = Progress() if args.quiet else TalkingProgress()
@@ -77,23 +79,6 @@ def run(args: argparse.Namespace) -> int:
         progress.close()
     _summarize(args, results, output, _write(results, output))
     return DONE if results.outcome is Outcome.DONE else STOPPED_EARLY
-
-
-def _need_writable(output: str) -> None:
-    """Fail now rather than after a long run."""
-    import os
-
-    folder = Path(output).absolute().parent
-    if output == STDOUT:
-        return
-    if not folder.is_dir():
-        raise FileNotFoundError(
-            2, "the results cannot be written there: no such folder", str(folder)
-        )
-    if Path(output).is_dir():
-        raise IsADirectoryError(21, "the results cannot be written there: it is a folder", output)
-    if not os.access(folder, os.W_OK):
-        raise PermissionError(13, "the results cannot be written there: no permission", str(folder))
 
 
 def _write(results: "Results", output: str) -> list[Path]:

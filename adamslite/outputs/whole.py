@@ -4,25 +4,47 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TextIO
+from typing import Any
 
 
 @contextmanager
-def whole_file(path: str | Path) -> Iterator[TextIO]:
-    """Open `path` for writing text; a file of that name changes only when the block succeeds.
+def whole_file(path: str | Path, binary: bool = False) -> Iterator[Any]:
+    """Open `path` for writing text or bytes; it changes only when the block succeeds.
 
-    The text goes to a file beside it first, so the final rename stays on one disk and is atomic.
+    The content goes to a file beside it first, so the final rename stays on one disk and is atomic.
     What is not a regular file (`/dev/null`, a pipe) is written directly.
     """
     target = Path(os.path.realpath(path))
+    how = {"mode": "wb"} if binary else {"mode": "w", "encoding": "utf-8", "newline": "\n"}
     if target.exists() and not target.is_file():
-        with open(target, "w", encoding="utf-8", newline="\n") as stream:
+        with open(target, **how) as stream:
             yield stream
         return
     draft = target.with_name(f".{target.name}.{os.getpid()}.part")
     try:
-        with open(draft, "w", encoding="utf-8", newline="\n") as stream:
+        with open(draft, **how) as stream:
             yield stream
         os.replace(draft, target)
     finally:
         draft.unlink(missing_ok=True)
+
+
+def need_writable(path: str | Path) -> None:
+    """Fail now rather than after a long run.
+
+    Raises
+    ------
+    OSError
+        When `path` cannot be written.
+    """
+    folder = Path(path).absolute().parent
+    if not folder.is_dir():
+        raise FileNotFoundError(
+            2, "the results cannot be written there: no such folder", str(folder)
+        )
+    if Path(path).is_dir():
+        raise IsADirectoryError(
+            21, "the results cannot be written there: it is a folder", str(path)
+        )
+    if not os.access(folder, os.W_OK):
+        raise PermissionError(13, "the results cannot be written there: no permission", str(folder))
