@@ -126,7 +126,7 @@ class Chain:
         return np.array(out)
 
     def pins(self):
-        """Places and velocities (N, 2) of all pins at the start, in the order in which they pass."""
+        """Places and velocities (N, 2) of all pins at the start, in the order of passing."""
         turn, distance, (top, bottom) = self.start
         rate, drift = self.rates((0, turn), distance)
         (a, b), (c, d) = (self.strand_ends(s, (0, turn), distance) for s in (1, -1))

@@ -1,11 +1,10 @@
 """The text of the deck of a chain drive (chain.Chain)."""
 
-import numpy as np
-
 TOP = """Chain drive: {n} pins run around sprockets with {z1} and {z2} teeth
-! Written by make_reference.py. Pitch {pitch:g} m; the driver (PART/1001) turns at {speed:g} rad/s. A pin at
-! the angle a of a sprocket meets its rim at R + H (sqrt(sin(z a/2)**2 + e**2) - e), teeth of the
-! height H with blunt roots (IMPACT, along the radius), and the force is normal to the rim.
+! Written by make_reference.py. Pitch {pitch:g} m; the driver (PART/1001) turns at {speed:g} rad/s.
+! A pin at the angle a of a sprocket meets its rim (IMPACT, along the radius) at
+! R + H (sqrt(sin(z a/2)**2 + e**2) - e), teeth of the height H with blunt roots; the force is
+! normal to the rim.
 
 UNITS/SYSTEM=MKS
 
@@ -49,7 +48,7 @@ VFORCE/{s}{k}, I={k}, JFLOAT={floating}, RM=1000
 , FY=(P{s}{k}*DY({k},{c})+Q{s}{k}*DX({k},{c}))/DM({k},{c})
 """
 BOTTOM = """
-! Ratio of the speeds; its first harmonic while a tooth passes; teeth by which the driven sprocket is
+! Ratio of the speeds; its first harmonic while a tooth passes; teeth by which the driven one is
 ! ahead of the mean ratio.
 VARIABLE/ratio, FUNCTION=WZ(1003)/{speed:g}
 VARIABLE/chordal, FUNCTION=2*(VARVAL(ratio)-{z1}/{z2})*COS({z1}*AZ(1001))
@@ -66,7 +65,8 @@ def deck(c):
     rate, drift = c.rates((0, turn), distance)
     ids = vars(c) | {
         "z1": c.teeth[0], "z2": c.teeth[1], "distance": distance, "drift": drift, "turn": turn,
-        "driven": rate, "mean": c.speed * c.teeth[0] / c.teeth[1], "free": c.pitch / (1 + c.pull / 2 / c.ea), "stiffness": c.ea / c.pitch,
+        "driven": rate, "mean": c.speed * c.teeth[0] / c.teeth[1],
+        "free": c.pitch / (1 + c.pull / 2 / c.ea), "stiffness": c.ea / c.pitch,
     }  # fmt: skip
     place, speed = c.pins()
     n = len(place)
