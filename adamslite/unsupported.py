@@ -17,3 +17,13 @@ FUNCTIONS = frozenset(
     INCANG INTERP INVPSD NFORCE PINVAL POUVAL SENVAL USER
     UV VXYZ WDTXYZ WXYZ""".split()
 )
+
+_TABULATE = "write points of the curve into a MATRIX: CURVE/id, MATRIX=id, CURVE_POINTS"
+INSTEAD = {
+    "CURVE FUNCTION": _TABULATE,
+    "CURVE MINPAR": _TABULATE,
+    "CURVE MAXPAR": _TABULATE,
+    "CVCV": "curves that roll on each other cannot be run; PTCV holds a point on one curve",
+    "BEAM NONLINEAR": "a beam that bends far is a row of LINEAR ones with parts between them",
+}
+"""What to write instead, by statement, statement and argument, or statement and choice."""

@@ -12,6 +12,7 @@ from adamslite.diagnostics import DeckError
 from adamslite.messages import MESSAGES, START
 
 BROKEN = [(code, deck) for code, message in MESSAGES.items() for deck in message.broken]
+SECTION = "LENGTH=1, IXX=1, IYY=1, IZZ=1, AREA=1, EMODULUS=1, GMODULUS=1"
 COMMANDS = [(code, text) for code, message in MESSAGES.items() for text in message.commands]
 
 
@@ -95,6 +96,10 @@ def test_all_mistakes_are_told_at_once_and_in_order() -> None:
         ("UNITS/SYSTEM=MKSA", "did you mean MKS?"),
         ("MARKER/4, PART=3", "there is a POINT_MASS/3"),
         ("VARIABLE/a, FUNCTION=1\nVARIABLE/1, FUNCTION=a(2)", "a is a VARIABLE"),
+        ("CURVE/1, FUNCTION=USER(1)", "write points of the curve into a MATRIX"),
+        ("CURVE/1, MINPAR=0", "write points of the curve into a MATRIX"),
+        ("CVCV/1, ICURVE=1, JCURVE=2", "curves that roll on each other cannot be run"),
+        (f"BEAM/1, I=2, J=1, {SECTION}, FORMULATION=NONLINEAR", "a beam that bends far is a row"),
         ("VARIABLE/1, FUNCTION=DX + 1", "DX is a function: write DX(i[, j][, k])"),
     ],
 )

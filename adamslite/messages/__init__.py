@@ -18,6 +18,7 @@ from adamslite.messages.expressions import EXPRESSIONS
 from adamslite.messages.model import MODEL
 from adamslite.messages.runs import RUNS
 from adamslite.messages.statements import STATEMENTS
+from adamslite.unsupported import INSTEAD
 
 MESSAGES: dict[str, Message] = STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CONSTRAINTS | RUNS
 
@@ -88,7 +89,8 @@ class Log:
         if known:
             known.count += 1
         else:
-            self._tallies[code, kind] = _Tally((start, end), words)
+            hint = INSTEAD.get(kind, "")
+            self._tallies[code, kind] = _Tally((start, end), {"hint": hint} | words)
 
     def missing(self, names: Any, kind: str, key: int | str, start: int, end: int) -> None:
         """Say that a statement is referred to and does not exist."""
