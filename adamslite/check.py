@@ -264,9 +264,23 @@ def frictions(deck: Deck) -> Iterator[Diagnostic]:
         joint = deck.find("JOINT", each.joint)
         if joint and joint.kind not in each.joints:
             yield say(each, "friction-not-there", "joint", joint=joint.label, kind=joint.kind)
-        if each.given("max_stiction_deformation"):
-            word, reason = "MAX_STICTION_DEFORMATION", "a joint at rest under load creeps instead"
-            yield say(each, "no-effect", "max_stiction_deformation", word=word, reason=reason)
+        if joint and joint.kind in each.joints:
+            yield from _stiction(each, joint)
+
+
+def _stiction(friction: Statement, joint: Statement) -> Iterator[Diagnostic]:
+    """Whether the joint can hold at rest, and whether that was asked for."""
+    field, creeps = "max_stiction_deformation", f"a joint {joint.kind} at rest under load creeps"
+    if friction.given(field):
+        yield from positive(friction, field)
+        if not friction.sticks(joint):
+            sliding = friction.effect == "SLIDING"
+            reason = "EFFECT=SLIDING leaves stiction out" if sliding else creeps
+            yield say(friction, "no-effect", field, word=field.upper(), reason=reason)
+    elif friction.effect != "SLIDING":
+        holds = joint.kind in friction.held
+        hint = f"{field.upper()} lets it hold" if holds else creeps
+        yield say(friction, "friction-creeps", hint=hint)
 
 
 def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:

@@ -58,7 +58,6 @@ class Deck:
         self.source = source
         self.title = title
         self.own = statements
-        self.statements = tuple(s for own in statements for s in (own, *own.companions()))
         self.names = names
         self.path = path
         self.inactive = inactive
@@ -67,7 +66,15 @@ class Deck:
         """Keywords of statements with mistakes, which are not among the statements."""
         self._of: dict[str, list[Statement]] = {}
         self._by_key: dict[tuple[str, Key], Statement] = {}
-        for each in self.statements:
+        self._enter(statements)
+        groups = [(each, each.companions(self)) for each in statements]
+        self.statements = tuple(s for each, group in groups for s in (each, *group))
+        self._enter(self.statements)
+
+    def _enter(self, statements: Iterable[Statement]) -> None:
+        """Make statements, and no others, known to :meth:`of` and :meth:`find`."""
+        self._of, self._by_key = {}, {}
+        for each in statements:
             self._of.setdefault(each.keyword, []).append(each)
             self._by_key.setdefault((each.keyword, each.key), each)
 

@@ -211,8 +211,8 @@ class Statement:
         """Values that follow from keyword and id of the nearest body before the statement."""
         return {}
 
-    def companions(self) -> tuple[Statement, ...]:
-        """Statements this one brings with it."""
+    def companions(self, deck: Any) -> tuple[Statement, ...]:
+        """Statements this one brings with it; ``deck`` finds those it refers to."""
         return ()
 
     def derived(self, model: Any) -> dict[str, Any]:

@@ -38,6 +38,13 @@ DECKS = {
             ("SPHERICAL", "ALL", 0.3),
         )
     },
+    **{
+        f"FRICTION {kind} with stiction, {edge}": f"JOINT/1, {kind}, I=21, J=31\nFRICTION/1"
+        f", JOINT=1, PIN_RADIUS=0.3, STICTION_TRANSITION_VELOCITY={edge}"
+        ", MAX_STICTION_DEFORMATION=0.5, FRICTION_FORCE_PRELOAD=1, FRICTION_TORQUE_PRELOAD=1"
+        for kind in ("TRANSLATIONAL", "REVOLUTE")
+        for edge in (9, 0.3, 0.01)
+    },
 }  # fmt: skip
 
 

@@ -17,6 +17,19 @@ Equations (F, T: force and torque of the joint on I; a: z of J; ``_n`` across a,
          STEP from MU_STATIC to MU_DYNAMIC         vs ... 1.5 vs
          MU_DYNAMIC                                beyond
 
+With MAX_STICTION_DEFORMATION = D a TRANSLATIONAL or REVOLUTE joint holds what friction can hold, by
+a bristle between the surfaces whose deflection b (-1 ... 1) is a state, ``DIFF/FRICTION_id``::
+
+    friction = -(mu(|v|) N + preload) (b + (1 - |b|) p(v)),    mu = MU_STATIC below vs
+
+    p = u (3 - u^2)/2 with u = v/vs below vs, sign(v) beyond
+    db/dt = v/D                        as long as |b| < 0.9, and whenever v lowers |b|
+    db/dt = v/D (1 - |b|)/0.1          from there to 1, where the bristle slips
+
+At rest under a load F the joint has yielded b D, b = F/(MU_STATIC N + preload), up to |b| = 0.9; it
+breaks away at b = 1.  In sliding b = sign(v) and the friction is that of the table above.  A joint
+that stops springs back by D at most.  The term with p damps the bristle.
+
 The reaction is the joint's multipliers of the same instant, solved together with everything else.
 INPUTS leaves out terms of N or the preload: REACTION_FORCE F, BENDING_MOMENT T_n, TORSIONAL_MOMENT
 T_a.  EFFECT=SLIDING takes MU_DYNAMIC for both coefficients, EFFECT=STICTION has no friction beyond
@@ -24,30 +37,43 @@ T_a.  EFFECT=SLIDING takes MU_DYNAMIC for both coefficients, EFFECT=STICTION has
 
 Sign: against the slip of I relative to J; the opposite acts on J.
 
-What differs from ADAMS, or is not documented: below vs ADAMS holds the joint by a spring that
-yields up to MAX_STICTION_DEFORMATION; here a joint under a load that friction can hold creeps,
-slower than vs (check warns when MAX_STICTION_DEFORMATION is given).  In a static analysis
-nothing slips and there is no friction, as with INACTIVE=STATIC.  The overlap of the sliding parts
-stays INITIAL_OVERLAP.  The defaults of the coefficients and arms are those that Adams/View writes.
-The weights of N in revolute, cylindrical and spherical joints follow the descriptions of their
-arguments; for the two axes of Hooke and universal joints there is no such description, and the
-joints are refused.
+What differs from ADAMS, or is not documented: that friction at rest follows from deformation,
+velocity and MU_STATIC is documented, the formula is not; the bristle is the elasto-plastic one of
+Dupont.  Without MAX_STICTION_DEFORMATION, and always in CYLINDRICAL and SPHERICAL joints, a joint
+under a load that friction can hold creeps, slower than vs.  In a static analysis nothing slips and
+there is no friction, as with INACTIVE=STATIC; the bristle is then straight, b = 0.  The overlap of
+the sliding parts stays INITIAL_OVERLAP.  The defaults of the coefficients and arms are those that
+Adams/View writes.  The weights of N in revolute, cylindrical and spherical joints follow the
+descriptions of their arguments; for the two axes of Hooke and universal joints there is no such
+description, and the joints are refused.
 Source: Adams/Solver statement FRICTION; Adams/View help "Translational Joint" and "Friction Regime
-Determination".
+Determination"; P. Dupont, V. Hayward, B. Armstrong, F. Altpeter, IEEE Trans. Automatic Control 47
+(2002) 787, section III.
 """
 
 from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from adamslite.algebra import choose, norm, root
+from adamslite.algebra import choose, magnitude, norm, root
 from adamslite.coordinates import relative_velocity, spin
-from adamslite.expression import COMPONENTS, Ref, measure
-from adamslite.statement import Statement, choice, number, reference, statement, words
+from adamslite.expression import COMPONENTS, MODE, Call, Node, Num, Op, Ref, measure
+from adamslite.statement import (
+    STATEMENTS,
+    Statement,
+    choice,
+    number,
+    reference,
+    statement,
+    words,
+)
 from adamslite.symbolic import ZERO, Load, Scope, dot, minus, scale
 from adamslite.wrench import Wrench
 
 BLEND = 1.5
+# Share of the bristle's deflection over which it begins to slip.
+YIELDING = 0.1
+STATICS = 5
 INPUTS = ("PRELOAD", "REACTION_FORCE", "BENDING_MOMENT", "TORSIONAL_MOMENT")
 
 
@@ -67,7 +93,9 @@ class Friction(Wrench, Statement):
         help="slip at which friction is greatest",
     )  # fmt: skip
     max_stiction_deformation: float | None = number(
-        "MAX_STICTION_DEFORMATION", unit="length", help="not used: the joint creeps instead"
+        "MAX_STICTION_DEFORMATION",
+        unit="length",
+        help="TRANSLATIONAL, REVOLUTE: deformation of the surface at which it slips",
     )
     pin_radius: float = _arm("PIN_RADIUS", 1.0, "REVOLUTE, CYLINDRICAL: radius of the pin")
     ball_radius: float = _arm("BALL_RADIUS", 1.0, "SPHERICAL: radius of the ball")
@@ -99,22 +127,50 @@ class Friction(Wrench, Statement):
         "INACTIVE", options=("STATIC",), help="no friction in statics: always so"
     )
 
+    held: ClassVar[tuple[str, ...]] = ("REVOLUTE", "TRANSLATIONAL")
     joints: ClassVar[tuple[str, ...]] = ("CYLINDRICAL", "REVOLUTE", "SPHERICAL", "TRANSLATIONAL")
+
+    @property
+    def state(self) -> str:
+        """Name of the DIFF that is the bristle's deflection."""
+        return f"FRICTION_{self.key}".upper()
+
+    @property
+    def deflection(self) -> Node:
+        """The bristle's deflection as an expression."""
+        return Call("DIF", (Ref("DIFF", self.state),))
+
+    def sticks(self, joint: Any) -> bool:
+        """Whether a bristle holds the joint at rest."""
+        wanted = self.max_stiction_deformation is not None and self.effect != "SLIDING"
+        return wanted and joint is not None and joint.kind in self.held
+
+    def companions(self, deck: Any) -> tuple[Statement, ...]:
+        """The bristle's deflection over MAX_STICTION_DEFORMATION."""
+        joint = deck.find("JOINT", self.joint)
+        if not self.sticks(joint):
+            return ()
+        rate = bristle_rate(self, joint)
+        return (STATEMENTS["DIFF"](id=self.state, function=rate, spans=self.spans),)
 
     def derived(self, model: Any) -> dict[str, Any]:
         """Force and torque of the joint on I, and which of them count."""
         joint = Ref("JOINT", self.joint)
+        joint_found = model.element("JOINT", self.joint)
         reaction = tuple(measure("JOINT", joint, component) for component in COMPONENTS)
         counted = set(self.inputs) or {"ALL"}
         used = {name: bool(counted & {name, "ALL"}) for name in INPUTS}
         return {
             "reaction": reaction,
             "used": tuple(name for name in INPUTS if used[name]),
+            "bristle": self.deflection if self.sticks(joint_found) else None,
         }
 
     def loads(self, scope: Scope) -> list[Load]:
         """Friction on I and its reaction on J."""
         joint = self.joint
+        if self.bristle is not None:
+            return [held(scope, self)]
         force, torque = slip(scope, self)
         square = dot(force, force) + dot(torque, torque)
         grip = friction_by_speed(self, square, normal_load(scope, self))
@@ -154,23 +210,86 @@ def normal_load(scope: Scope, friction: Any) -> Any:
     return across + bending / friction.initial_overlap
 
 
+def bristle_rate(friction: Any, joint: Any) -> Node:
+    """db/dt as an expression; in statics the bristle straightens."""
+    i, j = Ref("MARKER", joint.i), Ref("MARKER", joint.j)
+    if joint.kind == "REVOLUTE":
+        slip = Op("*", (Num(friction.pin_radius), Call("WZ", (i, j, j))))
+    else:
+        slip = Call("VZ", (i, j, j, j))
+    b = friction.deflection
+    ahead = _product(Call("MAX", (slip, Num(0.0))), _yield(Op("-", (Num(1.0), b))))
+    back = _product(Call("MIN", (slip, Num(0.0))), _yield(Op("+", (Num(1.0), b))))
+    rate = Op("/", (Op("+", (ahead, back)), Num(friction.max_stiction_deformation)))
+    return Call("IF", (Op("-", (MODE, Num(STATICS))), rate, Op("neg", (b,)), rate))
+
+
+def _product(a: Node, b: Node) -> Node:
+    return Op("*", (a, b))
+
+
+def _yield(left: Node) -> Node:
+    """1 while ``left``, the deflection that is left, is large; falls to 0 with it."""
+    share = Op("/", (left, Num(YIELDING)))
+    return Call("MIN", (Call("MAX", (share, Num(0.0))), Num(1.0)))
+
+
+def held(scope: Scope, friction: Any) -> Load:
+    """Friction of a joint with a bristle."""
+    i, j = friction.joint.i, friction.joint.j
+    axis = scope.axes(j)[2]
+    load = normal_load(scope, friction)
+    if friction.joint.kind == "TRANSLATIONAL":
+        push = friction_by_bristle(friction, relative_velocity(scope, i, j, 2), load)
+        return Load(i, scale(-push, axis), ZERO, j, follows=True)
+    push = friction_by_bristle(friction, friction.pin_radius * spin(scope, i, j), load)
+    return Load(i, ZERO, scale(-push * friction.pin_radius, axis), j, follows=True)
+
+
+def friction_by_bristle(friction: Any, speed: Any, load: Any) -> Any:
+    """Friction at the surface against a slip of ``speed``."""
+    rest, moving = coefficients(friction)
+    edge, size, b = friction.stiction_transition_velocity, magnitude(speed), friction.bristle
+    share = choose(
+        (speed * (3 - speed**2 / edge**2) / (2 * edge), size <= edge),
+        (1, speed > 0),
+        otherwise=-1,
+    )
+    mu = choose(
+        (rest, size <= edge),
+        (blended(friction, size), size <= BLEND * edge),
+        otherwise=moving,
+    )
+    return (mu * load + preload(friction)) * (b + (1 - magnitude(b)) * share)
+
+
 def friction_by_speed(friction: Any, square: Any, load: Any) -> Any:
     """Friction over slip at the surface, by the slip's square: even and smooth."""
-    rest, moving = {
+    rest, moving = coefficients(friction)
+    own = preload(friction)
+    edge, speed = friction.stiction_transition_velocity, root(square)
+    creeping = (rest * load + own) * (3 - square / edge**2) / (2 * edge)
+    return choose(
+        (creeping, square <= edge**2),
+        ((blended(friction, speed) * load + own) / speed, square <= (BLEND * edge) ** 2),
+        otherwise=(moving * load + own) / speed,
+    )
+
+
+def coefficients(friction: Any) -> tuple[Any, Any]:
+    """At rest and in motion, by EFFECT."""
+    return {
         "ALL": (friction.mu_static, friction.mu_dynamic),
         "SLIDING": (friction.mu_dynamic, friction.mu_dynamic),
         "STICTION": (friction.mu_static, 0),
     }[friction.effect]
-    own = preload(friction)
-    edge, speed = friction.stiction_transition_velocity, root(square)
-    passed = (speed / edge - 1) / (BLEND - 1)
-    between = rest + (moving - rest) * passed**2 * (3 - 2 * passed)
-    creeping = (rest * load + own) * (3 - square / edge**2) / (2 * edge)
-    return choose(
-        (creeping, square <= edge**2),
-        ((between * load + own) / speed, square <= (BLEND * edge) ** 2),
-        otherwise=(moving * load + own) / speed,
-    )
+
+
+def blended(friction: Any, speed: Any) -> Any:
+    """The coefficient between vs and 1.5 vs."""
+    rest, moving = coefficients(friction)
+    passed = (speed / friction.stiction_transition_velocity - 1) / (BLEND - 1)
+    return rest + (moving - rest) * passed**2 * (3 - 2 * passed)
 
 
 def preload(friction: Any) -> Any:

@@ -67,7 +67,7 @@ class Motion(Constraint, Statement):
         """Name of the DIFF that integrates an acceleration."""
         return f"MOTION_{self.key}"
 
-    def companions(self) -> tuple[Statement, ...]:
+    def companions(self, deck: Any) -> tuple[Statement, ...]:
         """The DIFF of an acceleration."""
         if self.level != "ACCELERATION":
             return ()

@@ -49,7 +49,7 @@ class Ptcv(Constraint, Statement):
         """Name of the massless point that carries the parameter."""
         return f"PTCV_{self.key}"
 
-    def companions(self) -> tuple[Statement, ...]:
+    def companions(self, deck: Any) -> tuple[Statement, ...]:
         """The massless point and a marker on it."""
         point = STATEMENTS["POINT_MASS"](id=self.slider, mass=0.0, spans=self.spans)
         marker = STATEMENTS["MARKER"](id=self.slider, point_mass=point.key, spans=self.spans)

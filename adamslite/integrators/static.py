@@ -14,6 +14,7 @@ from adamslite.integrators.acceleration import put_state
 from adamslite.integrators.base import (
     DONE,
     FACTORIZATIONS,
+    MODE_STATICS,
     NB,
     NEWTON,
     NOT_SETTLED,
@@ -84,6 +85,7 @@ def imbalance(P: Problem) -> None:
     for i in range(P.rd.size):
         P.rd[i] = 0.0
     put_state(P, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
+    P.W[1] = MODE_STATICS
     residual(P, STATIC, P.F)
     worst = 0.0
     for i in range(n):

@@ -157,6 +157,13 @@ MODEL: dict[str, Message] = {
         "translational, revolute, cylindrical and spherical joints have friction",
         ("JOINT/1, HOOKE, I=2, J=1\nFRICTION/1, JOINT=1",),
     ),
+    "friction-creeps": Message(
+        "{label} lets its joint creep under a load that friction could hold",
+        "MAX_STICTION_DEFORMATION lets it hold",
+        ("JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1",
+         "JOINT/1, SPHERICAL, I=2, J=1\nFRICTION/1, JOINT=1"),
+        severity=WARNING,
+    ),
     "no-effect": Message(
         "{word} has no effect in {label}",
         "{reason}",
@@ -164,7 +171,9 @@ MODEL: dict[str, Message] = {
          "MOTION/1, I=2, J=1, X, ICDISP=1, FUNCTION=TIME",
          "SPRINGDAMPER/1, I=2, J=1, KT=1", "MARKER/4, PART=1, USEXP, XP=1,0,0, ZP=0,0,1\n"
          "SPRINGDAMPER/1, ROTATIONAL, I=2, J=4, K=1",
-         "JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1, MAX_STICTION_DEFORMATION=1"),
+         "JOINT/1, SPHERICAL, I=2, J=1\nFRICTION/1, JOINT=1, MAX_STICTION_DEFORMATION=1",
+         "JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1, EFFECT=SLIDING"
+         ", MAX_STICTION_DEFORMATION=1"),
         severity=WARNING,
     ),
     "units-incomplete": Message(
