@@ -126,7 +126,9 @@ sheave, a point at the origin that the cable slips through. The hook is MARKER/2
             through_the_sheave(k, k + 1, k + 2, 9003) if near else section(k, k + 1, k + 2, "L_0")
         )
     text += impedance(9004, n + 2, cable)
-    text += "\n! Tension at the sheave and at the hook.\nREQUEST/1, F2=FX(9003)\\ F3=SFORCE(1,0,1)\n"
+    text += (
+        "\n! Tension at the sheave and at the hook.\nREQUEST/1, F2=FX(9003)\\ F3=SFORCE(1,0,1)\n"
+    )
     end = end_time(impact)
     return text + tail("VERLET, ERROR=1.0E-3", end, round(end / PACE))
 

@@ -38,9 +38,7 @@ def head(title: str, notes: str, *lines: str) -> str:
 
 def tail(integrator: str, end: float, steps: int) -> str:
     """The run."""
-    return (
-        f"\nINTEGRATOR/{integrator}\nSIMULATE/DYNAMIC, END={number(end)}, STEPS={steps}\nEND\n"
-    )
+    return f"\nINTEGRATOR/{integrator}\nSIMULATE/DYNAMIC, END={number(end)}, STEPS={steps}\nEND\n"
 
 
 def point(i: int, mass: float, place, speed=()) -> str:
@@ -70,13 +68,14 @@ def section(s: int, i: int, j: int, free: str, damping: float = 0.0) -> str:
     return f"SFORCE/{s}, I={i}, J={j}, FUNCTION=-EA*(DM({i},{j})/{free}-1){damper}\n"
 
 
-def impedance(s: int, i: int, cable: Cable) -> str:
-    """The pull of a long straight run along +x on MARKER/i: T0 - rho c v."""
+def impedance(s: int, i: int, cable: Cable, side: int = 1) -> str:
+    """The pull of a long straight run on MARKER/i, along +x (`side` 1) or -x (-1)."""
     return (
-        "! A long run goes on from here: it pulls with T0 - rho c v (z of the marker is x).\n"
+        "! A long run goes on from here: it pulls with T0 + rho c v, v the speed away from it\n"
+        "! (z of the marker is x).\n"
         f"MARKER/{s}, PART=1, REULER=90D,90D,0D\n"
         f"SFORCE/{s}, ACTIONONLY, I={i}, J={s}"
-        f", FUNCTION={number(cable.pretension)}-SQRT(EA*rho)*VX({i})\n"
+        f", FUNCTION={number(side * cable.pretension)}-SQRT(EA*rho)*VX({i})\n"
     )
 
 
@@ -129,9 +128,7 @@ def grown(form: str, k: int, sections: int, axes: str = "XY") -> str:
 def grown_tip(form: str, k: int, sections: int, axes: str = "XY") -> str:
     """What it does to the tip, which has half a section's mass and moves with the cable."""
     i, lost = k + 1, f"-rho*SD/{2 * sections}*V{{a}}({k + 1})" if form == "paper" else ""
-    return _vforce(
-        i, axes, [f"-Dm/2*(ACC{a}({i})-{_gravity(a)}){lost.format(a=a)}" for a in axes]
-    )
+    return _vforce(i, axes, [f"-Dm/2*(ACC{a}({i})-{_gravity(a)}){lost.format(a=a)}" for a in axes])
 
 
 def _gravity(axis: str) -> str:
