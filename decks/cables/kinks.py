@@ -75,9 +75,10 @@ def growing(form: str, impact: Impact, sections: int) -> str:
     cable, free = impact.cable, free_length(impact, sections)
     text = head(
         f"Transverse impact at {impact.speed:g} m/s, variable-length cable ({form})",
-        f"""Half of a symmetric deck span of {sections} sections. The hook (MARKER/{sections + 1}) moves on at
-{impact.speed:g} m/s. The supply behind the sheave is a long straight run of the same cable: at the
-speed v it pulls with T0 + rho c v. The pulley has next to no inertia.""",
+        f"""Half of a symmetric deck span of {sections} sections. The hook
+        (MARKER/{sections + 1}) moves on at {impact.speed:g} m/s. The supply behind the
+        sheave is a long straight run of the same cable: at the speed v it pulls with T0 +
+        rho c v. The pulley has next to no inertia.""",
         "",
         "PART/1, GROUND",
         "MARKER/1, PART=1                ! the sheave",
@@ -105,9 +106,10 @@ def brute_force(impact: Impact, sections: int, supply: int, passing: int) -> str
     cable, free, n = impact.cable, free_length(impact, sections), sections + supply
     text = head(
         f"Transverse impact at {impact.speed:g} m/s, brute force",
-        f"""Half of a symmetric deck span of {sections} sections, and {supply} sections laid out behind the
-sheave, a point at the origin that the cable slips through. The hook is MARKER/2 and moves on at
-{impact.speed:g} m/s. The tension at the sheave is what MARKER/9003 carries.""",
+        f"""Half of a symmetric deck span of {sections} sections, and {supply} sections laid out
+        behind the sheave, a point at the origin that the cable slips through. The hook is
+        MARKER/2 and moves on at {impact.speed:g} m/s. The tension at the sheave is what
+        MARKER/9003 carries.""",
         "",
         "PART/1, GROUND",
         "MARKER/1, PART=1                ! the sheave, seen from the deck",
@@ -148,9 +150,10 @@ def anchored_cable(impact: Impact, length: float, sections: int, damping: float)
     cosine = (1 - impact.sine**2) ** 0.5
     text = head(
         f"An oblique cable at {impact.speed:g} m/s, its end arrested",
-        f"""The cable behind a kink, straight and under T1, moves across the deck at {impact.speed:g} m/s. At
-TIME = 0 its end at the origin is stopped: the kink has come to an anchored sheave.
-{sections} sections on {length:g} m; zeta = {damping:g} takes the ringing of single sections away.""",
+        f"""The cable behind a kink, straight and under T1, moves across the deck at
+        {impact.speed:g} m/s. At TIME = 0 its end at the origin is stopped: the kink has
+        come to an anchored sheave. {sections} sections on {length:g} m; zeta = {damping:g}
+        takes the ringing of single sections away.""",
         "",
         "PART/1, GROUND",
         "MARKER/1, PART=1                ! the anchor",
@@ -160,7 +163,10 @@ TIME = 0 its end at the origin is stopped: the kink has come to an anchored shea
         s, mass = k * length / sections, cable.density * free if k < sections else HEAVY
         text += point(k + 1, mass, [-s * cosine, s * impact.sine], [0, impact.speed])
     text += "\n" + "".join(section(k, k, k + 1, "L_0", damping) for k in range(1, sections + 1))
-    text += f"\n! Tension at the anchor and half way.\nREQUEST/1, F2=SFORCE(1,0,1)\\ F3=SFORCE({sections // 2},0,1)\n"
+    text += (
+        "\n! Tension at the anchor and half way.\n"
+        f"REQUEST/1, F2=SFORCE(1,0,1)\\ F3=SFORCE({sections // 2},0,1)\n"
+    )
     end = PACE * int(1.98 * length / cable.speed / PACE)
     return text + tail("VERLET, ERROR=1.0E-3", end, round(end / PACE))
 

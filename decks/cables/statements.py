@@ -14,6 +14,8 @@ d/dk the central difference, the ale node has the force
 which is -Dm (ACC - g) less (m0 + Dm) times the convective part of the acceleration.
 """
 
+from textwrap import wrap
+
 from formulas import Cable
 
 PULLEY, BEARING = 9001, 9002
@@ -30,7 +32,7 @@ def number(value: float) -> str:
 
 def head(title: str, notes: str, *lines: str) -> str:
     """Title, comments and units."""
-    text = "".join(f"! {line}\n" for line in notes.strip().splitlines())
+    text = "".join(f"! {line}\n" for line in wrap(" ".join(notes.split()), 96))
     return f"{title}\n{text}! Written by generate.py.\n\nUNITS/SYSTEM=MKS\n" + "".join(
         f"{line}\n" for line in lines
     )

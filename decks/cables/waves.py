@@ -31,7 +31,7 @@ def finish(end: float) -> str:
 def chain(cable: Cable, sections: int, first: int, y: float, struck, speed, damping=DAMPING) -> str:
     """A straight cable on 0 <= x <= LENGTH; its end at x = LENGTH, of mass `struck`, has `speed`.
 
-    Nodes are MARKER/first (x = 0, left out) to MARKER/first + sections, sections are numbered alike.
+    Nodes are MARKER/first (at x = 0, left out) to MARKER/first + sections.
     """
     free = LENGTH / sections / (1 + cable.strain)
     mass = cable.density * free
@@ -58,8 +58,9 @@ def step_deck(cable: Cable, speed: float, sections: int) -> str:
     """One end is pulled, behind the other the cable goes on."""
     text = start(
         f"An axial step of {speed:g} m/s",
-        f"""A cable of {sections} sections on {LENGTH:g} m; from TIME = 0 its right end is pulled away at
-{speed:g} m/s (a mass that nothing slows down). At its left end it goes on for ever.""",
+        f"""A cable of {sections} sections on {LENGTH:g} m; from TIME = 0 its right end is
+        pulled away at {speed:g} m/s (a mass that nothing slows down). At its left end it
+        goes on for ever.""",
         cable,
         sections,
         DAMPING,
@@ -69,7 +70,10 @@ def step_deck(cable: Cable, speed: float, sections: int) -> str:
     text += chain(cable, sections, 1, 0.0, HEAVY, [speed])
     text += impedance(9004, 1, cable, -1)
     middle = sections // 2
-    text += f"\n! Tensions at the pulled end, half way and at the left.\nREQUEST/1, F2=SFORCE({sections + 1},0,1)\\ F3=SFORCE({middle},0,1)\\ F4=SFORCE(2,0,1)\n"
+    text += (
+        "\n! Tensions at the pulled end, half way and at the left.\n"
+        f"REQUEST/1, F2=SFORCE({sections + 1},0,1)\\ F3=SFORCE({middle},0,1)\\ F4=SFORCE(2,0,1)\n"
+    )
     return text + finish(1.95 * LENGTH / cable.speed)
 
 
@@ -94,9 +98,10 @@ def echo_deck(cable: Cable, speed: float, mass: float, sections: int) -> str:
     held, free, struck, right = 1, 1001, 2001, 2001 + sections
     text = start(
         f"Echoes of an axial step of {speed:g} m/s",
-        f"""Three cables of {sections} sections on {LENGTH:g} m, 1 m apart; their right ends get {speed:g} m/s at
-TIME = 0. MARKER/{held} on: held at the left. MARKER/{free} on: free at the left, where a dead load keeps
-up T0. MARKER/{struck} on: struck by a mass of {mass:g} kg, with a dead load T0; the left goes on for ever.""",
+        f"""Three cables of {sections} sections on {LENGTH:g} m, 1 m apart; their right ends get
+        {speed:g} m/s at TIME = 0. MARKER/{held} on: held at the left. MARKER/{free} on:
+        free at the left, where a dead load keeps up T0. MARKER/{struck} on: struck by a
+        mass of {mass:g} kg, with a dead load T0; the left goes on for ever.""",
         cable,
         sections,
         DAMPING,
@@ -149,8 +154,9 @@ def scan_deck(cable: Cable, speeds: tuple[float, float], sections: int) -> str:
     """Two impacts on cables without pretension, one 100 m beside the other."""
     text = start(
         f"Transverse impact at {speeds[0]:g} and {speeds[1]:g} m/s without pretension",
-        f"""Two cables of {sections} sections on {LENGTH:g} m, slack to begin with. Their hooks, at the right,
-move across at {speeds[0]:g} and {speeds[1]:g} m/s; at the left the cables go on for ever.""",
+        f"""Two cables of {sections} sections on {LENGTH:g} m, slack to begin with. Their hooks,
+        at the right, move across at {speeds[0]:g} and {speeds[1]:g} m/s; at the left the
+        cables go on for ever.""",
         cable,
         sections,
         DAMPING,
