@@ -12,7 +12,7 @@ decks/README.md describes each line. A comment that looks like none of them is f
 
 import re
 import shlex
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
@@ -21,10 +21,13 @@ from typing import Any
 from adamslite.compare import INTERPOLATIONS, Comparison, Tolerance, compare, fits
 from adamslite.faults import FormatError, UsageError
 from adamslite.flags import parse_flags
-from adamslite.measure import KINDS, VALUE, Measure
+from adamslite.measure import ARRIVAL, KINDS, VALUE, Measure
 from adamslite.outcomes import Outcome
 from adamslite.outputs import csv
 from adamslite.results import Results
+
+# What a measure may be told, each followed by a number.
+_WORDS = ("at", "from", "to", "through", "smoothed")
 
 
 @dataclass(kw_only=True)
@@ -164,38 +167,41 @@ def _interpolate(reference: Reference, subject: str | None, text: str) -> None:
 
 def _measure(reference: Reference, subject: str | None, text: str) -> None:
     match = re.fullmatch(
-        r"(\w+)\s+(\S+)(?:\s+at\s+(\S+))?(?:\s+from\s+(\S+))?(?:\s+to\s+(\S+))?"
-        r"\s*=\s*(\S+)\s+tol\s+(.+)",
+        rf"(\w+)\s+(\S+)((?:\s+(?:{'|'.join(_WORDS)})\s+\S+)*)\s*=\s*(\S+)\s+tol\s+(.+)",
         text,
     )
     if not match:
         raise ValueError(
-            "write 'measure: mean NAME from T0 to T1 = VALUE tol rel R' "
-            "or 'measure: value NAME at T = VALUE tol abs A'"
+            "write 'measure: mean NAME from T0 to T1 = VALUE tol rel R', "
+            "'measure: value NAME at T = VALUE tol abs A' or "
+            "'measure: arrival NAME through LEVEL = T tol rel R'"
         )
-    kind, channel, at, start, end, value, tolerance = match.groups()
-    _need_kind(kind, at, start or end)
+    kind, channel, words, value, tolerance = match.groups()
+    pairs = words.split()
+    given = dict(zip(pairs[::2], map(_number, pairs[1::2]), strict=True))
+    _need_kind(kind, given)
     reference.measures.append(
         Measure(
             kind=kind,
             channel=channel,
-            start=_time(at or start),
-            end=_time(at or end),
+            start=given.get("at", given.get("from")),
+            end=given.get("at", given.get("to")),
+            level=given.get("through"),
+            smoothed=given.get("smoothed", 0.0),
             value=_number(value),
             tolerance=parse_tolerance(tolerance),
         )
     )
 
 
-def _need_kind(kind: str, at: str | None, window: str | None) -> None:
-    if kind not in (*KINDS, VALUE):
-        raise ValueError(f"'{kind}' is no measure; there are {', '.join((*KINDS, VALUE))}")
-    if (kind == VALUE) != bool(at) or (at and window):
+def _need_kind(kind: str, given: Collection[str]) -> None:
+    known = (*KINDS, ARRIVAL, VALUE)
+    if kind not in known:
+        raise ValueError(f"'{kind}' is no measure; there are {', '.join(known)}")
+    if (kind == VALUE) != ("at" in given) or ("at" in given and {"from", "to"} & set(given)):
         raise ValueError(f"'{VALUE} NAME at T' takes one time, the other measures 'from T0 to T1'")
-
-
-def _time(text: str | None) -> float | None:
-    return _number(text) if text else None
+    if (kind == ARRIVAL) != ("through" in given):
+        raise ValueError(f"'{ARRIVAL} NAME through LEVEL' takes a level, the other measures do not")
 
 
 _INSTRUCTIONS: dict[str, Callable[[Reference, str | None, str], None]] = {

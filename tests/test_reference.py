@@ -63,6 +63,10 @@ def test_every_instruction_is_understood(tmp_path: Path) -> None:
         ("measure: median x = 1 tol abs 1", "there are mean, max"),
         ("measure: value x = 1 tol abs 1", "takes one time"),
         ("measure: mean x at 1 = 1 tol abs 1", "takes one time"),
+        ("measure: value x at 1 to 2 = 1 tol abs 1", "takes one time"),
+        ("measure: arrival x = 1 tol abs 1", "takes a level"),
+        ("measure: max x through 1 = 1 tol abs 1", "takes a level"),
+        ("measure: max x smoothed by = 1 tol abs 1", "'by' is not a number"),
     ],
 )
 def test_a_wrong_instruction_is_explained(tmp_path: Path, line: str, message: str) -> None:
@@ -83,6 +87,10 @@ def test_a_wrong_instruction_is_explained(tmp_path: Path, line: str, message: st
         ("range PART/2.vx from 0.2 to 0.7", 0.5),
         ("last PART/2.vx", 1.0),
         ("value PART/2.vx at 0.4", 0.4),
+        ("arrival PART/2.vx through 0.55", 0.55),
+        ("arrival PART/2.vx through 0.55 from 0.3 to 0.6", 0.55),
+        ("max PART/2.vx smoothed 0.2 to 0.95", 0.9),
+        ("value PART/2.vx smoothed 0.2 at 0.4", 0.4),
     ],
 )
 def test_measures(tmp_path: Path, measure: str, value: float) -> None:
@@ -98,6 +106,7 @@ def test_measures(tmp_path: Path, measure: str, value: float) -> None:
         ("mean PART/2.vx from 0.5 to 2", "is not covered by the results"),
         ("mean PART/3.vx", "no channel 'PART/3.vx'"),
         ("value PART/2.vx at 0.45", "is not an output time"),
+        ("arrival PART/2.vx through 2", "never passes 2 from t = 0 to 1: it stays in 0 to 1"),
     ],
 )
 def test_measures_that_cannot_be_taken(tmp_path: Path, measure: str, message: str) -> None:
