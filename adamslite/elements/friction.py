@@ -170,6 +170,7 @@ def friction_by_speed(friction: Any, square: Any, load: Any) -> Any:
         (creeping, square <= edge**2),
         ((between * load + own) / speed, square <= (BLEND * edge) ** 2),
         otherwise=(moving * load + own) / speed,
+        order=1,
     )
 
 
