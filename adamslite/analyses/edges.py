@@ -5,7 +5,7 @@ found before the run, by the native kernels that the run itself uses:
 
 1. values at a grid of times, made finer until the number of changes stays the same; a value that
    turns round just short of zero is looked at more closely;
-2. bisection of every change down to neighbouring numbers.
+2. bisection of every change down to round-off.
 
 References: Shampine, Gladwell, Brankin, ACM Trans. Math. Softw. 17 (1991) 11 (events of one
 variable).
@@ -24,8 +24,9 @@ DENSITY, LEAST = 4, 257
 MOST = 2**18
 # Share of an interval by which the grid is shifted: periodic guards are zero at round times.
 SHIFT = 0.381966
-# Changes nearer to each other than this share of the run are one stop.
-SAME = 1e-13
+# Changes nearer to each other, or to an output time, than this share of the run are one; they are
+# located to that of round-off.
+SAME, ROUND_OFF = 1e-13, 1e-16
 
 
 def stops(system: System, times: np.ndarray) -> np.ndarray:
@@ -33,10 +34,12 @@ def stops(system: System, times: np.ndarray) -> np.ndarray:
     start, end = float(times[0]), float(times[-1])
     if not system.guarded["clock"] or not end > start:
         return np.array([end])
+    same = SAME * (end - start)
     found = _changes(system, _grid(system, times))
-    inside = found[(found > start + SAME * (end - start)) & (found < end - SAME * (end - start))]
-    apart = np.diff(inside, prepend=-np.inf) > SAME * (end - start)
-    return np.append(inside[apart], end)
+    near = times[np.abs(times[:, None] - found).argmin(axis=0)]
+    found = np.where(np.abs(near - found) <= same, near, found)
+    inside = found[(found > start + same) & (found < end - same)]
+    return np.append(inside[np.diff(inside, prepend=-np.inf) > same], end)
 
 
 def _grid(system: System, times: np.ndarray) -> np.ndarray:
@@ -70,18 +73,17 @@ def _changes(system: System, grid: np.ndarray) -> np.ndarray:
     found = []
     left, right = _branches(system, below), _branches(system, above)
     while len(below):
-        changed = (left != right).any(axis=1)
-        below, above, left, right = (x[changed] for x in (below, above, left, right))
         middle = 0.5 * (below + above)
-        last = (middle <= below) | (middle >= above)
-        found.append(above[last])
-        below, above, left, right, middle = (x[~last] for x in (below, above, left, right, middle))
-        if not len(below):
-            break
+        changed = (left != right).any(axis=1)
+        fine = above - below <= ROUND_OFF * (grid[-1] - grid[0])
+        fine |= (middle <= below) | (middle >= above)
+        found.append(above[changed & fine])
+        open_ = changed & ~fine
+        below, above, left, right, middle = (x[open_] for x in (below, above, left, right, middle))
         inner = _branches(system, middle)
         below, above = np.concatenate([below, middle]), np.concatenate([middle, above])
         left, right = np.concatenate([left, inner]), np.concatenate([inner, right])
-    return np.unique(np.concatenate(found)) if found else np.zeros(0)
+    return np.unique(np.concatenate(found))
 
 
 def _branches(system: System, times: np.ndarray) -> np.ndarray:

@@ -59,7 +59,7 @@ from adamslite.integrators.base import (
     Problem,
     T,
 )
-from adamslite.integrators.bdf_events import put_between
+from adamslite.integrators.bdf_events import put_between, restart_step
 from adamslite.integrators.equations import (
     project_on_constraints,
     put_motion,
@@ -78,6 +78,7 @@ from adamslite.integrators.events import (
     OPEN,
     SHARE,
     change_here,
+    crawls,
     ends_beyond,
     ends_there,
     happened,
@@ -86,7 +87,7 @@ from adamslite.integrators.events import (
     is_harmless,
     judge,
     keep_margins,
-    met,
+    let_go,
     open_search,
     pass_event,
     shorter,
@@ -345,7 +346,7 @@ def advance(P: Problem, L: Plan) -> int:
         return INTERRUPTED
     limit_step(P, w)
     P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], C[K]
-    if C[H] < P.settings[H_MIN]:
+    if C[H] < P.settings[H_MIN] or crawls(P, C[H]):
         return stuck(P, L, w)
     stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
     cu = gamma(int(C[K])) / C[H]
@@ -413,7 +414,7 @@ def pass_on(P: Problem, L: Plan, w: int) -> int:
         P.a[i] = P.ra[i]
     if not pass_event(P, L, C[NOW]):
         return NEWTON_FAILED
-    if met(P) or P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
         begin_anew(P, L, w)
         return RUNNING
     C[FACTORED] = 0.0
@@ -429,17 +430,18 @@ def begin_anew(P: Problem, L: Plan, w: int) -> None:
     """A history of order 1 from the state and the accelerations in place."""
     C = P.control
     P.count[RESTARTS] += 1
-    C[H], C[K], C[EQUAL], C[H_LAST], C[FACTORED] = first_step(P, w), 1.0, 0.0, 0.0, 0.0
-    C[TRAVELLED], C[BAD], C[TRIES], C[FARTHEST] = 0.0, 0.0, 0.0, 0.0
-    start_values(P, P.history, w, C[H])
-    if P.sizes[IMPLICIT_MASS]:
-        C[SIGNATURE] = float(mass_signature(P, L, P.x))
     for i in range(P.sizes[N]):
         P.ra[i] = P.a[i]
     keep_algebraic(P)
     for i in range(P.z.size):
         P.pz[i] = P.rz[i]
+    C[H], C[K], C[EQUAL] = restart_step(P, L, C[NOW], first_step(P, w)), 1.0, 0.0
+    C[H_LAST], C[FACTORED] = 0.0, 0.0
+    C[TRAVELLED], C[BAD], C[TRIES], C[FARTHEST] = 0.0, 0.0, 0.0, 0.0
+    start_values(P, P.history, w, C[H])
     put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.x))
 
 
 @native
@@ -489,7 +491,7 @@ def after_failure(P: Problem, w: int) -> int:
     P.count[FAILURES] += 1
     old = C[FRESH] == 0.0 and C[FACTORED] != 0.0
     C[FACTORED] = 0.0
-    if old:
+    if old or let_go(P):
         return RUNNING
     C[RETRIES] += 1.0
     C[FRESH] = 0.0

@@ -24,12 +24,15 @@ An integrator
    and afterwards puts the end back.  Above 1, ``P.search[FOUND]`` says that there was none.  Where
    ``ends_beyond(P)`` right after ``open_search``, branches differ at the end; when they make no
    difference there (:func:`is_harmless`) they are changed without a search;
+   A try that fails because nothing is defined behind a branch is done again after
+   :func:`let_go`;
+   A try after which it :func:`crawls` ends the run as CHATTERING;
 4. does nothing more when :func:`ends_there`; otherwise takes the step again with the size
    :func:`shorter`, or, when :func:`starts_there`, changes branches where it stands;
 5. accepts the step, writes the records of the time until then, and calls :func:`keep_margins`
-   after a step without event, else :func:`pass_event`; that leaves accelerations of the new
+   unless something :func:`happened`, else :func:`pass_event`; that leaves accelerations of the new
    branches, and in ``P.search[JUMP]`` how much they changed.  After a jump what is remembered of
-   the past is worthless: it starts anew; after a mere kink it may go on.
+   the past is worthless: it starts anew.  Behind the end of a STEP in time it may go on.
 
 Reference: Shampine, Thompson, Appl. Math. Comput. 2000, "Event location for ODEs"; Oliveira,
 Takahashi, ACM Trans. Math. Softw. 47 (2021) 5 (ITP, the bracketing).
@@ -65,14 +68,16 @@ STRICT, WEAK = 0, 1
 HUGE = 1e200
 # Rows of P.margin: at the start, at the end and inside of the step; the bracket; how often a guard
 # has changed lately, and since when;
-# branches before they were turned over.
-START, END, INSIDE, LOW_ROW, HIGH_ROW, CHANGES, SINCE, BEFORE = range(8)
+# branches before they were turned over, and before they were let go for a try.
+START, END, INSIDE, LOW_ROW, HIGH_ROW, CHANGES, SINCE, BEFORE, HELD = range(9)
 # An event is met when the step ends behind it by less than this share of the step in which it was
 # seen, or this multiple of ERROR.
 CLOSE, CLOSE_ERROR = 1e-6, 0.01
 TIME_ROUND_OFF = 4e-15
 # A guard that changes this often within this share of HMAX is chattering: it is no longer held.
 CHATTER, CHATTER_SPAN = 10.0, 1e-3
+# After that, this many steps below this share of HMAX show that nothing else helps.
+CRAWLING, MOST_CRAWLED = 1e-4, 500.0
 # Branches that change the end of a step by less than this share of ERROR need no event.
 HARMLESS = 0.02
 NONE = 2.0
@@ -80,8 +85,9 @@ NONE = 2.0
 # Places in P.search.
 (
     STOP_AT, OPEN, LOW, HIGH, SHARE, FOUND, SIZE, TOLERANCE, BUDGET, JUMP, FREED, CULPRIT, HUNT,
-    LOOSE,
-) = range(14)  # fmt: skip
+    LOOSE, LET_GO, AGAIN,
+    CRAWL,
+) = range(17)  # fmt: skip
 
 
 @native
@@ -169,6 +175,32 @@ def hold_watch(P: Problem) -> None:
 
 
 @native
+def let_go(P: Problem) -> bool:
+    """Evaluate guards as they are for the next try, because held ones led out of where an
+    expression is defined (the root of a length that IF keeps positive); False when they are not
+    held.
+    """
+    S, first, count = P.search, P.sizes[NW] + P.sizes[CLOCKS], P.sizes[WATCHED]
+    if count == 0 or S[LOOSE] != 0.0 or S[LET_GO] != 0.0:
+        return False
+    S[LET_GO] = 1.0
+    for k in range(count):
+        P.margin[HELD * count + k] = P.W[first + k]
+        P.W[first + k] = 0.0
+    return True
+
+
+@native
+def take_up(P: Problem) -> None:
+    """Hold the guards again that were let go for a try."""
+    first, count = P.sizes[NW] + P.sizes[CLOCKS], P.sizes[WATCHED]
+    if P.search[LET_GO] != 0.0:
+        P.search[LET_GO] = 0.0
+        for k in range(count):
+            P.W[first + k] = P.margin[HELD * count + k]
+
+
+@native
 def margins(P: Problem, row: int) -> int:
     """Margins at the workspace's state into a row of ``P.margin``; how many are negative."""
     clocks, count, found = P.sizes[CLOCKS], P.sizes[WATCHED], 0
@@ -200,6 +232,8 @@ def open_search(P: Problem, t: float, h: float) -> None:
     """Look at the end of the step from ``t``, which stands in the workspace."""
     S = P.search
     S[OPEN], S[SHARE], S[FOUND], S[SIZE], S[LOW], S[HIGH] = 1.0, 0.5, NONE, h, 0.0, NONE
+    S[AGAIN] = S[LET_GO]
+    take_up(P)
     if S[HUNT] == 0.0:
         share = min(CLOSE, CLOSE_ERROR * P.settings[ERROR])
         S[TOLERANCE] = share * h + TIME_ROUND_OFF * abs(t)
@@ -266,6 +300,15 @@ def next_share(P: Problem) -> float:
 
 
 @native
+def crawls(P: Problem, h: float) -> bool:
+    """Whether the run has come down to tiny steps after a guard was let go for good."""
+    S = P.search
+    if S[FREED] > 0.0 and h < CRAWLING * P.settings[H_MAX]:
+        S[CRAWL] += 1.0
+    return S[CRAWL] > MOST_CRAWLED
+
+
+@native
 def ends_there(P: Problem) -> bool:
     """Whether the step can stay: no crossing, or one just before its end."""
     S = P.search
@@ -282,6 +325,8 @@ def starts_there(P: Problem) -> bool:
 def shorter(P: Problem) -> float:
     """Size of the step that ends just behind the crossing."""
     P.search[HUNT] = 1.0
+    if P.search[AGAIN] != 0.0:
+        let_go(P)
     return P.search[FOUND] * P.search[SIZE] + 0.5 * P.search[TOLERANCE]
 
 
@@ -345,6 +390,7 @@ def is_harmless(P: Problem, L: Plan, phases: int, cu: float) -> bool:
 @native
 def forget(P: Problem) -> None:
     """Close the search: the branches that were turned over are those of the end."""
+    note_changes(P, P.W[0], END)
     P.search[OPEN], P.search[FOUND] = 0.0, NONE
     margins(P, END)
 
@@ -392,27 +438,27 @@ def pass_event(P: Problem, L: Plan, t: float) -> bool:
     """Behind a stop or a crossing at ``t``: branches and accelerations of the other side.
 
     The state stands in q, u, z, rd and P.a and in the workspace; ``P.search[JUMP]``: the largest
-    change of an acceleration or of the rate of a state, against max(1, |u|) or max(1, |s|).
-    False when the equations have no solution.
+    change at a stop of an acceleration or of the rate of a state, against max(1, |u|) or
+    max(1, |s|); at a crossing it is beyond all bounds.  False when the equations have no solution.
     """
     n, ns, S, old = P.sizes[N], P.sizes[NS], P.search, P.trial
     P.count[EVENTS] += 1
-    S[HUNT] = 0.0
-    if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
+    S[HUNT], S[JUMP] = 0.0, 0.0
+    if met(P):
+        note_changes(P, t, END)
+        S[JUMP] = HUGE
+    elif not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return False
     for i in range(n):
         old[i] = P.a[i]
     for k in range(ns):
         old[n + k] = P.rd[k]
-    if met(P):
-        note_changes(P, t, END)
     if is_stop(P, t):
         next_stop(P, t)
     release_watch(P)
     if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return False
     hold_watch(P)
-    S[JUMP] = 0.0
     for i in range(n):
         S[JUMP] = max(S[JUMP], abs(P.a[i] - old[i]) / max(1.0, abs(P.u[i])))
     for k in range(ns):

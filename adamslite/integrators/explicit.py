@@ -73,12 +73,13 @@ from adamslite.integrators.events import (
     FREED,
     JUMP,
     change_here,
+    crawls,
     ends_there,
     happened,
     hold_watch,
     horizon,
     keep_margins,
-    met,
+    let_go,
     pass_event,
     shorter,
     start_events,
@@ -361,14 +362,18 @@ def try_step(P: Problem, L: Plan) -> int:
     if C[H] * 1.0000001 > left:
         C[H] = left
     P.report[AT], P.report[STEP] = C[CLOCK], C[H]
-    if C[H] < P.settings[H_MIN]:
+    if C[H] < P.settings[H_MIN] or crawls(P, C[H]):
         return why_stuck(P)
     if not run_stages(P, L, w, C[H]):
+        if let_go(P):
+            return RUNNING
         return shorten(P, 0.25)
     error = estimate(P, w, C[H])
     P.report[HOW_MUCH] = error
     if not error <= 1.0:
         P.count[REJECTED] += 1
+        if not error < 1e150 and let_go(P):
+            return RUNNING
         C[CAUTIOUS] = 1.0
         C[H] *= max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK
         return RUNNING
@@ -502,7 +507,7 @@ def pass_by(P: Problem, L: Plan, w: int) -> int:
     """Behind an event: rates of the new branches, another step when something jumped."""
     if not pass_event(P, L, P.control[CLOCK]):
         return NEWTON_FAILED
-    return rates_anew(P, L, w, met(P) or P.search[JUMP] > 0.0)
+    return rates_anew(P, L, w, P.search[JUMP] > 0.0)
 
 
 @native

@@ -85,11 +85,13 @@ from adamslite.integrators.bdf import (
 from adamslite.integrators.equations import put_time, residual, track, vector_rates
 from adamslite.integrators.events import (
     FREED,
+    crawls,
     ends_there,
     happened,
     hold_watch,
     horizon,
     keep_margins,
+    let_go,
     shorter,
     start_events,
     starts_there,
@@ -179,7 +181,8 @@ def attempt(P: Problem, L: Plan) -> int:
         return INTERRUPTED
     choose_coefficients(P)
     P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 2.0
-    if C[H] < (LEAST_SHARE * C[FIXED] if C[FIXED] > 0.0 else P.settings[H_MIN]):
+    least = LEAST_SHARE * C[FIXED] if C[FIXED] > 0.0 else P.settings[H_MIN]
+    if C[H] < least or crawls(P, C[H]):
         return why_too_small(P, L)
     if not correct_step(P, L):
         return after_no_convergence(P)
@@ -267,6 +270,8 @@ def after_no_convergence(P: Problem) -> int:
     C = P.control
     P.count[FAILURES] += 1
     C[FACTORED], C[EQUAL] = 0.0, 0.0
+    if let_go(P):
+        return RUNNING
     C[RETRIES] += 1.0
     C[BLAMED] = float(wildest(P))
     C[H] *= retry_factor(C)

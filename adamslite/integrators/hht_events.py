@@ -38,7 +38,6 @@ from adamslite.integrators.events import (
     ends_beyond,
     is_harmless,
     judge,
-    met,
     open_search,
     pass_event,
 )
@@ -98,7 +97,7 @@ def step_on(P: Problem, L: Plan) -> int:
     C, n, ns = P.control, P.sizes[N], P.sizes[NS]
     if not pass_event(P, L, C[NOW]):
         return NEWTON_FAILED
-    if met(P) or P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
         start_over(P, L)
         return RUNNING
     C[FACTORED] = 0.0
