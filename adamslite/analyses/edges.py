@@ -22,8 +22,9 @@ from adamslite.system import CLOCK, System
 DENSITY, LEAST = 4, 257
 # The grid is not made finer than this.
 MOST = 2**18
-# Share of an interval by which the grid is shifted: periodic guards are zero at round times.
-SHIFT = 0.381966
+# Points stand in their cells at multiples of this: no regular grid, which a periodic guard could
+# always meet at the same phase.
+GOLDEN = 0.6180339887498949
 # Changes nearer to each other, or to an output time, than this share of the run are one; they are
 # located to that of round-off.
 SAME, ROUND_OFF = 1e-13, 1e-16
@@ -47,12 +48,13 @@ def _grid(system: System, times: np.ndarray) -> np.ndarray:
     start, end = float(times[0]), float(times[-1])
     count, before = max(LEAST, DENSITY * len(times)), -1
     while True:
-        inner = start + (np.arange(count) + SHIFT) * ((end - start) / count)
+        cell = np.arange(count)
+        inner = start + (cell + cell * GOLDEN % 1.0) * ((end - start) / count)
         grid = _with_turns(system, np.concatenate([[start], inner, [end]]))
         changes = int((np.diff(_branches(system, grid), axis=0) != 0).sum())
         if changes == before or count >= MOST:
             return grid
-        count, before = 4 * count, changes
+        count, before = 3 * count + 1, changes
 
 
 def _with_turns(system: System, grid: np.ndarray) -> np.ndarray:

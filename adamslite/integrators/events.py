@@ -80,6 +80,8 @@ CHATTER, CHATTER_SPAN = 10.0, 1e-3
 CRAWLING, MOST_CRAWLED = 1e-4, 500.0
 # Branches that change the end of a step by less than this share of ERROR need no event.
 HARMLESS = 0.02
+# Changes nearer than this share of a step are one; so many are tried one after another.
+SAME_TIME, MOST_GROUPS = 1e-6, 5
 NONE = 2.0
 
 # Places in P.search.
@@ -263,10 +265,11 @@ def judge(P: Problem) -> None:
     S = P.search
     found = margins(P, INSIDE) > 0
     if S[HIGH] > 1.0:
-        S[OPEN] = 0.0
         if found:
-            S[OPEN] = 1.0
             open_bracket(P, S[SHARE], INSIDE)
+        else:
+            S[SHARE] = lowest(P) if S[SHARE] == 0.5 else NONE
+            S[OPEN] = 1.0 if S[SHARE] < 1.0 else 0.0
         return
     if found:
         S[HIGH], S[FOUND] = S[SHARE], S[SHARE]
@@ -309,6 +312,24 @@ def crawls(P: Problem, h: float) -> bool:
 
 
 @native
+def lowest(P: Problem) -> float:
+    """Where a parabola through the margins of a guard at start, middle and end dips below zero;
+    ``NONE`` where all stay above.
+    """
+    count, share, least = P.sizes[WATCHED], NONE, 0.0
+    for k in range(count):
+        a, b = P.margin[START * count + k], P.margin[INSIDE * count + k]
+        c = P.margin[END * count + k]
+        bend = 2.0 * (a - 2.0 * b + c)
+        slope = 4.0 * b - 3.0 * a - c
+        if bend > 0.0 and slope < 0.0 and slope + 2.0 * bend > 0.0:
+            dip = a - 0.25 * slope * slope / bend
+            if dip < least:
+                least, share = dip, 0.0 - 0.5 * slope / bend
+    return share
+
+
+@native
 def ends_there(P: Problem) -> bool:
     """Whether the step can stay: no crossing, or one just before its end."""
     S = P.search
@@ -343,18 +364,29 @@ def met(P: Problem) -> bool:
 
 
 @native
-def turn_over(P: Problem, row: int) -> None:
-    """Change the branch of every guard that is negative in a row of margins, the last looked at."""
+def turn_over(P: Problem, row: int, share: float) -> None:
+    """Change the branch of every guard that is negative in a row of margins, the last looked at;
+    with ``share`` below 1 only of those that change before it.
+    """
     clocks, count = P.sizes[CLOCKS], P.sizes[WATCHED]
     first = P.sizes[NW] + clocks
     for k in range(count):
-        branch = P.W[first + k]
-        P.margin[BEFORE * count + k] = branch
-        if P.margin[row * count + k] < 0.0:
+        branch = P.margin[BEFORE * count + k]
+        if P.margin[row * count + k] < 0.0 and (
+            share >= 1.0 or crossing_share(P, k) <= share + SAME_TIME
+        ):
             if P.kind[clocks + k] == STRICT or P.kind[clocks + k] == WEAK:
                 P.W[first + k] = 0.0 - branch
             else:
                 P.W[first + k] = branch + (1.0 if P.guard[first + k] > branch else -1.0)
+
+
+@native
+def remember_branches(P: Problem) -> None:
+    """Keep the branches so that they can be turned back."""
+    first, count = P.sizes[NW] + P.sizes[CLOCKS], P.sizes[WATCHED]
+    for k in range(count):
+        P.margin[BEFORE * count + k] = P.W[first + k]
 
 
 @native
@@ -369,22 +401,59 @@ def turn_back(P: Problem) -> None:
 def is_harmless(P: Problem, L: Plan, phases: int, cu: float) -> bool:
     """Whether Newton's next increment on the other branches, dq with du = cu dq, would be too small
     to matter; then they are taken.  The converged end of the step stands in the workspace.
+
+    Branches are changed one after another as they were met: two that cancel at the end (a force
+    that acts only in a thin layer) need not have cancelled on the way.
     """
-    turn_over(P, END)
+    share, groups, harmless = -1.0, 0, True
+    remember_branches(P)
+    while harmless and share < 1.0:
+        groups += 1
+        share = next_change(P, share) if groups < MOST_GROUPS else 1.0
+        turn_back(P)
+        turn_over(P, END, share)
+        harmless = small_change(P, L, phases, cu)
+    if harmless:
+        forget(P)
+    else:
+        turn_back(P)
+    return harmless
+
+
+@native
+def next_change(P: Problem, share: float) -> float:
+    """Estimated share of the step of the first change after ``share``; 1 for the last one."""
+    count, found, last = P.sizes[WATCHED], 1.0, 0.0
+    for k in range(count):
+        if P.margin[END * count + k] < 0.0:
+            at = crossing_share(P, k)
+            last = max(last, at)
+            if at > share + SAME_TIME:
+                found = min(found, at)
+    return found if found < last - SAME_TIME else 1.0
+
+
+@native
+def crossing_share(P: Problem, k: int) -> float:
+    """Where the straight line between the margins of a guard at both ends is zero."""
+    count = P.sizes[WATCHED]
+    before, after = max(0.0, P.margin[START * count + k]), P.margin[END * count + k]
+    return before / (before - after)
+
+
+@native
+def small_change(P: Problem, L: Plan, phases: int, cu: float) -> bool:
+    """Whether the residual of the present branches moves the converged state too little to see."""
     residual(P, phases, P.F)
     solve(L, P.LV, P.pivots, P.F, P.x, P.work)
-    limit, largest = HARMLESS * P.settings[ERROR], 0.0
+    largest = 0.0
     for i in range(P.sizes[N]):
         size = abs(P.F[i])
         largest = max(largest, size / max(1.0, abs(P.q[i])), cu * size / max(1.0, abs(P.u[i])))
-    for k in range(P.sizes[NZ] - P.sizes[N]):
-        if not abs(P.F[P.sizes[N] + k]) < 1e300:
-            largest = 1e300
-    if largest <= limit:
-        forget(P)
-        return True
-    turn_back(P)
-    return False
+    for k in range(P.sizes[NZ]):
+        if not abs(P.F[k]) < 1e300:
+            return False
+    return largest <= HARMLESS * P.settings[ERROR]
 
 
 @native
@@ -416,7 +485,8 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
     """Change the branches that break at the start of the step; q, u and states are where they
     were, a and z those of the new branches.  False when the equations have no solution.
     """
-    turn_over(P, HIGH_ROW)
+    remember_branches(P)
+    turn_over(P, HIGH_ROW, 1.0)
     note_changes(P, t, HIGH_ROW)
     P.count[EVENTS] += 1
     P.search[HUNT] = 0.0
