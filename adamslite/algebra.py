@@ -25,7 +25,7 @@ sp = _Sympy()
 
 
 @cache
-def _nodes(smooth: int | None) -> tuple[type, type]:
+def _nodes(smooth: int | None = None) -> tuple[type, type]:
     """Our Piecewise and floor, named as sympy's own because printers go by the name.
 
     ``smooth`` stays with them as ``order``, in derivatives too.
