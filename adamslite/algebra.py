@@ -25,8 +25,11 @@ sp = _Sympy()
 
 
 @cache
-def _nodes() -> tuple[type, type]:
-    """Our Piecewise and floor, named as sympy's own because printers go by the name."""
+def _nodes(smooth: int | None = None) -> tuple[type, type]:
+    """Our Piecewise and floor, named as sympy's own because printers go by the name.
+
+    ``smooth`` stays with them as ``order``, in derivatives too.
+    """
     from sympy.functions.elementary.piecewise import ExprCondPair
 
     # sympy's folds a choice inside a condition into all combinations and asks every condition what
@@ -34,6 +37,7 @@ def _nodes() -> tuple[type, type]:
     class Piecewise(sp.Expr):
         is_commutative = True
         is_extended_real = True
+        order = smooth
 
         def __new__(cls, *pairs: Any) -> Any:
             kept = []
@@ -52,25 +56,32 @@ def _nodes() -> tuple[type, type]:
 
     # sympy leaves d floor(x)/dx as an unevaluated Derivative; between its jumps it is zero.
     class floor(sp.floor):  # noqa: N801  printers look rules up by this name
+        order = smooth
+
         def _eval_derivative(self, symbol: Any) -> Any:
             return sp.S.Zero
 
     return Piecewise, floor
 
 
-def choose(*pieces: tuple[Any, Any], otherwise: Any) -> Any:
-    """The value of the first ``(value, condition)`` that holds, else ``otherwise``."""
-    return _nodes()[0](*pieces, (otherwise, True))
+def choose(*pieces: tuple[Any, Any], otherwise: Any, order: int | None = None) -> Any:
+    """The value of the first ``(value, condition)`` that holds, else ``otherwise``.
+
+    ``order``: where the choice changes, derivatives up to this order are continuous (-1: the value
+    jumps); ``None``: all that matter are, as when a formula is only kept from 0/0.  Decides where
+    a run stops and starts anew: :mod:`adamslite.guards`.
+    """
+    return _nodes(order)[0](*pieces, (otherwise, True))
 
 
-def floor(x: Any) -> Any:
-    """Largest integer not above ``x``, with derivative zero."""
-    return _nodes()[1](x)
+def floor(x: Any, order: int | None = None) -> Any:
+    """Largest integer not above ``x``, with derivative zero; ``order`` as in :func:`choose`."""
+    return _nodes(order)[1](x)
 
 
 def magnitude(x: Any) -> Any:
     """|x|, with the derivative 1 at zero."""
-    return choose((x, x >= 0), otherwise=-x)
+    return choose((x, x >= 0), otherwise=-x, order=0)
 
 
 def power(base: Any, exponent: Any) -> Any:

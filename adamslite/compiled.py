@@ -123,7 +123,7 @@ def _maker(
         level -= level > 0 and statement.is_rate(model)
         outputs = _Writer(binder, statement.keyword, face, fields, own, n_bodies, level)
         shape = Shape(binder.slots, widths, n_bodies, len(at.params), 0, len(at.signals), outputs)
-        return write_kernels(shape, name, face in WITH_JACOBIAN)
+        return write_kernels(shape, name, face in WITH_JACOBIAN, face != "output")
 
     return make
 
@@ -201,6 +201,7 @@ def _entry_points(group: Group) -> list[str]:
         names.append(f"{group.name}_jacobian")
     if group.meta["angles"]:
         names.append(f"{group.name}_track")
+    names += [f"{group.name}_{kind}" for kind, found in group.meta["guards"].items() if found]
     return names
 
 
@@ -228,6 +229,7 @@ def generator_version() -> str:
         "shape",
         "compiled",
         "algebra",
+        "guards",
         "coordinates",
         "constraint",
         "spline_curve",

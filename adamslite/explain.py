@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from adamslite.integrators import base
+from adamslite.integrators.events import CULPRIT
 from adamslite.outcomes import Outcome
 from adamslite.system import System
 
@@ -18,6 +19,9 @@ def explain(system: System, outcome: Outcome, unclosed: Any) -> str:
         found = f"{where} stays open by {unclosed.size:.3g} at {unclosed.level} level."
         return f"{found} {outcome.value}"
     report = system.report
+    if outcome is Outcome.CHATTERING:
+        guilty = system.guarded["watch"][int(system.search[CULPRIT])][0]
+        return f"{guilty.label} ({_place(guilty)}), t = {report[base.AT]:.9g}. {outcome.value}"
     facts = f"t = {report[base.AT]:.9g}, step {report[base.STEP]:.3g}"
     return f"{_culprit(system, outcome)}At {facts}. {outcome.value}"
 

@@ -1,4 +1,4 @@
-"""Native kernels of one expression shape: residual, Jacobian, angle memory.
+"""Native kernels of one expression shape: residual, Jacobian, angle memory, guards.
 
 A *shape* is a statement with every id, number and marker replaced by a slot.  Its sympy loads and
 rows are differentiated once with respect to the local inputs of
@@ -8,12 +8,15 @@ and written as one loop over all instances:
     residual(n, ints, reals, W, F)           F[row] -= load,  F[row] += row expression
     jacobian(n, ints, reals, W, c, J)        J[block] += c0 F_q + c1 F_u + c2 F_a + c3 F_z + c4 F_s'
     track   (n, ints, reals, W)              remembers angles at an accepted step
+    clock   (n, ints, reals, W, F)           guards of time (adamslite.guards), F = their values
+    watch   (n, ints, reals, W, F)           guards of the state
 
 q holds positions and rotations of bodies (and states s of DIFF), z multipliers and variables.
 W is the workspace (:mod:`adamslite.kinematics`), ``c`` five coefficients.  The integers of an
 instance are
 
-    W offset of each node | W offset of each signal | row of each node | block offset of each pair
+    W offset of each node | W offset of each signal | row of each node | W offset of the branches of
+    clock and watch, if there are guards | block offset of each pair
 
 and its reals: parameters, remembered angles, marker levers and axes.
 """
@@ -26,6 +29,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from adamslite.algebra import sp
+from adamslite.guards import Guards, guards
 from adamslite.kinematics import HEAD, MODE, TIME, Columns, Geometry, Vec
 from adamslite.lowering import Builder, Lowering, Value
 from adamslite.symbolic import Load, Scope, Slot
@@ -64,7 +68,8 @@ class Shape:
 
     ``slots``: markers.  ``widths``: unknowns of each node, bodies first (3 point, 6 part), then
     scalar nodes.  ``n_bodies``: how many nodes are bodies.  ``n_params``, ``n_angles``,
-    ``n_signals``: counts.  ``outputs``: writes loads and rows with a scope.
+    ``n_signals``: counts.  ``outputs``: writes loads and rows with a scope.  ``guards``: found when
+    they are written.
     """
 
     slots: list[Slot]
@@ -74,6 +79,7 @@ class Shape:
     n_angles: int
     n_signals: int
     outputs: Callable[[Scope], Outputs]
+    guards: Guards = field(default_factory=Guards)
 
     def marker_reals(self) -> list[int]:
         """First real of each marker."""
@@ -92,8 +98,13 @@ class Shape:
         return len(self.widths) + self.n_signals + node
 
     @property
-    def blocks_at(self) -> int:
+    def branches_at(self) -> int:
+        """The integer that holds where the branches of the clock begin; the next: of the watch."""
         return 2 * len(self.widths) + self.n_signals
+
+    @property
+    def blocks_at(self) -> int:
+        return self.branches_at + 2 * bool(self.guards)
 
 
 @dataclass
@@ -108,6 +119,12 @@ class Outputs:
     rows: list[tuple[int, int, Any]] = field(default_factory=list)
     rates_only: bool = False
 
+    @property
+    def expressions(self) -> list[Any]:
+        """Everything that is evaluated."""
+        loads = [e for load in self.loads for e in (*load.force, *load.torque)]
+        return [sp.S.Zero + e for e in (*loads, *(row[2] for row in self.rows))]
+
 
 class Writer:
     """Writes the loop body of one kernel."""
@@ -120,6 +137,10 @@ class Writer:
         self.lower = Lowering(self.b, {})
         self.blocks: list[tuple[int, int]] = []
         self.rates_only = False
+        for place, found in enumerate((shape.guards.clock, shape.guards.watch)):
+            for n, guard in enumerate(found):
+                at = self.b.int_at(shape.branches_at + place)
+                self.lower.branches[guard] = self.b.read("W", at, n)
 
     def value(self, expr: Any) -> Value:
         """Lower an expression, loading the leaves it uses first."""
@@ -317,25 +338,42 @@ class Writer:
         for c, value in enumerate(row):
             self.b.accumulate("F", base, component * width + c, self.b.mul(sign, value))
 
+    def guard_values(self, place: int) -> None:
+        """The guards of the clock (``place`` 0) or the watch (1): gaps of relations, arguments of
+        floors.
+        """
+        base = self.b.int_at(self.shape.branches_at + place)
+        for n, guard in enumerate((self.shape.guards.clock, self.shape.guards.watch)[place]):
+            for side in guard.args:
+                self.value(side)
+            is_floor = not hasattr(guard, "rel_op")
+            value = self.value(guard.args[0]) if is_floor else self.lower.gap(guard)
+            self.b.accumulate("F", base, n, value)
+
     def track(self) -> None:
         for n, wrapped in enumerate(self.scope.angles):
             angle = self.b.add(self.value(wrapped), self._turns(n))
             self.b.store_real(self.shape.n_params + n, angle)
 
 
-def write_kernels(shape: Shape, name: str, with_jacobian: bool) -> tuple[str, dict]:
+def write_kernels(shape: Shape, name: str, with_jacobian: bool, guarded: bool) -> tuple[str, dict]:
     """LLVM text of a shape's kernels and what an instance must provide.
+
+    ``guarded``: choices keep their branch within a step; for equations, not for what is written.
 
     Returns
     -------
     text, meta
         ``meta["blocks"]``: pairs (row node, column node) of Jacobian blocks in the order of the
         integers; ``meta["n_ints"]``: integers of an instance; ``meta["angles"]``: how many angles
-        it remembers; ``meta["mass"]``: a force depends on accelerations.
+        it remembers; ``meta["mass"]``: a force depends on accelerations; ``meta["guards"]``: kinds
+        of the guards of the clock and of the watch.
     """
     scope = Scope(shape.slots)
     out = shape.outputs(scope)
     shape.n_angles = len(scope.angles)
+    if guarded:
+        shape.guards = guards(out.expressions, scope.leaves)
     blocks: list[tuple[int, int]] = []
     bodies: list[tuple[str, str, Writer]] = []
     if with_jacobian:
@@ -350,11 +388,17 @@ def write_kernels(shape: Shape, name: str, with_jacobian: bool) -> tuple[str, di
         writer = Writer(shape, scope)
         writer.track()
         bodies.append((f"{name}_track", RESIDUAL_HEAD, writer))
+    for place, (kind, found) in enumerate(shape.guards.kinds.items()):
+        if found:
+            writer = Writer(shape, scope)
+            writer.guard_values(place)
+            bodies.append((f"{name}_{kind}", RESIDUAL_HEAD, writer))
     n_ints = shape.blocks_at + len(blocks)
     meta = {
         "n_ints": n_ints,
         "blocks": blocks,
         "angles": len(scope.angles),
+        "guards": shape.guards.kinds,
         "mass": any(leaf[0] in ("a", "al") for leaf in scope.symbols),
     }
     return _module(bodies, n_ints, shape.n_reals), meta

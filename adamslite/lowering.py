@@ -137,6 +137,10 @@ class Builder:
         text = f"fcmp {code} double {self.operand(a)}, {self.operand(b)}"
         return self.emit(("fcmp", code, a, b), text)
 
+    def sum_as_written(self, a: Value, b: Value) -> Value:
+        """a + b, never taken apart: a huge ``b`` outweighs whatever ``a`` was made of."""
+        return self.emit(("sum", a, b), f"fadd double {self.operand(a)}, {self.operand(b)}")
+
     def logic(self, op: str, a: str, b: str) -> str:
         return self.emit((op, a, b), f"{op} i1 {a}, {b}")
 
@@ -186,11 +190,17 @@ class Builder:
 
 
 class Lowering:
-    """Turns sympy expressions into builder values; ``leaves`` maps symbols to values."""
+    """Turns sympy expressions into builder values; ``leaves`` maps symbols to values.
+
+    ``branches`` maps the guards of choices (:mod:`adamslite.guards`) to the value that holds their
+    branch: zero evaluates the guard as it is, else its sign decides; of a floor it is the middle of
+    the unit interval.
+    """
 
     def __init__(self, builder: Builder, leaves: dict[Any, Value]) -> None:
         self.b = builder
         self.leaves = leaves
+        self.branches: dict[Any, Value] = {}
         self.memo: dict[Any, Value] = {}
 
     def __call__(self, expr: Any) -> Value:
@@ -241,26 +251,44 @@ class Lowering:
         return self.b.call("pow", self(base), self(exponent))
 
     def _Piecewise(self, expr: Any) -> Value:
+        held = getattr(expr, "order", None) is not None
         pieces = list(expr.args)
         last = pieces.pop()
         value = self(last.expr)
         if last.cond != True:  # noqa: E712  sympy's own true
-            value = self.b.select(self.condition(last.cond), value, float("nan"))
+            value = self.b.select(self.condition(last.cond, held), value, float("nan"))
         for piece in reversed(pieces):
-            value = self.b.select(self.condition(piece.cond), self(piece.expr), value)
+            value = self.b.select(self.condition(piece.cond, held), self(piece.expr), value)
         return value
 
-    def condition(self, cond: Any) -> str:
-        """A sympy relation or logic expression as an ``i1`` value."""
+    def _floor(self, expr: Any) -> Value:
+        value = self.b.call("floor", self(expr.args[0]))
+        held = self.branches.get(expr) if getattr(expr, "order", None) is not None else None
+        if held is None:
+            return value
+        return self.b.select(self.b.compare("==", held, 0.0), value, self.b.sub(held, 0.5))
+
+    def condition(self, cond: Any, held: bool = False) -> str:
+        """A sympy relation or logic expression as an ``i1`` value; ``held``: by its branch."""
         name = type(cond).__name__
         if name in ("And", "Or"):
-            values = [self.condition(c) for c in cond.args]
+            values = [self.condition(c, held) for c in cond.args]
             total = values[0]
             for value in values[1:]:
                 total = self.b.logic(name.lower(), total, value)
             return total
         if name == "Not":
-            return self.b.logic("xor", self.condition(cond.args[0]), "true")
+            return self.b.logic("xor", self.condition(cond.args[0], held), "true")
         if name in ("BooleanTrue", "BooleanFalse"):
             return "true" if cond else "false"
-        return self.b.compare(cond.rel_op, self(cond.lhs), self(cond.rhs))
+        branch = self.branches.get(cond) if held else None
+        if branch is None:
+            return self.b.compare(cond.rel_op, self(cond.lhs), self(cond.rhs))
+        margin = self.b.sum_as_written(self.gap(cond), branch)
+        return self.b.compare(">" if cond.rel_op in "<>" else ">=", margin, 0.0)
+
+    def gap(self, cond: Any) -> Value:
+        """What is positive where a relation holds: the larger side less the smaller one."""
+        less = cond.rel_op.startswith("<")
+        large, small = (cond.rhs, cond.lhs) if less else (cond.lhs, cond.rhs)
+        return self.b.sub(self(large), self(small))

@@ -50,6 +50,11 @@ class Outcome(Enum):
         "The steps asked for with HINIT are longer than an explicit integrator can take in this "
         "scene. Give a smaller HINIT or none, or use an implicit integrator (GSTIFF)."
     )
+    CHATTERING = (
+        "An expression keeps changing its branch: on both sides of the change the motion leads "
+        "back to it, as with dry friction written with SIGN or IF. Put a STEP of some width in the "
+        "place of the jump, or use FRICTION."
+    )
     NO_END_TIME = (
         "Nothing says how long to run. Give SIMULATE/DYNAMIC, END=..., STEPS=... in a command file "
         "(second argument, or a .acf of the deck's name beside it), or in the deck itself, "

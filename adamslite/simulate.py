@@ -21,7 +21,9 @@ from adamslite.session import Session
 from adamslite.times import spread_times
 
 SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
-COUNTED = ("steps", "rejected", "newton", "jacobians", "factorizations")
+COUNTED = (
+    "steps", "rejected", "newton", "jacobians", "factorizations", "events", "restarts",
+)  # fmt: skip
 
 
 def simulate(

@@ -35,8 +35,8 @@ PHASES = {
 }
 (
     RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
-    SPECTRUM,
-) = range(11)  # fmt: skip
+    SPECTRUM, CLOCK,
+) = range(12)  # fmt: skip
 
 
 def engine(progress: Any = None) -> Any:
@@ -160,6 +160,20 @@ class System:
             at += 2 if node[0] == "DIFF" else width
         self.nw = at
         self.scalar = _ints(offsets)
+        self._branches()
+
+    def _branches(self) -> None:
+        """Guards of all instances; their branches stand behind the workspace."""
+        self.guarded: dict[str, list[tuple[Any, int]]] = {"clock": [], "watch": []}
+        self.first_branch: dict[tuple[str, str], int] = {}
+        at = self.nw
+        for place, found in self.guarded.items():
+            for group in self.kernels.groups:
+                self.first_branch[place, group.name] = at + len(found)
+                for statement, _ in group.instances:
+                    found += [(statement, kind) for kind in group.meta["guards"][place]]
+            at += len(found)
+        self.kind = _ints([kind for found in self.guarded.values() for _, kind in found])
 
     def _allocate(self) -> None:
         n, nz = self.n, self.nz
@@ -171,6 +185,11 @@ class System:
             setattr(self, name, np.zeros(rest + 1))
         self.rd, self.mu = np.zeros(self.ns + 1), np.zeros(self.holonomic + 1)
         self.W, self.F, self.x = np.zeros(self.nw + 1), np.zeros(nz + 1), np.zeros(nz + 1)
+        if self.kind.size:
+            self.W = np.zeros(self.nw + self.kind.size)
+        self.guard = np.zeros(self.W.size)
+        self.margin = np.zeros(9 * len(self.guarded["watch"]))
+        self.stops, self.search = np.zeros(1), np.zeros(17)
         self.pivot0 = np.zeros(nz + 1)
         self.history, self.trial = np.zeros(8 * w + 160), np.zeros(3 * w + 3)
         self.control, self.tableau = np.zeros(48), np.zeros(1)
@@ -225,16 +244,21 @@ class System:
         phase = PHASES[group.face]
         if group.face == "velocity" and self._is_rate(group):
             phase = base.RATE_ROWS
-        ints = np.array([self._integers(group, b) for _, b in group.instances], dtype=np.int64)
+        ints = np.array(
+            [self._integers(group, b, n) for n, (_, b) in enumerate(group.instances)],
+            dtype=np.int64,
+        )
         reals = np.array([self._reals(group, b) for _, b in group.instances], dtype=float)
         reals = np.ascontiguousarray(np.append(reals.ravel(), 0.0))
         ints = np.ascontiguousarray(ints.ravel())
         self.keep += [ints, reals]
         at = self.kernels.addresses
-        entry = [at.get(f"{group.name}_{kind}", 0) for kind in ("residual", "jacobian", "track")]
-        return [phase, *entry, len(group.instances), ints.ctypes.data, reals.ctypes.data, 0]
+        kinds = ("residual", "jacobian", "track", "clock", "watch")
+        entry = [at.get(f"{group.name}_{kind}", 0) for kind in kinds]
+        data = [len(group.instances), ints.ctypes.data, reals.ctypes.data]
+        return [phase, *entry[:3], *data, *entry[3:]]
 
-    def _integers(self, group: Group, binding: Binding) -> list[int]:
+    def _integers(self, group: Group, binding: Binding, instance: int) -> list[int]:
         nodes = [("BODY", b) for b in binding.bodies] + binding.nodes
         offsets = [self.w_at.get(node, 0) for node in nodes]
         signals = [self.w_at["SIGNAL", s] for s in binding.signals]
@@ -243,7 +267,13 @@ class System:
             (self._row_node(group, nodes[r]), self.node_at[nodes[c]])
             for r, c in group.meta["blocks"]
         ]
-        return offsets + signals + rows + [self.block(r, c) for r, c in pairs]
+        guards = group.meta["guards"]
+        branches = [
+            self.first_branch[place, group.name] + instance * len(found)
+            for place, found in guards.items()
+            if any(guards.values())
+        ]
+        return offsets + signals + rows + branches + [self.block(r, c) for r, c in pairs]
 
     def _row_node(self, group: Group, node: tuple[str, Any]) -> int:
         """Node whose rows an instance writes: velocity rows stand at mu."""
@@ -362,9 +392,10 @@ class System:
         mass = any(g.meta["mass"] for g in self.kernels.groups if g.face in ("loads", "equation"))
         facts = {
             "nb": len(self.model.bodies), "n": self.n, "m": self.m, "nv": self.nv, "ns": self.ns,
-            "nw": self.nw, "ng": self.group.size // 8, "si2": int(self.stabilised),
+            "nw": self.nw, "ng": self.group.size // 9, "si2": int(self.stabilised),
             "implicit_mass": int(mass), "n_out": getattr(self, "n_out", 0), "nz": self.nz,
             "holonomic": self.holonomic, "n_head": self.n_head,
+            "clocks": len(self.guarded["clock"]), "watched": len(self.guarded["watch"]),
         }  # fmt: skip
         self.sizes = _ints([facts[name] for name in base.SIZES])
 
@@ -416,6 +447,10 @@ class System:
             )
             full[r : r + h, c : c + w] = self.J[at : at + h * w].reshape(h, w)
         return full
+
+    def release_guards(self) -> None:
+        """Let every expression take the branch of the moment again."""
+        self.W[self.nw :] = 0.0
 
     def prepare_explicit(self) -> None:
         """Coefficients and room for the stages of the explicit formula."""

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from adamslite.analyses.choose import METHODS
+from adamslite.analyses.edges import stops
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
 from adamslite.system import BDF, EXPLICIT, System
@@ -21,6 +22,7 @@ OUTCOMES = {
     base.NOT_FINITE: Outcome.NOT_FINITE,
     base.INTERRUPTED: Outcome.INTERRUPTED,
     base.UNSTABLE: Outcome.UNSTABLE,
+    base.CHATTERING: Outcome.CHATTERING,
 }
 
 
@@ -72,11 +74,14 @@ def run_dynamic(
     )  # fmt: skip
     system.settings[base.STOP] = 0.0
     system.settings[base.ALPHA : base.GAMMA + 1] = settings.second_order
+    system.stops = stops(system, times)
     system.start_record(times)
     method = METHODS[settings.method]
     if method == EXPLICIT:
         system.prepare_explicit()
-    return _named(system, _watched(system, method, watch, end))
+    code = _watched(system, method, watch, end)
+    system.release_guards()
+    return _named(system, code)
 
 
 def _named(system: System, code: int) -> Outcome:

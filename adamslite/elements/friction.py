@@ -254,11 +254,13 @@ def friction_by_bristle(friction: Any, speed: Any, load: Any) -> Any:
         (speed * (3 - speed**2 / edge**2) / (2 * edge), size <= edge),
         (1, speed > 0),
         otherwise=-1,
+        order=1,
     )
     mu = choose(
         (rest, size <= edge),
         (blended(friction, size), size <= BLEND * edge),
         otherwise=moving,
+        order=1,
     )
     return (mu * load + preload(friction)) * (b + (1 - magnitude(b)) * share)
 
@@ -273,6 +275,7 @@ def friction_by_speed(friction: Any, square: Any, load: Any) -> Any:
         (creeping, square <= edge**2),
         ((blended(friction, speed) * load + own) / speed, square <= (BLEND * edge) ** 2),
         otherwise=(moving * load + own) / speed,
+        order=1,
     )
 
 

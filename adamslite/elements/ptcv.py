@@ -77,7 +77,7 @@ class Ptcv(Constraint, Statement):
         if self.closed:
             s = s - floor(s)
         powers = [1, s, s**2, s**3]
-        powers += [choose(((s - k) ** 3, s > k), otherwise=0) for k in self.knots]
+        powers += [choose(((s - k) ** 3, s > k), otherwise=0, order=2) for k in self.knots]
         terms = list(zip(powers, self.weights, strict=True))
         point = tuple(sum(power * w[c] for power, w in terms) for c in range(3))
         placed = along_axes(scope.axes(self.j), point)

@@ -15,4 +15,4 @@ def if_(scope: Scope, e: Any, a: Any, b: Any, c: Any) -> Any:
 
     Unit: that of a, b and c.  Source: Adams/Solver function IF.
     """
-    return choose((a, e < 0), (c, e > 0), otherwise=b)
+    return choose((a, e < 0), (c, e > 0), otherwise=b, order=-1)

@@ -12,15 +12,15 @@ from adamslite.symbolic import Scope
 
 
 def _truncated(x: Any) -> Any:
-    return choose((floor(x), x >= 0), otherwise=-floor(-x))
+    return choose((floor(x, -1), x >= 0), otherwise=-floor(-x, -1), order=-1)
 
 
 def _larger(a: Any, b: Any) -> Any:
-    return choose((a, a >= b), otherwise=b)
+    return choose((a, a >= b), otherwise=b, order=0)
 
 
 def _smaller(a: Any, b: Any) -> Any:
-    return choose((a, a <= b), otherwise=b)
+    return choose((a, a <= b), otherwise=b, order=0)
 
 
 def _against_first(*a: Any) -> tuple[Any, ...]:
@@ -60,7 +60,7 @@ def dim(scope: Scope, a: Any, b: Any) -> Any:
 
     Unit: that of a and b.  Source: FORTRAN intrinsic DIM.
     """
-    return choose((a - b, a > b), otherwise=0)
+    return choose((a - b, a > b), otherwise=0, order=0)
 
 
 @function("SIGN", "a:number b:number", edges=lambda a, b: (a, b), order=-1)
@@ -70,7 +70,7 @@ def sign(scope: Scope, a: Any, b: Any) -> Any:
     Unit: that of a.  Source: FORTRAN intrinsic SIGN.
     """
     size = magnitude(a)
-    return choose((size, b >= 0), otherwise=-size)
+    return choose((size, b >= 0), otherwise=-size, order=-1)
 
 
 @function("MOD", "a:number b:number", edges=lambda a, b: (sp.sin(math.pi * a / b),), order=-1)
@@ -97,7 +97,7 @@ def anint(scope: Scope, x: Any) -> Any:
 
     Unit: none.  Source: FORTRAN intrinsic ANINT.
     """
-    return choose((floor(x + 0.5), x >= 0), otherwise=-floor(0.5 - x))
+    return choose((floor(x + 0.5, -1), x >= 0), otherwise=-floor(0.5 - x, -1), order=-1)
 
 
 @function("SQRT", "x:number")

@@ -83,5 +83,6 @@ def sweep(scope: Scope, x: Any, a: Any, x0: Any, f0: Any, x1: Any, f1: Any, dx: 
         (f0 * x, x <= x0),
         (f1 * x - rise * (x1 + x0) / 2, x >= x1),
         otherwise=f0 * x + rise * (x - x0) ** 2 / (2 * (x1 - x0)),
+        order=1,
     )
     return a * sp.sin(2 * math.pi * phase) * step5(scope, x, x0, 0, x0 + dx, 1)

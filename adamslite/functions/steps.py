@@ -31,12 +31,15 @@ def _edges(x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> tuple[Any, ...]:
     return (x - x0, x - x1)
 
 
-def _blend(shape: Callable[[Any], Any], x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
+def _blend(
+    order: int, shape: Callable[[Any], Any], x: Any, x0: Any, h0: Any, x1: Any, h1: Any
+) -> Any:
     # The conditions are D <= 0 and D >= 1 without the division: x1 < x0 is a step to the left, and
     # x1 = x0 (a contact without damping depth) stays finite.
     width = x1 - x0
     rise = h0 + (h1 - h0) * shape((x - x0) / width)
-    return choose((h0, (x - x0) * width <= 0), (h1, (x - x1) * width >= 0), otherwise=rise)
+    before, behind = (x - x0) * width <= 0, (x - x1) * width >= 0
+    return choose((h0, before), (h1, behind), otherwise=rise, order=order)
 
 
 @function("STEP", STEP_SIGNATURE, edges=_edges, order=1, rule=_apart)
@@ -46,7 +49,7 @@ def step(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
     D = (x - x0)/(x1 - x0); with x1 < x0 the step goes to the left.
     Unit: that of h0 and h1.  Source: Adams/Solver function STEP.
     """
-    return _blend(lambda d: d**2 * (3 - 2 * d), x, x0, h0, x1, h1)
+    return _blend(1, lambda d: d**2 * (3 - 2 * d), x, x0, h0, x1, h1)
 
 
 @function("STEP5", STEP_SIGNATURE, edges=_edges, order=2, rule=STEP5_ENDS)
@@ -55,7 +58,7 @@ def step5(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
 
     D = (x - x0)/(x1 - x0).  Unit: that of h0 and h1.  Source: Adams/Solver function STEP5.
     """
-    return _blend(lambda d: d**3 * (10 - 15 * d + 6 * d**2), x, x0, h0, x1, h1)
+    return _blend(2, lambda d: d**3 * (10 - 15 * d + 6 * d**2), x, x0, h0, x1, h1)
 
 
 @function("HAVSIN", STEP_SIGNATURE, edges=_edges, order=1, rule=_apart)
@@ -64,7 +67,7 @@ def havsin(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
 
     D = (x - x0)/(x1 - x0).  Unit: that of h0 and h1.  Source: Adams/Solver function HAVSIN.
     """
-    return _blend(lambda d: (1 - sp.cos(math.pi * d)) / 2, x, x0, h0, x1, h1)
+    return _blend(1, lambda d: (1 - sp.cos(math.pi * d)) / 2, x, x0, h0, x1, h1)
 
 
 @function(
@@ -80,9 +83,17 @@ def impact(scope: Scope, x: Any, v: Any, x1: Any, k: Any, e: Any, cmax: Any, d: 
     pushes x up and does not pull.  Unit: force.  Source: Adams/Solver function IMPACT.
     """
     touching = x < x1
-    depth = choose((x1 - x, touching), otherwise=0)
-    force = k * power(depth, e) - v * step(scope, x, x1 - d, cmax, x1, 0)
-    return choose((force, sp.And(touching, force > 0)), otherwise=0)
+    force = _spring(k, x1 - x, e) - v * step(scope, x, x1 - d, cmax, x1, 0)
+    return choose((force, sp.And(touching, force > 0)), otherwise=0, order=0)
+
+
+def _spring(k: Any, depth: Any, e: Any) -> Any:
+    """k depth**e, continued as an odd function: a step that ends just behind the contact stays
+    finite.
+    """
+    deep = depth >= 0
+    size = choose((depth, deep), otherwise=-depth)
+    return k * power(size, e) * choose((1, deep), otherwise=-1)
 
 
 @function(

@@ -8,9 +8,11 @@ workspace);
 3. accepts a step only when Newton converged and the error test passed;
 4. never steps through a singular acceleration matrix, and never returns a state it did not
 converge to;
-5. counts what it does in ``P.count`` (names in ``COUNTS``);
-6. leaves the last accepted state behind, whatever the outcome;
-7. returns one of ``OUTCOMES``.
+5. ends a step at every stop and behind every crossing and starts anew there, as
+:mod:`adamslite.integrators.events` says;
+6. counts what it does in ``P.count`` (names in ``COUNTS``);
+7. leaves the last accepted state behind, whatever the outcome;
+8. returns one of ``OUTCOMES``.
 
 Fields of :class:`Problem`, all one-dimensional; nb bodies, n body unknowns, m multipliers, nv
 variables, ns states of DIFF, nw workspace entries:
@@ -25,7 +27,7 @@ gravity         (3,) in ground axes
 base            (9 nb,) attitude from which the rotation vector is counted
 scalar          workspace offset of each multiplier, variable and DIFF state
 group           per group: phase, addresses of residual, Jacobian and track, number of instances,
-                addresses of their integers and reals, spare
+                addresses of their integers and reals, addresses of clock and watch
 copies          per block: Jacobian offset, rows, columns, factor offset, leading dimension
 product         per block between bodies: Jacobian offset, rows, columns, first row, first column
 turning         per block with a rotating column: Jacobian offset, rows, body
@@ -45,6 +47,9 @@ tableau         coefficients of the explicit formula
 control         the integrator's own numbers
 undo            the state before the last accepted one; empty without constraints
 record          (nt, nw + n_out) workspace and outputs at the asked times
+kind guard      of guards: how they are read; their values, numbered as the workspace
+margin stops    how far guards are from changing; times at which guards of the clock do
+search          the location of events (:mod:`adamslite.integrators.events`)
 ==============  =================================================================================
 """
 
@@ -64,8 +69,12 @@ SIZES = (
     "nz",
     "holonomic",
     "n_head",
+    "clocks",
+    "watched",
 )
-NB, N, M, NV, NS, NW, NG, SI2, IMPLICIT_MASS, N_OUT, NZ, HOLONOMIC, N_HEAD = range(len(SIZES))
+(
+    NB, N, M, NV, NS, NW, NG, SI2, IMPLICIT_MASS, N_OUT, NZ, HOLONOMIC, N_HEAD, CLOCKS, WATCHED,
+) = range(len(SIZES))  # fmt: skip
 
 SETTINGS = (
     "t", "t_end", "error", "h_max", "h_min", "h_init", "k_max", "max_it", "stop",
@@ -87,10 +96,13 @@ COUNTS = (
     "residuals",
     "failures",
     "records",
+    "events",
+    "restarts",
 )
-STEPS, REJECTED, NEWTON, JACOBIANS, FACTORIZATIONS, RESIDUALS, FAILURES, RECORDS = range(
-    len(COUNTS)
-)
+(
+    STEPS, REJECTED, NEWTON, JACOBIANS, FACTORIZATIONS, RESIDUALS, FAILURES, RECORDS, EVENTS,
+    RESTARTS,
+) = range(len(COUNTS))  # fmt: skip
 
 # What the groups of kernels contribute, one bit each.
 (
@@ -122,16 +134,18 @@ MODE_STATICS = 5.0
     INTERRUPTED,
     NOT_SETTLED,
     UNSTABLE,
-) = range(9)
+    CHATTERING,
+) = range(10)
 
 INT_FIELDS = set(
     "sizes body scalar group copies product turning mixed unit cut ones dead count pivots "
-    "pivots_a".split()
+    "pivots_a kind".split()
 )
 FIELDS = (
     "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
     "cut ones dead settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
-    "pivots pivots_a pivot0 history trial tableau control pz undo record"
+    "pivots pivots_a pivot0 history trial tableau control pz undo record kind guard margin stops "
+    "search"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

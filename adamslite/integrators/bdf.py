@@ -20,6 +20,7 @@ from adamslite.integrators.acceleration import accelerations, mass_signature, pu
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
+    CHATTERING,
     DONE,
     ERROR,
     FAILURES,
@@ -41,6 +42,7 @@ from adamslite.integrators.base import (
     NZ,
     ORDER,
     REJECTED,
+    RESTARTS,
     SI2,
     SINGULAR_MASS,
     STABILISED,
@@ -49,6 +51,7 @@ from adamslite.integrators.base import (
     STEPS,
     STOP,
     T_END,
+    WATCHED,
     WHERE,
     M,
     N,
@@ -56,6 +59,7 @@ from adamslite.integrators.base import (
     Problem,
     T,
 )
+from adamslite.integrators.bdf_events import put_between, restart_step
 from adamslite.integrators.equations import (
     project_on_constraints,
     put_motion,
@@ -66,6 +70,29 @@ from adamslite.integrators.equations import (
     track,
     vector_rates,
     velocities,
+)
+from adamslite.integrators.events import (
+    FREED,
+    HUNT,
+    JUMP,
+    OPEN,
+    SHARE,
+    change_here,
+    crawls,
+    ends_beyond,
+    ends_there,
+    happened,
+    hold_watch,
+    horizon,
+    is_harmless,
+    judge,
+    keep_margins,
+    let_go,
+    open_search,
+    pass_event,
+    shorter,
+    start_events,
+    starts_there,
 )
 from adamslite.integrators.history import (
     MAX_ORDER,
@@ -120,6 +147,9 @@ NOISY_TRIES, NOISY_SHARE = 2.0, 0.3
 MOST_BACKS = 6.0
 # A pivot of the acceleration matrix below this share of its first value has vanished.
 VANISHING = 1e-3
+
+# A jump at a stop that moves velocities by less than this share of ERROR within a step is none.
+SMOOTH = 0.02
 
 RUNNING = -1
 # Places in P.control.
@@ -296,7 +326,9 @@ def begin(P: Problem, L: Plan) -> int:
     for i in range(P.control.size):
         C[i] = 0.0
     C[NOW], C[RATE], C[K], C[K_TOP] = t, 1.0, 1.0, min(float(MAX_ORDER), P.settings[K_MAX])
+    start_events(P, True)
     started = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
+    hold_watch(P)
     h = first_step(P, w)
     C[H] = h
     start_values(P, P.history, w, h)
@@ -327,7 +359,7 @@ def advance(P: Problem, L: Plan) -> int:
         return INTERRUPTED
     limit_step(P, w)
     P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], C[K]
-    if C[H] < P.settings[H_MIN]:
+    if C[H] < P.settings[H_MIN] or crawls(P, C[H]):
         return RUNNING if land_elsewhere(P, w) else stuck(P, L, w)
     stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
     cu = gamma(int(C[K])) / C[H]
@@ -341,7 +373,91 @@ def advance(P: Problem, L: Plan) -> int:
     if P.sizes[IMPLICIT_MASS]:
         if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
             return near_singularity(P, w)
+    return finish(P, L, w, cu, norm)
+
+
+@native
+def finish(P: Problem, L: Plan, w: int, cu: float, norm: float) -> int:
+    """The step has passed its tests: accept it, or take it again to end at the first crossing."""
+    C = P.control
+    if P.sizes[WATCHED] > 0:
+        locate(P, L, cu)
+        if not ends_there(P):
+            if starts_there(P):
+                return switch_at_start(P, L, w)
+            resize(P, w, shorter(P) / C[H])
+            return RUNNING
     return accept(P, L, w, norm)
+
+
+@native
+def locate(P: Problem, L: Plan, cu: float) -> None:
+    """Look for the first change of a branch within the step that has passed its test."""
+    C = P.control
+    t, h = C[NOW], C[H]
+    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    open_search(P, t, h)
+    if ends_beyond(P) and P.search[HUNT] == 0.0:
+        if is_harmless(P, L, STABILISED if stabilised else INDEX3, cu):
+            return
+    while P.search[OPEN] != 0.0:
+        put_between(P, int(C[K]), t, h, P.search[SHARE])
+        judge(P)
+    put_state(P, t + h, P.q, P.u, P.a, P.z, P.rd)
+
+
+@native
+def switch_at_start(P: Problem, L: Plan, w: int) -> int:
+    """A branch changes just behind the start of the step: change it there and begin anew."""
+    P.control[UNDOABLE] = 0.0
+    restore_state(P, P.history, w, P.control[NOW])
+    for i in range(P.sizes[N]):
+        P.a[i] = P.ra[i]
+    if not change_here(P, L, P.control[NOW]):
+        return NEWTON_FAILED
+    begin_anew(P, L, w)
+    return RUNNING
+
+
+@native
+def pass_on(P: Problem, L: Plan, w: int) -> int:
+    """Behind an event: the history goes on when nothing jumped, else a new one begins."""
+    C = P.control
+    # A step that is taken back must not lead across an event.
+    C[UNDOABLE] = 0.0
+    restore_state(P, P.history, w, C[NOW])
+    for i in range(P.sizes[N]):
+        P.a[i] = P.ra[i]
+    if not pass_event(P, L, C[NOW]):
+        return NEWTON_FAILED
+    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+        begin_anew(P, L, w)
+        return RUNNING
+    C[FACTORED] = 0.0
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    keep_algebraic(P)
+    restore_state(P, P.history, w, C[NOW])
+    return RUNNING
+
+
+@native
+def begin_anew(P: Problem, L: Plan, w: int) -> None:
+    """A history of order 1 from the state and the accelerations in place."""
+    C = P.control
+    P.count[RESTARTS] += 1
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    keep_algebraic(P)
+    for i in range(P.z.size):
+        P.pz[i] = P.rz[i]
+    C[H], C[K], C[EQUAL] = restart_step(P, L, C[NOW], first_step(P, w)), 1.0, 0.0
+    C[H_LAST], C[FACTORED] = 0.0, 0.0
+    C[TRAVELLED], C[BAD], C[TRIES], C[FARTHEST] = 0.0, 0.0, 0.0, 0.0
+    start_values(P, P.history, w, C[H])
+    put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.x))
 
 
 @native
@@ -350,8 +466,11 @@ def limit_step(P: Problem, w: int) -> None:
     C = P.control
     if C[H] > P.settings[H_MAX] * 1.0000001:
         resize(P, w, P.settings[H_MAX] / C[H])
-    if C[NOW] + C[H] * 1.0000001 > P.settings[T_END]:
-        resize(P, w, (P.settings[T_END] - C[NOW]) / C[H])
+    left = horizon(P) - C[NOW]
+    if C[H] * 1.0000001 > left:
+        resize(P, w, left / C[H])
+    elif 2.0 * C[H] > left and horizon(P) < P.settings[T_END]:
+        resize(P, w, 0.5 * left / C[H])
 
 
 @native
@@ -388,7 +507,7 @@ def after_failure(P: Problem, w: int) -> int:
     P.count[FAILURES] += 1
     old = C[FRESH] == 0.0 and C[FACTORED] != 0.0
     C[FACTORED] = 0.0
-    if old:
+    if old or let_go(P):
         return RUNNING
     C[RETRIES] += 1.0
     C[FRESH] = 0.0
@@ -514,6 +633,8 @@ def stuck(P: Problem, L: Plan, w: int) -> int:
             if not abs(P.x[k]) > VANISHING * abs(P.pivot0[k]):
                 return SINGULAR_MASS
     P.report[WHERE] = P.control[BLAMED]
+    if P.search[FREED] > 0.0:
+        return CHATTERING
     return NEWTON_FAILED if P.control[RETRIES] > 2.0 else STEP_TOO_SMALL
 
 
@@ -524,16 +645,12 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     k = int(C[K])
     P.count[STEPS] += 1
     C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0
-    if P.undo.size > 0:
-        remember(P)
-        C[UNDOABLE] = 1.0
-        if C[NOW] > C[PASSED]:
-            C[BACKS] = 0.0
+    make_undoable(P)
     C[AGE] += 1.0
     extend_history(D, P.trial[w:], w, k)
     t, h = C[NOW] + C[H], C[H]
-    if t + 1e-7 * h > P.settings[T_END]:
-        t = P.settings[T_END]
+    if t + 1e-7 * h > horizon(P):
+        t = horizon(P)
     C[NOW], C[H_LAST] = t, h
     for i in range(P.z.size):
         P.pz[i] = P.rz[i]
@@ -554,9 +671,23 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     if C[TRIES] >= WINDOW:
         C[FARTHEST] = max(C[FARTHEST], C[TRAVELLED])
         C[TRAVELLED], C[BAD], C[TRIES] = 0.0, 0.0, 0.0
+    if happened(P, t):
+        return pass_on(P, L, w)
+    keep_margins(P)
     if C[EQUAL] > C[K]:
         choose_order(P, w, norm)
     return RUNNING
+
+
+@native
+def make_undoable(P: Problem) -> None:
+    """Keep the state from which the accepted step started."""
+    C = P.control
+    if P.undo.size > 0:
+        remember(P)
+        C[UNDOABLE] = 1.0
+        if C[NOW] > C[PASSED]:
+            C[BACKS] = 0.0
 
 
 @native

@@ -6,6 +6,7 @@ from adamslite.integrators.acceleration import accelerations, put_state
 from adamslite.integrators.base import BROKEN_START, DONE, Plan, Problem, T
 from adamslite.integrators.bdf import bdf
 from adamslite.integrators.equations import jacobian, residual, track
+from adamslite.integrators.events import sample_clock
 from adamslite.integrators.explicit import explicit
 from adamslite.integrators.free import spectrum
 from adamslite.integrators.hht import hht
@@ -16,23 +17,31 @@ from adamslite.translate import native, translate
 
 (
     RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
-    SPECTRUM,
-) = range(11)  # fmt: skip
+    SPECTRUM, CLOCK,
+) = range(12)  # fmt: skip
 
 
 @native
-def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
-    """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
-    row ``phases``.
-    """
-    if operation == BDF:
-        return bdf(P, L)
+def integrate(P: Problem, L: Plan, operation: int) -> int:
+    """Run one of the integrators; returns its outcome."""
     if operation == HHT:
         return hht(P, L)
     if operation == EXPLICIT:
         return explicit(P, L)
     if operation == VERLET:
         return verlet(P, L)
+    return bdf(P, L)
+
+
+@native
+def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
+    """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
+    row ``phases``; CLOCK writes the guards of the clock at the asked times.
+    """
+    if operation >= BDF and operation <= VERLET:
+        return integrate(P, L, operation)
+    if operation == CLOCK:
+        return sample_clock(P)
     if operation == EQUILIBRIUM:
         return equilibrium(P, L)
     if operation == ACCELERATIONS:

@@ -21,6 +21,7 @@ from adamslite.integrators.base import (
     NG,
     NS,
     NV,
+    NW,
     NZ,
     REACTIONS,
     RESIDUALS,
@@ -32,7 +33,7 @@ from adamslite.integrators.base import (
 from adamslite.translate import Reals, call_address, native
 
 POINT, PART = 3, 6
-GROUP = 8
+GROUP = 9
 BODY = 5
 
 
@@ -127,6 +128,26 @@ def track(P: Problem) -> None:
                 g[GROUP * k + 6],
                 P.W,
                 P.W,
+            )
+
+
+@native
+def guard_values(P: Problem, column: int) -> None:
+    """Values of the guards whose kernels stand in a column of ``P.group``, behind the workspace's
+    size in ``P.guard``.
+    """
+    g = P.group
+    for k in range(P.sizes[NW], P.guard.size):
+        P.guard[k] = 0.0
+    for k in range(P.sizes[NG]):
+        if g[GROUP * k + column]:
+            call_address(
+                g[GROUP * k + column],
+                g[GROUP * k + 4],
+                g[GROUP * k + 5],
+                g[GROUP * k + 6],
+                P.W,
+                P.guard,
             )
 
 

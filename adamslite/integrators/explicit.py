@@ -27,6 +27,7 @@ from adamslite.integrators.acceleration import (
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
+    CHATTERING,
     DONE,
     ERROR,
     FACTORIZATIONS,
@@ -43,12 +44,14 @@ from adamslite.integrators.base import (
     NV,
     ORDER,
     REJECTED,
+    RESTARTS,
     SINGULAR_MASS,
     STEP,
     STEP_TOO_SMALL,
     STEPS,
     STOP,
     T_END,
+    WATCHED,
     WHERE,
     M,
     N,
@@ -66,6 +69,23 @@ from adamslite.integrators.dop853 import (
     TIMES,
 )
 from adamslite.integrators.equations import BODY, PART, track, vector_rates
+from adamslite.integrators.events import (
+    FREED,
+    JUMP,
+    change_here,
+    crawls,
+    ends_there,
+    happened,
+    hold_watch,
+    horizon,
+    keep_margins,
+    let_go,
+    pass_event,
+    shorter,
+    start_events,
+    starts_there,
+)
+from adamslite.integrators.explicit_events import locate_between
 from adamslite.integrators.free import (
     free_accelerations,
     invert_inertia,
@@ -248,6 +268,7 @@ def begin_explicit(P: Problem, L: Plan) -> int:
     for i in range(ns):
         y[2 * n + i] = P.z[first + i]
     C[WIDTH] = float(w)
+    start_events(P, True)
     inverse = P.history[INVERSE * w :]
     if is_free(P) and mass_tables(P, inverse, inverse[n:]):
         C[FREE], C[WIDTH] = MASSES, float(n)
@@ -259,6 +280,7 @@ def begin_explicit(P: Problem, L: Plan) -> int:
         C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
     if not exact_rates(P, L, t, y, k):
         return BROKEN_START
+    hold_watch(P)
     P.report[ORDER] = 8.0
     C[H] = starting_step(P, L, w)
     if not exact_rates(P, L, t, y, k):
@@ -289,7 +311,8 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
     """A step whose errors are small, from the rates here and one small step further (section
     II.4).
     """
-    room = min(P.settings[H_MAX], P.settings[T_END] - P.settings[T])
+    t = P.control[CLOCK]
+    room = min(P.settings[H_MAX], P.settings[T_END] - t)
     if P.settings[H_INIT] > 0.0:
         return min(room, P.settings[H_INIT])
     y, new, width = P.history[OLD * w :], P.history[NEXT_STATE * w :], int(P.control[WIDTH])
@@ -298,7 +321,7 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
     h = min(room, 0.01 * d0 / d1 if d0 > 1e-5 and d1 > 1e-5 else 1e-6)
     euler(P, w, h)
     k = P.history[width:]
-    if not rates_at(P, L, P.settings[T] + h, new, k):
+    if not rates_at(P, L, t + h, new, k):
         return 0.01 * h
     d2, n = d1, P.sizes[N]
     for i in range(w - n):
@@ -335,18 +358,22 @@ def try_step(P: Problem, L: Plan) -> int:
     if P.settings[STOP] != 0.0:
         return INTERRUPTED
     C[H] = min(C[H], P.settings[H_MAX])
-    left = P.settings[T_END] - C[CLOCK]
+    left = horizon(P) - C[CLOCK]
     if C[H] * 1.0000001 > left:
         C[H] = left
     P.report[AT], P.report[STEP] = C[CLOCK], C[H]
-    if C[H] < P.settings[H_MIN]:
+    if C[H] < P.settings[H_MIN] or crawls(P, C[H]):
         return why_stuck(P)
     if not run_stages(P, L, w, C[H]):
+        if let_go(P):
+            return RUNNING
         return shorten(P, 0.25)
     error = estimate(P, w, C[H])
     P.report[HOW_MUCH] = error
     if not error <= 1.0:
         P.count[REJECTED] += 1
+        if not error < 1e150 and let_go(P):
+            return RUNNING
         C[CAUTIOUS] = 1.0
         C[H] *= max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK
         return RUNNING
@@ -369,6 +396,8 @@ def shorten(P: Problem, factor: float) -> int:
 @native
 def why_stuck(P: Problem) -> int:
     """The step became too small: because the equations could not be solved, or for accuracy."""
+    if P.search[FREED] > 0.0:
+        return CHATTERING
     return NEWTON_FAILED if P.control[FAILED] > 0.0 else STEP_TOO_SMALL
 
 
@@ -406,16 +435,31 @@ def estimate(P: Problem, w: int, h: float) -> float:
 
 @native
 def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
-    """Project, write records, move on, choose the next step."""
+    """Project, and move on unless the step is to end at a crossing before."""
     C, K = P.control, P.history
     h, t = C[H], C[CLOCK] + C[H]
-    if t + 1e-7 * h > P.settings[T_END]:
-        t = P.settings[T_END]
+    if t + 1e-7 * h > horizon(P):
+        t = horizon(P)
     new, width = K[NEXT_STATE * w :], int(C[WIDTH])
     if P.sizes[IMPLICIT_MASS] and changed_signature(P, L, t, new):
         return shorten(P, 0.25)
     if not exact_rates(P, L, t, new, K[K_NEW * width :]):
         return shorten(P, 0.25)
+    if P.sizes[WATCHED] > 0:
+        locate_between(P, C[CLOCK], h, width, OLD * w, K_NEW)
+        if not ends_there(P):
+            if starts_there(P):
+                return change_where_it_stands(P, L, w)
+            C[H] = shorter(P)
+            return RUNNING
+    return move_on(P, L, w, t, error)
+
+
+@native
+def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
+    """Write records up to ``t``, take over the new state, choose the next step."""
+    C, K, width = P.control, P.history, int(P.control[WIDTH])
+    new = K[NEXT_STATE * w :]
     P.count[STEPS] += 1
     C[FAILED] = 0.0
     note_violation(P, t)
@@ -430,12 +474,57 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
     stand_again(P, w)
     track(P)
     base_here(P, w)
-    factor = GROW
+    if happened(P, t):
+        return pass_by(P, L, w)
+    keep_margins(P)
+    choose_step(P, error)
+    return RUNNING
+
+
+@native
+def choose_step(P: Problem, error: float) -> None:
+    """The next step from the errors of this and the last one."""
+    C, factor = P.control, GROW
     if error > 0.0:
         factor = min(GROW, SAFETY * error**NOW_POWER * C[LAST_ERROR] ** LAST_POWER)
     if C[CAUTIOUS] != 0.0:
         factor = min(1.0, factor)
-    C[H], C[CAUTIOUS], C[LAST_ERROR] = h * max(SHRINK, factor), 0.0, max(error, 1e-4)
+    C[H] *= max(SHRINK, factor)
+    C[CAUTIOUS], C[LAST_ERROR] = 0.0, max(error, 1e-4)
+
+
+@native
+def change_where_it_stands(P: Problem, L: Plan, w: int) -> int:
+    """A branch changes just behind the start of the step: change it there and begin anew."""
+    stand_again(P, w)
+    if not change_here(P, L, P.control[CLOCK]):
+        return NEWTON_FAILED
+    return rates_anew(P, L, w, True)
+
+
+@native
+def pass_by(P: Problem, L: Plan, w: int) -> int:
+    """Behind an event: rates of the new branches, another step when something jumped."""
+    if not pass_event(P, L, P.control[CLOCK]):
+        return NEWTON_FAILED
+    return rates_anew(P, L, w, P.search[JUMP] > 0.0)
+
+
+@native
+def rates_anew(P: Problem, L: Plan, w: int, restart: bool) -> int:
+    """The first stage again; with ``restart`` the step is chosen as at the start of a run."""
+    C, y, k = P.control, P.history[OLD * w :], P.history[0:]
+    if not exact_rates(P, L, C[CLOCK], y, k):
+        return NEWTON_FAILED
+    if restart:
+        P.count[RESTARTS] += 1
+        keep_solution(P)
+        if P.sizes[IMPLICIT_MASS]:
+            C[SIGNATURE] = float(mass_signature(P, L, P.x))
+        C[H], C[LAST_ERROR] = starting_step(P, L, w), 1e-4
+        if not exact_rates(P, L, C[CLOCK], y, k):
+            return NEWTON_FAILED
+    keep_solution(P)
     return RUNNING
 
 

@@ -28,6 +28,7 @@ from adamslite.integrators.acceleration import accelerations, mass_signature, pu
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
+    CHATTERING,
     DONE,
     ERROR,
     FAILURES,
@@ -53,6 +54,7 @@ from adamslite.integrators.base import (
     STEPS,
     STOP,
     T_END,
+    WATCHED,
     WHERE,
     M,
     N,
@@ -81,6 +83,20 @@ from adamslite.integrators.bdf import (
     wildest,
 )
 from adamslite.integrators.equations import put_time, residual, track, vector_rates
+from adamslite.integrators.events import (
+    FREED,
+    crawls,
+    ends_there,
+    happened,
+    hold_watch,
+    horizon,
+    keep_margins,
+    let_go,
+    shorter,
+    start_events,
+    starts_there,
+)
+from adamslite.integrators.hht_events import change_at_start, locate_in_step, step_on
 from adamslite.integrators.linalg import solve
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.second_order import (
@@ -132,10 +148,12 @@ def start_hht(P: Problem, L: Plan) -> int:
     for i in range(P.control.size):
         C[i] = 0.0
     C[NOW] = s[T]
-    good = accelerations(P, L, s[T], P.q, P.u, P.a, P.z, P.rd)
-    C[H] = first_step(P, 0)
     if s[H_INIT] > 0.0 and s[H_INIT] == s[H_MAX] and s[H_INIT] == s[H_MIN]:
         C[FIXED] = s[H_INIT]
+    start_events(P, C[FIXED] == 0.0)
+    good = accelerations(P, L, s[T], P.q, P.u, P.a, P.z, P.rd)
+    hold_watch(P)
+    C[H] = first_step(P, 0)
     for i in range(n):
         P.ra[i], D[2 * n + i], D[3 * n + i] = P.a[i], P.a[i], P.a[i]
     for i in range(ns):
@@ -163,7 +181,8 @@ def attempt(P: Problem, L: Plan) -> int:
         return INTERRUPTED
     choose_coefficients(P)
     P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 2.0
-    if C[H] < (LEAST_SHARE * C[FIXED] if C[FIXED] > 0.0 else P.settings[H_MIN]):
+    least = LEAST_SHARE * C[FIXED] if C[FIXED] > 0.0 else P.settings[H_MIN]
+    if C[H] < least or crawls(P, C[H]):
         return why_too_small(P, L)
     if not correct_step(P, L):
         return after_no_convergence(P)
@@ -180,6 +199,20 @@ def attempt(P: Problem, L: Plan) -> int:
         if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
             C[H] *= 0.25
             return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings[H_MAX] else SINGULAR_MASS
+    return finish_attempt(P, L, norm)
+
+
+@native
+def finish_attempt(P: Problem, L: Plan, norm: float) -> int:
+    """The step has passed its tests: accept it, or take it again to end at the first crossing."""
+    C = P.control
+    if P.sizes[WATCHED] > 0 and C[FIXED] == 0.0:
+        locate_in_step(P, L)
+        if not ends_there(P):
+            if starts_there(P):
+                return change_at_start(P, L)
+            C[H], C[EQUAL] = shorter(P), 0.0
+            return RUNNING
     return accept_attempt(P, L, norm)
 
 
@@ -237,6 +270,8 @@ def after_no_convergence(P: Problem) -> int:
     C = P.control
     P.count[FAILURES] += 1
     C[FACTORED], C[EQUAL] = 0.0, 0.0
+    if let_go(P):
+        return RUNNING
     C[RETRIES] += 1.0
     C[BLAMED] = float(wildest(P))
     C[H] *= retry_factor(C)
@@ -249,8 +284,8 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
     C, h = P.control, P.control[H]
     P.count[STEPS] += 1
     t = C[NOW] + h
-    if t + 1e-7 * h > P.settings[T_END]:
-        t = P.settings[T_END]
+    if t + 1e-7 * h > horizon(P):
+        t = horizon(P)
     keep_second_order(P)
     note_violation(P, t)
     C[NOW], C[H_LAST], C[RETRIES] = t, h, 0.0
@@ -258,6 +293,13 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
     good = record_between(P, L, t, h)
     track(P)
     start_from_here(P)
+    if not good:
+        return SINGULAR_MASS
+    if happened(P, t):
+        outcome = step_on(P, L)
+        C[H] = C[FIXED] if C[FIXED] > 0.0 else C[H]
+        return outcome
+    keep_margins(P)
     if C[FIXED] > 0.0:
         C[H] = min(2.0 * h, C[FIXED])
     else:
@@ -267,7 +309,7 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
         if (C[EQUAL] > 1.0 and min(factor, room) > LEAST_GROWTH) or factor < 0.9:
             C[H] *= min(factor, room)
             C[EQUAL] = 0.0
-    return RUNNING if good else SINGULAR_MASS
+    return RUNNING
 
 
 @native
@@ -316,4 +358,6 @@ def why_too_small(P: Problem, L: Plan) -> int:
                 return SINGULAR_MASS
     if C[RETRIES] > 0.0:
         P.report[WHERE] = C[BLAMED]
+    if P.search[FREED] > 0.0:
+        return CHATTERING
     return NEWTON_FAILED if C[RETRIES] > 2.0 else STEP_TOO_SMALL

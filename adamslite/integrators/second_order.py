@@ -18,7 +18,6 @@ from adamslite.integrators.base import (
     NB,
     NS,
     NV,
-    T_END,
     WHERE,
     M,
     N,
@@ -38,6 +37,7 @@ from adamslite.integrators.equations import (
     spread,
     velocities,
 )
+from adamslite.integrators.events import horizon
 from adamslite.integrators.linalg import factor
 from adamslite.integrators.newton import ROUND_OFF
 from adamslite.translate import Reals, native
@@ -53,7 +53,7 @@ CU, CA, CS, FIXED, REACH = range(18, 23)
 def choose_coefficients(P: Problem) -> None:
     """The step within HMAX and the end time, and how u, a and s' follow from q and s."""
     C, s = P.control, P.settings
-    left = s[T_END] - C[NOW]
+    left = horizon(P) - C[NOW]
     C[H] = min(C[H], s[H_MAX])
     if C[H] * 1.0000001 > left:
         C[H] = left
@@ -263,13 +263,22 @@ def between(P: Problem, h: float, x: float, end: Reals, y: Reals) -> None:
     D, n, ns, first = P.history, P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
     w = x * x * (3.0 - 2.0 * x)
     w0, w1 = h * x * (1.0 - x) * (1.0 - x), h * x * x * (x - 1.0)
+    bodies_between(P, h, x, end, y)
+    for k in range(ns):
+        o = 4 * n + k
+        step, v0, v1 = end[2 * n + k] - D[o], D[o + 3 * ns], D[o + ns]
+        P.z[first + k] = D[o] + w * step + w0 * v0 + w1 * v1
+
+
+@native
+def bodies_between(P: Problem, h: float, x: float, end: Reals, y: Reals) -> None:
+    """q and u at the share x of the step; q is at its end, ``end`` holds q' of that."""
+    D, n = P.history, P.sizes[N]
+    w = x * x * (3.0 - 2.0 * x)
+    w0, w1 = h * x * (1.0 - x) * (1.0 - x), h * x * x * (x - 1.0)
     d, d0, d1 = 6.0 * x * (1.0 - x) / h, (1.0 - x) * (1.0 - 3.0 * x), x * (3.0 * x - 2.0)
     for i in range(n):
         step, v0, v1 = P.q[i] - D[i], D[n + i], end[n + i]
         y[i] = D[i] + w * step + w0 * v0 + w1 * v1
         y[n + i] = d * step + d0 * v0 + d1 * v1
     velocities(P, y, y[n:], y[n:])
-    for k in range(ns):
-        o = 4 * n + k
-        step, v0, v1 = end[2 * n + k] - D[o], D[o + 3 * ns], D[o + ns]
-        P.z[first + k] = D[o] + w * step + w0 * v0 + w1 * v1

@@ -21,6 +21,7 @@ from adamslite.integrators.base import (
     AT,
     DONE,
     ERROR,
+    EVENTS,
     H_INIT,
     H_MAX,
     H_MIN,
@@ -41,6 +42,7 @@ from adamslite.integrators.base import (
     Problem,
 )
 from adamslite.integrators.equations import BODY, put_time, run_groups, track
+from adamslite.integrators.events import horizon, is_stop, next_stop, start_events
 from adamslite.integrators.free import divide_by_mass, put_free, radius
 from adamslite.integrators.records import write_record
 from adamslite.translate import native
@@ -64,6 +66,7 @@ def verlet(P: Problem, L: Plan) -> int:
     for i in range(P.control.size):
         C[i] = 0.0
     P.report[ORDER] = 2.0
+    start_events(P, False)
     synchronise(P, P.times[0], 0)
     P.report[AT] = P.times[0]
     C[SINCE] = WORTH
@@ -72,24 +75,44 @@ def verlet(P: Problem, L: Plan) -> int:
         if P.settings[STOP] != 0.0:
             return INTERRUPTED
         look_at_stability(P)
-        outcome = cross(P, P.times[row - 1], P.times[row], fixed)
+        outcome = reach(P, P.times[row - 1], P.times[row], fixed)
         if outcome != DONE:
-            synchronise(P, P.times[row - 1], row - 1)
+            stand(P, P.report[AT])
             return outcome
         synchronise(P, P.times[row], row)
-        P.report[AT] = P.times[row]
         track(P)
     return DONE
 
 
 @native
+def reach(P: Problem, t: float, end: float, fixed: bool) -> int:
+    """From one output time to the next over all stops between; returns an outcome."""
+    at, outcome = t, DONE
+    while at < end and outcome == DONE:
+        to = min(end, horizon(P))
+        outcome = cross(P, at, to, fixed)
+        if outcome == DONE:
+            P.report[AT], at = to, to
+            if is_stop(P, to):
+                P.count[EVENTS] += 1
+                next_stop(P, to)
+    return outcome
+
+
+@native
 def synchronise(P: Problem, t: float, row: int) -> None:
     """Accelerations at the state in q and u, and a record of it."""
+    stand(P, t)
+    write_record(P, row)
+
+
+@native
+def stand(P: Problem, t: float) -> None:
+    """Accelerations at the state in q and u."""
     put_free(P, t, P.q, P.u)
     run_groups(P, LOADS, P.F)
     divide_by_mass(P, P.F, P.history, 0.0, P.a)
     put_state(P, t, P.q, P.u, P.a, P.z, P.rd)
-    write_record(P, row)
 
 
 @native
@@ -106,7 +129,7 @@ def look_at_stability(P: Problem) -> None:
 
 @native
 def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
-    """From one output time to the next; returns an outcome."""
+    """From one output time or stop to the next; returns an outcome."""
     C, n = P.control, P.sizes[N]
     old = P.trial[0:]
     for i in range(n):

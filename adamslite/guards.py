@@ -1,0 +1,92 @@
+"""Where choices change: guards, and whether their branch is a matter of time or of the state.
+
+A *guard* is a relation that decides a choice in an expression (IF, MAX, ABS, IMPACT, STEP ...), or
+a floor (MOD, AINT).  Within one step of an integrator its branch stays what it was, so that the
+equations are smooth; see :mod:`adamslite.integrators.events`.
+
+==========  =====================================================================================
+clock       depends on nothing but time: its changes are known before the run
+watch       depends on the state, and the value or the slope of the choice breaks there
+==========  =====================================================================================
+
+Other guards are evaluated afresh every time: they depend on the state, but the choice is smooth
+enough (STEP of a distance), or they only keep a formula from 0/0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+# How a guard is read: a relation > 0, a relation >= 0, a floor.
+STRICT, WEAK, FLOOR = range(3)
+CLOCK_LEAVES = ("t", "sig")
+FIXED_LEAVES = ("p", "mode", "nan")
+RELATIONS = ("<", ">", "<=", ">=")
+
+
+@dataclass
+class Guards:
+    """The guards of one shape, in the order of their branches."""
+
+    clock: list[Any] = field(default_factory=list)
+    watch: list[Any] = field(default_factory=list)
+
+    def __bool__(self) -> bool:
+        return bool(self.clock or self.watch)
+
+    @property
+    def kinds(self) -> dict[str, list[int]]:
+        """How each guard is read."""
+        return {name: [_kind(g) for g in getattr(self, name)] for name in ("clock", "watch")}
+
+
+def guards(expressions: Iterable[Any], leaves: dict[Any, tuple]) -> Guards:
+    """The guards in expressions; ``leaves``: what their symbols stand for."""
+    found: dict[Any, int] = {}
+    for expression in expressions:
+        _collect(expression, found)
+    result = Guards()
+    for guard, order in found.items():
+        kinds = {leaves[symbol][0] for symbol in guard.free_symbols} - set(FIXED_LEAVES)
+        if kinds and kinds <= set(CLOCK_LEAVES):
+            result.clock.append(guard)
+        elif kinds and order < 1:
+            result.watch.append(guard)
+    return result
+
+
+def _collect(expression: Any, found: dict[Any, int]) -> None:
+    """Guards below ``expression`` with the least order of the choices they decide."""
+    pending, seen = [expression], set()
+    while pending:
+        node = pending.pop()
+        if node in seen or not getattr(node, "args", ()):
+            continue
+        seen.add(node)
+        order = getattr(node, "order", None)
+        if order is not None and type(node).__name__ == "floor":
+            found[node] = order
+        elif order is not None and type(node).__name__ == "Piecewise":
+            for relation in _relations(node):
+                found[relation] = min(order, found.get(relation, order))
+        pending.extend(reversed(node.args))
+
+
+def _relations(piecewise: Any) -> list[Any]:
+    """The relations in the conditions of a choice, not those inside their sides."""
+    found, pending = [], [piece.cond for piece in piecewise.args]
+    while pending:
+        condition = pending.pop(0)
+        if type(condition).__name__ in ("And", "Or", "Not"):
+            pending += sorted(condition.args, key=str)
+        elif getattr(condition, "rel_op", None) in RELATIONS:
+            found.append(condition)
+    return found
+
+
+def _kind(guard: Any) -> int:
+    if type(guard).__name__ == "floor":
+        return FLOOR
+    return STRICT if guard.rel_op in ("<", ">") else WEAK

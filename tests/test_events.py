@@ -1,0 +1,245 @@
+"""Events: edges in time are stops, changes of branch with the state are located."""
+
+from __future__ import annotations
+
+from math import asin, pi, sqrt
+
+import numpy as np
+import pytest
+from pytest import approx
+from scenes import GROUND, done, run, system
+
+from adamslite.analyses.edges import stops
+from adamslite.outcomes import Outcome
+
+MASS = GROUND + "POINT_MASS/2, MASS={mass}, CM=2, QG={x},0,0, VX={v}\nMARKER/2, POINT_MASS=2\n"
+ERRORS = (1e-3, 1e-5, 1e-7)
+FORMULAS = ("GSTIFF", "GSTIFF I3", "HHT", "NEWMARK", "RKF45")
+
+
+def moved_by(force: str, mass: float = 1.0, x: float = 0.0, v: float = 0.0) -> str:
+    """A point mass on which a force acts along x."""
+    return MASS.format(mass=mass, x=x, v=v) + f"VFORCE/1, I=2, J_PART=1, FX={force}\nEND\n"
+
+
+def options(formula: str, error: float) -> dict:
+    """Arguments of a run: a method, with a formulation or without."""
+    method, _, form = formula.partition(" ")
+    return {"integrator": method, "error": error} | ({"formulation": form} if form else {})
+
+
+def stops_of(force: str, end: float, steps: int) -> list[float]:
+    return stops(system(moved_by(force)), np.linspace(0.0, end, steps + 1)).tolist()
+
+
+# ---- edges in time -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("error", ERRORS)
+@pytest.mark.parametrize("formula", (*FORMULAS, "VERLET"))
+def test_a_pulse_of_a_hundredth_between_output_times_is_seen(formula, error):
+    """1000 N on 1 kg for 10 ms: v = 10, x = 10 (1 - 0.505); outputs are 0.1 apart."""
+    force = "IF(TIME-0.503: 0, 0, IF(TIME-0.513: 1000, 0, 0))"
+    last = done(moved_by(force), 1.0, **options(formula, error))
+    assert last["POINT_MASS/2.vx"][-1] == approx(10.0, rel=1e-4)
+    assert last["POINT_MASS/2.x"][-1] == approx(10.0 * (1.0 - 0.508), rel=1e-4)
+    assert last.summary["events"] == 2
+
+
+@pytest.mark.parametrize("formula", (*FORMULAS, "VERLET"))
+def test_a_square_wave_of_ten_hertz(formula):
+    """+-10 N on 1 kg: every period adds 10 (0.05)^2 = 0.025; at the end it rests."""
+    deck = moved_by("10*SIGN(1,VARVAL(7))").replace(
+        "END", "VARIABLE/7, FUNCTION=SIN(20*PI*TIME)\nEND"
+    )
+    last = done(deck, 1.0, **options(formula, 1e-5))
+    assert last["POINT_MASS/2.x"][-1] == approx(0.25, abs=1e-5 * 0.25)
+    assert last["POINT_MASS/2.vx"][-1] == approx(0.0, abs=1e-5)
+    assert last.summary["events"] == 19
+
+
+@pytest.mark.parametrize("formula", ("GSTIFF", "GSTIFF I3", "HHT", "RKF45", "VERLET"))
+def test_a_saw_tooth(formula):
+    """10 MOD(TIME, 0.1) on 1 kg: v = 0.5 after ten teeth, each adds 0.05 and 1/600 to x."""
+    last = done(moved_by("10*MOD(TIME,0.1)"), 1.0, **options(formula, 1e-8))
+    assert last["POINT_MASS/2.vx"][-1] == approx(0.5, rel=1e-3)
+    assert last["POINT_MASS/2.x"][-1] == approx(10 / 600 + 0.05 * 0.1 * 45, rel=1e-3)
+
+
+def test_stops_are_the_zeros_of_guards_of_time():
+    assert stops_of("IF(TIME-0.5: 1, 2, 3)", 1.0, 10) == [0.5, 1.0]
+    assert stops_of("STEP(TIME,0.2,0,0.3,1)+MAX(0,TIME-0.3)", 1.0, 10) == approx([0.2, 0.3, 1.0])
+    assert stops_of("SIGN(1,SIN(2*PI*TIME)-0.5)", 1.0, 4) == approx([1 / 12, 5 / 12, 1.0])
+    assert stops_of("MOD(TIME,0.25)", 1.0, 4) == [0.25, 0.5, 0.75, 1.0]
+    assert stops_of("ABS(TIME)+IF(TIME-1: 0, 1, 1)+MAX(TIME,-1)", 1.0, 4) == [1.0]
+    assert stops_of("STEP(DX(2),0,0,1,1)", 1.0, 4) == [1.0]
+
+
+def test_stops_are_found_where_the_grid_is_coarse():
+    """2000 changes between 5 output times; a peak above zero for a 3000th of the run."""
+    assert len(stops_of("SIGN(1,COS(2000*PI*TIME))", 1.0, 4)) == 2001
+    narrow = stops_of("MAX(0,COS(2*PI*(TIME-0.7123))-0.9999995)", 1.0, 4)
+    assert narrow == approx([0.7123 - 1.5915e-4, 0.7123 + 1.5915e-4, 1.0], abs=1e-7)
+
+
+@pytest.mark.parametrize("formula", (*FORMULAS, "VERLET"))
+def test_an_edge_at_the_start_an_output_time_and_the_end(formula):
+    """v = t until 0.5, then 2 (t - 0.5) + 0.5; the edges at 0 and 1 are none inside the run."""
+    force = "IF(TIME: 9, 9, IF(TIME-0.5: 1, 1, IF(TIME-1: 2, 2, 9)))"
+    last = done(moved_by(force), 1.0, **options(formula, 1e-6))
+    assert last["POINT_MASS/2.vx"][[5, 10]] == approx([0.5, 1.5], rel=1e-5)
+    assert last.summary["events"] == 1
+
+
+def test_accelerations_written_at_an_edge_are_those_before_it():
+    last = done(moved_by("IF(TIME-0.5: 1, 1, 3)"), 1.0)
+    assert last["POINT_MASS/2.ax"][4:7] == approx([1.0, 1.0, 3.0], rel=1e-9)
+
+
+def test_the_end_of_a_step_is_a_stop_without_a_new_start():
+    last = done(moved_by("STEP(TIME,0.2,0,0.3,1)"), 1.0)
+    assert last.summary["events"] == 2
+    assert last.summary["restarts"] == 0
+
+
+def test_a_motion_that_bends():
+    """A carriage moved by STEP: it stands, and no step passes over the ramp of 1 ms."""
+    deck = (
+        GROUND
+        + """PART/2, MASS=1, CM=2, IP=1,1,1
+MARKER/2, PART=2, REULER=90D,90D,0
+MARKER/3, PART=1, REULER=90D,90D,0
+JOINT/1, TRANSLATIONAL, I=2, J=3
+MOTION/1, JOINT=1, TRANSLATION, FUNCTION=STEP(TIME,0.5,0,0.501,0.1)
+END
+"""
+    )
+    last = done(deck.replace("END", "PART/3, MASS=1, CM=4, IP=1,1,1\nMARKER/4, PART=3\nEND"), 1.0)
+    assert last["PART/2.x"][-1] == approx(0.1, abs=1e-6)
+    assert last["PART/2.vx"][-1] == approx(0.0, abs=1e-4)
+
+
+# ---- changes with the state ----------------------------------------------------------------------
+
+M, K, DROP, G = 100.0, 1e6, 0.5, 9.81
+SLACK = {
+    "MAX": "MAX(0,-1E6*DX(2))",
+    "IF": "IF(DX(2): -1E6*DX(2), 0, 0)",
+    "IMPACT": "IMPACT(DX(2),VX(2),0,1E6,1,0,0.001)",
+}
+
+
+def snatch(force: str) -> str:
+    """A mass that falls into a line which pulls only when it is taut, x upwards from taut."""
+    lines = moved_by(force, mass=M, x=DROP).replace("END", f"ACCGRAV/IGRAV={-G}\n")
+    energy = f"{M / 2}*VX(2)**2+{M * G}*DX(2)+{K / 2}*MIN(0,DX(2))**2"
+    return lines + f"REQUEST/1, F2={energy}\\F3={force}\nEND\n"
+
+
+@pytest.mark.parametrize(("formula", "error"), [("GSTIFF", 1e-6), ("HHT", 1e-8), ("RKF45", 1e-5)])
+@pytest.mark.parametrize("law", SLACK)
+def test_ten_bounces_on_a_slack_line(law, formula, error):
+    """T_max = M g (1 + sqrt(1 + 2 k H/(M g))) = 32317.28, period 0.67059300."""
+    w, sag = sqrt(K / M), M * G / K
+    depth = sqrt(sag**2 + 2.0 * DROP * sag)
+    period = (pi + 2.0 * asin(sag / depth)) / w + 2.0 * sqrt(2.0 * DROP / G)
+    assert period == approx(0.670593, rel=1e-6)
+    last = done(snatch(SLACK[law]), 10 * period, 1000, **options(formula, error))
+    energy = last["REQUEST/1.F2"]
+    assert np.abs(energy / energy[0] - 1.0).max() < 1e-3
+    assert last["POINT_MASS/2.x"][-1] == approx(DROP, abs=1e-3 * DROP)
+    peak = max(done(snatch(SLACK[law]), 0.35, 3500, **options(formula, error))["REQUEST/1.F3"])
+    assert peak == approx(32317.28, rel=1e-3)
+    assert last.summary["events"] == 20
+
+
+def test_an_elastic_contact():
+    """k x^1.5, which has no value on the other side, gives back the energy of the fall."""
+    last = done(
+        moved_by("1E7*MAX(0,-DX(2))**1.5", x=0.1).replace("END", f"ACCGRAV/IGRAV={-G}\nEND"),
+        0.25, 25, error=1e-7,
+    )  # fmt: skip
+    energy = last["POINT_MASS/2.vx"] ** 2 / 2 + G * last["POINT_MASS/2.x"]
+    assert energy[-1] == approx(G * 0.1, rel=1e-4)
+
+
+@pytest.mark.parametrize(("formula", "error"), [("GSTIFF", 1e-7), ("HHT", 1e-8), ("RKF45", 1e-5)])
+def test_a_spring_that_is_stiffer_on_one_side(formula, error):
+    """k = 100 and 400: half periods pi/10 and pi/20, ten of each bring x = 0, v = 1 back."""
+    last = done(
+        moved_by("-IF(DX(2): 100, 100, 400)*DX(2)", v=1.0),
+        10 * (pi / 10 + pi / 20), **options(formula, error),
+    )  # fmt: skip
+    assert last["POINT_MASS/2.x"][-1] == approx(0.0, abs=2e-4)
+    assert last["POINT_MASS/2.vx"][-1] == approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("formula", FORMULAS)
+def test_a_force_that_always_points_to_the_middle(formula):
+    """-8 SIGN(x): parabolas; from x = 1 it returns after 4 sqrt(2/8) = 2."""
+    last = done(moved_by("-8*SIGN(1,DX(2))", x=1.0), 8.0, **options(formula, 1e-7))
+    assert last["POINT_MASS/2.x"][-1] == approx(1.0, abs=1e-4)
+    assert last.summary["events"] == 8
+
+
+def test_max_and_min_at_zero_in_both_directions():
+    """-100 MAX(x, 0) - 100 MIN(x, 0) is a plain spring."""
+    last = done(moved_by("-100*MAX(DX(2),0)-100*MIN(DX(2),0)", v=1.0), pi / 5, error=1e-7)
+    assert last["POINT_MASS/2.x"][-1] == approx(0.0, abs=1e-5)
+
+
+def test_two_at_once():
+    """Two guards that change together, one of them the other way."""
+    force = "IF(DX(2)-0.5: 1, 1, -1)+IF(0.5-DX(2): 2, 1, 1)"
+    last = done(moved_by(force, v=1.0), 1.0, error=1e-7)
+    reached = sqrt(2.0) - 1.0
+    v = sqrt(1.0 + 2.0 * 2.0 * 0.5)
+    left = 1.0 - (v - 1.0) / 2.0
+    assert last.summary["events"] == 1
+    assert last["POINT_MASS/2.vx"][-1] == approx(v + left, rel=1e-5)
+    assert reached < 1.0
+
+
+def test_one_that_begins_on_the_edge():
+    """x = 0 at the start, the other branch from the first moment on."""
+    last = done(moved_by("IF(DX(2): 0, 0, -2)", v=1.0), 0.5, error=1e-6)
+    assert last["POINT_MASS/2.vx"][-1] == approx(0.0, abs=1e-5)
+
+
+def test_in_and_out_within_one_step():
+    """A wall of 2 mm that pushes: entered and left between two output times, v^2 += 2 f d."""
+    force = "IF(DX(2)-0.5: 0, 0, IF(DX(2)-0.502: 100, 0, 0))"
+    for formula in FORMULAS:
+        last = done(moved_by(force, v=1.0), 1.0, 10, **options(formula, 1e-6))
+        v = sqrt(1.0 + 2.0 * 100.0 * 0.002)
+        assert last["POINT_MASS/2.vx"][-1] == approx(v, rel=1e-4), formula
+
+
+def test_floors_of_the_state():
+    """x climbs stairs of AINT: v' = -AINT(10 x)."""
+    last = done(moved_by("-AINT(10*DX(2))", v=1.0), 1.0, error=1e-7)
+    v = [1.0]
+    for stair in range(1, 20):
+        rest = v[-1] ** 2 - 2.0 * 0.1 * (stair - 1)
+        if rest < 0.0:
+            break
+        v.append(sqrt(rest))
+    time = sum(0.2 / (a + b) for a, b in zip(v, v[1:], strict=False))
+    assert time < 1.0
+    assert last.outcome is Outcome.DONE
+
+
+@pytest.mark.parametrize("formula", ["GSTIFF", "HHT", "RKF45"])
+def test_dry_friction_written_with_sign_is_never_wrong_in_silence(formula):
+    """It comes to rest at x = 1/4; then both branches lead back to the change."""
+    deck = moved_by("-2*SIGN(1,VX(2))", v=1.0)
+    last = run(deck, 1.0, **options(formula, 1e-7))
+    assert last.outcome is Outcome.CHATTERING
+    assert "VFORCE/1 (" in last.message
+    assert last.summary["steps"] < 5000
+    assert last["POINT_MASS/2.x"][-1] == approx(0.25, abs=0.02)
+
+
+def test_a_smooth_scene_has_no_guards():
+    scene = system(moved_by("-STEP(DX(2),0,0,1,1)"))
+    assert scene.kind.size == 0
