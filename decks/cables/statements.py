@@ -66,7 +66,8 @@ def cable_variables(cable: Cable, damping: float = 0.0) -> str:
 
 def section(s: int, i: int, j: int, free: str, damping: float = 0.0) -> str:
     """SFORCE/s between MARKER/i and MARKER/j of the free length `free`."""
-    damper = f"-damper*VR({i},{j})" if damping else ""
+    grows = f"-SD*DM({i},{j})/LT" if free == "H" else ""
+    damper = f"-damper*(VR({i},{j}){grows})" if damping else ""
     return f"SFORCE/{s}, I={i}, J={j}, FUNCTION=-EA*(DM({i},{j})/{free}-1){damper}\n"
 
 
