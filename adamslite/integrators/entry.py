@@ -9,6 +9,7 @@ from adamslite.integrators.equations import jacobian, residual, track
 from adamslite.integrators.explicit import explicit
 from adamslite.integrators.free import spectrum
 from adamslite.integrators.hht import hht
+from adamslite.integrators.radau import radau
 from adamslite.integrators.records import write_record
 from adamslite.integrators.static import equilibrium
 from adamslite.integrators.verlet import verlet
@@ -25,14 +26,8 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
     row ``phases``.
     """
-    if operation == BDF:
-        return bdf(P, L)
-    if operation == HHT:
-        return hht(P, L)
-    if operation == EXPLICIT:
-        return explicit(P, L)
-    if operation == VERLET:
-        return verlet(P, L)
+    if operation >= BDF and operation <= VERLET:
+        return integrate(P, L, operation)
     if operation == EQUILIBRIUM:
         return equilibrium(P, L)
     if operation == ACCELERATIONS:
@@ -49,6 +44,20 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     else:
         jacobian(P, phases, P.coef, P.J)
     return DONE
+
+
+@native
+def integrate(P: Problem, L: Plan, operation: int) -> int:
+    """A run to the end time with one of the integrators."""
+    if operation == BDF:
+        return bdf(P, L)
+    if operation == HHT:
+        return hht(P, L)
+    if operation == RADAU:
+        return radau(P, L)
+    if operation == EXPLICIT:
+        return explicit(P, L)
+    return verlet(P, L)
 
 
 def engine_text() -> str:
