@@ -100,7 +100,7 @@ from adamslite.integrators.records import note_violation, write_record
 from adamslite.translate import Reals, native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
-CORRECTOR_SHARE = 0.01
+CORRECTOR_SHARE = 0.002
 # The derivatives are kept for the next step when increments shrank by this, but not for ever.
 QUICK, KEEP_STEPS = 0.01, 20.0
 # The second increment may exceed the first by this, which moves one stage for the sake of another
