@@ -76,8 +76,8 @@ SETTINGS = (
     T, T_END, ERROR, H_MAX, H_MIN, H_INIT, K_MAX, MAX_IT, STOP, ALPHA, BETA, GAMMA, INTERPOLATE,
 ) = range(len(SETTINGS))  # fmt: skip
 
-REPORT = ("t", "h", "order", "violation", "where", "size")
-AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH = range(len(REPORT))
+REPORT = ("t", "h", "order", "violation", "where", "size", "capped")
+AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED = range(len(REPORT))
 
 COUNTS = (
     "steps",
