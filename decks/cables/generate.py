@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import arrest
 import kinks
 import moving
 import payouts
@@ -21,6 +22,7 @@ CASES: dict[str, Callable[[], Iterator[tuple[str, str, str]]]] = {
     **waves.CASES,
     **payouts.CASES,
     **moving.CASES,
+    **arrest.CASES,
 }
 
 

@@ -104,7 +104,7 @@ def hanging_deck(span: Span, winch: Winch, weight: float, end: float, steps: int
         text += point(k + 1, span.node_mass, [0, -places[k - 1]])
         text += grown(span.form, k, n, "Y")
     text += "\n! The lower end.\n" + point(n + 1, weight + half, [0, -places[-1]])
-    text += grown_tip(span.form, n, n, "Y")
+    text += grown_tip(span.form, n + 1, n, "Y")
     text += span.sections_text()
     felt = "JGRAV" if span.form == "paper" else "(JGRAV+SDD)"
     text += f"\n! Load on the sheave; payout.\nREQUEST/1, F2=SFORCE(1,0,1)-rho*H/2*{felt}\\ F3=S\n"
@@ -199,7 +199,8 @@ def running_deck(span: Span, inertia: float, end: float, steps: int) -> str:
     for k in range(1, n + 1):
         mass = span.node_mass / (1 if k < n else 2)
         text += point(k + 1, mass, [0, -k * span.length / n])
-        text += (grown if k < n else grown_tip)(span.form, k, n, "Y")
+        text += grown(span.form, k, n, "Y") if k < n else ""
+    text += grown_tip(span.form, n + 1, n, "Y")
     text += span.sections_text() + "\nREQUEST/1, F2=S\\ F3=SD\n"
     return text + tail("GSTIFF, SI2, ERROR=1.0E-6", end, steps)
 
