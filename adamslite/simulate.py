@@ -21,6 +21,10 @@ from adamslite.session import Session
 from adamslite.times import spread_times
 
 SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
+CAPPED = (
+    "held at 2: stiff vibrations without damping limited the steps of higher orders; HHT suits "
+    "such a scene"
+)
 COUNTED = (
     "steps", "rejected", "newton", "jacobians", "factorizations", "events", "restarts",
 )  # fmt: skip
@@ -171,6 +175,8 @@ def _notes(session: Session) -> dict[str, str]:
     found = {}
     if session.assembled:
         found["assembled"] = "moved " + "; ".join(session.assembled)
+    if session.system.report[base.ORDER_CAPPED]:
+        found["order"] = CAPPED
     rows = [row_name(session.system, row) for row in session.system.dropped]
     if rows:
         found["redundant"] = f"left out, their reactions are zero: {'; '.join(rows)}"

@@ -93,6 +93,7 @@ class System:
     def drop(self, rows: list[int]) -> None:
         """Leave out redundant constraint rows (counted from the first multiplier): lam = mu = 0."""
         self.dropped = rows
+        self.z[rows] = 0.0
         dead = [self.n + r for r in rows]
         if self.stabilised:
             dead += [self.nz - self.holonomic + r for r in rows if r < self.holonomic]
@@ -193,6 +194,7 @@ class System:
         self.pivot0 = np.zeros(nz + 1)
         self.history, self.trial = np.zeros(8 * w + 160), np.zeros(3 * w + 3)
         self.control, self.tableau = np.zeros(48), np.zeros(1)
+        self.parts, self.LC, self.pivots_c = np.zeros(1), np.zeros(1), _ints([0])
         self.coef, self.report = np.zeros(16), np.zeros(len(base.REPORT))
         self.settings, self.count = np.zeros(len(base.SETTINGS)), _ints([0] * len(base.COUNTS))
         self.times, self.record, self.undo = np.zeros(1), np.zeros(1), np.zeros(0)
@@ -461,6 +463,20 @@ class System:
         self.tableau = tableau()
         if self.history.size < room:
             self.history = np.zeros(room)
+
+    def prepare_radau(self) -> None:
+        """Coefficients and room for the stages and the complex factors of the Radau formula."""
+        from adamslite.integrators.radau_coefficients import coefficients
+        from adamslite.integrators.radau_stages import Y_ROWS, Z_ROWS
+
+        z = self.m + self.nv + self.ns + self.holonomic
+        room = Y_ROWS * (2 * self.n + self.ns) + Z_ROWS * z + 7 * self.nz + 16
+        self.tableau = coefficients()
+        if self.parts.size == 1:
+            self.history = np.zeros(max(room, self.history.size))
+            self.parts = np.zeros(3 * self.J.size)
+            self.LC, self.pivots_c = np.zeros(2 * self.LV.size), _ints([0] * self.nz)
+            self.work = np.zeros(max(self.work.size, 2 * int(self.plan["size"].max()) ** 2))
 
     def start_record(self, times: np.ndarray) -> None:
         """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier

@@ -148,10 +148,10 @@ def by_program(points: Iterable[Any]) -> dict[str, list[Any]]:
     return found
 
 
-def variants(constrained: bool = True) -> list[Variant]:
+def variants() -> list[Variant]:
     """Every integrator of the INTEGRATOR statement, those that do the same only once.
 
-    ``constrained``: whether the scene has constraints; without them formulations do not differ.
+    Formulations differ without constraints, too: I3 does not test the error of velocities.
     """
     arguments = Integrator.arguments
     found: dict[Any, list[Variant]] = {}
@@ -160,10 +160,10 @@ def variants(constrained: bool = True) -> list[Variant]:
             continue
         forms = arguments["formulation"].supported
         chosen = {Settings(method=method, formulation=form).form: form for form in forms}
-        for form in chosen.values() if constrained else forms[:1]:
+        for form in chosen.values():
             settings = Settings(method=method, formulation=form)
             does = METHODS[method], settings.form, settings.second_order
-            told = form if constrained and len(chosen) > 1 else ""
+            told = form if len(chosen) > 1 else ""
             found.setdefault(does, []).append(Variant(method, told))
     return [
         replace(first, also=tuple(v.integrator for v in rest)) for first, *rest in found.values()

@@ -1,49 +1,68 @@
-"""How our solve CPU per step grows with the number of masses: CPU/step ~ N^exponent."""
+"""How CPU per step grows with the number of masses: CPU/step ~ N^exponent, N = 10 to 10000.
+
+The start of S1, so short that a wave passes the same number of segments at every N. Every program
+runs one setting: what a step costs hardly depends on how accurate it is.
+"""
 
 from __future__ import annotations
 
-import csv
 import math
-from pathlib import Path
+from collections.abc import Iterable
 
-from benchmarks.measure import Point, Worker, first_run, repeat_in_turns
+from benchmarks.measure import Crew, Point, first_run, point, repeat_in_turns, warm_up
 from benchmarks.peers import PROGRAMS
+from benchmarks.peers.program import Program, Settings
+from benchmarks.points import Row
+from benchmarks.scenes import SCALING, SCALING_SIZES
 
-SCENE, SIZES, ERROR = "S1", (50, 200, 1000), 1e-6
-
-
-def growth(repeats: int, path: Path) -> str:
-    """Measure, write a CSV, and return the table."""
-    lines = [f"{SCENE} at ERROR={ERROR:g}: solve CPU per step [us]", ""]
-    rows = []
-    for name, program in PROGRAMS.items():
-        if program.kind == "ours" and program.installed():
-            points = cpu_per_step(name, repeats)
-            rows += [(name, p.n, p.steps, p.solve, p.error) for p in points]
-            lines.append(told(name, points))
-    with path.open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(("program", "n", "steps", "solve_cpu_s", "error"))
-        writer.writerows(rows)
-    return "\n".join(lines) + "\n"
+#: Enough for the explicit methods at every N, see ``SEGMENTS_PASSED``.
+STEPS = 600
+SETTINGS: tuple[Settings, ...] = (
+    {"error": 1e-4}, {"steps": STEPS}, {"rtol": 1e-5, "atol": 1e-7},
+)  # fmt: skip
+#: The exponent counts from here on: below, what a step costs anyway shows.
+FROM = 50
 
 
-def cpu_per_step(name: str, repeats: int) -> list[Point]:
-    """The same setting at every size, the sizes taking turns."""
-    worker = Worker(name)
-    points = [Point(name, SCENE, n, {"error": ERROR}) for n in SIZES]
-    points = [p for p in points if first_run(worker, p).ok]
-    repeat_in_turns({name: worker}, points, repeats)
-    worker.close()
-    return points
+def setting(program: Program) -> Settings | None:
+    """The setting of ``SETTINGS`` that a program understands."""
+    ladder = program.ladder("S1", 10)
+    return next((s for s in SETTINGS if ladder and set(s) == set(ladder[0])), None)
 
 
-def told(name: str, points: list[Point]) -> str:
-    """One line: cost per step at every size, and the exponent from the first to the last."""
-    costs = {p.n: p.solve / p.steps for p in points}
-    text = ", ".join(f"N={n} {1e6 * cost:.3g}" for n, cost in costs.items())
+def growth(names: Iterable[str], crew: Crew, largest: int) -> list[Point]:
+    """Measure every program that can do S1, N by N, until a run is too dear."""
+    made: list[Point] = []
+    for name in names:
+        program = PROGRAMS[name]
+        settings = setting(program) if "S1" in program.scenes else None
+        if settings is None or crew.effort.over:
+            continue
+        points: list[Point] = []
+        for n in (n for n in SCALING_SIZES if n <= largest):
+            if points and cost_at(points[-1], n) > crew.effort.budget:
+                break
+            first = point(name, SCALING, n, settings)
+            warm_up(crew[name], program, first)
+            points.append(first_run(crew[name], first))
+            if not points[-1].ok:
+                break
+        repeat_in_turns(crew, points, crew.effort)
+        made += points
+        if not crew.effort.coarse:
+            crew.close()
+    return made
+
+
+def cost_at(last: Point, n: int) -> float:
+    """CPU [s] to expect at another N, set-up and a little more than linear growth included."""
+    return (last.median + (last.setup or 0.0)) * (n / last.n) ** 1.3
+
+
+def exponent(rows: Iterable[Row]) -> float | None:
+    """Of CPU per step from ``FROM`` to the largest N."""
+    costs = {r.n: r.cpu_median / r.steps for r in rows if r.ok and r.steps and r.n >= FROM}
     if len(costs) < 2:
-        return f"{name}: {text or 'failed'}"
+        return None
     first, last = min(costs), max(costs)
-    exponent = math.log(costs[last] / costs[first]) / math.log(last / first)
-    return f"{name}: {text}; exponent {exponent:.2f} from N={first} to {last}"
+    return math.log(costs[last] / costs[first]) / math.log(last / first)

@@ -3,8 +3,8 @@
 1. Every program climbs its ladder of settings until it has met every target, or until the next rung
    would cost more than the budget. A fixed-step method of known order leaves out rungs that
    cannot do.
-2. For every target the cheapest rung that met it is repeated, the programs taking turns, so that a
-   disturbance of the machine hits all of them; the median counts.
+2. All rungs are repeated, the programs taking turns, so that a disturbance of the machine hits all
+   of them; the median counts. Long runs are repeated less.
 """
 
 from __future__ import annotations
@@ -14,11 +14,15 @@ import os
 import signal
 import subprocess
 import sys
-from dataclasses import dataclass, field
+import time
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 from statistics import median
-from threading import Timer
+from threading import Event, Thread
 from typing import Any
 
+from adamslite import work_precision
+from adamslite.work_precision import repeats_of
 from benchmarks.peers import PROGRAMS
 from benchmarks.peers.program import Program, Settings
 
@@ -26,61 +30,86 @@ from benchmarks.peers.program import Program, Settings
 NEXT_RUNG = 1.4
 #: Errors below this follow the order of the method.
 ASYMPTOTIC = 0.05
-#: Runs of this CPU [s] are repeated less: (from, at most this often).
-SHORTER = ((8.0, 1), (2.0, 3))
+#: A program that failed at so many rungs one after the other fails at all.
+FAILURES = 4
+#: CPU a run may take before it is given up, as a multiple of the budget, and at least [s].
+PATIENCE = 2.0
+LEAST_PATIENCE = 4.0
+#: Wall time [s] per CPU second of patience after which a process is taken for dead.
+DEAD = 20.0
+#: How often that is looked at [s].
+LOOK = 0.25
 
-#: Wall time [s] after which a run is given up, whatever the budget.
-PATIENCE = 120.0
+#: Why a setting was not run: it says nothing about the program.
+TIME_UP = "not run: the time was up"
 
 ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
 
 
-@dataclass
-class Point:
-    """One program with one setting on one scene; times are CPU [s], one per repeat."""
+@dataclass(frozen=True)
+class Effort:
+    """How much is measured.
 
-    program: str
+    targets : errors to reach;  budget : CPU [s] a run may take;  repeats : of short runs
+    coarse : every second rung only, and processes that live on from scene to scene
+    deadline : ``time.monotonic`` after which nothing new is begun
+    """
+
+    targets: tuple[float, ...]
+    budget: float
+    repeats: int
+    coarse: bool = False
+    deadline: float = float("inf")
+
+    @property
+    def over(self) -> bool:
+        """Whether the time is up."""
+        return time.monotonic() > self.deadline
+
+    @property
+    def patience(self) -> float:
+        """CPU [s] after which a run is given up."""
+        return max(PATIENCE * self.budget, LEAST_PATIENCE)
+
+
+@dataclass(kw_only=True)
+class Point(work_precision.Point):
+    """One program with one setting on one scene.
+
+    drift : of the energy, S4 only;  setups : CPU [s] of set-ups;  peak : memory [MB]
+    """
+
     scene: str
     n: int
     settings: Settings
-    error: float | None = None
     drift: float | None = None
-    steps: int = 0
-    ok: bool = False
-    reason: str = ""
-    first_solve: float = 0.0
-    first_setup: float = 0.0
-    solves: list[float] = field(default_factory=list)
     setups: list[float] = field(default_factory=list)
+    peak: float | None = None
+    refused: bool = False
 
     @property
-    def solve(self) -> float:
-        """Median CPU [s] from the ready program to the end state."""
-        return median(self.solves) if self.solves else self.first_solve
+    def setup(self) -> float | None:
+        """Median CPU [s] from the scene to a program ready to step."""
+        return median(self.setups) if self.setups else None
 
-    @property
-    def setup(self) -> float:
-        """Median CPU [s] before that."""
-        return median(self.setups) if self.setups else self.first_setup
 
-    @property
-    def fastest(self) -> float:
-        """Least solve CPU [s]."""
-        return min(self.solves, default=self.first_solve)
-
-    def meets(self, target: float) -> bool:
-        """Whether the error is known and small enough."""
-        return self.ok and self.error is not None and self.error <= target
+def point(program: str, scene: str, n: int, settings: Settings) -> Point:
+    """A point to be measured; the absolute tolerance follows the relative one and is not told."""
+    told = {"error": "ERROR", "steps": "steps", "rtol": "rtol"}
+    setting = " ".join(f"{told[k]}={v:g}" for k, v in settings.items() if k in told)
+    if "steps" in settings:
+        setting = f"steps={settings['steps']}"
+    return Point(program=program, setting=setting, scene=scene, n=n, settings=settings)
 
 
 class Worker:
     """The process of one program; it is ended when an answer takes longer than its patience."""
 
-    def __init__(self, name: str, patience: float = PATIENCE) -> None:
+    def __init__(self, name: str, patience: float) -> None:
         self.name, self.patience = name, patience
         self.process: subprocess.Popen | None = None
 
-    def ask(self, point: Point) -> dict[str, Any]:
+    def ask(self, point: Point, patience: float | None = None) -> dict[str, Any]:
         """Have the point solved once; a crash is an answer, too."""
         if self.process is None or self.process.poll() is not None:
             command = [sys.executable, "-m", "benchmarks.worker", self.name]
@@ -91,15 +120,29 @@ class Worker:
         question = {"scene": point.scene, "n": point.n, "settings": point.settings}
         self.process.stdin.write(json.dumps(question) + "\n")
         self.process.stdin.flush()
-        alarm = Timer(self.patience, self.process.kill)
-        alarm.start()
+        answered = Event()
+        Thread(target=self._guard, args=(answered, patience or self.patience), daemon=True).start()
         line = self.process.stdout.readline()
-        alarm.cancel()
+        answered.set()
         if line:
             return json.loads(line)
         self.process.wait()
         late = self.process.returncode == -signal.SIGKILL
-        return {"ok": False, "reason": "it took too long" if late else "it crashed"}
+        reason = "it took too long and was given up" if late else "it crashed"
+        return {"ok": False, "reason": reason, "given_up": late}
+
+    def _guard(self, answered: Event, patience: float) -> None:
+        """Kill the process when it has used too much CPU before it answered.
+
+        From here, because a CPU timer or limit inside of the process makes its own clock coarse.
+        """
+        process, start, wall = self.process, None, time.monotonic()
+        while not answered.wait(LOOK):
+            used = cpu_of(process.pid)
+            start = used if start is None else start
+            if used - start > patience or time.monotonic() - wall > DEAD * patience:
+                process.kill()
+                return
 
     def close(self) -> None:
         """Let the process end."""
@@ -108,89 +151,123 @@ class Worker:
             self.process.wait()
 
 
+def cpu_of(process: int) -> float:
+    """CPU [s] a process has used, 0 where the system does not tell."""
+    try:
+        words = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return 0.0
+    return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+
+
+#: The first run of a scene may compile for this long [s].
+COMPILING = 180.0
+
+
+def warm_up(worker: Worker, program: Program, first: Point) -> None:
+    """A run that is not counted, for programs that compile and keep."""
+    if program.compiles:
+        worker.ask(first, COMPILING)
+
+
 def first_run(worker: Worker, point: Point) -> Point:
-    """Fill a point from its first run, which only warms up."""
+    """Fill a point from its first run."""
     told = worker.ask(point)
-    point.ok, point.reason = told["ok"], told.get("reason", "")
-    point.steps, point.error, point.drift = (told.get(k) for k in ("steps", "error", "drift"))
-    point.first_solve, point.first_setup = told.get("solve", 0.0), told.get("setup", 0.0)
+    point.reason = "" if told["ok"] else told.get("reason", "") or "it failed"
+    point.error, point.drift, point.peak = (told.get(k) for k in ("error", "drift", "peak"))
+    point.steps = told.get("steps", 0)
+    point.given_up, point.refused = told.get("given_up", False), told.get("refused", False)
+    if "solve" in told:
+        point.cpu, point.setups = [told["solve"]], [told["setup"]]
     return point
 
 
-def climb(
-    worker: Worker, program: Program, scene: str, n: int, targets: list[float], budget: float
-) -> list[Point]:
+def climb(worker: Worker, program: Program, scene: str, n: int, effort: Effort) -> list[Point]:
     """Run the rungs of a program's ladder until all targets are met or the budget ends it."""
     points: list[Point] = []
-    left = sorted(targets, reverse=True)
-    needed = 0
-    ladder = program.ladder(scene, n)
-    if ladder and program.compiles:
-        first_run(worker, Point(program.name, scene, n, ladder[0]))
+    left = sorted(effort.targets, reverse=True)
+    needed, failures = 0.0, 0
+    ladder = program.ladder(scene, n)[:: 2 if effort.coarse else 1]
+    if ladder and not effort.over:
+        warm_up(worker, program, point(program.name, scene, n, ladder[0]))
     for settings in ladder:
-        if settings.get("steps", 0) < needed:
+        if settings.get("steps", needed) < needed:
             continue
-        if points and predicted(points[-1], settings) > budget:
+        if points and predicted(points[-1], settings) > effort.budget:
             break
-        point = first_run(worker, Point(program.name, scene, n, settings))
+        if effort.over:
+            points.append(point(program.name, scene, n, settings))
+            points[-1].reason = TIME_UP
+            break
+        made = first_run(worker, point(program.name, scene, n, settings))
         if sys.stderr.isatty():
-            print(f"{scene} N={n} {program.name} {settings}: {point.error}", file=sys.stderr)
-        points.append(point)
-        left = [t for t in left if not point.meets(t)]
-        if not left:
+            print(f"{scene} N={n} {made.program} {made.setting}: {made.error}", file=sys.stderr)
+        points.append(made)
+        left = [t for t in left if not made.meets(t)]
+        failures = 0 if made.ok else failures + 1
+        if not left or made.refused or made.given_up or failures == FAILURES:
             break
-        needed = steps_needed(program, point, left[0])
+        needed = steps_needed(program, made, left[0])
     return points
 
 
 def predicted(last: Point, settings: Settings) -> float:
     """CPU [s] the next rung will take."""
     more = settings["steps"] / last.settings["steps"] if "steps" in settings else NEXT_RUNG
-    return last.first_solve * more
+    return last.median * more if last.cpu else 0.0
 
 
 def steps_needed(program: Program, point: Point, target: float) -> float:
     """Steps below which a method of known order cannot meet the target."""
     if not program.order or not point.ok or not point.error or point.error > ASYMPTOTIC:
-        return 0
+        return 0.0
     return 0.9 * point.settings["steps"] * (point.error / target) ** (1 / program.order)
 
 
-def cheapest(points: list[Point], target: float) -> Point | None:
-    """The cheapest point that meets a target."""
-    return min((p for p in points if p.meets(target)), key=lambda p: p.solve, default=None)
-
-
-def repeats_of(point: Point, repeats: int) -> int:
-    """How often a point is repeated: long runs less often."""
-    return next((min(repeats, k) for cpu, k in SHORTER if point.first_solve > cpu), repeats)
-
-
-def repeat_in_turns(workers: dict[str, Worker], points: list[Point], repeats: int) -> None:
-    """Measure points again and again, one after the other."""
-    for turn in range(repeats):
-        for point in points:
-            if turn < repeats_of(point, repeats):
-                told = workers[point.program].ask(point)
+def repeat_in_turns(workers: dict[str, Worker], points: list[Point], effort: Effort) -> None:
+    """Measure points again and again, one after the other; where that is done the first run, which
+    may have been a cold one, does not count.
+    """
+    turns = {id(p): repeats_of(p.cpu[0], effort.repeats) for p in points if p.ok}
+    for p in points:
+        if turns.get(id(p), 1) > 1:
+            p.cpu, p.setups = [], []
+    for turn in range(effort.repeats):
+        for p in points:
+            if p.ok and 1 < turns[id(p)] > turn and not (p.cpu and effort.over):
+                told = workers[p.program].ask(p)
                 if told["ok"]:
-                    point.solves.append(told["solve"])
-                    point.setups.append(told["setup"])
+                    p.cpu.append(told["solve"])
+                    p.setups.append(told["setup"])
 
 
-def measure(
-    scene: str, n: int, programs: list[str], targets: list[float], budget: float, repeats: int
-) -> list[Point]:
-    """All points of a scene at one N, those that are the cheapest for a target repeated."""
-    workers = {name: Worker(name, max(4 * budget, 30.0)) for name in programs}
-    by_program = {
-        name: climb(workers[name], PROGRAMS[name], scene, n, targets, budget) for name in programs
-    }
-    chosen = {
-        id(p): p for points in by_program.values() for t in targets if (p := cheapest(points, t))
-    }
-    if not chosen:  # no reference: the last rung stands for the cost
-        chosen = {id(ps[-1]): ps[-1] for ps in by_program.values() if ps and ps[-1].ok}
-    repeat_in_turns(workers, list(chosen.values()), repeats)
-    for worker in workers.values():
-        worker.close()
-    return [point for points in by_program.values() for point in points]
+class Crew(dict):
+    """Workers by the name of their program, hired when first asked for."""
+
+    def __init__(self, effort: Effort) -> None:
+        super().__init__()
+        self.effort = effort
+
+    def __missing__(self, name: str) -> Worker:
+        self[name] = Worker(name, self.effort.patience)
+        return self[name]
+
+    def share(self, deadline: float) -> None:
+        """Begin nothing new after ``deadline``, a ``time.monotonic``."""
+        self.effort = replace(self.effort, deadline=deadline)
+
+    def close(self) -> None:
+        """Let all processes end."""
+        for worker in self.values():
+            worker.close()
+        self.clear()
+
+
+def measure(scene: str, n: int, programs: list[str], crew: Crew) -> list[Point]:
+    """All points of a scene at one N."""
+    effort = crew.effort
+    points = [p for name in programs for p in climb(crew[name], PROGRAMS[name], scene, n, effort)]
+    repeat_in_turns(crew, points, effort)
+    if not effort.coarse:
+        crew.close()
+    return points

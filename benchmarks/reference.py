@@ -16,7 +16,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from benchmarks.scenes import CHAINS, Array, Chain, chain, parameters, sizes
 
@@ -31,13 +30,9 @@ WITHOUT_REFERENCE = {("S5", 200)}
 
 
 def reference(scene: str, n: int) -> Array | None:
-    """Return what ``Solution.values`` should be, or None where no reference can be trusted."""
-    if (scene, n) in WITHOUT_REFERENCE:
+    """End positions (n, 3) of a chain [m], or None where no reference can be trusted."""
+    if (scene, n) in WITHOUT_REFERENCE or scene not in CHAINS:
         return None
-    if scene == "S3":
-        return slider_crank()
-    if scene == "S4":
-        return four_bar(n)
     key = f"{scene}-{n}"
     if STORE.exists():
         with np.load(STORE) as known:
@@ -91,6 +86,8 @@ def accelerations(c: Chain, t: float, x: Array, v: Array) -> Array:
 
 def slider_crank() -> Array:
     """Angle of the crank [rad] and place of the slider [m] at the end of S3."""
+    from scipy.integrate import solve_ivp
+
     p = parameters()["S3"]
     r, length, step = p["r"], p["l"], 1e-6
 
@@ -123,6 +120,8 @@ def slider_crank() -> Array:
 
 def four_bar(n: int) -> Array:
     """Angle of every upright [rad], from +x, and energy [J] at the end of S4."""
+    from scipy.integrate import solve_ivp
+
     p = parameters()["S4"]
     m, length = p["m"], p["L"]
     inertia = (n + 1) * m * length**2 / 3 + n * m * length**2

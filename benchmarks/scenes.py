@@ -8,7 +8,7 @@ Chains (S1 swinging cable, S2 transverse impact, S5 payout)::
     m g_t x_i" = S_(i+1) - S_i + m g_t g,     g_t = 1 + rate t   (rate = 0 in S1 and S2)
     S_i = (k/g_t (l - g_t l0) + d/g_t d.d'/l) d/l,   d = x_i - x_(i-1),  l = |d|
 
-Mechanisms (S3 slider-crank, S4 N four-bar) have no arrays; their decks and references say it all.
+Mechanisms are in ``mechanisms``.
 """
 
 from __future__ import annotations
@@ -25,7 +25,10 @@ import numpy as np
 Array = np.ndarray
 
 CHAINS = ("S1", "S2", "S5")
-MECHANISMS = ("S3", "S4")
+#: S1 at its start: N cables of different N, the same time in units of a wave through one segment.
+SCALING = "S1-start"
+SCALING_SIZES = (10, 50, 200, 1000, 10000)
+SEGMENTS_PASSED = 300.0
 
 
 @cache
@@ -36,7 +39,7 @@ def parameters() -> dict[str, dict[str, Any]]:
 
 def sizes(scene: str) -> list[int]:
     """The values of N a scene is meant for; a slider-crank has one."""
-    return parameters()[scene].get("N", [1])
+    return parameters().get(scene, {}).get("N", [1])
 
 
 @dataclass(frozen=True)
@@ -84,16 +87,17 @@ def chain(scene: str, n: int) -> Chain:
 
 def cable(scene: str, n: int) -> Chain:
     """S1 and S5: n masses from a fixed end, released from the horizontal."""
-    p = parameters()[scene]
+    p = parameters()["S1" if scene == SCALING else scene]
     l0 = p["L"] / n
     k = p["EA"] / l0
+    end = SEGMENTS_PASSED * l0 / (p["EA"] / p["rho"]) ** 0.5 if scene == SCALING else p["T"]
     position = np.zeros((n, 3))
     position[:, 0] = l0 * np.arange(1, n + 1)
     return Chain(
         title=f"{scene}: {p['what'].partition(',')[0].partition(':')[0]}, {n} masses",
         mass=np.full(n, p["rho"] * l0), position=position, velocity=np.zeros((n, 3)),
         left=np.zeros(3), right=None, k=k, d=p["beta"] * k, l0=l0,
-        gravity=p["g"], end=p["T"], rate=p.get("rate", 0.0),
+        gravity=p["g"], end=end, rate=p.get("rate", 0.0),
     )  # fmt: skip
 
 

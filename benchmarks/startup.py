@@ -1,4 +1,4 @@
-"""How long a user waits: whole commands in fresh processes, with a cache of our own.
+"""What a user waits for and what it takes: whole commands in fresh processes, memory, set-up.
 
 ``ADAMSLITE_CACHE`` names the folder in which adamslite keeps what it compiled; here a temporary
 one, so that "the very first" is that, and the user's own cache is left alone.
@@ -6,58 +6,54 @@ one, so that "the very first" is that, and the user's own cache is left alone.
 
 from __future__ import annotations
 
-import csv
+import json
 import os
 import resource
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
 from benchmarks.decks import chain_deck, deck
+from benchmarks.figures import Figure
 from benchmarks.scenes import cable
 
 DECKS = Path(__file__).parent.parent / "decks"
 PAPER = DECKS / "cable-level3-n10" / "cable-level3-n10.adm"
 SHORT = DECKS / "swinging-cable-n10" / "swinging-cable-n10.adm"
 
-PREPARE = """
-import sys
-from adamslite import assemble, compile_model, read
-compile_model(assemble(read(sys.argv[1])))
+# Prints CPU of the set-up, and the peak of memory [MB] above that of the bare import and above that
+# after something small has run, which goes first so that set-up includes no import.
+INSIDE = """
+import json, sys, time
+from benchmarks.memory import forget_peak, peak
+from adamslite import assemble, compile_model, read, simulate
+bare = peak()
+simulate(read(sys.argv[2]), end=1e-3, steps=1)
+forget_peak()
+small, before = peak(), time.process_time()
+model = compile_model(assemble(read(sys.argv[1])))
+setup = time.process_time() - before
+results = simulate(model, end=0.01, steps=10, integrator=sys.argv[3], error=1e-4)
+setup += results.summary["setup_cpu_s"]
+print(json.dumps([setup, peak() - bare, peak() - small]))
 """
 
 
-@dataclass(frozen=True)
-class Figure:
-    """One line: CPU and wall [s], and what they should stay below."""
-
-    what: str
-    bound: float
-    cpu: float
-    wall: float
-    ok: bool
-
-
-def command(arguments: list[str], cache: Path) -> tuple[float, float, bool]:
-    """Run Python with arguments; return CPU [s], wall [s] and whether it succeeded."""
-    environment = {**os.environ, "ADAMSLITE_CACHE": str(cache)}
-    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-    done = subprocess.run([sys.executable, *arguments], env=environment, capture_output=True)
-    after, end = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+def command(arguments: list[str], cache: Path) -> tuple[float, str]:
+    """Run Python with arguments; return CPU [s] and what it printed."""
+    root = str(Path(__file__).parent.parent)
+    path = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
+    environment = {**os.environ, "ADAMSLITE_CACHE": str(cache), "PYTHONPATH": path}
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(
+        [sys.executable, *arguments], env=environment, capture_output=True, text=True, check=True
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     cpu = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
-    return cpu, end - start, done.returncode == 0
-
-
-def figure(what: str, bound: float, run: Callable[[], tuple[float, float, bool]], repeats: int):
-    """Run some times and take the medians."""
-    runs = [run() for _ in range(repeats)]
-    cpu, wall = median(r[0] for r in runs), median(r[1] for r in runs)
-    return Figure(what, bound, cpu, wall, all(r[2] for r in runs))
+    return cpu, done.stdout
 
 
 def new_shape(folder: Path) -> Path:
@@ -68,39 +64,45 @@ def new_shape(folder: Path) -> Path:
     return path
 
 
-def figures(folder: Path, repeats: int) -> list[Figure]:
+def startup(repeats: int) -> list[Figure]:
     """Everything a user waits for, in an order that fills the cache as a user does."""
-    cache, ours = folder / "cache", ["-m", "adamslite"]
-    large = folder / "large.adm"
-    large.write_text(deck("S1", 1000))
-    solve = [*ours, "solve", str(PAPER), "-o", str(folder / "out.csv"), "--quiet"]
-    new = [*ours, "solve", str(new_shape(folder)), "-o", str(folder / "out.csv"), "--quiet"]
-    prepare = ["-c", PREPARE, str(large)]
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        return [*_commands(folder, repeats), *_large(folder, repeats)]
 
-    def run(arguments: list[str]) -> Callable[[], tuple[float, float, bool]]:
-        return lambda: command(arguments, cache)
 
+def _commands(folder: Path, repeats: int) -> list[Figure]:
+    ours, out = ["-m", "adamslite"], ["-o", str(folder / "out.csv"), "--quiet"]
+    solve, new = [*ours, "solve", str(PAPER), *out], [*ours, "solve", str(new_shape(folder)), *out]
+
+    def cpu(arguments: list[str]) -> Callable[[], float]:
+        return lambda: command(arguments, folder / "cache")[0]
+
+    tried = (
+        ("--help", 0.15, cpu([*ours, "--help"]), repeats),
+        ("check a 50-line deck", 0.4, cpu([*ours, "check", str(SHORT)]), repeats),
+        ("the very first solve, a paper's deck", 20.0, cpu(solve), 1),
+        ("the same again", 1.0, cpu(solve), repeats),
+        ("first solve of a deck with a new force law", 3.0, cpu(new), 1),
+    )
     return [
-        figure("--help", 0.15, run([*ours, "--help"]), repeats),
-        figure("check a 50-line deck", 0.4, run([*ours, "check", str(SHORT)]), repeats),
-        figure("the very first solve, paper deck", 20.0, run(solve), 1),
-        figure("solve of the paper deck, second run", 1.0, run(solve), repeats),
-        figure("first solve of a new deck", 3.0, run(new), 1),
-        figure("1000-mass deck, read to compiled, first run", 2.5, run(prepare), 1),
-        figure("1000-mass deck, second run", 1.0, run(prepare), repeats),
+        Figure("whole commands, CPU", what, median(run() for _ in range(times)), "s", bound)
+        for what, bound, run, times in tried
     ]
 
 
-def startup(repeats: int, path: Path) -> str:
-    """Measure, write a CSV, and return the table."""
-    with tempfile.TemporaryDirectory() as folder:
-        found = figures(Path(folder), repeats)
-    with path.open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(("what", "bound_s", "cpu_s", "wall_s", "ok"))
-        writer.writerows((f.what, f.bound, f.cpu, f.wall, f.ok) for f in found)
-    lines = ["Start-up [s]", "", "| what | CPU | wall | bound |", "|---|---|---|---|"]
-    for f in found:
-        failed = "" if f.ok else " (failed)"
-        lines.append(f"| {f.what}{failed} | {f.cpu:.2f} | {f.wall:.2f} | {f.bound:g} |")
-    return "\n".join(lines) + "\n"
+def _large(folder: Path, repeats: int) -> list[Figure]:
+    """Set-up and memory of a deck with 1000 masses, in processes that have run something small."""
+    large, group = folder / "large.adm", "1000 masses, second run of the deck"
+    large.write_text(deck("S1", 1000))
+    found = []
+    for integrator in ("GSTIFF", "ABAM"):
+        words = ["-c", INSIDE, str(large), str(SHORT), integrator]
+        told = [json.loads(command(words, folder / "cache")[1]) for _ in range(repeats + 1)]
+        setup, bare, small = (median(column) for column in zip(*told[1:], strict=True))
+        found += [
+            Figure(group, f"set-up, {integrator}", setup, "s", 0.5),
+            Figure(group, f"memory above the bare import, {integrator}", bare, "MB", 60.0),
+            Figure(group, f"memory above a deck of ten masses, {integrator}", small, "MB"),
+        ]
+    return found

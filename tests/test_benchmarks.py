@@ -1,13 +1,24 @@
 """The scenes of the benchmarks: their decks are decks, and their arrays what the decks say."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from adamslite import read
+from adamslite.work_precision import variants
+from benchmarks import figures, points, report, tables
 from benchmarks.decks import deck
+from benchmarks.figures import Figure
+from benchmarks.measure import TIME_UP, Effort, point, steps_needed
+from benchmarks.mechanisms import PLANAR, SPATIAL, WATCHED, mechanism, truth, watched
 from benchmarks.peers import PROGRAMS
+from benchmarks.peers.program import Program
+from benchmarks.planar import Equations, planar
+from benchmarks.points import Row
 from benchmarks.reference import reference
-from benchmarks.scenes import CHAINS, acceleration, chain, parameters, sizes
+from benchmarks.scenes import CHAINS, SCALING, acceleration, chain, parameters, sizes
+from benchmarks.worker import answer
 
 
 @pytest.mark.parametrize("scene", list(parameters()))
@@ -35,10 +46,54 @@ def test_springs_act_and_react() -> None:
     np.testing.assert_allclose(c.mass @ rule(0.0, x, 0.0 * x), before, atol=1e-6)
 
 
-@pytest.mark.parametrize("scene", list(parameters()))
+@pytest.mark.parametrize("scene", CHAINS)
 def test_a_reference_is_at_hand(scene: str) -> None:
-    truth = reference(scene, min(sizes(scene)))
-    assert truth is not None and np.isfinite(truth).all()
+    known = reference(scene, min(sizes(scene)))
+    assert known is not None and np.isfinite(known).all()
+
+
+@pytest.mark.parametrize("scene", [*PLANAR, *SPATIAL])
+def test_what_is_watched_of_a_mechanism_is_known(scene: str) -> None:
+    assert np.isfinite(truth(scene, min(sizes(scene)))).all()
+
+
+@pytest.mark.parametrize("scene", PLANAR)
+def test_planar_equations_start_like_the_mechanism_in_space(scene: str) -> None:
+    """Pins are closed, their rates vanish, and the accelerations meet the constraints."""
+    n = min(sizes(scene))
+    m = planar(scene, n)
+    equations = Equations(m)
+    gradient, gamma = equations.constraints(m.place, m.speed)
+    a, _ = equations.accelerations(m.place, m.speed)
+    size = np.abs(m.speed).max() + 1.0
+    np.testing.assert_allclose(gradient @ m.speed.ravel(), 0.0, atol=1e-7 * size)
+    np.testing.assert_allclose(gradient @ a.ravel(), gamma, atol=1e-8 * size**2)
+    for i, p, j, q in m.pins:
+        apart = _point(m.place, i, p) - _point(m.place, j, q)
+        np.testing.assert_allclose(apart, 0.0, atol=1e-8)
+
+
+def _point(place: np.ndarray, body: int, p: np.ndarray) -> np.ndarray:
+    if body < 0:
+        return p
+    c, s = np.cos(place[body, 2]), np.sin(place[body, 2])
+    return place[body, :2] + np.array([[c, -s], [s, c]]) @ p
+
+
+def test_the_pendulum_of_the_peers_swings_as_the_law_says() -> None:
+    """A uniform rod of 1.5 m from the horizontal: phi" = (3 g/2 l) cos(phi) = 9.81 cos(phi)."""
+    m = planar("A01", 1)
+    a, _ = Equations(m).accelerations(m.place, m.speed)
+    assert abs(a[0, 2]) == pytest.approx(9.81, rel=1e-9)
+
+
+def test_energy_and_angle_are_watched_at_the_start_of_the_four_bars() -> None:
+    m, n = mechanism("S4", 4), 4
+    p = planar("S4", n)
+    angle, energy = watched("S4", n, p.place, p.speed)
+    assert angle == pytest.approx(np.pi / 2)
+    assert energy == pytest.approx(truth("S4", n)[1], rel=1e-12)
+    assert m.n == 2 * n + 1
 
 
 def test_programs_climb_from_loose_to_tight() -> None:
@@ -47,4 +102,111 @@ def test_programs_climb_from_loose_to_tight() -> None:
             rungs = program.ladder(scene, min(sizes(scene)))
             steps = [rung.get("steps", 0) for rung in rungs]
             allowed = [rung.get("rtol", rung.get("error", 1.0)) for rung in rungs]
-            assert rungs and steps == sorted(steps) and allowed == sorted(allowed, reverse=True)
+            assert steps == sorted(steps) and allowed == sorted(allowed, reverse=True)
+
+
+def test_every_integrator_takes_part() -> None:
+    names = {name for name, program in PROGRAMS.items() if program.kind == "ours"}
+    assert {f"adamslite {variant.label}" for variant in variants()} <= names
+
+
+def test_ours_answers_with_the_error_of_a_scene() -> None:
+    name = next(name for name in PROGRAMS if "SI2" in name)
+    for scene, bound in (("S1", 1e-4), ("A01", 1e-2)):
+        question = {"scene": scene, "n": min(sizes(scene)), "settings": {"error": 1e-6}}
+        told = answer(name, question)
+        assert told["ok"] and told["error"] < bound and told["steps"] > 10
+
+
+def test_what_cannot_be_done_is_told() -> None:
+    told = answer("adamslite VERLET", {"scene": "A01", "n": 1, "settings": {"error": 1e-3}})
+    assert not told["ok"] and told["refused"] and "JOINT/1" in told["reason"]
+
+
+def test_a_method_of_order_two_needs_ten_times_the_steps_for_a_hundredth_of_the_error() -> None:
+    program = Program("", "implicit", (), lambda s, n: [], answer, bool, order=2)
+    made = point("Exudyn", "S1", 10, {"steps": 100})
+    made.error = 1e-3
+    assert steps_needed(program, made, 1e-5) == pytest.approx(900.0)
+
+
+def test_nothing_is_begun_when_the_time_is_up() -> None:
+    assert not Effort((1e-3,), 1.0, 3).over and Effort((1e-3,), 1.0, 3, deadline=0.0).over
+
+
+def test_the_start_of_the_cable_lasts_as_many_segments_at_every_size() -> None:
+    ends = [chain(SCALING, n).end * n for n in (10, 200)]
+    assert ends[0] == pytest.approx(ends[1])
+    assert "END" in deck(SCALING, 10)
+
+
+def row(program: str, kind: str, error: float | None, cpu: float, **facts: object) -> Row:
+    told = {"scene": "S1", "n": 10, "setting": "x", "drift": None, "runs": 3, "setup": 0.001,
+            "steps": 10, "peak": 50.0, "reason": ""}  # fmt: skip
+    return Row(
+        program=program, kind=kind, error=error, cpu_median=cpu, cpu_least=cpu, **{**told, **facts}
+    )
+
+
+ROWS = [
+    row("adamslite HHT", "ours", 1e-4, 0.002),
+    row("Other", "implicit", 5e-4, 0.02),
+    row("Swift", "explicit", 5e-4, 0.01),
+    row("C", "limit", 1e-9, 1e-5),
+]
+
+
+def test_ratios_are_those_of_the_cheapest_that_meet_the_target() -> None:
+    line = tables.summary(ROWS, [1e-3]).splitlines()[2]
+    assert "HHT x | 2 |" in line and "Other 20 ms | 10 |" in line and "Swift 10 ms | 5 |" in line
+    assert "C " not in line  # a limit is no peer
+
+
+def test_a_program_without_a_turn_has_not_failed() -> None:
+    late = [ROWS[0], row("Other", "implicit", None, 0.0, reason=TIME_UP)]
+    told = tables.summary(late, [1e-3])
+    assert "S1 N=10*" in told and "not measured" in told and "time was up" in told
+    failed = [ROWS[0], row("Other", "implicit", None, 0.0, reason="it crashed")]
+    assert "none got there" in tables.summary(failed, [1e-3])
+
+
+def test_tables_come_back_as_they_were_written(tmp_path: Path) -> None:
+    points.write(ROWS, tmp_path)
+    assert points.read(tmp_path) == ROWS
+    given = [Figure("a", "b, c", 1.5, "s", 2.0), Figure("a", "d", 1.0, "MB")]
+    figures.write(given, tmp_path)
+    assert figures.read(tmp_path) == given
+
+
+def test_a_scene_measured_again_loses_its_old_lines() -> None:
+    other = row("Other", "implicit", 1e-4, 1.0, n=50)
+    assert points.merged([*ROWS, other], [ROWS[0]]) == [other, ROWS[0]]
+
+
+def test_the_report_keeps_the_matrix(tmp_path: Path) -> None:
+    points.write(ROWS, tmp_path)
+    page = tmp_path / "page.md"
+    page.write_text(f"stale\n{report.BEGIN}\n| a | b |\n{report.END}\nstale\n")
+    report.write(tmp_path, page, [".svg"])
+    text = page.read_text()
+    assert f"{report.BEGIN}\n| a | b |\n{report.END}" in text and "stale" not in text
+    assert "times ours" in text
+    report.put_matrix("| c |\n", page)
+    assert page.read_text() == text.replace("| a | b |", "| c |")
+
+
+def test_charts_are_the_same_file_for_the_same_points(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    made = []
+    for name in ("a", "b"):
+        folder = tmp_path / name
+        folder.mkdir()
+        points.write(ROWS, folder)
+        report.write(folder, folder / "page.md", [".svg"])
+        made.append((folder / "s1-10.svg").read_bytes())
+    assert made[0] == made[1] and b"Swift" in made[0]
+
+
+def test_every_watched_deck_has_its_channels_in_the_reference() -> None:
+    for scene, told in WATCHED.items():
+        assert len(truth(scene, 1)) == len(told.channels)

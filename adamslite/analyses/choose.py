@@ -20,12 +20,12 @@ import numpy as np
 from adamslite.faults import UsageError
 from adamslite.integrators import base
 from adamslite.model import PART
-from adamslite.system import BDF, EXPLICIT, HHT, SPECTRUM, VERLET, System
+from adamslite.system import BDF, EXPLICIT, HHT, RADAU, SPECTRUM, VERLET, System
 
 # Native operation of each method of the INTEGRATOR statement.
 METHODS = {
     "GSTIFF": BDF, "WSTIFF": BDF, "HHT": HHT, "NEWMARK": HHT,
-    "ABAM": EXPLICIT, "RKF45": EXPLICIT, "VERLET": VERLET,
+    "ABAM": EXPLICIT, "RADAU": RADAU, "RKF45": EXPLICIT, "VERLET": VERLET,
 }  # fmt: skip
 AUTO = "AUTO"
 # An explicit step costs a few residuals and covers a few radians of the fastest oscillation; an

@@ -12,7 +12,7 @@ from adamslite.analyses.choose import METHODS
 from adamslite.analyses.edges import stops
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
-from adamslite.system import BDF, EXPLICIT, System
+from adamslite.system import BDF, EXPLICIT, RADAU, System
 
 OUTCOMES = {
     base.DONE: Outcome.DONE,
@@ -46,10 +46,13 @@ class Settings:
     def form(self) -> str:
         """The formulation used: only backward differences have a choice.
 
-        HHT and NEWMARK are written for index 3.  Explicit methods solve for accelerations, and
-        the multipliers of the other form would only be carried along.
+        HHT and NEWMARK are written for index 3, RADAU for the stabilised index 2.  Explicit methods
+        solve for accelerations, and the multipliers of the other form would only be carried along.
         """
-        return self.formulation if METHODS.get(self.method, BDF) == BDF else "I3"
+        method = METHODS.get(self.method, BDF)
+        if method == RADAU:
+            return "SI2"
+        return self.formulation if method == BDF else "I3"
 
     @property
     def second_order(self) -> tuple[float, float, float]:
@@ -67,7 +70,7 @@ def run_dynamic(
 ) -> Outcome:
     """Integrate over ``times`` (nt,) and fill ``system.record``."""
     start, end = float(times[0]), float(times[-1])
-    hmax = settings.hmax or (float(times[1]) - start if len(times) > 1 else end - start)
+    hmax = settings.hmax or (float(np.diff(times).max()) if len(times) > 1 else end - start)
     system.settings[:8] = (
         start, end, settings.error, hmax, settings.hmin or 1e-14 * max(abs(end), hmax),
         settings.hinit or 0.0, settings.kmax, settings.maxit,
@@ -79,6 +82,8 @@ def run_dynamic(
     method = METHODS[settings.method]
     if method == EXPLICIT:
         system.prepare_explicit()
+    if method == RADAU:
+        system.prepare_radau()
     code = _watched(system, method, watch, end)
     system.release_guards()
     return _named(system, code)

@@ -77,7 +77,7 @@ def _runs(args: argparse.Namespace) -> tuple[list["Variant"], Any]:
     if scene.warnings:
         sys.stderr.write(render(scene.warnings) + "\n\n")
     model = adamslite.assemble(scene.deck)
-    tried = variants(constrained=bool(model.constraints))
+    tried = variants()
     known = dict.fromkeys(name for v in tried for name in (v.integrator, *v.also))
     for wanted in args.integrator or ():
         if wanted not in known:

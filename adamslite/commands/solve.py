@@ -34,8 +34,8 @@ SUMMARY = """\
   results              {output}
 """
 
-#: Comments of the results that the summary repeats: what was done to the model.
-NOTES = ("assembled", "redundant")
+#: Comments of the results that the summary repeats: what was done to the model and the method.
+NOTES = ("assembled", "redundant", "order")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -19,13 +19,15 @@ class Integrator(Statement):
 
     method: str | None = choice(
         options=(
-            "ABAM", "AUTO", "CONSTANT_BDF", "GSTIFF", "HASTIFF", "HHT", "NEWMARK", "RKF45",
-            "VERLET", "WSTIFF",
+            "ABAM", "AUTO", "CONSTANT_BDF", "GSTIFF", "HASTIFF", "HHT", "NEWMARK", "RADAU",
+            "RKF45", "VERLET", "WSTIFF",
         ),
-        supported=("ABAM", "AUTO", "GSTIFF", "HHT", "NEWMARK", "RKF45", "VERLET", "WSTIFF"),
-        help="variable-order BDF (GSTIFF) unless given; ABAM and RKF45: explicit Runge-Kutta of "
-        "order 8; VERLET: explicit of order 2, unconstrained point masses; AUTO: what suits the "
-        "scene",
+        supported=(
+            "ABAM", "AUTO", "GSTIFF", "HHT", "NEWMARK", "RADAU", "RKF45", "VERLET", "WSTIFF",
+        ),
+        help="variable-order BDF (GSTIFF) unless given; RADAU: implicit Runge-Kutta of order 5 for "
+        "ERROR below 1E-5; ABAM and RKF45: explicit Runge-Kutta of order 8; VERLET: explicit of "
+        "order 2, unconstrained point masses; AUTO: what suits the scene",
     )  # fmt: skip
     formulation: str | None = choice(
         options=("I3", "SI1", "SI2"), supported=("I3", "SI2"),

@@ -43,7 +43,8 @@ J D LV LA       Jacobian blocks (all, of velocities); factors (Newton, accelerat
 x work coef     workspace
 pivots pivots_a row orders of LV and LA;  pivot0: pivots of the first acceleration matrix
 history trial   what the method remembers of accepted states; three vectors (q, u, s)
-tableau         coefficients of the explicit formula
+tableau         coefficients of the Runge-Kutta formula
+parts           of the Newton matrix of the Radau formula;  LC pivots_c: its complex factors
 control         the integrator's own numbers
 undo            the state before the last accepted one; empty without constraints
 record          (nt, nw + n_out) workspace and outputs at the asked times
@@ -78,14 +79,14 @@ SIZES = (
 
 SETTINGS = (
     "t", "t_end", "error", "h_max", "h_min", "h_init", "k_max", "max_it", "stop",
-    "alpha", "beta", "gamma",
+    "alpha", "beta", "gamma", "interpolate",
 )  # fmt: skip
 (
-    T, T_END, ERROR, H_MAX, H_MIN, H_INIT, K_MAX, MAX_IT, STOP, ALPHA, BETA, GAMMA,
+    T, T_END, ERROR, H_MAX, H_MIN, H_INIT, K_MAX, MAX_IT, STOP, ALPHA, BETA, GAMMA, INTERPOLATE,
 ) = range(len(SETTINGS))  # fmt: skip
 
-REPORT = ("t", "h", "order", "violation", "where", "size")
-AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH = range(len(REPORT))
+REPORT = ("t", "h", "order", "violation", "where", "size", "capped")
+AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED = range(len(REPORT))
 
 COUNTS = (
     "steps",
@@ -139,13 +140,13 @@ MODE_STATICS = 5.0
 
 INT_FIELDS = set(
     "sizes body scalar group copies product turning mixed unit cut ones dead count pivots "
-    "pivots_a kind".split()
+    "pivots_a pivots_c kind".split()
 )
 FIELDS = (
     "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
     "cut ones dead settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
-    "pivots pivots_a pivot0 history trial tableau control pz undo record kind guard margin stops "
-    "search"
+    "pivots pivots_a pivot0 history trial tableau control pz undo record parts LC pivots_c kind "
+    "guard margin stops search"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

@@ -41,6 +41,7 @@ from adamslite.integrators.base import (
     NV,
     NZ,
     ORDER,
+    ORDER_CAPPED,
     REJECTED,
     RESTARTS,
     SI2,
@@ -109,6 +110,16 @@ from adamslite.integrators.newton import (
     newton_matrix,
     velocity_change,
 )
+from adamslite.integrators.order_cap import (
+    BAD,
+    CAP,
+    CAPPED,
+    TRAVELLED,
+    TRIES,
+    highest_order,
+    start_watch,
+    suspect,
+)
 from adamslite.integrators.records import note_violation, record_at
 from adamslite.integrators.undo import bring_back, remember
 from adamslite.translate import Reals, native
@@ -130,12 +141,6 @@ KEEP_STEPS = 20.0
 LEAST_RATE = 0.02
 # A sign change of the effective mass is approached to this share of HMAX.
 SINGULAR_RESOLUTION = 1e-6
-# Orders above 2 are unstable on weakly damped stiff modes; the symptom is many rejections while
-# the run advances far less than before.  In a window of tries: more rejections than this at order
-# 3 and above, and less than this share of the time covered by the best window.
-WINDOW = 50.0
-STIFF_REJECTIONS = 7.0
-STIFF_SHARE = 0.05
 # A step grows only when it pays for a new matrix, and never by more than this at once.
 LEAST_GROWTH, MOST_GROWTH = 1.2, 10.0
 # Cuts of the step after corrector failures before other lengths are tried.
@@ -154,9 +159,8 @@ SMOOTH = 0.02
 RUNNING = -1
 # Places in P.control.
 (
-    NOW, H, K, K_TOP, EQUAL, NEXT, H_LAST, FACTORED, RATE, FRESH, AGE, RETRIES, TRIES, BAD,
-    TRAVELLED, FARTHEST, SIGNATURE, BLAMED,
-) = range(18)  # fmt: skip
+    NOW, H, K, K_TOP, EQUAL, NEXT, H_LAST, FACTORED, RATE, FRESH, AGE, RETRIES, SIGNATURE, BLAMED,
+) = range(14)  # fmt: skip
 NORM, NOISY, BACKS, PASSED, UNDOABLE = range(30, 35)
 
 
@@ -325,7 +329,9 @@ def begin(P: Problem, L: Plan) -> int:
     w = 2 * P.sizes[N] + P.sizes[NS]
     for i in range(P.control.size):
         C[i] = 0.0
-    C[NOW], C[RATE], C[K], C[K_TOP] = t, 1.0, 1.0, min(float(MAX_ORDER), P.settings[K_MAX])
+    C[NOW], C[RATE], C[K], C[K_TOP] = t, 1.0, 1.0, most_order(P)
+    start_watch(C)
+    P.report[ORDER_CAPPED] = 0.0
     start_events(P, True)
     started = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
@@ -453,7 +459,7 @@ def begin_anew(P: Problem, L: Plan, w: int) -> None:
         P.pz[i] = P.rz[i]
     C[H], C[K], C[EQUAL] = restart_step(P, L, C[NOW], first_step(P, w)), 1.0, 0.0
     C[H_LAST], C[FACTORED] = 0.0, 0.0
-    C[TRAVELLED], C[BAD], C[TRIES], C[FARTHEST] = 0.0, 0.0, 0.0, 0.0
+    C[TRAVELLED], C[BAD], C[TRIES] = 0.0, 0.0, 0.0
     start_values(P, P.history, w, C[H])
     put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
     if P.sizes[IMPLICIT_MASS]:
@@ -586,7 +592,7 @@ def local_error(P: Problem, w: int) -> float:
 
 @native
 def after_rejection(P: Problem, w: int, norm: float) -> int:
-    """The error was too large: a smaller step, and order 2 when the symptoms say so."""
+    """The error was too large: a smaller step."""
     C = P.control
     P.count[REJECTED] += 1
     C[FRESH] = 0.0
@@ -602,8 +608,6 @@ def after_rejection(P: Problem, w: int, norm: float) -> int:
         return RUNNING
     if C[K] > 2.0:
         C[BAD] += 1.0
-    if C[BAD] > STIFF_REJECTIONS and C[TRAVELLED] < STIFF_SHARE * C[FARTHEST]:
-        C[K_TOP], C[K], C[BAD] = 2.0, min(C[K], 2.0), 0.0
     resize(P, w, factor)
     return RUNNING
 
@@ -668,15 +672,23 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     rebase(P, D, w, k)
     C[EQUAL] += 1.0
     C[TRAVELLED] += h
-    if C[TRIES] >= WINDOW:
-        C[FARTHEST] = max(C[FARTHEST], C[TRAVELLED])
-        C[TRAVELLED], C[BAD], C[TRIES] = 0.0, 0.0, 0.0
+    C[K_TOP] = highest_order(C, C[K_TOP], most_order(P), P.settings[H_MAX])
+    P.report[ORDER_CAPPED] = 1.0 if C[CAP] == CAPPED else 0.0
     if happened(P, t):
         return pass_on(P, L, w)
     keep_margins(P)
-    if C[EQUAL] > C[K]:
-        choose_order(P, w, norm)
+    adapt_order(P, w, norm)
     return RUNNING
+
+
+@native
+def adapt_order(P: Problem, w: int, norm: float) -> None:
+    """Order and size of the next step."""
+    C = P.control
+    if C[K] > C[K_TOP]:
+        drop_order(P, w)
+    elif C[EQUAL] > C[K]:
+        choose_order(P, w, norm)
 
 
 @native
@@ -688,6 +700,23 @@ def make_undoable(P: Problem) -> None:
         C[UNDOABLE] = 1.0
         if C[NOW] > C[PASSED]:
             C[BACKS] = 0.0
+
+
+@native
+def most_order(P: Problem) -> float:
+    """KMAX, as far as there are formulas."""
+    return min(float(MAX_ORDER), P.settings[K_MAX])
+
+
+@native
+def drop_order(P: Problem, w: int) -> None:
+    """Down to the highest order allowed, with the step that suits it."""
+    C, D, si2 = P.control, P.history, P.sizes[SI2] == 1
+    k = int(C[K_TOP])
+    size = weighted(D, k + 1, w, P.sizes[N], P.sizes[NS], D, si2, P.coef)
+    C[K] = C[K_TOP]
+    norm = size / ((k + 1) * P.settings[ERROR])
+    resize(P, w, min(1.0, max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))))
 
 
 @native
@@ -709,8 +738,9 @@ def choose_order(P: Problem, w: int, norm: float) -> None:
     same = max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))
     best, factor = k, same
     if k > 1:
-        low = weighted(D, k, w, n, ns, D, si2, P.coef) / (k * tol)
-        f = max(SAFETY * low, 1e-10) ** (-1.0 / k)
+        low = weighted(D, k, w, n, ns, D, si2, P.coef)
+        suspect(C, k, low, norm * (k + 1) * tol, tol, C[EQUAL])
+        f = max(SAFETY * low / (k * tol), 1e-10) ** (-1.0 / k)
         if f > factor and min(f, same) < room:
             best, factor = k - 1, f
     if k < int(C[K_TOP]):

@@ -10,6 +10,7 @@ from adamslite.integrators.events import sample_clock
 from adamslite.integrators.explicit import explicit
 from adamslite.integrators.free import spectrum
 from adamslite.integrators.hht import hht
+from adamslite.integrators.radau import radau
 from adamslite.integrators.records import write_record
 from adamslite.integrators.static import equilibrium
 from adamslite.integrators.verlet import verlet
@@ -19,18 +20,6 @@ from adamslite.translate import native, translate
     RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
     SPECTRUM, CLOCK,
 ) = range(12)  # fmt: skip
-
-
-@native
-def integrate(P: Problem, L: Plan, operation: int) -> int:
-    """Run one of the integrators; returns its outcome."""
-    if operation == HHT:
-        return hht(P, L)
-    if operation == EXPLICIT:
-        return explicit(P, L)
-    if operation == VERLET:
-        return verlet(P, L)
-    return bdf(P, L)
 
 
 @native
@@ -58,6 +47,20 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     else:
         jacobian(P, phases, P.coef, P.J)
     return DONE
+
+
+@native
+def integrate(P: Problem, L: Plan, operation: int) -> int:
+    """A run to the end time with one of the integrators."""
+    if operation == BDF:
+        return bdf(P, L)
+    if operation == HHT:
+        return hht(P, L)
+    if operation == RADAU:
+        return radau(P, L)
+    if operation == EXPLICIT:
+        return explicit(P, L)
+    return verlet(P, L)
 
 
 def engine_text() -> str:

@@ -477,12 +477,12 @@ def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
     if happened(P, t):
         return pass_by(P, L, w)
     keep_margins(P)
-    choose_step(P, error)
+    choose_explicit_step(P, error)
     return RUNNING
 
 
 @native
-def choose_step(P: Problem, error: float) -> None:
+def choose_explicit_step(P: Problem, error: float) -> None:
     """The next step from the errors of this and the last one."""
     C, factor = P.control, GROW
     if error > 0.0:

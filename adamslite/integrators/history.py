@@ -95,6 +95,16 @@ def extend_history(D: Reals, d: Reals, w: int, k: int) -> None:
 
 
 @native
+def count_anew(D: Reals, p: int, c0: float, c1: float, c2: float) -> None:
+    """The Cayley vector at ``p`` counted from the attitude of the vector c: cay(a) cay(-c)."""
+    a0, a1, a2 = D[p], D[p + 1], D[p + 2]
+    s = 1.0 / (1.0 + 0.25 * (a0 * c0 + a1 * c1 + a2 * c2))
+    D[p] = s * (a0 - c0 - 0.5 * (a1 * c2 - a2 * c1))
+    D[p + 1] = s * (a1 - c1 - 0.5 * (a2 * c0 - a0 * c2))
+    D[p + 2] = s * (a2 - c2 - 0.5 * (a0 * c1 - a1 * c0))
+
+
+@native
 def rebase(P: Problem, D: Reals, w: int, k: int) -> None:
     """Count rotation vectors from the present attitude; the history follows exactly.
 
@@ -118,12 +128,7 @@ def rebase(P: Problem, D: Reals, w: int, k: int) -> None:
         for c in range(3):
             to_values(D, w, i + c, rows)
         for j in range(rows):
-            p = j * w + i
-            a0, a1, a2 = D[p], D[p + 1], D[p + 2]
-            s = 1.0 / (1.0 + 0.25 * (a0 * c0 + a1 * c1 + a2 * c2))
-            D[p] = s * (a0 - c0 - 0.5 * (a1 * c2 - a2 * c1))
-            D[p + 1] = s * (a1 - c1 - 0.5 * (a2 * c0 - a0 * c2))
-            D[p + 2] = s * (a2 - c2 - 0.5 * (a0 * c1 - a1 * c0))
+            count_anew(D, j * w + i, c0, c1, c2)
         for c in range(3):
             to_values(D, w, i + c, rows)
 

@@ -51,23 +51,25 @@ def newton_matrix(
         c[0], c[1], c[2], c[3], c[4] = 0.0, 1.0, cu, 0.0, 0.0
         jacobian(P, phases, c, P.D)
         for k in range(0, P.turning.size, 3):
-            add_attitude_part(P, P.turning[k], P.turning[k + 1], P.turning[k + 2], q, v, u)
+            add_attitude_part(P, k, P.J, P.D, q, v, u)
         for k in range(0, P.mixed.size, 7):
-            add_mixed_product(P, k)
+            add_mixed_product(P, k, P.J, P.D, P.J)
     spread(P, P.LV)
     P.count[FACTORIZATIONS] += 1
     return factor(L, P.LV, P.pivots, P.work)
 
 
 @native
-def add_attitude_part(P: Problem, at: int, rows: int, b: int, q: Reals, v: Reals, u: Reals) -> None:
-    """J[:, 3:6] += D[:, 3:6] E on one block.
+def add_attitude_part(
+    P: Problem, entry: int, J: Reals, D: Reals, q: Reals, v: Reals, u: Reals
+) -> None:
+    """J[:, 3:6] += D[:, 3:6] E on the block of an entry of ``P.turning``.
 
     From w = (c' + c x c'/2)/sigma, sigma = 1 + c.c/4:  dw = (dc x c'/2 - w (c.dc)/2)/sigma at
     fixed c', and dc = (I - [c]/2 + c c^T/4) dphi.
     """
-    J, D = P.J, P.D
-    i = P.body[BODY * b + 1]
+    at, rows = P.turning[entry], P.turning[entry + 1]
+    i = P.body[BODY * P.turning[entry + 2] + 1]
     c0, c1, c2 = q[i + 3], q[i + 4], q[i + 5]
     d0, d1, d2 = v[i + 3], v[i + 4], v[i + 5]
     w0, w1, w2 = u[i + 3], u[i + 4], u[i + 5]
@@ -90,16 +92,16 @@ def add_attitude_part(P: Problem, at: int, rows: int, b: int, q: Reals, v: Reals
 
 
 @native
-def add_mixed_product(P: Problem, k: int) -> None:
-    """J[row, mu_j] += D[row, body] W G[j, body]^T."""
-    mixed, J, D = P.mixed, P.J, P.D
+def add_mixed_product(P: Problem, k: int, J: Reals, D: Reals, G: Reals) -> None:
+    """J[row, mu_j] += D[row, body] W G[j, body]^T for the entry ``k`` of ``P.mixed``."""
+    mixed = P.mixed
     target, m, source, rows = mixed[k], mixed[k + 1], mixed[k + 2], mixed[k + 3]
     width, gradient, b = mixed[k + 4], mixed[k + 5], mixed[k + 6]
     for r in range(rows):
         for j in range(m):
             total = 0.0
             for c in range(width):
-                value = D[source + r * width + c] * J[gradient + j * width + c]
+                value = D[source + r * width + c] * G[gradient + j * width + c]
                 total += value * P.weight[b] if c > 2 else value
             J[target + r * m + j] += total
 

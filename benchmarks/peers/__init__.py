@@ -12,6 +12,7 @@ from benchmarks.peers import (
     exudyn_payout,
     limit,
     mujoco_chain,
+    ode_mechanism,
     ours,
     scipy_chain,
     sundae_chain,
@@ -22,7 +23,7 @@ PROGRAMS: dict[str, Program] = {
     program.name: program
     for module in (
         ours, exudyn_chain, exudyn_mechanism, exudyn_payout, casadi_chain, sundae_chain,
-        scipy_chain, mujoco_chain, limit,
+        scipy_chain, mujoco_chain, ode_mechanism, limit,
     )
     for program in module.PROGRAMS
-}  # fmt: skip
+} | {ours.FIXED_STEPS.name: ours.FIXED_STEPS}  # fmt: skip

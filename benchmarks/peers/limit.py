@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import tempfile
 from functools import cache, partial
@@ -24,8 +25,9 @@ VARIABLE = "BENCHMARKS_LIMIT"
 
 
 def installed() -> bool:
-    """Whether the folder has been named."""
-    return bool(os.environ.get(VARIABLE))
+    """Whether the folder has been named, and there is a compiler."""
+    tools = all(shutil.which(tool) for tool in ("make", os.environ.get("CC", "cc")))
+    return bool(os.environ.get(VARIABLE)) and tools
 
 
 @cache
@@ -63,7 +65,9 @@ def solve(name: str, extra: list[str], scene: str, n: int, settings: Settings) -
 def program(title: str, name: str, extra: list[str], ladder: Any, order: int) -> Program:
     """One C program."""
     run = partial(solve, name, extra)
-    return Program(f"C {title}", "limit", ("S1", "S2"), ladder, run, installed, order)
+    return Program(
+        f"C {title}", "limit", ("S1", "S2"), ladder, run, installed, order, compiles=True
+    )
 
 
 # Spectral radius 0.9, Newton tolerance 1e-8 m, full Newton.

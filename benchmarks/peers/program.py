@@ -24,8 +24,9 @@ Settings = dict[str, Any]
 class Solution:
     """One solved scene.
 
-    values : (n, 3) end positions [m] of a chain, (2,) as in ``reference`` for a mechanism
+    values : (n, 3) end positions [m] of a chain, or as ``mechanisms.truth``
     setup, solve : CPU [s];  steps : accepted steps, 0 where the program does not tell
+    reason : what the program says when it failed
     """
 
     values: np.ndarray
@@ -33,6 +34,7 @@ class Solution:
     solve: float
     steps: int = 0
     ok: bool = True
+    reason: str = ""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""scipy.integrate.solve_ivp on a chain, with the numpy right-hand side of ``scenes``.
+"""The methods of scipy.integrate on a chain, with the numpy right-hand side of ``scenes``.
 
 Radau and BDF are given the sparsity of the Jacobian, LSODA its bandwidth.
 """
@@ -26,7 +26,7 @@ BAND = 11
 
 def solve(method: str, scene: str, n: int, settings: Settings) -> Solution:
     """Solve with one of scipy's methods."""
-    from scipy.integrate import solve_ivp
+    import scipy.integrate
 
     laps = Laps()
     c = chain(scene, n)
@@ -47,11 +47,14 @@ def solve(method: str, scene: str, n: int, settings: Settings) -> Solution:
         return join(v, a(t, x, v))
 
     start, options = join(c.position, c.velocity), structure(method, n)
-    setup = laps.lap()
-    run = solve_ivp(rhs, (0, c.end), start, method, t_eval=[c.end], **settings, **options)
-    if not run.success:
-        return Solution(np.full((n, 3), np.nan), setup, laps.lap(), ok=False)
-    return Solution(split(run.y[:, -1])[0].copy(), setup, laps.lap())
+    solver = getattr(scipy.integrate, method)(rhs, 0.0, start, c.end, **settings, **options)
+    setup, steps = laps.lap(), 0
+    while solver.status == "running":
+        solver.step()
+        steps += 1
+    if solver.status == "failed":
+        return Solution(np.full((n, 3), np.nan), setup, laps.lap(), steps, ok=False)
+    return Solution(split(solver.y)[0].copy(), setup, laps.lap(), steps)
 
 
 def structure(method: str, n: int) -> dict[str, Any]:

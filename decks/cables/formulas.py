@@ -12,6 +12,7 @@ pretension and those at the sheave were derived from the momentum of the fronts,
 """
 
 from dataclasses import dataclass
+from math import factorial
 
 import numpy as np
 from scipy.optimize import brentq
@@ -128,26 +129,32 @@ class Impact:
 
 @dataclass(frozen=True)
 class Winch:
-    """Payout that runs up smoothly to a speed U, with x = t/tau:
+    """Payout that runs up smoothly to a speed U, with x = t/tau and p the order:
 
-    s = U (t - tau (3 - (3 + 2 x + x^2/2) exp(-x)))
+    s" = U/tau x^p/p! exp(-x),   s' = U (1 - exp(-x) sum_i x^i/i!),   i = 0 .. p
+    s = U (t - tau (p + 1 - exp(-x) sum_i (p + 1 - i) x^i/i!))
     """
 
     speed: float
     rise: float
+    order: int = 2
 
     def __call__(self, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Payout s, its speed and its acceleration, each shaped like t."""
-        x, u, tau = t / self.rise, self.speed, self.rise
+        x, u, tau, p = t / self.rise, self.speed, self.rise, self.order
         fade = np.exp(-x)
-        s = u * (t - tau * (3 - (3 + 2 * x + x * x / 2) * fade))
-        return s, u * (1 - (1 + x + x * x / 2) * fade), u / tau * x * x / 2 * fade
+        terms = [x**i / factorial(i) for i in range(p + 1)]
+        weighted = sum((p + 1 - i) * term for i, term in enumerate(terms))
+        s = u * (t - tau * (p + 1 - weighted * fade))
+        return s, u * (1 - sum(terms) * fade), u / tau * terms[p] * fade
 
     @property
     def text(self) -> str:
         """The same in the deck's language."""
-        a, b, c = 3, 2 / self.rise, 0.5 / self.rise**2
+        p, tau = self.order, self.rise
+        terms = "".join(
+            f"{(p + 1 - i) / factorial(i) / tau**i:+.9g}*TIME**{i}" for i in range(1, p + 1)
+        )
         return (
-            f"{self.speed:.9g}*(TIME-{self.rise:.9g}*"
-            f"({a}-({a}+{b:.9g}*TIME+{c:.9g}*TIME**2)*EXP(-TIME/{self.rise:.9g})))"
+            f"{self.speed:.9g}*(TIME-{tau:.9g}*({p + 1}\n, -({p + 1}{terms})*EXP(-TIME/{tau:.9g})))"
         )

@@ -10,13 +10,19 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import arrest
 import kinks
+import moving
+import payouts
 import waves
 
 #: Folder -> the function that yields its decks: (name, text of the deck, text of the reference).
 CASES: dict[str, Callable[[], Iterator[tuple[str, str, str]]]] = {
     **kinks.CASES,
     **waves.CASES,
+    **payouts.CASES,
+    **moving.CASES,
+    **arrest.CASES,
 }
 
 

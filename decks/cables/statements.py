@@ -14,6 +14,7 @@ d/dk the central difference, the ale node has the force
 which is -Dm (ACC - g) less (m0 + Dm) times the convective part of the acceleration.
 """
 
+from dataclasses import dataclass
 from textwrap import wrap
 
 from formulas import Cable
@@ -23,6 +24,27 @@ RADIUS = 0.5
 # "The impact speed is constant": the hook is a mass that no cable slows down.
 HEAVY = 1e9
 AXES = "XYZ"
+
+
+@dataclass(frozen=True)
+class Side:
+    """What the statements of one variable-length cable are called; a scene may have two.
+
+    `name` is appended to its variables, node k is MARKER/first + k, except node `tip[0]`, which is
+    MARKER/tip[1]; the pulley is PART/pulley, its bearing the next number.
+    """
+
+    name: str = ""
+    first: int = 1
+    pulley: int = PULLEY
+    tip: tuple[int, int] = (-1, 0)
+
+    def node(self, k: int) -> int:
+        """Marker of node k."""
+        return self.tip[1] if k == self.tip[0] else self.first + k
+
+
+ONLY = Side()
 
 
 def number(value: float) -> str:
@@ -65,8 +87,9 @@ def cable_variables(cable: Cable, damping: float = 0.0) -> str:
 
 
 def section(s: int, i: int, j: int, free: str, damping: float = 0.0) -> str:
-    """SFORCE/s between MARKER/i and MARKER/j of the free length `free`."""
-    damper = f"-damper*VR({i},{j})" if damping else ""
+    """SFORCE/s between MARKER/i and MARKER/j of the free length `free`: L_0, or H of a side."""
+    grows = f"-SD{free[1:]}*DM({i},{j})/LT{free[1:]}" if free[0] == "H" else ""
+    damper = f"-damper*(VR({i},{j}){grows})" if damping else ""
     return f"SFORCE/{s}, I={i}, J={j}, FUNCTION=-EA*(DM({i},{j})/{free}-1){damper}\n"
 
 
@@ -95,61 +118,66 @@ def through_the_sheave(s: int, i: int, j: int, supply: int) -> str:
     )
 
 
-def payout_variables(cable: Cable, sections: int, length: float) -> str:
+def payout_variables(cable: Cable, sections: int, length: float, side: Side = ONLY) -> str:
     """Payout S and its rates from the pulley; length LT, H of a section; mass Dm of a node."""
+    a, turn = side.name, f"({side.pulley},{side.pulley + 1})"
     return (
         f"\n! Payout and its rates; free length of the cable and of a section; mass a node gains.\n"
-        f"VARIABLE/S, FUNCTION={RADIUS:g}*AZ({PULLEY},{BEARING})\n"
-        f"VARIABLE/SD, FUNCTION={RADIUS:g}*WZ({PULLEY},{BEARING})\n"
-        f"VARIABLE/SDD, FUNCTION={RADIUS:g}*WDTZ({PULLEY},{BEARING})\n"
-        f"VARIABLE/LT, FUNCTION={number(length)}+S\n"
-        f"VARIABLE/H, FUNCTION=LT/{sections}\n"
-        f"VARIABLE/Dm, FUNCTION=rho*S/{sections}\n"
+        f"VARIABLE/S{a}, FUNCTION={RADIUS:g}*AZ{turn}\n"
+        f"VARIABLE/SD{a}, FUNCTION={RADIUS:g}*WZ{turn}\n"
+        f"VARIABLE/SDD{a}, FUNCTION={RADIUS:g}*WDTZ{turn}\n"
+        f"VARIABLE/LT{a}, FUNCTION={number(length)}+S{a}\n"
+        f"VARIABLE/H{a}, FUNCTION=LT{a}/{sections}\n"
+        f"VARIABLE/Dm{a}, FUNCTION=rho*S{a}/{sections}\n"
     )
 
 
-def pulley(inertia: float, speed: float = 0.0, place=(0.0, RADIUS)) -> str:
-    """A pulley of `inertia` = J/R^2 [kg] beside the sheave point, turning at speed/R."""
-    x, y = place
-    spin = f", WZ={number(speed / RADIUS)}" if speed else ""
-    axial = number(inertia * RADIUS**2)
+def pulley(inertia: float, speed: float = 0.0, at: float = 0.0, side: Side = ONLY) -> str:
+    """A pulley of `inertia` = J/R^2 [kg] above the sheave at x = `at`, turning at speed/R."""
+    i, spin = side.pulley, f", WZ={number(speed / RADIUS)}" if speed else ""
+    axial, x = number(inertia * RADIUS**2), number(at)
     return (
-        f"\nMARKER/{BEARING}, PART=1, QP={number(x)},{number(y)},0\n"
-        f"PART/{PULLEY}, MASS={number(inertia)}, CM={PULLEY}, IP={axial},{axial},{axial}"
-        f", QG={number(x)},{number(y)},0{spin}\n"
-        f"MARKER/{PULLEY}, PART={PULLEY}\n"
-        f"JOINT/1, REVOLUTE, I={PULLEY}, J={BEARING}\n"
+        f"\nMARKER/{i + 1}, PART=1, QP={x},{number(RADIUS)},0\n"
+        f"PART/{i}, MASS={number(inertia)}, CM={i}, IP={axial},{axial},{axial}"
+        f", QG={x},{number(RADIUS)},0{spin}\n"
+        f"MARKER/{i}, PART={i}\n"
+        f"JOINT/{i}, REVOLUTE, I={i}, J={i + 1}\n"
     )
 
 
-def grown(form: str, k: int, sections: int, axes: str = "XY") -> str:
+def grown(form: str, k: int, sections: int, axes: str = "XY", side: Side = ONLY) -> str:
     """What the payout does to node k between the sheave and the tip."""
-    return _vforce(k + 1, axes, [_grown(form, k, sections, a) for a in axes])
+    i = side.node(k)
+    return vforce(i, i, axes, [_grown(form, k, sections, a, side) for a in axes])
 
 
-def grown_tip(form: str, k: int, sections: int, axes: str = "XY") -> str:
-    """What it does to the tip, which has half a section's mass and moves with the cable."""
-    i, lost = k + 1, f"-rho*SD/{2 * sections}*V{{a}}({k + 1})" if form == "paper" else ""
-    return _vforce(i, axes, [f"-Dm/2*(ACC{a}({i})-{_gravity(a)}){lost.format(a=a)}" for a in axes])
+def grown_tip(form: str, s: int, sections: int, axes: str = "XY", side: Side = ONLY) -> str:
+    """VFORCE/s: what it does to the tip, half a section of mass that moves with the cable."""
+    i, n = side.node(sections), side.name
+    lost = f"-rho*SD{n}/{2 * sections}*V{{a}}({i})" if form == "paper" else ""
+    return vforce(
+        s, i, axes, [f"-Dm{n}/2*(ACC{a}({i})-{_gravity(a)}){lost.format(a=a)}" for a in axes]
+    )
 
 
 def _gravity(axis: str) -> str:
     return {"X": "IGRAV", "Y": "JGRAV", "Z": "KGRAV"}[axis]
 
 
-def _vforce(i: int, axes: str, components: list[str]) -> str:
+def vforce(s: int, i: int, axes: str, components: list[str]) -> str:
+    """VFORCE/s on MARKER/i; ground takes the reaction."""
     lines = "\\\n".join(f", F{a}={f}" for a, f in zip(axes, components, strict=True))
-    return f"VFORCE/{i}, I={i}, J_PART=1\n{lines}\n"
+    return f"VFORCE/{s}, I={i}, J_PART=1\n{lines}\n"
 
 
-def _grown(form: str, k: int, sections: int, a: str) -> str:
-    i, after, before = k + 1, k + 2, k
-    gained = f"-Dm*(ACC{a}({i})-{_gravity(a)})"
+def _grown(form: str, k: int, sections: int, a: str, side: Side) -> str:
+    i, after, before, n = side.node(k), side.node(k + 1), side.node(k - 1), side.name
+    gained = f"-Dm{n}*(ACC{a}({i})-{_gravity(a)})"
     if form == "paper":
-        return f"{gained}-rho*SD/{sections}*V{a}({i})"
+        return f"{gained}-rho*SD{n}/{sections}*V{a}({i})"
     xi = number(1 - k / sections)
     return (
-        f"{gained}-rho*({xi}*SD*(V{a}({after},{before})-SD/LT*D{a}({after},{before}))\n"
-        f",  +({xi}*SD)**2/H*(D{a}({after},{i})-D{a}({i},{before}))"
-        f"+{xi}*SDD*D{a}({after},{before})/2)"
+        f"{gained}-rho*({xi}*SD{n}*(V{a}({after},{before})-SD{n}/LT{n}*D{a}({after},{before}))\n"
+        f",  +({xi}*SD{n})**2/H{n}*(D{a}({after},{i})-D{a}({i},{before}))"
+        f"+{xi}*SDD{n}*D{a}({after},{before})/2)"
     )

@@ -1,0 +1,403 @@
+"""RADAU: the three-stage Radau IIA formula of order 5 on the stabilised equations, variable step.
+
+    q_i = q_0 + h sum_j a_ij q'_j,   u_i = u_0 + h sum_j a_ij u'_j,   s_i = s_0 + h sum_j a_ij s'_j
+    u_i = T(q_i) q'_i + W G^T mu_i,  F(t_i, q_i, u_i, u'_i, lam_i, V_i, s_i, s'_i) = 0
+    g(t_i, q_i) = 0,                 G u_i + g_t = 0                      at t_i = t_0 + c_i h
+
+with the last stage as result: stiffly accurate, so that it meets the constraints, and strongly
+damped.  Between, q, u and s follow the cubic through start and stages; accelerations, multipliers
+and variables are solved for at the output times.
+
+Error: :mod:`adamslite.integrators.radau_error`.  Steps after Gustafsson.
+
+q of a part is the Cayley vector counted from the attitude at the start of the step.
+References: Hairer, Wanner, Solving ODE II, 1996, sections IV.8 (iteration, error, steps) and VII.4
+(stabilised form); Gustafsson, ACM Trans. Math. Softw. 20 (1994) 496.
+"""
+
+from __future__ import annotations
+
+from math import floor
+
+from adamslite.integrators.acceleration import accelerations, mass_signature, put_state
+from adamslite.integrators.base import (
+    AT,
+    BROKEN_START,
+    DONE,
+    ERROR,
+    FAILURES,
+    H_MAX,
+    H_MIN,
+    HOW_MUCH,
+    IMPLICIT_MASS,
+    INTERPOLATE,
+    INTERRUPTED,
+    MAX_IT,
+    NB,
+    NEWTON,
+    NEWTON_FAILED,
+    NOT_FINITE,
+    NS,
+    NV,
+    NZ,
+    ORDER,
+    REJECTED,
+    SINGULAR_MASS,
+    STEP,
+    STEP_TOO_SMALL,
+    STEPS,
+    STOP,
+    T_END,
+    WHERE,
+    M,
+    N,
+    Plan,
+    Problem,
+    T,
+)
+from adamslite.integrators.bdf import (
+    AGE,
+    BLAMED,
+    FACTORED,
+    FRESH,
+    H_LAST,
+    NEXT,
+    NOW,
+    RATE,
+    RETRIES,
+    RUNNING,
+    SIGNATURE,
+    SINGULAR_RESOLUTION,
+    VANISHING,
+    H,
+    first_step,
+    keep_algebraic,
+    retry_factor,
+    wildest,
+)
+from adamslite.integrators.equations import (
+    BODY,
+    PART,
+    track,
+)
+from adamslite.integrators.newton import ROUND_OFF
+from adamslite.integrators.radau_coefficients import REAL
+from adamslite.integrators.radau_error import filtered_error
+from adamslite.integrators.radau_stages import (
+    ORIGIN,
+    collocated,
+    keep_stages,
+    move_stages,
+    predict_stages,
+    radau_jacobian,
+    radau_matrices,
+    stage_increments,
+    stage_motion,
+    stage_residuals,
+    stage_z,
+)
+from adamslite.integrators.records import note_violation, write_record
+from adamslite.translate import Reals, native
+
+# Newton stops when the estimated remaining error is this share of ERROR.
+CORRECTOR_SHARE = 0.002
+# The derivatives are kept for the next step when increments shrank by this, but not for ever.
+QUICK, KEEP_STEPS = 0.01, 20.0
+# The second increment may exceed the first by this, which moves one stage for the sake of another
+# where constraints are nearly dependent.
+DIVERGING = 3.0
+# What RATE/(1 - RATE) is not believed to be below.
+LEAST_RATE = 0.01
+# The next step aims at this share of the step that the error allows; it is changed only when it
+# grows by more than KEEP_GROWTH, because every other size needs new factors.
+SAFETY, MOST_GROWTH, LEAST_SHRINK, KEEP_GROWTH = 0.9, 5.0, 0.125, 1.2
+
+# Further from the target than this many steps they need not fit.
+MANY_STEPS = 100.0
+# Factors made for a step that differs by this share serve.
+SAME_STEP = 1e-6
+
+# Places in P.control after those of the BDF.
+THETA, TURNS, LAST_NORM, LAST_SIZE, CAUTIOUS, KNOWN, TO_TARGET = range(18, 25)
+
+
+@native
+def radau(P: Problem, L: Plan) -> int:
+    """Integrate to the end time; returns an outcome."""
+    outcome = start_radau(P, L)
+    while outcome == RUNNING:
+        outcome = try_radau(P, L)
+    stand_at_start(P)
+    P.report[AT] = P.control[NOW]
+    return outcome
+
+
+@native
+def start_radau(P: Problem, L: Plan) -> int:
+    """Accelerations at the start, the first record, attitudes counted from here."""
+    C, Y, t = P.control, P.history, P.settings[T]
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    for i in range(P.control.size):
+        C[i] = 0.0
+    for i in range(P.history.size):
+        Y[i] = 0.0
+    C[NOW], C[RATE], C[CAUTIOUS] = t, 1.0, 1.0
+    good = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
+    C[H] = first_step(P, 0)
+    if good:
+        if P.sizes[IMPLICIT_MASS]:
+            C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
+        while int(C[NEXT]) < P.times.size and P.times[int(C[NEXT])] <= t:
+            write_record(P, int(C[NEXT]))
+            C[NEXT] += 1.0
+        track(P)
+        count_from_here(P)
+    origin = Y[ORIGIN * (2 * n + ns) :]
+    for i in range(n):
+        origin[i], origin[n + i], Y[n + i], P.ra[i] = P.q[i], P.u[i], P.u[i], P.a[i]
+    for k in range(ns):
+        origin[2 * n + k], Y[2 * n + k] = P.z[first + k], P.z[first + k]
+    keep_algebraic(P)
+    return RUNNING if good else BROKEN_START
+
+
+@native
+def count_from_here(P: Problem) -> None:
+    """The workspace's attitudes become the base of rotation vectors."""
+    for b in range(P.sizes[NB]):
+        if P.body[BODY * b] == PART:
+            i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+            for k in range(9):
+                P.base[9 * b + k] = P.W[o + 15 + k]
+            for k in range(3, 6):
+                P.q[i + k] = 0.0
+
+
+@native
+def stand_at_start(P: Problem) -> None:
+    """The last accepted state into the unknowns and the workspace."""
+    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    Y = P.history[ORIGIN * (2 * n + P.sizes[NS]) :]
+    for i in range(n):
+        P.q[i], P.u[i], P.a[i] = Y[i], Y[n + i], P.ra[i]
+    for k in range(first):
+        P.z[k] = P.rz[k]
+    for k in range(P.sizes[NS]):
+        P.z[first + k] = Y[2 * n + k]
+    put_state(P, P.control[NOW], P.q, P.u, P.a, P.z, P.rd)
+
+
+@native
+def try_radau(P: Problem, L: Plan) -> int:
+    """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
+    C = P.control
+    if C[NOW] >= P.settings[T_END]:
+        return DONE
+    if P.settings[STOP] != 0.0:
+        return INTERRUPTED
+    fit_step(P)
+    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 5.0
+    if C[H] < P.settings[H_MIN]:
+        return why_no_step(P, L)
+    predict_stages(P, C[H], C[H_LAST])
+    stage_motion(P, C[H])
+    if not ready(P, L) or not solve_stages(P, L):
+        return after_failed_stages(P)
+    norm = filtered_error(P, L, C[CAUTIOUS] != 0.0)
+    P.report[HOW_MUCH] = norm
+    if not norm < 1e12:
+        return NOT_FINITE
+    if norm > 1.0:
+        P.count[REJECTED] += 1
+        C[H] *= step_factor(C, norm)
+        C[CAUTIOUS] = 1.0
+        if C[H] > 1e-9 * P.settings[H_MAX]:
+            C[BLAMED] = P.report[WHERE]
+        return RUNNING
+    if P.sizes[IMPLICIT_MASS]:
+        put_end(P)
+        if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
+            C[H] *= 0.25
+            return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings[H_MAX] else SINGULAR_MASS
+    return accept_stages(P, L, norm)
+
+
+@native
+def fit_step(P: Problem) -> None:
+    """Keep the step within HMAX; equal steps to the end or, unless they may be interpolated, to the
+    next output time.
+    """
+    C, target, row = P.control, P.settings[T_END], int(P.control[NEXT])
+    if P.settings[INTERPOLATE] == 0.0 and row < P.times.size:
+        target = min(target, P.times[row])
+    C[H] = min(C[H], P.settings[H_MAX])
+    left = target - C[NOW]
+    C[TO_TARGET] = floor(left / C[H] + 1.0 - 1e-7)
+    if C[TO_TARGET] < MANY_STEPS:
+        C[H] = left / max(1.0, C[TO_TARGET])
+
+
+@native
+def ready(P: Problem, L: Plan) -> bool:
+    """Derivatives and factors for the present step."""
+    C = P.control
+    if C[KNOWN] == 0.0 or C[AGE] >= KEEP_STEPS:
+        radau_jacobian(P, L, C[H])
+        C[KNOWN], C[FRESH], C[AGE], C[FACTORED] = 1.0, 1.0, 0.0, 0.0
+    if not abs(C[H] - C[FACTORED]) <= SAME_STEP * C[H]:
+        C[FACTORED] = C[H] if radau_matrices(P, L, C[H]) else 0.0
+    return C[FACTORED] != 0.0
+
+
+@native
+def solve_stages(P: Problem, L: Plan) -> bool:
+    """Newton from the prediction; True when converged."""
+    C, h, last = P.control, P.control[H], 0.0
+    tolerance, most = CORRECTOR_SHARE * P.settings[ERROR], int(P.settings[MAX_IT])
+    C[RATE], C[THETA] = max(C[RATE], LEAST_RATE) ** 0.8, 0.0
+    for turn in range(most):
+        stage_residuals(P, h)
+        stage_increments(P, L)
+        size = move_stages(P, h)
+        P.count[NEWTON] += 1
+        C[TURNS] = turn + 1.0
+        if not size < 1e12:
+            return False
+        if turn > 0 and last > 0.0:
+            C[THETA] = size / last
+            if C[THETA] > (DIVERGING if turn == 1 else 0.99):
+                return size <= round_off(P)
+            rest = max(0.01, 1.0 - C[THETA])
+            C[RATE] = max(LEAST_RATE, C[THETA] / rest)
+            if turn > 1 and C[THETA] ** (most - 1.0 - turn) / rest * size > tolerance:
+                return False
+        if C[RATE] * size <= tolerance:
+            return True
+        last = size
+    return False
+
+
+@native
+def step_factor(C: Reals, norm: float) -> float:
+    """Change of the step that the error allows; many iterations ask for caution."""
+    safety = min(SAFETY, SAFETY * 15.0 / (C[TURNS] + 14.0))
+    return max(LEAST_SHRINK, min(MOST_GROWTH, safety * max(norm, 1e-10) ** -0.25))
+
+
+@native
+def round_off(P: Problem) -> float:
+    """Changes of velocities that come from the last digits of positions."""
+    w, reach = 2 * P.sizes[N] + P.sizes[NS], 1.0
+    for i in range(P.sizes[N]):
+        reach = max(reach, abs(P.history[ORIGIN * w + i]))
+    return ROUND_OFF * reach * P.tableau[REAL] / P.control[H]
+
+
+@native
+def after_failed_stages(P: Problem) -> int:
+    """Newton failed: new derivatives when they were old, else another step."""
+    C = P.control
+    P.count[FAILURES] += 1
+    old = C[FRESH] == 0.0 and C[KNOWN] != 0.0
+    C[KNOWN], C[FACTORED], C[RATE], C[CAUTIOUS] = 0.0, 0.0, 1.0, 1.0
+    if not old:
+        C[RETRIES] += 1.0
+        C[BLAMED] = float(wildest(P))
+        C[H] *= retry_factor(C)
+    return RUNNING
+
+
+@native
+def put_end(P: Problem) -> None:
+    """The end of the tried step into the unknowns and the workspace."""
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w, Y, z = 2 * n + ns, P.history, P.history[stage_z(P, 2) :]
+    y, d = Y[3 * w :], Y[6 * w :]
+    for i in range(n):
+        P.q[i], P.u[i], P.a[i] = Y[ORIGIN * w + i] + y[i], y[n + i], d[n + i]
+    for k in range(first + ns):
+        P.z[k] = z[k]
+    for k in range(ns):
+        P.rd[k] = d[2 * n + k]
+    put_state(P, P.control[NOW] + P.control[H], P.q, P.u, P.a, P.z, P.rd)
+
+
+@native
+def accept_stages(P: Problem, L: Plan, norm: float) -> int:
+    """Move on, write records, choose the next step."""
+    C, h = P.control, P.control[H]
+    P.count[STEPS] += 1
+    t, row = C[NOW] + h, int(C[NEXT])
+    if t + 1e-7 * h > P.settings[T_END]:
+        t = P.settings[T_END]
+    if row < P.times.size and abs(P.times[row] - t) < 1e-7 * h:
+        t = P.times[row]
+    put_end(P)
+    keep_algebraic(P)
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    note_violation(P, t)
+    C[NOW] = t
+    good = record_within(P, L, t, h)
+    put_end(P)
+    track(P)
+    count_from_here(P)
+    keep_stages(P)
+    put_state(P, t, P.q, P.u, P.a, P.z, P.rd)
+    choose_step(P, norm)
+    return RUNNING if good else SINGULAR_MASS
+
+
+@native
+def choose_step(P: Problem, norm: float) -> None:
+    """The next step, from the errors of the last two (Gustafsson), and what is kept for it."""
+    C, h = P.control, P.control[H]
+    factor = step_factor(C, norm)
+    if C[LAST_SIZE] > 0.0:
+        trend = h / C[LAST_SIZE] * (max(C[LAST_NORM], 1e-10) / max(norm, 1e-10) ** 2.0) ** 0.25
+        factor = min(factor, max(LEAST_SHRINK, SAFETY * trend))
+    if C[CAUTIOUS] != 0.0 and C[LAST_SIZE] > 0.0:
+        factor = min(factor, 1.0)
+    C[LAST_SIZE], C[LAST_NORM], C[H_LAST] = h, max(0.01, norm), h
+    C[RETRIES], C[FRESH], C[CAUTIOUS] = 0.0, 0.0, 0.0
+    C[AGE] += 1.0
+    if C[THETA] > QUICK:
+        C[KNOWN] = 0.0
+    if factor < 1.0 or min(factor * h, P.settings[H_MAX]) > KEEP_GROWTH * h:
+        C[H] *= factor
+
+
+@native
+def record_within(P: Problem, L: Plan, t: float, h: float) -> bool:
+    """Write every asked time of the accepted step; False when accelerations are not determined."""
+    C, n, ns, first = P.control, P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    row, y, w = int(C[NEXT]), P.trial[0:], 2 * P.sizes[N] + P.sizes[NS]
+    while row < P.times.size and P.times[row] <= t + 1e-9 * h:
+        collocated(P, P.history, w, min(1.0, 1.0 + (P.times[row] - t) / h), y)
+        for i in range(n):
+            y[i] += P.history[ORIGIN * w + i]
+        for k in range(ns):
+            P.z[first + k] = y[2 * n + k]
+        if not accelerations(P, L, P.times[row], y, y[n:], P.a, P.z, P.rd):
+            return False
+        write_record(P, row)
+        row += 1
+        C[NEXT] = float(row)
+    return True
+
+
+@native
+def why_no_step(P: Problem, L: Plan) -> int:
+    """Why the step became too small: a vanishing pivot of the acceleration matrix, or something
+    else.
+    """
+    C = P.control
+    stand_at_start(P)
+    if P.sizes[IMPLICIT_MASS]:
+        if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
+            return SINGULAR_MASS
+        for k in range(P.sizes[NZ]):
+            if not abs(P.x[k]) > VANISHING * abs(P.pivot0[k]):
+                return SINGULAR_MASS
+    P.report[WHERE] = C[BLAMED]
+    return NEWTON_FAILED if C[RETRIES] > 2.0 else STEP_TOO_SMALL

@@ -1,0 +1,280 @@
+"""An aircraft hook in a purchase cable that two deck sheaves pay out against engines.
+
+The hook starts at (x0, 0) and runs along y; the sheaves are at x = -a and a. Cables are of the ale
+form. Energy of one side, with the section strain e and the cable's own velocity in node k,
+V_k = v_k + W_k (x_(k+1) - x_(k-1))/(2 H):
+
+    E = sum rho H/2 V_k^2 (half at both ends) + sum EA e^2 H/2 + m_p S'^2/2
+    E' = -F S' - EA e_1^2 S'/2 + rho S' ((1 + e_1) S')^2/2 + what the hook does
+
+F is the engine's force; the last two terms are what leaves with the strain, and enters with the
+speed, of the cable over the sheave. Their integral is a DIFF.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from formulas import Cable
+from scipy.integrate import solve_ivp
+from spans import table
+from statements import (
+    RADIUS,
+    Side,
+    cable_variables,
+    grown,
+    grown_tip,
+    head,
+    number,
+    payout_variables,
+    point,
+    pulley,
+    tail,
+)
+
+HOOK = 5000
+RIGHT, LEFT = Side("R", 1, 9001), Side("L", 2001, 9011)
+
+
+@dataclass(frozen=True)
+class Arrest:
+    """Data of a scene: hook [kg, m/s], span [m], engine [N, m, m/s, kg] and sections per side."""
+
+    cable: Cable
+    mass: float
+    speed: float
+    half_span: float
+    engine: float
+    stroke: float
+    creep: float
+    crosshead: float
+    sections: int
+    end: float
+    damping: float = 0.2
+    offset: float = 0.0
+
+    def length(self, side: Side) -> float:
+        """Free length of a side at the start [m]."""
+        return abs(self.sheave(side) - self.offset) / (1 + self.cable.strain)
+
+    def sheave(self, side: Side) -> float:
+        """Its x [m]."""
+        return self.half_span if side.name == "R" else -self.half_span
+
+    def energy(self, sides: int) -> float:
+        """At the start, in as many sides [J]: hook and pretension."""
+        free = 2 * self.half_span / (1 + self.cable.strain)
+        strained = self.cable.stiffness * self.cable.strain**2 / 2 * free
+        return (self.mass * self.speed**2 / 2 + strained) * sides / 2
+
+
+def named(side: Side, sections: int) -> Side:
+    """With the hook as its last node."""
+    return Side(side.name, side.first, side.pulley, (sections, HOOK))
+
+
+def half(a: Arrest, side: Side) -> str:
+    """Sheave, engine, nodes and sections of one side."""
+    n, s, x0 = a.sections, side.name, a.sheave(side)
+    length, first, turned = a.length(side), side.first, side.pulley
+    text = payout_variables(a.cable, n, length, side)
+    text += "! Tension of a section: a cable does not push.\n"
+    for k in range(1, n + 1):
+        pair = f"{side.node(k - 1)},{side.node(k)}"
+        text += (
+            f"VARIABLE/T{s}{k}, FUNCTION=MAX(0,EA*(DM({pair})/H{s}-1)"
+            f"+damper*(VR({pair})-SD{s}*DM({pair})/LT{s}))\n"
+        )
+    text += (
+        "! Force of the engine.\n"
+        f"VARIABLE/F{s}, FUNCTION={number(a.cable.pretension)}"
+        f"+{number(a.engine)}*STEP(S{s},0,0,{a.stroke:g},1)\n"
+        f",  *SD{s}/SQRT(SD{s}**2+{a.creep:g}**2)\n"
+    )
+    text += pulley(a.crosshead, 0.0, x0, side)
+    text += (
+        f"SFORCE/{turned}, ROTATIONAL, ACTIONONLY, I={turned}, J={turned + 1}"
+        f", FUNCTION={RADIUS:g}*(T{s}1-F{s})\n\n"
+    )
+    for k in range(1, n):
+        place = [x0 + (a.offset - x0) * k / n, 0.0]
+        text += point(first + k, a.cable.density * length / n, place)
+        text += grown("ale", k, n, "XY", side)
+    text += grown_tip("ale", first + n, n, "XY", side) + "\n"
+    for k in range(1, n + 1):
+        i, j = side.node(k - 1), side.node(k)
+        text += f"SFORCE/{first + k}, I={i}, J={j}, FUNCTION=-T{s}{k}\n"
+    return text
+
+
+def sums(name: str, factor: str, terms: list[str]) -> tuple[str, str]:
+    """VARIABLEs of five terms each, and the sum of their names."""
+    groups = [terms[i : i + 5] for i in range(0, len(terms), 5)]
+    text = "".join(
+        f"VARIABLE/{name}{g}, FUNCTION={factor}*(" + "\n,  +".join(group) + ")\n"
+        for g, group in enumerate(groups, start=1)
+    )
+    return text, "+".join(f"{name}{g}" for g in range(1, len(groups) + 1))
+
+
+def balance(a: Arrest, side: Side) -> str:
+    """Energy of a side, and what has left it."""
+    n, s, first = a.sections, side.name, side.first
+    kinetic, strain, lost = [], [], ""
+    for k in range(1, n + 1):
+        i, j, h = side.node(k), side.node(k + 1), side.node(k - 1)
+        stretch = f"MAX(0,DM({h},{i})/H{s}-1)"
+        strain.append(f"{stretch}**2")
+        lost += (
+            f"DIFF/Q{s}{k}, IC=0, FUNCTION=(T{s}{k}-EA*{stretch})"
+            f"*(VR({h},{i})-SD{s}*DM({h},{i})/LT{s})\n"
+        )
+        if k < n:
+            w = f"{number((1 - k / n) / 2)}*SD{s}/H{s}"
+            kinetic.append(f"(VX({i})+{w}*DX({j},{h}))**2+(VY({i})+{w}*DY({j},{h}))**2")
+    moving, all_moving = sums(f"K{s}", f"rho*H{s}/2", kinetic)
+    strained, all_strained = sums(f"U{s}", f"EA*H{s}/2", strain)
+    heat, all_heat = sums(f"D{s}", "1", [f"DIF(Q{s}{k})" for k in range(1, n + 1)])
+    out = f"DM({first},{side.node(1)})/H{s}"
+    return (
+        "\n! Energy of the nodes, strain energy of the sections, heat of the dampers;\n"
+        "! the energy of this side and what has left it over the sheave.\n"
+        f"{moving}{strained}{lost}{heat}"
+        f"VARIABLE/E{s}, FUNCTION={all_moving}\n,  +{all_strained}\n,  +{all_heat}\n"
+        f",  +{number(a.crosshead / 2)}*SD{s}**2+rho*H{s}/4*((SD{s}*{out})**2"
+        f"+VX({HOOK})**2+VY({HOOK})**2)\n"
+        f"DIFF/Q{s}, IC=0, FUNCTION=SD{s}*(F{s}+T{s}1*({out}-1)-EA/2*MAX(0,{out}-1)**2\n"
+        f",  -rho/2*(SD{s}*{out})**2)\n"
+    )
+
+
+def deck(a: Arrest, sides: tuple[Side, ...]) -> str:
+    """One side (half the hook, on its line) or both."""
+    sides = tuple(named(side, a.sections) for side in sides)
+    both, share = len(sides) == 2, len(sides) / 2
+    where = f"{a.offset:g} m off the middle" if a.offset else "in the middle"
+    text = head(
+        f"Arrestment of {a.mass:g} kg at {a.speed:g} m/s, {where}",
+        f"""The hook (MARKER/{HOOK}) {"" if both else "with half the mass "}takes the cable
+        {where} of two deck sheaves {2 * a.half_span:g} m apart{
+            "" if both else ", of which one is there, and stays on its line"
+        }. Pulleys of {a.crosshead:g} kg (J/R**2) feed cable
+        against the engines: pretension and {a.engine / 1e3:g} kN, that rise over the first
+        {a.stroke:g} m of payout and fade below {a.creep:g} m/s.""",
+        "",
+        "PART/1, GROUND",
+        *(f"MARKER/{side.first}, PART=1, QP={number(a.sheave(side))},0,0" for side in sides),
+        f"MARKER/{HOOK + 1}, PART=1, QP={number(a.offset)},0,0",
+    )
+    text += cable_variables(a.cable, a.damping)
+    # Half a section of every side goes with the hook.
+    hooked = a.mass * share + sum(
+        a.cable.density * a.length(side) / a.sections / 2 for side in sides
+    )
+    text += "\n! The hook.\n" + point(HOOK, hooked, [a.offset, 0.0], [0.0, a.speed])
+    text += "" if both else f"GCON/1, FUNCTION=DX({HOOK},{HOOK + 1})\n"
+    text += "".join(half(a, side) + balance(a, side) for side in sides)
+    names = [side.name for side in sides]
+    total = "".join(f"+E{s}+DIF(Q{s})" for s in names)
+    text += (
+        "\n! Run-out, speed, sideways; energy of the hook and of everything.\n"
+        f"REQUEST/1, F2=DY({HOOK},{HOOK + 1})\\ F3=VY({HOOK})\\ F4=DX({HOOK},{HOOK + 1})\n"
+        f"VARIABLE/EH, FUNCTION={number(a.mass * share / 2)}*(VX({HOOK})**2+VY({HOOK})**2)\n"
+        f"REQUEST/2, F2=EH\\ F3=EH{total}\n"
+    )
+    for r, side in enumerate(sides, start=3):
+        n, s = a.sections, side.name
+        text += (
+            "! Tension at the sheave and at the hook, payout, force of the engine.\n"
+            f"REQUEST/{r}, F2=T{s}1\\ F3=T{s}{n}\\ F4=S{s}\\ F6=F{s}\n"
+        )
+    return text + tail("HHT, ERROR=1.0E-5", a.end, round(a.end / 0.002))
+
+
+def straight(a: Arrest, sides: tuple[Side, ...], t: np.ndarray) -> np.ndarray:
+    """The hook on straight, inextensible cables of the same mass: x, y, v_x, v_y, (4, nt).
+
+    With e along a cable of length d, n across it, w = v.n/d its rate of turning, S' = v.e:
+
+        pull at the hook    F + m_p S" + rho (d S" - w^2 d^2/2)
+        force across        rho (d^2/3 w' + S' w d)
+        S" = a.e + w^2 d,   w' = (a.n - 2 S' w)/d
+    """
+    rho = a.cable.density
+
+    def rates(_, y):
+        place, v = y[:2], y[2:]
+        mass, force = a.mass * len(sides) / 2 * np.eye(2), np.zeros(2)
+        for side in sides:
+            sheave = np.array([a.sheave(side), 0.0])
+            d = np.hypot(*(place - sheave))
+            e = (place - sheave) / d
+            n = np.array([-e[1], e[0]])
+            s, w = v @ e, v @ n / d
+            paid = min(max((d - abs(a.sheave(side) - a.offset)) / a.stroke, 0.0), 1.0)
+            engine = a.engine * paid**2 * (3 - 2 * paid) * s / np.hypot(s, a.creep)
+            along, across = a.crosshead + rho * d, rho * d / 3
+            mass += along * np.outer(e, e) + across * np.outer(n, n)
+            pull = a.cable.pretension + engine + along * w**2 * d - rho * w**2 * d**2 / 2
+            force -= pull * e + rho * s * w * d * (1 - 2 / 3) * n
+        if len(sides) == 1:  # on its line
+            return [*v, 0.0, force[1] / mass[1, 1]]
+        return [*v, *np.linalg.solve(mass, force)]
+
+    start = [a.offset, 0.0, 0.0, a.speed]
+    return solve_ivp(rates, (0, t[-1]), start, t_eval=t, rtol=1e-9, atol=1e-9).y
+
+
+REFERENCE = Arrest(
+    cable=Cable(6.0e7, 5.536, 13345.0),
+    mass=22680.0,
+    speed=66.9,
+    half_span=15.0,
+    engine=3.9e5,
+    stroke=55.0,
+    creep=4.0,
+    crosshead=100.0,
+    sections=20,
+    end=3.0,
+)
+SECOND = Arrest(
+    cable=Cable(4.5e7, 4.6, 20000.0),
+    mass=12000.0,
+    speed=60.0,
+    half_span=12.0,
+    engine=2.1e5,
+    stroke=40.0,
+    creep=4.0,
+    crosshead=80.0,
+    sections=20,
+    end=2.8,
+)
+
+
+def arrestment() -> Iterator[tuple[str, str, str]]:
+    """One side, both, and both with the hook 6 m off the middle."""
+    for name, data in {"": REFERENCE, "-second": SECOND}.items():
+        for scene, offset, sides in (
+            ("one-side", 0.0, (RIGHT,)),
+            ("both-sides", 0.0, (RIGHT, LEFT)),
+            ("off-centre", 6.0, (RIGHT, LEFT)),
+        ):
+            a = replace(data, offset=offset)
+            total = a.energy(len(sides))
+            t = np.linspace(0, a.end, round(a.end / 0.04) + 1)
+            x, y, _, vy = straight(a, sides, t)
+            lines = [
+                "Energy, and the hook on straight inextensible cables: README.md",
+                "written by generate.py",
+                f"measure: max REQUEST/2.F3 = {number(total)} tol rel 1e-3",
+                f"measure: min REQUEST/2.F3 = {number(total)} tol rel 1e-3",
+                "tolerance REQUEST/1.F2: peak 1e-2",
+                "tolerance REQUEST/1.F3: peak 2.5e-2",
+                f"tolerance REQUEST/1.F4: abs {0.01 * y.max():.3g}",
+            ]
+            header = ["time", "REQUEST/1.F2", "REQUEST/1.F3", "REQUEST/1.F4"]
+            reference = table(header, lines, [t, y, vy, x - offset])
+            yield f"{scene}{name}", deck(a, sides), reference
+
+
+CASES = {"arrestment": arrestment}
