@@ -35,6 +35,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--target", nargs="+", type=float, default=TARGETS, help="errors to reach")
     parser.add_argument("--budget", type=float, default=10.0, help="CPU [s] a run may take (10)")
     parser.add_argument("--repeats", type=int, default=5, help="runs of every setting (5)")
+    parser.add_argument("--coarse", action="store_true", help="every second setting only")
     parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)))
     parser.add_argument("--limit", type=Path, help="folder of the hand-coded C programs")
     parser.add_argument("--quick", action="store_true", help="small scenes, under three minutes")
@@ -99,7 +100,8 @@ def measure_all(args: argparse.Namespace) -> None:
     from benchmarks.same_method import same_method
 
     names = chosen(args)
-    crew = Crew(Effort(tuple(args.target), args.budget, args.repeats, args.quick))
+    coarse = args.coarse or args.quick
+    crew = Crew(Effort(tuple(args.target), args.budget, args.repeats, coarse, args.quick))
     tasks = {}
     if "steps" in args.what:
         tasks["equal steps"] = lambda: keep(same_method(crew, args.largest), args.out)
@@ -137,7 +139,7 @@ def main() -> int:
     args.out.mkdir(parents=True, exist_ok=True)
     measure_all(args)
     if args.docs:
-        report.write(report.FOLDER, report.PAGE, [".svg"])
+        report.write(report.FOLDER, report.PAGE, [".svg"], few=True)
     else:
         report.write(args.out, args.out / "report.md", [".png", ".svg"])
         print((args.out / "report.md").read_text())

@@ -12,6 +12,8 @@ from benchmarks.scenes import SCALING, parameters
 from benchmarks.tables import KINDS, by_scene, named
 
 GROWTH = "growth"
+#: Sizes that the page in docs shows; of other scenes all.
+SIZES_IN_DOCS = {"S1": (50, 1000), "S2": (400,), "S4": (16,), "S5": (50,)}
 #: A chart shows errors from a whole turn or metre down to where rounding begins.
 SHOWN = (1e-11, 3.0)
 
@@ -61,10 +63,14 @@ def growth(rows: Iterable[Row], paths: Sequence[Path]) -> bool:
     return bool(lines)
 
 
-def draw_all(rows: Sequence[Row], folder: Path, suffixes: Sequence[str]) -> list[str]:
-    """Draw everything into a folder; the names of the charts, without suffix."""
+def draw_all(
+    rows: Sequence[Row], folder: Path, suffixes: Sequence[str], few: bool = False
+) -> list[str]:
+    """Draw everything, or ``few`` charts, into a folder; their names, without suffix."""
     made = []
     for scene, n, mine in by_scene(rows):
+        if few and n not in SIZES_IN_DOCS.get(scene, (n,)):
+            continue
         name = file_name(scene, n)
         if work_precision(scene, n, mine, [folder / f"{name}{s}" for s in suffixes]):
             made.append(name)

@@ -49,7 +49,7 @@ def growth(names: Iterable[str], crew: Crew, largest: int) -> list[Point]:
                 break
         repeat_in_turns(crew, points, crew.effort)
         made += points
-        if not crew.effort.coarse:
+        if not crew.effort.lasting:
             crew.close()
     return made
 

@@ -51,7 +51,7 @@ class Effort:
     """How much is measured.
 
     targets : errors to reach;  budget : CPU [s] a run may take;  repeats : of short runs
-    coarse : every second rung only, and processes that live on from scene to scene
+    coarse : every second rung only;  lasting : processes live on from scene to scene
     deadline : ``time.monotonic`` after which nothing new is begun
     """
 
@@ -59,6 +59,7 @@ class Effort:
     budget: float
     repeats: int
     coarse: bool = False
+    lasting: bool = False
     deadline: float = float("inf")
 
     @property
@@ -268,6 +269,6 @@ def measure(scene: str, n: int, programs: list[str], crew: Crew) -> list[Point]:
     effort = crew.effort
     points = [p for name in programs for p in climb(crew[name], PROGRAMS[name], scene, n, effort)]
     repeat_in_turns(crew, points, effort)
-    if not effort.coarse:
+    if not effort.lasting:
         crew.close()
     return points

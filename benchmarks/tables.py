@@ -66,7 +66,7 @@ def summary(rows: Iterable[Row], targets: Sequence[float] = TARGETS) -> str:
     head = ("scene", "error <=", "ours", "CPU ms", "best implicit peer", "times ours",
             "best peer", "times ours")  # fmt: skip
     note = "" if not any("*" in line[0] for line in body) else INCOMPLETE
-    return table(head, body) + note
+    return table(head, body) + note if body else ""
 
 
 def _cell(own: Row | None) -> tuple[str, str]:
