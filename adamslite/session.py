@@ -70,6 +70,7 @@ class Session:
         self.unclosed: Unclosed | None = None
         self.linearizations: list[Linearized] = []
         self.counts = np.zeros(len(base.COUNTS), dtype=np.int64)
+        self.ways_to_fall = 0
         self.assembled: list[str] = []
         self._system: System | None = None
         self._began_static = False
@@ -252,12 +253,14 @@ class Session:
         """
         start = [(x, x.copy()) for x in (system.q, system.z, system.base)]
         outcome = run_static(system, self.statics)
+        self.ways_to_fall = int(system.report[base.WAYS_TO_FALL])
         if outcome is Outcome.DONE or system.pivoting or system.nz > PIVOTING:
             return outcome
         for array, before in start:
             array[:] = before
         spare = self._pivoting(system)
         outcome = run_static(spare, self.statics)
+        self.ways_to_fall = int(spare.report[base.WAYS_TO_FALL])
         system.adopt(spare)
         system.count += spare.count
         return outcome

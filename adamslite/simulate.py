@@ -175,6 +175,9 @@ def _notes(session: Session) -> dict[str, str]:
     found = {}
     if session.assembled:
         found["assembled"] = "moved " + "; ".join(session.assembled)
+    if session.ways_to_fall:
+        ways = "one way" if session.ways_to_fall == 1 else f"{session.ways_to_fall} ways"
+        found["equilibrium"] = f"unstable in {ways}: the least disturbance makes it leave"
     if session.system.report[base.ORDER_CAPPED]:
         found["order"] = CAPPED
     rows = [row_name(session.system, row) for row in session.system.dropped]

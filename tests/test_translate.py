@@ -88,6 +88,9 @@ def test_every_construction_means_what_it_means_in_python():
 
 # ---- the engine ----------------------------------------------------------------------------------
 
+# Newton alone would leave it upright.
+UPRIGHT = PENDULUM.replace("QG=1,0,0", "QG=0.3,0.95,0").replace("QP=-1,0,0", "QP=-0.3,-0.95,0")
+
 ADDED_MASS = "VFORCE/{id}, I={id}, J_PART=1, FX=-0.2*ACCX({id})\\FY=VARVAL(7)"
 DECKS = {
     "hinged": PENDULUM,
@@ -174,6 +177,7 @@ RUNS = {
 }
 RUNS |= {
     "hangs": (PENDULUM.replace("END", "SIMULATE/STATICS\nEND"), None),
+    "leans": (UPRIGHT.replace("END", "SIMULATE/STATICS\nEND"), None),
     "falls": (PENDULUM.replace("END", "EQUILIBRIUM/MAXIT=1\nSIMULATE/STATICS\nEND"), None),
 }
 

@@ -85,8 +85,8 @@ SETTINGS = (
     T, T_END, ERROR, H_MAX, H_MIN, H_INIT, K_MAX, MAX_IT, STOP, ALPHA, BETA, GAMMA, INTERPOLATE,
 ) = range(len(SETTINGS))  # fmt: skip
 
-REPORT = ("t", "h", "order", "violation", "where", "size", "capped")
-AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED = range(len(REPORT))
+REPORT = ("t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall")
+AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED, WAYS_TO_FALL = range(len(REPORT))
 
 COUNTS = (
     "steps",

@@ -1,0 +1,66 @@
+"""Equilibria: the one that is found is stable, or the results say that it is not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import adamslite as al
+
+PENDULUM = """a pendulum of length 1 at rest at {x}, {y}
+PART/1, GROUND
+MARKER/1, PART=1
+ACCGRAV/JGRAV=-9.81
+PART/2, MASS=1, CM=2, IP=1,1,1, QG={x},{y},0
+MARKER/2, PART=2
+MARKER/3, PART=2, QP={px},{py},0
+JOINT/1, REVOLUTE, I=3, J=1
+SIMULATE/STATICS
+END
+"""
+
+
+def rest(angle: float) -> al.Results:
+    """The equilibrium found from this angle from the upright position."""
+    x, y = np.sin(angle), np.cos(angle)
+    results = al.simulate(al.read(PENDULUM.format(x=x, y=y, px=-x, py=-y)))
+    assert results.outcome is al.Outcome.DONE
+    return results
+
+
+@pytest.mark.parametrize("angle", (0.3, 1.0, 2.0, 3.1))
+def test_a_pendulum_comes_to_rest_below(angle):
+    results = rest(angle)
+    np.testing.assert_allclose(results["PART/2.y"][-1], -1.0, rtol=0, atol=1e-9)
+    assert "equilibrium" not in results.meta
+
+
+@pytest.mark.parametrize("angle", (0.0, 1e-3))
+def test_upright_it_stays_and_the_results_say_so(angle):
+    """Who starts at an unstable equilibrium means it: for LINEAR, for instance."""
+    results = rest(angle)
+    np.testing.assert_allclose(results["PART/2.y"][-1], 1.0, rtol=0, atol=1e-9)
+    assert "unstable in one way" in results.meta["equilibrium"]
+
+
+def test_a_slack_line_hangs_down_though_newton_ends_in_a_folded_one():
+    """Ten stiff sections between points 10 m apart, 11 m of line, drawn as two straight halves."""
+    n, h = 10, 1.1
+    lines = ["a line", "PART/1, GROUND", "MARKER/1, PART=1", f"MARKER/{n + 1}, PART=1, QP=10,0,0"]
+    depth = np.sqrt(21) / 2
+    for k in range(1, n):
+        y = -2 * depth * min(k, n - k) / n
+        lines += [f"POINT_MASS/{k + 1}, MASS=6, CM={k + 1}, QG={10 * k / n},{y},0"]
+        lines += [f"MARKER/{k + 1}, POINT_MASS={k + 1}"]
+    for k in range(1, n + 1):
+        i, j = (k + 1, k) if k < n else (k, k + 1)
+        lines += [f"SFORCE/{k}, TRANSLATIONAL, I={i}, J={j}, FUNCTION=-6E7*(DM({i},{j})/{h}-1)"]
+    lines += ["ACCGRAV/JGRAV=-9.81", "SIMULATE/STATICS", "END", ""]
+    results = al.simulate(al.read("\n".join(lines)))
+    assert results.outcome is al.Outcome.DONE
+    assert "equilibrium" not in results.meta
+    heights = [results[f"POINT_MASS/{k + 1}.y"][-1] for k in range(1, n)]
+    np.testing.assert_allclose(heights, heights[::-1], rtol=0, atol=1e-6)
+    assert np.all(np.diff(heights[:5]) < 0)
+    pulls = [results[f"SFORCE/{k}.f"][-1] for k in range(1, n + 1)]
+    assert max(pulls) < 0
