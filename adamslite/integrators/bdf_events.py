@@ -49,13 +49,12 @@ def put_between(P: Problem, k: int, t: float, h: float, x: float) -> None:
 
 
 @native
-def restart_step(P: Problem, L: Plan, t: float, h: float) -> float:
-    """``h``, or less where a step of order 1 would err too much in the velocities: h^2 |a'|/2.
+def jerk(P: Problem, L: Plan, t: float, ahead: float) -> float:
+    """|a'| against max(1, |u|) at the start of a history, from accelerations a little further on.
 
-    a' is the difference of accelerations a little further on.  The state, accelerations and
-    algebraic unknowns are the accepted ones (q, u, ra, rz).
+    The state, accelerations and algebraic unknowns are the accepted ones (q, u, ra, rz).
     """
-    n, ns, first, ahead = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV], LOOK_AHEAD * h
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
     w = 2 * n + ns
     y, rates, top = P.trial[0:], P.trial[w:], 0.0
     vector_rates(P, P.q, P.u, y)
@@ -75,6 +74,13 @@ def restart_step(P: Problem, L: Plan, t: float, h: float) -> float:
         P.z[k] = P.rz[k]
     for k in range(ns):
         P.rd[k] = rates[k]
-    if not top > 0.0:
+    return top / ahead
+
+
+@native
+def restart_step(P: Problem, L: Plan, t: float, h: float) -> float:
+    """``h``, or less where a step of order 1 would err too much in the velocities: h^2 |a'|/2."""
+    change = jerk(P, L, t, LOOK_AHEAD * h)
+    if not change > 0.0:
         return h
-    return min(h, CAREFUL * (P.settings[ERROR] * ahead / top) ** 0.5)
+    return min(h, CAREFUL * (P.settings[ERROR] / change) ** 0.5)

@@ -74,6 +74,8 @@ START, END, INSIDE, LOW_ROW, HIGH_ROW, CHANGES, SINCE, BEFORE, HELD = range(9)
 # seen, or this multiple of ERROR.
 CLOSE, CLOSE_ERROR = 1e-6, 0.01
 TIME_ROUND_OFF = 4e-15
+# Steps below this over ERROR give velocities that are round-off of positions.
+NOISE = 1e-15
 # A guard that changes this often within this share of HMAX is chattering: it is no longer held.
 CHATTER, CHATTER_SPAN = 10.0, 1e-3
 # After that, this many steps below this share of HMAX show that nothing else helps.
@@ -88,8 +90,8 @@ NONE = 2.0
 (
     STOP_AT, OPEN, LOW, HIGH, SHARE, FOUND, SIZE, TOLERANCE, BUDGET, JUMP, FREED, CULPRIT, HUNT,
     LOOSE, LET_GO, AGAIN,
-    CRAWL,
-) = range(17)  # fmt: skip
+    CRAWL, HUNT_END, WHOLE,
+) = range(19)  # fmt: skip
 
 
 @native
@@ -226,7 +228,6 @@ def copy_margins(P: Problem, source: int, target: int) -> None:
 def keep_margins(P: Problem) -> None:
     """The step is accepted: its end is the next start."""
     copy_margins(P, END, START)
-    P.search[HUNT] = 0.0
 
 
 @native
@@ -236,7 +237,10 @@ def open_search(P: Problem, t: float, h: float) -> None:
     S[OPEN], S[SHARE], S[FOUND], S[SIZE], S[LOW], S[HIGH] = 1.0, 0.5, NONE, h, 0.0, NONE
     S[AGAIN] = S[LET_GO]
     take_up(P)
+    if S[HUNT] != 0.0 and t >= S[HUNT_END]:
+        S[HUNT] = 0.0
     if S[HUNT] == 0.0:
+        S[HUNT_END], S[WHOLE] = t + h, h
         share = min(CLOSE, CLOSE_ERROR * P.settings[ERROR])
         S[TOLERANCE] = share * h + TIME_ROUND_OFF * abs(t)
     if margins(P, END) > 0:
@@ -339,7 +343,8 @@ def ends_there(P: Problem) -> bool:
 @native
 def starts_there(P: Problem) -> bool:
     """Whether the crossing is so near to the start of the step that branches change there."""
-    return P.search[FOUND] * P.search[SIZE] <= P.search[TOLERANCE]
+    least = max(P.search[TOLERANCE], NOISE / P.settings[ERROR])
+    return P.search[FOUND] * P.search[SIZE] <= least
 
 
 @native

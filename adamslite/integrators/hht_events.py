@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from adamslite.integrators.acceleration import mass_signature, put_state
 from adamslite.integrators.base import (
+    BETA,
     ERROR,
+    H_MAX,
     IMPLICIT_MASS,
     INDEX3,
     NEWTON_FAILED,
@@ -28,6 +30,7 @@ from adamslite.integrators.bdf import (
     first_step,
     keep_algebraic,
 )
+from adamslite.integrators.bdf_events import LOOK_AHEAD, jerk
 from adamslite.integrators.equations import vector_rates
 from adamslite.integrators.events import (
     HUNT,
@@ -43,6 +46,9 @@ from adamslite.integrators.events import (
 )
 from adamslite.integrators.second_order import CU, back_to_accepted, bodies_between
 from adamslite.translate import native
+
+# The first step behind an event: where its estimated error is this share of ERROR.
+CAREFUL = 0.02
 
 
 @native
@@ -114,13 +120,18 @@ def start_over(P: Problem, L: Plan) -> None:
     """Forget earlier accelerations: those in place are the first."""
     C, D, n, ns = P.control, P.history, P.sizes[N], P.sizes[NS]
     P.count[RESTARTS] += 1
-    C[H], C[H_LAST], C[EQUAL], C[FACTORED] = first_step(P, 0), 0.0, 0.0, 0.0
-    if P.sizes[IMPLICIT_MASS]:
-        C[SIGNATURE] = float(mass_signature(P, L, P.x))
+    C[H_LAST], C[EQUAL], C[FACTORED] = 0.0, 0.0, 0.0
     for i in range(n):
         P.ra[i], D[2 * n + i] = P.a[i], P.a[i]
     for k in range(ns):
         for row in range(1, 4):
             D[4 * n + row * ns + k] = P.rd[k]
     keep_algebraic(P)
+    h = first_step(P, 0)
+    change = abs(P.settings[BETA] - 1.0 / 6.0) * jerk(P, L, C[NOW], LOOK_AHEAD * h)
+    C[H] = P.settings[H_MAX]
+    if change > 0.0:
+        C[H] = min(C[H], (CAREFUL * P.settings[ERROR] / change) ** (1.0 / 3.0))
     put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.x))
