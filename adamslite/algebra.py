@@ -79,9 +79,9 @@ def floor(x: Any, order: int | None = None) -> Any:
     return _nodes(order)[1](x)
 
 
-def magnitude(x: Any) -> Any:
-    """|x|, with the derivative 1 at zero."""
-    return choose((x, x >= 0), otherwise=-x, order=0)
+def magnitude(x: Any, order: int | None = 0) -> Any:
+    """|x|, with the derivative 1 at zero; ``order`` as in :func:`choose`."""
+    return choose((x, x >= 0), otherwise=-x, order=order)
 
 
 def power(base: Any, exponent: Any) -> Any:

@@ -139,12 +139,6 @@ VFORCE/1, I=2, J_PART=1, FX=4E3*MAX(0,-DX(2))**1.5+IF(TIME-0.15:0,1,30)\\FY=MOD(
 VFORCE/2, I=3, J_PART=1, FX=IF(DX(3):0,0,-9)+1E-6*ABS(VX(2))\\FY=-STEP(TIME,0.1,0,0.3,2)
 END
 """,
-    "rubs": GROUND
-    + """POINT_MASS/2, MASS=1, CM=2, VX=0.2
-MARKER/2, POINT_MASS=2
-VFORCE/1, I=2, J_PART=1, FX=-2*SIGN(1,VX(2))
-END
-""",
     "runs away": GROUND
     + """POINT_MASS/2, MASS=2, CM=2
 MARKER/2, POINT_MASS=2
@@ -222,8 +216,7 @@ def test_the_engine_runs_the_same_interpreted_and_native(name, interpretations):
         return
     assert by_python.outcome == native_run.outcome
     for count in ("steps", "rejected", "newton", "jacobians", "factorizations"):
-        # Round-off decides a few of the thousands of tries of a run that chatters.
-        assert by_python.summary[count] == pytest.approx(native_run.summary[count], rel=5e-3)
+        assert by_python.summary[count] == native_run.summary[count]
     np.testing.assert_allclose(by_python.values, native_run.values, rtol=1e-8, atol=1e-8)
 
 

@@ -249,7 +249,9 @@ def held(scope: Scope, friction: Any) -> Load:
 def friction_by_bristle(friction: Any, speed: Any, load: Any) -> Any:
     """Friction at the surface against a slip of ``speed``."""
     rest, moving = coefficients(friction)
-    edge, size, b = friction.stiction_transition_velocity, magnitude(speed), friction.bristle
+    edge, b = friction.stiction_transition_velocity, friction.bristle
+    # Below the edge nothing depends on the size: friction is smooth where the slip turns round.
+    size = magnitude(speed, None)
     share = choose(
         (speed * (3 - speed**2 / edge**2) / (2 * edge), size <= edge),
         (1, speed > 0),
@@ -262,7 +264,7 @@ def friction_by_bristle(friction: Any, speed: Any, load: Any) -> Any:
         otherwise=moving,
         order=1,
     )
-    return (mu * load + preload(friction)) * (b + (1 - magnitude(b)) * share)
+    return (mu * load + preload(friction)) * (b + (1 - magnitude(b, None)) * share)
 
 
 def friction_by_speed(friction: Any, square: Any, load: Any) -> Any:

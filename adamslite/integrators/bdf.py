@@ -114,6 +114,7 @@ from adamslite.integrators.order_cap import (
     BAD,
     CAP,
     CAPPED,
+    SUSPECT,
     TRAVELLED,
     TRIES,
     highest_order,
@@ -459,7 +460,7 @@ def begin_anew(P: Problem, L: Plan, w: int) -> None:
         P.pz[i] = P.rz[i]
     C[H], C[K], C[EQUAL] = restart_step(P, L, C[NOW], first_step(P, w)), 1.0, 0.0
     C[H_LAST], C[FACTORED] = 0.0, 0.0
-    C[TRAVELLED], C[BAD], C[TRIES] = 0.0, 0.0, 0.0
+    C[TRAVELLED], C[BAD], C[TRIES], C[SUSPECT] = 0.0, 0.0, 0.0, 0.0
     start_values(P, P.history, w, C[H])
     put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
     if P.sizes[IMPLICIT_MASS]:
