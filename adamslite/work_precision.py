@@ -13,7 +13,7 @@ from math import floor, inf, log10
 from statistics import median
 from typing import Any
 
-from adamslite.analyses.choose import AUTO, METHODS
+from adamslite.analyses.choose import AUTO, CONSTANT, METHODS
 from adamslite.analyses.dynamic import Settings
 from adamslite.compare import fits
 from adamslite.elements.integrator import Integrator
@@ -156,7 +156,7 @@ def variants() -> list[Variant]:
     arguments = Integrator.arguments
     found: dict[Any, list[Variant]] = {}
     for method in arguments["method"].supported:
-        if method == AUTO:
+        if method in (AUTO, CONSTANT):
             continue
         forms = arguments["formulation"].supported
         chosen = {Settings(method=method, formulation=form).form: form for form in forms}
