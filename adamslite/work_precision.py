@@ -149,7 +149,7 @@ def by_program(points: Iterable[Any]) -> dict[str, list[Any]]:
 
 
 def variants() -> list[Variant]:
-    """Every integrator of the INTEGRATOR statement, those that do the same only once.
+    """Every integrator of the INTEGRATOR statement that ERROR steers, those that do the same once.
 
     Formulations differ without constraints, too: I3 does not test the error of velocities.
     """
