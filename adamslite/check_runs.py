@@ -25,6 +25,8 @@ def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
             yield say(each, "out-of-range", "alpha", word="ALPHA", low="-1/3", high="0")
         if each.hmin is not None and each.hmax is not None and each.hmin > each.hmax:
             yield say(each, "steps-disordered", "hmin")
+        if each.formulation == "SI1":
+            yield say(each, "solved-as", "formulation", word="SI1", other="SI2")
 
 
 def iteration_values(deck: Deck) -> Iterator[Diagnostic]:

@@ -43,6 +43,8 @@ class Argument:
         Keyword of the statement a reference names.
     options : tuple of str
         Words a choice may take.
+    discontinued : tuple of pairs
+        Options that ADAMS has given up, and what to write instead of each.
     supported : tuple of str
         Those options the program can run; empty means all.
     bare : bool
@@ -63,6 +65,7 @@ class Argument:
     to: str = ""
     options: tuple[str, ...] = ()
     supported: tuple[str, ...] = ()
+    discontinued: tuple[tuple[str, str], ...] = ()
     bare: bool = False
     start: bool = False
     name: str = ""

@@ -152,6 +152,9 @@ class Reader:
 
     def _choice(self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]) -> str:
         option = self._option(argument, unwrapped(values[0]) or values[0])
+        for given_up, instead in argument.discontinued:
+            if option == given_up:
+                self._refuse("discontinued-choice", values[0], word=option, instead=instead)
         if argument.supported and option not in argument.supported:
             token = values[0][0]
             self.log.tally(

@@ -13,7 +13,7 @@ from math import floor, inf, log10
 from statistics import median
 from typing import Any
 
-from adamslite.analyses.choose import AUTO, METHODS
+from adamslite.analyses.choose import AUTO, CONSTANT, METHODS
 from adamslite.analyses.dynamic import Settings
 from adamslite.compare import fits
 from adamslite.elements.integrator import Integrator
@@ -149,14 +149,14 @@ def by_program(points: Iterable[Any]) -> dict[str, list[Any]]:
 
 
 def variants() -> list[Variant]:
-    """Every integrator of the INTEGRATOR statement, those that do the same only once.
+    """Every integrator of the INTEGRATOR statement that ERROR steers, those that do the same once.
 
     Formulations differ without constraints, too: I3 does not test the error of velocities.
     """
     arguments = Integrator.arguments
     found: dict[Any, list[Variant]] = {}
     for method in arguments["method"].supported:
-        if method == AUTO:
+        if method in (AUTO, CONSTANT):
             continue
         forms = arguments["formulation"].supported
         chosen = {Settings(method=method, formulation=form).form: form for form in forms}

@@ -170,6 +170,7 @@ RUNS = {
     f"{name} {method}": (deck, method) for name, deck in DECKS.items() for method in INTEGRATORS
 }
 RUNS |= {
+    "steady": (PENDULUM.replace("END", "INTEGRATOR/HINIT=0.02\nEND"), "CONSTANT_BDF"),
     "hangs": (PENDULUM.replace("END", "SIMULATE/STATICS\nEND"), None),
     "leans": (UPRIGHT.replace("END", "SIMULATE/STATICS\nEND"), None),
     "falls": (PENDULUM.replace("END", "EQUILIBRIUM/MAXIT=1\nSIMULATE/STATICS\nEND"), None),

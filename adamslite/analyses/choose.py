@@ -24,10 +24,11 @@ from adamslite.system import BDF, EXPLICIT, HHT, RADAU, SPECTRUM, VERLET, System
 
 # Native operation of each method of the INTEGRATOR statement.
 METHODS = {
-    "GSTIFF": BDF, "WSTIFF": BDF, "HHT": HHT, "NEWMARK": HHT,
+    "GSTIFF": BDF, "WSTIFF": BDF, "CONSTANT_BDF": BDF, "HHT": HHT, "NEWMARK": HHT,
     "ABAM": EXPLICIT, "RADAU": RADAU, "RKF45": EXPLICIT, "VERLET": VERLET,
 }  # fmt: skip
 AUTO = "AUTO"
+CONSTANT = "CONSTANT_BDF"
 # An explicit step costs a few residuals and covers a few radians of the fastest oscillation; an
 # implicit one costs some ten, and motion worth recording takes some ten steps per output step.
 STEPS_WORTH = 3000.0

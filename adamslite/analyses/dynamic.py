@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from adamslite.analyses.choose import METHODS
+from adamslite.analyses.choose import CONSTANT, METHODS
 from adamslite.analyses.edges import stops
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
@@ -50,9 +50,15 @@ class Settings:
         solve for accelerations, and the multipliers of the other form would only be carried along.
         """
         method = METHODS.get(self.method, BDF)
-        if method == RADAU:
-            return "SI2"
-        return self.formulation if method == BDF else "I3"
+        if method not in (BDF, RADAU):
+            return "I3"
+        return "I3" if method == BDF and self.formulation == "I3" else "SI2"
+
+    def fixed_step(self, output_step: float) -> float:
+        """The step of CONSTANT_BDF; zero for all others."""
+        if self.method != CONSTANT:
+            return 0.0
+        return self.hinit or self.hmax or output_step / 20.0
 
     @property
     def second_order(self) -> tuple[float, float, float]:
@@ -70,12 +76,15 @@ def run_dynamic(
 ) -> Outcome:
     """Integrate over ``times`` (nt,) and fill ``system.record``."""
     start, end = float(times[0]), float(times[-1])
-    hmax = settings.hmax or (float(np.diff(times).max()) if len(times) > 1 else end - start)
+    output_step = float(np.diff(times).max()) if len(times) > 1 else end - start
+    fixed = settings.fixed_step(output_step)
+    hmax = fixed or settings.hmax or output_step
     system.settings[:8] = (
         start, end, settings.error, hmax, settings.hmin or 1e-14 * max(abs(end), hmax),
         settings.hinit or 0.0, settings.kmax, settings.maxit,
     )  # fmt: skip
     system.settings[base.STOP] = 0.0
+    system.settings[base.FIXED_STEP] = fixed
     system.settings[base.ALPHA : base.GAMMA + 1] = settings.second_order
     system.stops = stops(system, times)
     system.start_record(times)

@@ -23,15 +23,19 @@ class Integrator(Statement):
             "RKF45", "VERLET", "WSTIFF",
         ),
         supported=(
-            "ABAM", "AUTO", "GSTIFF", "HHT", "NEWMARK", "RADAU", "RKF45", "VERLET", "WSTIFF",
+            "ABAM", "AUTO", "CONSTANT_BDF", "GSTIFF", "HHT", "NEWMARK", "RADAU", "RKF45", "VERLET",
+            "WSTIFF",
         ),
-        help="variable-order BDF (GSTIFF) unless given; RADAU: implicit Runge-Kutta of order 5 for "
-        "ERROR below 1E-5; ABAM and RKF45: explicit Runge-Kutta of order 8; VERLET: explicit of "
-        "order 2, unconstrained point masses; AUTO: what suits the scene",
+        discontinued=(("HASTIFF", "GSTIFF, SI2"),),
+        help="variable-order BDF (GSTIFF) unless given; CONSTANT_BDF: BDF with fixed steps of "
+        "HINIT, else HMAX, else a 20th of the output step, without error test; RADAU: implicit "
+        "Runge-Kutta of order 5 for ERROR below 1E-5; ABAM and RKF45: explicit Runge-Kutta of "
+        "order 8; VERLET: explicit of order 2, unconstrained point masses; AUTO: what suits the "
+        "scene",
     )  # fmt: skip
     formulation: str | None = choice(
-        options=("I3", "SI1", "SI2"), supported=("I3", "SI2"),
-        help="index 3, or stabilised index 2 (SI2, unless given)",
+        options=("I3", "SI1", "SI2"), supported=("I3", "SI1", "SI2"),
+        help="index 3, or stabilised index 2 (SI2, unless given); SI1 is solved as SI2",
     )  # fmt: skip
     error: float | None = number("ERROR", unit="that of the coordinates", help="error tolerance")
     hmax: float | None = number(

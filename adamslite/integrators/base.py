@@ -79,10 +79,11 @@ SIZES = (
 
 SETTINGS = (
     "t", "t_end", "error", "h_max", "h_min", "h_init", "k_max", "max_it", "stop",
-    "alpha", "beta", "gamma", "interpolate",
+    "alpha", "beta", "gamma", "interpolate", "fixed_step",
 )  # fmt: skip
 (
     T, T_END, ERROR, H_MAX, H_MIN, H_INIT, K_MAX, MAX_IT, STOP, ALPHA, BETA, GAMMA, INTERPOLATE,
+    FIXED_STEP,
 ) = range(len(SETTINGS))  # fmt: skip
 
 REPORT = ("t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall")

@@ -9,6 +9,9 @@ With backward differences D_i of the past values on the present step h, for y = 
 Index 3 (I3): unknowns (q, lam), u = T q', errors of q tested.  Stabilised index 2 (SI2): also
 G u + g_t = 0 with multipliers mu, errors of q and u tested.  Both in the maximum norm with weights
 ERROR max(1, |y|).
+CONSTANT_BDF has no error test: steps of FIXED_STEP and the order KMAX, both reached in a start-up;
+what the corrector cannot do ends the run.
+
 References: Gear, IEEE Trans. Circuit Theory 18 (1971) 89; Shampine, Reichelt, SIAM J. Sci. Comput.
 18 (1997) 1 (quasi-constant step, differences); Brenan, Campbell, Petzold, Numerical Solution of
 IVP in DAE, 1996, section 5.2 (tests of the corrector).
@@ -24,6 +27,7 @@ from adamslite.integrators.base import (
     DONE,
     ERROR,
     FAILURES,
+    FIXED_STEP,
     H_INIT,
     H_MAX,
     H_MIN,
@@ -151,6 +155,10 @@ CUTS = 3
 NOISY_TRIES, NOISY_SHARE = 2.0, 0.3
 # Accepted steps taken back in one place.
 MOST_BACKS = 6.0
+# Fixed steps begin with this part of the step, because order 1 starts.
+START_PARTS = 1024.0
+# Steps that double again and again amplify the noise of higher orders.
+GROWING_ORDER = 3.0
 # A pivot of the acceleration matrix below this share of its first value has vanished.
 VANISHING = 1e-3
 
@@ -285,6 +293,8 @@ def first_step(P: Problem, w: int) -> float:
         fastest = max(fastest, abs(P.rd[k]))
     span = P.settings[T_END] - P.settings[T]
     h = min(P.settings[H_MAX], span)
+    if P.settings[FIXED_STEP] > 0.0:
+        return P.settings[FIXED_STEP] / START_PARTS
     if P.settings[H_INIT] > 0.0:
         return min(h, P.settings[H_INIT])
     # Below this step round-off of positions alone would exceed ERROR in the velocities.
@@ -375,7 +385,7 @@ def advance(P: Problem, L: Plan) -> int:
         return after_failure(P, w)
     norm = local_error(P, w)
     P.report[HOW_MUCH] = norm
-    if not norm <= 1.0:
+    if not norm <= 1.0 and not (P.settings[FIXED_STEP] > 0.0 and norm < 1e12):
         return after_rejection(P, w, norm)
     if P.sizes[IMPLICIT_MASS]:
         if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
@@ -519,6 +529,9 @@ def after_failure(P: Problem, w: int) -> int:
     C[RETRIES] += 1.0
     C[FRESH] = 0.0
     C[BLAMED] = float(wildest(P))
+    if P.settings[FIXED_STEP] > 0.0:
+        P.report[WHERE] = C[BLAMED]
+        return NEWTON_FAILED
     if int(C[RETRIES]) != CUTS or not land_elsewhere(P, w):
         resize(P, w, retry_factor(C))
     return RUNNING
@@ -618,7 +631,7 @@ def near_singularity(P: Problem, w: int) -> int:
     """The acceleration matrix became singular within the step: approach the place, never pass
     it.
     """
-    if P.control[H] < SINGULAR_RESOLUTION * P.settings[H_MAX]:
+    if P.control[H] < SINGULAR_RESOLUTION * P.settings[H_MAX] or P.settings[FIXED_STEP] > 0.0:
         return SINGULAR_MASS
     P.control[FRESH] = 0.0
     resize(P, w, 0.25)
@@ -686,7 +699,9 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
 def adapt_order(P: Problem, w: int, norm: float) -> None:
     """Order and size of the next step."""
     C = P.control
-    if C[K] > C[K_TOP]:
+    if P.settings[FIXED_STEP] > 0.0:
+        approach_fixed_step(P, w)
+    elif C[K] > C[K_TOP]:
         drop_order(P, w)
     elif C[EQUAL] > C[K]:
         choose_order(P, w, norm)
@@ -718,6 +733,22 @@ def drop_order(P: Problem, w: int) -> None:
     C[K] = C[K_TOP]
     norm = size / ((k + 1) * P.settings[ERROR])
     resize(P, w, min(1.0, max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))))
+
+
+@native
+def approach_fixed_step(P: Problem, w: int) -> None:
+    """Raise the order to GROWING_ORDER, the step to FIXED_STEP, then the order to KMAX; each only
+    after as many equal steps as the formula looks back.
+    """
+    C, growth = P.control, min(2.0, P.settings[FIXED_STEP] / P.control[H])
+    if C[EQUAL] <= C[K]:
+        return
+    grown = growth <= 1.0000001
+    if C[K] < most_order(P) and (C[K] < GROWING_ORDER or grown):
+        C[K] += 1.0
+        C[EQUAL] = 0.0
+    elif not grown:
+        resize(P, w, growth)
 
 
 @native

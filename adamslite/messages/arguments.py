@@ -75,6 +75,11 @@ ARGUMENTS: dict[str, Message] = {
     "planned-choice": Message(
         "not supported yet: {keyword} of the kind {word}{times}",
         "supported are {known}",
+        ("BEAM/1, I=2, J=1, FORMULATION=STRING, LENGTH=1, AREA=1, IXX=1, IYY=1, IZZ=1, EMOD=1"
+         ", GMOD=1",),
+    ),
+    "discontinued-choice": Message(
+        "ADAMS has given up {word}, and this program does not have it", "write {instead}",
         ("INTEGRATOR/HASTIFF",),
     ),
     "expression-not-closed": Message(

@@ -30,6 +30,12 @@ RUNS: dict[str, Message] = {
          "SIMULATE/DYNAMICS, END=0, STEPS=9"),
         commands=("SIM/DYN, DURATION=2, STEPS=9\nSIM/STATICS\nSIM/DYN, END=2, STEPS=9",),
     ),
+    "solved-as": Message(
+        "{word} is solved as {other}",
+        "both keep constraints on positions and velocities; results agree within ERROR",
+        ("INTEGRATOR/GSTIFF, SI1",),
+        severity=WARNING,
+    ),
     "negative": Message("{word} of {label} must not be negative", "", ("EQUILIBRIUM/STAB=-1",)),
     "empty-range": Message(
         "no {kind} has an id from {low} to {high}",
