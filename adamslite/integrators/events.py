@@ -48,6 +48,7 @@ from adamslite.integrators.base import (
     ERROR,
     EVENTS,
     H_MAX,
+    H_MIN,
     NS,
     NW,
     NZ,
@@ -242,7 +243,8 @@ def open_search(P: Problem, t: float, h: float) -> None:
     if S[HUNT] == 0.0:
         S[HUNT_END], S[WHOLE] = t + h, h
         share = min(CLOSE, CLOSE_ERROR * P.settings[ERROR])
-        S[TOLERANCE] = share * h + TIME_ROUND_OFF * abs(t)
+        # A step to a crossing must not be shorter than any step may be.
+        S[TOLERANCE] = max(share * h + TIME_ROUND_OFF * abs(t), P.settings[H_MIN])
     if margins(P, END) > 0:
         open_bracket(P, 1.0, END)
 
