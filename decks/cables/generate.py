@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import arrest
+import drum
 import kinks
 import moving
 import payouts
@@ -23,6 +24,7 @@ CASES: dict[str, Callable[[], Iterator[tuple[str, str, str]]]] = {
     **payouts.CASES,
     **moving.CASES,
     **arrest.CASES,
+    **drum.CASES,
 }
 
 

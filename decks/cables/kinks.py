@@ -70,15 +70,19 @@ def free_length(impact: Impact, sections: int) -> float:
     return HALF_SPAN / sections / (1 + impact.cable.strain)
 
 
-def growing(form: str, impact: Impact, sections: int) -> str:
-    """The deck span as a variable-length cable; the pulley answers as a long supply does."""
+def growing(form: str, impact: Impact, sections: int, inertia: float | None = None) -> str:
+    """The deck span as a variable-length cable; the pulley answers as a long supply does.
+
+    `inertia` is J/R^2 of the pulley [kg]; that of a section unless given.
+    """
     cable, free = impact.cable, free_length(impact, sections)
+    inertia = cable.density * free if inertia is None else inertia
     text = head(
         f"Transverse impact at {impact.speed:g} m/s, variable-length cable ({form})",
         f"""Half of a symmetric deck span of {sections} sections. The hook
         (MARKER/{sections + 1}) moves on at {impact.speed:g} m/s. The supply behind the
         sheave is a long straight run of the same cable: at the speed v it pulls with T0 +
-        rho c v. The pulley has next to no inertia.""",
+        rho c v. The pulley has {inertia:.3g} kg (J/R**2).""",
         "",
         "PART/1, GROUND",
         "MARKER/1, PART=1                ! the sheave",
@@ -86,7 +90,7 @@ def growing(form: str, impact: Impact, sections: int) -> str:
     text += cable_variables(cable)
     text += payout_variables(cable, sections, free * sections)
     text += "! Tension at the sheave.\nVARIABLE/T, FUNCTION=EA*(DM(1,2)/H-1)\n"
-    text += pulley(cable.density * free)
+    text += pulley(inertia)
     text += (
         f"SFORCE/{PULLEY}, ROTATIONAL, ACTIONONLY, I={PULLEY}, J={PULLEY + 1}\n"
         f", FUNCTION={RADIUS:g}*(T-{number(cable.pretension)}-SQRT(EA*rho)*SD*DM(1,2)/H)\n\n"

@@ -41,7 +41,7 @@ def level_deck(span: Span, winch: Winch, end: float, steps: int) -> str:
     text += span.sections_text()
     text += "\n! Pull at the tip less that at the sheave.\n"
     text += f"REQUEST/1, F2=SFORCE({n},0,2)-SFORCE(1,0,2)\n"
-    return text + tail("GSTIFF, SI2, ERROR=1.0E-6", end, steps)
+    return text + tail("GSTIFF, SI2, ERROR=1.0E-7", end, steps)
 
 
 def level() -> Iterator[tuple[str, str, str]]:
@@ -107,8 +107,12 @@ def hanging_deck(span: Span, winch: Winch, weight: float, end: float, steps: int
     text += grown_tip(span.form, n + 1, n, "Y")
     text += span.sections_text()
     felt = "JGRAV" if span.form == "paper" else "(JGRAV+SDD)"
-    text += f"\n! Load on the sheave; payout.\nREQUEST/1, F2=SFORCE(1,0,1)-rho*H/2*{felt}\\ F3=S\n"
-    return text + tail("GSTIFF, SI2, ERROR=1.0E-6", end, steps)
+    text += (
+        "\n! Load on the sheave; payout. Tension at the lower end, its depth.\n"
+        f"REQUEST/1, F2=SFORCE(1,0,1)-rho*H/2*{felt}\\ F3=S\n"
+        f"REQUEST/2, F2=SFORCE({n},0,1)\\ F3=-DY({n + 1},1)\n"
+    )
+    return text + tail("GSTIFF, SI2, ERROR=1.0E-7", end, steps)
 
 
 def hanging_load(span: Span, winch: Winch, weight: float, t: np.ndarray) -> np.ndarray:
@@ -202,7 +206,7 @@ def running_deck(span: Span, inertia: float, end: float, steps: int) -> str:
         text += grown(span.form, k, n, "Y") if k < n else ""
     text += grown_tip(span.form, n + 1, n, "Y")
     text += span.sections_text() + "\nREQUEST/1, F2=S\\ F3=SD\n"
-    return text + tail("GSTIFF, SI2, ERROR=1.0E-6", end, steps)
+    return text + tail("GSTIFF, SI2, ERROR=1.0E-7", end, steps)
 
 
 def running_out(span: Span, inertia: float, t: np.ndarray) -> np.ndarray:
