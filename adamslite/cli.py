@@ -6,6 +6,7 @@
     adamslite verify [DIR|DECK ...]         run reference decks and compare
     adamslite linear DECK [COMMANDS.acf]    eigenvalues and modes of small motions
     adamslite chart  DECK [COMMANDS.acf]    what accuracy costs with each integrator
+    adamslite cable  SPEC.toml              write the deck of a cable scene from a short description
     adamslite help   [NAME]                 what a statement, a function or a message means
 
 Exit codes: 0 done or equal, 1 outside tolerance, 2 usage, 3 the deck has errors,
@@ -21,7 +22,7 @@ import sys
 from collections.abc import Sequence
 
 from adamslite import __version__
-from adamslite.commands import chart, check, diff, help, linear, solve, verify
+from adamslite.commands import cable, chart, check, diff, help, linear, solve, verify
 from adamslite.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, STOPPED_EARLY, USAGE
 
 EXIT_CODES = """exit codes:
@@ -71,7 +72,7 @@ def _parser() -> argparse.ArgumentParser:
         "--debug", action="store_true", help="show the traceback of a program fault"
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for module in (check, solve, diff, verify, linear, chart, help):
+    for module in (check, solve, diff, verify, linear, chart, cable, help):
         name = module.__name__.rpartition(".")[2]
         summary = module.__doc__.partition("\n")[0]
         command = commands.add_parser(

@@ -18,7 +18,8 @@ import numpy as np
 from formulas import Cable
 from scipy.integrate import solve_ivp
 from spans import table
-from statements import (
+
+from adamslite.cables.statements import (
     RADIUS,
     Side,
     cable_variables,

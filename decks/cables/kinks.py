@@ -6,7 +6,8 @@ Half of a symmetric span: the hook (HEAVY) is at x = -a and moves along y, the s
 from collections.abc import Iterator
 
 from formulas import Cable, Impact
-from statements import (
+
+from adamslite.cables.statements import (
     HEAVY,
     PULLEY,
     RADIUS,

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from formulas import Cable
 from spans import FORMS, Span, table
-from statements import HEAVY, grown, number, point, pulley, tail
+
+from adamslite.cables.statements import HEAVY, grown, number, point, pulley, tail
 
 
 @dataclass(frozen=True)

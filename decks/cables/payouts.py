@@ -10,7 +10,18 @@ import numpy as np
 from formulas import Cable, G, Winch
 from scipy.integrate import solve_ivp
 from spans import FORMS, Span, table
-from statements import BEARING, PULLEY, RADIUS, grown, grown_tip, number, point, pulley, tail
+
+from adamslite.cables.statements import (
+    BEARING,
+    PULLEY,
+    RADIUS,
+    grown,
+    grown_tip,
+    number,
+    point,
+    pulley,
+    tail,
+)
 
 
 def driven(winch: Winch) -> str:

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from formulas import Cable
-from statements import cable_variables, head, payout_variables, section
+
+from adamslite.cables.statements import cable_variables, head, payout_variables, section
 
 FORMS = ("paper", "ale")
 

@@ -4,7 +4,17 @@ from collections.abc import Iterator
 
 import numpy as np
 from formulas import Cable, Impact
-from statements import HEAVY, cable_variables, head, impedance, number, point, section, tail
+
+from adamslite.cables.statements import (
+    HEAVY,
+    cable_variables,
+    head,
+    impedance,
+    number,
+    point,
+    section,
+    tail,
+)
 
 LENGTH = 15.0
 REFERENCE = Cable(6.0e7, 5.536, 13345.0), 10.0

@@ -17,7 +17,7 @@ which is -Dm (ACC - g) less (m0 + Dm) times the convective part of the accelerat
 from dataclasses import dataclass
 from textwrap import wrap
 
-from formulas import Cable
+from adamslite.cables.spec import Cable
 
 PULLEY, BEARING = 9001, 9002
 RADIUS = 0.5
@@ -52,10 +52,10 @@ def number(value: float) -> str:
     return f"{value + 0.0:.11g}"
 
 
-def head(title: str, notes: str, *lines: str) -> str:
+def head(title: str, notes: str, *lines: str, author: str = "generate.py") -> str:
     """Title, comments and units."""
     text = "".join(f"! {line}\n" for line in wrap(" ".join(notes.split()), 96))
-    return f"{title}\n{text}! Written by generate.py.\n\nUNITS/SYSTEM=MKS\n" + "".join(
+    return f"{title}\n{text}! Written by {author}.\n\nUNITS/SYSTEM=MKS\n" + "".join(
         f"{line}\n" for line in lines
     )
 
@@ -104,28 +104,35 @@ def impedance(s: int, i: int, cable: Cable, side: int = 1) -> str:
     )
 
 
-def through_the_sheave(s: int, i: int, j: int, supply: int) -> str:
-    """A section that may lie over the sheave, a point at the origin.
+def through_the_sheave(s: int, i: int, j: int, supply: int, sheave: int = 1) -> str:
+    """A section that may lie over the sheave, a point: the origin, or MARKER/`sheave`, x along it.
 
     SFORCE/s while both ends are on one side; else SFORCE/s+10000 and s+20000 pull both towards the
     sheave with one tension. MARKER/`supply` takes the pull of the supply.
     """
-    over, pull = f"IF(DX({i})*DX({j}):", f"-EA*((DM({i})+DM({j}))/L_0-1)"
+    near, seen = ("", "") if sheave == 1 else (f",{sheave}", f",{sheave},{sheave}")
+    over = f"IF(DX({i}{seen})*DX({j}{seen}):"
+    pull = f"-EA*((DM({i}{near})+DM({j}{near}))/L_0-1)"
     return (
         f"SFORCE/{s}, I={i}, J={j}, FUNCTION={over} 0,0,-EA*(DM({i},{j})/L_0-1))\n"
-        f"SFORCE/{s + 10000}, I={i}, J=1, FUNCTION={over} {pull},0,0)\n"
+        f"SFORCE/{s + 10000}, I={i}, J={sheave}, FUNCTION={over} {pull},0,0)\n"
         f"SFORCE/{s + 20000}, I={j}, J={supply}, FUNCTION={over} {pull},0,0)\n"
     )
 
 
-def payout_variables(cable: Cable, sections: int, length: float, side: Side = ONLY) -> str:
-    """Payout S and its rates from the pulley; length LT, H of a section; mass Dm of a node."""
+def payout_variables(
+    cable: Cable, sections: int, length: float, side: Side = ONLY, radius: float = RADIUS
+) -> str:
+    """Payout S and its rates from the pulley; length LT, H of a section; mass Dm of a node.
+
+    A pulley that turns negatively when it pays out has a negative radius here.
+    """
     a, turn = side.name, f"({side.pulley},{side.pulley + 1})"
     return (
         f"\n! Payout and its rates; free length of the cable and of a section; mass a node gains.\n"
-        f"VARIABLE/S{a}, FUNCTION={RADIUS:g}*AZ{turn}\n"
-        f"VARIABLE/SD{a}, FUNCTION={RADIUS:g}*WZ{turn}\n"
-        f"VARIABLE/SDD{a}, FUNCTION={RADIUS:g}*WDTZ{turn}\n"
+        f"VARIABLE/S{a}, FUNCTION={radius:.11g}*AZ{turn}\n"
+        f"VARIABLE/SD{a}, FUNCTION={radius:.11g}*WZ{turn}\n"
+        f"VARIABLE/SDD{a}, FUNCTION={radius:.11g}*WDTZ{turn}\n"
         f"VARIABLE/LT{a}, FUNCTION={number(length)}+S{a}\n"
         f"VARIABLE/H{a}, FUNCTION=LT{a}/{sections}\n"
         f"VARIABLE/Dm{a}, FUNCTION=rho*S{a}/{sections}\n"

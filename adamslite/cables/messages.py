@@ -1,0 +1,86 @@
+"""What can be wrong with the description of a cable, each with a description that provokes it."""
+
+from adamslite.cables.places import Path, Places
+from adamslite.diagnostics import WARNING, Diagnostic
+from adamslite.messages.entry import Message
+
+MESSAGES: dict[str, Message] = {
+    "toml": Message("this is not TOML: {why}", "a key, =, a value; texts in quotes"),
+    "unknown-key": Message("there is no key {word} here", "the keys are {known}"),
+    "missing-key": Message("{label} needs {word}", "write {word} = ..."),
+    "wrong-value": Message("{word} takes {expected}", "it is {text}"),
+    "not-positive": Message("{word} has to be positive and is {text}", "SI units: N, kg/m, m, s"),
+    "not-a-share": Message("{word} has to lie between 0 and 1 and is {text}"),
+    "negative": Message("{word} cannot be negative and is {text}"),
+    "short-route": Message("a route has two ends and {count} stations", "add [[route]] tables"),
+    "wrong-end": Message(
+        "a {kind} cannot be {where}", "pulleys stand between two ends: fixed, mass, body or winch"
+    ),
+    "drive": Message("a winch needs one of payout and force", 'payout = "0.5*TIME**2"'),
+    "two-winches": Message("there is one winch in a route", "hold the other end with fixed"),
+    "expression": Message("{word}: {why}", "an expression of TIME; a force may use S and SD"),
+    "payout-start": Message(
+        "the payout at TIME = 0 is {value:.4g} m", "it counts from the length in the route: 0"
+    ),
+    "payout-too-far-in": Message(
+        "at TIME = {time:.4g} the payout is {value:.4g} m: the cable of {length:.4g} m has no"
+        " length left",
+        "wind less in, end earlier, or put the end further away",
+    ),
+    "zero-span": Message("there is no cable between stations {i} and {j}", "move one of them"),
+    "radius-over-spacing": Message(
+        "the wheels of stations {i} and {j} reach over their spacing of {spacing:.4g} m:"
+        " no cable fits between",
+        "smaller radii, or stations further apart",
+    ),
+    "crossing": Message(
+        "the route passes through itself: {what}", "move a station, or its turn = 1 or -1"
+    ),
+    "axis-along-cable": Message("the axis of this wheel lies along the cable", "axis = [0, 0, 1]"),
+    "too-many": Message("{word} is {count}; a span takes 1 to 900", "fewer elements, or auto"),
+    "brute-straight": Message(
+        "form brute lays the supply out in line with one span, without gravity",
+        'a winch, then one end, and gravity = [0, 0, 0]; else form = "ale"',
+    ),
+    "level-2-pays-out": Message(
+        "level 2 has sections of {section:.4g} m and {travel:.4g} m of cable go over a wheel",
+        "fewer elements, or level = 3",
+        severity=WARNING,
+    ),
+    "rigid-has-waves": Message(
+        "level 1 has no waves, and here they matter: {figures}",
+        "level = {level}",
+        severity=WARNING,
+    ),
+    "breaking": Message(
+        "the cable carries {tension:.4g} N at the start and breaks at {limit:.4g} N",
+        "",
+        severity=WARNING,
+    ),
+    "paper-not-valid": Message(
+        "the paper's element is not good to {accuracy:g} here: {figures}",
+        'form = "ale"',
+        severity=WARNING,
+    ),
+}
+
+
+class Faults:
+    """Collects what is said about one description."""
+
+    def __init__(self, places: Places) -> None:
+        self.places = places
+        self.found: list[Diagnostic] = []
+
+    def add(self, code: str, path: Path, **words: object) -> None:
+        """Say `code` about the key at `path`; ``hint=`` replaces the hint of the table."""
+        message, span = MESSAGES[code], self.places.span(path)
+        hint = str(words.pop("hint", "") or message.hint.format(**words))
+        line = self.places.source.line(span.line)
+        text = message.sentence.format(**words)
+        self.found.append(Diagnostic(code, message.severity, text, span, hint, line))
+
+    @property
+    def errors(self) -> bool:
+        """Whether there is any."""
+        return any(each.is_error for each in self.found)
