@@ -8,8 +8,7 @@ kappa of M^-1 K and c of M^-1 C,
 
     kappa h^2 + 2 c h <= 4 and the local error h^2 |change of a|/6 <= ERROR max(1, |q|);
 
-an interval in which it grew too large is done again with shorter steps.  Where a branch of an
-expression changes, a step ends and the largest step is looked for again.
+an interval in which it grew too large is done again with shorter steps.
 Reference: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006, sections I.1.4, VIII.4.
 """
 
@@ -33,37 +32,17 @@ from adamslite.integrators.base import (
     ORDER,
     REJECTED,
     RESIDUALS,
-    RESTARTS,
     STEP,
     STEP_TOO_SMALL,
     STEPS,
     STOP,
     UNSTABLE,
-    WATCHED,
     N,
     Plan,
     Problem,
 )
 from adamslite.integrators.equations import BODY, put_time, run_groups, track
-from adamslite.integrators.events import (
-    FOUND,
-    HIGH_ROW,
-    INSIDE,
-    OPEN,
-    SHARE,
-    START,
-    hold_watch,
-    horizon,
-    is_stop,
-    judge,
-    let_go,
-    margins,
-    next_stop,
-    note_changes,
-    open_search,
-    start_events,
-    take_up,
-)
+from adamslite.integrators.events import horizon, is_stop, next_stop, start_events
 from adamslite.integrators.free import divide_by_mass, put_free, radius
 from adamslite.integrators.records import write_record
 from adamslite.translate import native
@@ -75,11 +54,9 @@ SAMPLE = 8
 # Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
 WORTH = 200.0
 SHRINK, GROW = 0.25, 2.0
-# What is left of an interval below this share is round-off.
-NOTHING = 1e-12
 
 # Places in P.control.
-LIMIT, WANTED, SINCE, MET = range(4)
+LIMIT, WANTED, SINCE = range(3)
 
 
 @native
@@ -89,9 +66,8 @@ def verlet(P: Problem, L: Plan) -> int:
     for i in range(P.control.size):
         C[i] = 0.0
     P.report[ORDER] = 2.0
-    start_events(P, not fixed)
+    start_events(P, False)
     synchronise(P, P.times[0], 0)
-    hold_watch(P)
     P.report[AT] = P.times[0]
     C[SINCE] = WORTH
     C[WANTED] = P.settings[H_INIT] if fixed else P.settings[H_MAX]
@@ -154,52 +130,15 @@ def look_at_stability(P: Problem) -> None:
 @native
 def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
     """From one output time or stop to the next; returns an outcome."""
-    C, at = P.control, t
-    while P.settings[STOP] == 0.0:
-        keep_place(P, 0)
-        h = equal_steps(P, at, end, fixed)
-        outcome = cross_evenly(P, at, end, h, fixed)
-        if outcome != DONE or C[MET] < 0.0:
-            return outcome
-        at = meet(P, at, P.report[STEP])
-        if at + NOTHING * (end - t) >= end:
-            return DONE
-        look_at_stability(P)
-    return INTERRUPTED
-
-
-@native
-def equal_steps(P: Problem, t: float, end: float, fixed: bool) -> float:
-    """The longest step not above the wanted one of which a whole number reaches the end."""
-    wanted = min(P.control[WANTED], P.settings[H_MAX])
-    if not fixed:
-        wanted = min(wanted, P.control[LIMIT])
-    return (end - t) / max(1.0, 0.0 - floor(1e-9 - (end - t) / wanted))
-
-
-@native
-def keep_place(P: Problem, at: int) -> None:
-    """Remember positions and velocities."""
-    n, kept = P.sizes[N], P.trial[at:]
+    C, n = P.control, P.sizes[N]
+    old = P.trial[0:]
     for i in range(n):
-        kept[i], kept[n + i] = P.q[i], P.u[i]
-
-
-@native
-def go_back(P: Problem, at: int) -> None:
-    """Positions and velocities that were remembered."""
-    n, kept = P.sizes[N], P.trial[at:]
-    for i in range(n):
-        P.q[i], P.u[i] = kept[i], kept[n + i]
-
-
-@native
-def cross_evenly(P: Problem, t: float, end: float, first: float, fixed: bool) -> int:
-    """Equal steps to ``end``, shorter ones until they are good enough; stops where a branch changes
-    (step number in ``P.control[MET]``, else -1), with nothing moved.
-    """
-    C, h = P.control, first
+        old[i], old[n + i] = P.q[i], P.u[i]
+    wanted = min(C[WANTED], P.settings[H_MAX])
     while P.settings[STOP] == 0.0:
+        if not fixed:
+            wanted = min(wanted, C[LIMIT])
+        h = (end - t) / max(1.0, 0.0 - floor(1e-9 - (end - t) / wanted))
         P.report[STEP] = h
         if h < P.settings[H_MIN]:
             return STEP_TOO_SMALL
@@ -208,73 +147,24 @@ def cross_evenly(P: Problem, t: float, end: float, first: float, fixed: bool) ->
         error = march(P, t, h, int((end - t) / h + 0.5), fixed)
         P.report[HOW_MUCH] = error
         if error <= 1.0:
-            # A short last step says nothing against the wanted one.
             if not fixed and error < 0.5:
-                longer = min(GROW, 0.9 * max(error, 1e-3) ** (-1.0 / 3.0)) * h
-                C[WANTED] = max(C[WANTED], longer)
+                C[WANTED] = min(GROW, 0.9 * max(error, 1e-3) ** (-1.0 / 3.0)) * h
+            else:
+                C[WANTED] = wanted
             return DONE
         P.count[REJECTED] += 1
         if fixed:
             return UNSTABLE
-        C[WANTED] = h * (max(SHRINK, 0.8 * error ** (-1.0 / 3.0)) if error < 1e12 else SHRINK)
-        h = equal_steps(P, t, end, fixed)
-        go_back(P, 0)
+        wanted = h * (max(SHRINK, 0.8 * error ** (-1.0 / 3.0)) if error < 1e12 else SHRINK)
+        for i in range(n):
+            P.q[i], P.u[i] = old[i], old[n + i]
     return INTERRUPTED
 
 
 @native
-def meet(P: Problem, t: float, h: float) -> float:
-    """Go to the change of a branch in step number MET, and over to the other branch; returns the
-    time.
-
-    The end of a shorter step is the dense output: it costs one force.
-    """
-    C, count, kept = P.control, int(P.control[MET]), 2 * P.sizes[N]
-    if count > 0:
-        march(P, t, h, count, True)
-    t += count * h
-    keep_place(P, kept)
-    put_free(P, t, P.q, P.u)
-    margins(P, START)
-    step_to(P, t, h)
-    open_search(P, t, h)
-    while P.search[OPEN] != 0.0:
-        step_to(P, t, P.search[SHARE] * h)
-        judge(P)
-    share = min(1.0, P.search[FOUND])
-    step_to(P, t, share * h)
-    t += share * h
-    if P.search[FOUND] <= 1.0:
-        P.count[EVENTS] += 1
-        P.count[RESTARTS] += 1
-        margins(P, HIGH_ROW)
-        note_changes(P, t, HIGH_ROW)
-        hold_watch(P)
-    C[SINCE] = WORTH
-    return t
-
-
-@native
-def step_to(P: Problem, t: float, h: float) -> None:
-    """One step from the place that was kept last; its end into the workspace."""
-    go_back(P, 2 * P.sizes[N])
-    if h > 0.0:
-        if not march(P, t, h, 1, True) < 1e300:
-            if let_go(P):
-                go_back(P, 2 * P.sizes[N])
-                march(P, t, h, 1, True)
-                take_up(P)
-    put_free(P, t + h, P.q, P.u)
-
-
-@native
 def march(P: Problem, t: float, h: float, count: int, fixed: bool) -> float:
-    """``count`` steps; returns the largest local error seen against ERROR, 1e300 for a blow-up.
-
-    Unless ``fixed`` it leaves everything where it was when a branch changes on the way.
-    """
-    top, C = 0.0, P.control
-    C[MET] = -1.0
+    """``count`` steps; returns the largest local error seen against ERROR, 1e300 for a blow-up."""
+    top = 0.0
     put_free(P, t, P.q, P.u)
     for s in range(count + 1):
         if s > 0:
@@ -290,11 +180,6 @@ def march(P: Problem, t: float, h: float, count: int, fixed: bool) -> float:
                     return 1e300
         kick = 0.5 * h if s == 0 or s == count else h
         leap(P, kick, h if s < count else 0.0)
-        if not fixed and P.sizes[WATCHED] > 0 and s < count:
-            put_time(P, t + (s + 1) * h)
-            if margins(P, INSIDE) > 0:
-                C[MET] = float(s)
-                return top
     if not take_over(P):
         return 1e300
     P.count[STEPS] += count
