@@ -1,4 +1,4 @@
-"""Backward differences at events: within a tried step, and the first step behind one.
+"""Backward differences at events: the search in a tried step, the state and the step behind it.
 
 Within the tried step, at the share x of it, with pi_j = prod_{m=0..j-1} (x + m)/(m + 1)
 
@@ -10,9 +10,52 @@ taken from a straight line, for guards that depend on them.
 
 from __future__ import annotations
 
-from adamslite.integrators.acceleration import accelerations, put_state
-from adamslite.integrators.base import ERROR, NS, NV, M, N, Plan, Problem
+from adamslite.integrators.acceleration import accelerations, mass_signature, put_state
+from adamslite.integrators.base import (
+    ERROR,
+    HOLONOMIC,
+    IMPLICIT_MASS,
+    INDEX3,
+    NEWTON_FAILED,
+    NS,
+    NV,
+    RESTARTS,
+    SI2,
+    STABILISED,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.bdf_state import (
+    EQUAL,
+    FACTORED,
+    H_LAST,
+    NOW,
+    RUNNING,
+    SIGNATURE,
+    UNDOABLE,
+    H,
+    K,
+    first_step,
+    keep_algebraic,
+    restore_state,
+    start_values,
+)
 from adamslite.integrators.equations import vector_rates
+from adamslite.integrators.events import (
+    HUNT,
+    JUMP,
+    OPEN,
+    SHARE,
+    change_here,
+    ends_beyond,
+    is_harmless,
+    judge,
+    open_search,
+    pass_event,
+)
+from adamslite.integrators.order_cap import BAD, SUSPECT, TRAVELLED, TRIES
 from adamslite.translate import native
 
 # Where accelerations are looked at behind an event, as a share of the step that is thought of.
@@ -84,3 +127,77 @@ def restart_step(P: Problem, L: Plan, t: float, h: float) -> float:
     if not change > 0.0:
         return h
     return min(h, CAREFUL * (P.settings[ERROR] / change) ** 0.5)
+
+
+# A jump at a stop that moves velocities by less than this share of ERROR within a step is none.
+SMOOTH = 0.02
+
+
+@native
+def locate(P: Problem, L: Plan, cu: float) -> None:
+    """Look for the first change of a branch within the step that has passed its test."""
+    C = P.control
+    t, h = C[NOW], C[H]
+    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    open_search(P, t, h)
+    if ends_beyond(P) and P.search[HUNT] == 0.0:
+        if is_harmless(P, L, STABILISED if stabilised else INDEX3, cu):
+            return
+    while P.search[OPEN] != 0.0:
+        put_between(P, int(C[K]), t, h, P.search[SHARE])
+        judge(P)
+    put_state(P, t + h, P.q, P.u, P.a, P.z, P.rd)
+
+
+@native
+def switch_at_start(P: Problem, L: Plan, w: int) -> int:
+    """A branch changes just behind the start of the step: change it there and begin anew."""
+    P.control[UNDOABLE] = 0.0
+    restore_state(P, P.history, w, P.control[NOW])
+    for i in range(P.sizes[N]):
+        P.a[i] = P.ra[i]
+    if not change_here(P, L, P.control[NOW]):
+        return NEWTON_FAILED
+    begin_anew(P, L, w)
+    return RUNNING
+
+
+@native
+def pass_on(P: Problem, L: Plan, w: int) -> int:
+    """Behind an event: the history goes on when nothing jumped, else a new one begins."""
+    C = P.control
+    # A step that is taken back must not lead across an event.
+    C[UNDOABLE] = 0.0
+    restore_state(P, P.history, w, C[NOW])
+    for i in range(P.sizes[N]):
+        P.a[i] = P.ra[i]
+    if not pass_event(P, L, C[NOW]):
+        return NEWTON_FAILED
+    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+        begin_anew(P, L, w)
+        return RUNNING
+    C[FACTORED] = 0.0
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    keep_algebraic(P)
+    restore_state(P, P.history, w, C[NOW])
+    return RUNNING
+
+
+@native
+def begin_anew(P: Problem, L: Plan, w: int) -> None:
+    """A history of order 1 from the state and the accelerations in place."""
+    C = P.control
+    P.count[RESTARTS] += 1
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    keep_algebraic(P)
+    for i in range(P.z.size):
+        P.pz[i] = P.rz[i]
+    C[H], C[K], C[EQUAL] = restart_step(P, L, C[NOW], first_step(P, w)), 1.0, 0.0
+    C[H_LAST], C[FACTORED] = 0.0, 0.0
+    C[TRAVELLED], C[BAD], C[TRIES], C[SUSPECT] = 0.0, 0.0, 0.0, 0.0
+    start_values(P, P.history, w, C[H])
+    put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.x))

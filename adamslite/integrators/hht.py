@@ -62,7 +62,9 @@ from adamslite.integrators.base import (
     Problem,
     T,
 )
-from adamslite.integrators.bdf import (
+from adamslite.integrators.bdf_corrector import wildest
+from adamslite.integrators.bdf_recovery import SINGULAR_RESOLUTION, VANISHING, retry_factor
+from adamslite.integrators.bdf_state import (
     AGE,
     BLAMED,
     EQUAL,
@@ -74,13 +76,9 @@ from adamslite.integrators.bdf import (
     RETRIES,
     RUNNING,
     SIGNATURE,
-    SINGULAR_RESOLUTION,
-    VANISHING,
     H,
     first_step,
     keep_algebraic,
-    retry_factor,
-    wildest,
 )
 from adamslite.integrators.equations import put_time, residual, track, vector_rates
 from adamslite.integrators.events import (

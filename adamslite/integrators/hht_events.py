@@ -18,19 +18,18 @@ from adamslite.integrators.base import (
     Plan,
     Problem,
 )
-from adamslite.integrators.bdf import (
+from adamslite.integrators.bdf_events import LOOK_AHEAD, SMOOTH, jerk
+from adamslite.integrators.bdf_state import (
     EQUAL,
     FACTORED,
     H_LAST,
     NOW,
     RUNNING,
     SIGNATURE,
-    SMOOTH,
     H,
     first_step,
     keep_algebraic,
 )
-from adamslite.integrators.bdf_events import LOOK_AHEAD, jerk
 from adamslite.integrators.equations import vector_rates
 from adamslite.integrators.events import (
     HUNT,

@@ -55,7 +55,9 @@ from adamslite.integrators.base import (
     Problem,
     T,
 )
-from adamslite.integrators.bdf import (
+from adamslite.integrators.bdf_corrector import wildest
+from adamslite.integrators.bdf_recovery import SINGULAR_RESOLUTION, VANISHING, retry_factor
+from adamslite.integrators.bdf_state import (
     AGE,
     BLAMED,
     FACTORED,
@@ -67,13 +69,9 @@ from adamslite.integrators.bdf import (
     RETRIES,
     RUNNING,
     SIGNATURE,
-    SINGULAR_RESOLUTION,
-    VANISHING,
     H,
     first_step,
     keep_algebraic,
-    retry_factor,
-    wildest,
 )
 from adamslite.integrators.equations import (
     BODY,

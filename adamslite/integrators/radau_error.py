@@ -19,7 +19,8 @@ from adamslite.integrators.base import (
     Plan,
     Problem,
 )
-from adamslite.integrators.bdf import NOW, H, weighted
+from adamslite.integrators.bdf_order import weighted
+from adamslite.integrators.bdf_state import NOW, H
 from adamslite.integrators.equations import (
     project_on_constraints,
     put_motion,

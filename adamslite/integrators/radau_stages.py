@@ -39,7 +39,7 @@ from adamslite.integrators.base import (
     Plan,
     Problem,
 )
-from adamslite.integrators.bdf import NOW
+from adamslite.integrators.bdf_state import NOW
 from adamslite.integrators.equations import (
     BODY,
     PART,

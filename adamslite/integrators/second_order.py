@@ -24,7 +24,7 @@ from adamslite.integrators.base import (
     Plan,
     Problem,
 )
-from adamslite.integrators.bdf import H_LAST, NOW, H, keep_algebraic
+from adamslite.integrators.bdf_state import H_LAST, NOW, H, keep_algebraic
 from adamslite.integrators.equations import (
     BODY,
     PART,

@@ -1,0 +1,104 @@
+"""What a method remembers from step to step: its own numbers, the history and the accepted state.
+
+D_0 = y and D_1 = h y' start a history of order 1, on a first step with h^2 |y''| = 0.09 ERROR.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.acceleration import put_state
+from adamslite.integrators.base import (
+    ERROR,
+    FIXED_STEP,
+    H_INIT,
+    H_MAX,
+    NS,
+    NV,
+    SI2,
+    T_END,
+    M,
+    N,
+    Problem,
+    T,
+)
+from adamslite.integrators.equations import vector_rates
+from adamslite.integrators.history import change_step
+from adamslite.translate import Reals, native
+
+# Fixed steps begin with this part of the step, because order 1 starts.
+START_PARTS = 1024.0
+
+RUNNING = -1
+# Places in P.control.
+(
+    NOW, H, K, K_TOP, EQUAL, NEXT, H_LAST, FACTORED, RATE, FRESH, AGE, RETRIES, SIGNATURE, BLAMED,
+) = range(14)  # fmt: skip
+NORM, NOISY, BACKS, PASSED, UNDOABLE = range(30, 35)
+
+
+@native
+def start_values(P: Problem, D: Reals, w: int, h: float) -> None:
+    """Order 1: D_0 = y, D_1 = h y'."""
+    n = P.sizes[N]
+    first = P.sizes[M] + P.sizes[NV]
+    for k in range(P.history.size):
+        D[k] = 0.0
+    rates = P.trial[0:]
+    vector_rates(P, P.q, P.u, rates)
+    for i in range(n):
+        D[i], D[n + i] = P.q[i], P.u[i]
+        D[w + i], D[w + n + i] = h * rates[i], h * P.a[i]
+    for k in range(P.sizes[NS]):
+        D[2 * n + k] = P.z[first + k]
+        D[w + 2 * n + k] = h * P.rd[k]
+
+
+@native
+def first_step(P: Problem, w: int) -> float:
+    """A step whose first-order error is a tenth of ERROR, judged by the accelerations."""
+    n = P.sizes[N]
+    tol = P.settings[ERROR]
+    fastest, reach = 0.0, 1.0
+    for i in range(n):
+        reach = max(reach, abs(P.q[i]))
+        fastest = max(
+            fastest, abs(P.a[i]) / max(1.0, abs(P.u[i])), abs(P.u[i]) / max(1.0, abs(P.q[i]))
+        )
+    for k in range(P.sizes[NS]):
+        fastest = max(fastest, abs(P.rd[k]))
+    span = P.settings[T_END] - P.settings[T]
+    h = min(P.settings[H_MAX], span)
+    if P.settings[FIXED_STEP] > 0.0:
+        return P.settings[FIXED_STEP] / START_PARTS
+    if P.settings[H_INIT] > 0.0:
+        return min(h, P.settings[H_INIT])
+    # Below this step round-off of positions alone would exceed ERROR in the velocities.
+    noise = 1e-14 * reach / tol if P.sizes[SI2] == 1 else 0.0
+    return min(0.05 * h, max(noise, tol**0.5 / max(fastest, 1e-12) * 0.3))
+
+
+@native
+def resize(P: Problem, w: int, factor: float) -> None:
+    """Change the step and with it the history."""
+    change_step(P.history, w, int(P.control[K]), factor)
+    P.control[H] *= factor
+    P.control[EQUAL] = 0.0
+
+
+@native
+def keep_algebraic(P: Problem) -> None:
+    """Remember multipliers and variables of the accepted state."""
+    for i in range(P.z.size):
+        P.rz[i] = P.z[i]
+
+
+@native
+def restore_state(P: Problem, D: Reals, w: int, t: float) -> None:
+    """The accepted state back into q, u, z and the workspace after records were made."""
+    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    for i in range(n):
+        P.q[i], P.u[i] = D[i], D[n + i]
+    for i in range(first):
+        P.z[i] = P.rz[i]
+    for i in range(P.sizes[NS]):
+        P.z[first + i] = D[2 * n + i]
+    put_state(P, t, P.q, P.u, P.ra, P.z, P.rd)
