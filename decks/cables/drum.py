@@ -11,7 +11,8 @@ import numpy as np
 from formulas import Cable, G, Winch
 from payouts import hanging_deck
 from spans import Span, table
-from statements import cable_variables, head, number, point, section, tail
+
+from adamslite.cables.statements import cable_variables, head, number, point, section, tail
 
 DRUM = 9021
 DAMPING = 0.2
