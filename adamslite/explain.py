@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from adamslite.integrators import base
-from adamslite.integrators.events import CULPRIT
+from adamslite.integrators.event_places import CULPRIT
 from adamslite.outcomes import Outcome
 from adamslite.system import System
 

@@ -457,7 +457,7 @@ class System:
     def prepare_explicit(self) -> None:
         """Coefficients and room for the stages of the explicit formula."""
         from adamslite.integrators.dop853 import tableau
-        from adamslite.integrators.explicit import HISTORY_ROWS
+        from adamslite.integrators.explicit_state import HISTORY_ROWS
 
         room = HISTORY_ROWS * (2 * self.n + self.ns) + 9 * len(self.model.bodies) + 16
         self.tableau = tableau()

@@ -82,17 +82,10 @@ from adamslite.integrators.bdf_state import (
     start_values,
 )
 from adamslite.integrators.equations import track
-from adamslite.integrators.events import (
-    crawls,
-    ends_there,
-    happened,
-    hold_watch,
-    horizon,
-    keep_margins,
-    shorter,
-    start_events,
-    starts_there,
-)
+from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins
+from adamslite.integrators.event_search import ends_there, shorter, starts_there
+from adamslite.integrators.event_stops import horizon
+from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.history import extend_history, gamma, rebase
 from adamslite.integrators.order_cap import CAP, CAPPED, TRAVELLED, highest_order, start_watch
 from adamslite.integrators.records import note_violation, record_at

@@ -40,7 +40,8 @@ from adamslite.integrators.bdf_state import (
     resize,
     restore_state,
 )
-from adamslite.integrators.events import FREED, let_go
+from adamslite.integrators.event_guards import let_go
+from adamslite.integrators.event_places import FREED
 from adamslite.integrators.order_cap import BAD
 from adamslite.integrators.undo import bring_back, remember
 from adamslite.translate import Reals, native

@@ -6,7 +6,7 @@ from adamslite.integrators.acceleration import accelerations, put_state
 from adamslite.integrators.base import BROKEN_START, DONE, Plan, Problem, T
 from adamslite.integrators.bdf import bdf
 from adamslite.integrators.equations import jacobian, residual, track
-from adamslite.integrators.events import sample_clock
+from adamslite.integrators.event_stops import sample_clock
 from adamslite.integrators.explicit import explicit
 from adamslite.integrators.free import spectrum
 from adamslite.integrators.hht import hht

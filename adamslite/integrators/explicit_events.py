@@ -6,9 +6,33 @@ branch changes first and about where, because the step is taken again to end the
 
 from __future__ import annotations
 
-from adamslite.integrators.acceleration import put_state
-from adamslite.integrators.base import NS, NV, M, N, Problem
-from adamslite.integrators.events import OPEN, SHARE, judge, open_search
+from adamslite.integrators.acceleration import mass_signature, put_state
+from adamslite.integrators.base import (
+    IMPLICIT_MASS,
+    NEWTON_FAILED,
+    NS,
+    NV,
+    RESTARTS,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.event_places import JUMP, OPEN, SHARE
+from adamslite.integrators.event_search import judge, open_search
+from adamslite.integrators.events import change_here, pass_event
+from adamslite.integrators.explicit_error import starting_step
+from adamslite.integrators.explicit_stages import exact_rates
+from adamslite.integrators.explicit_state import (
+    CLOCK,
+    LAST_ERROR,
+    OLD,
+    RUNNING,
+    SIGNATURE,
+    H,
+    keep_solution,
+    stand_again,
+)
 from adamslite.translate import native
 
 
@@ -50,3 +74,38 @@ def put_cubic(P: Problem, t: float, h: float, x: float, width: int, old: int, la
     for k in range(ns):
         z[first + k] = y[2 * n + k]
     put_state(P, t + x * h, y, y[n:], a, z, P.rd)
+
+
+@native
+def change_where_it_stands(P: Problem, L: Plan, w: int) -> int:
+    """A branch changes just behind the start of the step: change it there and begin anew."""
+    stand_again(P, w)
+    if not change_here(P, L, P.control[CLOCK]):
+        return NEWTON_FAILED
+    return rates_anew(P, L, w, True)
+
+
+@native
+def pass_by(P: Problem, L: Plan, w: int) -> int:
+    """Behind an event: rates of the new branches, another step when something jumped."""
+    if not pass_event(P, L, P.control[CLOCK]):
+        return NEWTON_FAILED
+    return rates_anew(P, L, w, P.search[JUMP] > 0.0)
+
+
+@native
+def rates_anew(P: Problem, L: Plan, w: int, restart: bool) -> int:
+    """The first stage again; with ``restart`` the step is chosen as at the start of a run."""
+    C, y, k = P.control, P.history[OLD * w :], P.history[0:]
+    if not exact_rates(P, L, C[CLOCK], y, k):
+        return NEWTON_FAILED
+    if restart:
+        P.count[RESTARTS] += 1
+        keep_solution(P)
+        if P.sizes[IMPLICIT_MASS]:
+            C[SIGNATURE] = float(mass_signature(P, L, P.x))
+        C[H], C[LAST_ERROR] = starting_step(P, L, w), 1e-4
+        if not exact_rates(P, L, C[CLOCK], y, k):
+            return NEWTON_FAILED
+    keep_solution(P)
+    return RUNNING

@@ -81,19 +81,11 @@ from adamslite.integrators.bdf_state import (
     keep_algebraic,
 )
 from adamslite.integrators.equations import put_time, residual, track, vector_rates
-from adamslite.integrators.events import (
-    FREED,
-    crawls,
-    ends_there,
-    happened,
-    hold_watch,
-    horizon,
-    keep_margins,
-    let_go,
-    shorter,
-    start_events,
-    starts_there,
-)
+from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins, let_go
+from adamslite.integrators.event_places import FREED
+from adamslite.integrators.event_search import ends_there, shorter, starts_there
+from adamslite.integrators.event_stops import horizon
+from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.hht_events import change_at_start, locate_in_step, step_on
 from adamslite.integrators.linalg import solve
 from adamslite.integrators.records import note_violation, write_record

@@ -31,18 +31,10 @@ from adamslite.integrators.bdf_state import (
     keep_algebraic,
 )
 from adamslite.integrators.equations import vector_rates
-from adamslite.integrators.events import (
-    HUNT,
-    JUMP,
-    OPEN,
-    SHARE,
-    change_here,
-    ends_beyond,
-    is_harmless,
-    judge,
-    open_search,
-    pass_event,
-)
+from adamslite.integrators.event_harmless import is_harmless
+from adamslite.integrators.event_places import HUNT, JUMP, OPEN, SHARE
+from adamslite.integrators.event_search import ends_beyond, judge, open_search
+from adamslite.integrators.events import change_here, pass_event
 from adamslite.integrators.second_order import CU, back_to_accepted, bodies_between
 from adamslite.translate import native
 

@@ -37,7 +37,7 @@ from adamslite.integrators.equations import (
     spread,
     velocities,
 )
-from adamslite.integrators.events import horizon
+from adamslite.integrators.event_stops import horizon
 from adamslite.integrators.linalg import factor
 from adamslite.integrators.newton import ROUND_OFF
 from adamslite.translate import Reals, native

@@ -42,7 +42,8 @@ from adamslite.integrators.base import (
     Problem,
 )
 from adamslite.integrators.equations import BODY, put_time, run_groups, track
-from adamslite.integrators.events import horizon, is_stop, next_stop, start_events
+from adamslite.integrators.event_stops import horizon, is_stop, next_stop
+from adamslite.integrators.events import start_events
 from adamslite.integrators.free import divide_by_mass, put_free, radius
 from adamslite.integrators.records import write_record
 from adamslite.translate import native

@@ -1,0 +1,82 @@
+"""Branches that differ at the end of a step and change nothing there: taken without a search."""
+
+from __future__ import annotations
+
+from adamslite.integrators.base import ERROR, NZ, WATCHED, N, Plan, Problem
+from adamslite.integrators.equations import residual
+from adamslite.integrators.event_guards import (
+    SAME_TIME,
+    crossing_share,
+    margins,
+    note_changes,
+    remember_branches,
+    turn_back,
+    turn_over,
+)
+from adamslite.integrators.event_places import END, FOUND, NONE, OPEN
+from adamslite.integrators.linalg import solve
+from adamslite.translate import native
+
+# Branches that change the end of a step by less than this share of ERROR need no event.
+HARMLESS = 0.02
+# So many groups of changes are tried one after another.
+MOST_GROUPS = 5
+
+
+@native
+def is_harmless(P: Problem, L: Plan, phases: int, cu: float) -> bool:
+    """Whether Newton's next increment on the other branches, dq with du = cu dq, would be too small
+    to matter; then they are taken.  The converged end of the step stands in the workspace.
+
+    Branches are changed one after another as they were met: two that cancel at the end (a force
+    that acts only in a thin layer) need not have cancelled on the way.
+    """
+    share, groups, harmless = -1.0, 0, True
+    remember_branches(P)
+    while harmless and share < 1.0:
+        groups += 1
+        share = next_change(P, share) if groups < MOST_GROUPS else 1.0
+        turn_back(P)
+        turn_over(P, END, share)
+        harmless = small_change(P, L, phases, cu)
+    if harmless:
+        forget(P)
+    else:
+        turn_back(P)
+    return harmless
+
+
+@native
+def next_change(P: Problem, share: float) -> float:
+    """Estimated share of the step of the first change after ``share``; 1 for the last one."""
+    count, found, last = P.sizes[WATCHED], 1.0, 0.0
+    for k in range(count):
+        if P.margin[END * count + k] < 0.0:
+            at = crossing_share(P, k)
+            last = max(last, at)
+            if at > share + SAME_TIME:
+                found = min(found, at)
+    return found if found < last - SAME_TIME else 1.0
+
+
+@native
+def small_change(P: Problem, L: Plan, phases: int, cu: float) -> bool:
+    """Whether the residual of the present branches moves the converged state too little to see."""
+    residual(P, phases, P.F)
+    solve(L, P.LV, P.pivots, P.F, P.x, P.work)
+    largest = 0.0
+    for i in range(P.sizes[N]):
+        size = abs(P.F[i])
+        largest = max(largest, size / max(1.0, abs(P.q[i])), cu * size / max(1.0, abs(P.u[i])))
+    for k in range(P.sizes[NZ]):
+        if not abs(P.F[k]) < 1e300:
+            return False
+    return largest <= HARMLESS * P.settings[ERROR]
+
+
+@native
+def forget(P: Problem) -> None:
+    """Close the search: the branches that were turned over are those of the end."""
+    note_changes(P, P.W[0], END)
+    P.search[OPEN], P.search[FOUND] = 0.0, NONE
+    margins(P, END)

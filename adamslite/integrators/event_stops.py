@@ -1,0 +1,60 @@
+"""Stops: the times at which a branch of the clock changes, known before the run.
+
+They stand in ``P.stops``, the end of the run last; between two of them every guard of the clock has
+the branch that it has in the middle.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.base import CLOCKS, NW, Problem
+from adamslite.integrators.equations import guard_values, put_time
+from adamslite.integrators.event_guards import branch_of
+from adamslite.integrators.event_places import CLOCK, STOP_AT
+from adamslite.translate import native
+
+
+@native
+def horizon(P: Problem) -> float:
+    """The time that the present step must not pass."""
+    return P.stops[int(P.search[STOP_AT])]
+
+
+@native
+def is_stop(P: Problem, t: float) -> bool:
+    """Whether branches of the clock change at time ``t``, where a step has ended."""
+    return t >= horizon(P) and int(P.search[STOP_AT]) < P.stops.size - 1
+
+
+@native
+def set_clock(P: Problem, t: float) -> None:
+    """Branches of the clock between ``t`` and the horizon: those in the middle."""
+    W, first = P.W, P.sizes[NW]
+    if P.sizes[CLOCKS] == 0:
+        return
+    for k in range(P.sizes[CLOCKS]):
+        W[first + k] = 0.0
+    put_time(P, 0.5 * (t + horizon(P)))
+    guard_values(P, CLOCK)
+    for k in range(P.sizes[CLOCKS]):
+        W[first + k] = branch_of(P.kind[k], P.guard[first + k])
+
+
+@native
+def next_stop(P: Problem, t: float) -> None:
+    """Branches of the clock behind the stop at ``t``."""
+    P.search[STOP_AT] += 1.0
+    set_clock(P, t)
+
+
+@native
+def sample_clock(P: Problem) -> int:
+    """Values of the guards of the clock at every asked time into the record; how many there are."""
+    first, count = P.sizes[NW], P.sizes[CLOCKS]
+    for k in range(count):
+        P.W[first + k] = 0.0
+    for row in range(P.times.size):
+        put_time(P, P.times[row])
+        guard_values(P, CLOCK)
+        for k in range(count):
+            P.record[row * count + k] = P.guard[first + k]
+    return count
