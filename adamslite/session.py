@@ -25,11 +25,12 @@ from adamslite.analyses.redundancy import leave_out_redundant
 from adamslite.analyses.static import StaticSettings, run_static
 from adamslite.columns import columns
 from adamslite.compiled import Kernels, compile_model
+from adamslite.engine import ACCELERATIONS, RECORD, engine
 from adamslite.integrators import base
 from adamslite.model import Model, assemble
 from adamslite.outcomes import Outcome
 from adamslite.results import Linearized
-from adamslite.system import ACCELERATIONS, RECORD, System, engine
+from adamslite.system import System
 from adamslite.times import output_times
 
 # Outcomes after which the rank of the constraints is looked at again.

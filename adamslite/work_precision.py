@@ -17,12 +17,12 @@ from adamslite.analyses.choose import AUTO, CONSTANT, METHODS
 from adamslite.analyses.dynamic import Settings
 from adamslite.compare import fits
 from adamslite.elements.integrator import Integrator
+from adamslite.engine import HHT, VERLET
 from adamslite.faults import RunFailed, UsageError
 from adamslite.outcomes import Outcome
 from adamslite.progress import Progress
 from adamslite.results import Results, UnknownChannel
 from adamslite.run_error import error_of
-from adamslite.system import HHT, VERLET
 
 #: ERROR of the charts, and of the reference.
 ERRORS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)

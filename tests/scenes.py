@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 import adamslite as al
+from adamslite.engine import JACOBIAN, RESIDUAL
 from adamslite.integrators import base, entry, equations
 from adamslite.results import Results
-from adamslite.system import JACOBIAN, RESIDUAL, System
+from adamslite.system import System
 
 GROUND = "a scene\nPART/1, GROUND\nMARKER/1, PART=1\n"
 PENDULUM = """a pendulum of length 1 that starts level

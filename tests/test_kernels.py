@@ -20,9 +20,9 @@ from scenes import (
 import adamslite as al
 import adamslite.functions  # noqa: F401  fills the registry
 from adamslite import native
+from adamslite.engine import engine
 from adamslite.function import FUNCTIONS
 from adamslite.integrators import base
-from adamslite.system import engine
 
 BODIES = (
     GROUND

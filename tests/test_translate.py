@@ -22,6 +22,7 @@ from adamslite.integrators import linalg
 from adamslite.integrators.base import Plan, Problem
 from adamslite.statement import STATEMENTS
 from adamslite.translate import REGISTERED, Table, Untranslatable, native
+from adamslite.translate.statements import Translator
 
 ENGINE = set(REGISTERED)
 LIMIT = 3
@@ -322,7 +323,7 @@ REFUSED = {
 def test_unsupported_python_is_refused_by_name(function):
     """The message names the function and, where there is one, the line and the reason."""
     with pytest.raises(Untranslatable, match=REFUSED[function]) as caught:
-        translate.Translator(function, {}).define(internal=False)
+        Translator(function, {}).define(internal=False)
     assert function.__name__ in str(caught.value)
 
 

@@ -17,10 +17,11 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.engine import BDF, EXPLICIT, HHT, RADAU, SPECTRUM, VERLET
 from adamslite.faults import UsageError
 from adamslite.integrators import base
 from adamslite.model import PART
-from adamslite.system import BDF, EXPLICIT, HHT, RADAU, SPECTRUM, VERLET, System
+from adamslite.system import System
 
 # Native operation of each method of the INTEGRATOR statement.
 METHODS = {

@@ -10,9 +10,10 @@ import numpy as np
 
 from adamslite.analyses.choose import CONSTANT, METHODS
 from adamslite.analyses.edges import stops
+from adamslite.engine import BDF, EXPLICIT, RADAU
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
-from adamslite.system import BDF, EXPLICIT, RADAU, System
+from adamslite.system import System
 
 OUTCOMES = {
     base.DONE: Outcome.DONE,

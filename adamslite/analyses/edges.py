@@ -15,8 +15,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from adamslite.engine import CLOCK
 from adamslite.guards import FLOOR, STRICT
-from adamslite.system import CLOCK, System
+from adamslite.system import System
 
 # Points of the first grid for each output interval, and at least in all.
 DENSITY, LEAST = 4, 257

@@ -14,9 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from adamslite.engine import JACOBIAN, RESIDUAL
 from adamslite.integrators import base
 from adamslite.model import PART
-from adamslite.system import JACOBIAN, RESIDUAL, System
+from adamslite.system import System
 
 EXACT = 1e4
 # What has no mass follows what has: it carries no state of its own worth keeping.

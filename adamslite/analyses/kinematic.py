@@ -10,9 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from adamslite.analyses.initial import Unclosed, initial_conditions, move
+from adamslite.engine import ACCELERATIONS, RECORD
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
-from adamslite.system import ACCELERATIONS, RECORD, System
+from adamslite.system import System
 
 
 def run_kinematic(system: System, times: np.ndarray) -> tuple[Outcome, Unclosed | None]:

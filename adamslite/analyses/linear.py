@@ -22,9 +22,10 @@ from typing import Any
 import numpy as np
 
 from adamslite.analyses.initial import constraint_gradient
+from adamslite.engine import ACCELERATIONS, JACOBIAN
 from adamslite.integrators import base
 from adamslite.model import PART
-from adamslite.system import ACCELERATIONS, JACOBIAN, System
+from adamslite.system import System
 
 PHASES = base.LOADS | base.REACTIONS | base.ROWS
 RANK = 1e-9

@@ -7,9 +7,10 @@ from math import pi
 
 import numpy as np
 
+from adamslite.engine import EQUILIBRIUM
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
-from adamslite.system import EQUILIBRIUM, System
+from adamslite.system import System
 
 
 @dataclass(frozen=True)

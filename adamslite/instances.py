@@ -1,0 +1,120 @@
+"""Instances of the kernels: the integers and reals that each reads, the blocks that it writes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from adamslite.compiled import Group, Kernels
+from adamslite.engine import ints
+from adamslite.integrators import base
+from adamslite.numbering import Numbering
+from adamslite.shape import Binding
+
+PHASES = {
+    "loads": base.LOADS,
+    "reactions": base.REACTIONS,
+    "position": base.POSITION_ROWS,
+    "velocity": base.VELOCITY_ROWS,
+    "acceleration": base.ACCELERATION_ROWS,
+    "equation": base.ROWS,
+    "signal": base.SIGNALS,
+    "output": base.OUTPUTS,
+}
+
+
+class Instances(Numbering):
+    """Kernels bound to the numbered unknowns."""
+
+    def __init__(self, kernels: Kernels, stabilised: bool) -> None:
+        super().__init__(kernels, stabilised)
+        self._groups()
+
+    def _groups(self) -> None:
+        """Instances as integers and reals, and the Jacobian blocks they write."""
+        self.blocks: dict[tuple[int, int], int] = {}
+        self.size_j = 0
+        for b in range(len(self.model.bodies)):
+            self.block(b, b)
+        rows, self.keep = [], []
+        self.out_at: dict[Any, int] = {}
+        for statement, names in self.kernels.outputs:
+            self.out_at[statement] = self._out_next(names)
+        for group in self.kernels.groups:
+            rows += self._group(group)
+        self.group = ints(rows)
+
+    def _out_next(self, names: tuple[str, ...]) -> int:
+        first = getattr(self, "n_out", 0)
+        self.n_out = first + len(names)
+        return first
+
+    def _is_rate(self, group: Group) -> bool:
+        return group.instances[0][0].is_rate(self.model)
+
+    def _group(self, group: Group) -> list[int]:
+        phase = PHASES[group.face]
+        if group.face == "velocity" and self._is_rate(group):
+            phase = base.RATE_ROWS
+        ints = np.array(
+            [self._integers(group, b, n) for n, (_, b) in enumerate(group.instances)],
+            dtype=np.int64,
+        )
+        reals = np.array([self._reals(group, b) for _, b in group.instances], dtype=float)
+        reals = np.ascontiguousarray(np.append(reals.ravel(), 0.0))
+        ints = np.ascontiguousarray(ints.ravel())
+        self.keep += [ints, reals]
+        at = self.kernels.addresses
+        kinds = ("residual", "jacobian", "track", "clock", "watch")
+        entry = [at.get(f"{group.name}_{kind}", 0) for kind in kinds]
+        data = [len(group.instances), ints.ctypes.data, reals.ctypes.data]
+        return [phase, *entry[:3], *data, *entry[3:]]
+
+    def _integers(self, group: Group, binding: Binding, instance: int) -> list[int]:
+        nodes = [("BODY", b) for b in binding.bodies] + binding.nodes
+        offsets = [self.w_at.get(node, 0) for node in nodes]
+        signals = [self.w_at["SIGNAL", s] for s in binding.signals]
+        rows = [self._row(group, node) for node in nodes]
+        pairs = [
+            (self._row_node(group, nodes[r]), self.node_at[nodes[c]])
+            for r, c in group.meta["blocks"]
+        ]
+        guards = group.meta["guards"]
+        branches = [
+            self.first_branch[place, group.name] + instance * len(found)
+            for place, found in guards.items()
+            if any(guards.values())
+        ]
+        return offsets + signals + rows + branches + [self.block(r, c) for r, c in pairs]
+
+    def _row_node(self, group: Group, node: tuple[str, Any]) -> int:
+        """Node whose rows an instance writes: velocity rows stand at mu."""
+        mu = ("MU", node)
+        if group.face == "velocity" and mu in self.node_at:
+            return self.node_at[mu]
+        return self.node_at[node]
+
+    def _row(self, group: Group, node: tuple[str, Any]) -> int:
+        if node[0] == "OUTPUT":
+            return self.out_at[node[1]]
+        if node[0] == "SIGNAL":
+            return self.w_at[node]
+        return self.starts[self._row_node(group, node)]
+
+    def _reals(self, group: Group, binding: Binding) -> list[float]:
+        values = list(binding.params) + [0.0] * group.meta["angles"]
+        for marker_id in binding.markers:
+            place = self.model.marker(marker_id)
+            if place.offset:
+                values += place.p.tolist()
+            if place.turned:
+                values += place.axes.ravel().tolist()
+        return values
+
+    def block(self, row: int, column: int) -> int:
+        """Offset of a Jacobian block, made on first use."""
+        if (row, column) not in self.blocks:
+            self.blocks[row, column] = self.size_j
+            self.size_j += self.widths[row] * self.widths[column]
+        return self.blocks[row, column]

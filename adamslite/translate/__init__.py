@@ -1,0 +1,35 @@
+"""Native code from a small, typed part of Python: what the integrators are written in.
+
+A function marked :func:`native` may use ``int`` (64 bit), ``float``, ``bool``, arrays (``Ints``,
+``Reals``), fields of one :class:`Table`, ``if``, ``while``, ``for .. in range``, assignments,
+arithmetic, comparisons, ``abs min max float int sqrt floor``, slices ``a[k:]`` (a shifted array),
+calls of other native functions and ``call_address``.  Arguments carry annotations; a local
+variable has the type of its first assignment. ``Alone`` is an array of reals that no other argument
+reaches while the function runs. There is no bounds check, and division follows the processor.
+
+The same functions run under plain Python on numpy arrays, which is how tests compare the two.
+"""
+
+from adamslite.translate.language import (
+    REGISTERED,
+    Alone,
+    Ints,
+    Reals,
+    Table,
+    Untranslatable,
+    call_address,
+    native,
+)
+from adamslite.translate.statements import translate
+
+__all__ = [
+    "REGISTERED",
+    "Alone",
+    "Ints",
+    "Reals",
+    "Table",
+    "Untranslatable",
+    "call_address",
+    "native",
+    "translate",
+]
