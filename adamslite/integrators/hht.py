@@ -7,19 +7,23 @@ With a constant mass this is M b+ + (1 + alpha) R+ - alpha R = 0, R all other te
 both accelerations it keeps order 2 when the mass turns with the parts, and lam+ and a+ belong to
 the end of the step.  HHT: beta = (1 - alpha)^2/4, gamma = 1/2 - alpha; NEWMARK: alpha = 0.
 
-q of a part is the Cayley vector counted from the attitude at the start of the step, where its first
-two derivatives are the angular velocity and acceleration; u and a are those in ground axes.  States
-of DIFF follow the rule of u.  b belongs to the time t + alpha h and is moved along when h changes.
+For parts the rule of q gives the rotation vector of the step, with h^3/12 w' x w because the axis
+turns; the unknown is its Cayley vector.  u and a are angular velocity and acceleration in ground
+axes.  States of DIFF follow the rule of u.  b belongs to the time t + alpha h and is moved along
+when h changes.
 
 Newton works on (q, lam, V, s) with u' = cu = gamma/(beta h), a' = ca = 1/(beta h^2 (1 + alpha)).
-Local error of q: (beta - 1/6) h^2 |b+ - b|, against ERROR max(1, |q|); u is not tested.
+Local error of q: (beta - 1/6) h^2 |b+ - b|, against ERROR max(1, |q|).  That of u is of higher
+order in HHT and not tested; a NEWMARK with gamma other than 1/2 is of order 1, and its local error
+(gamma - 1/2) h |b+ - b| of u is held below ERROR max(1, |u|).
 
 When HINIT, HMAX and HMIN are equal every step has that size and no error is tested; only a step
 that the corrector cannot do is divided.
 
 References: Hilber, Hughes, Taylor, Earthq. Eng. Struct. Dyn. 5 (1977) 283; Arnold, Bruels,
 Multibody Syst. Dyn. 18 (2007) 185; Negrut, Rampalli, Ottarsson, Sajdak, J. Comput. Nonlinear Dyn.
-2 (2007) 73 (index 3, error test).
+2 (2007) 73 (index 3, error test); Bruels, Cardona, Arnold, Mech. Mach. Theory 48 (2012) 121
+(rotations).
 """
 
 from __future__ import annotations

@@ -44,6 +44,8 @@ from adamslite.translate import Reals, native
 
 # Rotations within a step below this change the matrix less than a kept one is allowed to be off.
 SMALL_TURN = 0.02
+# gamma + alpha - 1/2 below this is round-off: HHT is of order 2 for every alpha.
+FIRST_ORDER = 1e-9
 
 # Places in P.control after those of the BDF.
 CU, CA, CS, FIXED, REACH = range(18, 23)
@@ -78,6 +80,9 @@ def predict_step(P: Problem) -> None:
         a[i] = A[i]
         reach = max(reach, abs(q[i]))
     C[REACH] = reach
+    for body in range(P.sizes[NB]):
+        if P.body[BODY * body] == PART:
+            turn_from_start(P, P.body[BODY * body + 1])
     for k in range(first):
         P.z[k] = P.rz[k]
     for k in range(ns):
@@ -89,6 +94,31 @@ def predict_step(P: Problem) -> None:
     put_pose(P, q)
     put_motion(P, u, a)
     put_scalars(P, P.z, P.rd)
+
+
+@native
+def turn_from_start(P: Problem, i: int) -> None:
+    """Cayley vector c = theta tan(x)/x, x = |theta|/2, of the part whose positions start at ``i``.
+
+    theta = h w + h^2 ((1/2 - beta) b + beta b+) + h^3/12 w' x w is the rotation vector of the step,
+    w' x w because w turns: Magnus' series.  tan(x)/x by its continued fraction, exact to round-off.
+    """
+    C, D, s, n, q, a, A = P.control, P.history, P.settings, P.sizes[N], P.q, P.a, P.ra
+    h, beta, alpha = C[H], s[BETA], s[ALPHA]
+    U, B = D[n:], D[2 * n :]
+    stretch = h / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
+    for k in range(i + 3, i + 6):
+        b = A[k] + (B[k] - A[k]) * stretch
+        after = (1.0 + alpha) * a[k] - alpha * A[k]
+        q[k] = h * (U[k] + h * ((0.5 - beta) * b + beta * after))
+    twelfth = h * h * h / 12.0
+    q[i + 3] += twelfth * (A[i + 4] * U[i + 5] - A[i + 5] * U[i + 4])
+    q[i + 4] += twelfth * (A[i + 5] * U[i + 3] - A[i + 3] * U[i + 5])
+    q[i + 5] += twelfth * (A[i + 3] * U[i + 4] - A[i + 4] * U[i + 3])
+    y = 0.25 * (q[i + 3] * q[i + 3] + q[i + 4] * q[i + 4] + q[i + 5] * q[i + 5])
+    longer = 1.0 / (1.0 - y / (3.0 - y / (5.0 - y / (7.0 - y / (9.0 - y / 11.0)))))
+    for k in range(i + 3, i + 6):
+        q[k] *= longer
 
 
 @native
@@ -159,12 +189,12 @@ def move_all(P: Problem, dz: Reals) -> float:
             back_rotate(q, dz, i, dz)
             for k in range(3, 6):
                 d = dz[i + k]
-                q[i + k] -= d
                 u[i + k] -= cu * d
                 a[i + k] -= ca * d
                 W[o + 6 + k], W[o + 9 + k] = u[i + k], a[i + k]
                 if not abs(d) <= largest:
                     largest = abs(d)
+            turn_from_start(P, i)
             attitude(q[i + 3], q[i + 4], q[i + 5], P.base, 9 * b, W, o + 15)
     if largest <= noise:
         largest = 0.0
@@ -189,17 +219,29 @@ def move_scalars(P: Problem, dz: Reals) -> float:
 def position_error(P: Problem) -> float:
     """Estimated local error of positions, rotations and states over ERROR; remembers where.
 
-    States: a share of the distance from the explicit formula of order 2.
+    Velocities have one of (gamma + alpha - 1/2) h |b+ - b|, which is nothing but in a NEWMARK of
+    order 1.  States: a share of the distance from the explicit formula of order 2.
     """
     C, D, s, n, ns = P.control, P.history, P.settings, P.sizes[N], P.sizes[NS]
     stretch = C[H] / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
     scale = abs(s[BETA] - 1.0 / 6.0) * C[H] * C[H]
+    fast = abs(s[GAMMA] + s[ALPHA] - 0.5) * C[H]
+    if fast < FIRST_ORDER * C[H]:
+        fast = 0.0
     A, B, top, where = P.ra, D[2 * n :], 0.0, 0
     for i in range(n):
         # b+ - b with b moved to this step's place.
         change = (1.0 + s[ALPHA]) * (P.a[i] - A[i]) - stretch * (B[i] - A[i])
         if not scale * abs(change) <= top * max(1.0, abs(P.q[i])):
             top, where = scale * abs(change) / max(1.0, abs(P.q[i])), i
+        if not fast * abs(change) <= top * max(1.0, abs(P.u[i])):
+            top, where = fast * abs(change) / max(1.0, abs(P.u[i])), i
+    for b in range(P.sizes[NB]):
+        if P.body[BODY * b] == PART:
+            i = P.body[BODY * b + 1]
+            bend = bend_of(P.u[i + 3], P.u[i + 4], P.u[i + 5], C[H])
+            if not bend <= top:
+                top, where = bend, i + 3
     first = P.sizes[M] + P.sizes[NV]
     for k in range(ns):
         o = 4 * n + k
@@ -209,6 +251,15 @@ def position_error(P: Problem) -> float:
             top, where = 0.5 * abs(value - explicit) / max(1.0, abs(value)), 2 * n + k
     P.report[WHERE] = where
     return top / s[ERROR]
+
+
+@native
+def bend_of(x: float, y: float, z: float, h: float) -> float:
+    """Error [rad] of a cubic through the Cayley vector c of an even turn w h: h^4/384 of c's fourth
+    derivative.
+    """
+    turn = h * h * (x * x + y * y + z * z)
+    return turn * turn * turn**0.5 / 384.0
 
 
 @native
