@@ -10,6 +10,7 @@ import pytest
 import adamslite
 from adamslite.outcomes import Outcome
 from benchmarks import decks
+from benchmarks.peers.ours import four_bar_energy
 from benchmarks.reference import four_bar
 
 
@@ -37,3 +38,19 @@ def test_hht_passes_them_too(kernels, error: float) -> None:
         kernels, end=10.0, steps=10, error=error, hmax=1.0, integrator="HHT"
     )
     assert results.outcome is Outcome.DONE, results.message
+
+
+@pytest.mark.parametrize("error", [1e-4, 1e-5, 1e-6, 1e-7, 3e-8, 1.7e-8, 1e-8])
+def test_the_explicit_formula_keeps_the_energy_through_them(kernels, error: float) -> None:
+    """A relative error e of the energy is e/2 of the speed and e/2 of the 300 rad turned, so the
+    angle is known to 150 e: at ERROR = 1e-6 the energy has to be right within 1e-4.
+    """
+    results = adamslite.simulate(
+        kernels, end=10.0, steps=1, error=error, hmax=1.0, integrator="RKF45"
+    )
+    assert results.outcome is Outcome.DONE, results.message
+    energy, known = four_bar_energy(results, 4), four_bar(4)[1]
+    drift = abs(energy / known - 1.0)
+    assert drift < 100.0 * error
+    turned = four_bar(4)[0] - np.pi / 2
+    assert results["REQUEST/1.F2"][-1] == pytest.approx(turned, abs=150.0 * max(drift, error))

@@ -88,12 +88,12 @@ def run_dynamic(
     system.settings[base.FIXED_STEP] = fixed
     system.settings[base.ALPHA : base.GAMMA + 1] = settings.second_order
     system.stops = stops(system, times)
-    system.start_record(times)
     method = METHODS[settings.method]
     if method == EXPLICIT:
         system.prepare_explicit()
     if method == RADAU:
         system.prepare_radau()
+    system.start_record(times)
     code = _watched(system, method, watch, end)
     system.release_guards()
     return _named(system, code)

@@ -21,22 +21,17 @@ from adamslite.integrators.acceleration import accelerations, mass_signature, pu
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
-    CHATTERING,
     DONE,
-    FAILURES,
     H_MAX,
     H_MIN,
     HOW_MUCH,
     IMPLICIT_MASS,
     INTERRUPTED,
-    NEWTON_FAILED,
     NS,
     NV,
     ORDER,
-    REJECTED,
     SINGULAR_MASS,
     STEP,
-    STEP_TOO_SMALL,
     STEPS,
     STOP,
     T_END,
@@ -49,26 +44,21 @@ from adamslite.integrators.base import (
 )
 from adamslite.integrators.equations import track
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins, let_go
-from adamslite.integrators.event_places import FREED
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
 from adamslite.integrators.event_stops import horizon
 from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.explicit_dense import write_dense
 from adamslite.integrators.explicit_error import (
-    NOW_POWER,
-    SAFETY,
-    SHRINK,
     choose_explicit_step,
     estimate,
     starting_step,
 )
 from adamslite.integrators.explicit_events import change_where_it_stands, locate_between, pass_by
+from adamslite.integrators.explicit_recovery import make_repeatable, reject, shorten, why_stuck
 from adamslite.integrators.explicit_stages import exact_rates, run_stages
 from adamslite.integrators.explicit_state import (
     BODIES,
-    CAUTIOUS,
     CLOCK,
-    FAILED,
     FOLLOWING,
     FREE,
     INVERSE,
@@ -88,8 +78,6 @@ from adamslite.integrators.explicit_state import (
 from adamslite.integrators.free import invert_inertia, is_free, mass_tables
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.translate import Reals, native
-
-SINGULAR_RESOLUTION = 1e-6
 
 
 @native
@@ -161,38 +149,12 @@ def try_step(P: Problem, L: Plan) -> int:
     if not run_stages(P, L, w, C[H]):
         if let_go(P):
             return RUNNING
-        return shorten(P, 0.25)
+        return shorten(P, w, 0.25)
     error = estimate(P, w, C[H])
     P.report[HOW_MUCH] = error
     if not error <= 1.0:
-        P.count[REJECTED] += 1
-        if not error < 1e150 and let_go(P):
-            return RUNNING
-        C[CAUTIOUS] = 1.0
-        C[H] *= max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK
-        return RUNNING
+        return reject(P, w, error)
     return accept_step(P, L, w, error)
-
-
-@native
-def shorten(P: Problem, factor: float) -> int:
-    """Accelerations could not be solved for within the step: a shorter one."""
-    C = P.control
-    P.count[FAILURES] += 1
-    C[FAILED] = C[FAILED] + 1.0
-    C[H] *= factor
-    C[CAUTIOUS] = 1.0
-    if P.sizes[IMPLICIT_MASS] and C[H] < SINGULAR_RESOLUTION * P.settings[H_MAX]:
-        return SINGULAR_MASS
-    return RUNNING
-
-
-@native
-def why_stuck(P: Problem) -> int:
-    """The step became too small: because the equations could not be solved, or for accuracy."""
-    if P.search[FREED] > 0.0:
-        return CHATTERING
-    return NEWTON_FAILED if P.control[FAILED] > 0.0 else STEP_TOO_SMALL
 
 
 @native
@@ -204,9 +166,9 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
         t = horizon(P)
     new, width = K[NEXT_STATE * w :], int(C[WIDTH])
     if P.sizes[IMPLICIT_MASS] and changed_signature(P, L, t, new):
-        return shorten(P, 0.25)
+        return shorten(P, w, 0.25)
     if not exact_rates(P, L, t, new, K[K_NEW * width :]):
-        return shorten(P, 0.25)
+        return shorten(P, w, 0.25)
     if P.sizes[WATCHED] > 0:
         locate_between(P, C[CLOCK], h, width, OLD * w, K_NEW)
         if not ends_there(P):
@@ -223,7 +185,7 @@ def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
     C, K, width = P.control, P.history, int(P.control[WIDTH])
     new = K[NEXT_STATE * w :]
     P.count[STEPS] += 1
-    C[FAILED] = 0.0
+    make_repeatable(P)
     note_violation(P, t)
     keep_solution(P)
     if not write_dense(P, L, w, t):

@@ -29,6 +29,7 @@ from adamslite.integrators.explicit_state import (
     OLD,
     RUNNING,
     SIGNATURE,
+    UNDOABLE,
     H,
     keep_solution,
     stand_again,
@@ -97,6 +98,7 @@ def pass_by(P: Problem, L: Plan, w: int) -> int:
 def rates_anew(P: Problem, L: Plan, w: int, restart: bool) -> int:
     """The first stage again; with ``restart`` the step is chosen as at the start of a run."""
     C, y, k = P.control, P.history[OLD * w :], P.history[0:]
+    C[UNDOABLE] = 0.0
     if not exact_rates(P, L, C[CLOCK], y, k):
         return NEWTON_FAILED
     if restart:

@@ -1,0 +1,118 @@
+"""When a try of the explicit formula fails: a shorter step, another start, or the end of the run.
+
+Near a posture in which constraints lose rank shorter steps do not help, because the state they
+start from is spoilt by round-off (:mod:`adamslite.integrators.undo`): after a few failures the step
+that led there is taken back and made shorter, so that the next one passes the posture with a leap.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.base import (
+    CHATTERING,
+    FAILURES,
+    H_MAX,
+    IMPLICIT_MASS,
+    NEWTON_FAILED,
+    REJECTED,
+    SINGULAR_MASS,
+    STEP_TOO_SMALL,
+    M,
+    Problem,
+)
+from adamslite.integrators.event_guards import let_go
+from adamslite.integrators.event_places import FREED
+from adamslite.integrators.explicit_error import NOW_POWER, SAFETY, SHRINK
+from adamslite.integrators.explicit_state import (
+    BACKS,
+    CAUTIOUS,
+    CLOCK,
+    FAILED,
+    PASSED,
+    REJECTIONS,
+    RUNNING,
+    TRIES,
+    UNDOABLE,
+    H,
+    stand_again,
+)
+from adamslite.integrators.undo import bring_back, remember
+from adamslite.translate import native
+
+SINGULAR_RESOLUTION = 1e-6
+# Tries in vain around one place before the step that led there is taken back: failures of the
+# equations, rejections.
+FEW_FAILURES, FEW_REJECTIONS = 2.0, 3.0
+# Accepted steps taken back in one place.
+MOST_TAKEN_BACK = 24.0
+# The golden ratio spreads their lengths evenly over a range that has no multiples in it.
+GOLDEN, SHORTEST = 0.6180339887498949, 0.4
+
+
+@native
+def make_repeatable(P: Problem) -> None:
+    """Keep the state from which the accepted step starts, unless it is in the middle of trouble.
+
+    Steps that shrink towards a singular posture are accepted one by one, each after a rejection:
+    the state before the first of them is the one to return to.
+    """
+    C = P.control
+    if C[TRIES] == 0.0:
+        C[REJECTIONS] = max(0.0, C[REJECTIONS] - 1.0)
+    C[FAILED], C[TRIES] = 0.0, 0.0
+    if P.undo.size > 0 and (C[UNDOABLE] == 0.0 or C[REJECTIONS] == 0.0 and C[CLOCK] >= C[PASSED]):
+        C[UNDOABLE], C[BACKS] = 1.0, 0.0
+        remember(P)
+
+
+@native
+def start_elsewhere(P: Problem, w: int) -> bool:
+    """Back to the state before the trouble, with a shorter step; False when that was tried enough
+    or is of no use.
+    """
+    C = P.control
+    if C[UNDOABLE] == 0.0 or C[BACKS] >= MOST_TAKEN_BACK:
+        return False
+    backs, passed = C[BACKS] + 1.0, max(C[PASSED], C[CLOCK] + C[H])
+    bring_back(P)
+    C[BACKS], C[PASSED], C[CAUTIOUS] = backs, passed, 1.0
+    C[H] *= SHORTEST + (1.0 - SHORTEST) * (GOLDEN * backs - int(GOLDEN * backs))
+    stand_again(P, w)
+    return True
+
+
+@native
+def shorten(P: Problem, w: int, factor: float) -> int:
+    """Accelerations could not be solved for within the step: a shorter one."""
+    C = P.control
+    P.count[FAILURES] += 1
+    C[FAILED], C[TRIES] = C[FAILED] + 1.0, C[TRIES] + 1.0
+    if P.sizes[M] > 0 and C[FAILED] >= FEW_FAILURES and start_elsewhere(P, w):
+        return RUNNING
+    C[H] *= factor
+    C[CAUTIOUS] = 1.0
+    if P.sizes[IMPLICIT_MASS] and C[H] < SINGULAR_RESOLUTION * P.settings[H_MAX]:
+        return SINGULAR_MASS
+    return RUNNING
+
+
+@native
+def reject(P: Problem, w: int, error: float) -> int:
+    """The error was too large: a smaller step."""
+    C = P.control
+    P.count[REJECTED] += 1
+    if not error < 1e150 and let_go(P):
+        return RUNNING
+    C[REJECTIONS], C[TRIES] = C[REJECTIONS] + 1.0, C[TRIES] + 1.0
+    if P.sizes[M] > 0 and C[REJECTIONS] >= FEW_REJECTIONS and start_elsewhere(P, w):
+        return RUNNING
+    C[CAUTIOUS] = 1.0
+    C[H] *= max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK
+    return RUNNING
+
+
+@native
+def why_stuck(P: Problem) -> int:
+    """The step became too small: because the equations could not be solved, or for accuracy."""
+    if P.search[FREED] > 0.0:
+        return CHATTERING
+    return NEWTON_FAILED if P.control[FAILED] > 0.0 else STEP_TOO_SMALL
