@@ -76,6 +76,10 @@ class FakeDeck:
     def is_active(self, statement: Any) -> bool:
         return True
 
+    def of(self, keyword: str) -> list[Any]:
+        """None: a stand-in has no arguments to look at."""
+        return []
+
 
 def stopped(outcome: Outcome, **facts: Any) -> Results:
     """Return `fall` with another end."""

@@ -56,13 +56,13 @@ def travel(spec: Spec, spans: list[Span], faults: Faults) -> Travel:
                 ways = [value(law, spec.end * i / INSTANTS, {}) for i in range(INSTANTS + 1)]
                 if abs(ways[0]) > 1e-9:
                     faults.add("payout-start", ("route", number, key), value=ways[0])
-                return _from_ways(ways, spec.end / INSTANTS, across)
-            return _from_ways(_ways(spec, spans, law), spec.end / INSTANTS, across)
+                return from_ways(ways, spec.end / INSTANTS, across)
+            return from_ways(_ways(spec, spans, law), spec.end / INSTANTS, across)
         except Unknown:
             return Travel(across=across, known=False)
     if any(each.kind == "fixed" for each in spec.route):
         return Travel(across=across)
-    return _from_ways(_ways(spec, spans, None), spec.end / INSTANTS, across)
+    return from_ways(_ways(spec, spans, None), spec.end / INSTANTS, across)
 
 
 def _across(spec: Spec, spans: list[Span]) -> list[float]:
@@ -100,7 +100,8 @@ def _ways(spec: Spec, spans: list[Span], law) -> list[float]:
     return ways
 
 
-def _from_ways(ways: list[float], h: float, across: float) -> Travel:
+def from_ways(ways: list[float], h: float, across: float) -> Travel:
+    """Rates from the ways at the ends of equal steps `h`, the first at time 0."""
     speeds = [(b - a) / h for a, b in zip(ways, ways[1:], strict=False)]
     changes = [(b - a) / h for a, b in zip(speeds, speeds[1:], strict=False)]
     least = min(ways)

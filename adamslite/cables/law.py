@@ -52,21 +52,32 @@ def parse(text: str, path: Path, faults: Faults) -> Node | None:
 
 def value(node: Node, time: float, named: Mapping[str, float]) -> float:
     """What the expression is at a time; raises :class:`Unknown`."""
-    match node:
-        case Num():
-            return node.value
-        case Time():
-            return time
-        case Call("VARVAL", (Ref(_, name),)) if str(name).upper() in named:
-            return named[str(name).upper()]
-        case Op(op, args):
-            function = OPERATORS[op]
-        case Call(name, args) if name in FUNCTIONS:
-            function = FUNCTIONS[name]
-        case _:
-            raise Unknown
+
+    def look(leaf: Node) -> float:
+        match leaf:
+            case Time():
+                return time
+            case Call("VARVAL", (Ref(_, name),)) if str(name).upper() in named:
+                return named[str(name).upper()]
+        raise Unknown
+
+    return evaluate(node, look)
+
+
+def evaluate(node: Node, look: Callable[[Node], float]) -> float:
+    """Arithmetic and functions of numbers; `look` gives everything else or raises
+    :class:`Unknown`.
+    """
+    if type(node) is Num:
+        return node.value
+    if type(node) is Op:
+        function = OPERATORS[node.op]
+    elif type(node) is Call and node.name in FUNCTIONS:
+        function = FUNCTIONS[node.name]
+    else:
+        return look(node)
     try:
-        found = function(*(value(arg, time, named) for arg in args))
+        found = function(*[evaluate(arg, look) for arg in node.args])
     except (ArithmeticError, ValueError):
         raise Unknown from None
     if isinstance(found, complex):

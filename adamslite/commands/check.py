@@ -1,7 +1,8 @@
 """what is wrong with a deck, and what it contains
 
-Prints every error and warning with its place, then what the deck consists of. Exit code 3 when
-there are errors; warnings alone do not count.
+Prints every error and warning with its place, then what the deck consists of and, for cables, how
+fast waves are in them and what model they need (docs/cables.md). Exit code 3 when there are errors;
+warnings alone do not count.
 """
 
 import argparse
@@ -50,11 +51,22 @@ def _contents(deck_path: Path, scene: "Scene") -> str:
     counted = Counter(statement.keyword for statement in scene.deck.statements)
     listed = ", ".join(f"{number} {keyword}" for keyword, number in counted.items())
     warnings = _many(len(scene.warnings), "warning") if scene.warnings else "no mistakes found"
-    return (
-        f"{deck_path.name}: {warnings}\n"
-        f"  {_many(counted.total(), 'statement')}: {listed}\n"
-        f"  {_freedom(scene.deck)}\n"
+    return "".join(
+        f"{line}\n"
+        for line in (
+            f"{deck_path.name}: {warnings}",
+            f"  {_many(counted.total(), 'statement')}: {listed}",
+            f"  {_freedom(scene.deck)}",
+            *_cables(scene),
+        )
     )
+
+
+def _cables(scene: "Scene") -> list[str]:
+    """What the cables are like and how they would be modelled."""
+    from adamslite.cables.told import about_cables
+
+    return about_cables(scene.deck, scene.commands)
 
 
 def _freedom(deck: "Deck") -> str:

@@ -1,0 +1,213 @@
+"""What is asked of one span of cable, and how much model that takes: the estimates.
+
+l length, T tension, c = sqrt(EA/rho) axial and c_t = sqrt(T/rho) transverse wave, s payout, tau =
+max s'/max s" the time in which it changes, M what the span carries or moves, H = l/N a section.
+
+For an error p of tensions and of the times at which waves arrive:
+
+    waves matter         (l/c)/tau > p;  a speed starts at once with rho c v > p T
+    rigid, massless      no waves,  rho l < p M,  T < p EA,  sqrt((M + rho l/3) l/EA)/tau < p
+    the paper's element  s'/(2 c_t) < p unless all moves along one line,
+                         rho (l s" + s'^2)/2 < p T,  (l/c)/tau < p
+    sections             transverse wave           (k H)^2/24 < p, k its number, at least pi/l
+                         half a section at an end  rho l (g + s")/(2 N) < p of T at that end
+                         axial front               N > 36 (0.01/p)^0.55
+                         kink                      N > 7 c/U (0.01/p)^0.3, U its speed
+
+Sources: sections from the discrete spectrum w_k = (2 c/H) sin(k pi/2N); the others measured, see
+docs/cables.md.
+"""
+
+from dataclasses import dataclass
+from math import ceil, pi, sqrt
+
+MOST = 900
+FEWEST = 4
+AXIAL = 36
+
+
+@dataclass(frozen=True)
+class Demand:
+    """A span and what happens to it, in coherent units.
+
+    Parameters
+    ----------
+    stiffness, density : float
+        EA [force] and rho [mass/length] of the unstretched cable.
+    length : float
+        Free length at the start.
+    tension : float
+        Mean over the span of what it carries; not of a moment of slackness.
+    moved : float
+        Mass that hangs on the span or that it drives.
+    pull : float
+        Acceleration of gravity along the span.
+    least, most, speed, acceleration : float
+        Payout over the run and the greatest of its rates; `known` is false where only the run can
+        tell.
+    jump, across : float
+        Speeds that start at once, along and across the cable.
+    straight : bool
+        Everything lies and moves along one line.
+    wave : float
+        Wave number of transverse motion that is there at the start [1/length], 0 when not known.
+    bounces : bool
+        It starts out of balance with what it carries.
+    tied : bool
+        Constraints, turning parts, states or forces of accelerations are about: no VERLET.
+    end : float
+        Time of the run, 0 when that is not said.
+    """
+
+    stiffness: float
+    density: float
+    length: float
+    tension: float
+    moved: float = 0.0
+    pull: float = 0.0
+    least: float = 0.0
+    most: float = 0.0
+    speed: float = 0.0
+    acceleration: float = 0.0
+    known: bool = True
+    jump: float = 0.0
+    across: float = 0.0
+    straight: bool = False
+    wave: float = 0.0
+    bounces: bool = False
+    tied: bool = False
+    end: float = 0.0
+
+    @property
+    def c(self) -> float:
+        """Axial wave."""
+        return sqrt(self.stiffness / self.density)
+
+    @property
+    def c_t(self) -> float:
+        """Transverse wave."""
+        return sqrt(max(self.tension, 0.0) / self.density)
+
+    @property
+    def longest(self) -> float:
+        """Length with all that is paid out."""
+        return self.length + max(self.most, 0.0)
+
+    @property
+    def way(self) -> float:
+        """Cable that comes and goes."""
+        return self.most - self.least
+
+    @property
+    def transit(self) -> float:
+        """Time of the axial wave along the span at the start."""
+        return self.length / self.c
+
+    @property
+    def rushes(self) -> float:
+        """(l/c)/tau."""
+        return self.transit * self.acceleration / self.speed if self.speed else 0.0
+
+    @property
+    def validity(self) -> dict[str, float]:
+        """Errors of the paper's element, by the name of their estimate."""
+        carried = max(self.tension, 1e-12)
+        found = {
+            "s'/(2 c_t)": self.speed / (2 * sqrt(carried / self.density)),
+            "rho (l s\" + s'^2)/(2 T)": self.density
+            * (self.longest * self.acceleration + self.speed**2)
+            / (2 * carried),
+            "(l/c)/tau": self.rushes,
+        }
+        if self.straight:
+            del found["s'/(2 c_t)"]
+        return found
+
+
+def kink_speed(stiffness: float, density: float, tension: float, across: float) -> float:
+    """Speed U of the kink behind an impact across a cable under `tension`.
+
+    V**2/c**2 = 2 (e - e0) sqrt(e (1 + e)) - (e - e0)**2,  U = c sqrt(e (1 + e)) - c (e - e0)
+    """
+    e, e0, c = _struck(stiffness, density, tension, across)
+    return c * sqrt(e * (1 + e)) - c * (e - e0)
+
+
+def _struck(
+    stiffness: float, density: float, tension: float, across: float
+) -> tuple[float, float, float]:
+    """Strains behind and before the front of an impact across, and c."""
+    e0, c = tension / stiffness, sqrt(stiffness / density)
+    low, high = e0, 1.0
+    for _ in range(100):
+        e = (low + high) / 2
+        reached = 2 * (e - e0) * sqrt(e * (1 + e)) - (e - e0) ** 2
+        low, high = (e, high) if reached < (across / c) ** 2 else (low, e)
+    return e, e0, c
+
+
+def loaded(of: Demand) -> float:
+    """Tension behind the fronts that the start sends out."""
+    tension = of.tension + of.density * of.c * of.jump
+    if of.across:
+        tension = max(
+            tension, of.stiffness * _struck(of.stiffness, of.density, of.tension, of.across)[0]
+        )
+    return tension
+
+
+def is_sudden(of: Demand, p: float) -> bool:
+    """Whether fronts run through the cable."""
+    return of.across > 0 or of.density * of.c * of.jump > p * of.tension
+
+
+def has_waves(of: Demand, p: float) -> bool:
+    """Whether the time that waves take matters."""
+    return is_sudden(of, p) or of.rushes > p or not of.known
+
+
+def paper_fails(of: Demand, p: float) -> list[str]:
+    """The estimates that speak against the paper's element."""
+    found = [f"{name} = {value:.2g}" for name, value in of.validity.items() if value >= p]
+    return found if of.known else [*found, "the payout is not known before the run"]
+
+
+def form(of: Demand, p: float) -> str:
+    """The variable-length element that is good enough."""
+    return "ale" if paper_fails(of, p) else "paper"
+
+
+def elastic_level(of: Demand) -> int:
+    """The level of an elastic cable: 3 when some is paid out."""
+    return 3 if of.way > 0 or not of.known else 2
+
+
+def level(of: Demand, p: float) -> int:
+    """1 rigid and massless, 2 sections of fixed length, 3 of variable length."""
+    weight = of.density * of.longest
+    swings = sqrt((of.moved + weight / 3) * of.longest / of.stiffness)
+    late = swings * of.acceleration / of.speed if of.speed else 0.0
+    rigid = (
+        not has_waves(of, p)
+        and not of.bounces
+        and weight < p * of.moved
+        and of.tension < p * of.stiffness
+        and late < p
+    )
+    return 1 if rigid else elastic_level(of)
+
+
+def elements(of: Demand, p: float) -> int:
+    """Sections of a span."""
+    finer = 0.01 / p
+    load = of.density * of.longest * (of.pull + of.acceleration)
+    top = of.tension + load - of.density * of.length * of.pull / 2
+    needed = [FEWEST, load / max(top, load, 1e-12) / (2 * p)]
+    if not of.straight:
+        needed.append(max(pi, of.wave * of.length) / sqrt(24 * p))
+    if of.jump or not of.known:
+        needed.append(AXIAL * finer**0.55)
+    if of.across:
+        kink = kink_speed(of.stiffness, of.density, of.tension, of.across)
+        needed.append(7 * of.c / kink * finer**0.3)
+    return min(ceil(max(needed)), MOST)
