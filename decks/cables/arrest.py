@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from formulas import Cable
+from ropes import nodes, stored, tensions
 from scipy.integrate import solve_ivp
 from spans import table
 
@@ -23,8 +24,6 @@ from adamslite.cables.statements import (
     RADIUS,
     Side,
     cable_variables,
-    grown,
-    grown_tip,
     head,
     number,
     payout_variables,
@@ -77,15 +76,9 @@ def named(side: Side, sections: int) -> Side:
 def half(a: Arrest, side: Side) -> str:
     """Sheave, engine, nodes and sections of one side."""
     n, s, x0 = a.sections, side.name, a.sheave(side)
-    length, first, turned = a.length(side), side.first, side.pulley
+    length, turned = a.length(side), side.pulley
     text = payout_variables(a.cable, n, length, side)
-    text += "! Tension of a section: a cable does not push.\n"
-    for k in range(1, n + 1):
-        pair = f"{side.node(k - 1)},{side.node(k)}"
-        text += (
-            f"VARIABLE/T{s}{k}, FUNCTION=MAX(0,EA*(DM({pair})/H{s}-1)"
-            f"+damper*(VR({pair})-SD{s}*DM({pair})/LT{s}))\n"
-        )
+    text += tensions(side, n, slack=True)
     text += (
         "! Force of the engine.\n"
         f"VARIABLE/F{s}, FUNCTION={number(a.cable.pretension)}"
@@ -95,53 +88,21 @@ def half(a: Arrest, side: Side) -> str:
     text += pulley(a.crosshead, 0.0, x0, side)
     text += (
         f"SFORCE/{turned}, ROTATIONAL, ACTIONONLY, I={turned}, J={turned + 1}"
-        f", FUNCTION={RADIUS:g}*(T{s}1-F{s})\n\n"
+        f", FUNCTION={RADIUS:g}*(T{s}1-F{s})\n"
     )
-    for k in range(1, n):
-        place = [x0 + (a.offset - x0) * k / n, 0.0]
-        text += point(first + k, a.cable.density * length / n, place)
-        text += grown("ale", k, n, "XY", side)
-    text += grown_tip("ale", first + n, n, "XY", side) + "\n"
-    for k in range(1, n + 1):
-        i, j = side.node(k - 1), side.node(k)
-        text += f"SFORCE/{first + k}, I={i}, J={j}, FUNCTION=-T{s}{k}\n"
-    return text
-
-
-def sums(name: str, factor: str, terms: list[str]) -> tuple[str, str]:
-    """VARIABLEs of five terms each, and the sum of their names."""
-    groups = [terms[i : i + 5] for i in range(0, len(terms), 5)]
-    text = "".join(
-        f"VARIABLE/{name}{g}, FUNCTION={factor}*(" + "\n,  +".join(group) + ")\n"
-        for g, group in enumerate(groups, start=1)
-    )
-    return text, "+".join(f"{name}{g}" for g in range(1, len(groups) + 1))
+    places = [(x0 + (a.offset - x0) * k / n, 0.0) for k in range(1, n)]
+    return text + nodes("ale", side, a.cable.density * length / n, places)
 
 
 def balance(a: Arrest, side: Side) -> str:
     """Energy of a side, and what has left it."""
-    n, s, first = a.sections, side.name, side.first
-    kinetic, strain, lost = [], [], ""
-    for k in range(1, n + 1):
-        i, j, h = side.node(k), side.node(k + 1), side.node(k - 1)
-        stretch = f"MAX(0,DM({h},{i})/H{s}-1)"
-        strain.append(f"{stretch}**2")
-        lost += (
-            f"DIFF/Q{s}{k}, IC=0, FUNCTION=(T{s}{k}-EA*{stretch})"
-            f"*(VR({h},{i})-SD{s}*DM({h},{i})/LT{s})\n"
-        )
-        if k < n:
-            w = f"{number((1 - k / n) / 2)}*SD{s}/H{s}"
-            kinetic.append(f"(VX({i})+{w}*DX({j},{h}))**2+(VY({i})+{w}*DY({j},{h}))**2")
-    moving, all_moving = sums(f"K{s}", f"rho*H{s}/2", kinetic)
-    strained, all_strained = sums(f"U{s}", f"EA*H{s}/2", strain)
-    heat, all_heat = sums(f"D{s}", "1", [f"DIF(Q{s}{k})" for k in range(1, n + 1)])
+    s, first = side.name, side.first
+    stores, names = stored(side, a.sections)
     out = f"DM({first},{side.node(1)})/H{s}"
     return (
         "\n! Energy of the nodes, strain energy of the sections, heat of the dampers;\n"
         "! the energy of this side and what has left it over the sheave.\n"
-        f"{moving}{strained}{lost}{heat}"
-        f"VARIABLE/E{s}, FUNCTION={all_moving}\n,  +{all_strained}\n,  +{all_heat}\n"
+        f"{stores}VARIABLE/E{s}, FUNCTION=" + "\n,  +".join(names) + "\n"
         f",  +{number(a.crosshead / 2)}*SD{s}**2+rho*H{s}/4*((SD{s}*{out})**2"
         f"+VX({HOOK})**2+VY({HOOK})**2)\n"
         f"DIFF/Q{s}, IC=0, FUNCTION=SD{s}*(F{s}+T{s}1*({out}-1)-EA/2*MAX(0,{out}-1)**2\n"

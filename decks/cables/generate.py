@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import arrest
+import cranes
 import drum
 import kinks
 import moving
@@ -24,6 +25,7 @@ CASES: dict[str, Callable[[], Iterator[tuple[str, str, str]]]] = {
     **payouts.CASES,
     **moving.CASES,
     **arrest.CASES,
+    **cranes.CASES,
     **drum.CASES,
 }
 
