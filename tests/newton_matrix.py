@@ -13,7 +13,7 @@ import numpy as np
 from adamslite.analyses.initial import constraint_gradient, initial_conditions
 from adamslite.compiled import compile_model
 from adamslite.deck import read
-from adamslite.integrators import base, bdf, equations, newton
+from adamslite.integrators import base, bdf_corrector, equations, newton
 from adamslite.model import PART, assemble
 from adamslite.system import System
 
@@ -79,7 +79,7 @@ class Newton:
         P = self.P
         P.q[:], P.z[:], P.mu[:] = q, z, mu
         equations.put_time(P, 0.3)
-        bdf.motion_from_increments(P, 1 / H, self.yp, self.psi, self.tied)
+        bdf_corrector.motion_from_increments(P, 1 / H, self.yp, self.psi, self.tied)
         equations.residual(P, self.phases, P.F)
         return P.F[: self.system.nz].copy()
 

@@ -114,6 +114,12 @@ def test_negative_pivots_are_negative_eigenvalues(pattern, sizes):
         assert found == (np.linalg.eigvalsh(full) < 0).sum()
 
 
+@pytest.mark.parametrize("full", (np.diag([2.0, 0.0, -1.0]), np.diag([0.0, 2.0, 1.0])))
+def test_a_singular_matrix_has_no_signature(full):
+    arrays = eliminate(full, [3], {(0, 0)})
+    assert linalg.signature(*arrays, np.zeros(3)) == -1
+
+
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_singular_matrices_are_refused():
     widths = [3] * 13

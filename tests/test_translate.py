@@ -164,6 +164,15 @@ JOINT/{k}, SPHERICAL, I={k}1, J={k - 1}0
 }
 
 
+RUBS = (
+    GROUND
+    + """POINT_MASS/2, MASS=1, CM=2, VX=1
+MARKER/2, POINT_MASS=2
+VFORCE/1, I=2, J_PART=1, FX=-100*TANH(1000*VX(2))
+END
+"""
+)
+
 # One method for each native integrator, on every deck; and equilibria, far ones too.
 SUPPORTED = STATEMENTS["INTEGRATOR"].arguments["method"].supported
 INTEGRATORS = {METHODS.get(method, method): method for method in SUPPORTED}.values()
@@ -172,6 +181,7 @@ RUNS = {
 }
 RUNS |= {
     "steady": (PENDULUM.replace("END", "INTEGRATOR/HINIT=0.02\nEND"), "CONSTANT_BDF"),
+    "rubs": (RUBS, "RADAU"),
     "hangs": (PENDULUM.replace("END", "SIMULATE/STATICS\nEND"), None),
     "leans": (UPRIGHT.replace("END", "SIMULATE/STATICS\nEND"), None),
     "falls": (PENDULUM.replace("END", "EQUILIBRIUM/MAXIT=1\nSIMULATE/STATICS\nEND"), None),

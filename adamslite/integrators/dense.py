@@ -140,7 +140,7 @@ def negative_pivots(A: Reals, o: int, s: int, work: Reals, found: Reals, at: int
     """Negative pivots of a block eliminated without pivoting; the pivots go to ``found``.
 
     Their number is the signature when the matrix is symmetric (Sylvester) and changes when it
-    becomes singular.
+    becomes singular.  A pivot of zero eliminates nothing.
     """
     n = coupled(A, o, s)
     for i in range(n * s):
@@ -154,7 +154,7 @@ def negative_pivots(A: Reals, o: int, s: int, work: Reals, found: Reals, at: int
         if pivot < 0.0:
             count += 1
         rest = n - k - 1
-        for i in range(k + 1, n):
+        for i in range(k + 1, n if pivot != 0.0 else 0):
             factor = work[i * s + k] / pivot
             if factor != 0.0:
                 subtract_row(factor, work[k * s + k + 1 :], rest, work[i * s + k + 1 :])

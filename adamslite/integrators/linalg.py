@@ -163,7 +163,8 @@ def signature(L: Plan, LV: Reals, pivots: Ints, work: Reals, found: Reals) -> in
     """Factor and count negative pivots; -1 when singular."""
     n = L.size.size
     if n == 1:
-        return negative_pivots(LV, 0, L.size[0], work, found, 0)
+        only = negative_pivots(LV, 0, L.size[0], work, found, 0)
+        return only if invert(LV, 0, L.size[0], pivots, 0, work) else -1
     at, count = 0, 0
     for k in range(n):
         s, o = L.size[k], L.diagonal[k]

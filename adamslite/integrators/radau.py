@@ -23,18 +23,14 @@ from adamslite.integrators.acceleration import accelerations, mass_signature, pu
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
+    CHATTERING,
     DONE,
-    ERROR,
-    FAILURES,
     H_MAX,
     H_MIN,
     HOW_MUCH,
     IMPLICIT_MASS,
     INTERPOLATE,
     INTERRUPTED,
-    MAX_IT,
-    NB,
-    NEWTON,
     NEWTON_FAILED,
     NOT_FINITE,
     NS,
@@ -48,6 +44,7 @@ from adamslite.integrators.base import (
     STEPS,
     STOP,
     T_END,
+    WATCHED,
     WHERE,
     M,
     N,
@@ -55,12 +52,10 @@ from adamslite.integrators.base import (
     Problem,
     T,
 )
-from adamslite.integrators.bdf_corrector import wildest
-from adamslite.integrators.bdf_recovery import SINGULAR_RESOLUTION, VANISHING, retry_factor
+from adamslite.integrators.bdf_recovery import SINGULAR_RESOLUTION, VANISHING
 from adamslite.integrators.bdf_state import (
     AGE,
     BLAMED,
-    FACTORED,
     FRESH,
     H_LAST,
     NEXT,
@@ -73,50 +68,42 @@ from adamslite.integrators.bdf_state import (
     first_step,
     keep_algebraic,
 )
-from adamslite.integrators.equations import (
-    BODY,
-    PART,
-    track,
-)
-from adamslite.integrators.newton import ROUND_OFF
-from adamslite.integrators.radau_coefficients import REAL
+from adamslite.integrators.equations import track
+from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins
+from adamslite.integrators.event_places import FREED, HUNT
+from adamslite.integrators.event_search import ends_there, shorter, starts_there
+from adamslite.integrators.event_stops import horizon
+from adamslite.integrators.events import happened, start_events
+from adamslite.integrators.radau_corrector import QUICK, after_failed_stages, ready, solve_stages
 from adamslite.integrators.radau_error import filtered_error
+from adamslite.integrators.radau_events import locate_in_stages, move_past, switch_behind
 from adamslite.integrators.radau_stages import (
     ORIGIN,
     collocated,
     keep_stages,
-    move_stages,
     predict_stages,
-    radau_jacobian,
-    radau_matrices,
-    stage_increments,
     stage_motion,
-    stage_residuals,
-    stage_z,
+)
+from adamslite.integrators.radau_state import (
+    CAUTIOUS,
+    KNOWN,
+    LAST_NORM,
+    LAST_SIZE,
+    THETA,
+    TO_TARGET,
+    TURNS,
+    count_from_here,
+    put_end,
+    stand_at_start,
 )
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.translate import Reals, native
 
-# Newton stops when the estimated remaining error is this share of ERROR.
-CORRECTOR_SHARE = 0.002
-# The derivatives are kept for the next step when increments shrank by this, but not for ever.
-QUICK, KEEP_STEPS = 0.01, 20.0
-# The second increment may exceed the first by this, which moves one stage for the sake of another
-# where constraints are nearly dependent.
-DIVERGING = 3.0
-# What RATE/(1 - RATE) is not believed to be below.
-LEAST_RATE = 0.01
 # The next step aims at this share of the step that the error allows; it is changed only when it
 # grows by more than KEEP_GROWTH, because every other size needs new factors.
 SAFETY, MOST_GROWTH, LEAST_SHRINK, KEEP_GROWTH = 0.9, 5.0, 0.125, 1.2
-
 # Further from the target than this many steps they need not fit.
 MANY_STEPS = 100.0
-# Factors made for a step that differs by this share serve.
-SAME_STEP = 1e-6
-
-# Places in P.control after those of the BDF.
-THETA, TURNS, LAST_NORM, LAST_SIZE, CAUTIOUS, KNOWN, TO_TARGET = range(18, 25)
 
 
 @native
@@ -140,7 +127,9 @@ def start_radau(P: Problem, L: Plan) -> int:
     for i in range(P.history.size):
         Y[i] = 0.0
     C[NOW], C[RATE], C[CAUTIOUS] = t, 1.0, 1.0
+    start_events(P, True)
     good = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
+    hold_watch(P)
     C[H] = first_step(P, 0)
     if good:
         if P.sizes[IMPLICIT_MASS]:
@@ -160,32 +149,6 @@ def start_radau(P: Problem, L: Plan) -> int:
 
 
 @native
-def count_from_here(P: Problem) -> None:
-    """The workspace's attitudes become the base of rotation vectors."""
-    for b in range(P.sizes[NB]):
-        if P.body[BODY * b] == PART:
-            i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
-            for k in range(9):
-                P.base[9 * b + k] = P.W[o + 15 + k]
-            for k in range(3, 6):
-                P.q[i + k] = 0.0
-
-
-@native
-def stand_at_start(P: Problem) -> None:
-    """The last accepted state into the unknowns and the workspace."""
-    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
-    Y = P.history[ORIGIN * (2 * n + P.sizes[NS]) :]
-    for i in range(n):
-        P.q[i], P.u[i], P.a[i] = Y[i], Y[n + i], P.ra[i]
-    for k in range(first):
-        P.z[k] = P.rz[k]
-    for k in range(P.sizes[NS]):
-        P.z[first + k] = Y[2 * n + k]
-    put_state(P, P.control[NOW], P.q, P.u, P.a, P.z, P.rd)
-
-
-@native
 def try_radau(P: Problem, L: Plan) -> int:
     """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
     C = P.control
@@ -195,7 +158,7 @@ def try_radau(P: Problem, L: Plan) -> int:
         return INTERRUPTED
     fit_step(P)
     P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 5.0
-    if C[H] < P.settings[H_MIN]:
+    if C[H] < P.settings[H_MIN] or crawls(P, C[H]):
         return why_no_step(P, L)
     predict_stages(P, C[H], C[H_LAST])
     stage_motion(P, C[H])
@@ -217,62 +180,38 @@ def try_radau(P: Problem, L: Plan) -> int:
         if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
             C[H] *= 0.25
             return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings[H_MAX] else SINGULAR_MASS
+    return finish_stages(P, L, norm)
+
+
+@native
+def finish_stages(P: Problem, L: Plan, norm: float) -> int:
+    """The step has passed its tests: accept it, or take it again to end at the first crossing."""
+    if P.sizes[WATCHED] > 0:
+        locate_in_stages(P, L)
+        if not ends_there(P):
+            if starts_there(P):
+                return switch_behind(P, L)
+            P.control[H] = shorter(P)
+            return RUNNING
     return accept_stages(P, L, norm)
 
 
 @native
 def fit_step(P: Problem) -> None:
-    """Keep the step within HMAX; equal steps to the end or, unless they may be interpolated, to the
-    next output time.
+    """Keep the step within HMAX; equal steps to the horizon or, unless they may be interpolated, to
+    the next output time.  A step to a crossing keeps its size.
     """
-    C, target, row = P.control, P.settings[T_END], int(P.control[NEXT])
+    C, target, row = P.control, horizon(P), int(P.control[NEXT])
     if P.settings[INTERPOLATE] == 0.0 and row < P.times.size:
         target = min(target, P.times[row])
     C[H] = min(C[H], P.settings[H_MAX])
     left = target - C[NOW]
+    if P.search[HUNT] != 0.0:
+        C[H] = min(C[H], left)
+        return
     C[TO_TARGET] = floor(left / C[H] + 1.0 - 1e-7)
     if C[TO_TARGET] < MANY_STEPS:
         C[H] = left / max(1.0, C[TO_TARGET])
-
-
-@native
-def ready(P: Problem, L: Plan) -> bool:
-    """Derivatives and factors for the present step."""
-    C = P.control
-    if C[KNOWN] == 0.0 or C[AGE] >= KEEP_STEPS:
-        radau_jacobian(P, L, C[H])
-        C[KNOWN], C[FRESH], C[AGE], C[FACTORED] = 1.0, 1.0, 0.0, 0.0
-    if not abs(C[H] - C[FACTORED]) <= SAME_STEP * C[H]:
-        C[FACTORED] = C[H] if radau_matrices(P, L, C[H]) else 0.0
-    return C[FACTORED] != 0.0
-
-
-@native
-def solve_stages(P: Problem, L: Plan) -> bool:
-    """Newton from the prediction; True when converged."""
-    C, h, last = P.control, P.control[H], 0.0
-    tolerance, most = CORRECTOR_SHARE * P.settings[ERROR], int(P.settings[MAX_IT])
-    C[RATE], C[THETA] = max(C[RATE], LEAST_RATE) ** 0.8, 0.0
-    for turn in range(most):
-        stage_residuals(P, h)
-        stage_increments(P, L)
-        size = move_stages(P, h)
-        P.count[NEWTON] += 1
-        C[TURNS] = turn + 1.0
-        if not size < 1e12:
-            return False
-        if turn > 0 and last > 0.0:
-            C[THETA] = size / last
-            if C[THETA] > (DIVERGING if turn == 1 else 0.99):
-                return size <= round_off(P)
-            rest = max(0.01, 1.0 - C[THETA])
-            C[RATE] = max(LEAST_RATE, C[THETA] / rest)
-            if turn > 1 and C[THETA] ** (most - 1.0 - turn) / rest * size > tolerance:
-                return False
-        if C[RATE] * size <= tolerance:
-            return True
-        last = size
-    return False
 
 
 @native
@@ -283,51 +222,13 @@ def step_factor(C: Reals, norm: float) -> float:
 
 
 @native
-def round_off(P: Problem) -> float:
-    """Changes of velocities that come from the last digits of positions."""
-    w, reach = 2 * P.sizes[N] + P.sizes[NS], 1.0
-    for i in range(P.sizes[N]):
-        reach = max(reach, abs(P.history[ORIGIN * w + i]))
-    return ROUND_OFF * reach * P.tableau[REAL] / P.control[H]
-
-
-@native
-def after_failed_stages(P: Problem) -> int:
-    """Newton failed: new derivatives when they were old, else another step."""
-    C = P.control
-    P.count[FAILURES] += 1
-    old = C[FRESH] == 0.0 and C[KNOWN] != 0.0
-    C[KNOWN], C[FACTORED], C[RATE], C[CAUTIOUS] = 0.0, 0.0, 1.0, 1.0
-    if not old:
-        C[RETRIES] += 1.0
-        C[BLAMED] = float(wildest(P))
-        C[H] *= retry_factor(C)
-    return RUNNING
-
-
-@native
-def put_end(P: Problem) -> None:
-    """The end of the tried step into the unknowns and the workspace."""
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
-    w, Y, z = 2 * n + ns, P.history, P.history[stage_z(P, 2) :]
-    y, d = Y[3 * w :], Y[6 * w :]
-    for i in range(n):
-        P.q[i], P.u[i], P.a[i] = Y[ORIGIN * w + i] + y[i], y[n + i], d[n + i]
-    for k in range(first + ns):
-        P.z[k] = z[k]
-    for k in range(ns):
-        P.rd[k] = d[2 * n + k]
-    put_state(P, P.control[NOW] + P.control[H], P.q, P.u, P.a, P.z, P.rd)
-
-
-@native
 def accept_stages(P: Problem, L: Plan, norm: float) -> int:
     """Move on, write records, choose the next step."""
     C, h = P.control, P.control[H]
     P.count[STEPS] += 1
     t, row = C[NOW] + h, int(C[NEXT])
-    if t + 1e-7 * h > P.settings[T_END]:
-        t = P.settings[T_END]
+    if t + 1e-7 * h > horizon(P):
+        t = horizon(P)
     if row < P.times.size and abs(P.times[row] - t) < 1e-7 * h:
         t = P.times[row]
     put_end(P)
@@ -343,7 +244,12 @@ def accept_stages(P: Problem, L: Plan, norm: float) -> int:
     keep_stages(P)
     put_state(P, t, P.q, P.u, P.a, P.z, P.rd)
     choose_step(P, norm)
-    return RUNNING if good else SINGULAR_MASS
+    if not good:
+        return SINGULAR_MASS
+    if happened(P, t):
+        return move_past(P, L)
+    keep_margins(P)
+    return RUNNING
 
 
 @native
@@ -398,4 +304,6 @@ def why_no_step(P: Problem, L: Plan) -> int:
             if not abs(P.x[k]) > VANISHING * abs(P.pivot0[k]):
                 return SINGULAR_MASS
     P.report[WHERE] = C[BLAMED]
+    if P.search[FREED] > 0.0:
+        return CHATTERING
     return NEWTON_FAILED if C[RETRIES] > 2.0 else STEP_TOO_SMALL

@@ -291,12 +291,12 @@ def predict_stages(P: Problem, h: float, before: float) -> None:
     or without one accelerations stay.
     """
     n, ns, first, X = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV], P.tableau
-    w, Y = 2 * n + ns, P.history
+    w, Y, e = 2 * n + ns, P.history, stage_z(P, 1) - stage_z(P, 0)
     for stage in range(3):
         y, z, c = Y[(1 + stage) * w :], Y[stage_z(P, stage) :], X[NODE + stage] * h
         if before > 0.0:
             collocated(P, Y[BEFORE * w :], w, 1.0 + c / before, y)
-            quadratic(P, 1.0 + c / before, z)
+            quadratic(P, 1.0 + c / before, Y[stage_z(P, 3) :], e, first, z)
         else:
             for i in range(n):
                 y[i] = Y[i] + c * (Y[n + i] + 0.5 * c * P.ra[i])
@@ -323,15 +323,14 @@ def collocated(P: Problem, rows: Reals, w: int, x: float, y: Reals) -> None:
 
 
 @native
-def quadratic(P: Problem, x: float, z: Reals) -> None:
-    """Multipliers and variables at the share ``x`` of the step before, through its stages."""
+def quadratic(P: Problem, x: float, rows: Reals, lead: int, count: int, z: Reals) -> None:
+    """z at the share ``x`` of a step: through the values at its stages, ``lead`` apart."""
     a, b = P.tableau[NODE], P.tableau[NODE + 1]
     f1 = (x - b) * (x - 1.0) / ((a - b) * (a - 1.0))
     f2 = (x - a) * (x - 1.0) / ((b - a) * (b - 1.0))
     f3 = (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
-    one, two, three = stage_z(P, 3), stage_z(P, 4), stage_z(P, 5)
-    for k in range(P.sizes[M] + P.sizes[NV]):
-        z[k] = f1 * P.history[one + k] + f2 * P.history[two + k] + f3 * P.history[three + k]
+    for k in range(count):
+        z[k] = f1 * rows[k] + f2 * rows[lead + k] + f3 * rows[2 * lead + k]
 
 
 @native

@@ -1,0 +1,129 @@
+"""The Radau formula at events: the search in a tried step, the state and the step behind it.
+
+Within the tried step, at the share x of it, positions, velocities and states follow the cubic
+through the start and the stages,
+
+    y(x) = sum_{i=0..3} l_i(x) y_i,    l_i(x) = prod_{j != i} (x - c_j)/(c_i - c_j),    c_0 = 0,
+
+and what has no value at the start, accelerations, multipliers and variables, the quadratic through
+the stages.  The collocation polynomial has order 3 inside of the step; because the step is taken
+again to end at the crossing, that is the accuracy of a guess, not of the result.
+
+A formula of one step has no past to forget: behind an event only the prediction begins anew.
+Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6 (discontinuities).
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.acceleration import mass_signature, put_state
+from adamslite.integrators.base import (
+    ERROR,
+    IMPLICIT_MASS,
+    NEWTON_FAILED,
+    NS,
+    NV,
+    RESTARTS,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.bdf_events import SMOOTH
+from adamslite.integrators.bdf_state import (
+    H_LAST,
+    NOW,
+    RUNNING,
+    SIGNATURE,
+    H,
+    first_step,
+    keep_algebraic,
+)
+from adamslite.integrators.event_harmless import is_harmless
+from adamslite.integrators.event_places import HUNT, JUMP, OPEN, SHARE
+from adamslite.integrators.event_search import ends_beyond, judge, open_search
+from adamslite.integrators.events import change_here, pass_event
+from adamslite.integrators.radau_coefficients import REAL
+from adamslite.integrators.radau_stages import (
+    ORIGIN,
+    RATES,
+    collocated,
+    equations_kept,
+    quadratic,
+    stage_z,
+)
+from adamslite.integrators.radau_state import CAUTIOUS, KNOWN, LAST_SIZE, put_end, stand_at_start
+from adamslite.translate import native
+
+
+@native
+def locate_in_stages(P: Problem, L: Plan) -> None:
+    """Look for the first change of a branch within the step that has passed its test."""
+    t, h = P.control[NOW], P.control[H]
+    put_end(P)
+    open_search(P, t, h)
+    if ends_beyond(P) and P.search[HUNT] == 0.0:
+        if is_harmless(P, L, equations_kept(P), P.tableau[REAL] / h):
+            return
+    while P.search[OPEN] != 0.0:
+        put_inside(P, t, h, P.search[SHARE])
+        judge(P)
+    put_end(P)
+
+
+@native
+def put_inside(P: Problem, t: float, h: float, x: float) -> None:
+    """The tried step from ``t`` at the share ``x`` into the workspace."""
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w, Y, y, a, z = 2 * n + ns, P.history, P.trial[0:], P.x, P.F
+    collocated(P, Y, w, x, y)
+    quadratic(P, x, Y[(RATES + 1) * w + n :], w, n, a)
+    quadratic(P, x, Y[stage_z(P, 0) :], stage_z(P, 1) - stage_z(P, 0), first, z)
+    for i in range(n):
+        y[i] += Y[ORIGIN * w + i]
+    for k in range(ns):
+        z[first + k] = y[2 * n + k]
+    put_state(P, t + x * h, y, y[n:], a, z, P.rd)
+
+
+@native
+def switch_behind(P: Problem, L: Plan) -> int:
+    """A branch changes just behind the start of the step: change it there and begin anew."""
+    stand_at_start(P)
+    if not change_here(P, L, P.control[NOW]):
+        return NEWTON_FAILED
+    predict_anew(P, L)
+    return RUNNING
+
+
+@native
+def move_past(P: Problem, L: Plan) -> int:
+    """Behind an event: the prediction goes on when nothing jumped, else it begins anew."""
+    C = P.control
+    if not pass_event(P, L, C[NOW]):
+        return NEWTON_FAILED
+    C[KNOWN] = 0.0
+    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+        predict_anew(P, L)
+    else:
+        take_accelerations(P)
+    return RUNNING
+
+
+@native
+def take_accelerations(P: Problem) -> None:
+    """Accelerations and algebraic unknowns in place are those of the accepted state."""
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    keep_algebraic(P)
+
+
+@native
+def predict_anew(P: Problem, L: Plan) -> None:
+    """The next step is predicted from the accelerations in place, and chosen like the first."""
+    C = P.control
+    P.count[RESTARTS] += 1
+    take_accelerations(P)
+    C[H_LAST], C[LAST_SIZE], C[KNOWN], C[CAUTIOUS] = 0.0, 0.0, 0.0, 1.0
+    C[H] = first_step(P, 0)
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.x))
