@@ -19,6 +19,7 @@ from adamslite.cables.demand import Demand, elements, form, is_sudden, level, lo
 PER_CROSSING = {"VERLET": 2.5, "HHT": 0.7}
 PER_PERIOD, FEWEST_STEPS = 100.0, 400.0
 VERLET_CPU, FIXED_CPU, GROWING_CPU = 0.13e-6, 0.6e-6, 2.4e-6
+# Of the length: below, round-off of the places is in the way.
 TIGHTEST = 1e-9
 
 
@@ -43,7 +44,7 @@ def advise(of: Demand, p: float) -> Advice:
     error = p * loaded(of) * of.length / max(sections, 1) / of.stiffness
     return Advice(
         p, chosen, form(of, p) if chosen == 3 else "", sections, method,
-        max(_rounded(error), TIGHTEST), _cost(of, method, chosen, sections),
+        _rounded(max(error, TIGHTEST * of.longest)), _cost(of, method, chosen, sections),
     )  # fmt: skip
 
 

@@ -59,7 +59,7 @@ def asked(chain: Chain, posture: Posture, end: float) -> Asked:
         stiffness=stiffness, density=mean(masses) * n / free, length=free, tension=carried,
         moved=sum(tips), pull=abs(shape.pull), least=travel.least, most=travel.most,
         speed=travel.speed, acceleration=travel.acceleration, known=travel.known, jump=jump,
-        across=across, straight=shape.straight, wave=shape.wave(across),
+        across=across, straight=shape.straight, wave=shape.wave(across, free),
         bounces=abs(drawn - hung) > 0.5 * weight + 0.01 * hung and not chain.is_ring, end=end,
         tied=_is_tied(deck),
     )  # fmt: skip
@@ -232,11 +232,13 @@ class _Shape:
             return dot(self.speeds[-1], self.along[-1])
         return -dot(self.speeds[0], self.along[0])
 
-    def wave(self, across: float) -> float:
-        """Wave number of the drawn shape and speeds: sqrt of sum y"^2 over sum y'^2, transverse."""
+    def wave(self, across: float, free: float) -> float:
+        """Wave number of the drawn shape and speeds, by the free length: sqrt of sum y"^2 over sum
+        y'^2, across the line.
+        """
         if across or self.straight:
             return 0.0
-        h = mean(norm(plus(b, a, -1.0)) for a, b in zip(self.places, self.places[1:], strict=False))
+        h = free / len(self.along)
         numbers = [_wave_number(values, h, self.line) for values in (self.places, self.speeds)]
         return max(numbers)
 
@@ -246,7 +248,9 @@ def _wave_number(values: list[Vector], h: float, line: Vector) -> float:
     slopes = [plus(b, a, -1.0) for a, b in zip(ys, ys[1:], strict=False)]
     bends = [plus(b, a, -1.0) for a, b in zip(slopes, slopes[1:], strict=False)]
     first = sum(dot(s, s) for s in slopes)
-    return sqrt(sum(dot(b, b) for b in bends) / first) / h if first > 0 else 0.0
+    if first <= (ASIDE * max(map(norm, values))) ** 2:
+        return 0.0
+    return sqrt(sum(dot(b, b) for b in bends) / first) / h
 
 
 def _place(chain: Chain, posture: Posture, k: int) -> Vector:

@@ -10,9 +10,9 @@ For an error p of tensions and of the times at which waves arrive:
     the paper's element  s'/(2 c_t) < p unless all moves along one line,
                          rho (l s" + s'^2)/2 < p T,  (l/c)/tau < p
     sections             transverse wave           (k H)^2/24 < p, k its number, at least pi/l
-                         half a section at an end  rho l (g + s")/(2 N) < p of T at that end
-                         axial front               N > 36 (0.01/p)^0.55
-                         kink                      N > 7 c/U (0.01/p)^0.3, U its speed
+                         half a section at an end  rho l (g + s")/(2 N - 2) < p of T at that end
+                         axial front               N > 42 (0.01/p)^0.55
+                         kink                      N > 7 c/U (0.01/p)^0.41, U its speed
 
 Sources: sections from the discrete spectrum w_k = (2 c/H) sin(k pi/2N); the others measured, see
 docs/cables.md.
@@ -23,7 +23,7 @@ from math import ceil, pi, sqrt
 
 MOST = 900
 FEWEST = 4
-AXIAL = 36
+AXIAL = 42
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Demand:
     straight : bool
         Everything lies and moves along one line.
     wave : float
-        Wave number of transverse motion that is there at the start [1/length], 0 when not known.
+        Wave number of transverse motion at the start [1/free length], 0 when not known.
     bounces : bool
         It starts out of balance with what it carries.
     tied : bool
@@ -202,12 +202,12 @@ def elements(of: Demand, p: float) -> int:
     finer = 0.01 / p
     load = of.density * of.longest * (of.pull + of.acceleration)
     top = of.tension + load - of.density * of.length * of.pull / 2
-    needed = [FEWEST, load / max(top, load, 1e-12) / (2 * p)]
+    needed = [FEWEST, load / max(top, load, 1e-12) / (2 * p) + 1]
     if not of.straight:
         needed.append(max(pi, of.wave * of.length) / sqrt(24 * p))
     if of.jump or not of.known:
         needed.append(AXIAL * finer**0.55)
     if of.across:
         kink = kink_speed(of.stiffness, of.density, of.tension, of.across)
-        needed.append(7 * of.c / kink * finer**0.3)
+        needed.append(7 * of.c / kink * finer**0.41)
     return min(ceil(max(needed)), MOST)
