@@ -31,13 +31,15 @@ class Side:
     """What the statements of one variable-length cable are called; a scene may have two.
 
     `name` is appended to its variables, node k is MARKER/first + k, except node `tip[0]`, which is
-    MARKER/tip[1]; the pulley is PART/pulley, its bearing the next number.
+    MARKER/tip[1]; the pulley is PART/pulley, its bearing MARKER/pulley + 1. `carried` when the
+    bearing is on a part whose attitude changes.
     """
 
     name: str = ""
     first: int = 1
     pulley: int = PULLEY
     tip: tuple[int, int] = (-1, 0)
+    carried: bool = False
 
     def node(self, k: int) -> int:
         """Marker of node k."""
@@ -127,12 +129,14 @@ def payout_variables(
 
     A pulley that turns negatively when it pays out has a negative radius here.
     """
-    a, turn = side.name, f"({side.pulley},{side.pulley + 1})"
+    a, wheel, bearing = side.name, side.pulley, side.pulley + 1
+    # Rates are taken along the bearing's axis and, where that turns, as seen from there.
+    seen = f",{bearing}" if side.carried else ""
     return (
         f"\n! Payout and its rates; free length of the cable and of a section; mass a node gains.\n"
-        f"VARIABLE/S{a}, FUNCTION={radius:.11g}*AZ{turn}\n"
-        f"VARIABLE/SD{a}, FUNCTION={radius:.11g}*WZ{turn}\n"
-        f"VARIABLE/SDD{a}, FUNCTION={radius:.11g}*WDTZ{turn}\n"
+        f"VARIABLE/S{a}, FUNCTION={radius:.11g}*AZ({wheel},{bearing})\n"
+        f"VARIABLE/SD{a}, FUNCTION={radius:.11g}*WZ({wheel},{bearing}{seen})\n"
+        f"VARIABLE/SDD{a}, FUNCTION={radius:.11g}*WDTZ({wheel},{bearing}{seen * 2})\n"
         f"VARIABLE/LT{a}, FUNCTION={number(length)}+S{a}\n"
         f"VARIABLE/H{a}, FUNCTION=LT{a}/{sections}\n"
         f"VARIABLE/Dm{a}, FUNCTION=rho*S{a}/{sections}\n"

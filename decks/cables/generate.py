@@ -12,6 +12,7 @@ from pathlib import Path
 
 import arrest
 import cranes
+import draglines
 import drum
 import kinks
 import moving
@@ -26,6 +27,7 @@ CASES: dict[str, Callable[[], Iterator[tuple[str, str, str]]]] = {
     **moving.CASES,
     **arrest.CASES,
     **cranes.CASES,
+    **draglines.CASES,
     **drum.CASES,
 }
 

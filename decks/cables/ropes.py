@@ -53,6 +53,18 @@ def nodes(form: str, side: Side, mass: float, places: np.ndarray, axes: str = "X
     return text
 
 
+def hanging(cable: Cable, length: float, sections: int, start, end_pull) -> np.ndarray:
+    """Nodes 1 .. N of a rope at rest, (N, 2), from `start` on, whose end is pulled so (2,) [N].
+
+    The pull in section k is that in section k + 1 and the weight of node k.
+    """
+    free, node = length / sections, cable.density * length / sections
+    weights = np.outer(np.arange(sections - 1, -1, -1), [0.0, -node * G])
+    pulls = np.asarray(end_pull) + weights
+    tension = np.linalg.norm(pulls, axis=1)[:, None]
+    return np.asarray(start) + np.cumsum(free * (1 / tension + 1 / cable.stiffness) * pulls, axis=0)
+
+
 def sums(name: str, factor: str, terms: list[str]) -> tuple[str, str]:
     """VARIABLEs of five terms each, and the sum of their names."""
     groups = [terms[i : i + 5] for i in range(0, len(terms), 5)]
@@ -76,7 +88,7 @@ def stored(side: Side, sections: int) -> tuple[str, list[str]]:
         stretch = f"MAX(0,DM({h},{i})/H{s}-1)"
         strain.append(f"{stretch}**2")
         lost += (
-            f"DIFF/Q{s}{k}, IC=0, STATIC_HOLD, FUNCTION=(T{s}{k}-EA*{stretch})"
+            f"DIFF/Q{s}{k}, IC=0, FUNCTION=(T{s}{k}-EA*{stretch})"
             f"*(VR({h},{i})-SD{s}*DM({h},{i})/LT{s})\n"
         )
         if k < n:
@@ -106,7 +118,7 @@ def balance(side: Side, sections: int) -> str:
         f"VARIABLE/V{s}, FUNCTION=rho*{G:g}*H{s}*({heights}\n,  +DY({tip},{first})/2)\n"
         f"VARIABLE/E{s}, FUNCTION={'+'.join(names)}+V{s}\n"
         f",  +rho*H{s}/4*(VM({tip})**2+{own})\n"
-        f"DIFF/W{s}, IC=0, STATIC_HOLD, FUNCTION=-SD{s}*(T{s}1*{out}-EA/2*({out}-1)**2\n"
+        f"DIFF/W{s}, IC=0, FUNCTION=-SD{s}*(T{s}1*{out}-EA/2*({out}-1)**2\n"
         f",  -rho/2*({own}))\n"
         f",  +T{s}1*({along})/DM({first},{one})\n"
     )
