@@ -90,30 +90,3 @@ def test_level_3_a_weight_is_lowered(form: str, error: float) -> None:
     exact = (mass + rho * length) * 9.81
     found = results["REQUEST/1.F2"][late]
     assert np.mean(found - exact) == pytest.approx(-error * rho * speed**2, abs=0.02 * rho * 100)
-
-
-def told(spec: str) -> list[tuple[str, int]]:
-    """Codes and lines of all messages."""
-    try:
-        return [(each.code, each.span.line) for each in deck(spec)[1]]
-    except adamslite.DeckError as fault:
-        return [(each.code, each.span.line) for each in fault.diagnostics]
-
-
-def test_all_mistakes_are_told_at_once_with_their_lines() -> None:
-    spec = ATWOOD.replace("EA = 1e7", "EA = -1e7").replace("radius", "raduis", 1)
-    assert told(spec) == [("not-positive", 6), ("missing-key", 12), ("unknown-key", 15)]
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "code"),
-    [
-        ("at = [1.8, 0, 0]", "at = [0.5, 0, 0]", "radius-over-spacing"),
-        ("at = [1.8, 0, 0]", "at = [0.2, 0, 0]", "zero-span"),
-        ("at = [2, -5, 0]", "at = [-2, -1, 0]", "crossing"),
-        ("mass = 3", "mass = 3\nvelocity = [10, 0, 0]", "rigid-has-waves"),
-        ("rho = 0.01", "rho = 0.01\nbreaking_load = 40", "breaking"),
-    ],
-)
-def test_a_scene_that_cannot_be_is_told(old: str, new: str, code: str) -> None:
-    assert [each for each, _ in told(ATWOOD.replace(old, new, 1))] == [code]

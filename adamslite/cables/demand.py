@@ -158,12 +158,28 @@ def loaded(of: Demand) -> float:
 
 def is_sudden(of: Demand, p: float) -> bool:
     """Whether fronts run through the cable."""
-    return of.across > 0 or of.density * of.c * of.jump > p * of.tension
+    return bool(fronts(of, p))
+
+
+def fronts(of: Demand, p: float) -> list[str]:
+    """What sends fronts through the cable."""
+    found = [f"a weight starts across it at {of.across:.4g} m/s"] if of.across > 0 else []
+    if of.density * of.c * of.jump > p * of.tension:
+        found.append(f"a speed of {of.jump:.4g} m/s starts at once")
+    return found
+
+
+def waves(of: Demand, p: float) -> list[str]:
+    """Why the time that waves take matters."""
+    found = fronts(of, p)
+    if of.rushes > p:
+        found.append(f"(l/c)/tau = {of.rushes:.2g}")
+    return found if of.known else [*found, "the payout is not known before the run"]
 
 
 def has_waves(of: Demand, p: float) -> bool:
     """Whether the time that waves take matters."""
-    return is_sudden(of, p) or of.rushes > p or not of.known
+    return bool(waves(of, p))
 
 
 def paper_fails(of: Demand, p: float) -> list[str]:
@@ -184,30 +200,41 @@ def elastic_level(of: Demand) -> int:
 
 def level(of: Demand, p: float) -> int:
     """1 rigid and massless, 2 sections of fixed length, 3 of variable length."""
+    return elastic_level(of) if rigid_fails(of, p) else 1
+
+
+def rigid_fails(of: Demand, p: float) -> list[str]:
+    """What speaks against a rigid cable without mass."""
     weight = of.density * of.longest
     swings = sqrt((of.moved + weight / 3) * of.longest / of.stiffness)
-    late = swings * of.acceleration / of.speed if of.speed else 0.0
-    rigid = (
-        not has_waves(of, p)
-        and not of.bounces
-        and weight < p * of.moved
-        and of.tension < p * of.stiffness
-        and late < p
-    )
-    return 1 if rigid else elastic_level(of)
+    figures = {
+        "rho l/M": weight / max(of.moved, 1e-12),
+        "T/EA": of.tension / of.stiffness,
+        "sqrt((M + rho l/3) l/EA)/tau": swings * of.acceleration / of.speed if of.speed else 0.0,
+    }
+    found = waves(of, p) + ["it starts out of balance"] * of.bounces
+    return found + [f"{name} = {value:.2g}" for name, value in figures.items() if value >= p]
 
 
 def elements(of: Demand, p: float) -> int:
     """Sections of a span."""
+    return min(ceil(max(needed(of, p).values())), MOST)
+
+
+def needed(of: Demand, p: float) -> dict[str, float]:
+    """Sections of a span that each rule asks for."""
     finer = 0.01 / p
     load = of.density * of.longest * (of.pull + of.acceleration)
     top = of.tension + load - of.density * of.length * of.pull / 2
-    needed = [FEWEST, load / max(top, load, 1e-12) / (2 * p) + 1]
+    found = {
+        "at least": FEWEST,
+        "for half a section at an end": load / max(top, load, 1e-12) / (2 * p) + 1,
+    }
     if not of.straight:
-        needed.append(max(pi, of.wave * of.length) / sqrt(24 * p))
+        found["for transverse waves"] = max(pi, of.wave * of.length) / sqrt(24 * p)
     if of.jump or not of.known:
-        needed.append(AXIAL * finer**0.55)
+        found["for axial fronts"] = AXIAL * finer**0.55
     if of.across:
         kink = kink_speed(of.stiffness, of.density, of.tension, of.across)
-        needed.append(7 * of.c / kink * finer**0.41)
-    return min(ceil(max(needed)), MOST)
+        found["for a kink, 7 c/U"] = 7 * of.c / kink * finer**0.41
+    return found

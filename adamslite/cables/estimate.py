@@ -1,28 +1,32 @@
 """How far, how fast and under what load the cable moves, were it rigid.
 
-One coordinate q, the travel of the cable along the route, payout when a winch drives it:
+Payout by a law is what the law says.  Else one coordinate q, the travel of the cable along the
+route, payout where an engine holds it back:
 
     (sum m + sum J/R**2 + rho L) q" = sum m g . d - engine force,       q' = v . d at the start
 
 with d the direction of the route at each free end.
 """
 
-from dataclasses import dataclass
-from math import sqrt
+from dataclasses import dataclass, field, replace
+from math import dist
 
 from adamslite.cables.geometry import Span, add, dot
 from adamslite.cables.law import Unknown, parse, value
 from adamslite.cables.messages import Faults
-from adamslite.cables.spec import Spec
+from adamslite.cables.places import Path
+from adamslite.cables.vocabulary import Spec
+from adamslite.expression import Node
 
 INSTANTS = 400
 
 
 @dataclass(frozen=True)
 class Travel:
-    """Payout or travel of the rigid cable: least and greatest way [m], speed, acceleration.
+    """Least and greatest way [m] and when the least is reached; greatest speed, acceleration.
 
-    `known` is false where an expression depends on what only the run knows.
+    `start` and `jump` are the speeds it starts with, and those that are there at once; `known` is
+    false where it depends on what only the run knows.
     """
 
     least: float = 0.0
@@ -33,47 +37,144 @@ class Travel:
     jump: float = 0.0
     across: float = 0.0
     known: bool = True
+    start: float = 0.0
+
+
+@dataclass(frozen=True)
+class Moves:
+    """What is known before the run of how the cable moves over its wheels.
+
+    `paid` has the ways of winches with laws, by station; `unknown` says what is not known; `across`
+    is the greatest speed of a weight across the cable [m/s], `shaken` the greatest acceleration of
+    a station with a law of motion.
+    """
+
+    ways: tuple[Travel, ...] = ()
+    paid: dict[int, Travel] = field(default_factory=dict)
+    across: float = 0.0
+    shaken: float = 0.0
+    unknown: str = ""
+
+    @property
+    def known(self) -> bool:
+        """Whether the ways are all there is."""
+        return not self.unknown
+
+    @property
+    def least(self) -> float:
+        """Of all ways [m]."""
+        return min((each.least for each in self.ways), default=0.0)
+
+    @property
+    def most(self) -> float:
+        """Of all ways [m]."""
+        return max((each.most for each in self.ways), default=0.0)
 
     @property
     def way(self) -> float:
         """Of the cable over its wheels [m]."""
-        return self.most - self.least
+        return max((each.most - each.least for each in self.ways), default=0.0)
+
+    @property
+    def speed(self) -> float:
+        """Greatest [m/s]."""
+        return max((each.speed for each in self.ways), default=0.0)
+
+    @property
+    def acceleration(self) -> float:
+        """Greatest [m/s^2]."""
+        return max((self.shaken, *(each.acceleration for each in self.ways)))
+
+    @property
+    def jump(self) -> float:
+        """Greatest speed that is there at once [m/s]."""
+        return max((each.jump for each in self.ways), default=0.0)
 
 
-def travel(spec: Spec, spans: list[Span], faults: Faults) -> Travel:
-    """The travel of the rigid cable over the whole run."""
-    number, winch = next(
-        ((i, each) for i, each in enumerate(spec.route) if each.kind == "winch"), (0, None)
-    )
-    across = max(_across(spec, spans))
-    if winch:
-        key = "payout" if winch.payout else "force"
-        law = parse(getattr(winch, key), ("route", number, key), faults)
-        if law is None:
-            return Travel(across=across, known=False)
-        try:
-            if key == "payout":
-                ways = [value(law, spec.end * i / INSTANTS, {}) for i in range(INSTANTS + 1)]
-                if abs(ways[0]) > 1e-9:
-                    faults.add("payout-start", ("route", number, key), value=ways[0])
-                return from_ways(ways, spec.end / INSTANTS, across)
-            return from_ways(_ways(spec, spans, law), spec.end / INSTANTS, across)
-        except Unknown:
-            return Travel(across=across, known=False)
-    if any(each.kind == "fixed" for each in spec.route):
-        return Travel(across=across)
-    return from_ways(_ways(spec, spans, None), spec.end / INSTANTS, across)
+@dataclass(frozen=True)
+class Laws:
+    """The expressions of a description: ways that laws tell, by station, and engines.
+
+    A way is None where it depends on what only the run knows.
+    """
+
+    paid: dict[int, Travel | None]
+    moved: list[Travel | None]
+    engines: list[Node]
 
 
-def _across(spec: Spec, spans: list[Span]) -> list[float]:
-    """Speed of each end across the cable [m/s]."""
-    found = []
-    for station, span in ((spec.route[0], spans[0]), (spec.route[-1], spans[-1])):
-        v = station.velocity
-        along = dot(v, span.along)
-        side = add(v, span.along, -along)
-        found.append(sqrt(dot(side, side)))
+def laws(spec: Spec, faults: Faults) -> Laws:
+    """All expressions, read; says which cannot be, and which do not begin at 0."""
+    found = Laws({}, [], [])
+    for i, each in enumerate(spec.route):
+        for key in ("payout", "force", "pull"):
+            if getattr(each, key):
+                law = parse(getattr(each, key), ("route", i, key), faults)
+                if law and key == "payout":
+                    found.paid[i] = _told(spec, law, ("route", i, key), faults)
+                elif law and key == "force":
+                    found.engines.append(law)
+        for text in filter(None, each.motion):
+            law = parse(text, ("route", i, "motion"), faults)
+            if law:
+                found.moved.append(_told(spec, law, ("route", i, "motion"), faults))
     return found
+
+
+def travel(spec: Spec, spans: list[Span], told: Laws) -> Moves:
+    """The travel of the rigid cable over the whole run."""
+    ways = {i: way for i, way in told.paid.items() if way}
+    if spec.closed:  # all of it starts at that speed
+        ways = {i: replace(way, jump=0.0) for i, way in ways.items()}
+    free = _free(spec, spans, told.engines)
+    unknown = free if isinstance(free, str) else ""
+    if len(ways) < len(told.paid):
+        unknown = "the payout is not known before the run"
+    found = (*ways.values(), *([free] if isinstance(free, Travel) else []))
+    shaken = max((way.acceleration for way in told.moved if way), default=0.0)
+    return Moves(found, ways, _across(spec, spans), shaken, unknown)
+
+
+def _told(spec: Spec, law: Node, path: Path, faults: Faults) -> Travel | None:
+    """A way that a law tells; None when it depends on the run."""
+    try:
+        ways = [value(law, spec.end * i / INSTANTS, {}) for i in range(INSTANTS + 1)]
+    except Unknown:
+        return None
+    if abs(ways[0]) > 1e-9:
+        faults.add("law-start", path, word=path[2], value=ways[0])
+    return from_ways(ways, spec.end / INSTANTS)
+
+
+def _free(spec: Spec, spans: list[Span], engines: list[Node]) -> Travel | str | None:
+    """The way of a cable that weights and an engine move, or why it is not known."""
+    inside = spec.route if spec.closed else spec.route[1:-1]
+    if any(each.is_free for each in inside) or any(each.is_carried for each in spec.route):
+        return "weights or wheels on the cable move by themselves"
+    if spec.closed or any(each.slips for each in inside):
+        return "the cable may slip on its wheels"
+    if any(each.kind == "run" for each in spec.route):
+        return "a long run feeds the cable"
+    if not engines:
+        held = [each for each in spec.route if each.kind in ("fixed", "winch")]
+        return None if held else _ways(spec, spans, None)
+    if len(spec.winches) > 1:
+        return "the payout is not known before the run"
+    try:
+        return _ways(spec, spans, engines[0])
+    except Unknown:
+        return "the payout is not known before the run"
+
+
+def _across(spec: Spec, spans: list[Span]) -> float:
+    """Greatest speed of a weight across the cable [m/s]."""
+    found = [0.0]
+    for i, each in enumerate(spec.route):
+        for p in spec.beside(i):
+            if p >= 0 and any(each.velocity):
+                along = spans[p].along
+                found.append(dist(each.velocity, add((0, 0, 0), along, dot(each.velocity, along))))
+    return max(found)
 
 
 def moving_mass(spec: Spec) -> float:
@@ -82,7 +183,7 @@ def moving_mass(spec: Spec) -> float:
     return wheels + sum(each.mass for each in spec.route)
 
 
-def _ways(spec: Spec, spans: list[Span], law) -> list[float]:
+def _ways(spec: Spec, spans: list[Span], law: Node | None) -> Travel:
     """Ways of the rigid cable, at the ends of equal steps; symplectic Euler."""
     cable = spec.cable.density * sum(span.length for span in spans)
     inertia = moving_mass(spec) + cable
@@ -97,17 +198,21 @@ def _ways(spec: Spec, spans: list[Span], law) -> list[float]:
         speed += h * (pull - held) / inertia
         way += h * speed
         ways.append(way)
-    return ways
+    return from_ways(ways, h)
 
 
-def from_ways(ways: list[float], h: float, across: float) -> Travel:
+def from_ways(ways: list[float], h: float, across: float = 0.0) -> Travel:
     """Rates from the ways at the ends of equal steps `h`, the first at time 0."""
-    speeds = [(b - a) / h for a, b in zip(ways, ways[1:], strict=False)]
-    changes = [(b - a) / h for a, b in zip(speeds, speeds[1:], strict=False)]
-    least = min(ways)
+
+    def rates(x: list[float]) -> list[float]:
+        return [(b - a) / h for a, b in zip(x, x[1:], strict=False)]
+
+    speeds, changes = rates(ways), rates(rates(ways))
+    least, fastest = min(ways), max(map(abs, speeds))
+    start = speeds[0] - changes[0] * h / 2
     # A speed that is there from the first instant on, and not by the acceleration that follows.
-    jump = abs(speeds[0] - changes[0] * h / 2)
+    jump = abs(start) if abs(start) > 0.05 * fastest else 0.0
     return Travel(
-        least, max(ways), ways.index(least) * h, max(map(abs, speeds)), max(map(abs, changes)),
-        jump if jump > 0.05 * max(map(abs, speeds)) else 0.0, across,
+        least, max(ways), ways.index(least) * h, fastest, max(map(abs, changes)), jump, across,
+        start=start,
     )  # fmt: skip

@@ -10,10 +10,10 @@ the angle q to D:  sin q = -k/|D|.
 """
 
 from dataclasses import dataclass, replace
-from math import sqrt
+from math import atan2, pi, sqrt
 
 from adamslite.cables.messages import Faults
-from adamslite.cables.spec import Spec, Station, Vector
+from adamslite.cables.vocabulary import ZERO, Spec, Station, Vector
 
 
 @dataclass(frozen=True)
@@ -45,16 +45,20 @@ def cross(a: Vector, b: Vector) -> Vector:
 def unit(a: Vector) -> Vector:
     """a/|a|; a zero vector stays."""
     size = sqrt(dot(a, a))
-    return add((0.0, 0.0, 0.0), a, 1 / size if size else 0.0)
+    return add(ZERO, a, 1 / size if size else 0.0)
 
 
 def turned(spec: Spec) -> Spec:
     """The description with unit axes, and with the turn of every wheel."""
-    route = list(spec.route)
+    route, n = list(spec.route), len(spec.route)
     for i, each in enumerate(route):
         axis = unit(each.axis)
-        before, behind = route[max(i - 1, 0)].at, route[min(i + 1, len(route) - 1)].at
+        if spec.closed:
+            before, behind = route[i - 1].at, route[(i + 1) % n].at
+        else:
+            before, behind = route[max(i - 1, 0)].at, route[min(i + 1, n - 1)].at
         side = dot(cross(add(each.at, before, -1), add(behind, each.at, -1)), axis)
+        # A loop of two stations has no side: all its wheels turn alike.
         route[i] = replace(each, axis=axis, turn=each.turn or (-1 if side < 0 else 1))
     return replace(spec, route=tuple(route))
 
@@ -62,35 +66,45 @@ def turned(spec: Spec) -> Spec:
 def spans(spec: Spec, faults: Faults) -> list[Span]:
     """All free pieces of the cable; says which cannot be."""
     found = []
-    for i, (a, b) in enumerate(zip(spec.route, spec.route[1:], strict=False)):
-        span = _span(a, b, i, faults)
+    for i, j in spec.pairs:
+        span = _span(spec.route[i], spec.route[j], (i, j), faults)
         if span:
             found.append(span)
-    if not faults.errors:
+    if len(found) == len(spec.pairs):
         _crossings(spec, found, faults)
     return found
 
 
-def _span(a: Station, b: Station, i: int, faults: Faults) -> Span | None:
+def wrap(spec: Spec, spans: list[Span], i: int) -> float:
+    """Angle over which the cable lies on the wheel of station i, 0 to 2 pi; 0 at an end."""
+    p, q = spec.beside(i)
+    if p < 0 or q < 0:
+        return 0.0
+    a, b, axis = spans[p].along, spans[q].along, spec.route[i].axis
+    return spec.route[i].turn * atan2(dot(cross(a, b), axis), dot(a, b)) % (2 * pi)
+
+
+def _span(a: Station, b: Station, at: tuple[int, int], faults: Faults) -> Span | None:
     between = add(b.at, a.at, -1)
     spacing = sqrt(dot(between, between))
-    place = ("route", i + 1, "at")
+    i, j = at[0] + 1, at[1] + 1
+    place = ("route", max(at), "at")
     if spacing == 0:
-        faults.add("zero-span", place, i=i + 1, j=i + 2)
+        faults.add("zero-span", place, i=i, j=j)
         return None
     axis = a.axis if a.is_wheel else b.axis
     e = unit(between)
     m = unit(cross(axis, e))
     if (a.is_wheel or b.is_wheel) and dot(m, m) < 0.5:
-        faults.add("axis-along-cable", ("route", i if a.is_wheel else i + 1, "axis"))
+        faults.add("axis-along-cable", ("route", at[0] if a.is_wheel else at[1], "axis"))
         return None
     k = b.turn * b.radius - a.turn * a.radius
     reach = a.radius + b.radius
     if reach >= spacing:
-        faults.add("radius-over-spacing", place, i=i + 1, j=i + 2, spacing=spacing)
+        faults.add("radius-over-spacing", place, i=i, j=j, spacing=spacing)
         return None
     sine = -k / spacing
-    along = add(add((0.0, 0.0, 0.0), e, sqrt(1 - sine**2)), m, sine)
+    along = add(add(ZERO, e, sqrt(1 - sine**2)), m, sine)
     start = add(a.at, cross(along, a.axis), a.turn * a.radius)
     finish = add(b.at, cross(along, b.axis), b.turn * b.radius)
     way = add(finish, start, -1)
@@ -99,20 +113,26 @@ def _span(a: Station, b: Station, i: int, faults: Faults) -> Span | None:
 
 def _crossings(spec: Spec, found: list[Span], faults: Faults) -> None:
     """Two pieces that meet, or a piece that runs through a wheel it does not touch."""
-    for i, span in enumerate(found):
-        for j in range(i + 1, len(found)):
+    for p, span in enumerate(found):
+        for q in range(p + 1, len(found)):
             # Neighbours meet at a point of no size only by turning back onto each other.
-            if apart(span, found[j]) < 1e-9 * (span.length + found[j].length) and (
-                j > i + 1 or dot(span.along, found[j].along) < -1 + 1e-12
+            beside = set(spec.pairs[p]) & set(spec.pairs[q])
+            if apart(span, found[q]) < 1e-9 * (span.length + found[q].length) and (
+                len(beside) != 1 or dot(span.along, found[q].along) < -1 + 1e-12
             ):
-                what = f"spans {i + 1}-{i + 2} and {j + 1}-{j + 2} meet"
-                faults.add("crossing", ("route", j, "at"), what=what)
+                what = f"spans {_name(spec, p)} and {_name(spec, q)} meet"
+                faults.add("crossing", ("route", spec.pairs[q][0], "at"), what=what)
         for j, wheel in enumerate(spec.route):
-            if wheel.is_wheel and j not in (i, i + 1):
-                centre = Span(wheel.at, wheel.at, (0.0, 0.0, 0.0), 0.0)
+            if wheel.is_wheel and j not in spec.pairs[p]:
+                centre = Span(wheel.at, wheel.at, ZERO, 0.0)
                 if apart(span, centre) < wheel.radius * (1 - 1e-9):
-                    what = f"span {i + 1}-{i + 2} runs through the wheel of station {j + 1}"
+                    what = f"span {_name(spec, p)} runs through the wheel of station {j + 1}"
                     faults.add("crossing", ("route", j, "at"), what=what)
+
+
+def _name(spec: Spec, p: int) -> str:
+    i, j = spec.pairs[p]
+    return f"{i + 1}-{j + 1}"
 
 
 def apart(p: Span, q: Span) -> float:

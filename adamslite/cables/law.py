@@ -40,7 +40,9 @@ def parse(text: str, path: Path, faults: Faults) -> Node | None:
     from adamslite.deck import read
     from adamslite.diagnostics import DeckError
 
-    names = "VARIABLE/S, FUNCTION=0\nVARIABLE/SD, FUNCTION=0\n" if path[-1] == "force" else ""
+    names = (
+        "VARIABLE/S, FUNCTION=0\nVARIABLE/SD, FUNCTION=0\n" if path[-1] in ("force", "pull") else ""
+    )
     deck = f"a law\nPART/1, GROUND\n{names}VARIABLE/1, FUNCTION={text}\n"
     try:
         return read(deck).of("VARIABLE")[-1].function

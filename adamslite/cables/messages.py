@@ -10,17 +10,27 @@ MESSAGES: dict[str, Message] = {
     "missing-key": Message("{label} needs {word}", "write {word} = ..."),
     "wrong-value": Message("{word} takes {expected}", "it is {text}"),
     "not-positive": Message("{word} has to be positive and is {text}", "SI units: N, kg/m, m, s"),
-    "not-a-share": Message("{word} has to lie between 0 and 1 and is {text}"),
-    "negative": Message("{word} cannot be negative and is {text}"),
+    "not-a-share": Message(
+        "{word} has to lie between 0 and 1 and is {text}", "0.2 is twenty per cent"
+    ),
+    "negative": Message("{word} cannot be negative and is {text}", "0, or leave it out"),
     "short-route": Message("a route has two ends and {count} stations", "add [[route]] tables"),
     "wrong-end": Message(
-        "a {kind} cannot be {where}", "pulleys stand between two ends: fixed, mass, body or winch"
+        "a {kind} cannot be {where}",
+        "ends: fixed, run, mass, body, winch; between them: pulley, mass, body; on a loop: pulley,"
+        " winch",
     ),
     "drive": Message("a winch needs one of payout and force", 'payout = "0.5*TIME**2"'),
-    "two-winches": Message("there is one winch in a route", "hold the other end with fixed"),
-    "expression": Message("{word}: {why}", "an expression of TIME; a force may use S and SD"),
-    "payout-start": Message(
-        "the payout at TIME = 0 is {value:.4g} m", "it counts from the length in the route: 0"
+    "moved-twice": Message(
+        "a pulley moves by its motion or by the forces on its mass", "leave motion or mass out"
+    ),
+    "no-carriage": Message("{word} is for a pulley that is free to move", "give it a mass"),
+    "no-slide": Message("pull goes along slide", "slide = [1, 0, 0]"),
+    "expression": Message(
+        "{word}: {why}", "an expression of TIME; force and pull may use S and SD"
+    ),
+    "law-start": Message(
+        "{word} at TIME = 0 is {value:.4g} m", "it counts from the place in the route: 0"
     ),
     "payout-too-far-in": Message(
         "at TIME = {time:.4g} the payout is {value:.4g} m: the cable of {length:.4g} m has no"
@@ -37,10 +47,24 @@ MESSAGES: dict[str, Message] = {
         "the route passes through itself: {what}", "move a station, or its turn = 1 or -1"
     ),
     "axis-along-cable": Message("the axis of this wheel lies along the cable", "axis = [0, 0, 1]"),
-    "too-many": Message("{word} is {count}; a span takes 1 to 900", "fewer elements, or auto"),
-    "brute-straight": Message(
-        "form brute lays the supply out in line with one span, without gravity",
-        'a winch, then one end, and gravity = [0, 0, 0]; else form = "ale"',
+    "too-many": Message(
+        "{word} makes {count} sections of one cable; it may have 1 to {most}",
+        "fewer elements, or auto",
+    ),
+    "form-has-level": Message("form {form} is one of level 3", "level = 3, or leave one out"),
+    "needs-brute": Message(
+        "{why}: only sections that run over the rims can show that", 'form = "brute"'
+    ),
+    "brute-no-wheel": Message(
+        "form brute is for wheels, and there is none", "level = 2 has the same sections"
+    ),
+    "brute-plane": Message(
+        "form brute takes a scene in one plane across its axles",
+        "axles, places, velocities, gravity and the plane; or another form",
+    ),
+    "rigid-cannot": Message("level 1 is a rigid cable: {what}", "level = 2 or 3"),
+    "stored-too-little": Message(
+        "the payout comes to {value:.4g} m and {held:.4g} m are stored", "store more, or less end"
     ),
     "level-2-pays-out": Message(
         "level 2 has sections of {section:.4g} m and {travel:.4g} m of cable go over a wheel",
@@ -54,7 +78,7 @@ MESSAGES: dict[str, Message] = {
     ),
     "breaking": Message(
         "the cable carries {tension:.4g} N at the start and breaks at {limit:.4g} N",
-        "",
+        "less load, or a stronger cable",
         severity=WARNING,
     ),
     "paper-not-valid": Message(

@@ -1,14 +1,17 @@
 """The whole way from the text of a description to the text of a deck."""
 
-from adamslite.cables.choose import Choice, choose, tensions
-from adamslite.cables.estimate import Travel, travel
+from adamslite.cables.choose import Choice, choose, needs_brute, tensions
+from adamslite.cables.demand import MOST
+from adamslite.cables.estimate import Moves, laws, travel
 from adamslite.cables.geometry import Span, spans, turned
+from adamslite.cables.lay import stretches
+from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
-from adamslite.cables.spec import Spec, read
+from adamslite.cables.spec import read
+from adamslite.cables.vocabulary import Spec
+from adamslite.cables.wheels import in_plane, slipping
 from adamslite.cables.write import write
 from adamslite.diagnostics import DeckError, Diagnostic, sort_by_place
-
-MOST_ELEMENTS = 900
 
 
 def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
@@ -22,29 +25,65 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     spec, faults = read(text, file)
     spec = turned(spec)
     pieces = spans(spec, faults)
-    if len(pieces) < len(spec.route) - 1:
-        raise DeckError(faults.found)
-    moves = travel(spec, pieces, faults)
+    told = laws(spec, faults)
+    _stop(faults, faults.errors)
+    moves = travel(spec, pieces, told)
     choice = choose(spec, pieces, moves, faults)
+    _check_form(spec, pieces, choice, faults)
     _check(spec, pieces, moves, choice, faults)
-    if faults.errors:
-        raise DeckError(faults.found)
-    return write(spec, pieces, choice), sort_by_place(faults.found)
+    _stop(faults, faults.errors)
+    return write(spec, pieces, moves, choice), sort_by_place(faults.found)
 
 
-def _check(spec: Spec, pieces: list[Span], moves: Travel, choice: Choice, faults: Faults) -> None:
+def _stop(faults: Faults, wrong: bool) -> None:
+    if wrong:
+        raise DeckError(sort_by_place(faults.found))
+
+
+def _check_form(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) -> None:
+    """Whether the level and the form can show what the description has."""
+    brute = choice.form == "brute"
+    if choice.level < 3 and spec.form not in ("auto", "brute"):
+        faults.add("form-has-level", ("model", "form"), form=spec.form)
+    why = needs_brute(spec, pieces)
+    if why and not brute:
+        key = "form" if spec.form != "auto" else "level"
+        faults.add("needs-brute", ("model", key), why="; ".join(why))
+    if brute and not any(each.is_wheel for each in spec.route):
+        faults.add("brute-no-wheel", ("model", "form"))
+    elif brute and not in_plane(spec):
+        faults.add("brute-plane", ("model", "form"))
+    if choice.level > 1:
+        return
+    for i, each in enumerate(spec.route):
+        if each.kind == "run":
+            faults.add("rigid-cannot", ("route", i, "kind"), what="a long run has waves")
+        if slipping(i, spec):
+            faults.add("rigid-cannot", ("route", i, "mu"), what="its cable cannot slip")
+
+
+def _check(spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults: Faults) -> None:
     """What only the choice and the travel show."""
-    if choice.elements > MOST_ELEMENTS:
-        faults.add("too-many", ("model", "elements"), word="elements", count=choice.elements)
-    winch = next((i for i, each in enumerate(spec.route) if each.kind == "winch"), None)
-    if winch is not None:
-        length = pieces[0 if winch == 0 else -1].length
-        if length + moves.least <= 0:
-            key = "payout" if spec.route[winch].payout else "force"
-            faults.add("payout-too-far-in", ("route", winch, key),
-                       time=moves.least_at, value=moves.least, length=length)  # fmt: skip
-    section = max(piece.length for piece in pieces) / choice.elements
-    if choice.level == 2 and moves.way > section / 2:
+    longest = max(piece.length for piece in pieces)
+    count = choice.elements
+    held = stored(spec, moves) if choice.form == "brute" else {}
+    if choice.form == "brute":
+        total = sum(piece.length for piece in pieces) + sum(held.values())
+        count = round(count * total / longest / len(stretches(spec)))
+    if count > MOST:
+        faults.add("too-many", ("model", "elements"), word="elements", count=count, most=MOST)
+    for i, paid in moves.paid.items():
+        if spec.closed:
+            continue
+        length = pieces[0 if i == 0 else -1].length
+        key = ("route", i, "payout")
+        if length + paid.least <= 0:
+            faults.add("payout-too-far-in", key, time=paid.least_at, value=paid.least,
+                       length=length)  # fmt: skip
+        if i in held and paid.most > held[i]:
+            faults.add("stored-too-little", ("route", i, "stored"), value=paid.most, held=held[i])
+    section = longest / choice.elements
+    if choice.level == 2 and moves.way > section / 2 and choice.form != "brute":
         faults.add("level-2-pays-out", ("model", "level"), section=section, travel=moves.way)
     most = max(tensions(spec, pieces))
     if 0 < spec.cable.breaking < most:

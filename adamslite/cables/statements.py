@@ -17,7 +17,7 @@ which is -Dm (ACC - g) less (m0 + Dm) times the convective part of the accelerat
 from dataclasses import dataclass
 from textwrap import wrap
 
-from adamslite.cables.spec import Cable
+from adamslite.cables.vocabulary import Cable
 
 PULLEY, BEARING = 9001, 9002
 RADIUS = 0.5
@@ -88,10 +88,15 @@ def cable_variables(cable: Cable, damping: float = 0.0) -> str:
     return text
 
 
-def section(s: int, i: int, j: int, free: str, damping: float = 0.0) -> str:
+def section(
+    s: int, i: int, j: int, free: str, damping: float = 0.0, pulls_only: bool = False
+) -> str:
     """SFORCE/s between MARKER/i and MARKER/j of the free length `free`: L_0, or H of a side."""
     grows = f"-SD{free[1:]}*DM({i},{j})/LT{free[1:]}" if free[0] == "H" else ""
     damper = f"-damper*(VR({i},{j}){grows})" if damping else ""
+    if pulls_only:
+        pull = f"EA*(DM({i},{j})/{free}-1){damper.replace('-', '+', 1)}"
+        return f"SFORCE/{s}, I={i}, J={j}, FUNCTION=-MAX(0,{pull})\n"
     return f"SFORCE/{s}, I={i}, J={j}, FUNCTION=-EA*(DM({i},{j})/{free}-1){damper}\n"
 
 
@@ -129,14 +134,22 @@ def payout_variables(
 
     A pulley that turns negatively when it pays out has a negative radius here.
     """
-    a, wheel, bearing = side.name, side.pulley, side.pulley + 1
+    wheel, bearing = side.pulley, side.pulley + 1
     # Rates are taken along the bearing's axis and, where that turns, as seen from there.
     seen = f",{bearing}" if side.carried else ""
+    calls = f"AZ({wheel},{bearing})", f"WZ({wheel},{bearing}{seen})"
+    calls = *calls, f"WDTZ({wheel},{bearing}{seen * 2})"
+    ways = [f"{radius:.11g}*{call}" for call in calls]
+    return length_variables(side.name, sections, length, ways)
+
+
+def length_variables(a: str, sections: int, length: float, ways: list[str]) -> str:
+    """The same from any payout: expressions of S, S' and S"; `a` is appended to the names."""
     return (
         f"\n! Payout and its rates; free length of the cable and of a section; mass a node gains.\n"
-        f"VARIABLE/S{a}, FUNCTION={radius:.11g}*AZ({wheel},{bearing})\n"
-        f"VARIABLE/SD{a}, FUNCTION={radius:.11g}*WZ({wheel},{bearing}{seen})\n"
-        f"VARIABLE/SDD{a}, FUNCTION={radius:.11g}*WDTZ({wheel},{bearing}{seen * 2})\n"
+        f"VARIABLE/S{a}, FUNCTION={ways[0]}\n"
+        f"VARIABLE/SD{a}, FUNCTION={ways[1]}\n"
+        f"VARIABLE/SDD{a}, FUNCTION={ways[2]}\n"
         f"VARIABLE/LT{a}, FUNCTION={number(length)}+S{a}\n"
         f"VARIABLE/H{a}, FUNCTION=LT{a}/{sections}\n"
         f"VARIABLE/Dm{a}, FUNCTION=rho*S{a}/{sections}\n"

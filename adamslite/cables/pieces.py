@@ -1,0 +1,344 @@
+"""Levels 1 to 3: every span of the route as a rigid cable, or as nodes and sections.
+
+Node k of span p is MARKER/1000 p + k, counted from the wheel, from the start of the route without
+one. A span between two wheels is one massless spring; a run that goes on pulls with T0 + rho c v.
+"""
+
+from dataclasses import dataclass
+
+from adamslite.cables.choose import Choice, tensions
+from adamslite.cables.geometry import Span, add, dot, wrap
+from adamslite.cables.statements import (
+    AXES,
+    Side,
+    grown,
+    grown_tip,
+    length_variables,
+    number,
+    point,
+    section,
+)
+from adamslite.cables.vocabulary import ZERO, Spec, Vector
+from adamslite.cables.wheels import drive, marker, slipping, travel, triple, turning
+
+# Sliding speed at which friction is full [m/s].
+CREEP = 1e-3
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A span as it is written: from its root, the wheel if there is one, to its tip.
+
+    `sense` is 1 when it runs with the route; cable that the wheel at its root moves along the route
+    then comes in.
+    """
+
+    number: int
+    span: Span
+    root: int
+    tip: int
+    place: Vector
+    along: Vector
+    sense: int
+    tension: float
+
+    @property
+    def first(self) -> int:
+        """Marker of node 0."""
+        return 1000 * self.number
+
+
+def pieces(spec: Spec, spans: list[Span]) -> list[Piece]:
+    """One for every span."""
+    pulls = tensions(spec, spans)
+    return [_piece(spec, p, span, pulls[p]) for p, span in enumerate(spans)]
+
+
+def _piece(spec: Spec, p: int, span: Span, tension: float) -> Piece:
+    i, j = spec.pairs[p]
+    a, b = spec.route[i], spec.route[j]
+    backwards = b.is_wheel and not a.is_wheel or a.kind == "run"
+    root, tip = (j, i) if backwards else (i, j)
+    sense = -1 if backwards else 1
+    place = span.finish if backwards else span.start
+    return Piece(p + 1, span, root, tip, place, add(ZERO, span.along, sense), sense, tension)
+
+
+def write_pieces(spec: Spec, spans: list[Span], choice: Choice) -> str:
+    """Spans, ends, what turns the wheels, results."""
+    found = pieces(spec, spans)
+    text = "".join(_span(spec, choice, piece) for piece in found)
+    text += _ends(spec, choice, found)
+    for i, each in enumerate(spec.route):
+        if each.is_wheel:
+            text += _turned(spec, spans, choice, i)
+    return text + _requests(spec, choice, found)
+
+
+def _feed(spec: Spec, piece: Piece, order: int = 0) -> str:
+    """Cable that comes in at the wheel at the root of a piece, with its sign."""
+    moves = travel(piece.root, spec, order)
+    return f"+{moves}" if piece.sense > 0 else f"-({moves})"
+
+
+def _between(spec: Spec, piece: Piece) -> bool:
+    return spec.route[piece.root].is_wheel and spec.route[piece.tip].is_wheel
+
+
+def _root_marker(spec: Spec, piece: Piece) -> int:
+    return piece.first if spec.route[piece.root].is_wheel else marker(piece.root)
+
+
+def _span(spec: Spec, choice: Choice, piece: Piece) -> str:
+    """One span in the form of its level."""
+    i, j = spec.pairs[piece.number - 1]
+    text = f"\n! ---- span {piece.number}, from station {i + 1} to {j + 1} ----\n"
+    root = spec.route[piece.root]
+    if root.is_wheel and (_moves(spec, piece) or not _between(spec, piece)):
+        text += _touches(spec, piece.root, piece.first, piece.place, "leaves")
+    if choice.level == 1:
+        return text + _rigid(spec, piece)
+    if spec.route[piece.tip].kind == "run":
+        return text + _run(spec, piece)
+    if _between(spec, piece):
+        return text + _link(spec, piece)
+    return text + _chain(spec, choice, piece)
+
+
+def _touches(spec: Spec, i: int, m: int, place: Vector, word: str) -> str:
+    """MARKER/m where the cable touches wheel i."""
+    each, carrier = spec.route[i], 1
+    if each.is_moved or each.is_carried:
+        carrier, place = marker(i) + 2, add(place, each.at, -1)
+    return f"MARKER/{m}, PART={carrier}, QP={triple(place)}  ! cable {word}\n"
+
+
+def _moves(spec: Spec, piece: Piece) -> bool:
+    """Whether the piece lies between two wheels, one of which moves."""
+    ends = [spec.route[i] for i in (piece.root, piece.tip)]
+    return _between(spec, piece) and any(each.is_moved or each.is_carried for each in ends)
+
+
+def _rigid(spec: Spec, piece: Piece) -> str:
+    p = piece.number
+    if _between(spec, piece):
+        text, apart = _apart(spec, piece)
+        way = f"{travel(piece.root, spec)}-({travel(piece.tip, spec)})"
+        return text + f"GCON/{p}, FUNCTION={apart}-{number(piece.span.length)}-({way})\n"
+    ends = [spec.route[i] for i in (piece.root, piece.tip)]
+    comes = ""
+    if ends[0].is_wheel:
+        comes = f"-({_feed(spec, piece)})"
+    elif not any(each.is_free for each in ends):
+        return "! Held at both ends: nothing moves.\n"
+    i, j = marker(piece.tip), _root_marker(spec, piece)
+    return f"GCON/{p}, FUNCTION=DM({i},{j})-{number(piece.span.length)}{comes}\n"
+
+
+def _link(spec: Spec, piece: Piece) -> str:
+    """A span between two wheels: one spring; its mass is small beside what they turn."""
+    p, long = piece.number, piece.span.length
+    text, apart = _apart(spec, piece)
+    free = long / (1 + piece.tension / spec.cable.stiffness)
+    comes = f"{number(free)}+{travel(piece.root, spec)}-({travel(piece.tip, spec)})"
+    pull = _law(spec, f"EA*({apart}/LT{p}-1)")
+    if _moves(spec, piece):
+        text += f"SFORCE/{piece.first}, I={piece.first}, J={piece.first + 1}, FUNCTION=-T{p}\n"
+    return text + (
+        "! One massless spring from wheel to wheel.\n"
+        f"VARIABLE/LT{p}, FUNCTION={comes}\n"
+        f"VARIABLE/T{p}, FUNCTION={pull}\n"
+    )
+
+
+def _apart(spec: Spec, piece: Piece) -> tuple[str, str]:
+    """Statements for, and the expression of the length of a span between two wheels."""
+    if not _moves(spec, piece):
+        return "", number(piece.span.length)
+    i, j = piece.first, piece.first + 1
+    return _touches(spec, piece.tip, j, piece.span.finish, "arrives"), f"DM({i},{j})"
+
+
+def _law(spec: Spec, pull: str) -> str:
+    return f"MAX(0,{pull})" if spec.cable.pulls_only else pull
+
+
+def _run(spec: Spec, piece: Piece) -> str:
+    """A long straight run of the cable: T0 + rho c times the speed of the cable out of it."""
+    p, root = piece.number, spec.route[piece.root]
+    speed = f"-({_feed(spec, piece, 1)})*(1+{number(piece.tension / spec.cable.stiffness)})"
+    text = "! A long run goes on from here: it pulls with T0 + rho c times the speed out of it.\n"
+    if not root.is_wheel:
+        end = marker(piece.tip)
+        text += f"MARKER/{end}, PART=1, QP={triple(piece.place)}, ZP="
+        text += f"{triple(add(piece.place, piece.along))}\n"
+        speed = f"-VZ({marker(piece.root)},{end},{end})"
+        text += f"SFORCE/{end}, ACTIONONLY, I={marker(piece.root)}, J={end}, FUNCTION=T{p}\n"
+    return text + f"VARIABLE/T{p}, FUNCTION={number(piece.tension)}+SQRT(EA*rho)*({speed})\n"
+
+
+def _hanging(spec: Spec, choice: Choice, piece: Piece) -> tuple[float, list[float]]:
+    """Free length at rest [m], and where the nodes are on the way from root to tip."""
+    n, cable = choice.elements, spec.cable
+    weight = dot(spec.gravity, piece.along) if not spec.route[piece.tip].kind == "fixed" else 0.0
+    free = piece.span.length
+    for _ in range(20):
+        node = cable.density * free / n * weight
+        pulls = [piece.tension + node * (n - k + 0.5) for k in range(1, n + 1)]
+        steps = [free / n * (1 + pull / cable.stiffness) for pull in pulls]
+        free *= piece.span.length / sum(steps)
+    return free, [sum(steps[:k]) for k in range(1, n + 1)]
+
+
+def _axes(spec: Spec) -> str:
+    """The axes along which anything lies, moves or pulls."""
+    vectors = [spec.gravity, *(each.velocity for each in spec.route)]
+    vectors += [add(each.at, spec.route[0].at, -1) for each in spec.route]
+    laws = [any(each.motion[i] for each in spec.route) for i in range(3)]
+    return "".join(a for i, a in enumerate(AXES) if laws[i] or any(abs(v[i]) > 0 for v in vectors))
+
+
+def _side(piece: Piece, choice: Choice) -> Side:
+    return Side(
+        str(piece.number), piece.first, marker(piece.root), (choice.elements, marker(piece.tip))
+    )
+
+
+def _chain(spec: Spec, choice: Choice, piece: Piece) -> str:
+    """Nodes and sections."""
+    n, p, cable = choice.elements, piece.number, spec.cable
+    free, ways = _hanging(spec, choice, piece)
+    side, axes = _side(piece, choice), _axes(spec)
+    grows = choice.level == 3 and spec.route[piece.root].is_wheel
+    mass = cable.density * free / n
+    text = _lengths(spec, choice, piece, free)
+    for k in range(1, n):
+        text += point(side.node(k), mass, add(piece.place, piece.along, ways[k - 1]))
+        text += grown(choice.form, k, n, axes, side) if grows else ""
+    if grows and spec.route[piece.tip].is_free:
+        text += grown_tip(choice.form, side.first + n, n, axes, side)
+    for k in range(1, n + 1):
+        i = _root_marker(spec, piece) if k == 1 else side.node(k - 1)
+        name = f"H{p}" if grows else f"L{p}_0" if k == 1 else f"L{p}"
+        text += section(side.first + k, i, side.node(k), name, cable.damping, cable.pulls_only)
+    return text + _pull(spec, choice, piece, grows)
+
+
+def _lengths(spec: Spec, choice: Choice, piece: Piece, free: float) -> str:
+    """Names for the free length of the sections."""
+    p, n = piece.number, choice.elements
+    wheel = spec.route[piece.root].is_wheel
+    if choice.level == 3 and wheel:
+        ways = [_feed(spec, piece, order) for order in range(3)]
+        return length_variables(str(p), n, free, ways) + "\n"
+    comes = _feed(spec, piece) if wheel else ""
+    return (
+        "! Free length of a section, and of the one at the root.\n"
+        f"VARIABLE/L{p}, FUNCTION={number(free / n)}\n"
+        f"VARIABLE/L{p}_0, FUNCTION={number(free / n)}{comes}\n"
+    )
+
+
+def _half(choice: Choice, piece: Piece, spec: Spec) -> str:
+    """Free length of the half section at the root."""
+    grows = choice.level == 3 and spec.route[piece.root].is_wheel
+    return f"H{piece.number}/2" if grows else f"L{piece.number}_0/2"
+
+
+def _pull(spec: Spec, choice: Choice, piece: Piece, grows: bool) -> str:
+    """Tension at the root, with the half section that lies there."""
+    p, damping = piece.number, spec.cable.damping
+    i, j = _root_marker(spec, piece), _side(piece, choice).node(1)
+    free = f"H{p}" if grows else f"L{p}_0"
+    pull = f"EA*(DM({i},{j})/{free}-1)"
+    if damping:
+        rate = f"-SD{p}*DM({i},{j})/LT{p}" if grows else ""
+        pull += f"+damper*(VR({i},{j}){rate})"
+    text = f"VARIABLE/T{p}, FUNCTION={_law(spec, pull)}"
+    weight = dot(spec.gravity, piece.along)
+    if spec.route[piece.root].is_wheel:
+        # A cable that slips has the half section among the mass on its wheel instead.
+        feeds = f"-({_feed(spec, piece, 2)})"
+        feeds = "" if slipping(piece.root, spec) or grows and choice.form == "paper" else feeds
+        if weight or feeds:
+            text += f"\n, +rho*{_half(choice, piece, spec)}*({number(weight)}{feeds})"
+    return f"! Tension at the {'wheel' if spec.route[piece.root].is_wheel else 'start'}.\n{text}\n"
+
+
+def _ends(spec: Spec, choice: Choice, found: list[Piece]) -> str:
+    """What the pieces are held by or carry."""
+    text = "\n! ---- ends and weights ----\n"
+    for i, each in enumerate(spec.route):
+        half = 0.0
+        for p in spec.beside(i):
+            if p >= 0 and choice.level > 1 and not each.is_wheel:
+                if "run" not in (spec.route[found[p].tip].kind, spec.route[found[p].root].kind):
+                    free, _ = _hanging(spec, choice, found[p])
+                    half += spec.cable.density * free / choice.elements / 2
+        text += end(spec, i, half) if not each.is_wheel else ""
+    return text
+
+
+def end(spec: Spec, i: int, cable: float) -> str:
+    """Station i, not a wheel, with the mass of `cable` at it."""
+    from adamslite.cables.wheels import moved
+
+    each, n = spec.route[i], marker(i)
+    if each.kind == "mass":
+        return point(n, each.mass + cable, each.at, each.velocity)
+    if each.kind == "body":
+        speed = "".join(
+            f", V{a}={number(v)}" for a, v in zip(AXES, each.velocity, strict=True) if v
+        )
+        inertia = ",".join([number(each.inertia)] * 3)
+        return (
+            f"PART/{n}, MASS={number(each.mass + cable)}, CM={n}, IP={inertia}"
+            f", QG={triple(each.at)}{speed}\nMARKER/{n}, PART={n}\n"
+        )
+    if each.is_moved:
+        start = f"MARKER/{n + 3}, PART=1, QP={triple(each.at)}\n"
+        return start + point(n, 1.0, each.at) + moved(n, n + 3, each)
+    return f"MARKER/{n}, PART=1, QP={triple(each.at)}\n" if each.kind == "fixed" else ""
+
+
+def _turned(spec: Spec, spans: list[Span], choice: Choice, i: int) -> str:
+    """What the cable, or its friction, and the drive do to wheel i."""
+    each, n = spec.route[i], marker(i)
+    before, behind = (f"T{p + 1}" if p >= 0 else "" for p in spec.beside(i))
+    arm = number(each.turn * each.radius)
+    if slipping(i, spec):
+        angle = wrap(spec, spans, i)
+        found = pieces(spec, spans)
+        rim = number(spec.cable.density * each.radius * angle)
+        for p in spec.beside(i):
+            if found[p].root == i and not _between(spec, found[p]):
+                if spec.route[found[p].tip].kind != "run":
+                    rim += f"+rho*{_half(choice, found[p], spec)}"
+        text = (
+            f"\n! Friction of the cable on the wheel of station {i + 1}, mu times wrap"
+            f" {each.mu * angle:.4g}: at most a ratio of {2.718281828 ** (each.mu * angle):.4g}.\n"
+            f"VARIABLE/slide_{n}, FUNCTION={travel(i, spec, 1)}-{arm}*{turning(i, spec, 1)}\n"
+            f"VARIABLE/F_{n}, FUNCTION=({before}+{behind})*TANH({number(each.mu * angle / 2)}\n"
+            f", *STEP(slide_{n},-{CREEP:g},-1,{CREEP:g},1))\n"
+            f"DIFF/paid_{n}, FUNCTION=DIF(run_{n})\n"
+            f"DIFF/run_{n}, FUNCTION=VARVAL(A_{n})\n"
+            f"VARIABLE/A_{n}, FUNCTION=({behind}-{before}-F_{n})/({rim})\n"
+        )
+        return text + drive(spec, i, [f"{arm}*F_{n}"])
+    pulls = (f"+{behind}" if behind else "") + (f"-{before}" if before else "")
+    return drive(spec, i, [f"{arm}*({pulls})"] if choice.level > 1 else [])
+
+
+def _requests(spec: Spec, choice: Choice, found: list[Piece]) -> str:
+    """Tension of every span, travel of every wheel."""
+    text = "\n! ---- results ----\n"
+    if choice.level > 1:
+        text += "".join(
+            f"REQUEST/{p.number}, F2=T{p.number}             ! tension of span {p.number}\n"
+            for p in found
+        )
+    for i, each in enumerate(spec.route):
+        if each.is_wheel:
+            text += f"REQUEST/{marker(i)}, F2={travel(i, spec)}\\ F3={travel(i, spec, 1)}"
+            text += f"  ! cable over station {i + 1}\n"
+    return text

@@ -1,0 +1,43 @@
+"""Which stations may stand where, and which of their keys go together."""
+
+from typing import Any
+
+from adamslite.cables.messages import Faults
+
+INSIDE = ("pulley", "mass", "body")
+AT_ENDS = ("fixed", "run", "mass", "body", "winch")
+ON_A_LOOP = ("pulley", "winch", "mass")
+
+
+def check_route(faults: Faults, route: list[dict[str, Any]], closed: bool) -> None:
+    """Say what is wrong with the stations as a whole."""
+    if len(route) < 2:
+        faults.add("short-route", ("route", 0), count=len(route))
+    for i, each in enumerate(route):
+        _place(faults, each, i, len(route), closed)
+        if each.get("kind") == "winch" and bool(each.get("payout")) == bool(each.get("force")):
+            faults.add("drive", ("route", i))
+        if each.get("kind") == "pulley":
+            _carriage(faults, each, i)
+
+
+def _place(faults: Faults, each: dict[str, Any], i: int, count: int, closed: bool) -> None:
+    kind, inside = each.get("kind"), 0 < i < count - 1
+    if kind not in (*INSIDE, *AT_ENDS):
+        return
+    if closed and kind not in ON_A_LOOP:
+        faults.add("wrong-end", ("route", i, "kind"), kind=kind, where="on a loop")
+    elif not closed and kind not in (INSIDE if inside else AT_ENDS):
+        where = "between the ends" if inside else "an end of the route"
+        faults.add("wrong-end", ("route", i, "kind"), kind=kind, where=where)
+
+
+def _carriage(faults: Faults, each: dict[str, Any], i: int) -> None:
+    """A pulley that moves has either a law, or a mass that forces move."""
+    if each["mass"] and any(each["motion"]):
+        faults.add("moved-twice", ("route", i, "motion"))
+    for key in ("slide", "pull"):
+        if not each["mass"] and any(each[key]):
+            faults.add("no-carriage", ("route", i, key), word=key)
+    if each["pull"] and not any(each["slide"]):
+        faults.add("no-slide", ("route", i, "pull"))

@@ -1,0 +1,189 @@
+"""What the description of a cable scene consists of: its keys, and what they hold."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import sqrt
+
+Vector = tuple[float, float, float]
+ZERO: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Cable:
+    """A cable in SI units: stiffness EA [N], density rho [kg/m] of the unstretched cable.
+
+    `pulls_only` says that a slack section carries nothing; else it pushes.
+    """
+
+    stiffness: float
+    density: float
+    pretension: float = 0.0
+    breaking: float = 0.0
+    damping: float = 0.0
+    pulls_only: bool = False
+
+    @property
+    def speed(self) -> float:
+        """Axial wave speed c = sqrt(EA/rho) [m/s]."""
+        return sqrt(self.stiffness / self.density)
+
+
+@dataclass(frozen=True)
+class Station:
+    """A point of the route: an end, a weight on the cable, or a wheel the cable lies on.
+
+    `mu` is negative where the cable cannot slip, `stored` where it is not written; `mass` is that
+    of a weight, or of the carriage of a wheel that is free to move.
+    """
+
+    kind: str
+    at: Vector
+    radius: float = 0.0
+    axis: Vector = (0.0, 0.0, 1.0)
+    turn: int = 0
+    inertia: float = 0.0
+    friction: float = 0.0
+    mu: float = -1.0
+    payout: str = ""
+    force: str = ""
+    stored: float = -1.0
+    mass: float = 0.0
+    velocity: Vector = ZERO
+    motion: tuple[str, str, str] = ("", "", "")
+    slide: Vector = ZERO
+    pull: str = ""
+    teeth: int = 0
+
+    @property
+    def is_wheel(self) -> bool:
+        """Whether the cable lies on it."""
+        return self.kind in WHEELS
+
+    @property
+    def is_free(self) -> bool:
+        """Whether it is a weight that moves through space with the cable."""
+        return self.kind in ("mass", "body")
+
+    @property
+    def is_moved(self) -> bool:
+        """Whether a law moves it."""
+        return any(self.motion)
+
+    @property
+    def is_carried(self) -> bool:
+        """Whether it is a wheel whose axle moves with what it meets."""
+        return self.is_wheel and self.mass > 0
+
+    @property
+    def slips(self) -> bool:
+        """Whether it is a wheel on which the cable may slip."""
+        return self.is_wheel and self.mu >= 0
+
+
+@dataclass(frozen=True)
+class Spec:
+    """All of it; `elements`, `level` and `error` are 0 for "auto", `form` is "auto" then."""
+
+    title: str
+    gravity: Vector
+    end: float
+    steps: int
+    error: float
+    closed: bool
+    cable: Cable
+    route: tuple[Station, ...]
+    level: int
+    form: str
+    elements: int
+    accuracy: float
+    pairs: tuple[tuple[int, int], ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        n = len(self.route)
+        last = n if self.closed else n - 1
+        object.__setattr__(self, "pairs", tuple((i, (i + 1) % n) for i in range(last)))
+
+    @cached_property
+    def winches(self) -> list[int]:
+        """Stations that are winches."""
+        return [i for i, each in enumerate(self.route) if each.kind == "winch"]
+
+    @property
+    def has_run(self) -> bool:
+        """Whether a long run goes on from an end."""
+        return any(each.kind == "run" for each in self.route)
+
+    def is_end(self, i: int) -> bool:
+        """Whether the route begins or ends at station i."""
+        return not self.closed and i in (0, len(self.route) - 1)
+
+    def beside(self, i: int) -> tuple[int, ...]:
+        """Spans at station i: the one before, the one behind; -1 where there is none."""
+        n = len(self.pairs)
+        if self.closed:
+            return (i - 1) % n, i
+        return i - 1, i if i < n else -1
+
+    def outwards(self, i: int) -> int:
+        """Sense, along the route, in which the winch of station i pays out."""
+        return -1 if i == len(self.route) - 1 and not self.closed else 1
+
+
+WHEELS = ("pulley", "winch")
+KINDS = ("fixed", "run", "mass", "body", *WHEELS)
+FORMS = ("auto", "paper", "ale", "brute")
+
+# Key -> (what it takes, a rule for its value, the value without the key; None when it is needed).
+TOP = {
+    "title": ("text", "", "A cable"),
+    "gravity": ("vector", "", (0.0, -9.81, 0.0)),
+    "end": ("number", "not-positive", None),
+    "steps": ("whole", "not-positive", 200),
+    "error": ("number", "not-positive", 0.0),
+    "closed": ("yes or no", "", False),
+}
+CABLE = {
+    "EA": ("number", "not-positive", None),
+    "rho": ("number", "not-positive", None),
+    "pretension": ("number", "negative", 0.0),
+    "breaking_load": ("number", "not-positive", 0.0),
+    "damping": ("number", "not-a-share", 0.0),
+    "pulls_only": ("yes or no", "", False),
+}
+MODEL = {
+    "level": ((1, 2, 3, "auto"), "", "auto"),
+    "form": (FORMS, "", "auto"),
+    "elements": ("whole or auto", "not-positive", "auto"),
+    "accuracy": ("number", "not-a-share", 0.01),
+}
+PLACE = {"kind": (KINDS, "", None), "at": ("vector", "", None)}
+MOVED = {"motion": ("laws", "", ("", "", ""))}
+WHEEL = MOVED | {
+    "radius": ("number", "not-positive", None),
+    "axis": ("vector", "", (0.0, 0.0, 1.0)),
+    "turn": ((1, -1), "", 0),
+    "inertia": ("number", "not-positive", None),
+    "friction": ("number", "negative", 0.0),
+    "mu": ("number", "negative", -1.0),
+}
+CARRIED = {
+    "mass": ("number", "not-positive", 0.0),
+    "slide": ("vector", "", ZERO),
+    "pull": ("text", "", ""),
+}
+MASS = {"mass": ("number", "not-positive", None), "velocity": ("vector", "", ZERO)}
+STATIONS = {
+    "fixed": PLACE | MOVED,
+    "run": PLACE,
+    "mass": PLACE | MASS,
+    "body": PLACE | MASS | {"inertia": ("number", "not-positive", None)},
+    "pulley": PLACE | WHEEL | CARRIED,
+    "winch": PLACE
+    | WHEEL
+    | {
+        "payout": ("text", "", ""),
+        "force": ("text", "", ""),
+        "stored": ("number", "negative", -1.0),
+    },
+}
+TABLES = ("cable", "model", "route")

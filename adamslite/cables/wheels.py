@@ -1,0 +1,160 @@
+"""Wheels on their bearings, what carries and what drives them.
+
+Station i of the route is MARKER/n, n = 10 i (from 1); a wheel is PART/n on the bearing MARKER/n+1,
+z along the axle. A carriage that moves is PART/n+2 with MARKER/n+2; MARKER/n+3 is where it starts,
+on the ground, z along the way it slides. MARKER/n+4 floats for contacts.
+"""
+
+import re
+
+from adamslite.cables.geometry import add, cross, dot, unit
+from adamslite.cables.statements import AXES, number
+from adamslite.cables.vocabulary import Spec, Station, Vector
+
+
+def marker(i: int) -> int:
+    """Of station i."""
+    return 10 * (i + 1)
+
+
+def triple(a: Vector) -> str:
+    """Three numbers."""
+    return ",".join(number(x) for x in a)
+
+
+def travel(i: int, spec: Spec, order: int = 0) -> str:
+    """Cable that runs over the wheel of station i along the route [m], or its time derivative."""
+    wheel, n = spec.route[i], marker(i)
+    if slipping(i, spec):
+        return (f"DIF(paid_{n})", f"DIF(run_{n})", f"A_{n}")[order]
+    return f"{number(wheel.turn * wheel.radius)}*{turning(i, spec, order)}"
+
+
+def turning(i: int, spec: Spec, order: int = 0) -> str:
+    """Angle of wheel i about its axle, or its time derivative."""
+    n = marker(i)
+    # Rates are along the axes of ground unless a third marker is there.
+    seen = "" if spec.route[i].axis == (0.0, 0.0, 1.0) else f",{n + 1}"
+    return (f"AZ({n},{n + 1})", f"WZ({n},{n + 1}{seen})", f"WDTZ({n},{n + 1}{seen})")[order]
+
+
+def slipping(i: int, spec: Spec) -> bool:
+    """Whether the cable has a travel of its own over station i."""
+    return spec.route[i].slips and not spec.is_end(i)
+
+
+def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
+    """A wheel whose rim starts with `speed` along the route [m/s]."""
+    each, n = spec.route[i], marker(i)
+    upright = each.axis == (0.0, 0.0, 1.0)
+    own = "" if upright else f", ZP={triple(each.axis)}"
+    text = f"\n! The {each.kind} of station {i + 1}, R = {number(each.radius)} m.\n"
+    if each.is_moved or each.is_carried:
+        text += _carriage(each, n)
+        text += f"MARKER/{n + 1}, PART={n + 2}{own}\n"
+    else:
+        ground = "" if upright else f", ZP={triple(add(each.at, each.axis))}"
+        text += f"MARKER/{n + 1}, PART=1, QP={triple(each.at)}{ground}\n"
+    inertia = ",".join([number(each.inertia)] * 3)
+    spin = each.turn * speed / each.radius
+    start = "".join(f", W{a}={number(spin * x)}" for a, x in zip(AXES, each.axis, strict=True)
+                    if spin * x)  # fmt: skip
+    return text + (
+        f"PART/{n}, MASS={number(each.inertia / each.radius**2)}, CM={n}, IP={inertia}"
+        f", QG={triple(each.at)}{start}\n"
+        f"MARKER/{n}, PART={n}{own}\n"
+        f"JOINT/{n}, REVOLUTE, I={n}, J={n + 1}\n"
+    )
+
+
+def _carriage(each: Station, n: int) -> str:
+    """What the bearing of a wheel sits on, when that moves."""
+    mass = each.mass or 1.0
+    inertia = ",".join([number(mass * each.radius**2)] * 3)
+    text = (
+        f"PART/{n + 2}, MASS={number(mass)}, CM={n + 2}, IP={inertia}, QG={triple(each.at)}\n"
+        f"MARKER/{n + 2}, PART={n + 2}\n"
+    )
+    if each.is_moved:
+        return (
+            text
+            + f"MARKER/{n + 3}, PART=1, QP={triple(each.at)}\n"
+            + (f"JPRIM/{n + 2}, ORIENTATION, I={n + 2}, J={n + 3}\n" + moved(n + 2, n + 3, each))
+        )
+    way = unit(each.slide)
+    if not any(way):
+        return text + (
+            "! It is free to move across its axle, and does not turn.\n"
+            f"MARKER/{n + 3}, PART=1, QP={triple(each.at)}, ZP={triple(add(each.at, each.axis))}\n"
+            f"MARKER/{n + 5}, PART={n + 2}, ZP={triple(each.axis)}\n"
+            f"JPRIM/{n + 2}, ORIENTATION, I={n + 5}, J={n + 3}\n"
+            f"JPRIM/{n + 3}, INPLANE, I={n + 5}, J={n + 3}\n"
+        )
+    return text + _slide(each, n, way)
+
+
+def _slide(each: Station, n: int, way: Vector) -> str:
+    """The line a carriage slides on, and what pulls it along."""
+    text = (
+        f"MARKER/{n + 3}, PART=1, QP={triple(each.at)}, ZP={triple(add(each.at, way))}\n"
+        f"MARKER/{n + 5}, PART={n + 2}, ZP={triple(way)}\n"
+        f"JOINT/{n + 2}, TRANSLATIONAL, I={n + 5}, J={n + 3}\n"
+    )
+    if each.pull:
+        text += (
+            f"VARIABLE/S_{n + 2}, FUNCTION=DZ({n + 5},{n + 3},{n + 3})\n"
+            f"VARIABLE/SD_{n + 2}, FUNCTION=VZ({n + 5},{n + 3},{n + 3})\n"
+            f"SFORCE/{n + 2}, ACTIONONLY, I={n + 2}, J={n + 3}\n"
+            f", FUNCTION={own_names(each.pull, n + 2)}\n"
+        )
+    return text
+
+
+def moved(i: int, j: int, each: Station) -> str:
+    """MARKER/i goes the way that the station's laws tell from MARKER/j."""
+    return "".join(
+        f"GCON/{i}{k}, FUNCTION=D{a}({i},{j})" + (f"\n, -({law})\n" if law else "\n")
+        for k, (a, law) in enumerate(zip(AXES, each.motion, strict=True), 1)
+    )
+
+
+def own_names(text: str, n: int) -> str:
+    """An expression of S and SD with the names these have at station n."""
+    return re.sub(r"\b(SD?)\b", rf"\1_{n}", text, flags=re.IGNORECASE)
+
+
+def in_plane(spec: Spec) -> bool:
+    """Whether all wheels have one axis, and everything lies and moves across it."""
+    axes = [each.axis for each in spec.route if each.is_wheel]
+    if not axes:
+        return True
+    axis, origin = axes[0], spec.route[0].at
+    across = [dot(cross(axis, each), cross(axis, each)) for each in axes]
+    vectors = [spec.gravity, *(each.velocity for each in spec.route)]
+    vectors += [add(each.at, origin, -1) for each in spec.route]
+    return max(across) < 1e-18 and all(
+        abs(dot(axis, v)) <= 1e-9 * dot(v, v) ** 0.5 for v in vectors
+    )
+
+
+def drive(spec: Spec, i: int, torques: list[str]) -> str:
+    """What turns wheel i: `torques` of the cable, friction, an engine, a payout law."""
+    each, n = spec.route[i], marker(i)
+    torques, text = list(torques), ""
+    # Payout is cable that leaves the winch, to whichever side the route goes.
+    out = number(each.turn * each.radius * spec.outwards(i))
+    if each.friction:
+        torques.append(f"-{number(each.friction)}*STEP({turning(i, spec, 1)},-0.01,-1,0.01,1)")
+    if each.force:
+        text += (
+            "\n! Payout of the winch and its speed.\n"
+            f"VARIABLE/S_{n}, FUNCTION={out}*{turning(i, spec)}\n"
+            f"VARIABLE/SD_{n}, FUNCTION={out}*{turning(i, spec, 1)}\n"
+        )
+        torques.append(f"-({out})*({own_names(each.force, n)})")
+    if torques:
+        text += f"SFORCE/{n}, ROTATIONAL, ACTIONONLY, I={n}, J={n + 1}\n, FUNCTION="
+        text += "\n, +".join(torques) + "\n"
+    if each.payout:
+        text += f"GCON/{n}, FUNCTION={out}*{turning(i, spec)}\n, -({each.payout})\n"
+    return text

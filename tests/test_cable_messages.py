@@ -1,0 +1,180 @@
+"""Everything `adamslite cable` can say, each provoked by a description that is wrong in one way."""
+
+from pathlib import Path
+
+import pytest
+
+import adamslite
+from adamslite.cables.messages import MESSAGES
+from adamslite.cables.scene import deck
+from adamslite.cli import main
+from adamslite.diagnostics import WARNING, Diagnostic
+
+ATWOOD = """\
+end = 0.5
+[cable]
+EA = 1e7
+rho = 0.01
+[[route]]
+kind = "mass"
+at = [0, -5, 0]
+mass = 5
+[[route]]
+kind = "pulley"
+at = [0.2, 0, 0]
+radius = 0.2
+inertia = 0.04
+[[route]]
+kind = "pulley"
+at = [1.8, 0, 0]
+radius = 0.2
+inertia = 0.04
+[[route]]
+kind = "mass"
+at = [2, -5, 0]
+mass = 3
+[model]
+level = 1
+"""
+HOIST = """\
+end = 2
+[cable]
+EA = 2e7
+rho = 1
+[[route]]
+kind = "winch"
+at = [-0.5, 0, 0]
+radius = 0.5
+inertia = 25
+turn = -1
+payout = "0.5*TIME**2"
+[[route]]
+kind = "mass"
+at = [0, -20, 0]
+mass = 1000
+[model]
+level = 3
+"""
+BELT = """\
+end = 0.1
+closed = true
+gravity = [0, 0, 0]
+[cable]
+EA = 2e4
+rho = 0.2
+pretension = 600
+[[route]]
+kind = "winch"
+at = [0, 0, 0]
+radius = 0.1
+inertia = 0.1
+payout = "2*TIME"
+[[route]]
+kind = "pulley"
+at = [0.3, 0, 0]
+radius = 0.1
+inertia = 0.1
+[model]
+elements = 6
+"""
+MOVED = 'payout = "0.5*TIME**2"'
+LAST = ATWOOD.index("[[route]]", ATWOOD.index("1.8"))
+# Code: (description, what is replaced, by what, the line and column of the caret).
+WRONG = {
+    "toml": (ATWOOD, "EA = 1e7", "EA = ", (3, 1)),
+    "unknown-key": (ATWOOD, "rho = 0.01", "rho = 0.01\nrhu = 2", (5, 1)),
+    "missing-key": (ATWOOD, "mass = 5\n", "", (5, 1)),
+    "wrong-value": (ATWOOD, "mass = 5", 'mass = "5"', (8, 1)),
+    "not-positive": (ATWOOD, "EA = 1e7", "EA = -1e7", (3, 1)),
+    "not-a-share": (ATWOOD, "rho = 0.01", "rho = 0.01\ndamping = 2", (5, 1)),
+    "negative": (ATWOOD, "rho = 0.01", "rho = 0.01\npretension = -1", (5, 1)),
+    "short-route": (ATWOOD[:LAST], ATWOOD[ATWOOD.index('kind = "pulley"') - 10 : LAST], "", (5, 1)),
+    "wrong-end": (ATWOOD, 'kind = "mass"\nat = [2, -5, 0]\nmass = 3', 'kind = "pulley"\n'
+                  "at = [2, -5, 0]\nradius = 0.1\ninertia = 1", (20, 1)),
+    "drive": (HOIST, MOVED, "", (5, 1)),
+    "moved-twice": (ATWOOD, "radius = 0.2", 'radius = 0.2\nmass = 2\nmotion = ["TIME**2", 0, 0]',
+                    (14, 1)),
+    "no-carriage": (ATWOOD, "radius = 0.2", "radius = 0.2\nslide = [1, 0, 0]", (13, 1)),
+    "no-slide": (ATWOOD, "radius = 0.2", 'radius = 0.2\nmass = 2\npull = "10"', (14, 1)),
+    "expression": (HOIST, MOVED, 'payout = "0.5*TIM**2"', (11, 1)),
+    "law-start": (HOIST, MOVED, 'payout = "1+TIME**2"', (11, 1)),
+    "payout-too-far-in": (HOIST, MOVED, 'payout = "-6*TIME**2"', (11, 1)),
+    "zero-span": (ATWOOD, "[1.8, 0, 0]", "[0.2, 0, 0]", (16, 1)),
+    "radius-over-spacing": (ATWOOD, "[1.8, 0, 0]", "[0.5, 0, 0]", (16, 1)),
+    "crossing": (ATWOOD, "[2, -5, 0]", "[-2, -1, 0]", (16, 1)),
+    "axis-along-cable": (ATWOOD, "radius = 0.2", "radius = 0.2\naxis = [1, 0, 0]", (13, 1)),
+    "too-many": (HOIST, "level = 3", "elements = 1000", (17, 1)),
+    "form-has-level": (ATWOOD, "level = 1", 'level = 1\nform = "ale"', (25, 1)),
+    "needs-brute": (BELT, "elements = 6", "level = 1", (20, 1)),
+    "brute-no-wheel": (ATWOOD[: ATWOOD.index("[[route]]\nkind = \"pulley\"")] + ATWOOD[LAST:],
+                       "level = 1", 'form = "brute"', (14, 1)),
+    "brute-plane": (HOIST, "level = 3", 'gravity = [0, -9, 1]', (18, 1)),
+    "rigid-cannot": (ATWOOD, "radius = 0.2", "radius = 0.2\nmu = 0.3", (13, 1)),
+    "stored-too-little": (HOIST, MOVED, MOVED + '\nstored = 1', (12, 1)),
+    "level-2-pays-out": (HOIST, "level = 3", "level = 2\nelements = 40", (17, 1)),
+    "rigid-has-waves": (ATWOOD, "mass = 3", "mass = 3\nvelocity = [10, 0, 0]", (25, 1)),
+    "breaking": (ATWOOD, "rho = 0.01", "rho = 0.01\nbreaking_load = 40", (5, 1)),
+    "paper-not-valid": (HOIST, "level = 3", 'level = 3\nform = "paper"\naccuracy = 1e-4', (18, 1)),
+}  # fmt: skip
+BRUTE = {"stored-too-little", "brute-plane"}
+
+
+def told(spec: str) -> list[Diagnostic]:
+    """All messages about a description."""
+    try:
+        return deck(spec, "scene.toml")[1]
+    except adamslite.DeckError as fault:
+        return list(fault.diagnostics)
+
+
+def provoked(code: str) -> str:
+    """The description that is wrong as `code` says."""
+    spec, old, new, _ = WRONG[code]
+    assert old in spec
+    changed = spec.replace(old, new, 1)
+    if code == "brute-plane":
+        changed = "gravity = [0, -9, 1]\n" + spec
+    return changed.replace("level = 3", 'form = "brute"') if code in BRUTE else changed
+
+
+def test_every_message_has_a_description_here() -> None:
+    assert set(WRONG) == set(MESSAGES)
+
+
+@pytest.mark.parametrize("code", WRONG)
+def test_a_mistake_is_told_where_it_stands(code: str) -> None:
+    """Its code alone, at its line and column, with the line and a hint."""
+    found = told(provoked(code))
+    assert [each.code for each in found] == [code]
+    only, line, column = found[0], *WRONG[code][3]
+    assert (only.span.file, only.span.line, only.span.column) == ("scene.toml", line, column)
+    assert only.severity == MESSAGES[code].severity
+    assert only.source_line == provoked(code).splitlines()[line - 1]
+    assert only.hint
+
+
+def test_everything_wrong_is_told_at_once() -> None:
+    """A table that cannot be read hides neither the others nor what the route does."""
+    spec = ATWOOD.replace("EA = 1e7", "EA = 0").replace("[1.8, 0, 0]", "[0.5, 0, 0]")
+    spec = spec.replace("level = 1", "level = 4\nacuracy = 0.1").replace("end = 0.5", "end = -1")
+    found = [(each.code, each.span.line) for each in told(spec)]
+    assert found == [
+        ("not-positive", 1), ("not-positive", 3), ("radius-over-spacing", 16),
+        ("wrong-value", 24), ("unknown-key", 25),
+    ]  # fmt: skip
+    assert MESSAGES["rigid-has-waves"].severity == WARNING
+
+
+def test_the_command_prints_places_and_ends_with_3(tmp_path: Path, capsys) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(ATWOOD.replace("[1.8, 0, 0]", "[0.5, 0, 0]"), encoding="utf-8")
+    assert main(["cable", str(path)]) == 3
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith(
+        f"{path}:16:1: error: the wheels of stations 2 and 3 reach over their spacing of 0.3 m: no"
+        " cable fits between [radius-over-spacing]\n"
+        "  16 | at = [0.5, 0, 0]\n"
+        "     | ^^^^^^^^^^^^^^^^\n"
+        "    = smaller radii, or stations further apart\n"
+    )
