@@ -56,7 +56,7 @@ class System(Elimination):
         self.margin = np.zeros(9 * len(self.guarded["watch"]))
         self.stops, self.search = np.zeros(1), np.zeros(19)
         self.pivot0 = np.zeros(nz + 1)
-        self.history, self.trial = np.zeros(8 * w + 160), np.zeros(3 * w + 3)
+        self.history, self.trial = np.zeros(9 * w + 160), np.zeros(3 * w + 3)
         self.control, self.tableau = np.zeros(48), np.zeros(1)
         self.parts, self.LC, self.pivots_c = np.zeros(1), np.zeros(1), ints([0])
         self.coef, self.report = np.zeros(16), np.zeros(len(base.REPORT))

@@ -60,7 +60,7 @@ def test_the_formula_of_order_k_is_exact_for_polynomials_of_degree_k(k):
         past.change_step(d, 1, k, factor)
         h *= factor
         past.predict(d, 1, k, yp, psi)
-        assert yp[0] == pytest.approx(p(t + h), abs=1e-12)
+        assert d[0] + yp[0] == pytest.approx(p(t + h), abs=1e-12)
         assert psi[0] * past.gamma(k) / h == pytest.approx(p.deriv()(t + h), abs=1e-10)
         interpolate(d, 1, k, t, h, t - 0.3 * h, yp)
         assert yp[0] == pytest.approx(p(t - 0.3 * h), abs=1e-12)
@@ -346,3 +346,28 @@ def test_added_mass_is_implicit(share):
     np.testing.assert_allclose(results["POINT_MASS/2.ay"], -9.81, rtol=1e-9)
     np.testing.assert_allclose(results["POINT_MASS/2.y"], -4.905 * results.time**2, atol=1e-5)
     np.testing.assert_allclose(results["POINT_MASS/2.ax"], 1.5, rtol=1e-9)
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+@pytest.mark.parametrize("error", (1e-6, 1e-8, 1e-10))
+def test_a_fast_start_far_from_the_origin(error, formulation):
+    """F = 1e5 t on 1 kg at x = 100 m: v = 5e4 t^2, x - 100 = 5e4 t^3/3.
+
+    The first steps take nanoseconds, in which the mass moves less than the round-off of 100 m
+    (1.4e-14 m); an error of each of a few dozen steps within ERROR may add up to 100 ERROR. Index 3
+    tests positions only: a step with j h^3 = ERROR, j = 1e5 m/s^3, has an error ERROR/h of the
+    velocity; ten of them last until the end.
+    """
+    deck = (
+        GROUND
+        + "POINT_MASS/2, MASS=1, CM=2, QG=100,0,0\nMARKER/2, POINT_MASS=2\n"
+        + "VFORCE/1, I=2, J_PART=1, FX=1E5*TIME\\FY=0\\FZ=0\nEND\n"
+    )
+    results = done(deck, 0.01, 1, error=error, formulation=formulation)
+    assert results.summary["steps"] < 200
+    moved = results["POINT_MASS/2.x"][-1] - 100.0
+    allowed = 100.0 * error if formulation == "SI2" else 0.1 * 1e5 ** (1 / 3) * error ** (2 / 3)
+    assert moved == pytest.approx(5e4 * 0.01**3 / 3.0, abs=allowed)
+    if formulation == "SI2":
+        speed = results["POINT_MASS/2.vx"][-1]
+        assert speed == pytest.approx(5e4 * 0.01**2, abs=500.0 * error)

@@ -47,14 +47,16 @@ LEAST_RATE = 0.02
 
 @native
 def motion_from_increments(P: Problem, cu: float, yp: Reals, psi: Reals, si2: bool) -> None:
-    """u and a from q, the history and (stabilised form) mu; writes the workspace; v = q' to
-    trial.
+    """u and a from the increments e of q, the history and (stabilised form) mu; writes the
+    workspace; v = q' to trial, before e.
+
+    q - q_p would do in place of e but for the round-off of q, which small steps divide by h.
     """
     n = P.sizes[N]
     w = 2 * n + P.sizes[NS]
-    q, u, a, v = P.q, P.u, P.a, P.trial[2 * w :]
+    q, u, a, v, e = P.q, P.u, P.a, P.trial[2 * w :], P.trial[2 * w + n :]
     for i in range(n):
-        v[i] = (psi[i] + q[i] - yp[i]) * cu
+        v[i] = (psi[i] + e[i]) * cu
     put_pose(P, q)
     velocities(P, q, v, u)
     if si2:
@@ -75,7 +77,7 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     """Newton iterations from the predictor; True when converged."""
     n, C = P.sizes[N], P.control
     w = 2 * n + P.sizes[NS]
-    yp, psi, v = P.trial[0:], P.trial[w:], P.trial[2 * w :]
+    yp, psi, v, e = P.trial[0:], P.trial[w:], P.trial[2 * w :], P.trial[2 * w + n :]
     error = P.settings[ERROR]
     tolerance = CORRECTOR_SHARE * error
     tested = cu if P.sizes[SI2] == 1 else 0.0
@@ -94,6 +96,9 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
         apply_increment(P, P.F, P.q, P.z, P.mu, si2)
         for i in range(n):
             P.x[i] = P.u[i]
+            e[i] -= P.F[i]
+            # One rounding for all: noise of q is noise of forces.
+            P.q[i] = P.history[i] + (yp[i] + e[i])
         motion_from_increments(P, cu, yp, psi, si2)
         size = max(size, velocity_change(P, P.x, cu) if si2 else 0.0)
         P.count[NEWTON] += 1
@@ -135,13 +140,15 @@ def scale_increment(P: Problem, ratio: float) -> None:
 
 @native
 def start_try(P: Problem, w: int) -> None:
-    """Predicted values of all unknowns at the end of the step."""
+    """Predicted values of all unknowns at the end of the step; of q only the change is kept."""
     n, ns, C = P.sizes[N], P.sizes[NS], P.control
     first = P.sizes[M] + P.sizes[NV]
-    yp = P.trial[0:]
+    yp, e = P.trial[0:], P.trial[2 * w + n :]
     predict(P.history, w, int(C[K]), yp, P.trial[w:])
+    for i in range(n, w):
+        yp[i] += P.history[i]
     for i in range(n):
-        P.q[i] = yp[i]
+        P.q[i], e[i] = P.history[i] + yp[i], 0.0
     for i in range(ns):
         P.z[first + i] = yp[2 * n + i]
     ahead = C[H] / C[H_LAST] if C[H_LAST] > 0.0 else 0.0

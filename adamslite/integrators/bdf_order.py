@@ -59,11 +59,13 @@ def local_error(P: Problem, w: int) -> float:
     """Estimated error over ERROR; leaves d in psi's place and y in the prediction's."""
     n, ns, C = P.sizes[N], P.sizes[NS], P.control
     first = P.sizes[M] + P.sizes[NV]
-    y, d = P.trial[0:], P.trial[w:]
-    for i in range(w):
-        value = P.q[i] if i < n else (P.u[i - n] if i < 2 * n else P.z[first + i - 2 * n])
-        d[i] = value - y[i]
-        y[i] = value
+    y, d, e = P.trial[0:], P.trial[w:], P.trial[2 * w + n :]
+    for i in range(n):
+        d[i], d[n + i] = e[i], P.u[i] - y[n + i]
+        y[i], y[n + i] = P.q[i], P.u[i]
+    for i in range(2 * n, w):
+        d[i] = P.z[first + i - 2 * n] - y[i]
+        y[i] = P.z[first + i - 2 * n]
     C[TRIES] += 1.0
     size = weighted(d, 0, 0, n, ns, y, P.sizes[SI2] == 1, P.report)
     return size / ((C[K] + 1.0) * P.settings[ERROR])

@@ -3,16 +3,20 @@
 D_0 = y, D_i = D_{i-1} less D_{i-1} one step earlier, on steps of equal size h; a new step size
 maps the differences by the matrices of Shampine and Reichelt (SIAM J. Sci. Comput. 18 (1997) 1,
 section 2.2).
+
+One more row keeps what D_0 loses to round-off: positions of some metres lose all of a step of
+nanoseconds, velocities and differences do not (Higham, Accuracy and Stability, 2002, section 4.3).
 """
 
 from __future__ import annotations
 
 from adamslite.integrators.base import NB, Problem
 from adamslite.integrators.equations import BODY, PART, put_pose
-from adamslite.translate import Reals, native
+from adamslite.translate import Reals, as_written, native
 
 MAX_ORDER = 5
 ROWS = MAX_ORDER + 3
+LOST = ROWS
 # Rotation vectors are counted anew from the present attitude beyond this length (squared).
 REBASE = 0.0025
 
@@ -28,9 +32,9 @@ def gamma(k: int) -> float:
 
 @native
 def predict(D: Reals, w: int, k: int, yp: Reals, psi: Reals) -> None:
-    """Extrapolate the history: the value and the known part of the derivative."""
+    """Extrapolate the history: the change of the value and the known part of the derivative."""
     for i in range(w):
-        yp[i] = D[i]
+        yp[i] = D[LOST * w + i]
         psi[i] = 0.0
     g = 0.0
     for j in range(1, k + 1):
@@ -47,7 +51,7 @@ def change_step(D: Reals, w: int, k: int, factor: float) -> None:
     """Differences of the same polynomial on the step ``factor * h`` (Shampine, Reichelt, eq.
     2.5).
     """
-    table = D[ROWS * w :]
+    table = D[(LOST + 1) * w :]
     size = k + 1
     ru = table[0:]
     for i in range(size):
@@ -89,9 +93,22 @@ def extend_history(D: Reals, d: Reals, w: int, k: int) -> None:
     for i in range(w):
         D[above + i] = d[i] - D[row + i]
         D[row + i] = d[i]
-    for j in range(k, -1, -1):
+    for j in range(k, 0, -1):
         for i in range(w):
             D[j * w + i] += D[(j + 1) * w + i]
+    add_exactly(w, D[w:], D, D[LOST * w :])
+
+
+@native
+@as_written
+def add_exactly(w: int, step: Reals, y: Reals, lost: Reals) -> None:
+    """y += step, and what y is too coarse to take stays in ``lost`` until the next time."""
+    for i in range(w):
+        whole = step[i] + lost[i]
+        total = y[i] + whole
+        taken = total - y[i]
+        lost[i] = (y[i] - (total - taken)) + (whole - taken)
+        y[i] = total
 
 
 @native
@@ -121,7 +138,7 @@ def rebase(P: Problem, D: Reals, w: int, k: int) -> None:
             continue
         o = P.body[BODY * b + 2]
         for c in range(3):
-            P.q[i + c] = D[i + c]
+            P.q[i + c], D[LOST * w + i + c] = D[i + c], 0.0
         put_pose(P, P.q)
         for m in range(9):
             P.base[9 * b + m] = P.W[o + 15 + m]

@@ -5,7 +5,8 @@ A function marked :func:`native` may use ``int`` (64 bit), ``float``, ``bool``, 
 arithmetic, comparisons, ``abs min max float int sqrt floor``, slices ``a[k:]`` (a shifted array),
 calls of other native functions and ``call_address``.  Arguments carry annotations; a local
 variable has the type of its first assignment. ``Alone`` is an array of reals that no other argument
-reaches while the function runs. There is no bounds check, and division follows the processor.
+reaches while the function runs. Sums may be reordered except in functions marked
+:func:`as_written`. There is no bounds check, and division follows the processor.
 
 The same functions run under plain Python on numpy arrays, which is how tests compare the two.
 """
@@ -17,6 +18,7 @@ from adamslite.translate.language import (
     Reals,
     Table,
     Untranslatable,
+    as_written,
     call_address,
     native,
 )
@@ -29,6 +31,7 @@ __all__ = [
     "Reals",
     "Table",
     "Untranslatable",
+    "as_written",
     "call_address",
     "native",
     "translate",

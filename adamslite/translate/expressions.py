@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from adamslite.lowering import FAST, literal
+from adamslite.lowering import literal
 from adamslite.translate.language import ARRAYS, REGISTERED, llvm_type, signature
 from adamslite.translate.writer import Value, Writer
 
@@ -98,7 +98,8 @@ class Expressions(Writer):
         if type(op) not in FLOAT_OPS:
             raise self.fail(node, f"{type(op).__name__} needs integers")
         x, y = self.convert(a, "double"), self.convert(b, "double")
-        return self.value("double", f"{FLOAT_OPS[type(op)]} {FAST} double {x.text}, {y.text}")
+        text = f"{FLOAT_OPS[type(op)]} {self.freedom}double {x.text}, {y.text}"
+        return self.value("double", text)
 
     def power(self, node: ast.BinOp) -> Value:
         base, exponent = (

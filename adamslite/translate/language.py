@@ -28,6 +28,12 @@ def native(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
+def as_written(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Sums and products of this native function are neither reordered nor contracted."""
+    function.as_written = True
+    return function
+
+
 def call_address(address: int, *arguments: Any) -> None:
     """Call the kernel at an address; natively a plain call, under Python one through ctypes."""
     given = [

@@ -36,6 +36,7 @@ class Writer:
         self.function = function
         self.tables = tables
         self.globals = function.__globals__
+        self.freedom = "" if hasattr(function, "as_written") else f"{FAST} "
         self.locals: dict[str, str] = {}
         self.lines: list[str] = []
         self.allocations: list[str] = []
@@ -124,7 +125,7 @@ class Writer:
     def library(self, name: str, *args: Value) -> Value:
         self.declared.add(f"declare double @{name}({', '.join(['double'] * len(args))})")
         operands = ", ".join(f"double {self.convert(a, 'double').text}" for a in args)
-        return self.value("double", f"call {FAST} double @{name}({operands})")
+        return self.value("double", f"call {self.freedom}double @{name}({operands})")
 
     def convert(self, value: Value, kind: str) -> Value:
         if value.kind == kind:

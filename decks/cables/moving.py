@@ -105,7 +105,7 @@ def transverse() -> Iterator[tuple[str, str, str]]:
     for form in FORMS:
         for name, (cable, n, length, share) in {
             "": (Cable(6.0e7, 5.536, 55360.0), 240, 100.0, 0.1),
-            "-second": (Cable(2.0e7, 4.0, 25600.0), 160, 60.0, 0.2),
+            "-second": (Cable(2.0e7, 4.0, 25600.0), 240, 60.0, 0.2),
         }.items():
             span, stretch = Span(form, cable, n, length, 0.2), 1 + cable.strain
             wave = cable.transverse(cable.strain)
