@@ -73,6 +73,7 @@ class Session:
         self.counts = np.zeros(len(base.COUNTS), dtype=np.int64)
         self.ways_to_fall = 0
         self.assembled: list[str] = []
+        self.speeds: list[str] = []
         self._system: System | None = None
         self._began_static = False
 
@@ -233,6 +234,7 @@ class Session:
             return
         if self.time == 0.0 and not self.pieces:
             self.assembled = system.largest_changes()
+            self.speeds = system.changed_speeds()
         leave_out_redundant(system)
         system.settings[base.T] = self.time
         small = system.nz <= PIVOTING and not system.pivoting

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.choose import doubts
 from adamslite.analyses.linear import Linearization, linear
 from adamslite.analyses.redundancy import row_name
 from adamslite.compiled import Kernels
@@ -175,11 +176,19 @@ def _notes(session: Session) -> dict[str, str]:
     found = {}
     if session.assembled:
         found["assembled"] = "moved " + "; ".join(session.assembled)
+    if session.speeds:
+        changed = "; ".join(session.speeds)
+        found["start speeds"] = f"contradicted constraints, the nearest that do not: {changed}"
     if session.ways_to_fall:
         ways = "one way" if session.ways_to_fall == 1 else f"{session.ways_to_fall} ways"
         found["equilibrium"] = f"unstable in {ways}: the least disturbance makes it leave"
     if session.system.report[base.ORDER_CAPPED]:
         found["order"] = CAPPED
+    steps, rough = (
+        int(session.counts[base.STEPS]), int(session.system.report[base.ROUGH_STEPS])
+    )  # fmt: skip
+    if steps and (doubt := doubts(session.chosen.settings, steps, rough)):
+        found["accuracy"] = doubt
     rows = [row_name(session.system, row) for row in session.system.dropped]
     if rows:
         found["redundant"] = f"left out, their reactions are zero: {'; '.join(rows)}"

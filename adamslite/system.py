@@ -135,6 +135,17 @@ class System(Elimination):
                 )
         return [text for _, text in sorted(moved, reverse=True)[:5]]
 
+    def changed_speeds(self) -> list[str]:
+        """The five largest changes of velocities that the deck gives, as text."""
+        changed = []
+        for b, body in enumerate(self.model.bodies):
+            i, given = self.starts[b], np.concatenate([body.v, body.w])[: self.widths[b]]
+            change = float(np.abs(self.u[i : i + self.widths[b]] - given).max())
+            size = float(np.abs(given).max())
+            if size > 0.0 and change > MOVED * max(1.0, size):
+                changed.append((change, f"{body.statement.label} by {change:.3g}"))
+        return [text for _, text in sorted(changed, reverse=True)[:5]]
+
     def dense_jacobian(self) -> np.ndarray:
         """The Jacobian blocks as one matrix (nz, nz)."""
         full = np.zeros((self.nz, self.nz))

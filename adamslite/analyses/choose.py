@@ -35,6 +35,14 @@ CONSTANT = "CONSTANT_BDF"
 STEPS_WORTH = 3000.0
 # Formulas of second order pay from here on.
 COARSE = 1e-4
+# ERROR below which a user means digits that methods of order 2, or without a test of velocities, do
+# not have to offer.
+FINE = 1e-6
+# Share of an error across a constraint that may be left after a step.  HHT: ALPHA of -0.016; with
+# -0.01 the ringing costs a pendulum twenty times the steps of -0.05.
+LOUDEST = 0.97
+# Share of rough steps that is told.
+OFTEN = 0.05
 
 
 @dataclass(frozen=True)
@@ -53,13 +61,8 @@ def choose(system: System, times: np.ndarray, settings: Any) -> Choice:
     UsageError
         When the method asked for does not exist or cannot run this scene.
     """
-    if settings.method == "VERLET":
-        obstacle = what_ties(system) or what_turns(system)
-        if obstacle:
-            raise UsageError(
-                f"VERLET cannot run this scene: {obstacle}. "
-                "Use ABAM (explicit) or GSTIFF (implicit)."
-            )
+    if unfit := what_is_unfit(system, settings):
+        raise UsageError(f"{settings.method} cannot run this scene: {unfit}")
     if settings.method in METHODS:
         return Choice(settings)
     if settings.method != AUTO:
@@ -67,6 +70,58 @@ def choose(system: System, times: np.ndarray, settings: Any) -> Choice:
         raise UsageError(f"There is no integrator {settings.method}. Known are {known}.")
     method, reason = _picked(system, times, settings.error)
     return Choice(replace(settings, method=method), reason)
+
+
+def what_is_unfit(system: System, settings: Any) -> str:
+    """Why the method asked for cannot run a scene, and what can; empty when it can."""
+    if settings.method == "VERLET" and (obstacle := what_ties(system) or what_turns(system)):
+        return f"{obstacle}. Use ABAM (explicit) or GSTIFF (implicit)."
+    if METHODS.get(settings.method) == HHT and system.sizes[base.M]:
+        _, beta, gamma = settings.second_order
+        if echo(beta, gamma) > LOUDEST:
+            return (
+                f"{what_ties(system)}, and with so little damping (GAMMA={gamma:g}) its reactions "
+                "ring, louder with every step. Use HHT with ALPHA=-0.05 or below, or GSTIFF."
+            )
+    return ""
+
+
+def echo(beta: float, gamma: float) -> float:
+    """What is left after a step of an error in the acceleration across a constraint.
+
+    The constraint fixes q, so that beta b+ + (1/2 + gamma - 2 beta) b + (1/2 - gamma + beta) b- is
+    given; the largest root of that.  1 is the trapezoidal rule.
+    """
+    return float(np.abs(np.roots([beta, 0.5 + gamma - 2.0 * beta, 0.5 - gamma + beta])).max())
+
+
+def doubts(settings: Any, steps: int, rough: int) -> str:
+    """What ERROR does not say about the accuracy of a run, as a sentence; empty when it does.
+
+    rough : steps of HHT in which accelerations changed by more than half
+    """
+    method, (alpha, _, gamma) = settings.method, settings.second_order
+    if method == CONSTANT:
+        return "equal steps without error test: a run with half of HINIT tells how far off they are"
+    kind = METHODS[method]
+    if kind == HHT and abs(gamma + alpha - 0.5) > 1e-9:
+        return (
+            f"with GAMMA={gamma:g} the formula is of order 1, and a run is off by the root of ERROR"
+            " rather than by ERROR; HHT damps as well and is of order 2"
+        )
+    if kind == HHT and rough > OFTEN * steps:
+        return (
+            f"accelerations changed by more than half in {rough} of {steps} steps: vibrations "
+            "faster than the steps were damped, not followed; GSTIFF or RADAU follow them"
+        )
+    if kind in (HHT, VERLET) and settings.error < FINE:
+        return (
+            f"the formula is of order 2: {steps} steps of ERROR={settings.error:g} add up to more "
+            "than that; GSTIFF, RADAU or RKF45 get further with fewer"
+        )
+    if kind == BDF and settings.form == "I3" and settings.error < FINE:
+        return "I3 does not test velocities, so that their errors add up; SI2 does"
+    return ""
 
 
 def what_ties(system: System) -> str:

@@ -35,7 +35,7 @@ SUMMARY = """\
 """
 
 #: Comments of the results that the summary repeats: what was done to the model and the method.
-NOTES = ("assembled", "redundant", "equilibrium", "order")
+NOTES = ("assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

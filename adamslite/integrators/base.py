@@ -86,8 +86,10 @@ SETTINGS = (
     FIXED_STEP,
 ) = range(len(SETTINGS))  # fmt: skip
 
-REPORT = ("t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall")
-AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED, WAYS_TO_FALL = range(len(REPORT))
+REPORT = ("t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall", "rough")
+(
+    AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED, WAYS_TO_FALL, ROUGH_STEPS,
+) = range(len(REPORT))  # fmt: skip
 
 COUNTS = (
     "steps",

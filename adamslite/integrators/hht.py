@@ -52,6 +52,7 @@ from adamslite.integrators.base import (
     NZ,
     ORDER,
     REJECTED,
+    ROUGH_STEPS,
     SINGULAR_MASS,
     STEP,
     STEP_TOO_SMALL,
@@ -95,9 +96,11 @@ from adamslite.integrators.linalg import solve
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.second_order import (
     FIXED,
+    ROUGH,
     back_to_accepted,
     between,
     choose_coefficients,
+    first_order_share,
     keep_second_order,
     move_all,
     position_error,
@@ -148,6 +151,7 @@ def start_hht(P: Problem, L: Plan) -> int:
     good = accelerations(P, L, s[T], P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
     C[H] = first_step(P, 0)
+    P.report[ROUGH_STEPS] = 0.0
     for i in range(n):
         P.ra[i], D[2 * n + i], D[3 * n + i] = P.a[i], P.a[i], P.a[i]
     for i in range(ns):
@@ -218,6 +222,8 @@ def correct_step(P: Problem, L: Plan) -> bool:
     here when the matrix was made in this step, with a new matrix at every iteration.
     """
     C, tolerance, last = P.control, CORRECTOR_SHARE * P.settings[ERROR], 0.0
+    if first_order_share(P) > 0.0:
+        tolerance *= min(1.0, C[H])  # Velocities are tested: they are off by that of positions / h.
     full, tries = False, 0
     C[FRESH] = 0.0
     put_time(P, C[NOW] + C[H])
@@ -281,6 +287,7 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
     if t + 1e-7 * h > horizon(P):
         t = horizon(P)
     keep_second_order(P)
+    P.report[ROUGH_STEPS] += C[ROUGH]
     note_violation(P, t)
     C[NOW], C[H_LAST], C[RETRIES] = t, h, 0.0
     C[AGE] += 1.0

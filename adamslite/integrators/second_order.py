@@ -46,9 +46,12 @@ from adamslite.translate import Reals, native
 SMALL_TURN = 0.02
 # gamma + alpha - 1/2 below this is round-off: HHT is of order 2 for every alpha.
 FIRST_ORDER = 1e-9
+# A step is rough when accelerations change by this share of the largest, and that is more than this
+# share of ERROR: a vibration that is not followed but damped.
+HALF, FELT = 0.5, 0.01
 
 # Places in P.control after those of the BDF.
-CU, CA, CS, FIXED, REACH = range(18, 23)
+CU, CA, CS, FIXED, REACH, ROUGH = range(18, 24)
 
 
 @native
@@ -203,11 +206,11 @@ def move_all(P: Problem, dz: Reals) -> float:
 
 @native
 def move_scalars(P: Problem, dz: Reals) -> float:
-    """The share of multipliers, variables and states in :func:`move_all`."""
+    """The share of multipliers, variables and states in :func:`move_all`, the same round-off."""
     n, m, ns, first, largest = P.sizes[N], P.sizes[M], P.sizes[NS], P.sizes[M] + P.sizes[NV], 0.0
     for k in range(first + ns):
         P.z[k] -= dz[n + k]
-        if k >= m and not abs(dz[n + k]) <= largest * max(1.0, abs(P.z[k])):
+        if k >= m and not abs(dz[n + k]) <= max(largest, ROUND_OFF) * max(1.0, abs(P.z[k])):
             largest = abs(dz[n + k]) / max(1.0, abs(P.z[k]))
     for k in range(ns):
         P.rd[k] -= P.control[CS] * dz[n + first + k]
@@ -225,13 +228,13 @@ def position_error(P: Problem) -> float:
     C, D, s, n, ns = P.control, P.history, P.settings, P.sizes[N], P.sizes[NS]
     stretch = C[H] / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
     scale = abs(s[BETA] - 1.0 / 6.0) * C[H] * C[H]
-    fast = abs(s[GAMMA] + s[ALPHA] - 0.5) * C[H]
-    if fast < FIRST_ORDER * C[H]:
-        fast = 0.0
+    fast = first_order_share(P) * C[H]
     A, B, top, where = P.ra, D[2 * n :], 0.0, 0
+    size, jump = 0.0, 0.0
     for i in range(n):
         # b+ - b with b moved to this step's place.
         change = (1.0 + s[ALPHA]) * (P.a[i] - A[i]) - stretch * (B[i] - A[i])
+        size, jump = max(size, abs(P.a[i])), max(jump, abs(change))
         if not scale * abs(change) <= top * max(1.0, abs(P.q[i])):
             top, where = scale * abs(change) / max(1.0, abs(P.q[i])), i
         if not fast * abs(change) <= top * max(1.0, abs(P.u[i])):
@@ -242,6 +245,7 @@ def position_error(P: Problem) -> float:
             bend = bend_of(P.u[i + 3], P.u[i + 4], P.u[i + 5], C[H])
             if not bend <= top:
                 top, where = bend, i + 3
+    C[ROUGH] = 1.0 if jump > HALF * size and top > FELT * s[ERROR] else 0.0
     first = P.sizes[M] + P.sizes[NV]
     for k in range(ns):
         o = 4 * n + k
@@ -251,6 +255,13 @@ def position_error(P: Problem) -> float:
             top, where = 0.5 * abs(value - explicit) / max(1.0, abs(value)), 2 * n + k
     P.report[WHERE] = where
     return top / s[ERROR]
+
+
+@native
+def first_order_share(P: Problem) -> float:
+    """|gamma + alpha - 1/2|: zero for formulas of order 2."""
+    share = abs(P.settings[GAMMA] + P.settings[ALPHA] - 0.5)
+    return share if share > FIRST_ORDER else 0.0
 
 
 @native

@@ -50,6 +50,17 @@ tolerance VARIABLE/*: abs {angle:g}
 tolerance PART/*.wz: abs {rate:g}
 """
 
+# Steps far below what ERROR asks for: how long [s], the angle and rate allowed.
+TINY = {"micro": (1e-6, 1e-7, 1e-4), "nano": (1e-8, 1e-11, 1e-5)}
+TINY_LINES = """
+Andrews' squeezer, a thousand steps of {step:g} s on index 3: see README.md
+solve: --formulation I3 --hmax {step:g} --end {end:g} --steps 10
+tolerance VARIABLE/*: abs {angle:g}
+tolerance PART/*.wz: abs {rate:g}
+measure: value JOINT/3.fx at 0 = 98.5668704 tol abs 1e-6
+measure: value JOINT/3.fy at 0 = -6.12268834 tol abs 1e-6
+"""
+
 
 def chain(part, place):
     """The constant and the (7,) complex arms of a point of `part` that starts at `place`."""
@@ -133,6 +144,17 @@ def main():
     for tag, error, angle, rate in bands:
         lines = LINES.format(error=error, angle=angle, rate=rate)
         write(HERE / f"reference{tag}.csv", lines, list(columns), [t, *columns.values()])
+    for tag, (step, angle, rate) in TINY.items():
+        end = 1000 * step
+        t = np.linspace(0, end, 11)
+        y = solve(rhs, start, t)
+        lines = TINY_LINES.format(step=step, end=end, angle=angle, rate=rate)
+        if tag == "nano":
+            lines += "".join(
+                f"measure: last JOINT/3.{a} = {v} tol abs 1e-4\n"
+                for a, v in (("fx", 98.5668704), ("fy", -6.12268834))
+            )
+        write(HERE / f"reference-{tag}.csv", lines, list(columns), [t, *y[:, :7].T, *y[:, 7:].T])
     (HERE / "andrews.adm").write_text(deck())
 
 
