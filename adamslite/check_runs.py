@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from adamslite.diagnostics import Diagnostic
+from adamslite.integrator_arguments import BACKWARD, FIXED, without_effect
 from adamslite.messages import did_you_mean
 from adamslite.rule import Rule, positive, say
 from adamslite.statement import STATEMENTS, Statement
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from adamslite.deck import Deck
     from adamslite.redefinition import Redefinition
 
+# The highest order of the backward differences: 6 is unstable for all but strongly damped motion.
+HIGHEST = 5
 TIMES = ("end", "duration", "dtout", "steps")
 
 
@@ -27,6 +30,19 @@ def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
             yield say(each, "steps-disordered", "hmin")
         if each.formulation == "SI1":
             yield say(each, "solved-as", "formulation", word="SI1", other="SI2")
+
+
+def idle_integrator_arguments(deck: Deck) -> Iterator[Diagnostic]:
+    method = "GSTIFF"
+    for each in deck.of("INTEGRATOR"):
+        method = each.method or method
+        given = {
+            argument.key: field for field, argument in each.arguments.items() if each.given(field)
+        }
+        for word, reason in without_effect(method, given):
+            yield _idle(each, given[word], word, reason)
+        if each.kmax is not None and each.kmax > HIGHEST and method in BACKWARD + FIXED:
+            yield say(each, "order-limited", "kmax", word=each.kmax, highest=HIGHEST)
 
 
 def iteration_values(deck: Deck) -> Iterator[Diagnostic]:
@@ -121,6 +137,7 @@ def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
 
 RUN_RULES: list[Rule] = [
     integrator_values,
+    idle_integrator_arguments,
     iteration_values,
     simulation_times,
     ends_in_order,

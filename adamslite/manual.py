@@ -14,6 +14,7 @@ from adamslite import elements, functions  # noqa: F401  register what there is 
 from adamslite.expression import Node, to_text
 from adamslite.faults import UsageError
 from adamslite.function import FUNCTIONS, Function, Parameter, listed
+from adamslite.integrator_arguments import FAMILIES, USES
 from adamslite.messages import MESSAGES, did_you_mean
 from adamslite.messages.entry import Message
 from adamslite.outcomes import Outcome
@@ -34,6 +35,11 @@ MESSAGES_INTRO = """# Messages
 
 Everything the program says about a deck, each with the smallest deck that provokes it: statements
 added to a sound deck, or a whole deck where they begin with a title. Words in braces are filled in.
+"""
+INTEGRATORS_INTRO = """# Arguments of INTEGRATOR
+
+What each argument does with each method. Where it does nothing, `check` says so and so do the
+comments of the results; the reason stands in brackets.
 """
 OUTCOMES_INTRO = """## How a run can end
 
@@ -67,6 +73,17 @@ def messages() -> str:
     said = (message(code, each) for code, each in MESSAGES.items())
     outcomes = table(("outcome", "what is said"), [(f"`{o.name}`", o.value) for o in Outcome])
     return "\n".join([HEAD, MESSAGES_INTRO, *said, OUTCOMES_INTRO, outcomes])
+
+
+def integrator_arguments() -> str:
+    """The page of methods and arguments: docs/integrators.md."""
+    head = ("argument", *(", ".join(f"`{method}`" for method in each) for each in FAMILIES))
+    rows = [(f"`{word}`", *(_use(uses[each]) for each in FAMILIES)) for word, uses in USES.items()]
+    return "\n".join([HEAD, INTEGRATORS_INTRO, table(head, rows)])
+
+
+def _use(text: str) -> str:
+    return f"({text[1:]})" if text.startswith("-") else text
 
 
 def pages(name: str) -> str:

@@ -14,6 +14,7 @@ from adamslite.analyses.redundancy import row_name
 from adamslite.compiled import Kernels
 from adamslite.explain import explain
 from adamslite.faults import RunFailed, UsageError
+from adamslite.integrator_arguments import without_effect
 from adamslite.integrators import base
 from adamslite.model import Model
 from adamslite.outcomes import Outcome
@@ -189,6 +190,10 @@ def _notes(session: Session) -> dict[str, str]:
     )  # fmt: skip
     if steps and (doubt := doubts(session.chosen.settings, steps, rough)):
         found["accuracy"] = doubt
+    idle = list(without_effect(session.chosen.settings.method, session.settings.given))
+    if idle:
+        told = "; ".join(f"{word}, because {reason}" for word, reason in idle)
+        found["integrator arguments"] = f"without effect: {told}"
     rows = [row_name(session.system, row) for row in session.system.dropped]
     if rows:
         found["redundant"] = f"left out, their reactions are zero: {'; '.join(rows)}"

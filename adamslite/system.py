@@ -54,7 +54,7 @@ class System(Elimination):
             self.W = np.zeros(self.nw + self.kind.size)
         self.guard = np.zeros(self.W.size)
         self.margin = np.zeros(9 * len(self.guarded["watch"]))
-        self.stops, self.search = np.zeros(1), np.zeros(19)
+        self.stops, self.search, self.pattern = np.zeros(1), np.zeros(19), ints([])
         self.pivot0 = np.zeros(nz + 1)
         self.history, self.trial = np.zeros(9 * w + 160), np.zeros(3 * w + 3)
         self.control, self.tableau = np.zeros(48), np.zeros(1)

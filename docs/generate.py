@@ -11,6 +11,7 @@ PAGES = {
     "statements.md": manual.statements,
     "functions.md": manual.deck_functions,
     "messages.md": manual.messages,
+    "integrators.md": manual.integrator_arguments,
 }
 
 

@@ -92,8 +92,11 @@ def tables(scene: System) -> tuple[SimpleNamespace, SimpleNamespace]:
 
 
 def run_in_python(scene: System, operation: int, phases: int = 0) -> int:
-    """What ``System.run`` does, interpreted; kernels stay native."""
-    return entry.run(*tables(scene), operation, phases)
+    """What ``System.run`` does, interpreted; kernels stay native.  Overflow and not-a-number pass in
+    silence, as they do there.
+    """
+    with np.errstate(all="ignore"):
+        return entry.run(*tables(scene), operation, phases)
 
 
 def interpreted(monkeypatch: Any) -> None:

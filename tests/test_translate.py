@@ -182,6 +182,10 @@ RUNS = {
 RUNS |= {
     "steady": (PENDULUM.replace("END", "INTEGRATOR/HINIT=0.02\nEND"), "CONSTANT_BDF"),
     "rubs": (RUBS, "RADAU"),
+    "asked": (
+        PENDULUM.replace("END", "INTEGRATOR/CORRECTOR=ORIGINAL, INTERPOLATE=OFF, PATTERN=T:F\nEND"),
+        "GSTIFF",
+    ),
     "hangs": (PENDULUM.replace("END", "SIMULATE/STATICS\nEND"), None),
     "leans": (UPRIGHT.replace("END", "SIMULATE/STATICS\nEND"), None),
     "falls": (PENDULUM.replace("END", "EQUILIBRIUM/MAXIT=1\nSIMULATE/STATICS\nEND"), None),

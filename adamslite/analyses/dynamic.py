@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from adamslite.analyses.choose import CONSTANT, METHODS
 from adamslite.analyses.edges import stops
-from adamslite.engine import BDF, EXPLICIT, RADAU
+from adamslite.engine import BDF, EXPLICIT, RADAU, ints
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
 from adamslite.system import System
 
+# CORRECTOR options that ask for convergence of multipliers too.
+EVERYTHING = ("ORIGINAL", "ORIG_CONSTANT")
 OUTCOMES = {
     base.DONE: Outcome.DONE,
     base.STEP_TOO_SMALL: Outcome.STEP_TOO_SMALL,
@@ -42,6 +44,18 @@ class Settings:
     alpha: float = -0.3
     beta: float = 0.36
     gamma: float = 0.7
+    interpolate: str | None = None
+    adaptivity: float = 0.0
+    corrector: str | None = None
+    pattern: tuple[str, ...] = ()
+
+    @property
+    def given(self) -> list[str]:
+        """Arguments that differ from what holds without them."""
+        usual = Settings()
+        return [
+            f.name.upper() for f in fields(self) if getattr(self, f.name) != getattr(usual, f.name)
+        ]
 
     @property
     def form(self) -> str:
@@ -60,6 +74,18 @@ class Settings:
         if self.method != CONSTANT:
             return 0.0
         return self.hinit or self.hmax or output_step / 20.0
+
+    @property
+    def interpolates(self) -> bool:
+        """Whether steps pass output times; without INTERPOLATE all but those of RADAU, whose
+        polynomial within a step has order 3 only.
+        """
+        return self.interpolate == "ON" if self.interpolate else self.method != "RADAU"
+
+    def least_step(self, end: float, hmax: float) -> float:
+        """HMIN, or what round-off of the time leaves; the small steps of a start-up are exempt."""
+        own = 0.0 if self.method == CONSTANT else self.hmin
+        return own or 1e-14 * max(abs(end), hmax)
 
     @property
     def second_order(self) -> tuple[float, float, float]:
@@ -81,12 +107,16 @@ def run_dynamic(
     fixed = settings.fixed_step(output_step)
     hmax = fixed or settings.hmax or output_step
     system.settings[:8] = (
-        start, end, settings.error, hmax, settings.hmin or 1e-14 * max(abs(end), hmax),
+        start, end, settings.error, hmax, settings.least_step(end, hmax),
         settings.hinit or 0.0, settings.kmax, settings.maxit,
     )  # fmt: skip
     system.settings[base.STOP] = 0.0
     system.settings[base.FIXED_STEP] = fixed
     system.settings[base.ALPHA : base.GAMMA + 1] = settings.second_order
+    system.settings[base.INTERPOLATE] = settings.interpolates
+    system.settings[base.ADAPTIVITY] = settings.adaptivity
+    system.settings[base.ALL_CONVERGE] = settings.corrector in EVERYTHING
+    system.pattern = ints([word == "T" for word in settings.pattern])
     system.stops = stops(system, times)
     method = METHODS[settings.method]
     if method == EXPLICIT:

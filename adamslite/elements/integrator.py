@@ -41,10 +41,14 @@ class Integrator(Statement):
     hmax: float | None = number(
         "HMAX", unit="time", help="largest step; the output step unless given"
     )
-    hmin: float | None = number("HMIN", unit="time", help="smallest step")
+    hmin: float | None = number(
+        "HMIN", unit="time", help="size at which steps that fail are not cut any more"
+    )
     hinit: float | None = number("HINIT", unit="time", help="first step")
-    kmax: int | None = integer("KMAX", help="highest order")
-    maxit: int | None = integer("MAXIT", help="most corrector iterations of a step")
+    kmax: int | None = integer("KMAX", help="highest order; 5 unless given")
+    maxit: int | None = integer(
+        "MAXIT", help="most corrector iterations of a step; 10 unless given"
+    )
     interpolate: str | None = choice(
         "INTERPOLATE", options=("ON", "OFF"), help="step past output times and interpolate"
     )
@@ -52,10 +56,14 @@ class Integrator(Statement):
         "ADAPTIVITY", unit="time", help="loosens the corrector by this over the step"
     )
     corrector: str | None = choice(
-        "CORRECTOR", options=("ORIGINAL", "MODIFIED", "ORIG_CONSTANT"), help="what must converge"
+        "CORRECTOR",
+        options=("ORIGINAL", "MODIFIED", "ORIG_CONSTANT"),
+        help="what must converge: all, or what the error test sees (MODIFIED, unless given)",
     )
     pattern: tuple[str, ...] = words(
-        "PATTERN", options=("T", "F"), help="iterations that renew the Jacobian"
+        "PATTERN",
+        options=("T", "F"),
+        help="iterations that renew the Jacobian, repeated; as needed unless given",
     )
     alpha: float | None = number(
         "ALPHA", unit="1", help="of HHT, from -1/3 to 0; -0.3 unless given"

@@ -51,6 +51,7 @@ record          (nt, nw + n_out) workspace and outputs at the asked times
 kind guard      of guards: how they are read; their values, numbered as the workspace
 margin stops    how far guards are from changing; times at which guards of the clock do
 search          the location of events (:mod:`adamslite.integrators.events`)
+pattern         per iteration whether it renews the Newton matrix, repeated; empty: as needed
 ==============  =================================================================================
 """
 
@@ -79,11 +80,11 @@ SIZES = (
 
 SETTINGS = (
     "t", "t_end", "error", "h_max", "h_min", "h_init", "k_max", "max_it", "stop",
-    "alpha", "beta", "gamma", "interpolate", "fixed_step",
+    "alpha", "beta", "gamma", "interpolate", "fixed_step", "adaptivity", "all_converge",
 )  # fmt: skip
 (
     T, T_END, ERROR, H_MAX, H_MIN, H_INIT, K_MAX, MAX_IT, STOP, ALPHA, BETA, GAMMA, INTERPOLATE,
-    FIXED_STEP,
+    FIXED_STEP, ADAPTIVITY, ALL_CONVERGE,
 ) = range(len(SETTINGS))  # fmt: skip
 
 REPORT = ("t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall", "rough")
@@ -143,13 +144,13 @@ MODE_STATICS = 5.0
 
 INT_FIELDS = set(
     "sizes body scalar group copies product turning mixed unit cut ones dead count pivots "
-    "pivots_a pivots_c kind".split()
+    "pivots_a pivots_c kind pattern".split()
 )
 FIELDS = (
     "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
     "cut ones dead settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
     "pivots pivots_a pivot0 history trial tableau control pz undo record parts LC pivots_c kind "
-    "guard margin stops search"
+    "guard margin stops search pattern"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

@@ -26,11 +26,11 @@ from adamslite.integrators.base import (
     DONE,
     FIXED_STEP,
     H_MAX,
-    H_MIN,
     HOLONOMIC,
     HOW_MUCH,
     IMPLICIT_MASS,
     INDEX3,
+    INTERPOLATE,
     INTERRUPTED,
     NS,
     ORDER,
@@ -80,16 +80,20 @@ from adamslite.integrators.bdf_state import (
     resize,
     restore_state,
     start_values,
+    too_small,
 )
 from adamslite.integrators.equations import track
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
-from adamslite.integrators.event_stops import horizon
+from adamslite.integrators.event_stops import fitted, horizon, step_limit
 from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.history import extend_history, gamma, rebase
 from adamslite.integrators.order_cap import CAP, CAPPED, TRAVELLED, highest_order, start_watch
 from adamslite.integrators.records import note_violation, record_at
 from adamslite.translate import native
+
+# Steps that differ by less than this share are equal.
+EQUAL_STEPS = 1e-9
 
 
 @native
@@ -145,9 +149,9 @@ def advance(P: Problem, L: Plan) -> int:
     if P.settings[STOP] != 0.0:
         return INTERRUPTED
     limit_step(P, w)
-    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], C[K]
-    if C[H] < P.settings[H_MIN] or crawls(P, C[H]):
+    if too_small(P) or crawls(P, C[H]):
         return RUNNING if land_elsewhere(P, w) else stuck(P, L, w)
+    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], C[K]
     stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
     cu = gamma(int(C[K])) / C[H]
     start_try(P, w)
@@ -179,12 +183,17 @@ def finish(P: Problem, L: Plan, w: int, cu: float, norm: float) -> int:
 
 @native
 def limit_step(P: Problem, w: int) -> None:
-    """Keep the step within HMAX and the end time."""
+    """Keep the step within HMAX, the horizon and, when they are stepped onto, the output times."""
     C = P.control
     if C[H] > P.settings[H_MAX] * 1.0000001:
         resize(P, w, P.settings[H_MAX] / C[H])
     left = horizon(P) - C[NOW]
-    if C[H] * 1.0000001 > left:
+    if P.settings[INTERPOLATE] == 0.0 and P.settings[FIXED_STEP] == 0.0:
+        fit = fitted(P, C[H], step_limit(P, int(C[NEXT])) - C[NOW]) / C[H]
+        # Equal steps keep their history.
+        if abs(fit - 1.0) > EQUAL_STEPS:
+            resize(P, w, fit)
+    elif C[H] * 1.0000001 > left:
         resize(P, w, left / C[H])
     elif 2.0 * C[H] > left and horizon(P) < P.settings[T_END]:
         resize(P, w, 0.5 * left / C[H])
@@ -201,8 +210,9 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     C[AGE] += 1.0
     extend_history(D, P.trial[w:], w, k)
     t, h = C[NOW] + C[H], C[H]
-    if t + 1e-7 * h > horizon(P):
-        t = horizon(P)
+    limit = horizon(P) if P.settings[FIXED_STEP] > 0.0 else step_limit(P, int(C[NEXT]))
+    if t + 1e-7 * h > limit:
+        t = limit
     C[NOW], C[H_LAST] = t, h
     for i in range(P.z.size):
         P.pz[i] = P.rz[i]

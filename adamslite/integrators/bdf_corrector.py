@@ -10,7 +10,21 @@ Reference: Brenan, Campbell, Petzold, Numerical Solution of IVP in DAE, 1996, se
 
 from __future__ import annotations
 
-from adamslite.integrators.base import ERROR, MAX_IT, NEWTON, NS, NV, NZ, SI2, M, N, Plan, Problem
+from adamslite.integrators.base import (
+    ADAPTIVITY,
+    ALL_CONVERGE,
+    ERROR,
+    MAX_IT,
+    NEWTON,
+    NS,
+    NV,
+    NZ,
+    SI2,
+    M,
+    N,
+    Plan,
+    Problem,
+)
 from adamslite.integrators.bdf_state import AGE, FACTORED, FRESH, H_LAST, NOW, RATE, H, K
 from adamslite.integrators.equations import (
     project_on_constraints,
@@ -26,7 +40,9 @@ from adamslite.integrators.linalg import solve
 from adamslite.integrators.newton import (
     apply_increment,
     increment_norm,
+    multiplier_change,
     newton_matrix,
+    renews,
     velocity_change,
 )
 from adamslite.translate import Reals, native
@@ -79,12 +95,12 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     w = 2 * n + P.sizes[NS]
     yp, psi, v, e = P.trial[0:], P.trial[w:], P.trial[2 * w :], P.trial[2 * w + n :]
     error = P.settings[ERROR]
-    tolerance = CORRECTOR_SHARE * error
+    tolerance = CORRECTOR_SHARE * error + P.settings[ADAPTIVITY] / C[H]
     tested = cu if P.sizes[SI2] == 1 else 0.0
     last = 0.0
     motion_from_increments(P, cu, yp, psi, si2)
     for iteration in range(int(P.settings[MAX_IT])):
-        if not keeps_matrix(C, cu):
+        if not fits_step(C, cu) or renews(P, iteration, C[AGE] < KEEP_STEPS):
             if not newton_matrix(P, L, phases, cu, P.q, v, P.u):
                 C[FACTORED] = 0.0
                 return False
@@ -100,7 +116,7 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
             # One rounding for all: noise of q is noise of forces.
             P.q[i] = P.history[i] + (yp[i] + e[i])
         motion_from_increments(P, cu, yp, psi, si2)
-        size = max(size, velocity_change(P, P.x, cu) if si2 else 0.0)
+        size = max(size, further_change(P, cu, si2))
         P.count[NEWTON] += 1
         if iteration > 0:
             C[RATE] = max(LEAST_RATE, size / last)
@@ -117,17 +133,26 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
 
 
 @native
+def further_change(P: Problem, cu: float, si2: bool) -> float:
+    """What an increment changed besides positions: velocities in the stabilised form (those before
+    stand in ``P.x``) and, with CORRECTOR=ORIGINAL, multipliers.
+    """
+    size = velocity_change(P, P.x, cu) if si2 else 0.0
+    if P.settings[ALL_CONVERGE] != 0.0:
+        size = max(size, multiplier_change(P, P.F, P.z, cu * cu))
+    return size
+
+
+@native
 def remaining(C: Reals, size: float) -> float:
     """Error left after an increment of ``size`` when increments shrink by RATE each time."""
     return size * min(1.0, C[RATE] / max(1e-3, 1.0 - min(C[RATE], 0.999)))
 
 
 @native
-def keeps_matrix(C: Reals, cu: float) -> bool:
-    """Whether the factored matrix still serves for ``cu``."""
-    if C[FACTORED] == 0.0 or C[AGE] >= KEEP_STEPS:
-        return False
-    return abs(cu / C[FACTORED] - 1.0) <= KEEP_RATIO
+def fits_step(C: Reals, cu: float) -> bool:
+    """Whether there is a factored matrix for about this ``cu``."""
+    return C[FACTORED] != 0.0 and abs(cu / C[FACTORED] - 1.0) <= KEEP_RATIO
 
 
 @native

@@ -37,6 +37,7 @@ from adamslite.integrators.bdf_state import (
     UNDOABLE,
     H,
     K,
+    cut,
     resize,
     restore_state,
 )
@@ -75,7 +76,7 @@ def after_failure(P: Problem, w: int) -> int:
         P.report[WHERE] = C[BLAMED]
         return NEWTON_FAILED
     if int(C[RETRIES]) != CUTS or not land_elsewhere(P, w):
-        resize(P, w, retry_factor(C))
+        resize(P, w, cut(P, retry_factor(C)))
     return RUNNING
 
 
@@ -136,7 +137,7 @@ def after_rejection(P: Problem, w: int, norm: float) -> int:
         return RUNNING
     if C[K] > 2.0:
         C[BAD] += 1.0
-    resize(P, w, factor)
+    resize(P, w, cut(P, factor))
     return RUNNING
 
 

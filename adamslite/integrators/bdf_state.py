@@ -11,6 +11,7 @@ from adamslite.integrators.base import (
     FIXED_STEP,
     H_INIT,
     H_MAX,
+    H_MIN,
     NS,
     NV,
     SI2,
@@ -71,9 +72,28 @@ def first_step(P: Problem, w: int) -> float:
         return P.settings[FIXED_STEP] / START_PARTS
     if P.settings[H_INIT] > 0.0:
         return min(h, P.settings[H_INIT])
+    if P.settings[H_MIN] >= 0.05 * h:
+        return min(h, P.settings[H_MIN])
     # Below this step round-off of positions alone would exceed ERROR in the velocities.
     noise = 1e-14 * reach / tol if P.sizes[SI2] == 1 else 0.0
+    noise = max(noise, P.settings[H_MIN])
     return min(0.05 * h, max(noise, tol**0.5 / max(fastest, 1e-12) * 0.3))
+
+
+@native
+def cut(P: Problem, factor: float) -> float:
+    """``factor`` of the step after a try that failed; HMIN is tried before the run gives up."""
+    h, least = P.control[H], P.settings[H_MIN]
+    return least / h if h * factor < least and h > least * 1.0000001 else factor
+
+
+@native
+def too_small(P: Problem) -> bool:
+    """Whether failed tries have come down below HMIN; a step that only reaches a stop may be as
+    short.
+    """
+    C = P.control
+    return C[H] < P.settings[H_MIN] and (C[RETRIES] > 0.0 or C[NORM] > 0.0)
 
 
 @native

@@ -6,17 +6,40 @@ the branch that it has in the middle.
 
 from __future__ import annotations
 
-from adamslite.integrators.base import CLOCKS, NW, Problem
+from math import floor
+
+from adamslite.integrators.base import CLOCKS, INTERPOLATE, NW, Problem
 from adamslite.integrators.equations import guard_values, put_time
 from adamslite.integrators.event_guards import branch_of
 from adamslite.integrators.event_places import CLOCK, STOP_AT
 from adamslite.translate import native
+
+# Further from an output time than this many steps they need not fit.
+MANY_STEPS = 100.0
 
 
 @native
 def horizon(P: Problem) -> float:
     """The time that the present step must not pass."""
     return P.stops[int(P.search[STOP_AT])]
+
+
+@native
+def step_limit(P: Problem, following: int) -> float:
+    """The time that the present step must not pass: the horizon, or before it the output time of
+    row ``following``, when outputs are stepped onto.
+    """
+    limit = horizon(P)
+    if P.settings[INTERPOLATE] == 0.0 and following < P.times.size:
+        limit = min(limit, P.times[following])
+    return limit
+
+
+@native
+def fitted(P: Problem, h: float, left: float) -> float:
+    """The step not longer than ``h`` that reaches an output time ``left`` away in equal steps."""
+    count = floor(left / h + 1.0 - 1e-7)
+    return left / max(1.0, count) if count < MANY_STEPS else h
 
 
 @native

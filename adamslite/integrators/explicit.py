@@ -26,6 +26,7 @@ from adamslite.integrators.base import (
     H_MIN,
     HOW_MUCH,
     IMPLICIT_MASS,
+    INTERPOLATE,
     INTERRUPTED,
     NS,
     NV,
@@ -45,7 +46,7 @@ from adamslite.integrators.base import (
 from adamslite.integrators.equations import track
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins, let_go
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
-from adamslite.integrators.event_stops import horizon
+from adamslite.integrators.event_stops import fitted, step_limit
 from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.explicit_dense import write_dense
 from adamslite.integrators.explicit_error import (
@@ -58,6 +59,7 @@ from adamslite.integrators.explicit_recovery import make_repeatable, reject, sho
 from adamslite.integrators.explicit_stages import exact_rates, run_stages
 from adamslite.integrators.explicit_state import (
     BODIES,
+    CAUTIOUS,
     CLOCK,
     FOLLOWING,
     FREE,
@@ -140,12 +142,14 @@ def try_step(P: Problem, L: Plan) -> int:
     if P.settings[STOP] != 0.0:
         return INTERRUPTED
     C[H] = min(C[H], P.settings[H_MAX])
-    left = horizon(P) - C[CLOCK]
+    left = step_limit(P, int(C[FOLLOWING])) - C[CLOCK]
+    if P.settings[INTERPOLATE] == 0.0:
+        C[H] = fitted(P, C[H], left)
     if C[H] * 1.0000001 > left:
         C[H] = left
-    P.report[AT], P.report[STEP] = C[CLOCK], C[H]
-    if C[H] < P.settings[H_MIN] or crawls(P, C[H]):
+    if (C[H] < P.settings[H_MIN] and C[CAUTIOUS] != 0.0) or crawls(P, C[H]):
         return why_stuck(P)
+    P.report[AT], P.report[STEP] = C[CLOCK], C[H]
     if not run_stages(P, L, w, C[H]):
         if let_go(P):
             return RUNNING
@@ -162,8 +166,9 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
     """Project, and move on unless the step is to end at a crossing before."""
     C, K = P.control, P.history
     h, t = C[H], C[CLOCK] + C[H]
-    if t + 1e-7 * h > horizon(P):
-        t = horizon(P)
+    limit = step_limit(P, int(C[FOLLOWING]))
+    if t + 1e-7 * h > limit:
+        t = limit
     new, width = K[NEXT_STATE * w :], int(C[WIDTH])
     if P.sizes[IMPLICIT_MASS] and changed_signature(P, L, t, new):
         return shorten(P, w, 0.25)

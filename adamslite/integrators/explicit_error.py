@@ -7,7 +7,7 @@ Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, sections II.4 (start) a
 
 from __future__ import annotations
 
-from adamslite.integrators.base import ERROR, H_INIT, H_MAX, T_END, WHERE, N, Plan, Problem
+from adamslite.integrators.base import ERROR, H_INIT, H_MAX, H_MIN, T_END, WHERE, N, Plan, Problem
 from adamslite.integrators.dop853 import ERROR3, ERROR5
 from adamslite.integrators.explicit_stages import combine, rates_at
 from adamslite.integrators.explicit_state import (
@@ -64,7 +64,7 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
         k[i] = k[width - w + n + i] - P.history[width - w + n + i]
     d2 = max(d2, distance(P, k, y[n:], w - n) / h)
     later = (0.01 / d2) ** 0.125 if d2 > 1e-15 else max(1e-6, 1e-3 * h)
-    return min(room, min(100.0 * h, later))
+    return min(room, max(P.settings[H_MIN], min(100.0 * h, later)))
 
 
 @native

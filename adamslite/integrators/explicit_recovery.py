@@ -11,6 +11,7 @@ from adamslite.integrators.base import (
     CHATTERING,
     FAILURES,
     H_MAX,
+    H_MIN,
     IMPLICIT_MASS,
     NEWTON_FAILED,
     REJECTED,
@@ -88,7 +89,7 @@ def shorten(P: Problem, w: int, factor: float) -> int:
     C[FAILED], C[TRIES] = C[FAILED] + 1.0, C[TRIES] + 1.0
     if P.sizes[M] > 0 and C[FAILED] >= FEW_FAILURES and start_elsewhere(P, w):
         return RUNNING
-    C[H] *= factor
+    cut_step(P, factor)
     C[CAUTIOUS] = 1.0
     if P.sizes[IMPLICIT_MASS] and C[H] < SINGULAR_RESOLUTION * P.settings[H_MAX]:
         return SINGULAR_MASS
@@ -106,8 +107,15 @@ def reject(P: Problem, w: int, error: float) -> int:
     if P.sizes[M] > 0 and C[REJECTIONS] >= FEW_REJECTIONS and start_elsewhere(P, w):
         return RUNNING
     C[CAUTIOUS] = 1.0
-    C[H] *= max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK
+    cut_step(P, max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK)
     return RUNNING
+
+
+@native
+def cut_step(P: Problem, factor: float) -> None:
+    """Shorten a step that failed; HMIN is tried before the run gives up."""
+    C, least = P.control, P.settings[H_MIN]
+    C[H] = max(factor * C[H], least) if C[H] > least * 1.0000001 else factor * C[H]
 
 
 @native

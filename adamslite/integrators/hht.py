@@ -77,22 +77,26 @@ from adamslite.integrators.bdf_state import (
     FRESH,
     H_LAST,
     NEXT,
+    NORM,
     NOW,
     RETRIES,
     RUNNING,
     SIGNATURE,
     H,
+    cut,
     first_step,
     keep_algebraic,
+    too_small,
 )
 from adamslite.integrators.equations import put_time, residual, track, vector_rates
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins, let_go
 from adamslite.integrators.event_places import FREED
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
-from adamslite.integrators.event_stops import horizon
+from adamslite.integrators.event_stops import horizon, step_limit
 from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.hht_events import change_at_start, locate_in_step, step_on
 from adamslite.integrators.linalg import solve
+from adamslite.integrators.newton import renews
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.second_order import (
     FIXED,
@@ -178,10 +182,9 @@ def attempt(P: Problem, L: Plan) -> int:
     if P.settings[STOP] != 0.0:
         return INTERRUPTED
     choose_coefficients(P)
-    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 2.0
-    least = LEAST_SHARE * C[FIXED] if C[FIXED] > 0.0 else P.settings[H_MIN]
-    if C[H] < least or crawls(P, C[H]):
+    if C[H] < LEAST_SHARE * C[FIXED] or (C[FIXED] == 0.0 and too_small(P)) or crawls(P, C[H]):
         return why_too_small(P, L)
+    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 2.0
     if not correct_step(P, L):
         return after_no_convergence(P)
     norm = position_error(P)
@@ -190,8 +193,8 @@ def attempt(P: Problem, L: Plan) -> int:
         return NOT_FINITE
     if norm > 1.0 and C[FIXED] == 0.0:
         P.count[REJECTED] += 1
-        C[H] *= max(0.2, (SAFETY * norm) ** (-1.0 / 3.0))
-        C[EQUAL] = 0.0
+        C[H] *= cut(P, max(0.2, (SAFETY * norm) ** (-1.0 / 3.0)))
+        C[EQUAL], C[NORM] = 0.0, norm
         return RUNNING
     if P.sizes[IMPLICIT_MASS]:
         if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
@@ -229,7 +232,7 @@ def correct_step(P: Problem, L: Plan) -> bool:
     put_time(P, C[NOW] + C[H])
     predict_step(P)
     while tries < int(P.settings[MAX_IT]):
-        if full or not matrix_serves(C):
+        if full or not matrix_fits(C) or renews(P, tries, C[AGE] < KEEP_STEPS):
             C[FACTORED], C[FRESH], C[AGE] = C[H], 1.0, 0.0
             if not second_order_matrix(P, L):
                 C[FACTORED] = 0.0
@@ -257,11 +260,9 @@ def correct_step(P: Problem, L: Plan) -> bool:
 
 
 @native
-def matrix_serves(C: Reals) -> bool:
-    """Whether the factored matrix still serves."""
-    if C[FACTORED] == 0.0 or C[AGE] >= KEEP_STEPS:
-        return False
-    return abs(C[H] / C[FACTORED] - 1.0) <= KEEP_RATIO
+def matrix_fits(C: Reals) -> bool:
+    """Whether there is a factored matrix for this step."""
+    return C[FACTORED] != 0.0 and abs(C[H] / C[FACTORED] - 1.0) <= KEEP_RATIO
 
 
 @native
@@ -274,7 +275,7 @@ def after_no_convergence(P: Problem) -> int:
         return RUNNING
     C[RETRIES] += 1.0
     C[BLAMED] = float(wildest(P))
-    C[H] *= retry_factor(C)
+    C[H] *= cut(P, retry_factor(C)) if C[FIXED] == 0.0 else retry_factor(C)
     return RUNNING
 
 
@@ -284,12 +285,13 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
     C, h = P.control, P.control[H]
     P.count[STEPS] += 1
     t = C[NOW] + h
-    if t + 1e-7 * h > horizon(P):
-        t = horizon(P)
+    limit = step_limit(P, int(C[NEXT])) if C[FIXED] == 0.0 else horizon(P)
+    if t + 1e-7 * h > limit:
+        t = limit
     keep_second_order(P)
     P.report[ROUGH_STEPS] += C[ROUGH]
     note_violation(P, t)
-    C[NOW], C[H_LAST], C[RETRIES] = t, h, 0.0
+    C[NOW], C[H_LAST], C[RETRIES], C[NORM] = t, h, 0.0, 0.0
     C[AGE] += 1.0
     good = record_between(P, L, t, h)
     track(P)

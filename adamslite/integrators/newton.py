@@ -160,6 +160,35 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
 
 
 @native
+def renews(P: Problem, iteration: int, serves: bool) -> bool:
+    """Whether an iteration begins with a new matrix: as PATTERN says, without one unless the old
+    matrix ``serves``.
+    """
+    if P.pattern.size > 0:
+        return P.pattern[iteration % P.pattern.size] != 0
+    return not serves
+
+
+@native
+def multiplier_change(P: Problem, dz: Reals, z: Reals, ca: float) -> float:
+    """Largest increment of a multiplier against max(1, |value|), with d(acceleration) = ca dq.
+
+    What round-off of positions does to inertia forces, ca m |q|, is none.
+    """
+    reach, heaviest, largest = 1.0, 0.0, 0.0
+    for i in range(P.sizes[N]):
+        reach = max(reach, abs(P.q[i]))
+    for b in range(P.sizes[NB]):
+        heaviest = max(heaviest, P.mass[b])
+    noise = ROUND_OFF * reach * ca * heaviest
+    for k in range(P.sizes[M]):
+        change = abs(dz[P.sizes[N] + k])
+        if not change <= noise:
+            largest = max(largest, change / max(1.0, abs(z[k])))
+    return largest
+
+
+@native
 def velocity_change(P: Problem, before: Reals, cu: float) -> float:
     """Largest change of a velocity by an increment of q and mu, above the round-off of positions.
 

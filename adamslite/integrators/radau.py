@@ -26,7 +26,6 @@ from adamslite.integrators.base import (
     CHATTERING,
     DONE,
     H_MAX,
-    H_MIN,
     HOW_MUCH,
     IMPLICIT_MASS,
     INTERPOLATE,
@@ -59,14 +58,17 @@ from adamslite.integrators.bdf_state import (
     FRESH,
     H_LAST,
     NEXT,
+    NORM,
     NOW,
     RATE,
     RETRIES,
     RUNNING,
     SIGNATURE,
     H,
+    cut,
     first_step,
     keep_algebraic,
+    too_small,
 )
 from adamslite.integrators.equations import track
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins
@@ -74,7 +76,7 @@ from adamslite.integrators.event_places import FREED, HUNT
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
 from adamslite.integrators.event_stops import horizon
 from adamslite.integrators.events import happened, start_events
-from adamslite.integrators.radau_corrector import QUICK, after_failed_stages, ready, solve_stages
+from adamslite.integrators.radau_corrector import QUICK, after_failed_stages, solve_stages
 from adamslite.integrators.radau_error import filtered_error
 from adamslite.integrators.radau_events import locate_in_stages, move_past, switch_behind
 from adamslite.integrators.radau_stages import (
@@ -157,12 +159,12 @@ def try_radau(P: Problem, L: Plan) -> int:
     if P.settings[STOP] != 0.0:
         return INTERRUPTED
     fit_step(P)
-    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 5.0
-    if C[H] < P.settings[H_MIN] or crawls(P, C[H]):
+    if too_small(P) or crawls(P, C[H]):
         return why_no_step(P, L)
+    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 5.0
     predict_stages(P, C[H], C[H_LAST])
     stage_motion(P, C[H])
-    if not ready(P, L) or not solve_stages(P, L):
+    if not solve_stages(P, L):
         return after_failed_stages(P)
     norm = filtered_error(P, L, C[CAUTIOUS] != 0.0)
     P.report[HOW_MUCH] = norm
@@ -170,8 +172,8 @@ def try_radau(P: Problem, L: Plan) -> int:
         return NOT_FINITE
     if norm > 1.0:
         P.count[REJECTED] += 1
-        C[H] *= step_factor(C, norm)
-        C[CAUTIOUS] = 1.0
+        C[H] *= cut(P, step_factor(C, norm))
+        C[CAUTIOUS], C[NORM] = 1.0, norm
         if C[H] > 1e-9 * P.settings[H_MAX]:
             C[BLAMED] = P.report[WHERE]
         return RUNNING
@@ -263,7 +265,7 @@ def choose_step(P: Problem, norm: float) -> None:
     if C[CAUTIOUS] != 0.0 and C[LAST_SIZE] > 0.0:
         factor = min(factor, 1.0)
     C[LAST_SIZE], C[LAST_NORM], C[H_LAST] = h, max(0.01, norm), h
-    C[RETRIES], C[FRESH], C[CAUTIOUS] = 0.0, 0.0, 0.0
+    C[RETRIES], C[FRESH], C[CAUTIOUS], C[NORM] = 0.0, 0.0, 0.0, 0.0
     C[AGE] += 1.0
     if C[THETA] > QUICK:
         C[KNOWN] = 0.0

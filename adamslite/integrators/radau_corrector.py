@@ -10,9 +10,19 @@ from __future__ import annotations
 from adamslite.integrators.base import ERROR, FAILURES, MAX_IT, NEWTON, NS, N, Plan, Problem
 from adamslite.integrators.bdf_corrector import wildest
 from adamslite.integrators.bdf_recovery import retry_factor
-from adamslite.integrators.bdf_state import AGE, BLAMED, FACTORED, FRESH, RATE, RETRIES, RUNNING, H
+from adamslite.integrators.bdf_state import (
+    AGE,
+    BLAMED,
+    FACTORED,
+    FRESH,
+    RATE,
+    RETRIES,
+    RUNNING,
+    H,
+    cut,
+)
 from adamslite.integrators.event_guards import let_go
-from adamslite.integrators.newton import ROUND_OFF
+from adamslite.integrators.newton import ROUND_OFF, renews
 from adamslite.integrators.radau_coefficients import REAL
 from adamslite.integrators.radau_stages import (
     ORIGIN,
@@ -39,10 +49,10 @@ SAME_STEP = 1e-6
 
 
 @native
-def ready(P: Problem, L: Plan) -> bool:
-    """Derivatives and factors for the present step."""
+def ready(P: Problem, L: Plan, turn: int) -> bool:
+    """Derivatives and factors for the present step and iteration."""
     C = P.control
-    if C[KNOWN] == 0.0 or C[AGE] >= KEEP_STEPS:
+    if C[KNOWN] == 0.0 or renews(P, turn, C[AGE] < KEEP_STEPS or turn > 0):
         radau_jacobian(P, L, C[H])
         C[KNOWN], C[FRESH], C[AGE], C[FACTORED] = 1.0, 1.0, 0.0, 0.0
     if not abs(C[H] - C[FACTORED]) <= SAME_STEP * C[H]:
@@ -57,6 +67,8 @@ def solve_stages(P: Problem, L: Plan) -> bool:
     tolerance, most = CORRECTOR_SHARE * P.settings[ERROR], int(P.settings[MAX_IT])
     C[RATE], C[THETA] = max(C[RATE], LEAST_RATE) ** 0.8, 0.0
     for turn in range(most):
+        if not ready(P, L, turn):
+            return False
         stage_residuals(P, h)
         stage_increments(P, L)
         size = move_stages(P, h)
@@ -97,5 +109,5 @@ def after_failed_stages(P: Problem) -> int:
     if not old and not let_go(P):
         C[RETRIES] += 1.0
         C[BLAMED] = float(wildest(P))
-        C[H] *= retry_factor(C)
+        C[H] *= cut(P, retry_factor(C))
     return RUNNING

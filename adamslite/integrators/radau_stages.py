@@ -24,6 +24,7 @@ residuals and workspace of the complex system.
 from __future__ import annotations
 
 from adamslite.integrators.base import (
+    ALL_CONVERGE,
     FACTORIZATIONS,
     HOLONOMIC,
     INDEX3,
@@ -60,6 +61,7 @@ from adamslite.integrators.newton import (
     add_attitude_part,
     add_mixed_product,
     apply_increment,
+    multiplier_change,
 )
 from adamslite.integrators.radau_coefficients import (
     ALPHA_MODE,
@@ -261,6 +263,8 @@ def move_stages(P: Problem, h: float) -> float:
         y, z, dz = Y[(1 + stage) * w :], Y[stage_z(P, stage) :], R[stage * nz :]
         for k in range(P.sizes[M], first + ns):
             largest = larger(largest, dz[n + k], z[k])
+        if P.settings[ALL_CONVERGE] != 0.0:
+            largest = max(largest, multiplier_change(P, dz, z, (P.tableau[REAL] / h) ** 2.0))
         for i in range(n):
             P.trial[stage * n + i] = y[n + i]
         apply_increment(P, dz, y, z, z[first + ns :], tied)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from adamslite.integrators.acceleration import put_state
 from adamslite.integrators.base import (
+    ALL_CONVERGE,
     ALPHA,
     BETA,
     ERROR,
@@ -15,6 +16,7 @@ from adamslite.integrators.base import (
     GAMMA,
     H_MAX,
     INDEX3,
+    INTERPOLATE,
     NB,
     NS,
     NV,
@@ -24,7 +26,7 @@ from adamslite.integrators.base import (
     Plan,
     Problem,
 )
-from adamslite.integrators.bdf_state import H_LAST, NOW, H, keep_algebraic
+from adamslite.integrators.bdf_state import H_LAST, NEXT, NOW, H, keep_algebraic
 from adamslite.integrators.equations import (
     BODY,
     PART,
@@ -37,9 +39,9 @@ from adamslite.integrators.equations import (
     spread,
     velocities,
 )
-from adamslite.integrators.event_stops import horizon
+from adamslite.integrators.event_stops import fitted, horizon, step_limit
 from adamslite.integrators.linalg import factor
-from adamslite.integrators.newton import ROUND_OFF
+from adamslite.integrators.newton import ROUND_OFF, multiplier_change
 from adamslite.translate import Reals, native
 
 # Rotations within a step below this change the matrix less than a kept one is allowed to be off.
@@ -60,7 +62,9 @@ def choose_coefficients(P: Problem) -> None:
     C, s = P.control, P.settings
     left = horizon(P) - C[NOW]
     C[H] = min(C[H], s[H_MAX])
-    if C[H] * 1.0000001 > left:
+    if s[INTERPOLATE] == 0.0 and C[FIXED] == 0.0:
+        C[H] = fitted(P, C[H], step_limit(P, int(C[NEXT])) - C[NOW])
+    elif C[H] * 1.0000001 > left:
         C[H] = left
     elif C[FIXED] == 0.0 and 2.0 * C[H] > left:
         C[H] = 0.5 * left
@@ -215,6 +219,8 @@ def move_scalars(P: Problem, dz: Reals) -> float:
     for k in range(ns):
         P.rd[k] -= P.control[CS] * dz[n + first + k]
     put_scalars(P, P.z, P.rd)
+    if P.settings[ALL_CONVERGE] != 0.0:
+        largest = max(largest, multiplier_change(P, dz, P.z, P.control[CA]))
     return largest
 
 

@@ -143,7 +143,7 @@ def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
             wanted = min(wanted, C[LIMIT])
         h = (end - t) / max(1.0, 0.0 - floor(1e-9 - (end - t) / wanted))
         P.report[STEP] = h
-        if h < P.settings[H_MIN]:
+        if wanted < P.settings[H_MIN]:
             return STEP_TOO_SMALL
         if fixed and STABLE * h > C[LIMIT]:
             return UNSTABLE

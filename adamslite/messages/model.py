@@ -172,6 +172,8 @@ MODEL: dict[str, Message] = {
          "SPRINGDAMPER/1, I=2, J=1, KT=1", "MARKER/4, PART=1, USEXP, XP=1,0,0, ZP=0,0,1\n"
          "SPRINGDAMPER/1, ROTATIONAL, I=2, J=4, K=1",
          "JOINT/1, SPHERICAL, I=2, J=1\nFRICTION/1, JOINT=1, MAX_STICTION_DEFORMATION=1",
+         "INTEGRATOR/HHT, KMAX=3", "INTEGRATOR/RKF45\nINTEGRATOR/PATTERN=T:F",
+         "INTEGRATOR/NEWMARK, ALPHA=-0.2", "INTEGRATOR/RADAU, ADAPTIVITY=1E-8",
          "JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1, EFFECT=SLIDING"
          ", MAX_STICTION_DEFORMATION=1"),
         severity=WARNING,
@@ -195,7 +197,7 @@ MODEL: dict[str, Message] = {
     "out-of-range": Message(
         "{word} of {label} must lie between {low} and {high}",
         "",
-        ("INTEGRATOR/ALPHA=-0.5",),
+        ("INTEGRATOR/HHT, ALPHA=-0.5",),
     ),
     "steps-disordered": Message(
         "HMIN of INTEGRATOR is larger than HMAX", "", ("INTEGRATOR/HMIN=1, HMAX=0.1",)

@@ -36,6 +36,12 @@ RUNS: dict[str, Message] = {
         ("INTEGRATOR/GSTIFF, SI1",),
         severity=WARNING,
     ),
+    "order-limited": Message(
+        "KMAX={word} is above the highest order, {highest}",
+        "order 6 is stable only where the motion is strongly damped, and is never used",
+        ("INTEGRATOR/GSTIFF, KMAX=6",),
+        severity=WARNING,
+    ),
     "negative": Message("{word} of {label} must not be negative", "", ("EQUILIBRIUM/STAB=-1",)),
     "empty-range": Message(
         "no {kind} has an id from {low} to {high}",
