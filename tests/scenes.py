@@ -92,9 +92,7 @@ def tables(scene: System) -> tuple[SimpleNamespace, SimpleNamespace]:
 
 
 def run_in_python(scene: System, operation: int, phases: int = 0) -> int:
-    """What ``System.run`` does, interpreted; kernels stay native.  Overflow and not-a-number pass in
-    silence, as they do there.
-    """
+    """What ``System.run`` does, interpreted; kernels stay native, overflow passes in silence."""
     with np.errstate(all="ignore"):
         return entry.run(*tables(scene), operation, phases)
 
