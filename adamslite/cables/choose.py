@@ -117,7 +117,8 @@ def asked(spec: Spec, spans: list[Span], moves: Moves) -> Demand:
 
 def _said(found: list[str], moves: Moves) -> list[str]:
     """The same, with what is not known before the run by its name."""
-    return [moves.unknown if moves.unknown and "not known" in text else text for text in found]
+    told = [moves.unknown if moves.unknown and "not known" in text else text for text in found]
+    return list(dict.fromkeys(told))
 
 
 def _level(spec: Spec, spans: list[Span], of: Demand, moves: Moves) -> tuple[int, list[str]]:
@@ -127,8 +128,10 @@ def _level(spec: Spec, spans: list[Span], of: Demand, moves: Moves) -> tuple[int
     if spec.form == "brute" or needs_brute(spec, spans):
         return 3, []
     against = demand.rigid_fails(of, spec.accuracy)
-    against += ["a long run has waves"] * any(each.kind == "run" for each in spec.route)
-    against += ["the cable may slip"] * any(slipping(i, spec) for i in range(len(spec.route)))
+    against += ["a long run feeds the cable"] * any(each.kind == "run" for each in spec.route)
+    against += ["the cable may slip on its wheels"] * any(
+        slipping(i, spec) for i in range(len(spec.route))
+    )
     if not against:
         return 1, ["level 1: no estimate speaks against a rigid cable without mass"]
     level = demand.elastic_level(of)

@@ -22,9 +22,9 @@ MESSAGES: dict[str, Message] = {
     ),
     "drive": Message("a winch needs one of payout and force", 'payout = "0.5*TIME**2"'),
     "moved-twice": Message(
-        "a pulley moves by its motion or by the forces on its mass", "leave motion or mass out"
+        "a wheel moves by its motion or by the forces on its mass", "leave motion or mass out"
     ),
-    "no-carriage": Message("{word} is for a pulley that is free to move", "give it a mass"),
+    "no-carriage": Message("{word} is for a wheel that is free to move", "give it a mass"),
     "no-slide": Message("pull goes along slide", "slide = [1, 0, 0]"),
     "expression": Message(
         "{word}: {why}", "an expression of TIME; force and pull may use S and SD"

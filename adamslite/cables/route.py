@@ -3,6 +3,7 @@
 from typing import Any
 
 from adamslite.cables.messages import Faults
+from adamslite.cables.vocabulary import WHEELS
 
 INSIDE = ("pulley", "mass", "body")
 AT_ENDS = ("fixed", "run", "mass", "body", "winch")
@@ -17,7 +18,7 @@ def check_route(faults: Faults, route: list[dict[str, Any]], closed: bool) -> No
         _place(faults, each, i, len(route), closed)
         if each.get("kind") == "winch" and bool(each.get("payout")) == bool(each.get("force")):
             faults.add("drive", ("route", i))
-        if each.get("kind") == "pulley":
+        if each.get("kind") in WHEELS and "slide" in each:
             _carriage(faults, each, i)
 
 
@@ -33,7 +34,7 @@ def _place(faults: Faults, each: dict[str, Any], i: int, count: int, closed: boo
 
 
 def _carriage(faults: Faults, each: dict[str, Any], i: int) -> None:
-    """A pulley that moves has either a law, or a mass that forces move."""
+    """A wheel that moves has either a law, or a mass that forces move."""
     if each["mass"] and any(each["motion"]):
         faults.add("moved-twice", ("route", i, "motion"))
     for key in ("slide", "pull"):

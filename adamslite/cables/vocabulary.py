@@ -158,26 +158,30 @@ MODEL = {
 }
 PLACE = {"kind": (KINDS, "", None), "at": ("vector", "", None)}
 MOVED = {"motion": ("laws", "", ("", "", ""))}
-WHEEL = MOVED | {
-    "radius": ("number", "not-positive", None),
-    "axis": ("vector", "", (0.0, 0.0, 1.0)),
-    "turn": ((1, -1), "", 0),
-    "inertia": ("number", "not-positive", None),
-    "friction": ("number", "negative", 0.0),
-    "mu": ("number", "negative", -1.0),
-}
 CARRIED = {
     "mass": ("number", "not-positive", 0.0),
     "slide": ("vector", "", ZERO),
     "pull": ("text", "", ""),
 }
+WHEEL = (
+    MOVED
+    | CARRIED
+    | {
+        "radius": ("number", "not-positive", None),
+        "axis": ("vector", "", (0.0, 0.0, 1.0)),
+        "turn": ((1, -1), "", 0),
+        "inertia": ("number", "not-positive", None),
+        "friction": ("number", "negative", 0.0),
+        "mu": ("number", "negative", -1.0),
+    }
+)
 MASS = {"mass": ("number", "not-positive", None), "velocity": ("vector", "", ZERO)}
 STATIONS = {
     "fixed": PLACE | MOVED,
     "run": PLACE,
     "mass": PLACE | MASS,
     "body": PLACE | MASS | {"inertia": ("number", "not-positive", None)},
-    "pulley": PLACE | WHEEL | CARRIED,
+    "pulley": PLACE | WHEEL,
     "winch": PLACE
     | WHEEL
     | {

@@ -1,0 +1,139 @@
+"""Write the decks of the descriptions in this folder, and their references.
+
+    python describe.py
+
+The decks are what `adamslite cable` writes; the references are closed forms, or small systems of
+equations of motion that solve_ivp integrates. README.md derives the tolerances.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+
+import arrest  # noqa: E402
+from formulas import G, Winch  # noqa: E402
+from spans import table  # noqa: E402
+
+from adamslite.cables.scene import deck  # noqa: E402
+
+
+def drum() -> str:
+    """Way s (1 - 0.0542 (h/R)^2) - M s" L/EA of the weight, tension M (g - s")."""
+    weight, stiffness, radius, h = 200.0, 5.0e6, 0.5, 2 / 80
+    t = np.linspace(0, 3, 61)
+    s, _, acceleration = Winch(1.0, 0.2, 5)(t)
+    cable = 2 + s[-1] + np.pi * radius
+    way = s * (1 - 0.0542 * (h / radius) ** 2) - weight * acceleration * cable / stiffness
+    lines = [
+        "Place of the weight and tension at it: README.md",
+        "written by describe.py",
+        "tolerance POINT_MASS/20.y: abs 4e-5",
+        "tolerance REQUEST/1.F3: abs 4",
+    ]
+    columns = [t, -2 - way, weight * (G - acceleration)]
+    return table(["time", "POINT_MASS/20.y", "REQUEST/1.F3"], lines, columns)
+
+
+def belt() -> str:
+    """Load F = tau1 + tau2 of the driven axle, pull P of its rim, for a belt that slides on it.
+
+    tau1/tau2 = q, the mean over the ways of the lumps of g(x d) g(d)^m g(y d), x + m + y = pi/d,
+    with g(a) = (1 + mu tan(a/2))/(1 - mu tan(a/2)) of one lump with the kink a;
+    P = (tau1 - tau2) r sin(d/2)/(d/2)/R.
+    """
+    stiffness, radius, mu, pull = 2.0e4, 0.1, 0.4, 1300.0
+    free = (4 * 0.13 + 2 * np.pi * radius) / 26 / (1 + 650 / stiffness)
+    r = radius - (0.26 / 6) ** 2 / 80 / radius
+    d = 2 * np.arcsin(free * (1 + pull / 2 / stiffness) / 2 / r)
+    x = (np.arange(1000) + 0.5) / 1000
+    m, y = np.divmod(np.pi / d - x, 1)
+
+    def log_g(a):
+        t = mu * np.tan(a / 2)
+        return np.log((1 + t) / (1 - t))
+
+    q = float(np.exp(log_g(x * d) + m * log_g(d) + log_g(y * d)).mean())
+    rim = pull * (q - 1) / (q + 1) * r * np.sin(d / 2) / (d / 2) / radius
+    return (
+        "# A belt that slides: README.md\n# written by describe.py\n"
+        f"# measure: mean REQUEST/20.F6 from 0.1 = {rim:.6g} tol rel 4e-3\n"
+        f"# measure: mean REQUEST/20.F4 from 0.1 = {pull:.6g} tol rel 1e-3\n"
+    )
+
+
+def slip() -> str:
+    """T1/T2 = exp(mu pi), a = g (M1 - q M2)/(M1 + q M2) with the cable's weight on either side."""
+    q, rho, g = np.exp(0.3 * np.pi), 0.02, G
+    m1, m2, rim = 30.0, 8.0, 0.02 * 0.2 * np.pi
+
+    def rates(_, y):
+        a, b = m1 + rho * (3 + y[0]), m2 + rho * (3 - y[0])
+        return [y[1], (g * (a - q * b)) / (a + q * b + rim * (1 + q) / 2)]
+
+    t = np.linspace(0, 1, 51)
+    way, speed = solve_ivp(rates, (0, 1), [0, 0], t_eval=t, rtol=1e-10, atol=1e-12).y
+    lines = [
+        "Way and speed of the cable, ratio of its tensions: README.md",
+        "written by describe.py",
+        "tolerance REQUEST/20.F2: abs 9e-3",
+        "tolerance REQUEST/20.F3: abs 9e-3",
+    ]
+    return table(["time", "REQUEST/20.F2", "REQUEST/20.F3"], lines, [t, -way, -speed])
+
+
+def crane() -> str:
+    """Trolley X(t), rope l(t): l q" + 2 l' q' + g sin q + X" cos q = 0, q the angle of the rope."""
+
+    def step(t, start, end, height):
+        x, w = np.clip((t - start) / (end - start), 0, 1), end - start
+        return (
+            height * x**3 * (10 - 15 * x + 6 * x * x),
+            height * 30 * x**2 * (1 - x) ** 2 / w,
+            height * 60 * x * (1 - x) * (1 - 2 * x) / w**2,
+        )
+
+    def rates(t, y):
+        paid, speed, _ = step(t, 1, 5, 4)
+        a = step(t, 0, 4, 6)[2]
+        return [y[1], -(2 * speed * y[1] + G * np.sin(y[0]) + a * np.cos(y[0])) / (8 + paid)]
+
+    t = np.linspace(0, 6, 61)
+    q = solve_ivp(rates, (0, 6), [0, 0], t_eval=t, rtol=1e-10, atol=1e-12).y[0]
+    rope = 8 + step(t, 1, 5, 4)[0]
+    lines = [
+        "Place of the load: README.md",
+        "written by describe.py",
+        "tolerance POINT_MASS/20.*: abs 1e-4",
+    ]
+    columns = [t, step(t, 0, 4, 6)[0] + rope * np.sin(q), -rope * np.cos(q)]
+    return table(["time", "POINT_MASS/20.x", "POINT_MASS/20.y"], lines, columns)
+
+
+def arrestment() -> str:
+    """The hook on straight inextensible cables of the same mass: ../arrest.py."""
+    t = np.linspace(0, 3, 76)
+    _, y, _, speed = arrest.straight(arrest.REFERENCE, (arrest.RIGHT, arrest.LEFT), t)
+    lines = [
+        "Run-out and speed of the hook: README.md",
+        "written by describe.py",
+        "tolerance POINT_MASS/20.y: peak 1e-2",
+        "tolerance POINT_MASS/20.vy: peak 2.5e-2",
+    ]
+    return table(["time", "POINT_MASS/20.y", "POINT_MASS/20.vy"], lines, [t, y, speed])
+
+
+def main() -> None:
+    for case in (drum, belt, slip, crane, arrestment):
+        name = case.__name__
+        text, _ = deck((HERE / f"{name}.toml").read_text(encoding="utf-8"))
+        (HERE / f"{name}.adm").write_text(text, encoding="utf-8")
+        (HERE / f"{name}.reference.csv").write_text(case(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,48 @@
+"""The descriptions in decks/cables/described and in docs/cable-command.md, and their decks."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import adamslite
+from adamslite.cables.messages import MESSAGES
+from adamslite.cables.scene import deck
+from adamslite.places import find
+
+DESCRIBED = sorted((find("decks") / "cables" / "described").glob("*.toml"))
+PAGE = Path(__file__).parent.parent / "docs" / "cable-command.md"
+NUMBER = re.compile(r"-?\d+\.?\d*(?:[eE][-+]?\d+)?")
+
+
+@pytest.mark.parametrize("path", DESCRIBED, ids=lambda path: path.stem)
+def test_the_deck_beside_a_description_is_what_the_command_writes(path: Path) -> None:
+    """Word for word; places to 1e-9, for they are found by iteration."""
+    written, warnings = deck(path.read_text(encoding="utf-8"))
+    kept = path.with_suffix(".adm").read_text(encoding="utf-8")
+    assert not warnings
+    assert NUMBER.sub("#", written) == NUMBER.sub("#", kept)
+    figures = [np.array(NUMBER.findall(text), dtype=float) for text in (written, kept)]
+    np.testing.assert_allclose(*figures, rtol=1e-9, atol=1e-9)
+
+
+def test_the_page_has_every_message() -> None:
+    page = PAGE.read_text(encoding="utf-8")
+    for code, message in MESSAGES.items():
+        assert f"| `{code}`" in page
+        assert f"| {message.sentence} | {message.hint} |" in page
+
+
+def examples() -> list[str]:
+    """The descriptions of the page."""
+    return re.findall(r"```toml\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+
+
+@pytest.mark.parametrize("number", range(len(examples())))
+def test_an_example_of_the_page_is_a_scene(number: int) -> None:
+    """Its deck has no mistakes, and runs for a while."""
+    text, _ = deck(examples()[number])
+    assert not any(each.is_error for each in adamslite.check(adamslite.read(text)))
+    text = re.sub(r"SIMULATE/DYNAMIC, END=.*", "SIMULATE/DYNAMIC, END=0.01, STEPS=2", text)
+    assert adamslite.simulate(adamslite.read(text)).outcome.name == "DONE"
