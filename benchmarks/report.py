@@ -1,10 +1,10 @@
 """The page docs/accuracy.md and its charts, from the tables in docs/accuracy.
 
-    python -m benchmarks --docs      measures everything and ends with this
+    python -m benchmarks --docs      measures everything but the matrix and ends with this
+    python -m benchmarks.matrix      measures the matrix and ends with this
     python -m benchmarks.report      only writes page and charts anew
 
-What stands between the markers of the matrix in the page is left as it is: ``benchmarks.matrix``
-writes it.
+Each keeps what the others have measured.
 """
 
 from __future__ import annotations
@@ -15,20 +15,20 @@ from pathlib import Path
 
 from adamslite.faults import UsageError
 from adamslite.outputs.whole import whole_file
-from benchmarks import figures, points, tables
+from benchmarks import figures, matrix, points, tables
 from benchmarks.charts import GROWTH, draw_all, file_name, title
 from benchmarks.points import Row
 from benchmarks.tables import by_scene
 
 PAGE = Path(__file__).parent.parent / "docs" / "accuracy.md"
 FOLDER = PAGE.with_suffix("")
-BEGIN, END = "<!-- matrix: written by python -m benchmarks.matrix -->", "<!-- end of the matrix -->"
 
 HEAD = """# Speed against accuracy
 
 Written by `python -m benchmarks --docs`; `python -m benchmarks.report` makes page and charts
-anew from [points.csv]({folder}/points.csv) and [figures.csv]({folder}/figures.csv). What the scenes
-are and how they are measured: [benchmarks/README.md](../benchmarks/README.md).
+anew from [points.csv]({folder}/points.csv), [figures.csv]({folder}/figures.csv) and
+[matrix.csv]({folder}/matrix.csv). What the scenes are and how they are measured:
+[benchmarks/README.md](../benchmarks/README.md).
 
 All CPU is user and system time of one core, medians of runs in turns. Milliseconds are those of one
 machine (its rates are below); only their ratios mean anything elsewhere. Errors are absolute, at
@@ -60,6 +60,16 @@ SECTIONS = {
         "S4: loops that pass positions in which they could branch off, for ten seconds, by every\n"
         "integrator of ours.",
     ),
+    "matrix": (
+        "Where methods fail",
+        "Reference decks that are hard on methods, each by every integrator of ours\n"
+        "(`python -m benchmarks.matrix`). A number is the part of the band of its reference\n"
+        "(decks/README.md) that a run used at the ERROR of the deck, or at the first of smaller\n"
+        "ones (a tenth, a hundredth, ...) that was enough; CONSTANT_BDF has a step in its place.\n"
+        "*Refused*: before the run, with a sentence that says what to use instead. A name is the\n"
+        "outcome with which the run stopped, before any ERROR was enough. *Told*: ERROR = 1e-12\n"
+        "was not enough, and the summary of the run says why.",
+    ),
     "single": ("Start, memory, machine", ""),
     "programs": (
         "Every program",
@@ -69,13 +79,18 @@ SECTIONS = {
 
 
 def page(
-    rows: Sequence[Row], told: Sequence[figures.Figure], drawn: Sequence[str], folder: str
+    rows: Sequence[Row],
+    told: Sequence[figures.Figure],
+    cells: Sequence[matrix.Cell],
+    drawn: Sequence[str],
+    folder: str,
 ) -> str:
-    """The page, without the matrix."""
+    """The page."""
     made = {
         "summary": tables.summary(rows), "charts": _charts(rows, drawn, folder),
         "equal_steps": tables.equal_steps(rows), "growth": tables.growth(rows),
-        "singular": _singular(rows), "single": tables.single(told), "programs": _programs(rows),
+        "singular": _singular(rows), "matrix": matrix.table_of(cells),
+        "single": tables.single(told), "programs": _programs(rows),
     }  # fmt: skip
     text = HEAD.format(folder=folder)
     for key, (name, words) in SECTIONS.items():
@@ -103,36 +118,19 @@ def _programs(rows: Sequence[Row]) -> str:
     )
 
 
-def matrix_of(text: str) -> str:
-    """The matrix of an earlier page, markers included."""
-    if BEGIN not in text or END not in text:
-        return f"{BEGIN}\n{END}\n"
-    return text[text.index(BEGIN) : text.index(END) + len(END)] + "\n"
-
-
-def put_matrix(section: str, target: Path = PAGE) -> None:
-    """Write ``section`` between the markers of a page, at its end where there are none yet."""
-    text = target.read_text(encoding="utf-8") if target.exists() else ""
-    old = matrix_of(text)
-    before, found, after = text.partition(old)
-    with whole_file(target) as stream:
-        stream.write(f"{before}{BEGIN}\n{section.strip()}\n{END}\n{after if found else ''}")
-
-
 def write(folder: Path, target: Path, suffixes: Sequence[str], few: bool = False) -> None:
     """Write a page from the tables in ``folder``, where all charts go, too, or ``few`` of them."""
-    rows, told = points.read(folder), figures.read(folder)
-    if not rows and not told:
+    rows, told, cells = points.read(folder), figures.read(folder), matrix.read(folder)
+    if not rows and not told and not cells:
         raise UsageError(f"there is nothing measured in {folder}: python -m benchmarks --docs")
     try:
         drawn = draw_all(rows, folder, suffixes, few)
     except UsageError as absent:
         print(absent, file=sys.stderr)
         drawn = [path.stem for path in folder.glob("*.svg")]
-    old = target.read_text(encoding="utf-8") if target.exists() else ""
     link = folder.name if folder.parent == target.parent else "."
     with whole_file(target) as stream:
-        stream.write(page(rows, told, drawn, link) + "\n" + matrix_of(old))
+        stream.write(page(rows, told, cells, drawn, link) + "\n")
 
 
 if __name__ == "__main__":

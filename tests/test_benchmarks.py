@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from adamslite import read
-from adamslite.work_precision import variants
-from benchmarks import figures, points, report, tables
+from adamslite.work_precision import Variant, variants
+from benchmarks import figures, matrix, points, report, tables
 from benchmarks.decks import deck
 from benchmarks.figures import Figure
 from benchmarks.measure import TIME_UP, Effort, point, steps_needed
@@ -18,6 +18,7 @@ from benchmarks.planar import Equations, planar
 from benchmarks.points import Row
 from benchmarks.reference import reference
 from benchmarks.scenes import CHAINS, SCALING, acceleration, chain, parameters, sizes
+from benchmarks.torture import CASES
 from benchmarks.worker import answer
 
 
@@ -183,16 +184,66 @@ def test_a_scene_measured_again_loses_its_old_lines() -> None:
     assert points.merged([*ROWS, other], [ROWS[0]]) == [other, ROWS[0]]
 
 
-def test_the_report_keeps_the_matrix(tmp_path: Path) -> None:
-    points.write(ROWS, tmp_path)
+CELLS = [
+    matrix.Cell("pulse", "HHT", matrix.PASSED, "1e-08", 0.5, 12.0, 100, 0.01, "DONE"),
+    matrix.Cell("pulse", "RADAU", matrix.PASSED, "1e-06", 0.01, 0.01, 100, 0.01, "DONE"),
+    matrix.Cell("pulse", "VERLET", matrix.REFUSED, outcome="UsageError", told="use ABAM"),
+    matrix.Cell("pulse", "NEWMARK", matrix.SILENT, "1e-12", 2.0, 3.0, 100, 0.01, "DONE"),
+]
+
+
+def test_the_report_has_what_every_command_measured(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
-    page.write_text(f"stale\n{report.BEGIN}\n| a | b |\n{report.END}\nstale\n")
+    matrix.write(CELLS, tmp_path)
     report.write(tmp_path, page, [".svg"])
-    text = page.read_text()
-    assert f"{report.BEGIN}\n| a | b |\n{report.END}" in text and "stale" not in text
-    assert "times ours" in text
-    report.put_matrix("| c |\n", page)
-    assert page.read_text() == text.replace("| a | b |", "| c |")
+    line = next(line for line in page.read_text().splitlines() if line.startswith("| pulse"))
+    cells = [cell.strip() for cell in line.split("|")]
+    assert {"0.5 at 1e-08", "0.01", "refused", "**silent**, 2 at 1e-12"} <= set(cells)
+    points.write(ROWS, tmp_path)
+    report.write(tmp_path, page, [".svg"])
+    assert "times ours" in page.read_text() and line in page.read_text()
+    assert matrix.read(tmp_path) == sorted(CELLS, key=in_order)
+
+
+def in_order(cell: matrix.Cell) -> int:
+    return [variant.label for variant in matrix.columns()].index(cell.integrator)
+
+
+@pytest.fixture(scope="module")
+def square_wave() -> matrix.Scene:
+    return matrix.Scene(next(c for c in CASES if "square-wave" in c.reference))
+
+
+@pytest.mark.parametrize(
+    ("label", "smaller"), [("GSTIFF SI2", False), ("HHT", True), ("CONSTANT_BDF", True)]
+)
+def test_an_integrator_climbs_into_the_band(
+    square_wave: matrix.Scene, label: str, smaller: bool
+) -> None:
+    """At the ERROR of the deck, or at a smaller one: then the first was outside."""
+    cell = matrix.attempt(square_wave, column(label), 20.0)
+    assert cell.verdict == matrix.PASSED and cell.share <= 1.0
+    assert (cell.first > 1.0) == smaller
+
+
+def column(label: str) -> Variant:
+    return next(variant for variant in matrix.columns() if variant.label == label)
+
+
+def test_a_refusal_is_no_wrong_answer() -> None:
+    pendulum = matrix.Scene(next(c for c in CASES if c.reference == "pendulum-gcon/reference.csv"))
+    cell = matrix.attempt(pendulum, column("VERLET"), 20.0)
+    assert cell.verdict == matrix.REFUSED and "GCON/1" in cell.told
+
+
+def test_no_time_is_no_pass(square_wave: matrix.Scene) -> None:
+    assert matrix.attempt(square_wave, column("HHT"), 0.0).verdict == matrix.SLOW
+
+
+def test_an_answer_outside_of_the_band_is_not_passed(square_wave: matrix.Scene) -> None:
+    results = square_wave.run(error=1e-2)
+    share, verdict = matrix.judged(square_wave.reference, results)
+    assert share > 1.0 and verdict == matrix.SILENT
 
 
 def test_charts_are_the_same_file_for_the_same_points(tmp_path: Path) -> None:

@@ -115,6 +115,7 @@ WRONG = {
     "rigid-has-waves": (ATWOOD, "mass = 3", "mass = 3\nvelocity = [10, 0, 0]", (25, 1)),
     "breaking": (ATWOOD, "rho = 0.01", "rho = 0.01\nbreaking_load = 40", (5, 1)),
     "paper-not-valid": (HOIST, "level = 3", 'level = 3\nform = "paper"\naccuracy = 1e-4', (18, 1)),
+    "faster-than-waves": (HOIST, "0.5*TIME**2", "60*TIME**2", (17, 1)),
 }  # fmt: skip
 BRUTE = {"stored-too-little", "brute-plane"}
 

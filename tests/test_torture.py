@@ -134,3 +134,14 @@ def test_a_short_hmax_is_not_spent_on_a_low_order() -> None:
     )
     exact = -0.275087462576
     assert abs(capped - exact) < 0.2 * abs(free - exact)
+
+
+@pytest.mark.parametrize(("deck", "grows"), [("below", 0.0), ("above", 32.4)])
+def test_transport_faster_than_waves_shows_in_the_modes(deck: str, grows: float) -> None:
+    """Greatest growth rate of a string through eyelets: of the nine nodes' matrix, to its digits.
+
+    Below the speed of its waves the rates are pairs with a real part of round-off.
+    """
+    path = find("decks") / f"torture/supercritical/{deck}.adm"
+    rates = adamslite.linearize(adamslite.read(path)).eigenvalues
+    assert rates.real.max() == pytest.approx(grows, abs=5e-2 if grows else 1e-4)

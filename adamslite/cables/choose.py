@@ -95,6 +95,9 @@ def choose(spec: Spec, spans: list[Span], moves: Moves, faults: Faults) -> Choic
     if spec.form == "paper" and level == 3 and bad:
         told = "; ".join(_said(bad, moves))
         faults.add("paper-not-valid", ("model", "form"), accuracy=p, figures=told)
+    if level == 3 and form != "brute" and 0.0 < of.tension and of.speed > of.c_t:
+        faults.add("faster-than-waves", ("model", "level"), speed=of.speed, wave=of.c_t,
+                   tension=of.tension)  # fmt: skip
     method, why_method = _integrator(spec, of, level, form, count)
     reasons = [*why, *why_form, *([why_count] if level > 1 else []), why_method]
     return Choice(level, form, count, method, tuple(figures), tuple(reasons))

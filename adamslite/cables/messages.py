@@ -86,6 +86,12 @@ MESSAGES: dict[str, Message] = {
         'form = "ale"',
         severity=WARNING,
     ),
+    "faster-than-waves": Message(
+        "the cable runs at {speed:.4g} m/s, faster than its transverse waves: {wave:.4g} m/s at"
+        " {tension:.4g} N; displacements across it grow without bound",
+        "more pretension, or a slower payout",
+        severity=WARNING,
+    ),
 }
 
 
