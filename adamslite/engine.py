@@ -16,29 +16,38 @@ from adamslite.compiled import version_of
 ) = range(12)  # fmt: skip
 
 
-def engine(progress: Any = None) -> Any:
-    """The native entry ``run(P, L, operation, phases)``; built once per version and processor."""
-    if not _engine:
-        _engine.append(_load_engine(progress))
-    return _engine[0]
+#: The integrators, each compiled by itself when a run first needs it; the rest is one piece.
+INTEGRATORS = {BDF: "bdf", HHT: "hht", RADAU: "radau", EXPLICIT: "explicit", VERLET: "verlet"}
+OPERATIONS = "run"
+WHAT = {name: "the integrator" for name in INTEGRATORS.values()} | {OPERATIONS: "the equations"}
 
 
-_engine: list[Any] = []
+def engine(operation: int, progress: Any = None) -> Any:
+    """The native entry of an operation, built once per version and processor: ``f(P, L)`` of an
+    integrator, ``run(P, L, operation, phases)`` of the others.
+    """
+    name = INTEGRATORS.get(operation, OPERATIONS)
+    if name not in _built:
+        _built[name] = _build(name, progress)
+    return _built[name]
 
 
-def _load_engine(progress: Any) -> Any:
-    key = "engine" + native.digest(version_of("integrators", "translate", "lowering"))
+_built: dict[str, Any] = {}
 
-    def build() -> bytes:
+
+def _build(name: str, progress: Any) -> Any:
+    key = name + native.digest(version_of("integrators", "translate", "lowering"))
+
+    def compiled() -> bytes:
         if progress is not None:
-            progress.say("compiling the integrators, once after installing: takes a few seconds")
+            progress.say(f"compiling {WHAT[name]}, once after installing: takes a few seconds")
         from adamslite.integrators.entry import engine_text
 
-        return native.object_code(engine_text())
+        return native.object_code(engine_text(name))
 
-    address = native.addresses([(native.recall(key, ".o", build), ["run"])])["run"]
-    pointer, integer = ctypes.c_void_p, ctypes.c_int64
-    return ctypes.CFUNCTYPE(integer, pointer, pointer, integer, integer)(address)
+    address = native.addresses([(native.recall(key, ".o", compiled), [name])])[name]
+    integers = [] if name != OPERATIONS else [ctypes.c_int64, ctypes.c_int64]
+    return ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, *integers)(address)
 
 
 def ints(values: list[int]) -> np.ndarray:

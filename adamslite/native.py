@@ -93,6 +93,11 @@ def target_machine() -> Any:
     )
 
 
+# LLVM takes functions in up to this size. Its own 250 makes the integrators a third longer to
+# compile, and no faster.
+INLINED = 100
+
+
 def object_code(text: str, speed: int = 3) -> bytes:
     """Compile LLVM assembly to object code at full optimisation."""
     import llvmlite.binding as llvm
@@ -103,6 +108,7 @@ def object_code(text: str, speed: int = 3) -> bytes:
     module.data_layout = str(machine.target_data)
     tuning = llvm.create_pipeline_tuning_options(speed_level=speed)
     tuning.loop_vectorization = tuning.slp_vectorization = speed > 2
+    tuning.inlining_threshold = INLINED
     passes = llvm.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(module, passes)
     return machine.emit_object(module)

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.choose import Choice, choose
+from adamslite.analyses.choose import METHODS, Choice, choose
 from adamslite.analyses.dynamic import Settings, run_dynamic
 from adamslite.analyses.initial import Unclosed, initial_conditions
 from adamslite.analyses.joint_start import start_of_joints
@@ -60,7 +60,7 @@ class Session:
         self.progress = progress
         self.flags = flags
         self.kernels = _compiled(scene, progress)
-        engine(progress)
+        engine(ACCELERATIONS, progress)
         self.settings = replace(Settings(), **flags)
         self.chosen = Choice(self.settings)
         self.statics = StaticSettings()
@@ -154,6 +154,7 @@ class Session:
         if self.outcome is not Outcome.DONE:
             return
         self.chosen = choose(system, times, self.settings)
+        engine(METHODS[self.chosen.settings.method], self.progress)
         self.outcome = run_dynamic(system, times, self.chosen.settings, self.progress)
         self.time = float(system.report[base.AT])
         self._keep(times, False)

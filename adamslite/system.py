@@ -12,7 +12,7 @@ import numpy as np
 
 from adamslite.compiled import Kernels
 from adamslite.elimination import Elimination
-from adamslite.engine import address_table, engine, ints, reals
+from adamslite.engine import INTEGRATORS, address_table, engine, ints, reals
 from adamslite.integrators import base
 from adamslite.model import PART, Body
 
@@ -202,7 +202,8 @@ class System(Elimination):
         """Call native code on the arrays as they are now."""
         problem = address_table([getattr(self, name) for name in base.FIELDS])
         plan = address_table([self.plan[name] for name in base.Plan.fields])
-        return engine()(problem.ctypes.data, plan.ctypes.data, operation, phases)
+        more = () if operation in INTEGRATORS else (operation, phases)
+        return engine(operation)(problem.ctypes.data, plan.ctypes.data, *more)
 
 
 def _turn_between(a: np.ndarray, b: np.ndarray) -> float:

@@ -20,7 +20,7 @@ from scenes import (
 import adamslite as al
 import adamslite.functions  # noqa: F401  fills the registry
 from adamslite import native
-from adamslite.engine import engine
+from adamslite.engine import RESIDUAL, engine
 from adamslite.function import FUNCTIONS
 from adamslite.integrators import base
 
@@ -67,7 +67,7 @@ OWN_NUMBERS = {"SWEEP": (X, "2.0", "0.1", "0.3", "0.9", "0.7", "0.2")}
 @pytest.fixture(autouse=True)
 def unoptimised(monkeypatch):
     """Kernels of these tests run a few times only: compile them, not the engine, quickly."""
-    engine()
+    engine(RESIDUAL)
     monkeypatch.setattr(native, "object_code", partial(native.object_code, speed=1))
 
 

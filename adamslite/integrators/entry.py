@@ -1,7 +1,8 @@
-"""The one native entry: tables of addresses in, an outcome out."""
+"""The native entries, tables of addresses in, an outcome out: the integrators and the rest."""
 
 from __future__ import annotations
 
+from adamslite.engine import ACCELERATIONS, CLOCK, EQUILIBRIUM, RECORD, RESIDUAL, SPECTRUM
 from adamslite.integrators.acceleration import accelerations, put_state
 from adamslite.integrators.base import BROKEN_START, DONE, Plan, Problem, T
 from adamslite.integrators.bdf import bdf
@@ -16,10 +17,7 @@ from adamslite.integrators.static import equilibrium
 from adamslite.integrators.verlet import verlet
 from adamslite.translate import native, translate
 
-(
-    RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
-    SPECTRUM, CLOCK,
-) = range(12)  # fmt: skip
+__all__ = ["bdf", "engine_text", "explicit", "hht", "radau", "run", "verlet"]
 
 
 @native
@@ -27,8 +25,6 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
     row ``phases``; CLOCK writes the guards of the clock at the asked times.
     """
-    if operation >= BDF and operation <= VERLET:
-        return integrate(P, L, operation)
     if operation == CLOCK:
         return sample_clock(P)
     if operation == EQUILIBRIUM:
@@ -49,20 +45,6 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     return DONE
 
 
-@native
-def integrate(P: Problem, L: Plan, operation: int) -> int:
-    """A run to the end time with one of the integrators."""
-    if operation == BDF:
-        return bdf(P, L)
-    if operation == HHT:
-        return hht(P, L)
-    if operation == RADAU:
-        return radau(P, L)
-    if operation == EXPLICIT:
-        return explicit(P, L)
-    return verlet(P, L)
-
-
-def engine_text() -> str:
-    """LLVM assembly of the whole engine."""
-    return translate("run", [Problem, Plan])
+def engine_text(name: str) -> str:
+    """LLVM assembly of one of the entries."""
+    return translate(name, [Problem, Plan])
