@@ -23,11 +23,14 @@ from adamslite.statement import Statement
 
 POINT, PART = 3, 6
 IDENTITY = np.eye(3)
+IDENTITY.flags.writeable = False
 
 
 def rotation_313(angles: tuple[float, float, float]) -> np.ndarray:
     """R = Rz(a) Rx(b) Rz(c), (3, 3): columns are the turned axes."""
     a, b, c = angles
+    if a == b == c == 0.0:
+        return IDENTITY
     return _about_z(a) @ _about_x(b) @ _about_z(c)
 
 
@@ -85,11 +88,11 @@ class Place:
     p: np.ndarray
     axes: np.ndarray
 
-    @property
+    @cached_property
     def offset(self) -> bool:
         return bool(self.p.any())
 
-    @property
+    @cached_property
     def turned(self) -> bool:
         return not np.array_equal(self.axes, IDENTITY)
 
@@ -123,6 +126,8 @@ class Model:
         self.deck = deck
         self.places: dict[Any, Place | None] = {}
         self.folded: dict[Any, float | None] = {}
+        # By identity, with the node, which keeps its identity from being given away.
+        self._constants: dict[int, tuple[Node, float | None]] = {}
         self.body_index: dict[tuple[str, Any], int] = {}
         self.bodies: list[Body] = []
         for statement in deck.statements:
@@ -218,9 +223,14 @@ class Model:
 
     def constant(self, node: Node) -> float | None:
         """Value of an expression without anything that changes; None when something does."""
+        if isinstance(node, Num):
+            return node.value
+        if id(node) not in self._constants:
+            self._constants[id(node)] = (node, self._constant(node))
+        return self._constants[id(node)][1]
+
+    def _constant(self, node: Node) -> float | None:
         match node:
-            case Num(value):
-                return value
             case Op(op, args):
                 values = [self.constant(a) for a in args]
                 return None if None in values else _arithmetic(op, values)

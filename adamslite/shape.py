@@ -66,11 +66,11 @@ class Binder:
         """The frame of a marker, of a part's mass centre for ``("PART", id)``."""
         if marker_id == 0:
             return ("m", ORIGIN)
-        place = self.model.marker(marker_id)
-        if place is None:
-            return ("c", None)
         known = self.instance.markers
         if marker_id not in known:
+            place = self.model.marker(marker_id)
+            if place is None:
+                return ("c", None)
             body = -1
             if place.kind != "ground":
                 if place.body not in self.instance.bodies:
