@@ -77,6 +77,14 @@ inertia = 0.1
 [model]
 elements = 6
 """
+CHAIN = BELT.replace(
+    'kind = "pulley"\nat = [0.3, 0, 0]\nradius = 0.1',
+    """\
+kind = "pulley"
+at = [0.52, 0, 0]
+radius = 0.1
+teeth = 12""",
+).replace("radius = 0.1\ninertia = 0.1\npay", "radius = 0.1\nteeth = 12\ninertia = 0.1\npay")
 MOVED = 'payout = "0.5*TIME**2"'
 LAST = ATWOOD.index("[[route]]", ATWOOD.index("1.8"))
 # Code: (description, what is replaced, by what, the line and column of the caret).
@@ -109,6 +117,9 @@ WRONG = {
     "brute-no-wheel": (ATWOOD[: ATWOOD.index("[[route]]\nkind = \"pulley\"")] + ATWOOD[LAST:],
                        "level = 1", 'form = "brute"', (14, 1)),
     "brute-plane": (HOIST, "level = 3", 'gravity = [0, -9, 1]', (18, 1)),
+    "pitches": (CHAIN, "teeth = 12\ninertia = 0.1\n[model]", "teeth = 13\ninertia = 0.1\n[model]",
+                (18, 1)),
+    "loop-of-links": (CHAIN, "[0.52, 0, 0]", "[0.53, 0, 0]", (17, 1)),
     "rigid-cannot": (ATWOOD, "radius = 0.2", "radius = 0.2\nmu = 0.3", (13, 1)),
     "stored-too-little": (HOIST, MOVED, MOVED + '\nstored = 1', (12, 1)),
     "level-2-pays-out": (HOIST, "level = 3", "level = 2\nelements = 40", (17, 1)),

@@ -63,6 +63,8 @@ def needs_brute(spec: Spec, spans: list[Span]) -> list[str]:
     """What only sections that run over the rims can show."""
     found = ["the route is closed"] if spec.closed else []
     for i, each in enumerate(spec.route):
+        if each.teeth:
+            found.append(f"the wheel of station {i + 1} has teeth")
         if each.kind == "pulley" and (each.is_carried or each.is_moved):
             if not spec.closed and not _stays_tangent(spec, spans, i):
                 found.append(f"the wheel of station {i + 1} moves across its cable")
@@ -162,6 +164,8 @@ def _form(
 
 def _elements(spec: Spec, spans: list[Span], of: Demand, form: str) -> tuple[int, str]:
     """Sections of the longest span, and what asks for them."""
+    if spec.pitch:
+        return max(round(of.length / spec.pitch), 1), "a section for every link"
     if spec.elements:
         return spec.elements, f"{spec.elements} sections as asked"
     found = demand.needed(of, spec.accuracy)

@@ -8,7 +8,7 @@ lie at R - T h/(R K), where a contact of stiffness K [N/m] carries them.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import acos, atan2, cos, hypot, pi, sin, sqrt
+from math import acos, asin, atan2, cos, hypot, pi, sin, sqrt
 
 from scipy.optimize import brentq
 
@@ -183,6 +183,16 @@ def _arc(spec: Spec, flat: Plane, i: int, at: Vector, length: float, spans) -> A
     centre, (x, y) = flat.seen(each.at), flat.seen(at)
     angle = atan2(y - centre[1], x - centre[0])
     return Arc(centre, each.radius, angle, each.turn, length, i, spans)
+
+
+def length(parts: list[Line | Arc], pitch: float) -> float:
+    """Of a stretch along lines and, for a chain of that pitch, the chords of its links [m]."""
+    total = sum(part.length for part in parts)
+    for part in parts:
+        if pitch and isinstance(part, Arc):
+            links = part.length / part.radius / 2 / asin(pitch / 2 / part.radius)
+            total += links * pitch - part.length
+    return total
 
 
 def lay(

@@ -10,13 +10,13 @@ weights, is MARKER/1000 s + k.
 """
 
 from dataclasses import dataclass
-from math import ceil, pi, sqrt
+from math import atan2, ceil, cos, pi, sin, sqrt
 
 from adamslite.cables.choose import Choice, asked, tensions
 from adamslite.cables.demand import loaded
 from adamslite.cables.estimate import Moves
 from adamslite.cables.geometry import Span, add, dot
-from adamslite.cables.lay import Laid, Line, lay, stretches, way
+from adamslite.cables.lay import Laid, Line, lay, length, plane, stretches, way
 from adamslite.cables.pieces import end
 from adamslite.cables.statements import number, point, section
 from adamslite.cables.vocabulary import Spec, Vector
@@ -24,6 +24,8 @@ from adamslite.cables.wheels import drive, marker, triple, turning
 
 # What a wheel without mu has: the cable creeps on it by a fifth of what mu = 1 would let it.
 GRIP = 5.0
+# Height of teeth over the pitch, bluntness of their roots.
+TOOTH, ROOT = 0.24, 0.05
 # Sliding speed at which friction is full: at least this [m/s], or this share of the payout's.
 CREEP, CREEP_SHARE = 1e-3, 2.5e-3
 
@@ -74,12 +76,12 @@ def stiffness(spec: Spec, spans: list[Span], moves: Moves, section: float) -> fl
 
 def write_lumps(spec: Spec, spans: list[Span], choice: Choice, moves: Moves) -> str:
     """Stretches, ends, contacts, what turns the wheels, results."""
-    section = max(span.length for span in spans) / choice.elements
+    section = spec.pitch or max(span.length for span in spans) / choice.elements
     contact = stiffness(spec, spans, moves, section)
     held, found = stored(spec, moves), []
     for s, group in enumerate(stretches(spec), 1):
         parts = way(spec, spans, group, held)
-        count = max(ceil(sum(part.length for part in parts) / section - 0.5), 2)
+        count = max(ceil(length(parts, spec.pitch) / section - 0.5), 2)
         laid = lay(spec, parts, count, _tension(spec, spans), contact)
         first, last = spec.pairs[group[0]][0], spec.pairs[group[-1]][1]
         found.append(Stretch(s, laid, first, last, spec.closed))
@@ -187,12 +189,13 @@ def _contacts(spec: Spec, s: Stretch, moves: Moves, section: float) -> str:
     for i, (begin, finish) in s.laid.wheels.items():
         each, n = spec.route[i], marker(i)
         text += f"\n! ---- the wheel of station {i + 1} carries what lies on it ----\n"
-        text += f"MARKER/{n + 4}, PART={n}, FLOATING\n" if each.mu else ""
+        text += f"MARKER/{n + 4}, PART={n}, FLOATING\n" if each.mu or each.teeth else ""
+        gap = _gap(spec, s, i) if each.teeth else 0.0
         for k, node in enumerate(s.laid.nodes[:count] if s.closed else s.laid.nodes):
             m = s.node(k, spec)
             near = begin - reach <= node.way <= finish + reach
             if m != n + 6 and (near or s.closed or not moves.known):
-                text += _contact(spec, i, m)
+                text += _tooth(spec, i, m, gap) if each.teeth else _contact(spec, i, m)
     return text
 
 
@@ -213,6 +216,40 @@ def _contact(spec: Spec, i: int, k: int) -> str:
         f"VFORCE/C{n}_{k}, I={k}, JFLOAT={n + 4}, RM={b}\n"
         f", FX=(N{n}_{k}*{x}+F{n}_{k}*{y})/DM({k},{n})\\\n"
         f", FY=(N{n}_{k}*{y}-F{n}_{k}*{x})/DM({k},{n})\n"
+    )
+
+
+def _gap(spec: Spec, s: Stretch, i: int) -> float:
+    """Angle of a gap of sprocket i at the start, times its teeth: where its pins lie [rad]."""
+    each, flat = spec.route[i], plane(spec)
+    begin, finish = s.laid.wheels[i]
+    x, y = flat.seen(each.at)
+    seated = [flat.seen(node.place) for node in s.laid.nodes if begin < node.way < finish]
+    # Angles in the axes of the bearing, whose x need not be that of the plane.
+    turned = [each.teeth * atan2(q - y, p - x) for p, q in seated]
+    return atan2(sum(map(sin, turned)), sum(map(cos, turned)))
+
+
+def _tooth(spec: Spec, i: int, k: int, gap: float) -> str:
+    """Of the pin MARKER/k with sprocket i: P outwards, Q along the rim, which stops pins at
+
+    R + H (sqrt(sin(z a/2)^2 + e^2) - e),  a from a gap, H = 0.24 pitches, e = 0.05
+
+    and pushes at right angles to itself.
+    """
+    each, n = spec.route[i], marker(i)
+    b, z, tooth = n + 1, each.teeth, TOOTH * each.pitch
+    x, y = f"DX({k},{n},{b})", f"DY({k},{n},{b})"
+    return (
+        f"VARIABLE/A{n}_{k}, FUNCTION={z}*(ATAN2({y},{x})-{turning(i, spec)})-{number(gap)}\n"
+        f"VARIABLE/H{n}_{k}, FUNCTION=SQRT((1-COS(A{n}_{k}))/2+{number(ROOT**2)})\n"
+        f"VARIABLE/P{n}_{k}, FUNCTION=IMPACT(DM({k},{n}),VR({k},{n}),\n"
+        f", {number(each.radius)}+{number(tooth)}*(H{n}_{k}-{ROOT:g}),KC,1.0,CC,DC)\n"
+        f"VARIABLE/Q{n}_{k}, FUNCTION=-P{n}_{k}*{number(tooth * z / 4)}*SIN(A{n}_{k})\n"
+        f", /H{n}_{k}/DM({k},{n})\n"
+        f"VFORCE/C{n}_{k}, I={k}, JFLOAT={n + 4}, RM={b}\n"
+        f", FX=(P{n}_{k}*{x}-Q{n}_{k}*{y})/DM({k},{n})\\\n"
+        f", FY=(P{n}_{k}*{y}+Q{n}_{k}*{x})/DM({k},{n})\n"
     )
 
 

@@ -62,6 +62,13 @@ MESSAGES: dict[str, Message] = {
         "form brute takes a scene in one plane across its axles",
         "axles, places, velocities, gravity and the plane; or another form",
     ),
+    "pitches": Message(
+        "the pitch of station {i} is {first:.6g} m, of station {j} {second:.6g} m",
+        "2 R sin(pi/teeth) is one for all: radius = {radius:.8g}",
+    ),
+    "loop-of-links": Message(
+        "the loop is {links:.3f} links long", "a whole number: spacings that differ by {off:.4g} m"
+    ),
     "rigid-cannot": Message("level 1 is a rigid cable: {what}", "level = 2 or 3"),
     "stored-too-little": Message(
         "the payout comes to {value:.4g} m and {held:.4g} m are stored", "store more, or less end"

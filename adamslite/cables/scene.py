@@ -4,7 +4,7 @@ from adamslite.cables.choose import Choice, choose, needs_brute, tensions
 from adamslite.cables.demand import MOST
 from adamslite.cables.estimate import Moves, laws, travel
 from adamslite.cables.geometry import Span, spans, turned
-from adamslite.cables.lay import stretches
+from adamslite.cables.lay import length, stretches, way
 from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
 from adamslite.cables.spec import read
@@ -30,6 +30,7 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     moves = travel(spec, pieces, told)
     choice = choose(spec, pieces, moves, faults)
     _check_form(spec, pieces, choice, faults)
+    _check_chain(spec, pieces, faults)
     _check(spec, pieces, moves, choice, faults)
     _stop(faults, faults.errors)
     return write(spec, pieces, moves, choice), sort_by_place(faults.found)
@@ -60,6 +61,26 @@ def _check_form(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) 
             faults.add("rigid-cannot", ("route", i, "kind"), what="a long run has waves")
         if slipping(i, spec):
             faults.add("rigid-cannot", ("route", i, "mu"), what="its cable cannot slip")
+
+
+def _check_chain(spec: Spec, pieces: list[Span], faults: Faults) -> None:
+    """Whether all sprockets have one pitch, and a loop a whole number of links."""
+    toothed = [i for i, each in enumerate(spec.route) if each.teeth]
+    for i in toothed[1:]:
+        each = spec.route[i]
+        if abs(each.pitch - spec.pitch) > 1e-4 * spec.pitch:
+            faults.add("pitches", ("route", i, "radius"), i=toothed[0] + 1, j=i + 1,
+                       first=spec.pitch, second=each.pitch,
+                       radius=each.radius * spec.pitch / each.pitch)  # fmt: skip
+    if not (toothed and spec.closed) or faults.errors:
+        return
+    parts = way(spec, pieces, list(range(len(pieces))), {})
+    links = length(parts, spec.pitch) / spec.pitch
+    most = max(spec.route[i].teeth for i in toothed)
+    # Spread over all links, less than a fiftieth of a link on half of the largest wheel.
+    if abs(links - round(links)) > 0.02 * 2 * links / most:
+        faults.add("loop-of-links", ("route", toothed[-1], "at"), links=links,
+                   off=(round(links) - links) * spec.pitch / 2)  # fmt: skip
 
 
 def _check(spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults: Faults) -> None:

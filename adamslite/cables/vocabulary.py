@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import sqrt
+from math import pi, sin, sqrt
 
 Vector = tuple[float, float, float]
 ZERO: Vector = (0.0, 0.0, 0.0)
@@ -75,6 +75,11 @@ class Station:
         return self.is_wheel and self.mass > 0
 
     @property
+    def pitch(self) -> float:
+        """Chord between two gaps of a sprocket, whose pins lie on its radius [m]."""
+        return 2 * self.radius * sin(pi / self.teeth)
+
+    @property
     def slips(self) -> bool:
         """Whether it is a wheel on which the cable may slip."""
         return self.is_wheel and self.mu >= 0
@@ -112,6 +117,11 @@ class Spec:
     def has_run(self) -> bool:
         """Whether a long run goes on from an end."""
         return any(each.kind == "run" for each in self.route)
+
+    @property
+    def pitch(self) -> float:
+        """Of a chain, 0 for a cable [m]."""
+        return next((each.pitch for each in self.route if each.teeth), 0.0)
 
     def is_end(self, i: int) -> bool:
         """Whether the route begins or ends at station i."""
@@ -173,6 +183,7 @@ WHEEL = (
         "inertia": ("number", "not-positive", None),
         "friction": ("number", "negative", 0.0),
         "mu": ("number", "negative", -1.0),
+        "teeth": ("whole", "not-positive", 0),
     }
 )
 MASS = {"mass": ("number", "not-positive", None), "velocity": ("vector", "", ZERO)}
