@@ -71,13 +71,15 @@ class Newton:
             np.zeros_like(s.mu),
         )
         self.yp[:] = 0.3 * rng.standard_normal(self.yp.size)
-        self.yp[: s.n] = self.start[0][: s.n] - 0.01 * rng.standard_normal(s.n)
+        self.predicted = self.start[0][: s.n] - 0.01 * rng.standard_normal(s.n)
         self.psi[:] = 0.02 * rng.standard_normal(self.psi.size)
 
     def residual(self, q: np.ndarray, z: np.ndarray, mu: np.ndarray) -> np.ndarray:
         """F (nz,) at trial values."""
         P = self.P
+        n, w = self.system.n, self.yp.size
         P.q[:], P.z[:], P.mu[:] = q, z, mu
+        P.trial[2 * w + n : 2 * w + 2 * n] = q[:n] - self.predicted
         equations.put_time(P, 0.3)
         bdf_corrector.motion_from_increments(P, 1 / H, self.yp, self.psi, self.tied)
         equations.residual(P, self.phases, P.F)
