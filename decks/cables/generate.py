@@ -17,6 +17,7 @@ import drum
 import kinks
 import moving
 import payouts
+import ropeways
 import waves
 
 #: Folder -> the function that yields its decks: (name, text of the deck, text of the reference).
@@ -25,6 +26,7 @@ CASES: dict[str, Callable[[], Iterator[tuple[str, str, str]]]] = {
     **waves.CASES,
     **payouts.CASES,
     **moving.CASES,
+    **ropeways.CASES,
     **arrest.CASES,
     **cranes.CASES,
     **draglines.CASES,

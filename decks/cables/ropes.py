@@ -13,8 +13,8 @@ from scipy.optimize import brentq
 from adamslite.cables.statements import RADIUS, Side, grown, grown_tip, number, point
 
 
-def drum(side: Side, mount: int, place: tuple[float, float], payout: Law, inertia: float) -> str:
-    """A driven winch of J/R^2 = `inertia` [kg] on PART/`mount`; its MOTION has its number."""
+def wheel(side: Side, mount: int, place: tuple[float, float], inertia: float) -> str:
+    """A pulley of J/R^2 = `inertia` [kg] that turns on PART/`mount`, at `place` at the start."""
     i, axial, (x, y) = side.pulley, number(inertia * RADIUS**2), place
     return (
         f"\nMARKER/{i + 1}, PART={mount}, QP={number(x)},{number(y)},0\n"
@@ -22,7 +22,15 @@ def drum(side: Side, mount: int, place: tuple[float, float], payout: Law, inerti
         f", QG={number(x)},{number(y)},0\n"
         f"MARKER/{i}, PART={i}\n"
         f"JOINT/{i}, REVOLUTE, I={i}, J={i + 1}\n"
-        f"MOTION/{i}, JOINT={i}, FUNCTION={payout.text(RADIUS)}\n"
+    )
+
+
+def drum(side: Side, mount: int, place: tuple[float, float], payout: Law, inertia: float) -> str:
+    """The same, driven; its MOTION has its number."""
+    i = side.pulley
+    return (
+        wheel(side, mount, place, inertia)
+        + f"MOTION/{i}, JOINT={i}, FUNCTION={payout.text(RADIUS)}\n"
     )
 
 
@@ -40,13 +48,18 @@ def tensions(side: Side, sections: int, slack: bool = False) -> str:
     return text
 
 
-def nodes(form: str, side: Side, mass: float, places: np.ndarray, axes: str = "XY") -> str:
-    """Inner nodes at `places` (N - 1, 2 or 3), what the payout does to them, the sections."""
+def nodes(
+    form: str, side: Side, mass: float, places: np.ndarray, axes: str = "XY", held: bool = False
+) -> str:
+    """Inner nodes at `places` (N - 1, 2 or 3), what the payout does to them, the sections.
+
+    A tip that is not `held` has half a section's mass.
+    """
     sections, first = len(places) + 1, side.first
     text = "\n"
     for k, place in enumerate(places, start=1):
         text += point(first + k, mass, place) + grown(form, k, sections, axes, side)
-    text += grown_tip(form, first + sections, sections, axes, side) + "\n"
+    text += "\n" if held else grown_tip(form, first + sections, sections, axes, side) + "\n"
     for k in range(1, sections + 1):
         i, j = side.node(k - 1), side.node(k)
         text += f"SFORCE/{first + k}, I={i}, J={j}, FUNCTION=-T{side.name}{k}\n"
