@@ -119,7 +119,7 @@ def doubts(settings: Any, steps: int, rough: int) -> str:
             f"the formula is of order 2: {steps} steps of ERROR={settings.error:g} add up to more "
             "than that; GSTIFF, RADAU or RKF45 get further with fewer"
         )
-    if kind == BDF and settings.form == "I3" and settings.error < FINE:
+    if kind == BDF and settings.form == "I3":
         return "I3 does not test velocities, so that their errors add up; SI2 does"
     return ""
 
