@@ -103,7 +103,7 @@ def test_brute_force_a_belt_slides_on_its_driven_pulley() -> None:
         gravity = [0, 0, 0]
         end = 0.16
         steps = 320
-        error = 1e-3
+        error = 1e-4
         closed = true
         [cable]
         EA = 2e4
