@@ -99,6 +99,13 @@ WRONG = {
     "short-route": (ATWOOD[:LAST], ATWOOD[ATWOOD.index('kind = "pulley"') - 10 : LAST], "", (5, 1)),
     "wrong-end": (ATWOOD, 'kind = "mass"\nat = [2, -5, 0]\nmass = 3', 'kind = "pulley"\n'
                   "at = [2, -5, 0]\nradius = 0.1\ninertia = 1", (20, 1)),
+    "run-to-run": (
+        ATWOOD[: ATWOOD.index("[[route]]")],
+        "rho = 0.01\n",
+        "rho = 0.01\n" + '[[route]]\nkind = "run"\nat = [0, 0, 0]\n'
+        + '[[route]]\nkind = "run"\nat = [1, 0, 0]\n',
+        (9, 1),
+    ),
     "drive": (HOIST, MOVED, "", (5, 1)),
     "moved-twice": (ATWOOD, "radius = 0.2", 'radius = 0.2\nmass = 2\nmotion = ["TIME**2", 0, 0]',
                     (14, 1)),

@@ -148,6 +148,8 @@ def _told(spec: Spec, law: Node, path: Path, faults: Faults) -> Travel | None:
 
 def _free(spec: Spec, spans: list[Span], engines: list[Node]) -> Travel | str | None:
     """The way of a cable that weights and an engine move, or why it is not known."""
+    if not any(each.is_wheel for each in spec.route):
+        return None
     inside = spec.route if spec.closed else spec.route[1:-1]
     if any(each.is_free for each in inside) or any(each.is_carried for each in spec.route):
         return "weights or wheels on the cable move by themselves"

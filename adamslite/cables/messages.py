@@ -20,6 +20,9 @@ MESSAGES: dict[str, Message] = {
         "ends: fixed, run, mass, body, winch; between them: pulley, mass, body; on a loop: pulley,"
         " winch",
     ),
+    "run-to-run": Message(
+        "nothing is between two long runs", "a pulley or a mass that the cable meets"
+    ),
     "drive": Message("a winch needs one of payout and force", 'payout = "0.5*TIME**2"'),
     "moved-twice": Message(
         "a wheel moves by its motion or by the forces on its mass", "leave motion or mass out"

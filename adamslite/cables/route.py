@@ -14,6 +14,8 @@ def check_route(faults: Faults, route: list[dict[str, Any]], closed: bool) -> No
     """Say what is wrong with the stations as a whole."""
     if len(route) < 2:
         faults.add("short-route", ("route", 0), count=len(route))
+    if [each.get("kind") for each in route] == ["run", "run"]:
+        faults.add("run-to-run", ("route", 1, "kind"))
     for i, each in enumerate(route):
         _place(faults, each, i, len(route), closed)
         if each.get("kind") == "winch" and bool(each.get("payout")) == bool(each.get("force")):

@@ -1,0 +1,164 @@
+"""What `auto` picks for a cable scene, and the reasons it writes into the head of the deck."""
+
+import re
+from math import ceil, sqrt
+
+import pytest
+from scipy.optimize import brentq
+
+from adamslite.cables.scene import deck
+
+LIGHT = """
+end = 1
+[cable]
+EA = 1e7
+rho = 1e-4
+[[route]]
+kind = "mass"
+at = [-0.2, -5, 0]
+mass = 5
+[[route]]
+kind = "pulley"
+at = [0, 0, 0]
+radius = 0.2
+inertia = 0.04
+[[route]]
+kind = "mass"
+at = [0.2, -5, 0]
+mass = 5
+"""
+E0 = 13e3 / 6e7
+E = brentq(lambda e: 2 * (e - E0) * sqrt(e * (1 + e)) - (e - E0) ** 2 - 65**2 * 5.5 / 6e7, E0, 0.1)
+KINK = ceil(7 / (sqrt(E * (1 + E)) - (E - E0)))
+STRUCK = """
+end = 0.01
+gravity = [0, 0, 0]
+[cable]
+EA = 6e7
+rho = 5.5
+pretension = 13e3
+[[route]]
+kind = "fixed"
+at = [-15, 0, 0]
+[[route]]
+kind = "mass"
+at = [0, 0, 0]
+mass = 1e9
+velocity = [0, 65, 0]
+[[route]]
+kind = "fixed"
+at = [15, 0, 0]
+"""
+HOIST = """
+end = 8
+[cable]
+EA = 2e7
+rho = 4
+[[route]]
+kind = "winch"
+at = [-0.5, 0, 0]
+radius = 0.5
+inertia = 25
+turn = -1
+payout = "STEP5(TIME,0,0,8,4)"
+[[route]]
+kind = "mass"
+at = [0, -20, 0]
+mass = 1000
+"""
+ENGINE = HOIST.replace('payout = "STEP5(TIME,0,0,8,4)"', 'force = "9000*VARVAL(SD)*TIME"')
+FAST = HOIST.replace("8,4)", "8,160)")
+BELT = """
+end = 0.1
+closed = true
+gravity = [0, 0, 0]
+[cable]
+EA = 2e4
+rho = 0.2
+pretension = 600
+[[route]]
+kind = "winch"
+at = [0, 0, 0]
+radius = 0.1
+inertia = 0.1
+payout = "2*TIME"
+[[route]]
+kind = "pulley"
+at = [0.3, 0, 0]
+radius = 0.1
+inertia = 0.1
+"""
+SLIPS = LIGHT.replace("radius = 0.2\n", "radius = 0.2\nmu = 0.3\n")
+
+
+def head(spec: str) -> str:
+    """The comments at the top of the deck, as one line."""
+    text, _ = deck(spec)
+    lines = text.split("\n\n")[0].splitlines()[1:]
+    return " ".join(line.removeprefix("! ") for line in lines)
+
+
+def chosen(spec: str) -> str:
+    """The INTEGRATOR statement's method."""
+    return re.search(r"INTEGRATOR/(\w+)", deck(spec)[0])[1]
+
+
+@pytest.mark.parametrize(
+    ("spec", "method", "says"),
+    [
+        (LIGHT, "GSTIFF", ["level 1: no estimate speaks against a rigid cable without mass"]),
+        (
+            STRUCK,
+            "VERLET",
+            [
+                "not level 1: a weight starts across it at 65 m/s",
+                "level 2: no cable goes over a wheel",
+                # V^2/c^2 = 2 (e - e0) sqrt(e (1 + e)) - (e - e0)^2, U = c sqrt(e (1 + e)) - c (e - e0)
+                f"{KINK} sections for a kink, 7 c/U",
+                "VERLET: fronts in masses that nothing ties together",
+            ],
+        ),
+        (
+            HOIST,
+            "GSTIFF",
+            [
+                "level 3: cable goes over wheels",
+                "form paper: its estimates are all below 0.01",
+                "sections for half a section at an end",
+            ],
+        ),
+        (
+            FAST,
+            "GSTIFF",
+            ["form ale: the paper's misses 0.01 by rho (l s\" + s'^2)/(2 T) ="],
+        ),
+        (BELT, "HHT", ["form brute: the route is closed", "sections for (h/R)^2/24 on a rim"]),
+        (
+            SLIPS,
+            "HHT",
+            [
+                "not level 1: the cable may slip on its wheels",
+                "form ale: the paper's misses 0.01 by the cable may slip on its wheels",
+                "HHT: friction that a small sliding speed builds up",
+            ],
+        ),
+    ],
+)  # fmt: skip
+def test_the_head_says_why(spec: str, method: str, says: list[str]) -> None:
+    assert chosen(spec) == method
+    for sentence in says:
+        assert sentence in head(spec)
+
+
+def test_a_winch_with_an_engine_is_estimated_too() -> None:
+    """The rigid cable is run, S and SD known to the force: its travel is among the figures."""
+    assert re.search(r"travel 0 to [\d.]+ m, up to [\d.]+ m/s", head(ENGINE))
+
+
+def test_accuracy_asks_for_more() -> None:
+    """(h/R)^2/24 < p/50: a tenth of p takes sqrt(10) times the sections, before rounding up."""
+    found = []
+    for p in ("0.01", "0.001"):
+        told = head(BELT.replace("0.3, 0", "0.6, 0") + f"[model]\naccuracy = {p}\n")
+        found.append(int(re.search(r"(\d+) sections for \(h/R\)", told)[1]))
+    assert found[1] == pytest.approx(found[0] * 10**0.5, abs=10**0.5 + 1)
