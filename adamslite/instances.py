@@ -71,6 +71,15 @@ class Instances(Numbering):
         data = [len(group.instances), ints.ctypes.data, reals.ctypes.data]
         return [phase, *entry[:3], *data, *entry[3:]]
 
+    def one_instance(self, groups: np.ndarray, k: int, instance: int) -> np.ndarray:
+        """The row of ``groups`` of group ``k``, with one of its instances only."""
+        row, count = groups[9 * k : 9 * k + 9].copy(), groups[9 * k + 4]
+        of_ints, of_reals = self.keep[2 * k].size, self.keep[2 * k + 1].size - 1
+        row[4] = 1
+        row[5] += 8 * instance * (of_ints // count)
+        row[6] += 8 * instance * (of_reals // count)
+        return row
+
     def _integers(self, group: Group, binding: Binding, instance: int) -> list[int]:
         nodes = [("BODY", b) for b in binding.bodies] + binding.nodes
         offsets = [self.w_at.get(node, 0) for node in nodes]

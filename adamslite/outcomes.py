@@ -42,10 +42,6 @@ class Outcome(Enum):
         "logarithm of a negative number, or DM of coinciding markers in the named statement."
     )
     INTERRUPTED = "The run was interrupted; everything computed until then is kept."
-    STEP_LIMIT = (
-        "The largest allowed number of steps was taken before the end. The scene may be stiffer "
-        "than the integrator suits: use an implicit one, a larger ERROR, or a shorter run."
-    )
     UNSTABLE = (
         "The steps asked for with HINIT are longer than an explicit integrator can take in this "
         "scene. Give a smaller HINIT or none, or use an implicit integrator (GSTIFF)."

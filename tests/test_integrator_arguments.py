@@ -60,7 +60,7 @@ def test_a_run_ends_when_a_step_of_hmin_fails(method, least):
     asked = f"{method}, ERROR=1E-8, HMAX=0.4, INTERPOLATE=ON"
     results = solve(f"{asked}, HMIN={least}", steps=2000)
     assert results.outcome is Outcome.STEP_TOO_SMALL
-    assert f"step {least:g}" in results.message
+    assert f"of size {least:g} (HMIN)" in results.message
     assert results.time[-1] == pytest.approx(results.summary["t_end"], abs=1e-3)
     assert solve(asked).outcome is Outcome.DONE
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import _thread
+import re
 import signal
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import GROUND, chain, done, run
+from scenes import GROUND, PENDULUM, chain, done, run
 
 import adamslite as al
 from adamslite import Outcome
+from adamslite.faults import UsageError
 
 FALLING = (
     GROUND
@@ -118,3 +121,156 @@ def test_an_interrupted_run_keeps_what_it_has(listening):
     assert 0 < len(results.time) < 1_000_000
     assert np.isfinite(results.values).all()
     assert results.summary["t_end"] >= results.time[-1]
+    assert re.fullmatch(rf"At {WHEN[3:]} and order \d\.", reason(results))
+
+
+# ---- what is said --------------------------------------------------------------------------------
+
+
+def said(deck: str, end: float | None = 1.0, steps: int | None = 10, **options) -> al.Results:
+    """A run that ends early: its message ends with the sentence of the outcome."""
+    results = run(deck, end, steps, **options)
+    assert results.outcome is not Outcome.DONE
+    assert results.message.endswith(f". {results.outcome.value}")
+    return results
+
+
+def reason(results: al.Results) -> str:
+    """The message without the sentence of the outcome."""
+    return results.message.removesuffix(f" {results.outcome.value}")
+
+
+def with_integrator(deck: str, arguments: str) -> str:
+    return deck.replace("END\n", f"INTEGRATOR/{arguments}\nEND\n")
+
+
+# Free, so that only its rotation has an error: that of order 1 in the first step.
+SPINNING = GROUND + "PART/2, MASS=1, CM=2, IP=1,2,3, WX=1, WY=2, WZ=1\nMARKER/2, PART=2\nEND\n"
+WHEN = r"at t = [\d.e-]+, in step \d+ of size [\d.e-]+"
+
+
+def test_a_step_too_small_names_what_the_error_test_fails_for():
+    """HMIN = 0.1, and the error of order 1 is far above ERROR."""
+    results = said(with_integrator(SPINNING, "GSTIFF, ERROR=1E-6, HMIN=0.1"))
+    assert results.outcome is Outcome.STEP_TOO_SMALL
+    told = re.fullmatch(
+        r"PART/2 \(<text>:4:1\), (.*): at t = 0, in step 1 of size 0\.1 \(HMIN\) and order 1, "
+        r"the estimated error is ([\d.e+]+) times ERROR\.",
+        reason(results),
+    )
+    assert told and told[1].startswith(("rotation about", "angular velocity about"))
+    assert float(told[2]) > 1.0
+    assert results.time.tolist() == [0.0]
+
+
+@pytest.mark.parametrize("method", ("GSTIFF", "GSTIFF, I3", "HHT", "RADAU"))
+def test_a_corrector_that_failed_names_equation_and_unknown(method):
+    """A pendulum that swings may not iterate twice."""
+    results = said(with_integrator(PENDULUM, f"{method}, MAXIT=1, HMIN=0.1"))
+    assert results.outcome is Outcome.NEWTON_FAILED
+    place = r"(PART/2 \(<text>:5:1\)|JOINT/1 \(<text>:8:1\)), "
+    told = re.fullmatch(
+        place + r"(forces along|torques about|speed of )?.*: at t = 0, in step 1 of size 0\.1 "
+        r"\(HMIN\) and order \d, this equation is off by ([\d.e+-]+) after iteration 1, more than "
+        r"all others\. " + place + r".+, changes most, by ([\d.e+-]+)\.",
+        reason(results),
+    )
+    assert told, results.message
+    assert float(told[3]) > 0.0
+
+
+def test_fixed_steps_end_where_the_corrector_fails_and_keep_what_there_was():
+    """A force that grows without bound at t = 1/2, where x reaches 1."""
+    deck = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=2\nMARKER/2, POINT_MASS=2\n"
+    deck += "VFORCE/1, I=2, J_PART=1, FX=1E-3/(1-DX(2))**9\nEND\n"
+    results = said(with_integrator(deck, "CONSTANT_BDF, HMAX=0.01"), 1.0, 100)
+    assert results.outcome in (Outcome.NEWTON_FAILED, Outcome.NOT_FINITE)
+    assert re.search(WHEN, reason(results))
+    assert "POINT_MASS/2 (<text>:4:1), x" in reason(results) or "VFORCE/1" in reason(results)
+    assert 0.1 < results.time[-1] <= 0.5
+    np.testing.assert_allclose(results["POINT_MASS/2.x"][:11], 2.0 * results.time[:11], rtol=1e-2)
+
+
+@pytest.mark.parametrize("method", ("GSTIFF", "HHT", "RADAU"))
+def test_an_expression_without_a_value_is_named(method):
+    """The root of a negative number from t = 0.5 on, in the second of two forces."""
+    force = "VFORCE/6, I=2, J_PART=1, FX=3\nVFORCE/7, I=2, J_PART=1, FX=SQRT(0.5-TIME)\nEND\n"
+    results = said(FALLING + force, integrator=method)
+    assert results.outcome is Outcome.NOT_FINITE
+    assert re.fullmatch(rf"VFORCE/7 \(<text>:9:1\): {WHEN} and order \d\.", reason(results))
+    assert results.summary["t_end"] == pytest.approx(0.5, abs=1e-6)
+    assert results.time[-1] >= 0.4
+
+
+def test_an_expression_without_a_value_at_the_start():
+    results = said(FALLING + "VFORCE/7, I=2, J_PART=1, FX=1/TIME\nEND\n")
+    assert reason(results) == "VFORCE/7 (<text>:8:1): at t = 0, in step 1 of size 0."
+
+
+def test_accelerations_that_nothing_determines():
+    """A part without inertia, free to turn."""
+    results = said(GROUND + "PART/2, MASS=1, CM=2, IP=0,0,0\nMARKER/2, PART=2\nEND\n")
+    assert results.outcome is Outcome.UNDETERMINED
+    told = r"PART/2 \(<text>:4:1\), rotation about [xyz]: at t = 0, it is free\."
+    assert re.fullmatch(told, reason(results))
+
+
+def test_a_joint_that_cannot_close():
+    """Two points of one part, a metre apart, held at one point of the ground."""
+    second = "JOINT/2, SPHERICAL, I=2, J=1\nEND"
+    results = said(PENDULUM.replace("END", second))
+    assert results.outcome is Outcome.INITIAL_CONDITIONS_FAILED
+    told = (
+        r"JOINT/[12] \(<text>:[89]:1\), [xyz] of I - J, stays open by 0\.5\d* at position level\."
+    )
+    assert re.fullmatch(told, reason(results))
+
+
+def test_a_kinematic_analysis_with_freedom():
+    results = said(PENDULUM.replace("END", "SIMULATE/KINEMATICS, END=1, STEPS=2\nEND"), None, None)
+    assert results.outcome is Outcome.NOT_KINEMATIC
+    assert reason(results) == "At t = 0, the model has one degree of freedom."
+
+
+def test_no_equilibrium_names_the_balance_that_fails():
+    """Nothing holds 10 kg against gravity: 98.1 N along y."""
+    results = said(FALLING + "SIMULATE/STATICS\nEND\n", None, None)
+    assert results.outcome is Outcome.NO_EQUILIBRIUM
+    expected = "POINT_MASS/2 (<text>:5:1), forces along y: at t = 0, out of balance by 98.1."
+    assert reason(results) == expected
+
+
+def test_steps_of_verlet_that_are_too_long_tell_the_longest():
+    """k/m = 1e6: h <= 2/1000 but for 7 % of caution."""
+    deck = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=1\nMARKER/2, POINT_MASS=2\n"
+    deck += "VFORCE/1, I=2, J_PART=1, FX=-1E6*DX(2)\nEND\n"
+    results = said(with_integrator(deck, "VERLET, HINIT=0.1"))
+    assert results.outcome is Outcome.UNSTABLE
+    assert reason(results) == (
+        "At t = 0, in step 1 of size 0.1 and order 2; stable are steps up to 0.00186."
+    )
+
+
+def test_a_branch_that_chatters_is_named_with_time_and_step():
+    deck = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=1\nMARKER/2, POINT_MASS=2\n"
+    results = said(deck + "VFORCE/1, I=2, J_PART=1, FX=-2*SIGN(1,VX(2))\nEND\n", error=1e-7)
+    assert results.outcome is Outcome.CHATTERING
+    assert re.fullmatch(rf"VFORCE/1 \(<text>:6:1\): {WHEN} and order \d\.", reason(results))
+    assert results.time[-1] == pytest.approx(0.5)
+
+
+def test_a_cancelled_mass_names_the_force_time_and_step():
+    results = said(FALLING + PRINTED + "END\n", 2.0, 20, error=1e-8)
+    assert re.fullmatch(rf"VFORCE/7 \(<text>:8:1\): {WHEN} and order \d\.", reason(results))
+
+
+def test_without_an_end_nothing_runs():
+    with pytest.raises(UsageError, match="Nothing says how long to run"):
+        al.simulate(al.read(FALLING + "END\n"))
+
+
+def test_every_outcome_is_provoked_in_this_file():
+    text = Path(__file__).read_text(encoding="utf-8")
+    assert all(
+        f"Outcome.{each.name}" in text for each in Outcome if each is not Outcome.NO_END_TIME
+    )

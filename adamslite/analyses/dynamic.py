@@ -130,12 +130,16 @@ def run_dynamic(
 
 
 def _named(system: System, code: int) -> Outcome:
-    """The outcome of a return code; a start that failed on not-a-number is not a singular one."""
+    """The outcome of a return code; not-a-number is neither a singular start nor a corrector
+    that does not converge.
+    """
     if code == base.BROKEN_START:
         known = np.isfinite(system.F).all() and np.isfinite(system.LA).all()
         singular = bool(system.sizes[base.IMPLICIT_MASS])
         if known:
             return Outcome.SINGULAR_ACCELERATION if singular else Outcome.UNDETERMINED
+        return Outcome.NOT_FINITE
+    if code == base.NEWTON_FAILED and np.isnan(system.report[base.OPEN_BY]):
         return Outcome.NOT_FINITE
     return OUTCOMES[code]
 

@@ -35,11 +35,12 @@ RANK = 1e-9
 
 @dataclass
 class Unclosed:
-    """A constraint the initial conditions cannot satisfy, and by how much."""
+    """A constraint the initial conditions cannot satisfy: which row, and by how much."""
 
     statement: object
     size: float
     level: str
+    equation: str
 
 
 def initial_conditions(system: System) -> Unclosed | None:
@@ -66,7 +67,8 @@ def _positions(system: System) -> Unclosed | None:
             break
     worst = float(np.abs(g).max())
     if worst > OPEN * size:
-        return Unclosed(_owner(system, int(np.argmax(np.abs(g)))), worst, "position")
+        statement, equation = _owner(system, int(np.argmax(np.abs(g))))
+        return Unclosed(statement, worst, "position", equation)
     return None
 
 
@@ -110,7 +112,8 @@ def _velocities(system: System) -> Unclosed | None:
     size = max(1.0, float(np.abs(system.u).max()))
     if np.abs(defect).max() > 1e-8 * size:
         worst = int(np.argmax(np.abs(defect)))
-        return Unclosed(_owner(system, worst), float(np.abs(defect[worst])), "velocity")
+        statement, equation = _owner(system, worst)
+        return Unclosed(statement, float(np.abs(defect[worst])), "velocity", equation)
     return None
 
 
@@ -180,10 +183,10 @@ def _cayley(c: np.ndarray) -> np.ndarray:
     return np.eye(3) + (skew + 0.5 * skew @ skew) / (1.0 + 0.25 * c @ c)
 
 
-def _owner(system: System, row: int) -> object:
-    """The constraint that owns multiplier row ``row``."""
+def _owner(system: System, row: int) -> tuple[object, str]:
+    """The constraint that owns multiplier row ``row``, and what the row keeps at zero."""
     for constraint in system.model.constraints:
+        if row < constraint.n_rows:
+            return constraint, constraint.row_names[row]
         row -= constraint.n_rows
-        if row < 0:
-            return constraint
     raise IndexError("no constraint has this row")

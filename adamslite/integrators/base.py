@@ -87,9 +87,13 @@ SETTINGS = (
     FIXED_STEP, ADAPTIVITY, ALL_CONVERGE,
 ) = range(len(SETTINGS))  # fmt: skip
 
-REPORT = ("t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall", "rough")
+REPORT = (
+    "t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall", "rough",
+    "iteration", "changed", "change", "open_row", "open_by",
+)  # fmt: skip
 (
     AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED, WAYS_TO_FALL, ROUGH_STEPS,
+    ITERATION, CHANGED, CHANGE, OPEN_ROW, OPEN_BY,
 ) = range(len(REPORT))  # fmt: skip
 
 COUNTS = (

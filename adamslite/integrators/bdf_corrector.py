@@ -14,6 +14,7 @@ from adamslite.integrators.base import (
     ADAPTIVITY,
     ALL_CONVERGE,
     ERROR,
+    ITERATION,
     MAX_IT,
     NEWTON,
     NS,
@@ -100,6 +101,7 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     last = 0.0
     motion_from_increments(P, cu, yp, psi, si2)
     for iteration in range(int(P.settings[MAX_IT])):
+        P.report[ITERATION] = iteration + 1.0
         if not fits_step(C, cu) or renews(P, iteration, C[AGE] < KEEP_STEPS):
             if not newton_matrix(P, L, phases, cu, P.q, v, P.u):
                 C[FACTORED] = 0.0

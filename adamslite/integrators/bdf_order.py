@@ -20,7 +20,7 @@ from adamslite.integrators.base import (
     N,
     Problem,
 )
-from adamslite.integrators.bdf_state import EQUAL, K_TOP, H, K, resize
+from adamslite.integrators.bdf_state import EQUAL, K_TOP, H, K, cut, resize
 from adamslite.integrators.history import MAX_ORDER
 from adamslite.integrators.order_cap import TRIES, suspect
 from adamslite.translate import Reals, native
@@ -141,4 +141,4 @@ def choose_order(P: Problem, w: int, norm: float) -> None:
     factor = min(factor, min(room, MOST_GROWTH))
     if best != k or factor >= LEAST_GROWTH or factor < 0.9:
         C[K] = float(best)
-        resize(P, w, factor)
+        resize(P, w, cut(P, factor))

@@ -8,12 +8,17 @@ from adamslite.integrators.base import (
     FAILURES,
     FIXED_STEP,
     H_MAX,
+    HOLONOMIC,
     IMPLICIT_MASS,
+    INDEX3,
+    ITERATION,
     NEWTON_FAILED,
     NOT_FINITE,
     NZ,
     REJECTED,
+    SI2,
     SINGULAR_MASS,
+    STABILISED,
     STEP_TOO_SMALL,
     WHERE,
     Plan,
@@ -44,6 +49,7 @@ from adamslite.integrators.bdf_state import (
 from adamslite.integrators.event_guards import let_go
 from adamslite.integrators.event_places import FREED
 from adamslite.integrators.order_cap import BAD
+from adamslite.integrators.trouble import note_trouble
 from adamslite.integrators.undo import bring_back, remember
 from adamslite.translate import Reals, native
 
@@ -72,6 +78,8 @@ def after_failure(P: Problem, w: int) -> int:
     C[RETRIES] += 1.0
     C[FRESH] = 0.0
     C[BLAMED] = float(wildest(P))
+    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    note_trouble(P, STABILISED if stabilised else INDEX3, P.report[ITERATION])
     if P.settings[FIXED_STEP] > 0.0:
         P.report[WHERE] = C[BLAMED]
         return NEWTON_FAILED
@@ -168,7 +176,13 @@ def stuck(P: Problem, L: Plan, w: int) -> int:
     P.report[WHERE] = P.control[BLAMED]
     if P.search[FREED] > 0.0:
         return CHATTERING
-    return NEWTON_FAILED if P.control[RETRIES] > 2.0 else STEP_TOO_SMALL
+    return NEWTON_FAILED if corrector_failed(P.control) else STEP_TOO_SMALL
+
+
+@native
+def corrector_failed(C: Reals) -> bool:
+    """Whether the last tries failed for the corrector, not for accuracy."""
+    return C[RETRIES] > 2.0 or (C[RETRIES] > 0.0 and C[NORM] == 0.0)
 
 
 @native

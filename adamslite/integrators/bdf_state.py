@@ -22,6 +22,7 @@ from adamslite.integrators.base import (
     T,
 )
 from adamslite.integrators.equations import vector_rates
+from adamslite.integrators.event_stops import least_step
 from adamslite.integrators.history import change_step
 from adamslite.translate import Reals, native
 
@@ -82,9 +83,13 @@ def first_step(P: Problem, w: int) -> float:
 
 @native
 def cut(P: Problem, factor: float) -> float:
-    """``factor`` of the step after a try that failed; HMIN is tried before the run gives up."""
-    h, least = P.control[H], P.settings[H_MIN]
-    return least / h if h * factor < least and h > least * 1.0000001 else factor
+    """``factor`` of the step, but not below HMIN, unless a step of HMIN has failed."""
+    C, h, least = P.control, P.control[H], P.settings[H_MIN]
+    if h * factor >= least:
+        return factor
+    if h > least * 1.0000001:
+        return least / h
+    return factor if C[RETRIES] > 0.0 or C[NORM] > 0.0 else max(factor, 1.0)
 
 
 @native
@@ -93,7 +98,8 @@ def too_small(P: Problem) -> bool:
     short.
     """
     C = P.control
-    return C[H] < P.settings[H_MIN] and (C[RETRIES] > 0.0 or C[NORM] > 0.0)
+    failed = C[RETRIES] > 0.0 or C[NORM] > 0.0
+    return C[H] < (P.settings[H_MIN] if failed else least_step(P))
 
 
 @native

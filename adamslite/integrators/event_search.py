@@ -5,7 +5,7 @@ Reference: Oliveira, Takahashi, ACM Trans. Math. Softw. 47 (2021) 5 (ITP, the br
 
 from __future__ import annotations
 
-from adamslite.integrators.base import ERROR, H_MAX, H_MIN, T_END, WATCHED, Problem
+from adamslite.integrators.base import ERROR, WATCHED, Problem
 from adamslite.integrators.event_guards import copy_margins, let_go, margins, take_up
 from adamslite.integrators.event_places import (
     AGAIN,
@@ -28,14 +28,13 @@ from adamslite.integrators.event_places import (
     TOLERANCE,
     WHOLE,
 )
+from adamslite.integrators.event_stops import least_step
 from adamslite.translate import native
 
 # An event is met when the step ends behind it by less than this share of the step in which it was
 # seen, or this multiple of ERROR.
 CLOSE, CLOSE_ERROR = 1e-6, 0.01
 TIME_ROUND_OFF = 4e-15
-# A step to a crossing is not shorter than this share of the run, as long as HMIN allows it.
-LEAST_STEP = 1e-14
 # Steps below this over ERROR give velocities that are round-off of positions.
 NOISE = 1e-15
 
@@ -52,8 +51,7 @@ def open_search(P: Problem, t: float, h: float) -> None:
     if S[HUNT] == 0.0:
         S[HUNT_END], S[WHOLE] = t + h, h
         share = min(CLOSE, CLOSE_ERROR * P.settings[ERROR])
-        least = min(P.settings[H_MIN], LEAST_STEP * max(P.settings[T_END], P.settings[H_MAX]))
-        S[TOLERANCE] = max(share * h + TIME_ROUND_OFF * abs(t), least)
+        S[TOLERANCE] = max(share * h + TIME_ROUND_OFF * abs(t), least_step(P))
     if margins(P, END) > 0:
         open_bracket(P, 1.0, END)
 

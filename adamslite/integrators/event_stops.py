@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from math import floor
 
-from adamslite.integrators.base import CLOCKS, INTERPOLATE, NW, Problem
+from adamslite.integrators.base import CLOCKS, H_MAX, H_MIN, INTERPOLATE, NW, T_END, Problem
 from adamslite.integrators.equations import guard_values, put_time
 from adamslite.integrators.event_guards import branch_of
 from adamslite.integrators.event_places import CLOCK, STOP_AT
 from adamslite.translate import native
 
+# Steps below this share of the run are round-off of the time.
+LEAST_STEP = 1e-14
 # Further from an output time than this many steps they need not fit.
 MANY_STEPS = 100.0
 
@@ -40,6 +42,12 @@ def fitted(P: Problem, h: float, left: float) -> float:
     """The step not longer than ``h`` that reaches an output time ``left`` away in equal steps."""
     count = floor(left / h + 1.0 - 1e-7)
     return left / max(1.0, count) if count < MANY_STEPS else h
+
+
+@native
+def least_step(P: Problem) -> float:
+    """HMIN, as far as it is above what round-off of the time leaves of a step."""
+    return min(P.settings[H_MIN], LEAST_STEP * max(P.settings[T_END], P.settings[H_MAX]))
 
 
 @native

@@ -46,7 +46,7 @@ from adamslite.integrators.base import (
 from adamslite.integrators.equations import track
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins, let_go
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
-from adamslite.integrators.event_stops import fitted, step_limit
+from adamslite.integrators.event_stops import fitted, least_step, step_limit
 from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.explicit_dense import write_dense
 from adamslite.integrators.explicit_error import (
@@ -147,7 +147,8 @@ def try_step(P: Problem, L: Plan) -> int:
         C[H] = fitted(P, C[H], left)
     if C[H] * 1.0000001 > left:
         C[H] = left
-    if (C[H] < P.settings[H_MIN] and C[CAUTIOUS] != 0.0) or crawls(P, C[H]):
+    least = P.settings[H_MIN] if C[CAUTIOUS] != 0.0 else least_step(P)
+    if C[H] < least or crawls(P, C[H]):
         return why_stuck(P)
     P.report[AT], P.report[STEP] = C[CLOCK], C[H]
     if not run_stages(P, L, w, C[H]):

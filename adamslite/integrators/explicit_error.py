@@ -109,5 +109,17 @@ def choose_explicit_step(P: Problem, error: float) -> None:
         factor = min(GROW, SAFETY * error**NOW_POWER * C[LAST_ERROR] ** LAST_POWER)
     if C[CAUTIOUS] != 0.0:
         factor = min(1.0, factor)
-    C[H] *= max(SHRINK, factor)
     C[CAUTIOUS], C[LAST_ERROR] = 0.0, max(error, 1e-4)
+    cut_step(P, max(SHRINK, factor))
+
+
+@native
+def cut_step(P: Problem, factor: float) -> None:
+    """``factor`` times the step, but not below HMIN, unless a step of HMIN has failed."""
+    C, h, least = P.control, P.control[H], P.settings[H_MIN]
+    if h * factor >= least:
+        C[H] = h * factor
+    elif h > least * 1.0000001:
+        C[H] = least
+    elif C[CAUTIOUS] != 0.0:
+        C[H] = h * factor

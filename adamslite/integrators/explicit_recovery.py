@@ -11,7 +11,6 @@ from adamslite.integrators.base import (
     CHATTERING,
     FAILURES,
     H_MAX,
-    H_MIN,
     IMPLICIT_MASS,
     NEWTON_FAILED,
     REJECTED,
@@ -22,7 +21,7 @@ from adamslite.integrators.base import (
 )
 from adamslite.integrators.event_guards import let_go
 from adamslite.integrators.event_places import FREED
-from adamslite.integrators.explicit_error import NOW_POWER, SAFETY, SHRINK
+from adamslite.integrators.explicit_error import NOW_POWER, SAFETY, SHRINK, cut_step
 from adamslite.integrators.explicit_state import (
     BACKS,
     CAUTIOUS,
@@ -89,8 +88,8 @@ def shorten(P: Problem, w: int, factor: float) -> int:
     C[FAILED], C[TRIES] = C[FAILED] + 1.0, C[TRIES] + 1.0
     if P.sizes[M] > 0 and C[FAILED] >= FEW_FAILURES and start_elsewhere(P, w):
         return RUNNING
-    cut_step(P, factor)
     C[CAUTIOUS] = 1.0
+    cut_step(P, factor)
     if P.sizes[IMPLICIT_MASS] and C[H] < SINGULAR_RESOLUTION * P.settings[H_MAX]:
         return SINGULAR_MASS
     return RUNNING
@@ -109,13 +108,6 @@ def reject(P: Problem, w: int, error: float) -> int:
     C[CAUTIOUS] = 1.0
     cut_step(P, max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK)
     return RUNNING
-
-
-@native
-def cut_step(P: Problem, factor: float) -> None:
-    """Shorten a step that failed; HMIN is tried before the run gives up."""
-    C, least = P.control, P.settings[H_MIN]
-    C[H] = max(factor * C[H], least) if C[H] > least * 1.0000001 else factor * C[H]
 
 
 @native

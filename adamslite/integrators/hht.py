@@ -43,6 +43,7 @@ from adamslite.integrators.base import (
     IMPLICIT_MASS,
     INDEX3,
     INTERRUPTED,
+    ITERATION,
     MAX_IT,
     NEWTON,
     NEWTON_FAILED,
@@ -68,7 +69,12 @@ from adamslite.integrators.base import (
     T,
 )
 from adamslite.integrators.bdf_corrector import wildest
-from adamslite.integrators.bdf_recovery import SINGULAR_RESOLUTION, VANISHING, retry_factor
+from adamslite.integrators.bdf_recovery import (
+    SINGULAR_RESOLUTION,
+    VANISHING,
+    corrector_failed,
+    retry_factor,
+)
 from adamslite.integrators.bdf_state import (
     AGE,
     BLAMED,
@@ -112,6 +118,7 @@ from adamslite.integrators.second_order import (
     second_order_matrix,
     start_from_here,
 )
+from adamslite.integrators.trouble import note_trouble
 from adamslite.translate import Reals, native
 
 # Newton stops when the estimated remaining error is this share of ERROR; after a single iteration,
@@ -193,8 +200,8 @@ def attempt(P: Problem, L: Plan) -> int:
         return NOT_FINITE
     if norm > 1.0 and C[FIXED] == 0.0:
         P.count[REJECTED] += 1
-        C[H] *= cut(P, max(0.2, (SAFETY * norm) ** (-1.0 / 3.0)))
         C[EQUAL], C[NORM] = 0.0, norm
+        C[H] *= cut(P, max(0.2, (SAFETY * norm) ** (-1.0 / 3.0)))
         return RUNNING
     if P.sizes[IMPLICIT_MASS]:
         if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
@@ -242,6 +249,7 @@ def correct_step(P: Problem, L: Plan) -> bool:
         size = move_all(P, P.F)
         P.count[NEWTON] += 1
         tries += 1
+        P.report[ITERATION] = float(tries)
         rate = min(size / last, 0.999) if tries > 1 else 0.5
         left = size * rate / (1.0 - rate) if tries > 1 else size / QUIET
         if left <= tolerance:
@@ -275,6 +283,7 @@ def after_no_convergence(P: Problem) -> int:
         return RUNNING
     C[RETRIES] += 1.0
     C[BLAMED] = float(wildest(P))
+    note_trouble(P, INDEX3, P.report[ITERATION])
     C[H] *= cut(P, retry_factor(C)) if C[FIXED] == 0.0 else retry_factor(C)
     return RUNNING
 
@@ -310,7 +319,7 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
         C[EQUAL] += 1.0
         room = min(MOST_GROWTH, P.settings[H_MAX] / h)
         if (C[EQUAL] > 1.0 and min(factor, room) > LEAST_GROWTH) or factor < 0.9:
-            C[H] *= min(factor, room)
+            C[H] *= cut(P, min(factor, room))
             C[EQUAL] = 0.0
     return RUNNING
 
@@ -363,4 +372,4 @@ def why_too_small(P: Problem, L: Plan) -> int:
         P.report[WHERE] = C[BLAMED]
     if P.search[FREED] > 0.0:
         return CHATTERING
-    return NEWTON_FAILED if C[RETRIES] > 2.0 else STEP_TOO_SMALL
+    return NEWTON_FAILED if corrector_failed(C) else STEP_TOO_SMALL

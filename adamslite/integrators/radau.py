@@ -51,7 +51,7 @@ from adamslite.integrators.base import (
     Problem,
     T,
 )
-from adamslite.integrators.bdf_recovery import SINGULAR_RESOLUTION, VANISHING
+from adamslite.integrators.bdf_recovery import SINGULAR_RESOLUTION, VANISHING, corrector_failed
 from adamslite.integrators.bdf_state import (
     AGE,
     BLAMED,
@@ -172,8 +172,8 @@ def try_radau(P: Problem, L: Plan) -> int:
         return NOT_FINITE
     if norm > 1.0:
         P.count[REJECTED] += 1
-        C[H] *= cut(P, step_factor(C, norm))
         C[CAUTIOUS], C[NORM] = 1.0, norm
+        C[H] *= cut(P, step_factor(C, norm))
         if C[H] > 1e-9 * P.settings[H_MAX]:
             C[BLAMED] = P.report[WHERE]
         return RUNNING
@@ -270,7 +270,7 @@ def choose_step(P: Problem, norm: float) -> None:
     if C[THETA] > QUICK:
         C[KNOWN] = 0.0
     if factor < 1.0 or min(factor * h, P.settings[H_MAX]) > KEEP_GROWTH * h:
-        C[H] *= factor
+        C[H] *= cut(P, factor)
 
 
 @native
@@ -308,4 +308,4 @@ def why_no_step(P: Problem, L: Plan) -> int:
     P.report[WHERE] = C[BLAMED]
     if P.search[FREED] > 0.0:
         return CHATTERING
-    return NEWTON_FAILED if C[RETRIES] > 2.0 else STEP_TOO_SMALL
+    return NEWTON_FAILED if corrector_failed(C) else STEP_TOO_SMALL

@@ -26,13 +26,16 @@ from adamslite.integrators.newton import ROUND_OFF, renews
 from adamslite.integrators.radau_coefficients import REAL
 from adamslite.integrators.radau_stages import (
     ORIGIN,
+    equations_kept,
     move_stages,
+    put_stage,
     radau_jacobian,
     radau_matrices,
     stage_increments,
     stage_residuals,
 )
 from adamslite.integrators.radau_state import CAUTIOUS, KNOWN, THETA, TURNS
+from adamslite.integrators.trouble import note_trouble
 from adamslite.translate import native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
@@ -109,5 +112,7 @@ def after_failed_stages(P: Problem) -> int:
     if not old and not let_go(P):
         C[RETRIES] += 1.0
         C[BLAMED] = float(wildest(P))
+        put_stage(P, 3, C[H])
+        note_trouble(P, equations_kept(P), C[TURNS])
         C[H] *= cut(P, retry_factor(C))
     return RUNNING
