@@ -27,6 +27,7 @@ kind = "mass"
 at = [0.2, -5, 0]
 mass = 5
 """
+# V^2/c^2 = 2 (e - e0) sqrt(e (1 + e)) - (e - e0)^2,  U = c sqrt(e (1 + e)) - c (e - e0)
 E0 = 13e3 / 6e7
 E = brentq(lambda e: 2 * (e - E0) * sqrt(e * (1 + e)) - (e - E0) ** 2 - 65**2 * 5.5 / 6e7, E0, 0.1)
 KINK = ceil(7 / (sqrt(E * (1 + E)) - (E - E0)))
@@ -113,7 +114,6 @@ def chosen(spec: str) -> str:
             [
                 "not level 1: a weight starts across it at 65 m/s",
                 "level 2: no cable goes over a wheel",
-                # V^2/c^2 = 2 (e - e0) sqrt(e (1 + e)) - (e - e0)^2, U = c sqrt(e (1 + e)) - c (e - e0)
                 f"{KINK} sections for a kink, 7 c/U",
                 "VERLET: fronts in masses that nothing ties together",
             ],
