@@ -205,8 +205,8 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     C, D = P.control, P.history
     k = int(C[K])
     P.count[STEPS] += 1
-    C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0
     make_undoable(P)
+    C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0
     C[AGE] += 1.0
     extend_history(D, P.trial[w:], w, k)
     t, h = C[NOW] + C[H], C[H]

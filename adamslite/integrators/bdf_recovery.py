@@ -39,6 +39,7 @@ from adamslite.integrators.bdf_state import (
     RETRIES,
     RUNNING,
     SIGNATURE,
+    TROUBLE,
     UNDOABLE,
     H,
     K,
@@ -50,7 +51,7 @@ from adamslite.integrators.event_guards import let_go
 from adamslite.integrators.event_places import FREED
 from adamslite.integrators.order_cap import BAD
 from adamslite.integrators.trouble import note_trouble
-from adamslite.integrators.undo import bring_back, remember
+from adamslite.integrators.undo import GOLDEN, SHORTEST, bring_back, remember
 from adamslite.translate import Reals, native
 
 # A sign change of the effective mass is approached to this share of HMAX.
@@ -61,7 +62,7 @@ CUTS = 3
 # than this share of the one before, although each was shorter.
 NOISY_TRIES, NOISY_SHARE = 2.0, 0.3
 # Accepted steps taken back in one place.
-MOST_BACKS = 6.0
+MOST_BACKS = 24.0
 # A pivot of the acceleration matrix below this share of its first value has vanished.
 VANISHING = 1e-3
 
@@ -76,6 +77,7 @@ def after_failure(P: Problem, w: int) -> int:
     if old or let_go(P):
         return RUNNING
     C[RETRIES] += 1.0
+    C[TROUBLE] += 1.0
     C[FRESH] = 0.0
     C[BLAMED] = float(wildest(P))
     stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
@@ -90,16 +92,16 @@ def after_failure(P: Problem, w: int) -> int:
 
 @native
 def land_elsewhere(P: Problem, w: int) -> bool:
-    """Take the last accepted step back and make it shorter; False when that was tried enough."""
+    """Back to before the trouble, with a shorter step; False when that was tried enough."""
     C = P.control
     if C[UNDOABLE] == 0.0 or C[BACKS] >= MOST_BACKS:
         return False
-    backs, passed = C[BACKS] + 1.0, max(C[PASSED], C[NOW])
+    backs, passed = C[BACKS] + 1.0, max(C[PASSED], C[NOW] + C[H])
     bring_back(P)
-    C[BACKS], C[PASSED], C[UNDOABLE], C[FACTORED] = backs, passed, 0.0, 0.0
+    C[BACKS], C[PASSED], C[FACTORED] = backs, passed, 0.0
+    C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0
     restore_state(P, P.history, w, C[NOW])
-    # 0.6, 0.82, 0.33, 0.55, 0.77, 0.28: lengths that are no multiples of each other.
-    resize(P, w, 0.6 if backs == 1.0 else 0.25 + 0.75 * (0.38 * backs - int(0.38 * backs)))
+    resize(P, w, SHORTEST + (1.0 - SHORTEST) * (GOLDEN * backs - int(GOLDEN * backs)))
     return True
 
 
@@ -133,6 +135,7 @@ def after_rejection(P: Problem, w: int, norm: float) -> int:
     C = P.control
     P.count[REJECTED] += 1
     C[FRESH] = 0.0
+    C[TROUBLE] += 1.0
     if not norm < 1e12:
         return NOT_FINITE
     factor = max(0.2, (SAFETY * norm) ** (-1.0 / (C[K] + 1.0)))
@@ -187,10 +190,10 @@ def corrector_failed(C: Reals) -> bool:
 
 @native
 def make_undoable(P: Problem) -> None:
-    """Keep the state from which the accepted step started."""
+    """Keep the state from which the accepted step started, unless in the middle of trouble."""
     C = P.control
-    if P.undo.size > 0:
+    if C[RETRIES] == 0.0 and C[NORM] == 0.0:
+        C[TROUBLE] = max(0.0, C[TROUBLE] - 1.0)
+    if P.undo.size > 0 and (C[UNDOABLE] == 0.0 or C[TROUBLE] == 0.0 and C[NOW] >= C[PASSED]):
+        C[UNDOABLE], C[BACKS] = 1.0, 0.0
         remember(P)
-        C[UNDOABLE] = 1.0
-        if C[NOW] > C[PASSED]:
-            C[BACKS] = 0.0

@@ -35,7 +35,7 @@ from adamslite.integrators.explicit_state import (
     H,
     stand_again,
 )
-from adamslite.integrators.undo import bring_back, remember
+from adamslite.integrators.undo import GOLDEN, SHORTEST, bring_back, remember
 from adamslite.translate import native
 
 SINGULAR_RESOLUTION = 1e-6
@@ -44,8 +44,6 @@ SINGULAR_RESOLUTION = 1e-6
 FEW_FAILURES, FEW_REJECTIONS = 2.0, 3.0
 # Accepted steps taken back in one place.
 MOST_TAKEN_BACK = 24.0
-# The golden ratio spreads their lengths evenly over a range that has no multiples in it.
-GOLDEN, SHORTEST = 0.6180339887498949, 0.4
 
 
 @native

@@ -13,6 +13,9 @@ from __future__ import annotations
 from adamslite.integrators.base import Problem
 from adamslite.translate import Reals, native
 
+# The golden ratio spreads the lengths of repeated steps evenly over a range without multiples.
+GOLDEN, SHORTEST = 0.6180339887498949, 0.4
+
 
 @native
 def remember(P: Problem) -> None:
