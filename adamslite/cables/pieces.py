@@ -339,6 +339,7 @@ def _requests(spec: Spec, choice: Choice, found: list[Piece]) -> str:
         )
     for i, each in enumerate(spec.route):
         if each.is_wheel:
-            text += f"REQUEST/{marker(i)}, F2={travel(i, spec)}\\ F3={travel(i, spec, 1)}"
-            text += f"  ! cable over station {i + 1}\n"
+            pull = f"\\ F6=-GCON({marker(i)})" if each.payout else ""
+            text += f"REQUEST/{marker(i)}, F2={travel(i, spec)}\\ F3={travel(i, spec, 1)}{pull}"
+            text += f"  ! cable over station {i + 1}{', pull of the winch' if pull else ''}\n"
     return text
