@@ -246,6 +246,14 @@ def test_an_answer_outside_of_the_band_is_not_passed(square_wave: matrix.Scene) 
     assert share > 1.0 and verdict == matrix.SILENT
 
 
+def test_the_matrix_on_the_page_has_no_silent_wrong_answer() -> None:
+    """Every hard case by every integrator was measured, and each outside of its band says so."""
+    cells = matrix.read(report.FOLDER)
+    assert {cell.case for cell in cells} == {case.name for case in CASES}
+    assert len(cells) == len(CASES) * len(matrix.columns())
+    assert not [cell for cell in cells if cell.verdict == matrix.SILENT]
+
+
 def test_charts_are_the_same_file_for_the_same_points(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     made = []
