@@ -157,6 +157,9 @@ class Grouping:
             self.log.add("flag-with-value", *place, word=flag[1])
         elif not valued and type(planned := self.words.look_up(token[1], True)) is str:
             self._planned(planned, token)
+        elif not valued and isinstance(bare := self.words.look_up(token[1], True), Argument):
+            choices = " or ".join(bare.options) or bare.help
+            self.log.add("argument-without-value", *place, word=bare.key, value=choices)
         else:
             table = self.words.valued if valued else self.words.bare
             others = self.words.bare if valued else self.words.valued

@@ -283,6 +283,17 @@ def _stiction(friction: Statement, joint: Statement) -> Iterator[Diagnostic]:
         yield say(friction, "friction-creeps", hint=hint)
 
 
+def held_states(deck: Deck) -> Iterator[Diagnostic]:
+    fields = {
+        "static_hold": "a static analysis finds the y at which dy/dt = 0",
+        "dynamic_hold": "a dynamic analysis integrates y",
+    }
+    for state in deck.of("DIFF"):
+        for field, reason in fields.items():
+            if getattr(state, field):
+                yield say(state, "no-effect", field, word=field.upper(), reason=reason)
+
+
 def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:
     fields = {
         "TRANSLATIONAL": ("kt", "ct", "torque", "angle"),
@@ -343,6 +354,7 @@ RULES: list[Rule] = [
     sections,
     frictions,
     idle_arguments,
+    held_states,
     reserved_names,
     requests,
     unit_system,

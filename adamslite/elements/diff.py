@@ -24,8 +24,10 @@ class Diff(Statement):
         help="value of y at the start and, for IMPLICIT, a guess of dy/dt",
     )  # fmt: skip
     implicit: bool = flag("IMPLICIT", help="FUNCTION is a residual that must vanish")
-    static_hold: bool = flag("STATIC_HOLD", help="y keeps its value in a static analysis")
-    dynamic_hold: bool = flag("DYNAMIC_HOLD", help="y keeps its value in a dynamic analysis")
+    static_hold: bool = flag(
+        "STATIC_HOLD", help="read, without effect: statics finds the y at which dy/dt = 0"
+    )
+    dynamic_hold: bool = flag("DYNAMIC_HOLD", help="read, without effect: y is integrated")
     function: Node = expression(
         "FUNCTION", required=True, unit="that of y per time", help="dy/dt, or the residual"
     )

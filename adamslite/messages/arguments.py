@@ -12,6 +12,11 @@ ARGUMENTS: dict[str, Message] = {
         ("MARKER/4, PART=1, QQ=1,2,3", "PART/4, MAS5=1, CM=4, IP=1,1,1\nMARKER/4, PART=4",
          "SFORCE/1, I=1, J=2, FUNCION=1", "JOINT/1, REVOLVE, I=1, J=2", "MARKER/4, PART=1, XYZW"),
     ),
+    "argument-without-value": Message(
+        "{word} needs a value",
+        "write {word}=: {value}",
+        ("MATRIX/1, FULL, ROWS=1, COLUMNS=1, VALUES=1", "MARKER/4, PART=1, QP"),
+    ),
     "ambiguous-argument": Message(
         "{word} may mean {choices}", "write more letters", ("PART/4, V=1, MASS=1, CM=2",)
     ),
