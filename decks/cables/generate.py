@@ -18,6 +18,7 @@ import kinks
 import moving
 import payouts
 import ropeways
+import seconds
 import waves
 
 #: Folder -> the function that yields its decks: (name, text of the deck, text of the reference).
@@ -27,6 +28,7 @@ CASES: dict[str, Callable[[], Iterator[tuple[str, str, str]]]] = {
     **payouts.CASES,
     **moving.CASES,
     **ropeways.CASES,
+    **seconds.CASES,
     **arrest.CASES,
     **cranes.CASES,
     **draglines.CASES,
