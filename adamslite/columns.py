@@ -23,13 +23,21 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
     for b, body in enumerate(system.model.bodies):
         w = record[:, system.w_at["BODY", b] :]
         label = body.statement.label
-        names += [f"{label}.{c}" for c in _components(body.width == PART)]
-        parts.append(_part(system, b, w) if body.width == PART else w[:, :9])
+        turns = body.statement.keyword == "PART"
+        names += [f"{label}.{c}" for c in _components(turns)]
+        parts.append(_part(system, b, w) if turns else _point(body.width, w))
     for statement, suffixes in system.kernels.outputs:
         names += [f"{statement.label}.{s}" if s else statement.label for s in suffixes]
     parts.append(record[:, system.nw :])
     values = np.concatenate(parts, axis=1) if parts else np.zeros((len(record), 0))
     return tuple(names), values
+
+
+def _point(width: int, w: np.ndarray) -> np.ndarray:
+    """Position, velocity and acceleration; a point mass may have been solved as a part."""
+    if width != PART:
+        return w[:, :9]
+    return np.concatenate([w[:, k : k + 3] for k in (POSITION, VELOCITY, ACCELERATION)], axis=1)
 
 
 def _components(part: bool) -> list[str]:

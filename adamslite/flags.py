@@ -51,11 +51,15 @@ def add_run_flags(parser: argparse.ArgumentParser) -> None:
     )
     flags.add_argument("--error", type=positive, metavar="TOL", help="integration error per step")
     flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
+    flags.add_argument(
+        "--no-reduction", action="append", metavar="RULE",
+        help="do without a reduction of the model: plane, points or variables; may be repeated",
+    )  # fmt: skip
 
 
 def run_options(args: argparse.Namespace) -> dict[str, Any]:
     """Return the run flags that were given, as keyword arguments of `simulate`."""
-    names = ("end", "steps", "integrator", "formulation", "error", "hmax")
+    names = ("end", "steps", "integrator", "formulation", "error", "hmax", "no_reduction")
     return {name: getattr(args, name) for name in names if getattr(args, name) is not None}
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from adamslite import elements  # noqa: F401  registers the statements
 from adamslite.between import written_out
-from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time, walk
+from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time, calls, walk
 from adamslite.functions.forces import NET
 from adamslite.statement import Statement
 
@@ -120,10 +120,13 @@ class Model:
         Parts and point masses that can move, in deck order.
     constraints : list of Statement
         Statements with constraint rows, holonomic ones first.
+    without : frozenset of str
+        Rules of :mod:`adamslite.reduction` that are not applied.
     """
 
-    def __init__(self, deck: Any) -> None:
+    def __init__(self, deck: Any, without: frozenset[str] = frozenset()) -> None:
         self.deck = deck
+        self.without = without
         self.places: dict[Any, Place | None] = {}
         self.folded: dict[Any, float | None] = {}
         # By identity, with the node, which keeps its identity from being given away.
@@ -150,6 +153,9 @@ class Model:
         mass = (statement.mass or 0.0) / self.deck.ucf
         v = np.array([statement.vx, statement.vy, statement.vz], dtype=float)
         if statement.keyword == "POINT_MASS":
+            if "points" in self.without:
+                ball = mass * IDENTITY  # nothing turns it, whatever its inertia
+                return Body(statement, PART, mass, ball, x, attitude, v, np.zeros(3))
             return Body(statement, POINT, mass, np.zeros((3, 3)), x, attitude, v, np.zeros(3))
         w = attitude @ cm[1] @ np.array([statement.wx, statement.wy, statement.wz], dtype=float)
         return Body(statement, PART, mass, self._inertia(statement, cm[0], mass), x, attitude, v, w)
@@ -242,7 +248,7 @@ class Model:
         """Value of a VARIABLE that never changes."""
         if variable_id not in self.folded:
             self.folded[variable_id] = None
-            if variable_id in self._plant:
+            if variable_id in self._plant or "variables" in self.without:
                 return None
             self.folded[variable_id] = self.constant(self.variable(variable_id).function)
         return self.folded[variable_id]
@@ -265,12 +271,30 @@ class Model:
         loops = self._plant | _in_loops(
             {v.key: set(self._uses(v.function)) for v in self.deck.of("VARIABLE")}
         )
+        if "variables" in self.without:
+            loops |= {v.key for v in self.deck.of("VARIABLE")} - self._differentiated()
         return {
             v.key: "loop"
             if v.key in loops
             else ("signal" if self._time_only(v.function, loops) else "inline")
             for v in self.deck.of("VARIABLE")
         }
+
+    def _differentiated(self) -> set[Any]:
+        """VARIABLEs whose rates are taken: their expressions must be at hand."""
+        pending = [
+            call.args[0].id
+            for statement in self.deck.statements
+            for node in expressions(statement)
+            for call in calls(node, "DDT")
+        ]
+        found: set[Any] = set()
+        while pending:
+            key = pending.pop()
+            if key not in found:
+                found.add(key)
+                pending += self._uses(self.variable(key).function)
+        return found
 
     def _uses(self, node: Node) -> Iterator[Any]:
         """Variables an expression depends on, through the elements it measures too."""
@@ -356,6 +380,6 @@ def _in_loops(uses: dict[Any, set[Any]]) -> set[Any]:
     return {key for key, all_used in reach.items() if key in all_used}
 
 
-def assemble(deck: Any) -> Model:
-    """Bodies, markers and constraints of a deck without errors."""
-    return Model(deck)
+def assemble(deck: Any, without: frozenset[str] = frozenset()) -> Model:
+    """Bodies, markers and constraints of a deck without errors, reduced but for some rules."""
+    return Model(deck, without)

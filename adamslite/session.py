@@ -21,6 +21,7 @@ from adamslite.analyses.initial import Unclosed, initial_conditions
 from adamslite.analyses.joint_start import start_of_joints
 from adamslite.analyses.kinematic import run_kinematic
 from adamslite.analyses.linear import linear
+from adamslite.analyses.plane import in_its_plane
 from adamslite.analyses.redundancy import leave_out_redundant
 from adamslite.analyses.static import StaticSettings, run_static
 from adamslite.columns import columns
@@ -56,10 +57,17 @@ class Session:
     linearizations : list of Linearized
     """
 
-    def __init__(self, scene: Any, progress: Any, flags: dict[str, Any]) -> None:
+    def __init__(
+        self,
+        scene: Any,
+        progress: Any,
+        flags: dict[str, Any],
+        without: frozenset[str] = frozenset(),
+    ) -> None:
         self.progress = progress
         self.flags = flags
-        self.kernels = _compiled(scene, progress)
+        self.kernels = _compiled(scene, progress, without)
+        self.without = without | self.kernels.model.without
         engine(ACCELERATIONS, progress)
         self.settings = replace(Settings(), **flags)
         self.chosen = Choice(self.settings)
@@ -126,7 +134,7 @@ class Session:
     def _change(self, deck: Any) -> None:
         """Go on with another deck from the present state."""
         old = self._system
-        self.kernels = compile_model(assemble(deck), self.progress)
+        self.kernels = compile_model(assemble(deck, self.without), self.progress)
         self._system = None
         if old is not None:
             self._system = self._numbered(False)
@@ -136,6 +144,7 @@ class Session:
     # analyses
 
     def _do_simulate(self, command: Any) -> None:
+        self.system.unfold()
         times = output_times(command, self.time)
         kind = command.kind
         if kind == "TRANSIENT":
@@ -155,11 +164,19 @@ class Session:
             return
         self.chosen = choose(system, times, self.settings)
         engine(METHODS[self.chosen.settings.method], self.progress)
-        self.outcome = run_dynamic(system, times, self.chosen.settings, self.progress)
+        self.outcome = self._integrated(times)
         self.time = float(system.report[base.AT])
         self._keep(times, False)
         if self.outcome in STALLED and self._rank_changed():
             self._continue(times)
+
+    def _integrated(self, times: np.ndarray) -> Outcome:
+        system, settings = self._system, self.chosen.settings
+
+        def run() -> Outcome:
+            return run_dynamic(system, times, settings, self.progress)
+
+        return run() if "plane" in self.without else in_its_plane(system, run)
 
     def _rank_changed(self) -> bool:
         """Look again for redundant rows; True when they are others than before."""
@@ -212,6 +229,7 @@ class Session:
         self._keep(np.array([self.time]), True)
 
     def _do_linear(self, command: Any) -> None:
+        self.system.unfold()
         ports = (("PINPUT", command.pinput), ("POUTPUT", command.poutput))
         inputs, outputs = (
             self.deck.find(kind, key).variables if key is not None else () for kind, key in ports
@@ -303,8 +321,8 @@ def _updated(settings: Any, command: Any) -> Any:
     return replace(settings, **given)
 
 
-def _compiled(scene: Any, progress: Any) -> Kernels:
+def _compiled(scene: Any, progress: Any, without: frozenset[str]) -> Kernels:
     if isinstance(scene, Kernels):
         return scene
-    model = scene if isinstance(scene, Model) else assemble(scene)
+    model = scene if isinstance(scene, Model) else assemble(scene, without)
     return compile_model(model, progress)

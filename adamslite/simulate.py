@@ -18,6 +18,7 @@ from adamslite.integrator_arguments import without_effect
 from adamslite.integrators import base
 from adamslite.model import Model
 from adamslite.outcomes import Outcome
+from adamslite.reduction import left_off
 from adamslite.results import Results
 from adamslite.session import Session
 from adamslite.times import spread_times
@@ -42,6 +43,7 @@ def simulate(
     hmax: float | None = None,
     commands: Iterable[Any] = (),
     progress: Any = None,
+    no_reduction: Iterable[str] = (),
 ) -> Results:
     """Run a deck, a model or its kernels.
 
@@ -57,17 +59,20 @@ def simulate(
         Statements of a command file.
     progress : callable
         ``progress(time, end)`` from time to time; ``progress.say(sentence)`` before a long wait.
+    no_reduction : iterable of str
+        Rules of :mod:`adamslite.reduction` not to apply; ``points`` and ``variables`` of a model
+        are settled when it is assembled.
 
     Raises
     ------
     UsageError
-        When nothing says how long to run.
+        When nothing says how long to run, or there is no such rule.
     """
     began = clock.process_time()
     asked = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
     flags = {name: value for name, value in asked.items() if value is not None}
     plan = _plan(_deck(scene), tuple(commands), end, steps)
-    session = Session(scene, progress, flags)
+    session = Session(scene, progress, flags, left_off(no_reduction))
     first = next((k for k, c in enumerate(plan) if c.keyword not in SETTINGS), len(plan))
     session.execute(plan[:first])
     session.prepare()

@@ -33,7 +33,8 @@ product         per block between bodies: Jacobian offset, rows, columns, first 
 turning         per block with a rotating column: Jacobian offset, rows, body
 mixed           per product D W G^T: target, its width, D, rows, columns, G, body
 unit            places of the diagonal of mu, one in the acceleration matrix
-cut ones dead   places set to zero and to one for redundant rows; those rows
+dead            unknowns left out of the matrix, whose equations are not solved
+held loose      those among them that hold a model in its plane, and what they may be off by
 settings        ``SETTINGS``;  count: ``COUNTS``;  report: ``REPORT``;  times (nt,) asked times
 q u a           (n,) positions and rotation vectors, velocities, accelerations
 z mu            (m + nv + ns,) multipliers, variables, states; multipliers of velocity rows
@@ -89,11 +90,11 @@ SETTINGS = (
 
 REPORT = (
     "t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall", "rough",
-    "iteration", "changed", "change", "open_row", "open_by",
+    "iteration", "changed", "change", "open_row", "open_by", "left_plane",
 )  # fmt: skip
 (
     AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED, WAYS_TO_FALL, ROUGH_STEPS,
-    ITERATION, CHANGED, CHANGE, OPEN_ROW, OPEN_BY,
+    ITERATION, CHANGED, CHANGE, OPEN_ROW, OPEN_BY, LEFT_PLANE,
 ) = range(len(REPORT))  # fmt: skip
 
 COUNTS = (
@@ -147,12 +148,12 @@ MODE_STATICS = 5.0
 ) = range(10)
 
 INT_FIELDS = set(
-    "sizes body scalar group copies product turning mixed unit cut ones dead count pivots "
+    "sizes body scalar group copies product turning mixed unit dead held count pivots "
     "pivots_a pivots_c kind pattern".split()
 )
 FIELDS = (
     "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
-    "cut ones dead settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
+    "dead held loose settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
     "pivots pivots_a pivot0 history trial tableau control pz undo record parts LC pivots_c kind "
     "guard margin stops search pattern"
 ).split()

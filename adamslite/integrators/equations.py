@@ -16,6 +16,7 @@ from __future__ import annotations
 from adamslite.integrators.base import (
     HOLONOMIC,
     JACOBIANS,
+    LEFT_PLANE,
     N_HEAD,
     NB,
     NG,
@@ -26,6 +27,7 @@ from adamslite.integrators.base import (
     REACTIONS,
     RESIDUALS,
     SIGNALS,
+    STOP,
     M,
     N,
     Problem,
@@ -190,11 +192,18 @@ def inertia_forces(P: Problem, F: Reals) -> None:
 
 @native
 def residual(P: Problem, phases: int, F: Reals) -> None:
-    """All equations at the workspace's state."""
+    """All equations at the workspace's state.
+
+    What would drive the model out of its plane ends the run: see :mod:`adamslite.analyses.plane`.
+    """
     for k in range(P.sizes[N], P.sizes[NZ]):
         F[k] = 0.0
     inertia_forces(P, F)
     run_groups(P, phases, F)
+    for k in range(P.held.size):
+        if abs(F[P.held[k]]) > P.loose[k]:
+            P.report[LEFT_PLANE] = 1.0
+            P.settings[STOP] = 1.0
     for k in range(P.dead.size):
         F[P.dead[k]] = 0.0
     P.count[RESIDUALS] += 1
@@ -294,10 +303,6 @@ def spread(P: Problem, LV: Reals) -> None:
             for i in range(rows):
                 for j in range(columns):
                     LV[at + i * lead + j] = J[source + i * columns + j]
-    for k in range(P.cut.size):
-        LV[P.cut[k]] = 0.0
-    for k in range(P.ones.size):
-        LV[P.ones[k]] = 1.0
 
 
 @native

@@ -141,8 +141,6 @@ def radau_matrices(P: Problem, L: Plan, h: float) -> bool:
     """Factor J(c) for the complex pair and for the real eigenvalue."""
     x, y = P.tableau[ALPHA_MODE] / h, P.tableau[BETA_MODE] / h
     add_up(P, 0.0, y, 2.0 * x * y, P.LA)
-    for k in range(P.ones.size):
-        P.LA[P.ones[k]] = 0.0
     add_up(P, 1.0, x, x * x - y * y, P.LV)
     for k in range(P.LV.size):
         P.LC[2 * k], P.LC[2 * k + 1] = P.LV[k], P.LA[k]
