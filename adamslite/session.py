@@ -9,6 +9,7 @@ STOP                                the end
 
 from __future__ import annotations
 
+import time as clock
 from collections.abc import Iterable
 from dataclasses import fields, replace
 from typing import Any
@@ -52,6 +53,8 @@ class Session:
         Time reached.
     pieces : list of (times, values)
         What the analyses wrote; ``names`` are the columns.
+    late_setup : float
+        CPU [s] of compiling an integrator when a run first needed it.
     outcome, unclosed
         How the last analysis ended; the constraint that stayed open, if one did.
     linearizations : list of Linearized
@@ -72,7 +75,7 @@ class Session:
         self.settings = replace(Settings(), **flags)
         self.chosen = Choice(self.settings)
         self.statics = StaticSettings()
-        self.time = 0.0
+        self.time, self.late_setup = 0.0, 0.0
         self.pieces: list[tuple[np.ndarray, np.ndarray]] = []
         self.names: tuple[str, ...] = ()
         self.outcome = Outcome.DONE
@@ -163,7 +166,9 @@ class Session:
         if self.outcome is not Outcome.DONE:
             return
         self.chosen = choose(system, times, self.settings)
+        began = clock.process_time()
         engine(METHODS[self.chosen.settings.method], self.progress)
+        self.late_setup += clock.process_time() - began
         self.outcome = self._integrated(times)
         self.time = float(system.report[base.AT])
         self._keep(times, False)

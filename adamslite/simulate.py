@@ -78,7 +78,8 @@ def simulate(
     session.prepare()
     ready = clock.process_time()
     session.execute(plan[first:])
-    cpu = (ready - began, clock.process_time() - ready)
+    late, now = session.late_setup, clock.process_time()
+    cpu = (ready - began + late, now - ready - late)
     return _results(session, cpu)
 
 
