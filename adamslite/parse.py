@@ -14,6 +14,7 @@ joining continuation lines moves no column.
 from __future__ import annotations
 
 import re
+from sys import intern
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from typing import Any, NamedTuple
@@ -175,7 +176,7 @@ def _scanner() -> re.Pattern[str]:
 def scan(text: str, start: int = 0) -> list[Lexeme]:
     """The tokens of ``text`` from offset ``start``; any character belongs to some token."""
     return [
-        (match.lastgroup, match[match.lastindex], match.start(match.lastindex))
+        (match.lastgroup, intern(match[match.lastindex]), match.start(match.lastindex))
         for match in _scanner().finditer(text, start)
     ]
 
