@@ -14,9 +14,9 @@ joining continuation lines moves no column.
 from __future__ import annotations
 
 import re
-from sys import intern
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
+from sys import intern
 from typing import Any, NamedTuple
 
 from lark import Lark, Token, Transformer
