@@ -40,6 +40,7 @@ from adamslite.integrators.bdf_state import (
     RUNNING,
     SIGNATURE,
     TROUBLE,
+    TURNED,
     UNDOABLE,
     H,
     K,
@@ -51,7 +52,14 @@ from adamslite.integrators.event_guards import let_go
 from adamslite.integrators.event_places import FREED
 from adamslite.integrators.order_cap import BAD
 from adamslite.integrators.trouble import note_trouble
-from adamslite.integrators.undo import GOLDEN, SHORTEST, bring_back, remember
+from adamslite.integrators.undo import (
+    GOLDEN,
+    MOST_TURNED,
+    SHORTEST,
+    bring_back,
+    remember,
+    turning,
+)
 from adamslite.translate import Reals, native
 
 # A sign change of the effective mass is approached to this share of HMAX.
@@ -194,6 +202,11 @@ def make_undoable(P: Problem) -> None:
     C = P.control
     if C[RETRIES] == 0.0 and C[NORM] == 0.0:
         C[TROUBLE] = max(0.0, C[TROUBLE] - 1.0)
-    if P.undo.size > 0 and (C[UNDOABLE] == 0.0 or C[TROUBLE] == 0.0 and C[NOW] >= C[PASSED]):
-        C[UNDOABLE], C[BACKS] = 1.0, 0.0
-        remember(P)
+    if P.undo.size > 0:
+        angle = turning(P, C[H])
+        C[TURNED] += angle
+        clear = C[TROUBLE] == 0.0 and C[NOW] >= C[PASSED]
+        if C[UNDOABLE] == 0.0 or clear or C[TURNED] > MOST_TURNED:
+            C[UNDOABLE], C[BACKS], C[TURNED] = 1.0, 0.0, 0.0
+            remember(P)
+            C[TURNED] = angle

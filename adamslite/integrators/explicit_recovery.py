@@ -31,11 +31,19 @@ from adamslite.integrators.explicit_state import (
     REJECTIONS,
     RUNNING,
     TRIES,
+    TURNED,
     UNDOABLE,
     H,
     stand_again,
 )
-from adamslite.integrators.undo import GOLDEN, SHORTEST, bring_back, remember
+from adamslite.integrators.undo import (
+    GOLDEN,
+    MOST_TURNED,
+    SHORTEST,
+    bring_back,
+    remember,
+    turning,
+)
 from adamslite.translate import native
 
 SINGULAR_RESOLUTION = 1e-6
@@ -57,9 +65,14 @@ def make_repeatable(P: Problem) -> None:
     if C[TRIES] == 0.0:
         C[REJECTIONS] = max(0.0, C[REJECTIONS] - 1.0)
     C[FAILED], C[TRIES] = 0.0, 0.0
-    if P.undo.size > 0 and (C[UNDOABLE] == 0.0 or C[REJECTIONS] == 0.0 and C[CLOCK] >= C[PASSED]):
-        C[UNDOABLE], C[BACKS] = 1.0, 0.0
-        remember(P)
+    if P.undo.size > 0:
+        angle = turning(P, C[H])
+        C[TURNED] += angle
+        clear = C[REJECTIONS] == 0.0 and C[CLOCK] >= C[PASSED]
+        if C[UNDOABLE] == 0.0 or clear or C[TURNED] > MOST_TURNED:
+            C[UNDOABLE], C[BACKS], C[TURNED] = 1.0, 0.0, 0.0
+            remember(P)
+            C[TURNED] = angle
 
 
 @native

@@ -10,11 +10,26 @@ section 5.
 
 from __future__ import annotations
 
-from adamslite.integrators.base import Problem
+from adamslite.integrators.base import NB, Problem
+from adamslite.integrators.equations import BODY, PART
 from adamslite.translate import Reals, native
 
 # The golden ratio spreads the lengths of repeated steps evenly over a range without multiples.
 GOLDEN, SHORTEST = 0.6180339887498949, 0.4
+# A state is not kept for longer than parts turn by this angle: AZ and the like count turns by the
+# nearest angle to the last accepted one, and two parts may turn against each other.
+MOST_TURNED = 1.5
+
+
+@native
+def turning(P: Problem, h: float) -> float:
+    """The largest angle by which a part turns in a time h at its present speed."""
+    top = 0.0
+    for b in range(P.sizes[NB]):
+        if P.body[BODY * b] == PART:
+            w = P.u[P.body[BODY * b + 1] + 3 :]
+            top = max(top, w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+    return h * top**0.5
 
 
 @native
