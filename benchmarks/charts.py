@@ -52,7 +52,7 @@ def work_precision(scene: str, n: int, mine: Sequence[Row], paths: Sequence[Path
 
 def growth(rows: Iterable[Row], paths: Sequence[Path]) -> bool:
     """Draw CPU per step against N; False when it was not measured."""
-    mine = [r for r in rows if r.scene == SCALING and r.ok and r.steps]
+    mine = [r for r in rows if r.scene in SCALING and r.ok and r.steps]
     lines = []
     for name in _ordered(mine):
         own = sorted((r for r in mine if r.program == name), key=lambda r: r.n)

@@ -116,7 +116,7 @@ def deck(scene: str, n: int) -> str:
     scene : "S1" to "S5"
     n : masses (S1, S2, S5) or loops (S4); ignored for S3
     """
-    if scene in (*CHAINS, SCALING):
+    if scene in (*CHAINS, *SCALING):
         return chain_deck(chain(scene, n))
     return slider_crank_deck() if scene == "S3" else four_bar_deck(n)
 

@@ -1,7 +1,9 @@
 """How CPU per step grows with the number of masses: CPU/step ~ N^exponent, N = 10 to 10000.
 
-The start of S1, so short that a wave passes the same number of segments at every N. Every program
-runs one setting: what a step costs hardly depends on how accurate it is.
+The start of S1: for as long as a wave takes through the same number of segments at every N, or, for
+programs that do that in a few steps, for the same time: their first steps all have new matrices,
+and cost several times the later ones. Every program runs one setting: what a step costs hardly
+depends on how accurate it is.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from benchmarks.measure import Crew, Point, first_run, point, repeat_in_turns, w
 from benchmarks.peers import PROGRAMS
 from benchmarks.peers.program import Program, Settings
 from benchmarks.points import Row
-from benchmarks.scenes import SCALING, SCALING_SIZES
+from benchmarks.scenes import FALLING, SCALING_SIZES, STARTING
 
 #: Enough for the explicit methods at every N, see ``SEGMENTS_PASSED``.
 STEPS = 600
@@ -22,6 +24,9 @@ SETTINGS: tuple[Settings, ...] = (
 )  # fmt: skip
 #: The exponent counts from here on: below, what a step costs anyway shows.
 FROM = 50
+#: Fewer steps than this in ``STARTING`` at ``PROBE`` masses are mostly first steps.
+LEAST_STEPS = 60
+PROBE = 200
 
 
 def setting(program: Program) -> Settings | None:
@@ -38,11 +43,12 @@ def growth(names: Iterable[str], crew: Crew, largest: int) -> list[Point]:
         settings = setting(program) if "S1" in program.scenes else None
         if settings is None or crew.effort.over:
             continue
+        scene = worth_measuring(name, settings, crew)
         points: list[Point] = []
         for n in (n for n in SCALING_SIZES if n <= largest):
             if points and cost_at(points[-1], n) > crew.effort.budget:
                 break
-            first = point(name, SCALING, n, settings)
+            first = point(name, scene, n, settings)
             warm_up(crew[name], program, first)
             points.append(first_run(crew[name], first))
             if not points[-1].ok:
@@ -52,6 +58,14 @@ def growth(names: Iterable[str], crew: Crew, largest: int) -> list[Point]:
         if not crew.effort.lasting:
             crew.close()
     return made
+
+
+def worth_measuring(name: str, settings: Settings, crew: Crew) -> str:
+    """The start of S1 in which a program takes more than its first steps."""
+    probe = point(name, STARTING, PROBE, settings)
+    warm_up(crew[name], PROGRAMS[name], probe)
+    probe = first_run(crew[name], probe)
+    return FALLING if probe.ok and probe.steps < LEAST_STEPS else STARTING
 
 
 def cost_at(last: Point, n: int) -> float:

@@ -26,9 +26,13 @@ Array = np.ndarray
 
 CHAINS = ("S1", "S2", "S5")
 #: S1 at its start: N cables of different N, the same time in units of a wave through one segment.
-SCALING = "S1-start"
-SCALING_SIZES = (10, 50, 200, 1000, 10000)
+STARTING = "S1-start"
 SEGMENTS_PASSED = 300.0
+#: ... and the same time in seconds, for methods that step over waves and would hardly have started.
+FALLING = "S1-fall"
+FALL = 0.4
+SCALING = (STARTING, FALLING)
+SCALING_SIZES = (10, 50, 200, 1000, 10000)
 
 
 @cache
@@ -87,10 +91,11 @@ def chain(scene: str, n: int) -> Chain:
 
 def cable(scene: str, n: int) -> Chain:
     """S1 and S5: n masses from a fixed end, released from the horizontal."""
-    p = parameters()["S1" if scene == SCALING else scene]
+    p = parameters()["S1" if scene in SCALING else scene]
     l0 = p["L"] / n
     k = p["EA"] / l0
-    end = SEGMENTS_PASSED * l0 / (p["EA"] / p["rho"]) ** 0.5 if scene == SCALING else p["T"]
+    passing = SEGMENTS_PASSED * l0 / (p["EA"] / p["rho"]) ** 0.5
+    end = {STARTING: passing, FALLING: FALL}.get(scene) or p["T"]
     position = np.zeros((n, 3))
     position[:, 0] = l0 * np.arange(1, n + 1)
     return Chain(

@@ -157,7 +157,7 @@ def equal_steps(rows: Iterable[Row]) -> str:
 
 def growth(rows: Iterable[Row]) -> str:
     """CPU per step at every N, and the exponent."""
-    mine = [r for r in rows if r.scene == SCALING and r.ok and r.steps]
+    mine = [r for r in rows if r.scene in SCALING and r.ok and r.steps]
     sizes = sorted({r.n for r in mine})
     body = []
     for name in dict.fromkeys(r.program for r in mine):

@@ -10,6 +10,7 @@ from adamslite.work_precision import Variant, variants
 from benchmarks import figures, matrix, points, report, tables
 from benchmarks.decks import deck
 from benchmarks.figures import Figure
+from benchmarks.growth import worth_measuring
 from benchmarks.measure import TIME_UP, Effort, point, steps_needed
 from benchmarks.mechanisms import PLANAR, SPATIAL, WATCHED, mechanism, truth, watched
 from benchmarks.peers import PROGRAMS
@@ -17,7 +18,7 @@ from benchmarks.peers.program import Program
 from benchmarks.planar import Equations, planar
 from benchmarks.points import Row
 from benchmarks.reference import reference
-from benchmarks.scenes import CHAINS, SCALING, acceleration, chain, parameters, sizes
+from benchmarks.scenes import CHAINS, FALL, FALLING, STARTING, acceleration, chain, parameters, sizes
 from benchmarks.torture import CASES
 from benchmarks.worker import answer
 
@@ -136,9 +137,22 @@ def test_nothing_is_begun_when_the_time_is_up() -> None:
 
 
 def test_the_start_of_the_cable_lasts_as_many_segments_at_every_size() -> None:
-    ends = [chain(SCALING, n).end * n for n in (10, 200)]
+    ends = [chain(STARTING, n).end * n for n in (10, 200)]
     assert ends[0] == pytest.approx(ends[1])
-    assert "END" in deck(SCALING, 10)
+    assert "END" in deck(STARTING, 10)
+    assert chain(FALLING, 10).end == chain(FALLING, 200).end == FALL
+
+
+@pytest.mark.parametrize(("steps", "scene"), [(21, FALLING), (600, STARTING)])
+def test_the_cost_of_a_step_is_not_that_of_first_steps(steps: int, scene: str) -> None:
+    """Growth is measured over a longer time for a program that has hardly started otherwise."""
+
+    class Finished:
+        def ask(self, point: object, patience: float | None = None) -> dict[str, object]:
+            return {"ok": True, "steps": steps}
+
+    name = "adamslite GSTIFF SI2"
+    assert worth_measuring(name, {"error": 1e-4}, {name: Finished()}) == scene
 
 
 def row(program: str, kind: str, error: float | None, cpu: float, **facts: object) -> Row:

@@ -36,7 +36,7 @@ def solve(options: Settings, scene: str, n: int, settings: Settings) -> Solution
     from adamslite import assemble, compile_model, read, simulate
 
     text = mechanisms.text(scene, n)
-    end = chain(scene, n).end if scene in (*CHAINS, SCALING) else mechanisms.end_time(scene)
+    end = chain(scene, n).end if scene in (*CHAINS, *SCALING) else mechanisms.end_time(scene)
     if "steps" in settings:
         text = text.replace("SIMULATE", FIXED.format(h=end / settings["steps"]))
     else:
