@@ -53,8 +53,8 @@ SECTIONS = {
     ),
     "growth": (
         "What a step costs, and how that grows",
-        "CPU per step [us] of the start of S1, long enough that it is not that of the first steps; the\n"
-        "exponent is that from N = 50 on.",
+        "CPU per step [us] of the start of S1, long enough that it is not that of the first\n"
+        "steps; the exponent is that from N = 50 on.",
     ),
     "singular": (
         "Singular positions",

@@ -18,7 +18,16 @@ from benchmarks.peers.program import Program
 from benchmarks.planar import Equations, planar
 from benchmarks.points import Row
 from benchmarks.reference import reference
-from benchmarks.scenes import CHAINS, FALL, FALLING, STARTING, acceleration, chain, parameters, sizes
+from benchmarks.scenes import (
+    CHAINS,
+    FALL,
+    FALLING,
+    STARTING,
+    acceleration,
+    chain,
+    parameters,
+    sizes,
+)
 from benchmarks.torture import CASES
 from benchmarks.worker import answer
 

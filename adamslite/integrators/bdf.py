@@ -55,7 +55,6 @@ from adamslite.integrators.bdf_recovery import (
     after_failure,
     after_rejection,
     land_elsewhere,
-    make_undoable,
     near_singularity,
     stuck,
 )
@@ -90,6 +89,7 @@ from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.history import extend_history, gamma, rebase
 from adamslite.integrators.order_cap import CAP, CAPPED, TRAVELLED, highest_order, start_watch
 from adamslite.integrators.records import note_violation, record_at
+from adamslite.integrators.undo import make_undoable
 from adamslite.translate import native
 
 # Steps that differ by less than this share are equal.
@@ -205,7 +205,7 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     C, D = P.control, P.history
     k = int(C[K])
     P.count[STEPS] += 1
-    make_undoable(P)
+    make_undoable(P, C[NOW], C[H], C[RETRIES] == 0.0 and C[NORM] == 0.0)
     C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0
     C[AGE] += 1.0
     extend_history(D, P.trial[w:], w, k)

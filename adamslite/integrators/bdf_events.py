@@ -34,7 +34,6 @@ from adamslite.integrators.bdf_state import (
     NOW,
     RUNNING,
     SIGNATURE,
-    UNDOABLE,
     H,
     K,
     first_step,
@@ -44,10 +43,11 @@ from adamslite.integrators.bdf_state import (
 )
 from adamslite.integrators.equations import vector_rates
 from adamslite.integrators.event_harmless import is_harmless
-from adamslite.integrators.event_places import HUNT, JUMP, OPEN, SHARE
-from adamslite.integrators.event_search import ends_beyond, judge, open_search
+from adamslite.integrators.event_places import JUMP, OPEN, SHARE
+from adamslite.integrators.event_search import judge, open_search
 from adamslite.integrators.events import change_here, pass_event
 from adamslite.integrators.order_cap import BAD, SUSPECT, TRAVELLED, TRIES
+from adamslite.integrators.undo import UNDOABLE
 from adamslite.translate import native
 
 # Where accelerations are looked at behind an event, as a share of the step that is thought of.
@@ -132,9 +132,8 @@ def locate(P: Problem, L: Plan, cu: float) -> None:
     t, h = C[NOW], C[H]
     stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
     open_search(P, t, h)
-    if ends_beyond(P) and P.search[HUNT] == 0.0:
-        if is_harmless(P, L, STABILISED if stabilised else INDEX3, cu):
-            return
+    if is_harmless(P, L, STABILISED if stabilised else INDEX3, cu):
+        return
     while P.search[OPEN] != 0.0:
         put_between(P, int(C[K]), t, h, P.search[SHARE])
         judge(P)

@@ -27,7 +27,6 @@ from adamslite.integrators.base import (
 from adamslite.integrators.bdf_corrector import wildest
 from adamslite.integrators.bdf_order import SAFETY
 from adamslite.integrators.bdf_state import (
-    BACKS,
     BLAMED,
     FACTORED,
     FRESH,
@@ -35,13 +34,9 @@ from adamslite.integrators.bdf_state import (
     NOISY,
     NORM,
     NOW,
-    PASSED,
     RETRIES,
     RUNNING,
     SIGNATURE,
-    TROUBLE,
-    TURNED,
-    UNDOABLE,
     H,
     K,
     cut,
@@ -52,14 +47,7 @@ from adamslite.integrators.event_guards import let_go
 from adamslite.integrators.event_places import FREED
 from adamslite.integrators.order_cap import BAD
 from adamslite.integrators.trouble import note_trouble
-from adamslite.integrators.undo import (
-    GOLDEN,
-    MOST_TURNED,
-    SHORTEST,
-    bring_back,
-    remember,
-    turning,
-)
+from adamslite.integrators.undo import TROUBLE, before_trouble
 from adamslite.translate import Reals, native
 
 # A sign change of the effective mass is approached to this share of HMAX.
@@ -69,8 +57,6 @@ CUTS = 3
 # A step is noise, not truncation, when the error estimates of this many tries in turn keep more
 # than this share of the one before, although each was shorter.
 NOISY_TRIES, NOISY_SHARE = 2.0, 0.3
-# Accepted steps taken back in one place.
-MOST_BACKS = 24.0
 # A pivot of the acceleration matrix below this share of its first value has vanished.
 VANISHING = 1e-3
 
@@ -102,14 +88,12 @@ def after_failure(P: Problem, w: int) -> int:
 def land_elsewhere(P: Problem, w: int) -> bool:
     """Back to before the trouble, with a shorter step; False when that was tried enough."""
     C = P.control
-    if C[UNDOABLE] == 0.0 or C[BACKS] >= MOST_BACKS:
+    share = before_trouble(P, C[NOW] + C[H])
+    if share == 0.0:
         return False
-    backs, passed = C[BACKS] + 1.0, max(C[PASSED], C[NOW] + C[H])
-    bring_back(P)
-    C[BACKS], C[PASSED], C[FACTORED] = backs, passed, 0.0
-    C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0
+    C[FACTORED], C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0, 0.0
     restore_state(P, P.history, w, C[NOW])
-    resize(P, w, SHORTEST + (1.0 - SHORTEST) * (GOLDEN * backs - int(GOLDEN * backs)))
+    resize(P, w, share)
     return True
 
 
@@ -194,19 +178,3 @@ def stuck(P: Problem, L: Plan, w: int) -> int:
 def corrector_failed(C: Reals) -> bool:
     """Whether the last tries failed for the corrector, not for accuracy."""
     return C[RETRIES] > 2.0 or (C[RETRIES] > 0.0 and C[NORM] == 0.0)
-
-
-@native
-def make_undoable(P: Problem) -> None:
-    """Keep the state from which the accepted step started, unless in the middle of trouble."""
-    C = P.control
-    if C[RETRIES] == 0.0 and C[NORM] == 0.0:
-        C[TROUBLE] = max(0.0, C[TROUBLE] - 1.0)
-    if P.undo.size > 0:
-        angle = turning(P, C[H])
-        C[TURNED] += angle
-        clear = C[TROUBLE] == 0.0 and C[NOW] >= C[PASSED]
-        if C[UNDOABLE] == 0.0 or clear or C[TURNED] > MOST_TURNED:
-            C[UNDOABLE], C[BACKS], C[TURNED] = 1.0, 0.0, 0.0
-            remember(P)
-            C[TURNED] = angle

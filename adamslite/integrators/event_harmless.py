@@ -13,7 +13,8 @@ from adamslite.integrators.event_guards import (
     turn_back,
     turn_over,
 )
-from adamslite.integrators.event_places import END, FOUND, NONE, OPEN
+from adamslite.integrators.event_places import END, FOUND, HUNT, NONE, OPEN
+from adamslite.integrators.event_search import ends_beyond
 from adamslite.integrators.linalg import solve
 from adamslite.translate import native
 
@@ -25,12 +26,15 @@ MOST_GROUPS = 5
 
 @native
 def is_harmless(P: Problem, L: Plan, phases: int, cu: float) -> bool:
-    """Whether Newton's next increment on the other branches, dq with du = cu dq, would be too small
-    to matter; then they are taken.  The converged end of the step stands in the workspace.
+    """Whether the step ends beyond changes that do not matter, and none is being hunted: Newton's
+    next increment on the other branches, dq with du = cu dq, is too small; then they are taken.
+    The converged end of the step stands in the workspace.
 
     Branches are changed one after another as they were met: two that cancel at the end (a force
     that acts only in a thin layer) need not have cancelled on the way.
     """
+    if not ends_beyond(P) or P.search[HUNT] != 0.0:
+        return False
     share, groups, harmless = -1.0, 0, True
     remember_branches(P)
     while harmless and share < 1.0:

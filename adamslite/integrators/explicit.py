@@ -55,12 +55,13 @@ from adamslite.integrators.explicit_error import (
     starting_step,
 )
 from adamslite.integrators.explicit_events import change_where_it_stands, locate_between, pass_by
-from adamslite.integrators.explicit_recovery import make_repeatable, reject, shorten, why_stuck
+from adamslite.integrators.explicit_recovery import reject, shorten, why_stuck
 from adamslite.integrators.explicit_stages import exact_rates, run_stages
 from adamslite.integrators.explicit_state import (
     BODIES,
     CAUTIOUS,
     CLOCK,
+    FAILED,
     FOLLOWING,
     FREE,
     INVERSE,
@@ -71,6 +72,7 @@ from adamslite.integrators.explicit_state import (
     OLD,
     RUNNING,
     SIGNATURE,
+    TRIES,
     WIDTH,
     H,
     base_here,
@@ -79,6 +81,7 @@ from adamslite.integrators.explicit_state import (
 )
 from adamslite.integrators.free import invert_inertia, is_free, mass_tables
 from adamslite.integrators.records import note_violation, write_record
+from adamslite.integrators.undo import make_undoable
 from adamslite.translate import Reals, native
 
 
@@ -191,7 +194,8 @@ def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
     C, K, width = P.control, P.history, int(P.control[WIDTH])
     new = K[NEXT_STATE * w :]
     P.count[STEPS] += 1
-    make_repeatable(P)
+    make_undoable(P, C[CLOCK], C[H], C[TRIES] == 0.0)
+    C[FAILED], C[TRIES] = 0.0, 0.0
     note_violation(P, t)
     keep_solution(P)
     if not write_dense(P, L, w, t):

@@ -29,11 +29,11 @@ from adamslite.integrators.explicit_state import (
     OLD,
     RUNNING,
     SIGNATURE,
-    UNDOABLE,
     H,
     keep_solution,
     stand_again,
 )
+from adamslite.integrators.undo import UNDOABLE
 from adamslite.translate import native
 
 

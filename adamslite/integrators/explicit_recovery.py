@@ -23,56 +23,21 @@ from adamslite.integrators.event_guards import let_go
 from adamslite.integrators.event_places import FREED
 from adamslite.integrators.explicit_error import NOW_POWER, SAFETY, SHRINK, cut_step
 from adamslite.integrators.explicit_state import (
-    BACKS,
     CAUTIOUS,
     CLOCK,
     FAILED,
-    PASSED,
-    REJECTIONS,
     RUNNING,
     TRIES,
-    TURNED,
-    UNDOABLE,
     H,
     stand_again,
 )
-from adamslite.integrators.undo import (
-    GOLDEN,
-    MOST_TURNED,
-    SHORTEST,
-    bring_back,
-    remember,
-    turning,
-)
+from adamslite.integrators.undo import TROUBLE, before_trouble
 from adamslite.translate import native
 
 SINGULAR_RESOLUTION = 1e-6
 # Tries in vain around one place before the step that led there is taken back: failures of the
 # equations, rejections.
 FEW_FAILURES, FEW_REJECTIONS = 2.0, 3.0
-# Accepted steps taken back in one place.
-MOST_TAKEN_BACK = 24.0
-
-
-@native
-def make_repeatable(P: Problem) -> None:
-    """Keep the state from which the accepted step starts, unless it is in the middle of trouble.
-
-    Steps that shrink towards a singular posture are accepted one by one, each after a rejection:
-    the state before the first of them is the one to return to.
-    """
-    C = P.control
-    if C[TRIES] == 0.0:
-        C[REJECTIONS] = max(0.0, C[REJECTIONS] - 1.0)
-    C[FAILED], C[TRIES] = 0.0, 0.0
-    if P.undo.size > 0:
-        angle = turning(P, C[H])
-        C[TURNED] += angle
-        clear = C[REJECTIONS] == 0.0 and C[CLOCK] >= C[PASSED]
-        if C[UNDOABLE] == 0.0 or clear or C[TURNED] > MOST_TURNED:
-            C[UNDOABLE], C[BACKS], C[TURNED] = 1.0, 0.0, 0.0
-            remember(P)
-            C[TURNED] = angle
 
 
 @native
@@ -81,12 +46,11 @@ def start_elsewhere(P: Problem, w: int) -> bool:
     or is of no use.
     """
     C = P.control
-    if C[UNDOABLE] == 0.0 or C[BACKS] >= MOST_TAKEN_BACK:
+    share = before_trouble(P, C[CLOCK] + C[H])
+    if share == 0.0:
         return False
-    backs, passed = C[BACKS] + 1.0, max(C[PASSED], C[CLOCK] + C[H])
-    bring_back(P)
-    C[BACKS], C[PASSED], C[CAUTIOUS] = backs, passed, 1.0
-    C[H] *= SHORTEST + (1.0 - SHORTEST) * (GOLDEN * backs - int(GOLDEN * backs))
+    C[CAUTIOUS] = 1.0
+    C[H] *= share
     stand_again(P, w)
     return True
 
@@ -113,8 +77,8 @@ def reject(P: Problem, w: int, error: float) -> int:
     P.count[REJECTED] += 1
     if not error < 1e150 and let_go(P):
         return RUNNING
-    C[REJECTIONS], C[TRIES] = C[REJECTIONS] + 1.0, C[TRIES] + 1.0
-    if P.sizes[M] > 0 and C[REJECTIONS] >= FEW_REJECTIONS and start_elsewhere(P, w):
+    C[TROUBLE], C[TRIES] = C[TROUBLE] + 1.0, C[TRIES] + 1.0
+    if P.sizes[M] > 0 and C[TROUBLE] >= FEW_REJECTIONS and start_elsewhere(P, w):
         return RUNNING
     C[CAUTIOUS] = 1.0
     cut_step(P, max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK)

@@ -32,8 +32,8 @@ from adamslite.integrators.bdf_state import (
 )
 from adamslite.integrators.equations import vector_rates
 from adamslite.integrators.event_harmless import is_harmless
-from adamslite.integrators.event_places import HUNT, JUMP, OPEN, SHARE
-from adamslite.integrators.event_search import ends_beyond, judge, open_search
+from adamslite.integrators.event_places import JUMP, OPEN, SHARE
+from adamslite.integrators.event_search import judge, open_search
 from adamslite.integrators.events import change_here, pass_event
 from adamslite.integrators.second_order import CU, back_to_accepted, bodies_between
 from adamslite.translate import native
@@ -48,9 +48,8 @@ def locate_in_step(P: Problem, L: Plan) -> None:
     C, n = P.control, P.sizes[N]
     t, h, end = C[NOW], C[H], P.trial[0:]
     open_search(P, t, h)
-    if ends_beyond(P) and P.search[HUNT] == 0.0:
-        if is_harmless(P, L, INDEX3, C[CU]):
-            return
+    if is_harmless(P, L, INDEX3, C[CU]):
+        return
     vector_rates(P, P.q, P.u, end[n:])
     while P.search[OPEN] != 0.0:
         put_share(P, t, h, P.search[SHARE])

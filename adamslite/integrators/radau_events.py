@@ -39,8 +39,8 @@ from adamslite.integrators.bdf_state import (
     keep_algebraic,
 )
 from adamslite.integrators.event_harmless import is_harmless
-from adamslite.integrators.event_places import HUNT, JUMP, OPEN, SHARE
-from adamslite.integrators.event_search import ends_beyond, judge, open_search
+from adamslite.integrators.event_places import JUMP, OPEN, SHARE
+from adamslite.integrators.event_search import judge, open_search
 from adamslite.integrators.events import change_here, pass_event
 from adamslite.integrators.radau_coefficients import REAL
 from adamslite.integrators.radau_stages import (
@@ -61,9 +61,8 @@ def locate_in_stages(P: Problem, L: Plan) -> None:
     t, h = P.control[NOW], P.control[H]
     put_end(P)
     open_search(P, t, h)
-    if ends_beyond(P) and P.search[HUNT] == 0.0:
-        if is_harmless(P, L, equations_kept(P), P.tableau[REAL] / h):
-            return
+    if is_harmless(P, L, equations_kept(P), P.tableau[REAL] / h):
+        return
     while P.search[OPEN] != 0.0:
         put_inside(P, t, h, P.search[SHARE])
         judge(P)

@@ -14,11 +14,51 @@ from adamslite.integrators.base import NB, Problem
 from adamslite.integrators.equations import BODY, PART
 from adamslite.translate import Reals, native
 
+# Places in P.control, above those of every method: whether a state is kept, how often it was
+# returned to, the time behind which the trouble is over, the angle turned since, tries in vain.
+UNDOABLE, BACKS, PASSED, TURNED, TROUBLE = range(40, 45)
+# Accepted steps taken back in one place.
+MOST_BACKS = 24.0
 # The golden ratio spreads the lengths of repeated steps evenly over a range without multiples.
 GOLDEN, SHORTEST = 0.6180339887498949, 0.4
 # A state is not kept for longer than parts turn by this angle: AZ and the like count turns by the
 # nearest angle to the last accepted one, and two parts may turn against each other.
 MOST_TURNED = 1.5
+
+
+@native
+def make_undoable(P: Problem, now: float, h: float, clean: bool) -> None:
+    """Keep the state from which an accepted step of size h started, unless in the middle of
+    trouble; ``clean`` when its first try was good.
+
+    Steps that shrink towards a singular posture are accepted one by one, each after a rejection:
+    the state before the first of them is the one to return to.
+    """
+    C = P.control
+    if clean:
+        C[TROUBLE] = max(0.0, C[TROUBLE] - 1.0)
+    if P.undo.size > 0:
+        angle = turning(P, h)
+        C[TURNED] += angle
+        clear = C[TROUBLE] == 0.0 and now >= C[PASSED]
+        if C[UNDOABLE] == 0.0 or clear or C[TURNED] > MOST_TURNED:
+            C[UNDOABLE], C[BACKS], C[TURNED] = 1.0, 0.0, 0.0
+            remember(P)
+            C[TURNED] = angle
+
+
+@native
+def before_trouble(P: Problem, tried: float) -> float:
+    """Back to the state kept before the trouble, which lies before the time ``tried``; the share of
+    its step to take there, 0 when that was done often enough or there is no such state.
+    """
+    C = P.control
+    if C[UNDOABLE] == 0.0 or C[BACKS] >= MOST_BACKS:
+        return 0.0
+    backs, passed = C[BACKS] + 1.0, max(C[PASSED], tried)
+    bring_back(P)
+    C[BACKS], C[PASSED] = backs, passed
+    return SHORTEST + (1.0 - SHORTEST) * (GOLDEN * backs - int(GOLDEN * backs))
 
 
 @native
