@@ -1,5 +1,8 @@
 """Native code on disk: LLVM text in, callable addresses out.
 
+LLVM compiles; what has been compiled is linked by :mod:`adamslite.elf` where that can be, so that
+its library, 40 MB of memory, is loaded for new code only.
+
 Object code is cached under a hash of its LLVM text, the compiler version and the processor, so a
 deck seen before, or one whose expressions have the same shape, compiles nothing.  The cache
 folder is ``ADAMSLITE_CACHE`` or the user's cache folder; it may be deleted at any time.
@@ -16,6 +19,10 @@ import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
+
+from adamslite import elf
+
+CPUINFO = Path("/proc/cpuinfo")
 
 
 def cache_folder() -> Path:
@@ -69,12 +76,28 @@ def digest(*parts: str) -> str:
 def processor() -> str:
     """What decides whether object code made earlier may run here."""
     import llvmlite
+
+    return f"{llvmlite.__version__} {_processor_by_system() or _processor_by_llvm()}"
+
+
+def _processor_by_system() -> str:
+    """Model and abilities of the first processor as Linux tells them; empty where it does not."""
+    facts = ("vendor_id", "cpu family", "model", "stepping", "flags")
+    try:
+        first, _, _ = CPUINFO.read_text().partition("\n\n")
+    except OSError:
+        return ""
+    told = dict(map(str.strip, line.partition(":")[::2]) for line in first.splitlines())
+    if not all(told.get(fact) for fact in facts):
+        return ""
+    return " ".join([os.uname().machine, str(sys.maxsize), *(told[fact] for fact in facts)])
+
+
+def _processor_by_llvm() -> str:
     import llvmlite.binding as llvm
 
     features = llvm.get_host_cpu_features().flatten()
-    return (
-        f"{llvmlite.__version__} {llvm.get_process_triple()} {llvm.get_host_cpu_name()} {features}"
-    )
+    return f"{llvm.get_process_triple()} {llvm.get_host_cpu_name()} {features}"
 
 
 @functools.cache
@@ -114,33 +137,47 @@ def object_code(text: str, speed: int = 3) -> bytes:
     return machine.emit_object(module)
 
 
-@functools.cache
-def linker() -> Any:
-    """The one in-process linker; code added to it lives as long as the process."""
-    import llvmlite.binding as llvm
-
-    machine = target_machine()
-    empty = llvm.parse_assembly("")
-    return llvm.create_mcjit_compiler(empty, machine)
-
-
 def addresses(parts: Iterable[tuple[bytes, list[str]]]) -> dict[str, int]:
     """Addresses of the names in each object code; one linked earlier is not linked again."""
-    import llvmlite.binding as llvm
-
-    engine, known, found = linker(), _linked, {}
+    found = {}
     for code, names in parts:
-        if names[0] not in known:
-            # The linker reads code and object later without owning them.
-            _kept.append((code, llvm.ObjectFileRef.from_data(code)))
-            engine.add_object_file(_kept[-1][1])
-            engine.finalize_object()
-            known.update((name, engine.get_function_address(name)) for name in names)
-        found.update((name, known[name]) for name in names)
+        if names[0] not in _linked:
+            _linked.update(_link(code, names))
+        found.update((name, _linked[name]) for name in names)
     return found
 
 
 _linked: dict[str, int] = {}
+
+
+def _link(code: bytes, names: list[str]) -> dict[str, int]:
+    try:
+        places = elf.link(code)
+    except elf.Foreign:
+        return _link_by_llvm(code, names)
+    return {name: places[name] for name in names}
+
+
+def _link_by_llvm(code: bytes, names: list[str]) -> dict[str, int]:
+    """Addresses from LLVM's linker, which knows every system and machine."""
+    import llvmlite.binding as llvm
+
+    engine = _llvm_linker()
+    # It reads code and object later without owning them.
+    _kept.append((code, llvm.ObjectFileRef.from_data(code)))
+    engine.add_object_file(_kept[-1][1])
+    engine.finalize_object()
+    return {name: engine.get_function_address(name) for name in names}
+
+
+@functools.cache
+def _llvm_linker() -> Any:
+    """The one linker of LLVM; code added to it lives as long as the process."""
+    import llvmlite.binding as llvm
+
+    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), target_machine())
+
+
 _kept: list[tuple[bytes, Any]] = []
 
 

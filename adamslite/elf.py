@@ -1,0 +1,158 @@
+"""Links object code into this process.
+
+Compiled for x86-64 under Linux it is ELF in the large code model: code, constants and functions of
+the C library may lie anywhere, so an instruction holds each address as a whole word and one kind of
+relocation is left,
+
+    word = S + A,      S: address of the symbol,  A: number to add
+
+which takes no compiler's library, only this module.  All other object code is :class:`Foreign`.
+
+References: System V Application Binary Interface, chapter 4 (header, sections, symbol table,
+relocation); its AMD64 supplement, table 4.9 (``R_X86_64_64``).
+"""
+
+from __future__ import annotations
+
+import ctypes
+import mmap
+import sys
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+#: 64 bit, little end first, version 1; machine x86-64.
+IDENTITY, MACHINE = b"\x7fELF\x02\x01\x01", 62
+HEADER = np.dtype(
+    [("identity", "S16"), ("type", "<u2"), ("machine", "<u2"), ("version", "<u4"),
+     ("entry", "<u8"), ("segments", "<u8"), ("sections", "<u8"), ("flags", "<u4"),
+     ("size", "<u2"), ("segment_size", "<u2"), ("n_segments", "<u2"), ("section_size", "<u2"),
+     ("n_sections", "<u2"), ("name_section", "<u2")]
+)  # fmt: skip
+SECTION = np.dtype(
+    [("name", "<u4"), ("type", "<u4"), ("flags", "<u8"), ("address", "<u8"), ("offset", "<u8"),
+     ("size", "<u8"), ("link", "<u4"), ("info", "<u4"), ("align", "<u8"), ("entry", "<u8")]
+)  # fmt: skip
+SYMBOL = np.dtype(
+    [("name", "<u4"), ("info", "u1"), ("other", "u1"), ("section", "<u2"), ("value", "<u8"),
+     ("size", "<u8")]
+)  # fmt: skip
+RELOCATION = np.dtype([("offset", "<u8"), ("type", "<u4"), ("symbol", "<u4"), ("add", "<u8")])
+
+PROGBITS, SYMTAB, RELA = 1, 2, 4
+WRITTEN, LOADED = 1, 2
+UNDEFINED, GLOBAL, WORD = 0, 1, 1
+
+
+class Foreign(Exception):
+    """Object code that this module does not link; the argument says why."""
+
+
+def link(code: bytes) -> dict[str, int]:
+    """Addresses of the global functions in an object file, valid as long as the process lives.
+
+    Raises
+    ------
+    Foreign
+        When it is for another machine or system, or needs what is not done here.
+    """
+    sections = sections_of(code)
+    _without_variables(sections)
+    at, size = _places(sections)
+    image = np.frombuffer(mmap.mmap(-1, size, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS), np.uint8)
+    base = image.ctypes.data
+    for number in at:
+        part = sections[number]
+        image[at[number] : at[number] + int(part["size"])] = _table(code, part, np.uint8)
+    symbols, names = _symbols(code, sections)
+    values = [_value(s, n, at, base) for s, n in zip(symbols.tolist(), names, strict=True)]
+    _relocate(code, sections, at, image, np.array(values, dtype=np.uint64))
+    _make_executable(image)
+    public = (symbols["section"] != UNDEFINED) & (symbols["info"] >> 4 == GLOBAL)
+    return {names[n]: values[n] for n in np.flatnonzero(public).tolist()}
+
+
+def sections_of(code: bytes) -> np.ndarray:
+    """The table of the sections of an object file; raises :class:`Foreign`."""
+    known = sys.platform == "linux" and code.startswith(IDENTITY) and len(code) > HEADER.itemsize
+    header = np.frombuffer(code, HEADER, 1)[0] if known else None
+    if header is None or header["machine"] != MACHINE:
+        raise Foreign("not ELF for x86-64 under Linux")
+    return np.frombuffer(code, SECTION, header["n_sections"], int(header["sections"]))
+
+
+def _without_variables(sections: np.ndarray) -> None:
+    loaded = sections["flags"] & LOADED != 0
+    if (loaded & (sections["type"] != PROGBITS) | (sections["flags"] & WRITTEN != 0)).any():
+        raise Foreign("has variables")
+
+
+def _places(sections: np.ndarray) -> tuple[dict[int, int], int]:
+    """Offset of each section that is loaded, and the size of all of them in whole pages."""
+    at, end = {}, 0
+    for number in np.flatnonzero(sections["flags"] & LOADED).tolist():
+        align = max(1, int(sections["align"][number]))
+        at[number] = -(-end // align) * align
+        end = at[number] + int(sections["size"][number])
+    return at, -(-max(end, 1) // mmap.PAGESIZE) * mmap.PAGESIZE
+
+
+def _table(code: bytes, section: np.void, kind: Any) -> np.ndarray:
+    """The entries of a section."""
+    entries = int(section["size"]) // np.dtype(kind).itemsize
+    return np.frombuffer(code, kind, entries, int(section["offset"]))
+
+
+def _symbols(code: bytes, sections: np.ndarray) -> tuple[np.ndarray, list[str]]:
+    table = sections[sections["type"] == SYMTAB][0]
+    symbols = _table(code, table, SYMBOL)
+    start = int(sections["offset"][table["link"]])
+    firsts = [start + name for name in symbols["name"].tolist()]
+    return symbols, [code[first : code.index(b"\0", first)].decode() for first in firsts]
+
+
+def _value(symbol: tuple[int, ...], name: str, at: dict[int, int], base: int) -> int:
+    """Address of a symbol: in a section, or of a function of the C library; else 0."""
+    section, value = symbol[3], symbol[4]
+    if section in at:
+        return base + at[section] + value
+    return _from_library(name) if section == UNDEFINED and name else 0
+
+
+@cache
+def _from_library(name: str) -> int:
+    for library in (None, "libm.so.6"):
+        try:
+            function = getattr(ctypes.CDLL(library), name)
+        except (AttributeError, OSError):
+            continue
+        return ctypes.cast(function, ctypes.c_void_p).value
+    raise Foreign(f"calls {name}, which is not known")
+
+
+def _relocate(
+    code: bytes, sections: np.ndarray, at: dict[int, int], image: np.ndarray, values: np.ndarray
+) -> None:
+    for part in sections[sections["type"] == RELA]:
+        if int(part["info"]) not in at:
+            continue
+        entries = _table(code, part, RELOCATION)
+        words = values[entries["symbol"]]
+        if (entries["type"] != WORD).any() or not words.all():
+            raise Foreign("has relocations other than whole words")
+        first = entries["offset"].astype(np.int64) + at[int(part["info"])]
+        filled = (words + entries["add"]).view(np.uint8).reshape(-1, 8)
+        image[first[:, None] + np.arange(8)] = filled
+
+
+def _make_executable(image: np.ndarray) -> None:
+    """Let memory be run and no longer be written."""
+    protect = ctypes.CDLL(None).mprotect
+    place = ctypes.c_void_p(image.ctypes.data), ctypes.c_size_t(image.size)
+    if protect(*place, mmap.PROT_READ | mmap.PROT_EXEC):
+        raise Foreign("the system allows no new code")
+    _kept.append(image)
+
+
+_kept: list[np.ndarray] = []
