@@ -107,6 +107,9 @@ WRONG = {
         (9, 1),
     ),
     "drive": (HOIST, MOVED, "", (5, 1)),
+    "reel-between": (ATWOOD, 'kind = "pulley"', 'kind = "winch"\ntorque = "0"\n'
+                     "reel = { thickness = 0.01, core = 0.1 }", (12, 1)),
+    "reel-core": (HOIST, MOVED, MOVED + "\nreel = { thickness = 0.01, core = 0.5 }", (12, 1)),
     "moved-twice": (ATWOOD, "radius = 0.2", 'radius = 0.2\nmass = 2\nmotion = ["TIME**2", 0, 0]',
                     (14, 1)),
     "no-carriage": (ATWOOD, "radius = 0.2", "radius = 0.2\nslide = [1, 0, 0]", (13, 1)),
@@ -123,6 +126,7 @@ WRONG = {
     "needs-brute": (BELT, "elements = 6", "level = 1", (20, 1)),
     "brute-no-wheel": (ATWOOD[: ATWOOD.index("[[route]]\nkind = \"pulley\"")] + ATWOOD[LAST:],
                        "level = 1", 'form = "brute"', (14, 1)),
+    "brute-reel": (HOIST, MOVED, MOVED + "\nreel = { thickness = 0.01, core = 0.1 }", (12, 1)),
     "brute-plane": (HOIST, "level = 3", 'gravity = [0, -9, 1]', (18, 1)),
     "pitches": (CHAIN, "teeth = 12\ninertia = 0.1\n[model]", "teeth = 13\ninertia = 0.1\n[model]",
                 (18, 1)),
@@ -135,7 +139,7 @@ WRONG = {
     "paper-not-valid": (HOIST, "level = 3", 'level = 3\nform = "paper"\naccuracy = 1e-4', (18, 1)),
     "faster-than-waves": (HOIST, "0.5*TIME**2", "60*TIME**2", (17, 1)),
 }  # fmt: skip
-BRUTE = {"stored-too-little", "brute-plane"}
+BRUTE = {"stored-too-little", "brute-plane", "brute-reel"}
 
 
 def told(spec: str) -> list[Diagnostic]:

@@ -65,7 +65,7 @@ def needs_brute(spec: Spec, spans: list[Span]) -> list[str]:
     for i, each in enumerate(spec.route):
         if each.teeth:
             found.append(f"the wheel of station {i + 1} has teeth")
-        if each.kind == "pulley" and (each.is_carried or each.is_moved):
+        if each.is_wheel and not spec.is_end(i) and (each.is_carried or each.is_moved):
             if not spec.closed and not _stays_tangent(spec, spans, i):
                 found.append(f"the wheel of station {i + 1} moves across its cable")
     return found

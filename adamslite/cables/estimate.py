@@ -16,7 +16,7 @@ from adamslite.cables.law import Unknown, parse, value
 from adamslite.cables.messages import Faults
 from adamslite.cables.places import Path
 from adamslite.cables.vocabulary import Spec
-from adamslite.expression import Node
+from adamslite.expression import Node, Num, Op
 
 INSTANTS = 400
 
@@ -107,13 +107,15 @@ def laws(spec: Spec, faults: Faults) -> Laws:
     """All expressions, read; says which cannot be, and which do not begin at 0."""
     found = Laws({}, [], [])
     for i, each in enumerate(spec.route):
-        for key in ("payout", "force", "pull"):
+        for key in ("payout", "force", "torque", "pull"):
             if getattr(each, key):
                 law = parse(getattr(each, key), ("route", i, key), faults)
                 if law and key == "payout":
                     found.paid[i] = _told(spec, law, ("route", i, key), faults)
                 elif law and key == "force":
                     found.engines.append(law)
+                elif law and key == "torque":
+                    found.engines.append(Op("/", (law, Num(each.radius))))
         for text in filter(None, each.motion):
             law = parse(text, ("route", i, "motion"), faults)
             if law:
@@ -160,7 +162,7 @@ def _free(spec: Spec, spans: list[Span], engines: list[Node]) -> Travel | str | 
     if not engines:
         held = [each for each in spec.route if each.kind in ("fixed", "winch")]
         return None if held else _ways(spec, spans, None)
-    if len(spec.winches) > 1:
+    if len(spec.winches) > 1 or any(each.reel for each in spec.route):
         return "the payout is not known before the run"
     try:
         return _ways(spec, spans, engines[0])
@@ -181,7 +183,8 @@ def _across(spec: Spec, spans: list[Span]) -> float:
 
 def moving_mass(spec: Spec) -> float:
     """Masses and pulleys that go with the cable [kg]."""
-    wheels = sum(each.inertia / each.radius**2 for each in spec.route if each.is_wheel)
+    rho, found = spec.cable.density, [each for each in spec.route if each.is_wheel]
+    wheels = sum(each.turned_inertia(rho) / each.radius**2 for each in found)
     return wheels + sum(each.mass for each in spec.route)
 
 

@@ -40,9 +40,8 @@ def parse(text: str, path: Path, faults: Faults) -> Node | None:
     from adamslite.deck import read
     from adamslite.diagnostics import DeckError
 
-    names = (
-        "VARIABLE/S, FUNCTION=0\nVARIABLE/SD, FUNCTION=0\n" if path[-1] in ("force", "pull") else ""
-    )
+    moved = path[-1] in ("force", "torque", "pull")
+    names = "VARIABLE/S, FUNCTION=0\nVARIABLE/SD, FUNCTION=0\n" if moved else ""
     deck = f"a law\nPART/1, GROUND\n{names}VARIABLE/1, FUNCTION={text}\n"
     try:
         return read(deck).of("VARIABLE")[-1].function

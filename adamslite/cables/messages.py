@@ -17,20 +17,27 @@ MESSAGES: dict[str, Message] = {
     "short-route": Message("a route has two ends and {count} stations", "add [[route]] tables"),
     "wrong-end": Message(
         "a {kind} cannot be {where}",
-        "ends: fixed, run, mass, body, winch; between them: pulley, mass, body; on a loop: pulley,"
-        " winch",
+        "ends: fixed, run, mass, body, winch; between them: pulley, winch, mass, body; on a loop:"
+        " pulley, winch",
     ),
     "run-to-run": Message(
         "nothing is between two long runs", "a pulley or a mass that the cable meets"
     ),
-    "drive": Message("a winch needs one of payout and force", 'payout = "0.5*TIME**2"'),
+    "drive": Message("a winch needs one of payout, force and torque", 'payout = "0.5*TIME**2"'),
+    "reel-between": Message(
+        "a reel holds cable: it stands at an end of the route", "leave reel out, or end here"
+    ),
+    "reel-core": Message(
+        "a core of {core:.4g} m fills the radius of {radius:.4g} m",
+        "radius is that of the pack at the start, more than core",
+    ),
     "moved-twice": Message(
         "a wheel moves by its motion or by the forces on its mass", "leave motion or mass out"
     ),
     "no-carriage": Message("{word} is for a wheel that is free to move", "give it a mass"),
     "no-slide": Message("pull goes along slide", "slide = [1, 0, 0]"),
     "expression": Message(
-        "{word}: {why}", "an expression of TIME; force and pull may use S and SD"
+        "{word}: {why}", "an expression of TIME; force, torque and pull may use S and SD"
     ),
     "law-start": Message(
         "{word} at TIME = 0 is {value:.4g} m", "it counts from the place in the route: 0"
@@ -60,6 +67,10 @@ MESSAGES: dict[str, Message] = {
     ),
     "brute-no-wheel": Message(
         "form brute is for wheels, and there is none", "level = 2 has the same sections"
+    ),
+    "brute-reel": Message(
+        "the radius of a reel changes, and form brute lays sections on rims that stay",
+        "level = 1, 2 or 3, or leave reel out",
     ),
     "brute-plane": Message(
         "form brute takes a scene in one plane across its axles",

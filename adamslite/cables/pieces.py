@@ -19,7 +19,7 @@ from adamslite.cables.statements import (
     section,
 )
 from adamslite.cables.vocabulary import ZERO, Spec, Vector
-from adamslite.cables.wheels import drive, marker, slipping, travel, triple, turning
+from adamslite.cables.wheels import arm, drive, marker, rolled, slipping, travel, triple
 
 # Sliding speed at which friction is full [m/s].
 CREEP = 1e-3
@@ -141,7 +141,12 @@ def _link(spec: Spec, piece: Piece) -> str:
     text, apart = _apart(spec, piece)
     free = long / (1 + piece.tension / spec.cable.stiffness)
     comes = f"{number(free)}+{travel(piece.root, spec)}-({travel(piece.tip, spec)})"
-    pull = _law(spec, f"EA*({apart}/LT{p}-1)")
+    pull = f"EA*({apart}/LT{p}-1)"
+    if spec.cable.damping:
+        rate = f"({travel(piece.root, spec, 1)}-({travel(piece.tip, spec, 1)}))"
+        own = f"VR({piece.first},{piece.first + 1})" if _moves(spec, piece) else ""
+        pull += f"+damper*({own}-{rate}*{apart}/LT{p})"
+    pull = _law(spec, pull)
     if _moves(spec, piece):
         text += f"SFORCE/{piece.first}, I={piece.first}, J={piece.first + 1}, FUNCTION=-T{p}\n"
     return text + (
@@ -305,7 +310,7 @@ def _turned(spec: Spec, spans: list[Span], choice: Choice, i: int) -> str:
     """What the cable, or its friction, and the drive do to wheel i."""
     each, n = spec.route[i], marker(i)
     before, behind = (f"T{p + 1}" if p >= 0 else "" for p in spec.beside(i))
-    arm = number(each.turn * each.radius)
+    radius = arm(i, spec)
     if slipping(i, spec):
         angle = wrap(spec, spans, i)
         found = pieces(spec, spans)
@@ -317,16 +322,16 @@ def _turned(spec: Spec, spans: list[Span], choice: Choice, i: int) -> str:
         text = (
             f"\n! Friction of the cable on the wheel of station {i + 1}, mu times wrap"
             f" {each.mu * angle:.4g}: at most a ratio of {2.718281828 ** (each.mu * angle):.4g}.\n"
-            f"VARIABLE/slide_{n}, FUNCTION={travel(i, spec, 1)}-{arm}*{turning(i, spec, 1)}\n"
+            f"VARIABLE/slide_{n}, FUNCTION={travel(i, spec, 1)}-{rolled(i, spec, 1)}\n"
             f"VARIABLE/F_{n}, FUNCTION=({before}+{behind})*TANH({number(each.mu * angle / 2)}\n"
             f", *STEP(slide_{n},-{CREEP:g},-1,{CREEP:g},1))\n"
             f"DIFF/paid_{n}, FUNCTION=DIF(run_{n})\n"
             f"DIFF/run_{n}, FUNCTION=VARVAL(A_{n})\n"
             f"VARIABLE/A_{n}, FUNCTION=({behind}-{before}-F_{n})/({rim})\n"
         )
-        return text + drive(spec, i, [f"{arm}*F_{n}"])
+        return text + drive(spec, i, [f"{radius}*F_{n}"])
     pulls = (f"+{behind}" if behind else "") + (f"-{before}" if before else "")
-    return drive(spec, i, [f"{arm}*({pulls})"] if choice.level > 1 else [])
+    return drive(spec, i, [f"{radius}*({pulls})"] if choice.level > 1 else [])
 
 
 def _requests(spec: Spec, choice: Choice, found: list[Piece]) -> str:

@@ -1,11 +1,12 @@
 """Which stations may stand where, and which of their keys go together."""
 
+from math import inf
 from typing import Any
 
 from adamslite.cables.messages import Faults
 from adamslite.cables.vocabulary import WHEELS
 
-INSIDE = ("pulley", "mass", "body")
+INSIDE = ("pulley", "winch", "mass", "body")
 AT_ENDS = ("fixed", "run", "mass", "body", "winch")
 ON_A_LOOP = ("pulley", "winch", "mass")
 
@@ -18,8 +19,8 @@ def check_route(faults: Faults, route: list[dict[str, Any]], closed: bool) -> No
         faults.add("run-to-run", ("route", 1, "kind"))
     for i, each in enumerate(route):
         _place(faults, each, i, len(route), closed)
-        if each.get("kind") == "winch" and bool(each.get("payout")) == bool(each.get("force")):
-            faults.add("drive", ("route", i))
+        if each.get("kind") == "winch":
+            _winch(faults, each, i, not closed and i in (0, len(route) - 1))
         if each.get("kind") in WHEELS and "slide" in each:
             _carriage(faults, each, i)
 
@@ -33,6 +34,17 @@ def _place(faults: Faults, each: dict[str, Any], i: int, count: int, closed: boo
     elif not closed and kind not in (INSIDE if inside else AT_ENDS):
         where = "between the ends" if inside else "an end of the route"
         faults.add("wrong-end", ("route", i, "kind"), kind=kind, where=where)
+
+
+def _winch(faults: Faults, each: dict[str, Any], i: int, ends: bool) -> None:
+    """It has one drive; at an end of the route it may be a reel."""
+    if sum(bool(each.get(key)) for key in ("payout", "force", "torque")) != 1:
+        faults.add("drive", ("route", i))
+    reel = each.get("reel")
+    if reel and not ends:
+        faults.add("reel-between", ("route", i, "reel"))
+    if reel and reel.core >= each.get("radius", inf):
+        faults.add("reel-core", ("route", i, "reel"), core=reel.core, radius=each["radius"])
 
 
 def _carriage(faults: Faults, each: dict[str, Any], i: int) -> None:

@@ -54,6 +54,9 @@ def _check_form(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) 
         faults.add("brute-no-wheel", ("model", "form"))
     elif brute and not in_plane(spec):
         faults.add("brute-plane", ("model", "form"))
+    for i, each in enumerate(spec.route):
+        if brute and each.reel:
+            faults.add("brute-reel", ("route", i, "reel"))
     if choice.level > 1:
         return
     for i, each in enumerate(spec.route):
@@ -94,8 +97,12 @@ def _check(spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults:
     if count > MOST:
         faults.add("too-many", ("model", "elements"), word="elements", count=count, most=MOST)
     for i, paid in moves.paid.items():
-        if spec.closed:
+        if not spec.is_end(i):
             continue
+        each = spec.route[i]
+        if each.reel and paid.most > each.reel.holds(each.radius):
+            faults.add("stored-too-little", ("route", i, "reel"), value=paid.most,
+                       held=each.reel.holds(each.radius))  # fmt: skip
         length = pieces[0 if i == 0 else -1].length
         key = ("route", i, "payout")
         if length + paid.least <= 0:

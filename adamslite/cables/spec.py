@@ -15,6 +15,7 @@ from adamslite.cables.vocabulary import (
     TABLES,
     TOP,
     Cable,
+    Group,
     Spec,
     Station,
 )
@@ -107,17 +108,27 @@ def _table(
     for key, (takes, rule, default) in rules.items():
         if key in data:
             values[key] = _value(faults, data[key], takes, rule, (*path, key))
+        elif isinstance(takes, Group):
+            values[key] = None
         elif default is None:
-            label = f"station {path[1] + 1}" if len(path) > 1 else "".join(path) or "the file"
-            faults.add("missing-key", path, label=label, word=key)
+            faults.add("missing-key", path, label=_label(path), word=key)
         else:
             values[key] = default
     return values
 
 
+def _label(path: Path) -> str:
+    """What a table is called."""
+    if len(path) == 2:
+        return f"station {path[1] + 1}"
+    return str(path[-1]) if path else "the file"
+
+
 def _value(faults: Faults, value: Any, takes: Any, rule: str, path: Path) -> Any:
     """The value as the Spec holds it; 1 after saying why it cannot be."""
     word = path[-1]
+    if isinstance(takes, Group):
+        return _grouped(faults, value, takes, path)
     good, expected = _fits(value, takes)
     if not good:
         faults.add("wrong-value", path, word=word, expected=expected, text=repr(value))
@@ -128,6 +139,16 @@ def _value(faults: Faults, value: Any, takes: Any, rule: str, path: Path) -> Any
     if takes == "laws":
         return tuple("" if each in (0, "") else str(each) for each in value)
     return tuple(map(float, value)) if takes == "vector" else value
+
+
+def _grouped(faults: Faults, value: Any, takes: Group, path: Path) -> Any:
+    """A table within a table; None where it is not whole."""
+    if not isinstance(value, dict):
+        wanted = f"a table of {', '.join(takes.rules)}"
+        faults.add("wrong-value", path, word=path[-1], expected=wanted, text=repr(value))
+        return None
+    found = _table(faults, value, takes.rules, path)
+    return takes.make(**found) if len(found) == len(takes.rules) else None
 
 
 BROKEN = {

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import pi, sin, sqrt
+from typing import Any
 
 Vector = tuple[float, float, float]
 ZERO: Vector = (0.0, 0.0, 0.0)
@@ -26,6 +27,26 @@ class Cable:
     def speed(self) -> float:
         """Axial wave speed c = sqrt(EA/rho) [m/s]."""
         return sqrt(self.stiffness / self.density)
+
+
+@dataclass(frozen=True)
+class Reel:
+    """A pack of cable, `thickness` [m] from turn to turn, on a core of the radius `core` [m].
+
+    The radius of the pack grows by the thickness with every turn, r = r0 + h a/(2 pi), so that a
+    turn by the angle a winds up s = (r0 + r)/2 a.
+    """
+
+    thickness: float
+    core: float
+
+    def holds(self, radius: float) -> float:
+        """Cable on it when the pack has this radius [m]."""
+        return pi * (radius**2 - self.core**2) / self.thickness
+
+    def inertia(self, radius: float, density: float) -> float:
+        """Of that cable, which has `density` [kg/m], about the axle [kg m^2]."""
+        return density * self.holds(radius) * (radius**2 + self.core**2) / 2
 
 
 @dataclass(frozen=True)
@@ -53,6 +74,8 @@ class Station:
     slide: Vector = ZERO
     pull: str = ""
     teeth: int = 0
+    torque: str = ""
+    reel: Reel | None = None
 
     @property
     def is_wheel(self) -> bool:
@@ -78,6 +101,11 @@ class Station:
     def pitch(self) -> float:
         """Chord between two gaps of a sprocket, whose pins lie on its radius [m]."""
         return 2 * self.radius * sin(pi / self.teeth)
+
+    def turned_inertia(self, density: float) -> float:
+        """Of a wheel about its axle at the start, with what a reel holds [kg m^2]."""
+        pack = self.reel.inertia(self.radius, density) if self.reel else 0.0
+        return self.inertia + pack
 
     @property
     def slips(self) -> bool:
@@ -166,6 +194,20 @@ MODEL = {
     "elements": ("whole or auto", "not-positive", "auto"),
     "accuracy": ("number", "not-a-share", 0.01),
 }
+
+
+@dataclass(frozen=True)
+class Group:
+    """A key that takes a table of keys, which `make` puts together; None without it."""
+
+    make: type
+    rules: dict[str, Any]
+
+
+REEL = Group(
+    Reel,
+    {"thickness": ("number", "not-positive", None), "core": ("number", "not-positive", None)},
+)
 PLACE = {"kind": (KINDS, "", None), "at": ("vector", "", None)}
 MOVED = {"motion": ("laws", "", ("", "", ""))}
 CARRIED = {
@@ -198,7 +240,9 @@ STATIONS = {
     | {
         "payout": ("text", "", ""),
         "force": ("text", "", ""),
+        "torque": ("text", "", ""),
         "stored": ("number", "negative", -1.0),
+        "reel": (REEL, "", None),
     },
 }
 TABLES = ("cable", "model", "route")

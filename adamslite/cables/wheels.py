@@ -6,6 +6,7 @@ on the ground, z along the way it slides. MARKER/n+4 floats for contacts.
 """
 
 import re
+from math import pi
 
 from adamslite.cables.geometry import add, cross, dot, unit
 from adamslite.cables.statements import AXES, number
@@ -24,10 +25,36 @@ def triple(a: Vector) -> str:
 
 def travel(i: int, spec: Spec, order: int = 0) -> str:
     """Cable that runs over the wheel of station i along the route [m], or its time derivative."""
-    wheel, n = spec.route[i], marker(i)
+    n = marker(i)
     if slipping(i, spec):
         return (f"DIF(paid_{n})", f"DIF(run_{n})", f"A_{n}")[order]
-    return f"{number(wheel.turn * wheel.radius)}*{turning(i, spec, order)}"
+    return rolled(i, spec, order)
+
+
+def arm(i: int, spec: Spec, sense: int = 1) -> str:
+    """Radius of wheel i, with the sign of a turn along the route, or against it (`sense` -1)."""
+    each = spec.route[i]
+    if each.reel:
+        return f"{number(sense * each.turn)}*R_{marker(i)}"
+    return number(sense * each.turn * each.radius)
+
+
+def rolled(i: int, spec: Spec, order: int = 0, sense: int = 1) -> str:
+    """Way of the rim of wheel i along the route [m], or its time derivative."""
+    each, n = spec.route[i], marker(i)
+    text = f"{arm(i, spec, sense)}*{turning(i, spec, order)}"
+    if not each.reel or order == 1:
+        return text
+    if order == 0:
+        mean = f"{number(sense * each.turn / 2)}*({number(each.radius)}+R_{n})"
+        return f"{mean}*{turning(i, spec)}"
+    return f"{text}+{number(sense * each.turn * _growth(i, spec))}*{turning(i, spec, 1)}**2"
+
+
+def _growth(i: int, spec: Spec) -> float:
+    """Radius that a reel gains per angle about its axle [m]."""
+    each = spec.route[i]
+    return -spec.outwards(i) * each.turn * each.reel.thickness / (2 * pi)
 
 
 def turning(i: int, spec: Spec, order: int = 0) -> str:
@@ -64,6 +91,22 @@ def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
         f", QG={triple(each.at)}{start}\n"
         f"MARKER/{n}, PART={n}{own}\n"
         f"JOINT/{n}, REVOLUTE, I={n}, J={n + 1}\n"
+        f"{_pack(spec, i) if each.reel else ''}"
+    )
+
+
+def _pack(spec: Spec, i: int) -> str:
+    """Radius and inertia of what a reel holds.
+
+    There is no term J' w: cable that leaves takes its angular momentum rho r w r^2 along.
+    """
+    each, n = spec.route[i], marker(i)
+    heavy = spec.cable.density * pi / 2 / each.reel.thickness
+    return (
+        "! Radius and inertia of the cable on it.\n"
+        f"VARIABLE/R_{n}, FUNCTION={number(each.radius)}"
+        f"+({number(_growth(i, spec))})*{turning(i, spec)}\n"
+        f"VARIABLE/J_{n}, FUNCTION={number(heavy)}*(R_{n}**4-{number(each.reel.core**4)})\n"
     )
 
 
@@ -142,19 +185,23 @@ def drive(spec: Spec, i: int, torques: list[str]) -> str:
     each, n = spec.route[i], marker(i)
     torques, text = list(torques), ""
     # Payout is cable that leaves the winch, to whichever side the route goes.
-    out = number(each.turn * each.radius * spec.outwards(i))
+    sense = spec.outwards(i)
+    out = arm(i, spec, sense)
     if each.friction:
         torques.append(f"-{number(each.friction)}*STEP({turning(i, spec, 1)},-0.01,-1,0.01,1)")
-    if each.force:
+    if each.reel:
+        torques.append(f"-J_{n}*{turning(i, spec, 2)}")
+    if each.force or each.torque:
         text += (
             "\n! Payout of the winch and its speed.\n"
-            f"VARIABLE/S_{n}, FUNCTION={out}*{turning(i, spec)}\n"
-            f"VARIABLE/SD_{n}, FUNCTION={out}*{turning(i, spec, 1)}\n"
+            f"VARIABLE/S_{n}, FUNCTION={rolled(i, spec, 0, sense)}\n"
+            f"VARIABLE/SD_{n}, FUNCTION={rolled(i, spec, 1, sense)}\n"
         )
-        torques.append(f"-({out})*({own_names(each.force, n)})")
+        held = out if each.force else number(sense * each.turn)
+        torques.append(f"-({held})*({own_names(each.force or each.torque, n)})")
     if torques:
         text += f"SFORCE/{n}, ROTATIONAL, ACTIONONLY, I={n}, J={n + 1}\n, FUNCTION="
         text += "\n, +".join(torques) + "\n"
     if each.payout:
-        text += f"GCON/{n}, FUNCTION={out}*{turning(i, spec)}\n, -({each.payout})\n"
+        text += f"GCON/{n}, FUNCTION={rolled(i, spec, 0, sense)}\n, -({each.payout})\n"
     return text

@@ -13,11 +13,12 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent))
+sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import arrest  # noqa: E402
 from formulas import G, Winch  # noqa: E402
 from spans import table  # noqa: E402
+from wound import reels  # noqa: E402
 
 from adamslite.cables.scene import deck  # noqa: E402
 
@@ -128,7 +129,7 @@ def arrestment() -> str:
 
 
 def main() -> None:
-    for case in (drum, belt, slip, crane, arrestment):
+    for case in (drum, belt, slip, crane, arrestment, reels):
         name = case.__name__
         text, _ = deck((HERE / f"{name}.toml").read_text(encoding="utf-8"))
         (HERE / f"{name}.adm").write_text(text, encoding="utf-8")
