@@ -50,13 +50,8 @@ def _check_form(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) 
     if why and not brute:
         key = "form" if spec.form != "auto" else "level"
         faults.add("needs-brute", ("model", key), why="; ".join(why))
-    if brute and not any(each.is_wheel for each in spec.route):
-        faults.add("brute-no-wheel", ("model", "form"))
-    elif brute and not in_plane(spec):
-        faults.add("brute-plane", ("model", "form"))
-    for i, each in enumerate(spec.route):
-        if brute and each.reel:
-            faults.add("brute-reel", ("route", i, "reel"))
+    if brute:
+        _check_brute(spec, faults)
     if choice.level > 1:
         return
     for i, each in enumerate(spec.route):
@@ -64,6 +59,17 @@ def _check_form(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) 
             faults.add("rigid-cannot", ("route", i, "kind"), what="a long run has waves")
         if slipping(i, spec):
             faults.add("rigid-cannot", ("route", i, "mu"), what="its cable cannot slip")
+
+
+def _check_brute(spec: Spec, faults: Faults) -> None:
+    """Whether sections can run over the rims."""
+    if not any(each.is_wheel for each in spec.route):
+        faults.add("brute-no-wheel", ("model", "form"))
+    elif not in_plane(spec):
+        faults.add("brute-plane", ("model", "form"))
+    for i, each in enumerate(spec.route):
+        if each.reel:
+            faults.add("brute-reel", ("route", i, "reel"))
 
 
 def _check_chain(spec: Spec, pieces: list[Span], faults: Faults) -> None:
