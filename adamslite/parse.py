@@ -14,8 +14,9 @@ joining continuation lines moves no column.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache, lru_cache
+from itertools import accumulate
 from sys import intern
 from typing import Any, NamedTuple
 
@@ -164,21 +165,54 @@ def expression_form(kinds: tuple[str, ...]) -> Tree | Fault:
 # ---- scanning ---------------------------------------------------------------------------------
 
 
+STRETCH = 1 << 15
+"""Characters that are scanned at once, at least."""
+
+_NEW_STATEMENT = re.compile(r"\n(?=[A-Za-z])")
+"""Where a text may be cut: a line that begins with a letter continues no other."""
+
+
+@cache
+def _terminals() -> dict[str, str]:
+    """Regular expressions of the terminals of the deck grammar, in the order of the file."""
+    found = {t.name: t.pattern.to_regexp() for t in _parser("deck", "statement").terminals}
+    return {"BLANK": found.pop("BLANK"), **found}
+
+
 @cache
 def _scanner() -> re.Pattern[str]:
-    """One pattern of all terminals of the deck grammar, in the order of the file."""
-    terminals = {t.name: t.pattern.to_regexp() for t in _parser("deck", "statement").terminals}
-    blank = terminals.pop("BLANK")
-    choices = "|".join(f"(?P<{name}>{regexp})" for name, regexp in terminals.items())
-    return re.compile(f"(?:{blank})?+(?:{choices})")
+    """All terminals in one pattern, without groups, so that it finds whole tokens."""
+    one = "|".join(f"(?:{regexp})" for regexp in _terminals().values())
+    return re.compile(re.sub(r"(?<!\\)\((?!\?)", "(?:", one))
 
 
-def scan(text: str, start: int = 0) -> list[Lexeme]:
-    """The tokens of ``text`` from offset ``start``; any character belongs to some token."""
-    return [
-        (match.lastgroup, intern(match[match.lastindex]), match.start(match.lastindex))
-        for match in _scanner().finditer(text, start)
-    ]
+@cache
+def _teller() -> re.Pattern[str]:
+    return re.compile("|".join(f"(?P<{name}>{regexp})" for name, regexp in _terminals().items()))
+
+
+class _Kinds(dict[str, str]):
+    """The kind of each token, which its text decides; found out once for equal texts."""
+
+    def __missing__(self, text: str) -> str:
+        kind = self[text] = _teller().match(text).lastgroup
+        return kind
+
+
+def scan(text: str, start: int = 0) -> Iterator[list[Lexeme]]:
+    """The tokens of ``text`` from offset ``start``; any character belongs to some token.
+
+    They come in stretches that end where a statement ends, so that they need not all be in memory.
+    """
+    kinds = _Kinds()
+    while start < len(text):
+        cut = _NEW_STATEMENT.search(text, start + STRETCH)
+        end = cut.end() if cut else len(text)
+        words = [*map(intern, _scanner().findall(text, start, end))]
+        offsets = accumulate(map(len, words), initial=start)
+        tokens = zip(map(kinds.__getitem__, words), words, offsets, strict=False)
+        yield [token for token in tokens if token[0] != "BLANK"]
+        start = end
 
 
 # ---- joining lines ----------------------------------------------------------------------------
@@ -187,31 +221,36 @@ def scan(text: str, start: int = 0) -> list[Lexeme]:
 class _Joiner:
     """Collects the tokens of a statement until it ends."""
 
-    def __init__(self, tokens: list[Lexeme], ampersand: bool) -> None:
-        self.tokens = tokens
+    def __init__(self, ampersand: bool) -> None:
         self.ampersand = ampersand
+        self.tokens: list[Lexeme] = []
         self.current: list[Lexeme] = []
         self.depth = 0
         self.name: str | None = None
 
-    def statements(self) -> Iterator[Logical]:
-        tokens, count, position = self.tokens, len(self.tokens), 0
-        while position < count:
-            token = tokens[position]
-            position += 1
-            kind = token[0]
-            if kind not in _JOINTS:
-                self.current.append(token)
-            elif kind == "LINE_END" or kind == "SEMICOLON":
-                if kind == "LINE_END" and self.current and self._kind(position) == "COMMA":
-                    self._leading_comma(position)
-                    position += 1
-                    continue
-                yield from self._finish()
-                self.name = view_name(token[1])
-            else:
-                position = self._joint(token, position)
+    def statements(self, stretches: Iterable[list[Lexeme]]) -> Iterator[Logical]:
+        for self.tokens in stretches:
+            yield from self._ended()
         yield from self._finish()
+
+    def _ended(self) -> Iterator[Logical]:
+        """The statements that end in the present stretch."""
+        tokens, done = self.tokens, 0
+        for at in [n for n, token in enumerate(tokens) if token[0] in _JOINTS]:
+            if at < done:
+                continue
+            self.current += tokens[done:at]
+            kind, text, _ = tokens[at]
+            done = at + 1
+            if kind == "LINE_END" and self.current and self._kind(done) == "COMMA":
+                self._leading_comma(done)
+                done += 1
+            elif kind == "LINE_END" or kind == "SEMICOLON":
+                yield from self._finish()
+                self.name = view_name(text)
+            else:
+                done = self._joint(tokens[at], done)
+        self.current += tokens[done:]
 
     def _kind(self, position: int) -> str:
         return self.tokens[position][0] if position < len(self.tokens) else ""
@@ -252,8 +291,8 @@ class _Joiner:
             yield Logical(current, name)
 
 
-def join(tokens: list[Lexeme], ampersand: bool = False) -> Iterator[Logical]:
-    """The statements in a sequence of tokens.
+def join(stretches: Iterable[list[Lexeme]], ampersand: bool = False) -> Iterator[Logical]:
+    """The statements in stretches of tokens.
 
     A line that begins with a comma continues the statement above it.  In a list of arguments that
     comma separates; inside brackets, and after a comma or an equal sign, it only marks the
@@ -263,11 +302,12 @@ def join(tokens: list[Lexeme], ampersand: bool = False) -> Iterator[Logical]:
 
     Parameters
     ----------
-    tokens : list of Lexeme
+    stretches : iterable of list of Lexeme
+        As :func:`scan` gives them.
     ampersand : bool
         Whether ``&`` at the end of a line continues it, as in command files.
     """
-    return _Joiner(tokens, ampersand).statements()
+    return _Joiner(ampersand).statements(stretches)
 
 
 def view_name(comments: str) -> str | None:
