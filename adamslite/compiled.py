@@ -55,7 +55,7 @@ WITH_JACOBIAN = ("loads", "equation", *LEVELS)
 
 def compile_model(model: Model, progress: Any = None) -> Kernels:
     """Bind every statement, compile the shapes not seen before, link all of them."""
-    groups: dict[str, Group] = {}
+    groups: dict[tuple, Group] = {}
     outputs = []
     for statement in model.deck.statements:
         for face in faces(statement, model):
@@ -83,7 +83,7 @@ def faces(statement: Statement, model: Model) -> Iterator[str]:
             yield "equation" if kind == "loop" else "signal"
 
 
-def _add(groups: dict[str, Group], model: Model, statement: Statement, face: str) -> None:
+def _add(groups: dict[tuple, Group], model: Model, statement: Statement, face: str) -> None:
     binder = Binder(model, inline_signals=face == "signal")
     if face == "output":
         fields: Tree = tuple(binder.output(node, statement) for node in statement.outputs(model))
@@ -96,7 +96,7 @@ def _add(groups: dict[str, Group], model: Model, statement: Statement, face: str
     rate = (statement.keyword, statement.key) in model.held and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
     if key not in groups:
-        name = "k" + native.digest(key, generator_version())
+        name = "k" + native.digest(repr(key), generator_version())
         groups[key] = Group(face, name, _maker(binder, statement, face, fields, own, name, model))
     groups[key].instances.append((statement, binder.instance))
 

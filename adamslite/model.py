@@ -94,7 +94,7 @@ class Place:
 
     @cached_property
     def turned(self) -> bool:
-        return not np.array_equal(self.axes, IDENTITY)
+        return self.axes is not IDENTITY and not np.array_equal(self.axes, IDENTITY)
 
 
 @dataclass(frozen=True)
@@ -129,8 +129,6 @@ class Model:
         self.without = without
         self.places: dict[Any, Place | None] = {}
         self.folded: dict[Any, float | None] = {}
-        # By identity, with the node, which keeps its identity from being given away.
-        self._constants: dict[int, tuple[Node, float | None]] = {}
         self.body_index: dict[tuple[str, Any], int] = {}
         self.bodies: list[Body] = []
         for statement in deck.statements:
@@ -193,11 +191,11 @@ class Model:
         if body is None:
             part = self.deck.find(*owner)
             shift, base = np.asarray(part.qg, dtype=float), frame_axes(part, np.asarray(part.qg))
-            return Place("ground", -1, shift + base @ origin, _clean(base @ axes))
+            return Place("ground", -1, shift + _turned(base, origin), _clean(_turned(base, axes)))
         cm = self._marker_in_body(self.bodies[body].statement.cm)[0]
         if self.bodies[body].width == POINT:
             base = self.bodies[body].attitude
-            return Place("point", body, base @ (origin - cm), _clean(base @ axes))
+            return Place("point", body, _turned(base, origin - cm), _clean(_turned(base, axes)))
         return Place("part", body, origin - cm, _clean(axes))
 
     def body_width(self, body: int) -> int:
@@ -229,19 +227,13 @@ class Model:
 
     def constant(self, node: Node) -> float | None:
         """Value of an expression without anything that changes; None when something does."""
-        if isinstance(node, Num):
+        if type(node) is Num:
             return node.value
-        if id(node) not in self._constants:
-            self._constants[id(node)] = (node, self._constant(node))
-        return self._constants[id(node)][1]
-
-    def _constant(self, node: Node) -> float | None:
-        match node:
-            case Op(op, args):
-                values = [self.constant(a) for a in args]
-                return None if None in values else _arithmetic(op, values)
-            case Call("VARVAL", (Ref("VARIABLE", variable_id),)):
-                return self.constant_variable(variable_id)
+        if type(node) is Op:
+            values = [self.constant(each) for each in node.args]
+            return None if None in values else folded(node.op, values)
+        if type(node) is Call and node.name == "VARVAL":
+            return self.constant_variable(node.args[0].id)
         return None
 
     def constant_variable(self, variable_id: Any) -> float | None:
@@ -340,13 +332,21 @@ def expressions(statement: Statement) -> list[Node]:
     return [value for value in values if value is not None]
 
 
+def _turned(base: np.ndarray, array: np.ndarray) -> np.ndarray:
+    """``base @ array``; nothing to do for axes like those of ground, the usual ones."""
+    return array if base is IDENTITY else base @ array
+
+
 def _clean(axes: np.ndarray) -> np.ndarray:
     """Axes with round-off of right angles removed, so that aligned markers share a shape."""
+    if axes is IDENTITY:
+        return axes
     rounded = np.round(axes)
     return rounded if np.abs(axes - rounded).max() < 1e-15 else axes
 
 
-def _arithmetic(op: str, values: list[float]) -> float | None:
+def folded(op: str, values: list[float]) -> float:
+    """The value of an operation on numbers; not a number where it has none."""
     a, b = values[0], values[-1]
     try:
         match op:

@@ -22,9 +22,10 @@ from typing import Any
 
 from adamslite import functions  # noqa: F401  registers the deck functions
 from adamslite.between import written_out
-from adamslite.expression import Call, Mode, Node, Op, Ref, Time
-from adamslite.function import FUNCTIONS
+from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time
+from adamslite.function import FUNCTIONS, Function
 from adamslite.functions.forces import NET
+from adamslite.model import folded
 from adamslite.statement import STATEMENTS, Statement
 from adamslite.symbolic import ORIGIN, Load, Scope, Slot
 
@@ -58,27 +59,30 @@ class Binder:
         self.model = model
         self.inline_signals = inline_signals
         self.instance = Binding()
+        self.frames: dict[Any, Tree] = {0: ("m", ORIGIN)}
         self.slots: list[Slot] = []
         self.elements: list[tuple[str, Tree]] = []
         self.element_at: dict[tuple[str, Any], int] = {}
 
     def marker(self, marker_id: Any) -> Tree:
         """The frame of a marker, of a part's mass centre for ``("PART", id)``."""
-        if marker_id == 0:
-            return ("m", ORIGIN)
-        known = self.instance.markers
-        if marker_id not in known:
-            place = self.model.marker(marker_id)
-            if place is None:
-                return ("c", None)
-            body = -1
-            if place.kind != "ground":
-                if place.body not in self.instance.bodies:
-                    self.instance.bodies.append(place.body)
-                body = self.instance.bodies.index(place.body)
-            known.append(marker_id)
-            self.slots.append(Slot(place.kind, body, place.offset, place.turned))
-        return ("m", known.index(marker_id))
+        frame = self.frames.get(marker_id)
+        if frame is None:
+            frame = self.frames[marker_id] = self._frame(marker_id)
+        return frame
+
+    def _frame(self, marker_id: Any) -> Tree:
+        place, at = self.model.marker(marker_id), self.instance
+        if place is None:
+            return ("c", None)
+        body = -1
+        if place.kind != "ground":
+            if place.body not in at.bodies:
+                at.bodies.append(place.body)
+            body = at.bodies.index(place.body)
+        at.markers.append(marker_id)
+        self.slots.append(Slot(place.kind, body, place.offset, place.turned))
+        return ("m", len(at.markers) - 1)
 
     def node_slot(self, node: Any) -> int:
         """Slot of a scalar node, counted after the bodies once binding is finished."""
@@ -136,21 +140,38 @@ class Binder:
         return ("s", keyword, self.statement(self.model.element(keyword, value)))
 
     def expression(self, node: Node) -> Tree:
-        constant = self.model.constant(node)
-        if constant is not None:
-            return self.number(constant)
-        match node:
-            case Time():
-                return ("t",)
-            case Mode():
-                return ("mode",)
-            case Op("**", (base, exponent)) if self.model.constant(exponent) is not None:
-                return ("o", "**", (self.expression(base), ("c", self.model.constant(exponent))))
-            case Op(op, args):
-                return ("o", op, tuple(self.expression(a) for a in args))
-            case Call():
-                return self.call(node)
+        return self._bound(node)[0]
+
+    def _bound(self, node: Node) -> tuple[Tree, float | None]:
+        """An expression, with its value if nothing in it changes."""
+        kind = type(node)
+        if kind is Num:
+            return self.number(node.value), node.value
+        if kind is Op:
+            return self._operation(node)
+        if kind is Call:
+            constant = self.model.constant(node)
+            return (
+                (self.call(node), None) if constant is None else (self.number(constant), constant)
+            )
+        if kind is Time or kind is Mode:
+            return ("t",) if kind is Time else ("mode",), None
         raise TypeError(f"not an expression: {node!r}")
+
+    def _operation(self, node: Op) -> tuple[Tree, float | None]:
+        """Numbers are parameters, except what they are folded from, and constant exponents."""
+        params = self.instance.params
+        mark = len(params)
+        trees, values = zip(*[self._bound(each) for each in node.args], strict=True)
+        if None not in values:
+            del params[mark:]
+            value = folded(node.op, values)
+            return self.number(value), value
+        if node.op == "**" and values[1] is not None:
+            if trees[1][0] == "p":
+                params.pop()
+            trees = (trees[0], ("c", values[1]))
+        return ("o", node.op, trees), None
 
     def output(self, node: Node, statement: Statement) -> Tree:
         """A value to write: zero for an element that is switched off."""
@@ -159,24 +180,26 @@ class Binder:
     def call(self, node: Call) -> Tree:
         if node.name in NET:
             return self.expression(written_out(node, self.model))
-        if any(self._is_off(arg) for arg in node.args):
+        if any([type(arg) is Ref and self._is_off(arg) for arg in node.args]):
             return ("c", 0.0)
-        parameters = FUNCTIONS[node.name]
-        args = tuple(
-            self.argument(parameters.parameter(n).kind, a) for n, a in enumerate(node.args)
+        function = FUNCTIONS[node.name]
+        return (
+            "f",
+            node.name,
+            tuple([self._taken(function, n, a) for n, a in enumerate(node.args)]),
         )
-        return ("f", node.name, args)
 
-    def _is_off(self, node: Node) -> bool:
+    def _is_off(self, ref: Ref) -> bool:
         """A reference to an element that is switched off: whatever it measures is zero."""
-        if not isinstance(node, Ref) or node.kind in ("MARKER", "VARIABLE", "DIFF"):
+        if ref.kind in ("MARKER", "VARIABLE", "DIFF"):
             return False
-        return not self.model.acts(self.model.element(node.kind, node.id))
+        return not self.model.acts(self.model.element(ref.kind, ref.id))
 
-    def argument(self, kind: str, node: Node) -> Tree:
-        if isinstance(node, Ref):
+    def _taken(self, function: Function, n: int, node: Node) -> Tree:
+        """Argument number ``n`` of a call."""
+        if type(node) is Ref:
             return self.reference(node)
-        if kind == "constant":
+        if function.parameter(n).kind == "constant":
             return ("c", int(node.value))
         return self.expression(node)
 
@@ -220,13 +243,16 @@ class Binder:
         node = (statement.keyword, statement.key)
         return self.node_slot(node) if self.model.has_unknowns(node) else -1
 
-    def key(self, face: str, body: Any) -> str:
-        """Everything that decides the native code."""
+    def key(self, face: str, body: Any) -> tuple:
+        """Everything that decides the native code.
+
+        Equal constants at the same place are of the same type, which field or parameter decides.
+        """
         at = self.instance
-        widths = [self.model.body_width(b) for b in at.bodies]
-        scalars = [self.model.node_width(n) for n in at.nodes]
+        widths = tuple([self.model.body_width(b) for b in at.bodies])
+        scalars = tuple([self.model.node_width(n) for n in at.nodes])
         counts = (len(at.params), len(at.signals))
-        return repr((face, body, self.elements, self.slots, widths, scalars, counts))
+        return (face, body, tuple(self.elements), tuple(self.slots), widths, scalars, counts)
 
 
 class View:

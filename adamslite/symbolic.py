@@ -23,7 +23,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from adamslite.algebra import sp
@@ -47,8 +46,7 @@ class Load(NamedTuple):
     follows: bool = False
 
 
-@dataclass(frozen=True)
-class Slot:
+class Slot(NamedTuple):
     """What a kernel must know of a marker; ``kind`` ground, point or part; ``body`` its slot."""
 
     kind: str
