@@ -85,6 +85,25 @@ at = [0.52, 0, 0]
 radius = 0.1
 teeth = 12""",
 ).replace("radius = 0.1\ninertia = 0.1\npay", "radius = 0.1\nteeth = 12\ninertia = 0.1\npay")
+FOLD = """\
+end = 1
+[cable]
+EA = 1e5
+rho = 1
+[[route]]
+kind = "fixed"
+at = [0, 0, 0]
+[[route]]
+kind = "bend"
+at = [0.01, -0.49, 0]
+radius = 0.01
+[[route]]
+kind = "free"
+at = [0.02, 0, 0]
+[model]
+elements = 60
+"""
+SLIPPING = ATWOOD.replace("radius = 0.2", "radius = 0.2\nmu = 0.3", 1)
 MOVED = 'payout = "0.5*TIME**2"'
 LAST = ATWOOD.index("[[route]]", ATWOOD.index("1.8"))
 # Code: (description, what is replaced, by what, the line and column of the caret).
@@ -128,12 +147,15 @@ WRONG = {
                        "level = 1", 'form = "brute"', (14, 1)),
     "brute-reel": (HOIST, MOVED, MOVED + "\nreel = { thickness = 0.01, core = 0.1 }", (12, 1)),
     "brute-plane": (HOIST, "level = 3", 'gravity = [0, -9, 1]', (18, 1)),
+    "bend-too-tight": (FOLD, "radius = 0.01", "radius = 0.005", (11, 1)),
+    "speed-on-a-route": (FOLD, "end = 1", "end = 1\nspeed = 3", (2, 1)),
     "pitches": (CHAIN, "teeth = 12\ninertia = 0.1\n[model]", "teeth = 13\ninertia = 0.1\n[model]",
                 (18, 1)),
     "loop-of-links": (CHAIN, "[0.52, 0, 0]", "[0.53, 0, 0]", (17, 1)),
     "rigid-cannot": (ATWOOD, "radius = 0.2", "radius = 0.2\nmu = 0.3", (13, 1)),
     "stored-too-little": (HOIST, MOVED, MOVED + '\nstored = 1', (12, 1)),
     "level-2-pays-out": (HOIST, "level = 3", "level = 2\nelements = 40", (17, 1)),
+    "level-2-unknown": (SLIPPING, "level = 1", "level = 2", (25, 1)),
     "rigid-has-waves": (ATWOOD, "mass = 3", "mass = 3\nvelocity = [10, 0, 0]", (25, 1)),
     "breaking": (ATWOOD, "rho = 0.01", "rho = 0.01\nbreaking_load = 40", (5, 1)),
     "paper-not-valid": (HOIST, "level = 3", 'level = 3\nform = "paper"\naccuracy = 1e-4', (18, 1)),

@@ -12,7 +12,7 @@ from adamslite.cables import demand
 from adamslite.cables.advise import advise
 from adamslite.cables.demand import Demand
 from adamslite.cables.estimate import Moves, moving_mass
-from adamslite.cables.geometry import Span, add, dot, unit, wrap
+from adamslite.cables.geometry import Span, add, dot, reaches, unit, wrap
 from adamslite.cables.messages import Faults
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import slipping
@@ -38,7 +38,7 @@ def tensions(spec: Spec, spans: list[Span]) -> list[float]:
     """Of every span at rest, at its lower or free end [N]: what hangs there, or the pretension."""
     first, last = spec.route[0], spec.route[-1]
     if spec.closed:
-        return [spec.cable.pretension] * len(spans)
+        return [max(spec.cable.pretension, spec.cable.running(spec.speed))] * len(spans)
     down = -dot(spec.gravity, spans[0].along), dot(spec.gravity, spans[-1].along)
     ends = [first.mass * max(0.0, down[0]), last.mass * max(0.0, down[1])]
     # Free wheels pass a tension on; nothing at an end takes what the other end, or a block, asks.
@@ -61,7 +61,10 @@ def _block(spec: Spec, spans: list[Span], i: int) -> float:
 
 def needs_brute(spec: Spec, spans: list[Span]) -> list[str]:
     """What only sections that run over the rims can show."""
+    if not any(each.is_wheel for each in spec.route):
+        return []
     found = ["the route is closed"] if spec.closed else []
+    found += ["nothing holds its bends"] if spec.bends else []
     for i, each in enumerate(spec.route):
         if each.teeth:
             found.append(f"the wheel of station {i + 1} has teeth")
@@ -108,15 +111,15 @@ def choose(spec: Spec, spans: list[Span], moves: Moves, faults: Faults) -> Choic
 def asked(spec: Spec, spans: list[Span], moves: Moves) -> Demand:
     """What the longest span is asked for; it lies on its line unless something strikes it."""
     cable = spec.cable
-    longest = max(spans, key=lambda span: span.length)
+    longest = max(reaches(spec, spans))
     weight = max(abs(dot(spec.gravity, span.along)) for span in spans)
     tied = any(each.is_wheel or each.is_moved or each.kind == "body" for each in spec.route)
     return Demand(
-        stiffness=cable.stiffness, density=cable.density, length=longest.length,
-        tension=min(tensions(spec, spans)) + cable.density * longest.length * weight / 2,
+        stiffness=cable.stiffness, density=cable.density, length=longest,
+        tension=min(tensions(spec, spans)) + cable.density * longest * weight / 2,
         moved=moving_mass(spec), pull=weight, least=moves.least, most=moves.most,
         speed=moves.speed, acceleration=moves.acceleration, known=moves.known, jump=moves.jump,
-        across=moves.across, straight=not moves.across, end=spec.end, tied=tied,
+        across=moves.across, straight=not (moves.across or spec.bends), end=spec.end, tied=tied,
     )  # fmt: skip
 
 
@@ -172,6 +175,9 @@ def _elements(spec: Spec, spans: list[Span], of: Demand, form: str) -> tuple[int
     radii = [each.radius for i, each in enumerate(spec.route) if _lies_on(spec, spans, i)]
     if form == "brute" and radii:
         found["for (h/R)^2/24 on a rim"] = of.length / min(radii) / sqrt(0.48 * spec.accuracy)
+    bends = [spec.route[i].radius for i in spec.bends]
+    if bends:
+        found["for one on a radius of a bend"] = of.length / min(bends)
     why = max(found, key=lambda name: found[name])
     count = min(ceil(found[why]), demand.MOST)
     return count, f"{count} sections {why}"
@@ -196,6 +202,8 @@ def _integrator(spec: Spec, of: Demand, level: int, form: str, count: int) -> tu
         error, says = (of.length / count) ** 2 / (800 * radius), "a tenth of what a node sinks in"
     elif any(slipping(i, spec) for i in range(len(spec.route))):
         method, why = "HHT", "friction that a small sliding speed builds up"
+    elif spec.bends and not of.tied:
+        method, why = "VERLET", "masses that nothing ties together and nothing keeps in place"
     elif demand.is_sudden(of, p) and not of.tied and not spec.has_run:
         method, why = "VERLET", "fronts in masses that nothing ties together"
     elif demand.has_waves(of, p) or spec.has_run:

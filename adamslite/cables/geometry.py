@@ -67,7 +67,8 @@ def spans(spec: Spec, faults: Faults) -> list[Span]:
     """All free pieces of the cable; says which cannot be."""
     found = []
     for i, j in spec.pairs:
-        span = _span(spec.route[i], spec.route[j], (i, j), faults)
+        a, b = spec.route[i], spec.route[j]
+        span = _span(a, b, (i, j), faults) if i != j else _ring(a)
         if span:
             found.append(span)
     if len(found) == len(spec.pairs):
@@ -76,12 +77,40 @@ def spans(spec: Spec, faults: Faults) -> list[Span]:
 
 
 def wrap(spec: Spec, spans: list[Span], i: int) -> float:
-    """Angle over which the cable lies on the wheel of station i, 0 to 2 pi; 0 at an end."""
+    """Angle over which the cable goes round station i, 0 to 2 pi; 0 at an end."""
     p, q = spec.beside(i)
     if p < 0 or q < 0:
         return 0.0
+    if p == q:
+        return 2 * pi
     a, b, axis = spans[p].along, spans[q].along, spec.route[i].axis
     return spec.route[i].turn * atan2(dot(cross(a, b), axis), dot(a, b)) % (2 * pi)
+
+
+def reaches(spec: Spec, spans: list[Span]) -> list[float]:
+    """Lengths of cable from one thing that holds or moves it to the next: of spans, joined by the
+    bends between them [m].
+    """
+    found = [span.length for span in spans]
+    lengths: list[float] = []
+    for p, (i, _) in enumerate(spec.pairs):
+        bent = spec.route[i].kind == "bend"
+        arc = spec.route[i].radius * wrap(spec, spans, i) if bent else 0.0
+        if bent and lengths:
+            lengths[-1] += arc + found[p]
+        else:
+            lengths.append(arc + found[p])
+    if spec.closed and len(lengths) > 1 and spec.route[0].kind == "bend":
+        lengths[0] += lengths.pop()
+    return lengths
+
+
+def _ring(each: Station) -> Span:
+    """Of a loop that is nothing but a circle: the point where it begins."""
+    helper = (1.0, 0.0, 0.0) if abs(each.axis[0]) < 0.9 else (0.0, 1.0, 0.0)
+    along = unit(cross(each.axis, helper))
+    place = add(each.at, cross(along, each.axis), each.turn * each.radius)
+    return Span(place, place, along, 0.0)
 
 
 def _span(a: Station, b: Station, at: tuple[int, int], faults: Faults) -> Span | None:
@@ -92,11 +121,11 @@ def _span(a: Station, b: Station, at: tuple[int, int], faults: Faults) -> Span |
     if spacing == 0:
         faults.add("zero-span", place, i=i, j=j)
         return None
-    axis = a.axis if a.is_wheel else b.axis
+    axis = a.axis if a.is_round else b.axis
     e = unit(between)
     m = unit(cross(axis, e))
-    if (a.is_wheel or b.is_wheel) and dot(m, m) < 0.5:
-        faults.add("axis-along-cable", ("route", at[0] if a.is_wheel else at[1], "axis"))
+    if (a.is_round or b.is_round) and dot(m, m) < 0.5:
+        faults.add("axis-along-cable", ("route", at[0] if a.is_round else at[1], "axis"))
         return None
     k = b.turn * b.radius - a.turn * a.radius
     reach = a.radius + b.radius
@@ -123,7 +152,7 @@ def _crossings(spec: Spec, found: list[Span], faults: Faults) -> None:
                 what = f"spans {_name(spec, p)} and {_name(spec, q)} meet"
                 faults.add("crossing", ("route", spec.pairs[q][0], "at"), what=what)
         for j, wheel in enumerate(spec.route):
-            if wheel.is_wheel and j not in spec.pairs[p]:
+            if wheel.is_round and j not in spec.pairs[p]:
                 centre = Span(wheel.at, wheel.at, ZERO, 0.0)
                 if apart(span, centre) < wheel.radius * (1 - 1e-9):
                     what = f"span {_name(spec, p)} runs through the wheel of station {j + 1}"

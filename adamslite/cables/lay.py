@@ -8,7 +8,7 @@ lie at R - T h/(R K), where a contact of stiffness K [N/m] carries them.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import acos, asin, atan2, cos, hypot, pi, sin, sqrt
+from math import acos, asin, atan2, cos, hypot, inf, pi, sin, sqrt
 
 from scipy.optimize import brentq
 
@@ -44,7 +44,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Arc:
-    """On the wheel of a station, from an angle on, turning with `turn`."""
+    """Round a station, from an angle on, turning with `turn`; `held` by a wheel, or by nothing."""
 
     centre: Point
     radius: float
@@ -53,12 +53,16 @@ class Arc:
     length: float
     station: int
     spans: tuple[int, int]
+    held: bool = True
 
     def reach(self, p: Point, h: float, sunk: float, way: float) -> float:
-        """How far on, along the rim, the point lies that is the distance h from p."""
+        """How far on, along the rim, the point lies that is the distance h from p; without end
+        where all of the rim is nearer."""
         r, x, y = self.radius - sunk, p[0] - self.centre[0], p[1] - self.centre[1]
         d = hypot(x, y)
         turned = acos(min(max((r * r + d * d - h * h) / (2 * r * d), -1.0), 1.0))
+        if h > r + d:
+            return inf
         come = self.turn * (atan2(y, x) - self.start) - way / self.radius
         # Whole turns do not count for where p is.
         come = (come + pi) % (2 * pi) - pi + way / self.radius
@@ -125,7 +129,7 @@ class Laid:
 
 def plane(spec: Spec) -> Plane:
     """The plane across the axles."""
-    axis = next(each.axis for each in spec.route if each.is_wheel)
+    axis = next(each.axis for each in spec.route if each.is_round)
     helper = (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0)
     ahead = unit(add(helper, axis, -dot(helper, axis)))
     return Plane(spec.route[0].at, ahead, cross(axis, ahead))
@@ -135,7 +139,7 @@ def stretches(spec: Spec) -> list[list[int]]:
     """Spans, in groups between ends and weights; a loop is one group."""
     groups: list[list[int]] = []
     for p, (i, _) in enumerate(spec.pairs):
-        if not groups or not (spec.route[i].is_wheel or spec.closed):
+        if not groups or not (spec.route[i].is_round or spec.closed):
             groups.append([])
         groups[-1].append(p)
     return groups
@@ -157,7 +161,7 @@ def way(
         span, j = spans[p], spec.pairs[p][1]
         along = dot(span.along, flat.ahead), dot(span.along, flat.across)
         parts.append(Line(flat.seen(span.start), along, span.length, p))
-        if spec.route[j].is_wheel and (spec.closed or j != last):
+        if spec.route[j].is_round and (spec.closed or j != last):
             length = spec.route[j].radius * wrap(spec, spans, j)
             parts.append(_arc(spec, flat, j, span.finish, length, (p, (p + 1) % len(spans))))
     if spec.closed:
@@ -182,7 +186,7 @@ def _arc(spec: Spec, flat: Plane, i: int, at: Vector, length: float, spans) -> A
     each = spec.route[i]
     centre, (x, y) = flat.seen(each.at), flat.seen(at)
     angle = atan2(y - centre[1], x - centre[0])
-    return Arc(centre, each.radius, angle, each.turn, length, i, spans)
+    return Arc(centre, each.radius, angle, each.turn, length, i, spans, each.is_wheel)
 
 
 def length(parts: list[Line | Arc], pitch: float) -> float:
@@ -221,7 +225,7 @@ def lay(
     nodes, _ = walk(free, count)
     begins, at = {}, 0.0
     for part in parts:
-        if isinstance(part, Arc):
+        if isinstance(part, Arc) and part.held:
             begins[part.station] = at, at + part.length
         at += part.length
     return Laid(nodes, free, begins)
@@ -261,7 +265,8 @@ class _Walk:
         return self.tension(part, at, flat.place(part.point(at, 0.0)))
 
     def _sunk(self, part: Line | Arc, pull: float, h: float) -> float:
-        return pull * h / part.radius / self.contact if isinstance(part, Arc) else 0.0
+        held = isinstance(part, Arc) and part.held
+        return pull * h / part.radius / self.contact if held else 0.0
 
     def _node(self, flat: Plane, part: Line | Arc, p: Point, at: float, way: float) -> Node:
         return Node(flat.place(p), flat.vector(part.direction(at)), way)

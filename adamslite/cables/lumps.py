@@ -10,12 +10,12 @@ weights, is MARKER/1000 s + k.
 """
 
 from dataclasses import dataclass
-from math import atan2, ceil, cos, pi, sin, sqrt
+from math import atan2, ceil, cos, inf, pi, sin, sqrt
 
 from adamslite.cables.choose import Choice, asked, tensions
 from adamslite.cables.demand import loaded
 from adamslite.cables.estimate import Moves
-from adamslite.cables.geometry import Span, add, dot
+from adamslite.cables.geometry import Span, add, dot, reaches, unit
 from adamslite.cables.lay import Laid, Line, lay, length, plane, stretches, way
 from adamslite.cables.pieces import end
 from adamslite.cables.statements import number, point, section
@@ -76,8 +76,9 @@ def stiffness(spec: Spec, spans: list[Span], moves: Moves, section: float) -> fl
 
 def write_lumps(spec: Spec, spans: list[Span], choice: Choice, moves: Moves) -> str:
     """Stretches, ends, contacts, what turns the wheels, results."""
-    section = spec.pitch or max(span.length for span in spans) / choice.elements
-    contact = stiffness(spec, spans, moves, section)
+    section = spec.pitch or max(reaches(spec, spans)) / choice.elements
+    wheels = any(each.is_wheel for each in spec.route)
+    contact = stiffness(spec, spans, moves, section) if wheels else inf
     held, found = stored(spec, moves), []
     for s, group in enumerate(stretches(spec), 1):
         parts = way(spec, spans, group, held)
@@ -85,7 +86,7 @@ def write_lumps(spec: Spec, spans: list[Span], choice: Choice, moves: Moves) -> 
         laid = lay(spec, parts, count, _tension(spec, spans), contact)
         first, last = spec.pairs[group[0]][0], spec.pairs[group[-1]][1]
         found.append(Stretch(s, laid, first, last, spec.closed))
-    text = _constants(spec, moves, contact, section)
+    text = _constants(spec, moves, contact, section) if wheels else ""
     text += "".join(_stretch(spec, each, start_speed(spec, moves)) for each in found)
     text += _ends(spec, found)
     for each in found:
@@ -96,17 +97,21 @@ def write_lumps(spec: Spec, spans: list[Span], choice: Choice, moves: Moves) -> 
 
 
 def start_speed(spec: Spec, moves: Moves) -> float:
-    """A loop starts at the speed that the first payout law starts with [m/s]."""
+    """A loop starts at its own speed, or at that which the first payout law starts with [m/s]."""
+    if spec.speed:
+        return spec.speed
     starts = [each.start for each in moves.paid.values()]
     return starts[0] if spec.closed and starts else 0.0
 
 
 def _tension(spec: Spec, spans: list[Span]):
-    """At rest: that of the span less the weight of the cable above its free end."""
+    """At rest: that of the span less the weight of the cable above its free end; one with bends
+    hangs from both its ends."""
     pulls, last = tensions(spec, spans), len(spans) - 1
 
     def pull(p: int, place: Vector) -> float:
         free = spec.route[-1 if p == last and spec.route[-1].is_free else 0].at
+        free = _lowest(spec) if spec.bends else free
         return pulls[p] - spec.cable.density * dot(spec.gravity, add(place, free, -1))
 
     def tension(part, at: float, place: Vector) -> float:
@@ -116,6 +121,13 @@ def _tension(spec: Spec, spans: list[Span]):
         return (1 - share) * pull(part.spans[0], place) + share * pull(part.spans[1], place)
 
     return tension
+
+
+def _lowest(spec: Spec) -> Vector:
+    """The lowest place that any station reaches."""
+    down = unit(spec.gravity)
+    places = [add(each.at, down, each.radius) for each in spec.route]
+    return max(places, key=lambda place: dot(place, down))
 
 
 def _constants(spec: Spec, moves: Moves, contact: float, section: float) -> str:
@@ -257,10 +269,11 @@ def _requests(spec: Spec, found: list[Stretch]) -> str:
     """Tension at the ends; travel, rim speed, load and driving pull of every wheel."""
     text = "\n! ---- results ----\n"
     for s in found:
-        if not s.closed:
+        if not s.closed or spec.bends:
             first, last = 1000 * s.number + 1, 1000 * s.number + len(s.laid.nodes) - 1
+            ends = f"at station {s.first + 1} and at station {s.last + 1}"
             text += (
-                f"! Tension at station {s.first + 1} and at station {s.last + 1}.\n"
+                f"! Tension {'of the first and the last section' if s.closed else ends}.\n"
                 f"REQUEST/{s.number}, F2=SFORCE({first},0,1)\\ F3=SFORCE({last},0,1)\n"
             )
     for i, each in enumerate(spec.route):

@@ -17,8 +17,8 @@ MESSAGES: dict[str, Message] = {
     "short-route": Message("a route has two ends and {count} stations", "add [[route]] tables"),
     "wrong-end": Message(
         "a {kind} cannot be {where}",
-        "ends: fixed, run, mass, body, winch; between them: pulley, winch, mass, body; on a loop:"
-        " pulley, winch",
+        "ends: fixed, free, run, mass, body, winch; between them: pulley, winch, mass, body, bend;"
+        " on a loop: pulley, winch, bend",
     ),
     "run-to-run": Message(
         "nothing is between two long runs", "a pulley or a mass that the cable meets"
@@ -73,8 +73,15 @@ MESSAGES: dict[str, Message] = {
         "level = 1, 2 or 3, or leave reel out",
     ),
     "brute-plane": Message(
-        "form brute takes a scene in one plane across its axles",
+        "sections round wheels and bends lie in one plane across their axes",
         "axles, places, velocities, gravity and the plane; or another form",
+    ),
+    "bend-too-tight": Message(
+        "a section of {section:.4g} m does not fit round a bend of {radius:.4g} m",
+        "a wider bend, or more elements",
+    ),
+    "speed-on-a-route": Message(
+        "a cable with ends does not run along itself", "closed = true, or velocity of a mass"
     ),
     "pitches": Message(
         "the pitch of station {i} is {first:.6g} m, of station {j} {second:.6g} m",
@@ -90,6 +97,12 @@ MESSAGES: dict[str, Message] = {
     "level-2-pays-out": Message(
         "level 2 has sections of {section:.4g} m and {travel:.4g} m of cable go over a wheel",
         "fewer elements, or level = 3",
+        severity=WARNING,
+    ),
+    "level-2-unknown": Message(
+        "level 2 has sections of {section:.4g} m, and how much cable goes over a wheel is not known"
+        " before the run: {why}",
+        "level = 3, or see that the run's travel stays below half a section",
         severity=WARNING,
     ),
     "rigid-has-waves": Message(

@@ -289,7 +289,7 @@ def end(spec: Spec, i: int, cable: float) -> str:
     from adamslite.cables.wheels import moved
 
     each, n = spec.route[i], marker(i)
-    if each.kind == "mass":
+    if each.kind in ("mass", "free"):
         return point(n, each.mass + cable, each.at, each.velocity)
     if each.kind == "body":
         speed = "".join(

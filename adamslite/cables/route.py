@@ -6,14 +6,15 @@ from typing import Any
 from adamslite.cables.messages import Faults
 from adamslite.cables.vocabulary import WHEELS
 
-INSIDE = ("pulley", "winch", "mass", "body")
-AT_ENDS = ("fixed", "run", "mass", "body", "winch")
-ON_A_LOOP = ("pulley", "winch", "mass")
+INSIDE = ("pulley", "winch", "mass", "body", "bend")
+AT_ENDS = ("fixed", "free", "run", "mass", "body", "winch")
+ON_A_LOOP = ("pulley", "winch", "mass", "bend")
 
 
 def check_route(faults: Faults, route: list[dict[str, Any]], closed: bool) -> None:
     """Say what is wrong with the stations as a whole."""
-    if len(route) < 2:
+    ring = closed and [each.get("kind") for each in route] == ["bend"]
+    if len(route) < 2 and not ring:
         faults.add("short-route", ("route", 0), count=len(route))
     if [each.get("kind") for each in route] == ["run", "run"]:
         faults.add("run-to-run", ("route", 1, "kind"))

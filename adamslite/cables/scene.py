@@ -3,7 +3,7 @@
 from adamslite.cables.choose import Choice, choose, needs_brute, tensions
 from adamslite.cables.demand import MOST
 from adamslite.cables.estimate import Moves, laws, travel
-from adamslite.cables.geometry import Span, spans, turned
+from adamslite.cables.geometry import Span, reaches, spans, turned
 from adamslite.cables.lay import length, stretches, way
 from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
@@ -31,6 +31,7 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     choice = choose(spec, pieces, moves, faults)
     _check_form(spec, pieces, choice, faults)
     _check_chain(spec, pieces, faults)
+    _check_shape(spec, pieces, choice, faults)
     _check(spec, pieces, moves, choice, faults)
     _stop(faults, faults.errors)
     return write(spec, pieces, moves, choice), sort_by_place(faults.found)
@@ -50,10 +51,16 @@ def _check_form(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) 
     if why and not brute:
         key = "form" if spec.form != "auto" else "level"
         faults.add("needs-brute", ("model", key), why="; ".join(why))
-    if brute:
+    if brute or spec.bends:
         _check_brute(spec, faults)
-    if choice.level > 1:
-        return
+    if choice.level == 1:
+        _check_rigid(spec, faults)
+
+
+def _check_rigid(spec: Spec, faults: Faults) -> None:
+    """Whether a rigid cable without mass can do what the description has."""
+    for i in spec.bends:
+        faults.add("rigid-cannot", ("route", i, "kind"), what="nothing keeps its bends")
     for i, each in enumerate(spec.route):
         if each.kind == "run":
             faults.add("rigid-cannot", ("route", i, "kind"), what="a long run has waves")
@@ -62,8 +69,8 @@ def _check_form(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) 
 
 
 def _check_brute(spec: Spec, faults: Faults) -> None:
-    """Whether sections can run over the rims."""
-    if not any(each.is_wheel for each in spec.route):
+    """Whether sections can be laid round the wheels and bends, and run over the rims."""
+    if not any(each.is_round for each in spec.route):
         faults.add("brute-no-wheel", ("model", "form"))
     elif not in_plane(spec):
         faults.add("brute-plane", ("model", "form"))
@@ -92,9 +99,20 @@ def _check_chain(spec: Spec, pieces: list[Span], faults: Faults) -> None:
                    off=(round(links) - links) * spec.pitch / 2)  # fmt: skip
 
 
+def _check_shape(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) -> None:
+    """Whether the sections fit round the bends, and only a loop runs along itself."""
+    section = max(reaches(spec, pieces)) / choice.elements
+    for i in spec.bends:
+        radius = spec.route[i].radius
+        if section > 2 * radius:
+            faults.add("bend-too-tight", ("route", i, "radius"), section=section, radius=radius)
+    if spec.speed and not spec.closed:
+        faults.add("speed-on-a-route", ("speed",))
+
+
 def _check(spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults: Faults) -> None:
     """What only the choice and the travel show."""
-    longest = max(piece.length for piece in pieces)
+    longest = max(reaches(spec, pieces))
     count = choice.elements
     held = stored(spec, moves) if choice.form == "brute" else {}
     if choice.form == "brute":
@@ -117,8 +135,20 @@ def _check(spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults:
         if i in held and paid.most > held[i]:
             faults.add("stored-too-little", ("route", i, "stored"), value=paid.most, held=held[i])
     section = longest / choice.elements
-    if choice.level == 2 and moves.way > section / 2 and choice.form != "brute":
-        faults.add("level-2-pays-out", ("model", "level"), section=section, travel=moves.way)
+    _check_fixed(spec, choice, moves, section, faults)
     most = max(tensions(spec, pieces))
     if 0 < spec.cable.breaking < most:
         faults.add("breaking", ("cable", "breaking_load"), tension=most, limit=spec.cable.breaking)
+
+
+def _check_fixed(spec: Spec, choice: Choice, moves: Moves, section: float, faults: Faults) -> None:
+    """Whether a section of fixed length can take the cable that comes over a wheel."""
+    route = spec.route
+    # Between two wheels there is one spring, which cable may run through.
+    sections = any(not (route[i].is_wheel and route[j].is_wheel) for i, j in spec.pairs)
+    if choice.level != 2 or choice.form == "brute" or not sections:
+        return
+    if moves.way > section / 2:
+        faults.add("level-2-pays-out", ("model", "level"), section=section, travel=moves.way)
+    elif moves.unknown:
+        faults.add("level-2-unknown", ("model", "level"), section=section, why=moves.unknown)

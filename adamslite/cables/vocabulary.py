@@ -28,6 +28,13 @@ class Cable:
         """Axial wave speed c = sqrt(EA/rho) [m/s]."""
         return sqrt(self.stiffness / self.density)
 
+    def running(self, speed: float) -> float:
+        """Tension that keeps the shape of a cable that runs along itself at `speed`: T (1 + T/EA) =
+        rho v^2, the momentum rho v/(1 + T/EA) v that passes a place in a second [N].
+        """
+        half = self.stiffness / 2
+        return sqrt(half**2 + self.stiffness * self.density * speed**2) - half
+
 
 @dataclass(frozen=True)
 class Reel:
@@ -51,7 +58,8 @@ class Reel:
 
 @dataclass(frozen=True)
 class Station:
-    """A point of the route: an end, a weight on the cable, or a wheel the cable lies on.
+    """A point of the route: an end, a weight on the cable, a wheel the cable lies on, or a bend
+    that it has at the start and nothing holds.
 
     `mu` is negative where the cable cannot slip, `stored` where it is not written; `mass` is that
     of a weight, or of the carriage of a wheel that is free to move.
@@ -83,9 +91,14 @@ class Station:
         return self.kind in WHEELS
 
     @property
+    def is_round(self) -> bool:
+        """Whether the cable goes round it at the start."""
+        return self.is_wheel or self.kind == "bend"
+
+    @property
     def is_free(self) -> bool:
-        """Whether it is a weight that moves through space with the cable."""
-        return self.kind in ("mass", "body")
+        """Whether it moves through space with the cable: a weight, or an end without one."""
+        return self.kind in ("mass", "body", "free")
 
     @property
     def is_moved(self) -> bool:
@@ -123,6 +136,7 @@ class Spec:
     steps: int
     error: float
     closed: bool
+    speed: float
     cable: Cable
     route: tuple[Station, ...]
     level: int
@@ -147,6 +161,11 @@ class Spec:
         return any(each.kind == "run" for each in self.route)
 
     @property
+    def bends(self) -> list[int]:
+        """Stations where the cable is bent and nothing holds it."""
+        return [i for i, each in enumerate(self.route) if each.kind == "bend"]
+
+    @property
     def pitch(self) -> float:
         """Of a chain, 0 for a cable [m]."""
         return next((each.pitch for each in self.route if each.teeth), 0.0)
@@ -168,7 +187,7 @@ class Spec:
 
 
 WHEELS = ("pulley", "winch")
-KINDS = ("fixed", "run", "mass", "body", *WHEELS)
+KINDS = ("fixed", "free", "run", "mass", "body", "bend", *WHEELS)
 FORMS = ("auto", "paper", "ale", "brute")
 
 # Key -> (what it takes, a rule for its value, the value without the key; None when it is needed).
@@ -179,6 +198,7 @@ TOP = {
     "steps": ("whole", "not-positive", 200),
     "error": ("number", "not-positive", 0.0),
     "closed": ("yes or no", "", False),
+    "speed": ("number", "negative", 0.0),
 }
 CABLE = {
     "EA": ("number", "not-positive", None),
@@ -215,13 +235,16 @@ CARRIED = {
     "slide": ("vector", "", ZERO),
     "pull": ("text", "", ""),
 }
+ROUND = {
+    "radius": ("number", "not-positive", None),
+    "axis": ("vector", "", (0.0, 0.0, 1.0)),
+    "turn": ((1, -1), "", 0),
+}
 WHEEL = (
     MOVED
     | CARRIED
+    | ROUND
     | {
-        "radius": ("number", "not-positive", None),
-        "axis": ("vector", "", (0.0, 0.0, 1.0)),
-        "turn": ((1, -1), "", 0),
         "inertia": ("number", "not-positive", None),
         "friction": ("number", "negative", 0.0),
         "mu": ("number", "negative", -1.0),
@@ -231,9 +254,11 @@ WHEEL = (
 MASS = {"mass": ("number", "not-positive", None), "velocity": ("vector", "", ZERO)}
 STATIONS = {
     "fixed": PLACE | MOVED,
+    "free": PLACE,
     "run": PLACE,
     "mass": PLACE | MASS,
     "body": PLACE | MASS | {"inertia": ("number", "not-positive", None)},
+    "bend": PLACE | ROUND,
     "pulley": PLACE | WHEEL,
     "winch": PLACE
     | WHEEL

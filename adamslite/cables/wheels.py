@@ -167,8 +167,8 @@ def own_names(text: str, n: int) -> str:
 
 
 def in_plane(spec: Spec) -> bool:
-    """Whether all wheels have one axis, and everything lies and moves across it."""
-    axes = [each.axis for each in spec.route if each.is_wheel]
+    """Whether all wheels and bends have one axis, and everything lies and moves across it."""
+    axes = [each.axis for each in spec.route if each.is_round]
     if not axes:
         return True
     axis, origin = axes[0], spec.route[0].at

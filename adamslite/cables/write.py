@@ -47,7 +47,7 @@ def write(spec: Spec, spans: list[Span], moves: Moves, choice: Choice) -> str:
     speed = start_speed(spec, moves)
     for i, each in enumerate(spec.route):
         text += wheel(spec, i, speed) if each.is_wheel else ""
-    if brute:
+    if brute or spec.bends:
         text += write_lumps(spec, spans, choice, moves)
     else:
         text += write_pieces(spec, spans, choice)

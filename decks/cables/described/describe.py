@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
@@ -128,8 +129,62 @@ def arrestment() -> str:
     return table(["time", "POINT_MASS/20.y", "POINT_MASS/20.vy"], lines, [t, y, speed])
 
 
+def ring() -> str:
+    """A point of the ring that runs round, and its tension: T (1 + T/EA) = rho v^2."""
+    stiffness, density, radius, speed = 6e7, 5.536, 0.5, 100.0
+    pull = brentq(lambda x: x * (1 + x / stiffness) - density * speed**2, 0, 1e5, rtol=1e-14)
+    t = np.linspace(0, 0.1, 101)
+    angle = speed * t / radius
+    lines = [
+        "Place of a point, tension: README.md",
+        "written by describe.py",
+        "tolerance POINT_MASS/1000.*: abs 5e-5",
+        "tolerance REQUEST/1.F2: rel 2e-5",
+    ]
+    columns = [t, radius * np.cos(angle), radius * np.sin(angle), pull + 0 * t]
+    return table(["time", "POINT_MASS/1000.x", "POINT_MASS/1000.y", "REQUEST/1.F2"], lines, columns)
+
+
+def folded() -> str:
+    """Place and speed of the free end: masses on n links of the length h that do not stretch.
+
+    Link k at the angle a_k from the downward vertical, s_k the mass below it:
+        sum_k s_max(j,k) h (cos(a_j - a_k) a_k" + sin(a_j - a_k) a_k'^2) = -s_j g sin a_j
+    At the start one link lies across the bend, one leans towards it on either side.
+    """
+    n, arm, radius, down, density = 51, 24, 0.01, 0.49, 1.0
+
+    def fold(h):
+        """Height of the lean links, and of the link across below the middle of the bend."""
+        return np.sqrt(h**2 - (radius - h / 2) ** 2), np.sqrt(radius**2 - h**2 / 4)
+
+    h = brentq(lambda h: arm * h + fold(h)[0] - fold(h)[1] - down, 1.5 * radius, 2 * radius)
+    lean = np.arcsin((radius - h / 2) / h)
+    start = [*np.zeros(arm), lean, np.pi / 2, np.pi - lean, *np.full(arm, np.pi), *np.zeros(n)]
+    below = density * h * (np.arange(n)[::-1] + 0.5)
+    shared = below[np.maximum.outer(np.arange(n), np.arange(n))]
+
+    def rates(_, y):
+        a, w = y[:n], y[n:]
+        d = a[:, None] - a
+        load = -below * G * np.sin(a) - (shared * np.sin(d)) @ w**2 * h
+        return np.concatenate([w, np.linalg.solve(shared * np.cos(d) * h, load)])
+
+    t = np.linspace(0, 0.38, 191)
+    run = solve_ivp(rates, (0, t[-1]), start, "DOP853", t, rtol=1e-9, atol=1e-9)
+    t, a, w = t[:181], run.y[:n, :181], run.y[n:, :181]
+    lines = [
+        "Place and speed of the free end: README.md",
+        "written by describe.py",
+        "tolerance POINT_MASS/30.y: abs 1e-4",
+        "tolerance POINT_MASS/30.vy: abs 3e-2",
+    ]
+    columns = [t, -h * np.cos(a).sum(0), h * (np.sin(a) * w).sum(0)]
+    return table(["time", "POINT_MASS/30.y", "POINT_MASS/30.vy"], lines, columns)
+
+
 def main() -> None:
-    for case in (drum, belt, slip, crane, arrestment, reels):
+    for case in (drum, belt, slip, crane, arrestment, reels, ring, folded):
         name = case.__name__
         text, _ = deck((HERE / f"{name}.toml").read_text(encoding="utf-8"))
         (HERE / f"{name}.adm").write_text(text, encoding="utf-8")
