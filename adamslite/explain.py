@@ -18,6 +18,8 @@ from adamslite.unknowns import equation, placed, tested, unknown
 MOST_SEARCHED = 1500
 # Singular values below this share of the largest are zero.
 RANK = 1e-12
+# The search ahead for an expression without a value doubles its way so often at most.
+DOUBLINGS = 40
 # Least steps below this share of the run are its own.
 ROUND_OFF = 1e-12
 
@@ -54,8 +56,11 @@ def _where(system: System) -> str:
 def _error(system: System) -> str:
     """What the error test fails for, and by how much."""
     report = system.report
+    if not report[base.STEP]:
+        return f"{_where(system)}, HMAX is too short a step to change the time"
     found = f"{tested(system, int(report[base.WHERE]))}: {_when(system)}"
-    return f"{found}, the estimated error is {report[base.HOW_MUCH]:.3g} times ERROR"
+    told = f"{found}, the estimated error is {report[base.HOW_MUCH]:.3g} times ERROR"
+    return told + _held_up(system)
 
 
 def _corrector(system: System) -> str:
@@ -70,7 +75,15 @@ def _corrector(system: System) -> str:
         f"{report[base.OPEN_BY]:.3g} after iteration {report[base.ITERATION]:.0f}, more than all"
     )
     moving = unknown(system, int(report[base.CHANGED]))
-    return f"{said} others. {moving}, changes most, by {report[base.CHANGE]:.3g}"
+    told = f"{said} others. {moving}, changes most, by {report[base.CHANGE]:.3g}"
+    return told + _held_up(system)
+
+
+def _held_up(system: System) -> str:
+    """What there is to say when HMIN kept the step from being shorter."""
+    return (
+        ". HMIN allows no shorter step; a smaller one, or none, would" if _is_least(system) else ""
+    )
 
 
 def _singular_mass(system: System) -> str:
@@ -86,8 +99,8 @@ def _singular_mass(system: System) -> str:
 
 
 def _undetermined(system: System) -> str:
-    """The coordinate that the equations leave open most: largest in the null vector of the
-    matrix of accelerations and multipliers.
+    """The unknown that the equations leave open most: largest in the null vector of the matrix of
+    accelerations, multipliers and variables; when it has none, the equation that stays open.
     """
     if system.nz > MOST_SEARCHED:
         return _where(system)
@@ -98,23 +111,39 @@ def _undetermined(system: System) -> str:
     kept = [k for k in range(count) if k - system.n not in system.dropped]
     _, sizes, rows = np.linalg.svd(matrix[np.ix_(kept, kept)])
     if sizes[-1] > RANK * sizes[0]:
-        return _where(system)
-    return f"{unknown(system, kept[int(np.abs(rows[-1]).argmax())])}: {_where(system)}, it is free"
+        return _open(system, kept)
+    free = kept[int(np.abs(rows[-1]).argmax())]
+    why = "it is free" if free < system.n + system.m else "every value of it would do, or none"
+    return f"{unknown(system, free)}: {_where(system)}, {why}"
+
+
+def _open(system: System, rows: list[int]) -> str:
+    """The equation of accelerations that is farthest from being solved."""
+    system.run(RESIDUAL, base.ACCELERATION)
+    sizes = np.abs(system.F[rows])
+    worst = int(np.argmax(np.where(np.isfinite(sizes), sizes, np.inf)))
+    return f"{equation(system, rows[worst])}: {_where(system)}, it stays open by {sizes[worst]:.3g}"
 
 
 def _not_finite(system: System) -> str:
-    """The statement whose expression has no value where the run stands, or a step further."""
+    """The statement whose expression has no value where the run stands, or further ahead: as far
+    as an output step of VERLET, which stands still at the last output time.
+    """
     start, report = system.q.copy(), system.report
     system.a[:], system.z[:] = 0.0, np.nan_to_num(system.z)
-    system.settings[base.T] = report[base.AT]
-    guilty = _without_value(system)
-    if guilty is None:
-        system.settings[base.T] += report[base.STEP]
-        system.q[: system.n] += report[base.STEP] * system.u[: system.n]
+    ahead = [0.0, *(report[base.STEP] * np.exp2(range(DOUBLINGS)))]
+    far = float(np.diff(system.times).max(initial=0.0))
+    for way in (each for each in ahead if each <= max(far, report[base.STEP])):
+        system.settings[base.T] = report[base.AT] + way
+        system.q[: system.n] = start[: system.n] + way * system.u[: system.n]
         guilty = _without_value(system)
-        system.q[:] = start
-    found = placed(guilty) if guilty else tested(system, int(report[base.WHERE]))
-    return f"{found}: {_when(system)}"
+        if guilty is not None:
+            break
+    system.q[:] = start
+    if guilty is not None:
+        return f"{placed(guilty)}: {_when(system)}"
+    told = f"{tested(system, int(report[base.WHERE]))}: {_when(system)}"
+    return f"{told}, though no statement by itself lacks a value. Look at END, HMAX and ERROR too"
 
 
 def _without_value(system: System) -> Any:

@@ -14,8 +14,8 @@ class Outcome(Enum):
     )
     STEP_TOO_SMALL = (
         "The steps needed to meet ERROR became too small to advance the time. Look for a jump in "
-        "a force or a motion (use STEP instead of IF) or a stiffness that is far too large, or "
-        "allow a larger ERROR."
+        "a force or a motion (use STEP instead of IF), a motion that grows without bound or a "
+        "stiffness that is far too large, or allow a larger ERROR."
     )
     NEWTON_FAILED = (
         "The corrector did not converge even with the smallest step. Look for a jump or a pole in "
@@ -31,7 +31,8 @@ class Outcome(Enum):
     )
     UNDETERMINED = (
         "The equations do not determine the accelerations. Look for a part without mass or inertia "
-        "that no constraint carries, or a posture in which a mechanism can move two ways."
+        "that no constraint carries, a posture in which a mechanism can move two ways, or a "
+        "VARIABLE that refers to itself."
     )
     NO_EQUILIBRIUM = (
         "No static equilibrium was found. Look for a body that nothing holds against gravity, "

@@ -155,7 +155,7 @@ def test_a_step_too_small_names_what_the_error_test_fails_for():
     assert results.outcome is Outcome.STEP_TOO_SMALL
     told = re.fullmatch(
         r"PART/2 \(<text>:4:1\), (.*): at t = 0, in step 1 of size 0\.1 \(HMIN\) and order 1, "
-        r"the estimated error is ([\d.e+]+) times ERROR\.",
+        r"the estimated error is ([\d.e+]+) times ERROR\. HMIN allows no shorter step; .*",
         reason(results),
     )
     assert told and told[1].startswith(("rotation about", "angular velocity about"))
@@ -172,7 +172,7 @@ def test_a_corrector_that_failed_names_equation_and_unknown(method):
     told = re.fullmatch(
         place + r"(forces along|torques about|speed of )?.*: at t = 0, in step 1 of size 0\.1 "
         r"\(HMIN\) and order \d, this equation is off by ([\d.e+-]+) after iteration 1, more than "
-        r"all others\. " + place + r".+, changes most, by ([\d.e+-]+)\.",
+        r"all others\. " + place + r".+, changes most, by ([\d.e+-]+)\. HMIN allows no shorter .*",
         reason(results),
     )
     assert told, results.message
@@ -200,6 +200,46 @@ def test_an_expression_without_a_value_is_named(method):
     assert re.fullmatch(rf"VFORCE/7 \(<text>:9:1\): {WHEN} and order \d\.", reason(results))
     assert results.summary["t_end"] == pytest.approx(0.5, abs=1e-6)
     assert results.time[-1] >= 0.4
+
+
+ALL = ("GSTIFF", "GSTIFF, I3", "CONSTANT_BDF", "HHT", "NEWMARK", "RADAU", "ABAM", "VERLET")
+
+
+@pytest.mark.parametrize("method", ALL)
+def test_one_body_without_a_value_among_others_that_are_well(method):
+    """x" = 3 sqrt(1 - x) has no value beyond x = 1, which it passes at t = 0.83 from x' = 0.2.
+
+    What comes after it, in numbers and in bodies, is at rest: a largest error or increment over all
+    of them must not forget the one that is not a number.
+    """
+    deck = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=0.2\nMARKER/2, POINT_MASS=2\n"
+    deck += "POINT_MASS/3, MASS=1, CM=3, QG=0,1,0\nMARKER/3, POINT_MASS=3\n"
+    deck += "VFORCE/7, I=2, J_PART=1, FX=3*SQRT(1-DX(2))\nEND\n"
+    results = said(with_integrator(deck, method), 2.0, 20)
+    assert results.outcome is Outcome.NOT_FINITE
+    assert reason(results).startswith("VFORCE/7 (<text>:8:1): at t = 0.")
+    assert 0.6 < results.time[-1] < 0.9
+    assert np.isfinite(results.values).all()
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [({"error": 1e-300}, "ERROR too"), ({"hmax": 1e-300}, "HMAX is too short a step")],
+)
+def test_settings_out_of_all_proportion_are_told(options, told):
+    """No expression is to blame for an ERROR of 1e-300, nor accuracy for an HMAX of 1e-300."""
+    assert told in reason(said(FALLING + "END\n", **options))
+
+
+@pytest.mark.parametrize(
+    ("function", "told"),
+    [("VARVAL(6)+1", "every value of it would do, or none"), ("VARVAL(6)**2+1", "open by 1")],
+)
+def test_a_variable_that_has_no_solution_is_named(function, told):
+    results = said(FALLING + f"VARIABLE/6, FUNCTION={function}\nEND\n")
+    assert results.outcome is Outcome.UNDETERMINED
+    assert reason(results).startswith("VARIABLE/6 (<text>:8:1): at t = 0, ")
+    assert reason(results).endswith(f"{told}.")
 
 
 def test_an_expression_without_a_value_at_the_start():

@@ -15,6 +15,8 @@ from adamslite.integrators import base
 from adamslite.outcomes import Outcome
 from adamslite.system import System
 
+# Error estimates from here on stand for not-a-number.
+OVERFLOW = 1e300
 # CORRECTOR options that ask for convergence of multipliers too.
 EVERYTHING = ("ORIGINAL", "ORIG_CONSTANT")
 OUTCOMES = {
@@ -130,16 +132,20 @@ def run_dynamic(
 
 
 def _named(system: System, code: int) -> Outcome:
-    """The outcome of a return code; not-a-number is neither a singular start nor a corrector
-    that does not converge.
+    """The outcome of a return code.
+
+    Not-a-number is neither a singular matrix of accelerations, nor a corrector that does not
+    converge, nor an error that is too large; and no force cancels a mass where none depends on
+    accelerations.
     """
-    if code == base.BROKEN_START:
-        known = np.isfinite(system.F).all() and np.isfinite(system.LA).all()
-        singular = bool(system.sizes[base.IMPLICIT_MASS])
-        if known:
-            return Outcome.SINGULAR_ACCELERATION if singular else Outcome.UNDETERMINED
+    report, cancels = system.report, bool(system.sizes[base.IMPLICIT_MASS])
+    if code == base.BROKEN_START or (code == base.SINGULAR_MASS and not cancels):
+        if not (np.isfinite(system.F).all() and np.isfinite(system.LA).all()):
+            return Outcome.NOT_FINITE
+        return Outcome.SINGULAR_ACCELERATION if cancels else Outcome.UNDETERMINED
+    if code == base.NEWTON_FAILED and np.isnan(report[base.OPEN_BY]):
         return Outcome.NOT_FINITE
-    if code == base.NEWTON_FAILED and np.isnan(system.report[base.OPEN_BY]):
+    if code == base.STEP_TOO_SMALL and not report[base.HOW_MUCH] < OVERFLOW:
         return Outcome.NOT_FINITE
     return OUTCOMES[code]
 

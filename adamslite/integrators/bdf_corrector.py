@@ -46,6 +46,7 @@ from adamslite.integrators.newton import (
     renews,
     velocity_change,
 )
+from adamslite.integrators.norms import exceeds
 from adamslite.translate import Reals, native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
@@ -191,9 +192,9 @@ def wildest(P: Problem) -> int:
     """The unknown with the largest last increment, numbered as in the error test."""
     n, first, where, top = P.sizes[N], P.sizes[M] + P.sizes[NV], 0, -1.0
     for i in range(n):
-        if not abs(P.F[i]) <= top * max(1.0, abs(P.q[i])):
+        if exceeds(abs(P.F[i]), top * max(1.0, abs(P.q[i]))):
             top, where = abs(P.F[i]) / max(1.0, abs(P.q[i])), i
     for k in range(first, first + P.sizes[NS]):
-        if not abs(P.F[n + k]) <= top * max(1.0, abs(P.z[k])):
+        if exceeds(abs(P.F[n + k]), top * max(1.0, abs(P.z[k]))):
             top, where = abs(P.F[n + k]) / max(1.0, abs(P.z[k])), 2 * n + k - first
     return where

@@ -22,6 +22,7 @@ from adamslite.integrators.base import (
 )
 from adamslite.integrators.bdf_state import EQUAL, K_TOP, H, K, cut, resize
 from adamslite.integrators.history import MAX_ORDER
+from adamslite.integrators.norms import exceeds
 from adamslite.integrators.order_cap import TRIES, suspect
 from adamslite.translate import Reals, native
 
@@ -44,11 +45,11 @@ def weighted(
     for i in range(2 * n if si2 else n):
         # Compared before divided: few elements ever set a new maximum.
         weight = max(1.0, abs(y[i]))
-        if not abs(D[o + i]) <= top * weight:
+        if exceeds(abs(D[o + i]), top * weight):
             top, where = abs(D[o + i]) / weight, i
     for i in range(2 * n, 2 * n + ns):
         weight = max(1.0, abs(y[i]))
-        if not abs(D[o + i]) <= top * weight:
+        if exceeds(abs(D[o + i]), top * weight):
             top, where = abs(D[o + i]) / weight, i
     report[WHERE] = where
     return top

@@ -20,6 +20,7 @@ from adamslite.integrators.explicit_state import (
     WIDTH,
     H,
 )
+from adamslite.integrators.norms import exceeds
 from adamslite.translate import Reals, native
 
 # The next step aims at this share of what the error test allows; exponents of the present and the
@@ -36,7 +37,7 @@ def distance(P: Problem, a: Reals, y: Reals, w: int) -> float:
     for i in range(w):
         # Compared before divided: few elements ever set a new maximum.
         weight = max(1.0, abs(y[i]))
-        if not abs(a[i]) <= top * weight:
+        if exceeds(abs(a[i]), top * weight):
             top, where = abs(a[i]) / weight, i
     P.report[WHERE] = where
     return top / P.settings[ERROR]

@@ -33,6 +33,7 @@ from adamslite.integrators.equations import (
     spread,
 )
 from adamslite.integrators.linalg import factor
+from adamslite.integrators.norms import exceeds
 from adamslite.translate import Reals, native
 
 # Increments of positions below this share of the largest position are round-off.
@@ -149,12 +150,12 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
             if tied:
                 wq, wu = 1.0, 1.0
             # Compared before divided: few elements ever set a new maximum.
-            if not change <= largest * wq or not cu * change <= largest * wu:
+            if exceeds(change, largest * wq) or exceeds(cu * change, largest * wu):
                 largest = max(change / wq, cu * change / wu)
     first = P.sizes[M]
     for k in range(first, first + P.sizes[NV] + P.sizes[NS]):
         size = abs(dz[n + k]) / max(1.0, abs(z[k]))
-        if not size <= largest:
+        if exceeds(size, largest):
             largest = size
     return largest
 
@@ -182,9 +183,9 @@ def multiplier_change(P: Problem, dz: Reals, z: Reals, ca: float) -> float:
         heaviest = max(heaviest, P.mass[b])
     noise = ROUND_OFF * reach * ca * heaviest
     for k in range(P.sizes[M]):
-        change = abs(dz[P.sizes[N] + k])
-        if not change <= noise:
-            largest = max(largest, change / max(1.0, abs(z[k])))
+        change, weight = abs(dz[P.sizes[N] + k]), max(1.0, abs(z[k]))
+        if not change <= noise and exceeds(change, largest * weight):
+            largest = change / weight
     return largest
 
 
@@ -198,6 +199,6 @@ def velocity_change(P: Problem, before: Reals, cu: float) -> float:
     for i in range(P.sizes[N]):
         reach = max(reach, abs(P.q[i]))
         change = abs(P.u[i] - before[i])
-        if not change <= largest:
+        if exceeds(change, largest):
             largest = change
     return largest if largest > cu * ROUND_OFF * reach else 0.0

@@ -31,6 +31,7 @@ from adamslite.integrators.equations import (
     run_groups,
 )
 from adamslite.integrators.linalg import solve
+from adamslite.integrators.norms import exceeds
 from adamslite.translate import Reals, native
 
 SWEEPS = 8
@@ -80,7 +81,7 @@ def violation(P: Problem, phases: int) -> float:
         P.F[P.dead[k]] = 0.0
     largest = 0.0
     for k in range(n, n + m):
-        if not abs(P.F[k]) <= largest:
+        if exceeds(abs(P.F[k]), largest):
             largest = abs(P.F[k])
     return largest
 

@@ -63,6 +63,7 @@ from adamslite.integrators.newton import (
     apply_increment,
     multiplier_change,
 )
+from adamslite.integrators.norms import exceeds
 from adamslite.integrators.radau_coefficients import (
     ALPHA_MODE,
     BETA_MODE,
@@ -282,9 +283,7 @@ def move_stages(P: Problem, h: float) -> float:
 def larger(largest: float, change: float, value: float) -> float:
     """The larger of ``largest`` and |change|/max(1, |value|); one that is not a number wins."""
     weight = max(1.0, abs(value))
-    if abs(change) <= largest * weight:
-        return largest
-    return abs(change) / weight
+    return abs(change) / weight if exceeds(abs(change), largest * weight) else largest
 
 
 @native

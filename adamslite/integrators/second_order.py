@@ -42,6 +42,7 @@ from adamslite.integrators.equations import (
 from adamslite.integrators.event_stops import fitted, horizon, step_limit
 from adamslite.integrators.linalg import factor
 from adamslite.integrators.newton import ROUND_OFF, multiplier_change
+from adamslite.integrators.norms import exceeds
 from adamslite.translate import Reals, native
 
 # Rotations within a step below this change the matrix less than a kept one is allowed to be off.
@@ -190,7 +191,7 @@ def move_all(P: Problem, dz: Reals) -> float:
             q[i + k], u[i + k], a[i + k] = x, v, w
             W[o + k], W[o + 3 + k], W[o + 6 + k] = x, v, w
             # Compared before divided: few elements ever set a new maximum.
-            if not abs(d) <= largest * max(1.0, abs(x)):
+            if exceeds(abs(d), largest * max(1.0, abs(x))):
                 largest = abs(d) / max(1.0, abs(x))
         if kind == PART:
             back_rotate(q, dz, i, dz)
@@ -199,7 +200,7 @@ def move_all(P: Problem, dz: Reals) -> float:
                 u[i + k] -= cu * d
                 a[i + k] -= ca * d
                 W[o + 6 + k], W[o + 9 + k] = u[i + k], a[i + k]
-                if not abs(d) <= largest:
+                if exceeds(abs(d), largest):
                     largest = abs(d)
             turn_from_start(P, i)
             attitude(q[i + 3], q[i + 4], q[i + 5], P.base, 9 * b, W, o + 15)
@@ -241,15 +242,15 @@ def position_error(P: Problem) -> float:
         # b+ - b with b moved to this step's place.
         change = (1.0 + s[ALPHA]) * (P.a[i] - A[i]) - stretch * (B[i] - A[i])
         size, jump = max(size, abs(P.a[i])), max(jump, abs(change))
-        if not scale * abs(change) <= top * max(1.0, abs(P.q[i])):
+        if exceeds(scale * abs(change), top * max(1.0, abs(P.q[i]))):
             top, where = scale * abs(change) / max(1.0, abs(P.q[i])), i
-        if not fast * abs(change) <= top * max(1.0, abs(P.u[i])):
+        if exceeds(fast * abs(change), top * max(1.0, abs(P.u[i]))):
             top, where = fast * abs(change) / max(1.0, abs(P.u[i])), i
     for b in range(P.sizes[NB]):
         if P.body[BODY * b] == PART:
             i = P.body[BODY * b + 1]
             bend = bend_of(P.u[i + 3], P.u[i + 4], P.u[i + 5], C[H])
-            if not bend <= top:
+            if exceeds(bend, top):
                 top, where = bend, i + 3
     C[ROUGH] = 1.0 if jump > HALF * size and top > FELT * s[ERROR] else 0.0
     first = P.sizes[M] + P.sizes[NV]
@@ -257,7 +258,7 @@ def position_error(P: Problem) -> float:
         o = 4 * n + k
         rate, value = D[o + ns], P.z[first + k]
         explicit = D[o] + C[H] * (rate + 0.5 * stretch * (rate - D[o + 3 * ns]))
-        if not 0.5 * abs(value - explicit) <= top * max(1.0, abs(value)):
+        if exceeds(0.5 * abs(value - explicit), top * max(1.0, abs(value))):
             top, where = 0.5 * abs(value - explicit) / max(1.0, abs(value)), 2 * n + k
     P.report[WHERE] = where
     return top / s[ERROR]

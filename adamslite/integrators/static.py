@@ -33,6 +33,7 @@ from adamslite.integrators.base import (
 from adamslite.integrators.equations import BODY, PART, jacobian, put_pose, residual, spread
 from adamslite.integrators.linalg import factor, signature, solve
 from adamslite.integrators.newton import apply_increment
+from adamslite.integrators.norms import exceeds
 from adamslite.translate import native
 
 # Places in P.control.
@@ -189,7 +190,7 @@ def imbalance(P: Problem) -> None:
     residual(P, STATIC, P.F)
     worst = 0.0
     for i in range(n):
-        if not abs(P.F[i]) <= worst:
+        if exceeds(abs(P.F[i]), worst):
             worst = abs(P.F[i])
     P.control[WORST] = worst
 

@@ -15,6 +15,7 @@ from adamslite.integrators.base import (
     Problem,
 )
 from adamslite.integrators.equations import residual
+from adamslite.integrators.norms import exceeds
 from adamslite.translate import native
 
 
@@ -31,12 +32,12 @@ def note_trouble(P: Problem, phases: int, iteration: float) -> None:
         elif k - n < P.z.size - 1:
             value = P.z[k - n]
         weight = max(1.0, abs(value))
-        if not abs(P.F[k]) <= top * weight:
+        if exceeds(abs(P.F[k]), top * weight):
             where, top = k, abs(P.F[k]) / weight
     P.report[CHANGED], P.report[CHANGE], P.report[ITERATION] = float(where), top, iteration
     residual(P, phases, P.F)
     where, top = 0, -1.0
     for k in range(P.sizes[NZ]):
-        if not abs(P.F[k]) <= top:
+        if exceeds(abs(P.F[k]), top):
             where, top = k, abs(P.F[k])
     P.report[OPEN_ROW], P.report[OPEN_BY] = float(where), top

@@ -46,6 +46,7 @@ from adamslite.integrators.equations import BODY, put_time, run_groups, track
 from adamslite.integrators.event_stops import horizon, is_stop, next_stop
 from adamslite.integrators.events import start_events
 from adamslite.integrators.free import divide_by_mass, put_free, radius
+from adamslite.integrators.norms import exceeds
 from adamslite.integrators.records import write_record
 from adamslite.translate import native
 
@@ -57,6 +58,9 @@ SAMPLE = 8
 # Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
 WORTH = 200.0
 SHRINK, GROW = 0.25, 2.0
+# Tries of one interval that may blow up: steps 4^8 times as short take every jump of a stiffness
+# that a run can be meant to have; what still blows up has no value there, with any step.
+MOST_BLOWN = 8
 
 # Places in P.control.
 LIMIT, WANTED, SINCE = range(3)
@@ -137,13 +141,13 @@ def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
     old = P.trial[0:]
     for i in range(n):
         old[i], old[n + i] = P.q[i], P.u[i]
-    wanted = min(C[WANTED], P.settings[H_MAX])
+    wanted, blown = min(C[WANTED], P.settings[H_MAX]), 0
     while P.settings[STOP] == 0.0:
         if not fixed:
             wanted = min(wanted, C[LIMIT])
         h = (end - t) / max(1.0, 0.0 - floor(1e-9 - (end - t) / wanted))
         P.report[STEP] = h
-        if wanted < P.settings[H_MIN]:
+        if wanted < P.settings[H_MIN] or blown == MOST_BLOWN:
             return STEP_TOO_SMALL
         if fixed and STABLE * h > C[LIMIT]:
             return UNSTABLE
@@ -158,6 +162,7 @@ def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
         P.count[REJECTED] += 1
         if fixed:
             return UNSTABLE
+        blown = 0 if error < 1e300 else blown + 1
         wanted = h * (max(SHRINK, 0.8 * error ** (-1.0 / 3.0)) if error < 1e12 else SHRINK)
         for i in range(n):
             P.q[i], P.u[i] = old[i], old[n + i]
@@ -214,7 +219,7 @@ def sampled_error(P: Problem, h: float) -> float:
         for k in range(3):
             change = abs(P.a[i + k] - P.ra[i + k])
             weight = max(1.0, abs(P.W[o + k]))
-            if not change <= top * weight:
+            if exceeds(change, top * weight):
                 top = change / weight
     if not top < 1e200:
         return 1e300
