@@ -12,9 +12,12 @@ For an error p of tensions and of the times at which waves arrive:
     sections             transverse wave           (k H)^2/24 < p, k its number, at least pi/l
                          half a section at an end  rho l (g + s")/(2 N - 2) < p of T at that end
                          axial front               N > 42 (0.01/p)^0.55
-                         kink                      N > 7 c/U (0.01/p)^0.41, U its speed
+                         kink                      N > 7 c/U (0.01/p)^(2/3), U its speed
 
-Sources: sections from the discrete spectrum w_k = (2 c/H) sin(k pi/2N); the others measured, see
+Sources: sections from the discrete spectrum w_k = (2 c/H) sin(k pi/2N). Behind a kink that has
+come the way l through sections, its jump ripples as the integral of Airy's function does,
+x^(-3/4) sin(2/3 x^(3/2) + pi/4)/sqrt(pi) at x = U t/((H/2) (l/H)^(1/3)), x ~ N^(2/3): its mean
+from one time to another is off by x^(-5/4)/(x2 - x1) ~ N^(-3/2). The factors are measured, see
 docs/cables.md.
 """
 
@@ -236,5 +239,5 @@ def needed(of: Demand, p: float) -> dict[str, float]:
         found["for axial fronts"] = AXIAL * finer**0.55
     if of.across:
         kink = kink_speed(of.stiffness, of.density, of.tension, of.across)
-        found["for a kink, 7 c/U"] = 7 * of.c / kink * finer**0.41
+        found["for a kink, 7 c/U"] = 7 * of.c / kink * finer ** (2 / 3)
     return found
