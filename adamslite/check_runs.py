@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from adamslite.diagnostics import Diagnostic
-from adamslite.integrator_arguments import BACKWARD, FIXED, without_effect
+from adamslite.integrator_arguments import BACKWARD, FIXED, RUNGE_KUTTA, without_effect
 from adamslite.messages import did_you_mean
 from adamslite.rule import Rule, positive, say
 from adamslite.statement import STATEMENTS, Statement
@@ -28,6 +28,10 @@ def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
             yield say(each, "out-of-range", "alpha", word="ALPHA", low="-1/3", high="0")
         if each.hmin is not None and each.hmax is not None and each.hmin > each.hmax:
             yield say(each, "steps-disordered", "hmin")
+        if any(factor <= 0 for factor in each.scale):
+            yield say(each, "not-positive", "scale", word="SCALE")
+        elif each.scale and (each.method or "") in RUNGE_KUTTA:
+            yield say(each, "scale-order", "scale")
         if each.formulation == "SI1":
             yield say(each, "solved-as", "formulation", word="SI1", other="SI2")
 

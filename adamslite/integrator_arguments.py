@@ -16,6 +16,7 @@ BACKWARD, FIXED, SECOND, STAGES = (
 RUNGE_KUTTA, LEAPFROG = ("ABAM", "RKF45"), ("VERLET",)
 FAMILIES = (BACKWARD, FIXED, SECOND, STAGES, RUNGE_KUTTA, LEAPFROG)
 
+ONE_ERROR = "its coordinates have one tolerance"
 NO_CORRECTOR = "an explicit formula has no corrector"
 # argument -> family -> what it does; a reason after "-" says why it does nothing.
 USES: dict[str, dict[tuple[str, ...], str]] = {
@@ -98,6 +99,14 @@ USES: dict[str, dict[tuple[str, ...], str]] = {
         STAGES: "as with GSTIFF",
         RUNGE_KUTTA: "-" + NO_CORRECTOR,
         LEAPFROG: "-" + NO_CORRECTOR,
+    },
+    "SCALE": {
+        BACKWARD: "-" + ONE_ERROR,
+        FIXED: "-there is no error test",
+        SECOND: "-" + ONE_ERROR,
+        STAGES: "-" + ONE_ERROR,
+        RUNGE_KUTTA: "factors of ERROR for displacements, angles, modal coordinates, their rates",
+        LEAPFROG: "-" + ONE_ERROR,
     },
     "ALPHA": {
         family: "numerical damping of HHT" if family is SECOND else "-it belongs to HHT"

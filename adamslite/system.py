@@ -163,15 +163,29 @@ class System(Elimination):
         """Let every expression take the branch of the moment again."""
         self.W[self.nw :] = 0.0
 
-    def prepare_explicit(self) -> None:
-        """Coefficients and room for the stages of the explicit formula."""
+    def prepare_explicit(self, scale: tuple[float, ...]) -> None:
+        """Coefficients and room for the stages of the explicit formula; ``scale`` as in SCALE."""
         from adamslite.integrators.dop853 import tableau
-        from adamslite.integrators.explicit_state import HISTORY_ROWS
+        from adamslite.integrators.explicit_state import HISTORY_ROWS, SCALES
 
-        room = HISTORY_ROWS * (2 * self.n + self.ns) + 9 * len(self.model.bodies) + 16
+        w = 2 * self.n + self.ns
+        room = HISTORY_ROWS * w + 9 * len(self.model.bodies) + 16
         self.tableau = tableau()
         if self.history.size < room:
             self.history = np.zeros(room)
+        self.history[SCALES * w : (SCALES + 1) * w] = self._error_scales(scale)
+
+    def _error_scales(self, scale: tuple[float, ...]) -> np.ndarray:
+        """Factors of ERROR (2 n + ns,): SCALE for bodies, 1 for states and what is not given."""
+        place, angle, _, speed, spin, _ = (*scale, *(6 - len(scale)) * (1.0,))
+        factors = np.ones(2 * self.n + self.ns)
+        for b, body in enumerate(self.model.bodies):
+            i = self.starts[b]
+            for start, shift, turn in ((i, place, angle), (self.n + i, speed, spin)):
+                factors[start : start + 3] = shift
+                if body.width == PART:
+                    factors[start + 3 : start + 6] = turn
+        return factors
 
     def prepare_radau(self) -> None:
         """Coefficients and room for the stages and the complex factors of the Radau formula."""

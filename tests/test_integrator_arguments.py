@@ -16,6 +16,7 @@ from adamslite.results import Results
 
 IMPLICIT = ("GSTIFF", "GSTIFF, I3", "CONSTANT_BDF", "HHT", "NEWMARK", "RADAU")
 FREE = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=1\nMARKER/2, POINT_MASS=2\nEND\n"
+SWING = "VFORCE/1, I=2, J_PART=1, FX=-100*DX(2,1)\nEND"
 VALUES = {
     "PATTERN": "T:F", "INTERPOLATE": "ON", "CORRECTOR": "MODIFIED", "KMAX": "3", "MAXIT": "5",
     "ALPHA": "-0.1", "BETA": "0.4", "GAMMA": "0.7",
@@ -159,6 +160,30 @@ def test_maxit_ends_the_corrector():
     for method in ("GSTIFF, I3", "HHT", "RADAU"):
         few, many = (counts(f"{method}, HMAX=0.2, MAXIT={n}", "steps")[0] for n in (1, 10))
         assert few > 2 * many, method
+
+
+# ---- SCALE ---------------------------------------------------------------------------------------
+
+
+def test_scale_multiplies_error_for_its_kind_of_coordinate():
+    """All six by 1/100 is ERROR by 1/100; angles and their rates alone are not felt by a mass."""
+    tight = counts("ABAM, ERROR=1E-6", "steps", "rejected")
+    assert counts("ABAM, ERROR=1E-4, SCALE=.01,.01,.01,.01,.01,.01", "steps", "rejected") == tight
+    assert counts("ABAM, ERROR=1E-4", "steps") < tight[:1]
+    falls = {"deck": FREE.replace("END", SWING), "end": 2.0, "steps": 1}
+    plain, turning, moving = (
+        counts(f"ABAM, ERROR=1E-4{scale}", "steps", **falls)
+        for scale in ("", ", SCALE=1,.001,.001,1,.001,.001", ", SCALE=.001,1,1,.001")
+    )
+    assert plain == turning < moving
+
+
+def test_scale_must_be_positive():
+    """INTEGRATOR/ABAM, SCALE=1,-1 is a mistake; without it, a warning tells how it is read."""
+    with pytest.raises(al.DeckError, match="SCALE of INTEGRATOR must be above zero"):
+        al.read(FREE.replace("END", "INTEGRATOR/ABAM, SCALE=1,-1\nEND"))
+    deck = al.read(FREE.replace("END", "INTEGRATOR/ABAM, SCALE=1,1\nEND"))
+    assert [d.code for d in al.check(deck)] == ["scale-order"]
 
 
 # ---- without effect ------------------------------------------------------------------------------

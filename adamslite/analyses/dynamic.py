@@ -50,6 +50,7 @@ class Settings:
     adaptivity: float = 0.0
     corrector: str | None = None
     pattern: tuple[str, ...] = ()
+    scale: tuple[float, ...] = ()
 
     @property
     def given(self) -> list[str]:
@@ -122,7 +123,7 @@ def run_dynamic(
     system.stops = stops(system, times)
     method = METHODS[settings.method]
     if method == EXPLICIT:
-        system.prepare_explicit()
+        system.prepare_explicit(settings.scale)
     if method == RADAU:
         system.prepare_radau()
     system.start_record(times)

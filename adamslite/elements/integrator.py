@@ -7,10 +7,10 @@ Equation (local error test of the step)::
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, choice, integer, number, statement, words
+from adamslite.statement import Statement, choice, integer, number, statement, vector, words
 
 
-@statement("INTEGRATOR", singleton=True, repeatable=True, place="both", planned=("SCALE",))
+@statement("INTEGRATOR", singleton=True, repeatable=True, place="both")
 class Integrator(Statement):
     """Settings of the integrator; what is omitted stays as it was.
 
@@ -70,3 +70,8 @@ class Integrator(Statement):
     )
     beta: float | None = number("BETA", unit="1", help="of NEWMARK; 0.36 unless given")
     gamma: float | None = number("GAMMA", unit="1", help="of NEWMARK; 0.7 unless given")
+    scale: tuple[float, ...] = vector(
+        "SCALE", size=1, most=6, unit="1", default=(),
+        help="factors of ERROR for displacements, angles, modal coordinates (which no statement "
+        "has), their rates in the same order; 1 each unless given",
+    )  # fmt: skip

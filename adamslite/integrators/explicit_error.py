@@ -1,6 +1,6 @@
 """The error test of the explicit formula, the first step and the next.
 
-    error = |e5|^2/sqrt(|e5|^2 + 0.01 |e3|^2)    over ERROR max(1, |y|)
+    error = |e5|^2/sqrt(|e5|^2 + 0.01 |e3|^2)    over ERROR SCALE max(1, |y|)
 
 Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, sections II.4 (start) and II.10 (error).
 """
@@ -17,6 +17,7 @@ from adamslite.integrators.explicit_state import (
     LAST_ERROR,
     NEXT_STATE,
     OLD,
+    SCALES,
     WIDTH,
     H,
 )
@@ -31,12 +32,12 @@ SHRINK, GROW = 0.2, 6.0
 
 
 @native
-def distance(P: Problem, a: Reals, y: Reals, w: int) -> float:
-    """Largest |a_i| against ERROR max(1, |y_i|); remembers where."""
+def distance(P: Problem, a: Reals, y: Reals, scales: Reals, w: int) -> float:
+    """Largest |a_i| against ERROR scale_i max(1, |y_i|); remembers where."""
     top, where = 0.0, 0
     for i in range(w):
         # Compared before divided: few elements ever set a new maximum.
-        weight = max(1.0, abs(y[i]))
+        weight = scales[i] * max(1.0, abs(y[i]))
         if exceeds(abs(a[i]), top * weight):
             top, where = abs(a[i]) / weight, i
     P.report[WHERE] = where
@@ -54,7 +55,8 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
         return min(room, P.settings[H_INIT])
     y, new, width = P.history[OLD * w :], P.history[NEXT_STATE * w :], int(P.control[WIDTH])
     h = euler(P, w, 1.0)
-    d0, d1 = distance(P, y, y, w), change(P, w) / h
+    scales = P.history[SCALES * w :]
+    d0, d1 = distance(P, y, y, scales, w), change(P, w) / h
     h = min(room, 0.01 * d0 / d1 if d0 > 1e-5 and d1 > 1e-5 else 1e-6)
     euler(P, w, h)
     k = P.history[width:]
@@ -63,7 +65,7 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
     d2, n = d1, P.sizes[N]
     for i in range(w - n):
         k[i] = k[width - w + n + i] - P.history[width - w + n + i]
-    d2 = max(d2, distance(P, k, y[n:], w - n) / h)
+    d2 = max(d2, distance(P, k, y[n:], scales[n:], w - n) / h)
     later = (0.01 / d2) ** 0.125 if d2 > 1e-15 else max(1e-6, 1e-3 * h)
     return min(room, max(P.settings[H_MIN], min(100.0 * h, later)))
 
@@ -82,19 +84,20 @@ def change(P: Problem, w: int) -> float:
     y, new, e = P.history[OLD * w :], P.history[NEXT_STATE * w :], P.trial[0:]
     for i in range(w):
         e[i] = new[i] - y[i]
-    return distance(P, e, y, w)
+    return distance(P, e, y, P.history[SCALES * w :], w)
 
 
 @native
 def estimate(P: Problem, w: int, h: float) -> float:
     """Error of the step against ERROR: the fifth order's, tamed by the third's."""
     y, zero, e = P.history[NEXT_STATE * w :], P.history[BETWEEN * w :], P.trial[0:]
+    scales = P.history[SCALES * w :]
     for i in range(w):
         zero[i] = 0.0
     combine(P, ERROR3, w, h, zero, e)
-    third = distance(P, e, y, w)
+    third = distance(P, e, y, scales, w)
     combine(P, ERROR5, w, h, zero, e)
-    fifth = distance(P, e, y, w)
+    fifth = distance(P, e, y, scales, w)
     if not third < 1e150 or not fifth < 1e150:
         return 1e300
     if fifth == 0.0:

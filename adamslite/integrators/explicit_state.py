@@ -8,9 +8,9 @@ from adamslite.integrators.equations import BODY, PART
 from adamslite.translate import native
 
 # Rows of the history: stages from 0, then the accepted state, the new one, one in between, and
-# the inverse inertias.
-K_NEW, OLD, NEXT_STATE, BETWEEN, INVERSE = 12, 16, 17, 18, 19
-HISTORY_ROWS = 20
+# the factors of ERROR (SCALE), and the inverse inertias.
+K_NEW, OLD, NEXT_STATE, BETWEEN, SCALES, INVERSE = 12, 16, 17, 18, 19, 20
+HISTORY_ROWS = 21
 RUNNING = -1
 # Places in P.control.
 CLOCK, H, FOLLOWING, LAST_ERROR, FREE, CAUTIOUS, SIGNATURE, FAILED, WIDTH, STALE = range(10)

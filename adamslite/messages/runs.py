@@ -42,6 +42,13 @@ RUNS: dict[str, Message] = {
         ("INTEGRATOR/GSTIFF, KMAX=6",),
         severity=WARNING,
     ),
+    "scale-order": Message(
+        "SCALE is read as factors of ERROR for displacements, angles, modal coordinates, and the "
+        "rates of these three",
+        "the pages at hand name the argument, not the order of its factors: compare with yours",
+        ("INTEGRATOR/ABAM, SCALE=1,0.1",),
+        severity=WARNING,
+    ),
     "negative": Message("{word} of {label} must not be negative", "", ("EQUILIBRIUM/STAB=-1",)),
     "empty-range": Message(
         "no {kind} has an id from {low} to {high}",
