@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import adamslite as al
+from adamslite.analyses.dynamic import Settings
 from adamslite.faults import UsageError
 from adamslite.outcomes import Outcome
 
@@ -67,3 +68,13 @@ def test_verlet_is_of_order_two():
 def test_verlet_refuses_constraints():
     with pytest.raises(UsageError, match="VERLET"):
         run(PENDULUM, "VERLET")
+
+
+def test_verlet_gives_up_before_a_pole_of_a_force():
+    """x" = 1/(0.7 - t)^2 has no state at t = 0.7: steps of 1e-8 of an output step are the least."""
+    scene = "a pole\nPART/1, GROUND\nPOINT_MASS/2, MASS=1, CM=2\nMARKER/2, POINT_MASS=2\n"
+    scene += "VFORCE/1, I=2, J_PART=1, FX=1/(0.7-TIME)**2\nEND\n"
+    assert Settings(method="VERLET").least_step(10.0, 0.1) == pytest.approx(1e-9)
+    results = run(scene.replace("END", "INTEGRATOR/VERLET, HMIN=1E-6\nEND"), "VERLET")
+    assert results.outcome is Outcome.STEP_TOO_SMALL
+    assert results.time[-1] == 0.5

@@ -86,9 +86,13 @@ class Settings:
         return self.interpolate == "ON" if self.interpolate else self.method != "RADAU"
 
     def least_step(self, end: float, hmax: float) -> float:
-        """HMIN, or what round-off of the time leaves; the small steps of a start-up are exempt."""
+        """HMIN, or what round-off of the time leaves; the small steps of a start-up are exempt.
+
+        VERLET takes equal steps from output to output, and near a pole of a force would take so
+        many that the run does not end.
+        """
         own = 0.0 if self.method == CONSTANT else self.hmin
-        return own or 1e-14 * max(abs(end), hmax)
+        return own or max(1e-14 * abs(end), (1e-8 if self.method == "VERLET" else 1e-14) * hmax)
 
     @property
     def second_order(self) -> tuple[float, float, float]:

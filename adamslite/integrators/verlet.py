@@ -183,7 +183,7 @@ def march(P: Problem, t: float, h: float, count: int, fixed: bool) -> float:
                 divide_by_mass(P, P.F, P.history, 0.0, P.a)
                 top = max(top, sampled_error(P, h))
                 if not top < 1e6:
-                    return 1e300
+                    return top
             if s % every == 0:
                 divide_by_mass(P, P.F, P.history, 0.0, P.ra)
         kick = 0.5 * h if s == 0 or s == count else h
