@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from adamslite.diagnostics import Diagnostic
+from adamslite.elements.simulate import MOST_STEPS, output_steps
 from adamslite.integrator_arguments import BACKWARD, FIXED, RUNGE_KUTTA, without_effect
 from adamslite.messages import did_you_mean
 from adamslite.rule import Rule, positive, say
@@ -83,6 +84,18 @@ def _span_of_time(run: Statement) -> Iterator[Diagnostic]:
         yield say(run, "no-output-step")
     elif run.steps is not None and run.dtout is not None:
         yield say(run, "two-output-steps", "dtout")
+    else:
+        yield from _not_too_many(run)
+
+
+def _not_too_many(run: Statement) -> Iterator[Diagnostic]:
+    """Of a run that begins at 0; one that begins later is looked at when it begins."""
+    if run.steps is None and run.dtout <= 0:
+        return
+    count = output_steps(run.until(0.0), run.steps, run.dtout)
+    if count > MOST_STEPS:
+        field = "dtout" if run.steps is None else "steps"
+        yield say(run, "too-many-steps", field, count=float(count), most=float(MOST_STEPS))
 
 
 def late_start_values(command: Redefinition) -> Iterator[Diagnostic]:

@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import gc
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -281,14 +282,19 @@ def _judged(deck: Deck, reading: Reading, rules: Sequence[Any]) -> tuple[Diagnos
     return tuple(diagnostics)
 
 
+def decoded(data: bytes) -> str:
+    """The text of a file: UTF-16 where it begins as such, else UTF-8, else Latin-1."""
+    wide = data[:2] in (BOM_UTF16_LE, BOM_UTF16_BE)
+    try:
+        return data.decode("utf-16" if wide else "utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
 def _load(source: str | Path) -> tuple[str, Path | None]:
     """Text with ``\\n`` line ends, and the file it came from."""
     path = None
     if isinstance(source, Path) or "\n" not in source:
         path = Path(source)
-        data = path.read_bytes()
-        try:
-            source = data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            source = data.decode("latin-1")
+        source = decoded(path.read_bytes())
     return source.replace("\r\n", "\n").replace("\r", "\n"), path

@@ -13,6 +13,7 @@ import numpy as np
 from adamslite.compiled import Kernels
 from adamslite.elimination import Elimination
 from adamslite.engine import INTEGRATORS, address_table, engine, ints, reals
+from adamslite.faults import UsageError
 from adamslite.integrators import base
 from adamslite.model import PART, Body
 
@@ -204,9 +205,22 @@ class System(Elimination):
     def start_record(self, times: np.ndarray) -> None:
         """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier
         runs.
+
+        Raises
+        ------
+        UsageError
+            When there is not so much room.
         """
         self.times = np.ascontiguousarray(times, dtype=float)
-        self.record = np.zeros(len(times) * (self.nw + int(self.sizes[base.N_OUT])) + 1)
+        row = self.nw + int(self.sizes[base.N_OUT])
+        try:
+            self.record = np.zeros(len(times) * row + 1)
+        except MemoryError:
+            size = 8e-9 * len(times) * row
+            raise UsageError(
+                f"The output of {len(times)} times would take {size:.3g} GB of memory, which are "
+                "not there: fewer STEPS, a longer DTOUT."
+            ) from None
         if self.m:
             kept = (self.history, self.control, self.base, self.ra, self.rz, self.pz)
             self.undo = np.zeros(sum(each.size for each in kept))

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.elements.simulate import MOST_STEPS, STEPS, output_steps
 from adamslite.faults import UsageError
 
 # A last interval shorter than this share of the whole is no interval of its own.
 ROUND_OFF = 1e-9
-STEPS = 100
 
 
 def output_times(command: Any, start: float) -> np.ndarray:
@@ -21,7 +21,7 @@ def output_times(command: Any, start: float) -> np.ndarray:
     Raises
     ------
     UsageError
-        When END is not after ``start``.
+        When END is not after ``start``, or there are more than ``MOST_STEPS`` output steps.
     """
     end = command.end if command.end is not None else None
     if end is None and command.duration is not None:
@@ -36,6 +36,10 @@ def spread_times(start: float, end: float, steps: int | None, dtout: float | Non
     if end < start or (steps is not None and steps < 1):
         raise UsageError(
             f"The end time {end:g} must not lie before {start:g}, with at least one step."
+        )
+    if output_steps(end - start, steps, dtout) > MOST_STEPS:
+        raise UsageError(
+            f"There may be {MOST_STEPS:.0e} output steps: fewer STEPS, a longer DTOUT."
         )
     if steps is None and dtout:
         whole = (end - start) / dtout

@@ -135,6 +135,7 @@ WRONG = {
     "no-slide": (ATWOOD, "radius = 0.2", 'radius = 0.2\nmass = 2\npull = "10"', (14, 1)),
     "expression": (HOIST, MOVED, 'payout = "0.5*TIM**2"', (11, 1)),
     "law-start": (HOIST, MOVED, 'payout = "1+TIME**2"', (11, 1)),
+    "law-no-value": (HOIST, MOVED, 'payout = "1-SQRT(1-TIME)"', (11, 1)),
     "payout-too-far-in": (HOIST, MOVED, 'payout = "-6*TIME**2"', (11, 1)),
     "zero-span": (ATWOOD, "[1.8, 0, 0]", "[0.2, 0, 0]", (16, 1)),
     "radius-over-spacing": (ATWOOD, "[1.8, 0, 0]", "[0.5, 0, 0]", (16, 1)),
@@ -208,6 +209,29 @@ def test_everything_wrong_is_told_at_once() -> None:
         ("wrong-value", 24), ("unknown-key", 25),
     ]  # fmt: skip
     assert MESSAGES["rigid-has-waves"].severity == WARNING
+
+
+@pytest.mark.parametrize(
+    ("written", "wrong", "said"),
+    [
+        ("EA = 1e7", "ea = 1e7", ["missing-key", "unknown-key"]),
+        ("[cable]", "[Cable]", ["unknown-key", "missing-key", "missing-key"]),
+        ("[cable]", "[[cable]]", ["wrong-value", "missing-key", "missing-key"]),
+        ("level = 1", "accuracy = 0", ["not-positive"]),
+        ("end = 0.5", 'end = 0.5\ntitle = "two\\nlines"', ["wrong-value"]),
+        ("end = 0.5", "\ufeffend = 0.5", ["toml"]),
+    ],
+)
+def test_slips_of_all_kinds_are_told(written: str, wrong: str, said: list[str]) -> None:
+    """A key in small letters, an accuracy of 0, a title that would break the deck."""
+    found = [each.code for each in told(ATWOOD.replace(written, wrong))]
+    assert sorted(found) == sorted(said)
+
+
+def test_a_byte_order_mark_is_no_part_of_a_description(tmp_path: Path, capsys) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text("\ufeff" + ATWOOD, encoding="utf-8")
+    assert main(["cable", str(path)]) == 0
 
 
 def test_the_command_prints_places_and_ends_with_3(tmp_path: Path, capsys) -> None:

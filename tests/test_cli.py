@@ -11,11 +11,14 @@ import numpy as np
 import pytest
 from fakes import Named, Pipeline, fall, install, stopped
 
+import adamslite
 from adamslite.cli import main
 from adamslite.diagnostics import Diagnostic, Span
+from adamslite.faults import UsageError
 from adamslite.outcomes import Outcome
 from adamslite.progress import TalkingProgress
 from adamslite.results import Results
+from adamslite.session import Session
 
 WARNING = Diagnostic(
     "W1", "warning", "the effective mass is m0 - Dm", Span("cable.adm", 3, 1, 3, 7), "use minus"
@@ -90,6 +93,49 @@ def test_wrong_flags_are_usage(pipeline, capsys, flags: list[str]) -> None:
     assert main(["solve", "cable.adm", *flags]) == 2
     assert "Traceback" not in capsys.readouterr().err
     assert pipeline.calls == []
+
+
+@pytest.mark.parametrize(
+    "argv",
+    [
+        ["solve", "cable.adm", "-o", "cable.adm"],
+        ["solve", "cable.adm", "-o", "./cable.acf"],
+        ["solve", "cable.adm", "other.acf", "-o", "other.acf"],
+        ["linear", "deck.csv", "-o", "deck.csv"],
+        ["cable", "cable.toml", "-o", "cable.toml"],
+    ],
+)
+def test_nothing_that_is_read_is_written_over(pipeline, capsys, argv: list[str]) -> None:
+    names = ("cable.adm", "cable.acf", "other.acf", "deck.csv", "cable.toml")
+    for name in names:
+        Path(name).write_text("mine\n")
+    assert main(argv) == 2
+    assert "would be written over; give -o another name" in capsys.readouterr().err
+    assert all(Path(name).read_text() == "mine\n" for name in names)
+
+
+def test_more_output_than_there_is_memory_for_is_no_fault(tmp_path, monkeypatch, capsys) -> None:
+    """1e15 steps are too many for any table, 1e8 of 9 numbers each for this one."""
+    monkeypatch.chdir(tmp_path)
+    Path("cable.adm").write_text(FALLING)
+    assert main(["solve", "cable.adm", "--end", "1", "--steps", "1000000000000000"]) == 2
+    assert "output steps: fewer STEPS, a longer DTOUT" in capsys.readouterr().err
+
+    def no_room(shape: int) -> None:
+        raise MemoryError
+
+    system = Session(adamslite.read(Path("cable.adm")), None, {}).system
+    with monkeypatch.context() as without_memory:
+        without_memory.setattr(np, "zeros", no_room)
+        with pytest.raises(UsageError, match="would take .* GB of memory"):
+            system.start_record(np.linspace(0.0, 1.0, 10))
+
+
+def test_a_reference_that_is_no_text_cannot_be_read(pipeline, capsys) -> None:
+    fall().save("a.csv")
+    Path("b.csv").write_bytes(b"\xff\xfe\x00")
+    assert main(["diff", "a.csv", "b.csv"]) == 5
+    assert "b.csv is not a table in UTF-8" in capsys.readouterr().err
 
 
 def test_without_an_end_time_the_three_ways_are_told(tmp_path, monkeypatch, capsys) -> None:

@@ -196,7 +196,7 @@ def test_statements_are_frozen_and_know_what_was_given() -> None:
 
 
 def test_files_are_read_in_any_usual_encoding(tmp_path: Path) -> None:
-    for encoding in ("utf-8", "utf-8-sig", "latin-1"):
+    for encoding in ("utf-8", "utf-8-sig", "latin-1", "utf-16"):
         path = tmp_path / f"{encoding}.adm"
         path.write_bytes(("Prüfstand\n" + START[START.index("PART") :]).encode(encoding))
         assert adamslite.read(str(path)).title == "Prüfstand"

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from math import dist
 
 from adamslite.cables.geometry import Span, add, dot
-from adamslite.cables.law import Unknown, parse, value
+from adamslite.cables.law import NoValue, Unknown, parse, value
 from adamslite.cables.messages import Faults
 from adamslite.cables.places import Path
 from adamslite.cables.vocabulary import Spec
@@ -139,8 +139,13 @@ def travel(spec: Spec, spans: list[Span], told: Laws) -> Moves:
 
 def _told(spec: Spec, law: Node, path: Path, faults: Faults) -> Travel | None:
     """A way that a law tells; None when it depends on the run."""
+    ways = []
     try:
-        ways = [value(law, spec.end * i / INSTANTS, {}) for i in range(INSTANTS + 1)]
+        for i in range(INSTANTS + 1):
+            ways.append(value(law, spec.end * i / INSTANTS, {}))
+    except NoValue:
+        faults.add("law-no-value", path, word=path[2], time=spec.end * len(ways) / INSTANTS)
+        return None
     except Unknown:
         return None
     if abs(ways[0]) > 1e-9:

@@ -15,6 +15,10 @@ class Unknown(Exception):
     """The value of this expression is not known before the run."""
 
 
+class NoValue(Unknown):
+    """There is none, before the run or in it: a division by zero, the root of a negative number."""
+
+
 def _step(shape: Callable[[float], float]) -> Callable[..., float]:
     def value(x: float, x0: float, h0: float, x1: float, h1: float) -> float:
         return h0 + (h1 - h0) * shape(min(max((x - x0) / (x1 - x0), 0.0), 1.0))
@@ -80,7 +84,7 @@ def evaluate(node: Node, look: Callable[[Node], float]) -> float:
     try:
         found = function(*[evaluate(arg, look) for arg in node.args])
     except (ArithmeticError, ValueError):
-        raise Unknown from None
+        raise NoValue from None
     if isinstance(found, complex):
-        raise Unknown
+        raise NoValue
     return found

@@ -42,6 +42,10 @@ MESSAGES: dict[str, Message] = {
     "law-start": Message(
         "{word} at TIME = 0 is {value:.4g} m", "it counts from the place in the route: 0"
     ),
+    "law-no-value": Message(
+        "{word} has no value at TIME = {time:.4g}",
+        "no division by zero, no root or logarithm of a negative number, nothing above 1e308",
+    ),
     "payout-too-far-in": Message(
         "at TIME = {time:.4g} the payout is {value:.4g} m: the cable of {length:.4g} m has no"
         " length left",

@@ -46,7 +46,7 @@ def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
     top = _table(faults, {k: v for k, v in data.items() if k not in TABLES}, TOP, (), TABLES)
     cable = _table(faults, _part(faults, data, "cable"), CABLE, ("cable",))
     model = _table(faults, _part(faults, data, "model"), MODEL, ("model",))
-    if not readable:
+    if not readable or any(each.code == "missing-key" for each in faults.found):
         raise DeckError(sort_by_place(faults.found))
     names = {"EA": "stiffness", "rho": "density", "breaking_load": "breaking"}
     numbers = {k: 0 if v == "auto" else v for k, v in model.items() if k != "form"}
@@ -133,8 +133,9 @@ def _value(faults: Faults, value: Any, takes: Any, rule: str, path: Path) -> Any
     if not good:
         faults.add("wrong-value", path, word=word, expected=expected, text=repr(value))
         return 1
-    if isinstance(value, (int, float)) and rule and BROKEN[rule](value):
-        faults.add(rule, path, word=word, text=repr(value))
+    broken = [each for each in rule.split() if not isinstance(value, str) and BROKEN[each](value)]
+    if broken:
+        faults.add(broken[0], path, word=word, text=repr(value))
         return 1
     if takes == "laws":
         return tuple("" if each in (0, "") else str(each) for each in value)
@@ -165,10 +166,10 @@ def _fits(value: Any, takes: Any) -> tuple[bool, str]:
         return value in takes and not isinstance(value, (bool, float)), wanted
     whole = _is_number(value) and isinstance(value, int)
     return {
-        "text": (isinstance(value, str), "a text in quotes"),
+        "text": (_is_line(value), "a text in quotes, on one line"),
         "number": (_is_number(value), "a number"),
         "vector": (_is_three(value, _is_number), "three numbers [x, y, z]"),
-        "laws": (_is_three(value, lambda x: _is_number(x) or isinstance(x, str)),
+        "laws": (_is_three(value, lambda x: _is_number(x) or _is_line(x)),
                  "three expressions of TIME [x, y, z]"),
         "yes or no": (isinstance(value, bool), "true or false"),
         "whole or auto": (whole or value == "auto", "a whole number, or auto"),
@@ -178,6 +179,11 @@ def _fits(value: Any, takes: Any) -> tuple[bool, str]:
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e300
+
+
+def _is_line(value: Any) -> bool:
+    """Whether it is a text that is one line of a deck."""
+    return isinstance(value, str) and "\n" not in value and "\r" not in value
 
 
 def _is_three(value: Any, fits: Callable[[Any], bool]) -> bool:

@@ -190,7 +190,7 @@ WHEELS = ("pulley", "winch")
 KINDS = ("fixed", "free", "run", "mass", "body", "bend", *WHEELS)
 FORMS = ("auto", "paper", "ale", "brute")
 
-# Key -> (what it takes, a rule for its value, the value without the key; None when it is needed).
+# Key -> (what it takes, rules for its value, the value without the key; None when it is needed).
 TOP = {
     "title": ("text", "", "A cable"),
     "gravity": ("vector", "", (0.0, -9.81, 0.0)),
@@ -212,7 +212,7 @@ MODEL = {
     "level": ((1, 2, 3, "auto"), "", "auto"),
     "form": (FORMS, "", "auto"),
     "elements": ("whole or auto", "not-positive", "auto"),
-    "accuracy": ("number", "not-a-share", 0.01),
+    "accuracy": ("number", "not-positive not-a-share", 0.01),
 }
 
 

@@ -25,10 +25,12 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.cables.scene import deck
     from adamslite.diagnostics import render
     from adamslite.faults import FormatError
-    from adamslite.outputs.whole import whole_file
+    from adamslite.outputs.whole import need_writable, whole_file
 
+    if args.output:
+        need_writable(args.output, args.spec)
     try:
-        text = args.spec.read_text(encoding="utf-8")
+        text = args.spec.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as fault:
         raise FormatError(f"{args.spec} is not UTF-8 text: {fault.reason}") from None
     written, warnings = deck(text, str(args.spec))

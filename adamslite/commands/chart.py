@@ -51,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.work_precision import ERRORS, measure
 
     name = args.output or f"{args.deck.stem}-chart"
-    need_writable(f"{name}.csv")
+    need_writable(f"{name}.csv", args.deck, args.commands)
     tried, runs = _runs(args)
     errors = sorted(args.error or ERRORS, reverse=True)
     chart = measure(runs, tried, errors, args.repeats, args.channel)

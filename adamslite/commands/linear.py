@@ -27,10 +27,12 @@ def run(args: argparse.Namespace) -> int:
     import adamslite
     from adamslite.diagnostics import render
     from adamslite.mode_table import mode_table, need_suffix, save
+    from adamslite.outputs.whole import need_writable
     from adamslite.runs import load_scene
 
     if args.output:
         need_suffix(args.output)
+        need_writable(args.output, args.deck, args.commands)
     scene = load_scene(args.deck, args.commands)
     if scene.warnings:
         sys.stderr.write(render(scene.warnings) + "\n\n")

@@ -60,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.outcomes import Outcome
     from adamslite.outputs.whole import need_writable
     from adamslite.progress import Progress, TalkingProgress
-    from adamslite.runs import load_scene, run_scene
+    from adamslite.runs import command_file_beside, load_scene, run_scene
 
     output = args.output or f"{args.deck.stem}.csv"
     if output == STDOUT and args.summary == "json":
@@ -69,7 +69,7 @@ def run(args: argparse.Namespace) -> int:
         )
     scene = load_scene(args.deck, args.commands)
     if output != STDOUT:
-        need_writable(output)
+        need_writable(output, args.deck, args.commands or command_file_beside(args.deck))
     if not args.quiet:
         _tell_warnings(scene)
     progress = Progress() if args.quiet else TalkingProgress()

@@ -11,6 +11,10 @@ from __future__ import annotations
 
 from adamslite.statement import Statement, choice, integer, number, statement
 
+STEPS = 100
+# A table of the time alone would take gigabytes with more rows.
+MOST_STEPS = 10**8
+
 
 @statement("SIMULATE", singleton=True, repeatable=True, place="both")
 class Simulate(Statement):
@@ -47,3 +51,8 @@ class Simulate(Statement):
         if self.at_once:
             return start
         return self.end if self.duration is None else start + self.duration
+
+
+def output_steps(span: float, steps: int | None, dtout: float | None) -> float:
+    """How many output steps are asked for over a span of time [time]."""
+    return span / dtout if steps is None and dtout else steps or STEPS

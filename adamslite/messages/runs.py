@@ -30,6 +30,11 @@ RUNS: dict[str, Message] = {
          "SIMULATE/DYNAMICS, END=0, STEPS=9"),
         commands=("SIM/DYN, DURATION=2, STEPS=9\nSIM/STATICS\nSIM/DYN, END=2, STEPS=9",),
     ),
+    "too-many-steps": Message(
+        "SIMULATE asks for {count:.3g} output steps, more than the {most:.0e} there may be",
+        "fewer STEPS, or a longer DTOUT",
+        ("SIMULATE/DYNAMICS, END=1, STEPS=1000000000000", "SIMULATE/DYNAMICS, END=1, DTOUT=1E-12"),
+    ),
     "solved-as": Message(
         "{word} is solved as {other}",
         "both keep constraints on positions and velocities; results agree within ERROR",

@@ -60,7 +60,10 @@ def read(path: str | Path) -> Table:
     FormatError
         When a row has the wrong number of values or something that is not a number.
     """
-    lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+    try:
+        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+    except UnicodeDecodeError as fault:
+        raise FormatError(f"{path} is not a table in UTF-8: {fault.reason}") from None
     comments, start = _leading_comments(lines)
     meta = dict(_key_and_value(text) for _, text in comments if ": " in text)
     if start == len(lines):

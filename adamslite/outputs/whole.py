@@ -6,6 +6,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from adamslite.faults import UsageError
+
 
 @contextmanager
 def whole_file(path: str | Path, binary: bool = False) -> Iterator[Any]:
@@ -29,14 +31,19 @@ def whole_file(path: str | Path, binary: bool = False) -> Iterator[Any]:
         draft.unlink(missing_ok=True)
 
 
-def need_writable(path: str | Path) -> None:
-    """Fail now rather than after a long run.
+def need_writable(path: str | Path, *read: Path | None) -> None:
+    """Fail now rather than after a long run; never write over what is `read`.
 
     Raises
     ------
     OSError
         When `path` cannot be written.
+    UsageError
+        When it is one of the files that are read.
     """
+    for each in read:
+        if each and each.exists() and Path(path).exists() and each.samefile(path):
+            raise UsageError(f"'{path}' is read, and would be written over; give -o another name")
     folder = Path(path).absolute().parent
     if not folder.is_dir():
         raise FileNotFoundError(
