@@ -52,8 +52,9 @@ from adamslite.translate import native
 
 # Share of the limit of stability; the power iteration comes to the eigenvalue from below.
 STABLE = 0.93
-# Steps from one look at the local error to the next, where no force changes its law: a contact may
-# begin and end between two looks.
+# Steps from one look at the local error to the next, where no force changes its law (a contact may
+# begin and end between two looks) and stability decides how long they are: eight of these are one
+# or two periods of the fastest vibration.
 SAMPLE = 8
 # Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
 WORTH = 200.0
@@ -172,7 +173,9 @@ def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
 @native
 def march(P: Problem, t: float, h: float, count: int, fixed: bool) -> float:
     """``count`` steps; returns the largest local error seen against ERROR, 1e300 for a blow-up."""
-    top, every = 0.0, SAMPLE if P.sizes[WATCHED] == 0 else 1
+    top, every = 0.0, 1
+    if P.sizes[WATCHED] == 0 and 2.0 * h > P.control[LIMIT]:
+        every = SAMPLE
     put_free(P, t, P.q, P.u)
     for s in range(count + 1):
         if s > 0:
