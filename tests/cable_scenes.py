@@ -3,25 +3,21 @@
 A scene is drawn twice: as a user might, to be advised, and then as the advice says.
 """
 
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi, sqrt
-from pathlib import Path
 
+import kinks
+import moving
 import numpy as np
+import payouts
+import waves
+from formulas import Cable, G, Winch
+from spans import Span
 
 from adamslite.cables.statements import cable_variables, head, number, point, section, tail
 from adamslite.results import Results
 from adamslite.signals import arrival, plateau
-
-sys.path.insert(0, str(Path(__file__).parent.parent / "decks" / "cables"))
-import kinks  # noqa: E402
-import moving  # noqa: E402
-import payouts  # noqa: E402
-import waves  # noqa: E402
-from formulas import Cable, G, Winch  # noqa: E402
-from spans import Span  # noqa: E402
 
 Draw = Callable[[str, int], str]
 Judge = Callable[[Results, int], float]

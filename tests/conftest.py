@@ -1,10 +1,17 @@
-"""What all tests share: one folder of compiled code, so that a shape is compiled only once."""
+"""What all tests share: one folder of compiled code, so that a shape is compiled only once, and the
+closed forms and decks of cables, which are modules in decks/cables.
+"""
 
 import os
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+from adamslite.places import find
+
+sys.path.append(str(find("decks") / "cables"))
 
 
 @pytest.fixture(scope="session", autouse=True)

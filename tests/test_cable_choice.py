@@ -4,6 +4,7 @@ import re
 from math import ceil, sqrt
 
 import pytest
+from descriptions import BELT, HOIST, PAYOUT
 from scipy.optimize import brentq
 
 from adamslite.cables.scene import deck
@@ -50,45 +51,8 @@ velocity = [0, 65, 0]
 kind = "fixed"
 at = [15, 0, 0]
 """
-HOIST = """
-end = 8
-[cable]
-EA = 2e7
-rho = 4
-[[route]]
-kind = "winch"
-at = [-0.5, 0, 0]
-radius = 0.5
-inertia = 25
-turn = -1
-payout = "STEP5(TIME,0,0,8,4)"
-[[route]]
-kind = "mass"
-at = [0, -20, 0]
-mass = 1000
-"""
-ENGINE = HOIST.replace('payout = "STEP5(TIME,0,0,8,4)"', 'force = "9000*VARVAL(SD)*TIME"')
-FAST = HOIST.replace("8,4)", "8,160)")
-BELT = """
-end = 0.1
-closed = true
-gravity = [0, 0, 0]
-[cable]
-EA = 2e4
-rho = 0.2
-pretension = 600
-[[route]]
-kind = "winch"
-at = [0, 0, 0]
-radius = 0.1
-inertia = 0.1
-payout = "2*TIME"
-[[route]]
-kind = "pulley"
-at = [0.3, 0, 0]
-radius = 0.1
-inertia = 0.1
-"""
+ENGINE = HOIST.replace(PAYOUT, 'force = "9000*VARVAL(SD)*TIME"')
+FAST = HOIST.replace("0.5*TIME", "10*TIME")
 SLIPS = LIGHT.replace("radius = 0.2\n", "radius = 0.2\nmu = 0.3\n")
 
 

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from descriptions import ATWOOD, BELT, HOIST, PAYOUT
 
 import adamslite
 from adamslite.cables.messages import MESSAGES
@@ -10,74 +11,10 @@ from adamslite.cables.scene import deck
 from adamslite.cli import main
 from adamslite.diagnostics import WARNING, Diagnostic
 
-ATWOOD = """\
-end = 0.5
-[cable]
-EA = 1e7
-rho = 0.01
-[[route]]
-kind = "mass"
-at = [0, -5, 0]
-mass = 5
-[[route]]
-kind = "pulley"
-at = [0.2, 0, 0]
-radius = 0.2
-inertia = 0.04
-[[route]]
-kind = "pulley"
-at = [1.8, 0, 0]
-radius = 0.2
-inertia = 0.04
-[[route]]
-kind = "mass"
-at = [2, -5, 0]
-mass = 3
-[model]
-level = 1
-"""
-HOIST = """\
-end = 2
-[cable]
-EA = 2e7
-rho = 1
-[[route]]
-kind = "winch"
-at = [-0.5, 0, 0]
-radius = 0.5
-inertia = 25
-turn = -1
-payout = "0.5*TIME**2"
-[[route]]
-kind = "mass"
-at = [0, -20, 0]
-mass = 1000
-[model]
-level = 3
-"""
-BELT = """\
-end = 0.1
-closed = true
-gravity = [0, 0, 0]
-[cable]
-EA = 2e4
-rho = 0.2
-pretension = 600
-[[route]]
-kind = "winch"
-at = [0, 0, 0]
-radius = 0.1
-inertia = 0.1
-payout = "2*TIME"
-[[route]]
-kind = "pulley"
-at = [0.3, 0, 0]
-radius = 0.1
-inertia = 0.1
-[model]
-elements = 6
-"""
-CHAIN = BELT.replace(
+#: With the form they are written in, on the last line.
+LOWERS = HOIST + "[model]\nlevel = 3\n"
+DRIVES = BELT + "[model]\nelements = 6\n"
+CHAIN = DRIVES.replace(
     'kind = "pulley"\nat = [0.3, 0, 0]\nradius = 0.1',
     """\
 kind = "pulley"
@@ -104,7 +41,6 @@ at = [0.02, 0, 0]
 elements = 60
 """
 SLIPPING = ATWOOD.replace("radius = 0.2", "radius = 0.2\nmu = 0.3", 1)
-MOVED = 'payout = "0.5*TIME**2"'
 LAST = ATWOOD.index("[[route]]", ATWOOD.index("1.8"))
 # Code: (description, what is replaced, by what, the line and column of the caret).
 WRONG = {
@@ -125,42 +61,42 @@ WRONG = {
         + '[[route]]\nkind = "run"\nat = [1, 0, 0]\n',
         (9, 1),
     ),
-    "drive": (HOIST, MOVED, "", (5, 1)),
+    "drive": (LOWERS, PAYOUT, "", (5, 1)),
     "reel-between": (ATWOOD, 'kind = "pulley"', 'kind = "winch"\ntorque = "0"\n'
                      "reel = { thickness = 0.01, core = 0.1 }", (12, 1)),
-    "reel-core": (HOIST, MOVED, MOVED + "\nreel = { thickness = 0.01, core = 0.5 }", (12, 1)),
+    "reel-core": (LOWERS, PAYOUT, PAYOUT + "\nreel = { thickness = 0.01, core = 0.5 }", (12, 1)),
     "moved-twice": (ATWOOD, "radius = 0.2", 'radius = 0.2\nmass = 2\nmotion = ["TIME**2", 0, 0]',
                     (14, 1)),
     "no-carriage": (ATWOOD, "radius = 0.2", "radius = 0.2\nslide = [1, 0, 0]", (13, 1)),
     "no-slide": (ATWOOD, "radius = 0.2", 'radius = 0.2\nmass = 2\npull = "10"', (14, 1)),
-    "expression": (HOIST, MOVED, 'payout = "0.5*TIM**2"', (11, 1)),
-    "law-start": (HOIST, MOVED, 'payout = "1+TIME**2"', (11, 1)),
-    "law-no-value": (HOIST, MOVED, 'payout = "1-SQRT(1-TIME)"', (11, 1)),
-    "payout-too-far-in": (HOIST, MOVED, 'payout = "-6*TIME**2"', (11, 1)),
+    "expression": (LOWERS, PAYOUT, 'payout = "0.5*TIM**2"', (11, 1)),
+    "law-start": (LOWERS, PAYOUT, 'payout = "1+TIME**2"', (11, 1)),
+    "law-no-value": (LOWERS, PAYOUT, 'payout = "1-SQRT(1-TIME)"', (11, 1)),
+    "payout-too-far-in": (LOWERS, PAYOUT, 'payout = "-6*TIME**2"', (11, 1)),
     "zero-span": (ATWOOD, "[1.8, 0, 0]", "[0.2, 0, 0]", (16, 1)),
     "radius-over-spacing": (ATWOOD, "[1.8, 0, 0]", "[0.5, 0, 0]", (16, 1)),
     "crossing": (ATWOOD, "[2, -5, 0]", "[-2, -1, 0]", (16, 1)),
     "axis-along-cable": (ATWOOD, "radius = 0.2", "radius = 0.2\naxis = [1, 0, 0]", (13, 1)),
-    "too-many": (HOIST, "level = 3", "elements = 1000", (17, 1)),
+    "too-many": (LOWERS, "level = 3", "elements = 1000", (17, 1)),
     "form-has-level": (ATWOOD, "level = 1", 'level = 1\nform = "ale"', (25, 1)),
-    "needs-brute": (BELT, "elements = 6", "level = 1", (20, 1)),
+    "needs-brute": (DRIVES, "elements = 6", "level = 1", (20, 1)),
     "brute-no-wheel": (ATWOOD[: ATWOOD.index("[[route]]\nkind = \"pulley\"")] + ATWOOD[LAST:],
                        "level = 1", 'form = "brute"', (14, 1)),
-    "brute-reel": (HOIST, MOVED, MOVED + "\nreel = { thickness = 0.01, core = 0.1 }", (12, 1)),
-    "brute-plane": (HOIST, "level = 3", 'gravity = [0, -9, 1]', (18, 1)),
+    "brute-reel": (LOWERS, PAYOUT, PAYOUT + "\nreel = { thickness = 0.01, core = 0.1 }", (12, 1)),
+    "brute-plane": (LOWERS, "level = 3", 'gravity = [0, -9, 1]', (18, 1)),
     "bend-too-tight": (FOLD, "radius = 0.01", "radius = 0.005", (11, 1)),
     "speed-on-a-route": (FOLD, "end = 1", "end = 1\nspeed = 3", (2, 1)),
     "pitches": (CHAIN, "teeth = 12\ninertia = 0.1\n[model]", "teeth = 13\ninertia = 0.1\n[model]",
                 (18, 1)),
     "loop-of-links": (CHAIN, "[0.52, 0, 0]", "[0.53, 0, 0]", (17, 1)),
     "rigid-cannot": (ATWOOD, "radius = 0.2", "radius = 0.2\nmu = 0.3", (13, 1)),
-    "stored-too-little": (HOIST, MOVED, MOVED + '\nstored = 1', (12, 1)),
-    "level-2-pays-out": (HOIST, "level = 3", "level = 2\nelements = 40", (17, 1)),
+    "stored-too-little": (LOWERS, PAYOUT, PAYOUT + '\nstored = 1', (12, 1)),
+    "level-2-pays-out": (LOWERS, "level = 3", "level = 2\nelements = 40", (17, 1)),
     "level-2-unknown": (SLIPPING, "level = 1", "level = 2", (25, 1)),
     "rigid-has-waves": (ATWOOD, "mass = 3", "mass = 3\nvelocity = [10, 0, 0]", (25, 1)),
     "breaking": (ATWOOD, "rho = 0.01", "rho = 0.01\nbreaking_load = 40", (5, 1)),
-    "paper-not-valid": (HOIST, "level = 3", 'level = 3\nform = "paper"\naccuracy = 1e-4', (18, 1)),
-    "faster-than-waves": (HOIST, "0.5*TIME**2", "60*TIME**2", (17, 1)),
+    "paper-not-valid": (LOWERS, "level = 3", 'level = 3\nform = "paper"\naccuracy = 1e-4', (18, 1)),
+    "faster-than-waves": (LOWERS, "0.5*TIME**2", "60*TIME**2", (17, 1)),
 }  # fmt: skip
 BRUTE = {"stored-too-little", "brute-plane", "brute-reel"}
 

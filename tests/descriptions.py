@@ -1,0 +1,82 @@
+"""Cable scenes as a user describes them to `adamslite cable`, and the run of such a scene."""
+
+import adamslite
+from adamslite.cables.scene import deck
+
+G = 9.81
+#: Two weights on a rigid cable over two pulleys.
+ATWOOD = """\
+end = 0.5
+[cable]
+EA = 1e7
+rho = 0.01
+[[route]]
+kind = "mass"
+at = [0, -5, 0]
+mass = 5
+[[route]]
+kind = "pulley"
+at = [0.2, 0, 0]
+radius = 0.2
+inertia = 0.04
+[[route]]
+kind = "pulley"
+at = [1.8, 0, 0]
+radius = 0.2
+inertia = 0.04
+[[route]]
+kind = "mass"
+at = [2, -5, 0]
+mass = 3
+[model]
+level = 1
+"""
+#: The law of the winch below.
+PAYOUT = 'payout = "0.5*TIME**2"'
+#: A winch lets a weight down.
+HOIST = f"""\
+end = 2
+[cable]
+EA = 2e7
+rho = 4
+[[route]]
+kind = "winch"
+at = [-0.5, 0, 0]
+radius = 0.5
+inertia = 25
+turn = -1
+{PAYOUT}
+[[route]]
+kind = "mass"
+at = [0, -20, 0]
+mass = 1000
+"""
+#: A closed belt that a winch drives.
+BELT = """\
+end = 0.1
+closed = true
+gravity = [0, 0, 0]
+[cable]
+EA = 2e4
+rho = 0.2
+pretension = 600
+[[route]]
+kind = "winch"
+at = [0, 0, 0]
+radius = 0.1
+inertia = 0.1
+payout = "2*TIME"
+[[route]]
+kind = "pulley"
+at = [0.3, 0, 0]
+radius = 0.1
+inertia = 0.1
+"""
+
+
+def solve(spec: str) -> adamslite.Results:
+    """The run of the deck that is written for a description, reached to its end."""
+    text, _ = deck(spec)
+    results = adamslite.simulate(adamslite.read(text))
+    assert results.outcome.name == "DONE"
+    return results
