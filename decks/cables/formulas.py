@@ -1,4 +1,4 @@
-"""Closed forms of elastic cables: axial and transverse waves, kinks at a sheave, payout.
+"""Closed forms of elastic cables: waves, kinks at a sheave, payout, slip of a belt of lumps.
 
 Unstretched cable of stiffness EA [N] and mass rho per unstretched length [kg/m], strain e:
 
@@ -158,3 +158,23 @@ class Winch:
         return (
             f"{self.speed:.9g}*(TIME-{tau:.9g}*({p + 1}\n, -({p + 1}{terms})*EXP(-TIME/{tau:.9g})))"
         )
+
+
+def sliding_ratio(mu: float, wrap: float, section: float) -> float:
+    """tau1/tau2 of a lumped belt that slides over the angle `wrap`, the mean over its lumps' ways.
+
+    A section spans the angle d = `section`; x + m + y = wrap/d of them lie on the wheel, the first
+    and the last by shares. One lump with the kink a, sliding with the friction mu:
+
+        (tau1 - tau2) cos(a/2) = mu (tau1 + tau2) sin(a/2)
+        g(a) = (1 + mu tan(a/2))/(1 - mu tan(a/2)),   tau1/tau2 = g(x d) g(d)^m g(y d), 0 < x < 1
+    """
+    x = (np.arange(2000) + 0.5) / 2000
+    m, y = np.divmod(wrap / section - x, 1)
+
+    def log_g(a):
+        t = mu * np.tan(a / 2)
+        return np.log((1 + t) / (1 - t))
+
+    ways = log_g(x * section) + m * log_g(section) + log_g(y * section)
+    return float(np.exp(ways).mean())

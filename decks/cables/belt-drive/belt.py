@@ -7,10 +7,7 @@ force F.  n lumps lie on each half turn.
 Effective tension: a belt of tension T that moves at v pulls a pulley only with tau = T - m f v,
 where f is the number of lumps passing in unit time, m f v their momentum.  Hence tau1 + tau2 = F.
 
-One lump with the kink theta, sliding with the friction mu:
-
-    (tau1 - tau2) cos(theta/2) = mu (tau1 + tau2) sin(theta/2)
-    tau1/tau2 = g(theta) = (1 + mu tan(theta/2)) / (1 - mu tan(theta/2))
+Where the belt slides on a whole pulley, tau1/tau2 is `sliding_ratio` of ../formulas.py.
 
 Where the belt grips at the tension T it lies on the radius r = R - P/K (P = 2 tau sin(d/2), normal
 force of a lump; K, stiffness of the contact), and a section spans the angle
@@ -22,11 +19,17 @@ the same number of lumps passes both, f = w1/d1 = w2/d2.  The line of a strand p
 r cos(x d - d/2), 0 < x < 1, while a lump comes in: a = r sin(d/2)/(d/2) in the mean.
 """
 
+import sys
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 from scipy.optimize import brentq, fsolve
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from formulas import sliding_ratio  # noqa: E402
 
 
 @dataclass(frozen=True)
@@ -103,23 +106,9 @@ class Belt:
 
         return fsolve(surplus, [0.7 * self.pull, 0.3 * self.pull], xtol=1e-13)
 
-    def ratio(self):
-        """tau1/tau2 of a belt that slides on the whole driven pulley, mean over the lumps' ways.
-
-        n - 1 lumps have the kink d, the first and the last share another d as x and 1 - x.
-        """
-        d = np.pi / self.half
-        x = (np.arange(2000) + 0.5) / 2000
-
-        def log(theta):
-            t = self.mu[1] * np.tan(theta / 2)
-            return np.log((1 + t) / (1 - t))
-
-        return np.exp((self.half - 1) * log(d) + log(x * d) + log((1 - x) * d)).mean()
-
     def sliding_torque(self):
         """Mean torque on the driven pulley when the belt slides on all of it."""
-        q = self.ratio()
+        q = sliding_ratio(self.mu[1], np.pi, np.pi / self.half)
         arm = self.radius * np.sinc(1 / self.half / 2)
         return self.pull * (q - 1) / (q + 1) * arm
 

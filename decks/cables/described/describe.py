@@ -17,7 +17,8 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import arrest  # noqa: E402
-from formulas import G, Winch  # noqa: E402
+from formulas import G, Winch, sliding_ratio  # noqa: E402
+from laws import Move  # noqa: E402
 from spans import table  # noqa: E402
 from wound import reels  # noqa: E402
 
@@ -44,22 +45,14 @@ def drum() -> str:
 def belt() -> str:
     """Load F = tau1 + tau2 of the driven axle, pull P of its rim, for a belt that slides on it.
 
-    tau1/tau2 = q, the mean over the ways of the lumps of g(x d) g(d)^m g(y d), x + m + y = pi/d,
-    with g(a) = (1 + mu tan(a/2))/(1 - mu tan(a/2)) of one lump with the kink a;
+    tau1/tau2 = q of a lumped belt, which spans the angle d with a section;
     P = (tau1 - tau2) r sin(d/2)/(d/2)/R.
     """
     stiffness, radius, mu, pull = 2.0e4, 0.1, 0.4, 1300.0
     free = (4 * 0.13 + 2 * np.pi * radius) / 26 / (1 + 650 / stiffness)
     r = radius - (0.26 / 6) ** 2 / 80 / radius
     d = 2 * np.arcsin(free * (1 + pull / 2 / stiffness) / 2 / r)
-    x = (np.arange(1000) + 0.5) / 1000
-    m, y = np.divmod(np.pi / d - x, 1)
-
-    def log_g(a):
-        t = mu * np.tan(a / 2)
-        return np.log((1 + t) / (1 - t))
-
-    q = float(np.exp(log_g(x * d) + m * log_g(d) + log_g(y * d)).mean())
+    q = sliding_ratio(mu, np.pi, d)
     rim = pull * (q - 1) / (q + 1) * r * np.sin(d / 2) / (d / 2) / radius
     return (
         "# A belt that slides: README.md\n# written by describe.py\n"
@@ -91,28 +84,23 @@ def slip() -> str:
 def crane() -> str:
     """Trolley X(t), rope l(t): l q" + 2 l' q' + g sin q + X" cos q = 0, q the angle of the rope."""
 
-    def step(t, start, end, height):
-        x, w = np.clip((t - start) / (end - start), 0, 1), end - start
-        return (
-            height * x**3 * (10 - 15 * x + 6 * x * x),
-            height * 30 * x**2 * (1 - x) ** 2 / w,
-            height * 60 * x * (1 - x) * (1 - 2 * x) / w**2,
-        )
+    hoist, trolley = Move(1, 5, 4.0), Move(0, 4, 6.0)
 
     def rates(t, y):
-        paid, speed, _ = step(t, 1, 5, 4)
-        a = step(t, 0, 4, 6)[2]
+        paid, speed, _ = hoist(t)
+        a = trolley(t)[2]
         return [y[1], -(2 * speed * y[1] + G * np.sin(y[0]) + a * np.cos(y[0])) / (8 + paid)]
 
     t = np.linspace(0, 6, 61)
     q = solve_ivp(rates, (0, 6), [0, 0], t_eval=t, rtol=1e-10, atol=1e-12).y[0]
-    rope = 8 + step(t, 1, 5, 4)[0]
+    rope = np.array([8 + hoist(time)[0] for time in t])
+    place = np.array([trolley(time)[0] for time in t])
     lines = [
         "Place of the load: README.md",
         "written by describe.py",
         "tolerance POINT_MASS/20.*: abs 1e-4",
     ]
-    columns = [t, step(t, 0, 4, 6)[0] + rope * np.sin(q), -rope * np.cos(q)]
+    columns = [t, place + rope * np.sin(q), -rope * np.cos(q)]
     return table(["time", "POINT_MASS/20.x", "POINT_MASS/20.y"], lines, columns)
 
 
