@@ -4,7 +4,9 @@ Independent of any element: Irvine's closed form for a load that hangs at rest, 
 a moving load by collocation in both of its parts.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from formulas import Cable, G
@@ -66,8 +68,16 @@ class Loaded:
         return np.array([-self.part(y[0], y[1], y[4])[1], np.hypot(a, v), a - b])
 
 
-def chebyshev() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points on 0 .. 1, (n,), matrix of derivatives, (n, n), weights of the integral, (n,).
+class Grid(NamedTuple):
+    """Points xi on 0 .. 1, (n,), matrix of derivatives, (n, n), weights of the integral, (n,)."""
+
+    xi: np.ndarray
+    slope: np.ndarray
+    weights: np.ndarray
+
+
+def chebyshev() -> Grid:
+    """Points that lie denser at the ends.
 
     L. N. Trefethen, Spectral Methods in MATLAB, 2000, chapters 6 and 12.
     """
@@ -79,73 +89,126 @@ def chebyshev() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     slopes -= np.diag(slopes.sum(axis=1))
     powers = np.vander((1 - x) / 2, n + 1, increasing=True).T
     weights = np.linalg.solve(powers, 1 / np.arange(1, n + 2))
-    return (1 - x) / 2, -2 * slopes, weights
+    return Grid((1 - x) / 2, -2 * slopes, weights)
 
 
-def hauled(rope: Loaded, haul, t: np.ndarray) -> np.ndarray:
-    """Height of a load that is hauled along a taut string, and its tension: (2, nt).
+class Part(NamedTuple):
+    """One part of the string: length, rates of xi at points that stay, (n,), the load's index."""
 
-    y(x, t) with small slopes, the tension the same all along, the load at X(t) = haul(t):
+    length: float
+    xi_t: np.ndarray
+    xi_tt: np.ndarray
+    at_load: int
+
+
+def halved(xi: np.ndarray, span: float, motion: np.ndarray) -> tuple[Part, Part]:
+    """Both parts; on the left xi = x/X, the right one is its mirror image."""
+    x, v, a = motion
+
+    def part(d: float, from_tower: np.ndarray, sign: int, at_load: int) -> Part:
+        bends = from_tower * (2 * sign * (v / d) ** 2 - a / d)
+        return Part(d, -v / d * from_tower, bends, at_load)
+
+    return part(x, xi, 1, -1), part(span - x, 1 - xi, -1, 0)
+
+
+@dataclass(frozen=True)
+class TautString:
+    """A string with small slopes, its tension the same all along, and the load at X(t) on it:
 
         rho y_tt = T y_xx - rho g,   T = EA ((span + int y_x^2/2)/length - 1)
         m (y_c" + g) = (T - rho X'^2) [y_x]
 
-    Each part is stretched on 0 .. 1, with y(x, t) = Y(xi, t):
+    Each part, of the length d, is stretched on 0 .. 1, with y(x, t) = Y(xi, t):
 
         y_tt = Y_tt + 2 xi_t Y_t,xi + xi_t^2 Y_xi,xi + xi_tt Y_xi
-    """
-    xi, slope, weights = chebyshev()
-    n, cable = len(xi), rope.cable
-    inner = slice(1, n - 1)
 
-    def parts(x, heights):
-        """Values on both parts; their lengths are x and span - x, towers at xi = 0 and 1."""
-        left = np.hstack([0.0, heights[: n - 2], heights[-1]])
-        right = np.hstack([heights[-1], heights[n - 2 : -1], 0.0])
+    Heights are those of the left part's inner points, of the right part's, and of the load, (m,).
+    """
+
+    rope: Loaded
+    grid: Grid = field(default_factory=chebyshev)
+
+    def parts(self, heights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Heights at all points of the left and of the right part, (n,) each; towers are at 0."""
+        inner = len(self.grid.xi) - 2
+        left = np.hstack([0.0, heights[:inner], heights[-1]])
+        right = np.hstack([heights[-1], heights[inner:-1], 0.0])
         return left, right
 
-    def strained(x, heights):
-        left, right = parts(x, heights)
-        arc = weights @ (slope @ left) ** 2 / x + weights @ (slope @ right) ** 2 / (rope.span - x)
-        return cable.stiffness * ((rope.span + arc / 2) / rope.length - 1)
+    def lengths(self, x: float) -> tuple[float, float]:
+        """Of both parts with the load at x [m]."""
+        return x, self.rope.span - x
 
-    def rates(time, state):
-        (x, v, a), half = haul(time), len(state) // 2
-        heights, speeds = state[:half], state[half:]
-        pull, out = strained(x, heights), []
-        sides = zip(parts(x, heights), parts(x, speeds), (x, rope.span - x), (1, -1), strict=True)
-        kinks = []
-        for y, dy, d, sign in sides:
-            # Of the left part: xi = x/X; the right one is its mirror image.
-            from_tower = xi if sign > 0 else 1 - xi
-            moves = -v / d * from_tower
-            bends = from_tower * (2 * sign * (v / d) ** 2 - a / d)
-            first, second = slope @ y, slope @ (slope @ y)
-            out.append(
-                (
-                    pull / cable.density / d**2 * second
-                    - G
-                    - 2 * moves * (slope @ dy)
-                    - moves**2 * second
-                    - bends * first
-                )[inner]
-            )
-            kinks.append(first[-1 if sign > 0 else 0] / d)
-        lift = (pull - cable.density * v**2) * (kinks[1] - kinks[0])
-        return np.hstack([speeds, *out, lift / rope.mass - G])
+    def tension(self, x: float, heights: np.ndarray) -> float:
+        """T [N] from the arc of both parts."""
+        rope, (_, slope, weights) = self.rope, self.grid
+        sides = zip(self.parts(heights), self.lengths(x), strict=True)
+        left, right = (weights @ (slope @ y) ** 2 / d for y, d in sides)
+        return rope.cable.stiffness * ((rope.span + (left + right) / 2) / rope.length - 1)
 
-    x = haul(0.0)[0]
-
-    def hangs(pull):
-        w, d = cable.density * G / pull / 2, np.array([x, rope.span - x])
+    def parabolas(self, x: float, pull: float) -> np.ndarray:
+        """Heights at rest under the tension `pull` [N] with the load at x."""
+        rope, xi, d = self.rope, self.grid.xi, np.array(self.lengths(x))
+        w = rope.cable.density * G / pull / 2
         low = -w * d.prod() - rope.mass * G / pull * d.prod() / rope.span
         left = low * xi - w * x**2 * xi * (1 - xi)
         right = low * (1 - xi) - w * d[1] ** 2 * xi * (1 - xi)
-        return np.hstack([left[inner], right[inner], low])
+        return np.hstack([left[1:-1], right[1:-1], low])
 
-    pull = brentq(lambda p: strained(x, hangs(p)) - p, 0.01 * cable.pretension, cable.stiffness)
-    start = hangs(pull)
-    start = np.hstack([start, 0 * start])
-    run = solve_ivp(rates, (0, t[-1]), start, "DOP853", t_eval=t, rtol=1e-7, atol=1e-7)
-    tension = [strained(haul(s)[0], y[: len(y) // 2]) for s, y in zip(t, run.y.T, strict=True)]
-    return np.array([run.y[2 * n - 4], tension])
+    def at_rest(self, x: float) -> np.ndarray:
+        """Heights under the tension that they themselves strain the string to."""
+        cable = self.rope.cable
+        pull = brentq(
+            lambda p: self.tension(x, self.parabolas(x, p)) - p,
+            0.01 * cable.pretension,
+            cable.stiffness,
+        )
+        return self.parabolas(x, pull)
+
+    def waves(
+        self, pull: float, part: Part, y: np.ndarray, y_t: np.ndarray
+    ) -> tuple[np.ndarray, float]:
+        """Y_tt at the inner points of a part; y_x at the load."""
+        slope = self.grid.slope
+        first, second = slope @ y, slope @ (slope @ y)
+        accelerations = (
+            pull / self.rope.cable.density / part.length**2 * second
+            - G
+            - 2 * part.xi_t * (slope @ y_t)
+            - part.xi_t**2 * second
+            - part.xi_tt * first
+        )
+        return accelerations[1:-1], first[part.at_load] / part.length
+
+    def rates(self, motion: np.ndarray, state: np.ndarray) -> np.ndarray:
+        """Speeds and accelerations, (2 m,), from heights and speeds; `motion` is X, X', X"."""
+        (x, v, _), half, rope = motion, len(state) // 2, self.rope
+        heights, speeds = state[:half], state[half:]
+        pull = self.tension(x, heights)
+        halves = halved(self.grid.xi, rope.span, motion)
+        sides = zip(halves, self.parts(heights), self.parts(speeds), strict=True)
+        (left, before), (right, behind) = (self.waves(pull, *side) for side in sides)
+        lift = (pull - rope.cable.density * v**2) * (behind - before)
+        return np.hstack([speeds, left, right, lift / rope.mass - G])
+
+
+def hauled(rope: Loaded, haul: Callable[[float], np.ndarray], t: np.ndarray) -> np.ndarray:
+    """Height of a load that is hauled along a taut string, and its tension: (2, nt).
+
+    `haul` gives X, X' and X" [m, s] of the load.
+    """
+    string = TautString(rope)
+    heights = string.at_rest(haul(0.0)[0])
+    run = solve_ivp(
+        lambda time, state: string.rates(haul(time), state),
+        (0, t[-1]),
+        np.hstack([heights, 0 * heights]),
+        "DOP853",
+        t_eval=t,
+        rtol=1e-7,
+        atol=1e-7,
+    )
+    found = run.y[: len(heights)]
+    tension = [string.tension(haul(s)[0], y) for s, y in zip(t, found.T, strict=True)]
+    return np.array([found[-1], tension])
