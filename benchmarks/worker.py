@@ -18,8 +18,8 @@ from benchmarks.memory import forget_peak, peak
 from benchmarks.peers import PROGRAMS
 from benchmarks.reference import DOUBT, reference
 
-#: Refusals by name: at another setting the answer would be the same.
-REFUSALS = ("UsageError", "NotImplementedError")
+#: A program's refusal, by name: at another setting the answer would be the same.
+REFUSAL = "UsageError"
 
 
 def error_of(scene: str, n: int, values: np.ndarray) -> dict[str, float | None]:
@@ -51,7 +51,7 @@ def answer(name: str, question: dict[str, Any]) -> dict[str, Any]:
     except Exception as reason:
         kind = type(reason).__name__
         sentence = " ".join(f"{kind}: {reason}".split())[:300]
-        return {"ok": False, "reason": sentence, "refused": kind in REFUSALS}
+        return {"ok": False, "reason": sentence, "refused": kind == REFUSAL}
     told = {"setup": solution.setup, "solve": solution.solve, "steps": int(solution.steps)}
     # The hand-coded programs run outside of this process.
     told["peak"] = None if PROGRAMS[name].kind == "limit" else peak()

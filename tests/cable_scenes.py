@@ -159,7 +159,7 @@ def transverse_pulse() -> CableScene:
         text += "REQUEST/1, F2=DY(2,1)/H\n"
         return text + tail("HHT, ERROR=1.0E-6", 1.05 * come, 900)
 
-    def error(run: Results, n: int) -> float:
+    def error(run: Results, _: int) -> float:
         # The slope at the sheave changes its sign when the middle of the pulse has come.
         slope = run["REQUEST/1.F2"]
         top = run.time[np.argmax(slope)]

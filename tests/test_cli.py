@@ -289,7 +289,7 @@ def test_verify_prints_one_line_each(pipeline, capsys) -> None:
     assert main(["verify", "cable.adm"]) == 2
 
 
-def test_verify_reports_a_broken_deck_and_goes_on(pipeline, capsys, monkeypatch) -> None:
+def test_verify_reports_a_broken_deck_and_goes_on(pipeline, capsys) -> None:
     pipeline.diagnostics = (ERROR,)
     Path("reference.csv").write_text("# tolerance: abs 1e-3\ntime,PART/2.x\n1,0.5\n")
     assert main(["verify", "."]) == 1

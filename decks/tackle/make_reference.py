@@ -25,7 +25,7 @@ from tackle import (  # noqa: E402
     strand_length,
 )  # fmt: skip
 
-LOAD, FALL, BECKETS = 800.0, (1.5, 2.6, 3.6), 1.5
+LOAD, FALL = 800.0, (1.5, 2.6, 3.6)
 G, CARGO, EFFORT, HEAD = 9.81, 100.0, 20.0, 5.0
 REST = """
 Rest, rope forces halved by each stage: see README.md
