@@ -74,9 +74,10 @@ inertia = 0.1
 """
 
 
-def solve(spec: str) -> adamslite.Results:
-    """The run of the deck that is written for a description, reached to its end."""
-    text, _ = deck(spec)
+def solve(spec: str, warns: bool = False) -> adamslite.Results:
+    """The run of the deck that is written, with or without warnings, for a description."""
+    text, warnings = deck(spec)
+    assert bool(warnings) is warns
     results = adamslite.simulate(adamslite.read(text))
     assert results.outcome.name == "DONE"
     return results

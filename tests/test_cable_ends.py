@@ -33,7 +33,8 @@ def test_a_weight_is_lowered(form: str, error: float) -> None:
         form = "{form}"
         level = 3
         elements = 20
-        """
+        """,
+        warns=form == "paper",
     )
     late = results.time > 10
     length = 20 + results["REQUEST/10.F2"][late]

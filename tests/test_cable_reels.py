@@ -4,11 +4,11 @@ from math import pi
 
 import numpy as np
 import pytest
+from descriptions import G, solve
 
 import adamslite
 from adamslite.cables.scene import deck
 
-G = 9.81
 HOIST = """
 end = 4
 steps = 80
@@ -44,15 +44,6 @@ kind = "mass"
 at = [2.2, -3, 0]
 mass = 50
 """
-
-
-def solve(spec: str) -> adamslite.Results:
-    """The run of the deck, reached to the end."""
-    text, warnings = deck(spec)
-    assert not warnings
-    results = adamslite.simulate(adamslite.read(text))
-    assert results.outcome.name == "DONE"
-    return results
 
 
 def test_a_reel_turns_by_a_spiral() -> None:

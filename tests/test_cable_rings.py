@@ -2,21 +2,7 @@
 
 import numpy as np
 import pytest
-
-import adamslite
-from adamslite.cables.scene import deck
-
-G = 9.81
-
-
-def solve(spec: str) -> adamslite.Results:
-    """The run of the deck, reached to the end."""
-    text, warnings = deck(spec)
-    assert not warnings
-    results = adamslite.simulate(adamslite.read(text))
-    assert results.outcome.name == "DONE"
-    return results
-
+from descriptions import G, solve
 
 RING = """
 title = "Spinning ring"
