@@ -175,6 +175,11 @@ def _chattering(system: System) -> str:
     return f"{placed(guilty)}: {_when(system)}"
 
 
+def _torn(system: System) -> str:
+    """The row that was left out and opens."""
+    return f"{equation(system, int(system.report[base.TORN]))}: {_where(system)}, it opens"
+
+
 def _unstable(system: System) -> str:
     return f"{_when(system)}; stable are steps up to {system.control[LIMIT]:.3g}"
 
@@ -193,6 +198,7 @@ REASONS = {
     Outcome.NO_EQUILIBRIUM: _static,
     Outcome.CHATTERING: _chattering,
     Outcome.UNSTABLE: _unstable,
+    Outcome.TORN: _torn,
     Outcome.NOT_KINEMATIC: _not_kinematic,
     Outcome.INITIAL_CONDITIONS_FAILED: _where,
 }

@@ -34,6 +34,11 @@ class Outcome(Enum):
         "that no constraint carries, a posture in which a mechanism can move two ways, or a "
         "VARIABLE that refers to itself."
     )
+    TORN = (
+        "A constraint that followed from the others in one posture, and was left out there, opens "
+        "in another. Look for a mechanism that locks (a MOTION or a force drives it where its "
+        "joints cannot follow), or start it away from a posture in which it can move two ways."
+    )
     NO_EQUILIBRIUM = (
         "No static equilibrium was found. Look for a body that nothing holds against gravity, "
         "start nearer to the equilibrium, or use a larger IMBALANCE or MAXIT in EQUILIBRIUM."

@@ -117,7 +117,7 @@ def run_dynamic(
         start, end, settings.error, hmax, settings.least_step(end, hmax),
         settings.hinit or 0.0, settings.kmax, settings.maxit,
     )  # fmt: skip
-    system.settings[base.STOP] = 0.0
+    system.settings[base.STOP] = system.report[base.TORN] = 0.0
     system.settings[base.FIXED_STEP] = fixed
     system.settings[base.ALPHA : base.GAMMA + 1] = settings.second_order
     system.settings[base.INTERPOLATE] = settings.interpolates
@@ -148,6 +148,8 @@ def _named(system: System, code: int) -> Outcome:
         if not (np.isfinite(system.F).all() and np.isfinite(system.LA).all()):
             return Outcome.NOT_FINITE
         return Outcome.SINGULAR_ACCELERATION if cancels else Outcome.UNDETERMINED
+    if code == base.INTERRUPTED and report[base.TORN]:
+        return Outcome.TORN
     if code == base.NEWTON_FAILED and np.isnan(report[base.OPEN_BY]):
         return Outcome.NOT_FINITE
     if code == base.STEP_TOO_SMALL and not report[base.HOW_MUCH] < OVERFLOW:

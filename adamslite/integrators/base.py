@@ -90,11 +90,11 @@ SETTINGS = (
 
 REPORT = (
     "t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall", "rough",
-    "iteration", "changed", "change", "open_row", "open_by", "left_plane",
+    "iteration", "changed", "change", "open_row", "open_by", "left_plane", "torn",
 )  # fmt: skip
 (
     AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED, WAYS_TO_FALL, ROUGH_STEPS,
-    ITERATION, CHANGED, CHANGE, OPEN_ROW, OPEN_BY, LEFT_PLANE,
+    ITERATION, CHANGED, CHANGE, OPEN_ROW, OPEN_BY, LEFT_PLANE, TORN,
 ) = range(len(REPORT))  # fmt: skip
 
 COUNTS = (

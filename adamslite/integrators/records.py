@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from adamslite.integrators.acceleration import accelerations
 from adamslite.integrators.base import (
+    AT,
+    ERROR,
     HOLONOMIC,
     N_OUT,
     NS,
@@ -13,6 +15,8 @@ from adamslite.integrators.base import (
     OUTPUTS,
     POSITION_ROWS,
     RECORDS,
+    STOP,
+    TORN,
     VIOLATION,
     M,
     N,
@@ -21,6 +25,10 @@ from adamslite.integrators.base import (
 )
 from adamslite.integrators.equations import run_groups
 from adamslite.translate import Reals, native
+
+# A redundant row is as exact as the deck, whose lengths may have four digits, and as the rows it
+# follows from: within some errors of positions.
+LOOSE = 1e-4
 
 
 @native
@@ -73,7 +81,11 @@ def write_record(P: Problem, row: int) -> None:
 
 @native
 def note_violation(P: Problem, t: float) -> None:
-    """Keep the largest |g| seen at an accepted step."""
+    """Keep the largest |g| seen at an accepted step.
+
+    A row left out as redundant that opens did not follow from the others but in one posture: the
+    run ends there, as a mechanism that locks would otherwise run on torn apart.
+    """
     if P.sizes[HOLONOMIC] == 0:
         return
     for i in range(P.sizes[NZ]):
@@ -81,3 +93,11 @@ def note_violation(P: Problem, t: float) -> None:
     run_groups(P, POSITION_ROWS, P.F)
     for i in range(P.sizes[N], P.sizes[N] + P.sizes[M]):
         P.report[VIOLATION] = max(P.report[VIOLATION], abs(P.F[i]))
+    reach = 1.0
+    for i in range(P.sizes[N]):
+        reach = max(reach, abs(P.q[i]))
+    for k in range(P.dead.size):
+        i = P.dead[k]
+        if i < P.sizes[N] + P.sizes[M] and abs(P.F[i]) > (LOOSE + 10.0 * P.settings[ERROR]) * reach:
+            P.report[TORN], P.report[AT] = float(i), t
+            P.settings[STOP] = 1.0
