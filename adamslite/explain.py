@@ -87,7 +87,7 @@ def _held_up(system: System) -> str:
 
 
 def _singular_mass(system: System) -> str:
-    """The forces that depend on accelerations."""
+    """The forces that depend on accelerations, and the coordinate without inertia."""
     found = [
         s
         for group in system.kernels.groups
@@ -95,7 +95,38 @@ def _singular_mass(system: System) -> str:
         for s, _ in group.instances
     ]
     named = ", ".join(placed(s) for s in found[:3])
-    return f"{named}: {_when(system)}" if named else _when(system)
+    told = f"{named}: {_when(system)}" if named else _when(system)
+    if system.nz > MOST_SEARCHED:
+        return told
+    matrix, kept = _acceleration_matrix(system)
+    scale = _inertias(system)[kept] ** -0.5
+    loosest = np.linalg.svd(scale[:, None] * matrix * scale)[2][-1]
+    inert = kept[int(np.abs(np.where(np.array(kept) < system.n, loosest, 0.0)).argmax())]
+    return f"{told}. {unknown(system, inert)}, loses its inertia"
+
+
+def _inertias(system: System) -> np.ndarray:
+    """Masses and moments of inertia of the coordinates as the deck gives them, 1 for other
+    unknowns; so that a small mass is not mistaken for one that vanishes.
+    """
+    sizes = np.ones(system.nz)
+    for b, body in enumerate(system.model.bodies):
+        i = system.starts[b]
+        sizes[i : i + 3] = body.mass
+        if system.widths[b] > 3:
+            sizes[i + 3 : i + 6] = np.diag(body.inertia)
+    return np.where(sizes > 0.0, sizes, 1.0)
+
+
+def _acceleration_matrix(system: System) -> tuple[np.ndarray, list[int]]:
+    """The matrix of accelerations, multipliers and variables where the run stands, and the numbers
+    of its unknowns.
+    """
+    system.coef[:5], system.settings[base.T] = (0.0, 0.0, 1.0, 1.0, 1.0), system.report[base.AT]
+    system.run(JACOBIAN, base.ACCELERATION)
+    count = system.n + system.m + system.nv + system.ns
+    kept = [k for k in range(count) if k - system.n not in system.dropped]
+    return system.dense_jacobian()[np.ix_(kept, kept)], kept
 
 
 def _undetermined(system: System) -> str:
@@ -104,12 +135,8 @@ def _undetermined(system: System) -> str:
     """
     if system.nz > MOST_SEARCHED:
         return _where(system)
-    system.coef[:5] = 0.0, 0.0, 1.0, 1.0, 1.0
-    system.run(JACOBIAN, base.ACCELERATION)
-    count = system.n + system.m + system.nv + system.ns
-    matrix = system.dense_jacobian()[:count, :count]
-    kept = [k for k in range(count) if k - system.n not in system.dropped]
-    _, sizes, rows = np.linalg.svd(matrix[np.ix_(kept, kept)])
+    matrix, kept = _acceleration_matrix(system)
+    _, sizes, rows = np.linalg.svd(matrix)
     if sizes[-1] > RANK * sizes[0]:
         return _open(system, kept)
     free = kept[int(np.abs(rows[-1]).argmax())]

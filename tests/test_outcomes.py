@@ -51,6 +51,17 @@ def test_a_stiff_spring_does_not_carry_the_run_through(stiffness, error):
     assert results.summary["t_end"] == pytest.approx(1.0, abs=1e-3)
 
 
+@pytest.mark.parametrize("method", ("GSTIFF", "HHT", "RADAU", "ABAM"))
+def test_the_coordinate_that_loses_its_inertia_is_named(method):
+    """Of two masses, 10 and 0.001, the heavy one loses its inertia along y at t = 1."""
+    light = "POINT_MASS/3, MASS=0.001, CM=3\nMARKER/3, POINT_MASS=3\n"
+    force = "VFORCE/7, I=2, J_PART=1, FY=VARVAL(5)*ACCY(2)\nEND\n"
+    results = run(with_integrator(FALLING + light + force, method), 2.0, 20)
+    assert results.outcome is Outcome.SINGULAR_ACCELERATION
+    assert results.summary["t_end"] == pytest.approx(1.0, abs=1e-2)
+    assert "POINT_MASS/2 (<text>:5:1), y, loses its inertia" in results.message
+
+
 def test_a_mass_cancelled_through_a_variable_is_seen_too():
     deck = (
         FALLING
@@ -332,7 +343,9 @@ def test_a_branch_that_chatters_is_named_with_time_and_step():
 
 def test_a_cancelled_mass_names_the_force_time_and_step():
     results = said(FALLING + PRINTED + "END\n", 2.0, 20, error=1e-8)
-    assert re.fullmatch(rf"VFORCE/7 \(<text>:8:1\): {WHEN} and order \d\.", reason(results))
+    inert = r"POINT_MASS/2 \(<text>:5:1\), [xyz], loses its inertia"
+    told = rf"VFORCE/7 \(<text>:8:1\): {WHEN} and order \d\. {inert}\."
+    assert re.fullmatch(told, reason(results))
 
 
 def test_without_an_end_nothing_runs():

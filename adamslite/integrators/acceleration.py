@@ -11,6 +11,7 @@ from __future__ import annotations
 from adamslite.integrators.base import (
     ACCELERATION,
     FACTORIZATIONS,
+    IMPLICIT_MASS,
     MODE_DYNAMICS,
     NS,
     NV,
@@ -37,6 +38,8 @@ ROUND_OFF = 1e-11
 # The equations are linear but for loops of variables: a worse rate of convergence asks for a new
 # matrix.
 SLOW = 0.03
+# A pivot of the acceleration matrix below this share of its first value has vanished.
+VANISHING = 1e-3
 
 
 @native
@@ -125,3 +128,18 @@ def mass_signature(P: Problem, L: Plan, found: Reals) -> int:
     """Negative pivots of the acceleration matrix at the workspace's state; -1 when singular."""
     acceleration_matrix(P)
     return signature(L, P.LA, P.pivots_a, P.work, found)
+
+
+@native
+def mass_vanishes(P: Problem, L: Plan, before: int) -> bool:
+    """Whether the acceleration matrix at the workspace's state has lost a pivot since the start, or
+    is close to it; ``before`` is its last signature.
+    """
+    if P.sizes[IMPLICIT_MASS] == 0:
+        return False
+    if mass_signature(P, L, P.x) != before:
+        return True
+    for k in range(P.sizes[NZ]):
+        if not abs(P.x[k]) > VANISHING * abs(P.pivot0[k]):
+            return True
+    return False

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.acceleration import mass_signature
+from adamslite.integrators.acceleration import mass_vanishes
 from adamslite.integrators.base import (
     CHATTERING,
     FAILURES,
     FIXED_STEP,
     H_MAX,
     HOLONOMIC,
-    IMPLICIT_MASS,
     INDEX3,
     ITERATION,
     NEWTON_FAILED,
     NOT_FINITE,
-    NZ,
     REJECTED,
     SI2,
     SINGULAR_MASS,
@@ -57,8 +55,6 @@ CUTS = 3
 # A step is noise, not truncation, when the error estimates of this many tries in turn keep more
 # than this share of the one before, although each was shorter.
 NOISY_TRIES, NOISY_SHARE = 2.0, 0.3
-# A pivot of the acceleration matrix below this share of its first value has vanished.
-VANISHING = 1e-3
 
 
 @native
@@ -162,12 +158,8 @@ def stuck(P: Problem, L: Plan, w: int) -> int:
     else.
     """
     restore_state(P, P.history, w, P.control[NOW])
-    if P.sizes[IMPLICIT_MASS]:
-        if mass_signature(P, L, P.x) != int(P.control[SIGNATURE]):
-            return SINGULAR_MASS
-        for k in range(P.sizes[NZ]):
-            if not abs(P.x[k]) > VANISHING * abs(P.pivot0[k]):
-                return SINGULAR_MASS
+    if mass_vanishes(P, L, int(P.control[SIGNATURE])):
+        return SINGULAR_MASS
     P.report[WHERE] = P.control[BLAMED]
     if P.search[FREED] > 0.0:
         return CHATTERING

@@ -152,7 +152,7 @@ def try_step(P: Problem, L: Plan) -> int:
         C[H] = left
     least = P.settings[H_MIN] if C[CAUTIOUS] != 0.0 else least_step(P)
     if C[H] < least or crawls(P, C[H]):
-        return why_stuck(P)
+        return why_stuck(P, L, w)
     P.report[AT], P.report[STEP] = C[CLOCK], C[H]
     if not run_stages(P, L, w, C[H]):
         if let_go(P):

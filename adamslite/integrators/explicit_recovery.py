@@ -7,6 +7,7 @@ that led there is taken back and made shorter, so that the next one passes the p
 
 from __future__ import annotations
 
+from adamslite.integrators.acceleration import mass_vanishes
 from adamslite.integrators.base import (
     CHATTERING,
     FAILURES,
@@ -17,6 +18,7 @@ from adamslite.integrators.base import (
     SINGULAR_MASS,
     STEP_TOO_SMALL,
     M,
+    Plan,
     Problem,
 )
 from adamslite.integrators.event_guards import let_go
@@ -27,6 +29,7 @@ from adamslite.integrators.explicit_state import (
     CLOCK,
     FAILED,
     RUNNING,
+    SIGNATURE,
     TRIES,
     H,
     stand_again,
@@ -86,8 +89,13 @@ def reject(P: Problem, w: int, error: float) -> int:
 
 
 @native
-def why_stuck(P: Problem) -> int:
-    """The step became too small: because the equations could not be solved, or for accuracy."""
+def why_stuck(P: Problem, L: Plan, w: int) -> int:
+    """The step became too small: because a mass vanishes, the equations could not be solved, or for
+    accuracy.
+    """
+    stand_again(P, w)
+    if mass_vanishes(P, L, int(P.control[SIGNATURE])):
+        return SINGULAR_MASS
     if P.search[FREED] > 0.0:
         return CHATTERING
     return NEWTON_FAILED if P.control[FAILED] > 0.0 else STEP_TOO_SMALL

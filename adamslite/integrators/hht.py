@@ -28,7 +28,12 @@ Multibody Syst. Dyn. 18 (2007) 185; Negrut, Rampalli, Ottarsson, Sajdak, J. Comp
 
 from __future__ import annotations
 
-from adamslite.integrators.acceleration import accelerations, mass_signature, put_state
+from adamslite.integrators.acceleration import (
+    accelerations,
+    mass_signature,
+    mass_vanishes,
+    put_state,
+)
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
@@ -50,7 +55,6 @@ from adamslite.integrators.base import (
     NOT_FINITE,
     NS,
     NV,
-    NZ,
     ORDER,
     REJECTED,
     ROUGH_STEPS,
@@ -71,7 +75,6 @@ from adamslite.integrators.base import (
 from adamslite.integrators.bdf_corrector import wildest
 from adamslite.integrators.bdf_recovery import (
     SINGULAR_RESOLUTION,
-    VANISHING,
     corrector_failed,
     retry_factor,
 )
@@ -362,12 +365,8 @@ def why_too_small(P: Problem, L: Plan) -> int:
     """
     C = P.control
     back_to_accepted(P)
-    if P.sizes[IMPLICIT_MASS]:
-        if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
-            return SINGULAR_MASS
-        for k in range(P.sizes[NZ]):
-            if not abs(P.x[k]) > VANISHING * abs(P.pivot0[k]):
-                return SINGULAR_MASS
+    if mass_vanishes(P, L, int(C[SIGNATURE])):
+        return SINGULAR_MASS
     if C[RETRIES] > 0.0:
         P.report[WHERE] = C[BLAMED]
     if P.search[FREED] > 0.0:

@@ -19,7 +19,12 @@ from __future__ import annotations
 
 from math import floor
 
-from adamslite.integrators.acceleration import accelerations, mass_signature, put_state
+from adamslite.integrators.acceleration import (
+    accelerations,
+    mass_signature,
+    mass_vanishes,
+    put_state,
+)
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
@@ -34,7 +39,6 @@ from adamslite.integrators.base import (
     NOT_FINITE,
     NS,
     NV,
-    NZ,
     ORDER,
     REJECTED,
     SINGULAR_MASS,
@@ -51,7 +55,7 @@ from adamslite.integrators.base import (
     Problem,
     T,
 )
-from adamslite.integrators.bdf_recovery import SINGULAR_RESOLUTION, VANISHING, corrector_failed
+from adamslite.integrators.bdf_recovery import SINGULAR_RESOLUTION, corrector_failed
 from adamslite.integrators.bdf_state import (
     AGE,
     BLAMED,
@@ -299,12 +303,8 @@ def why_no_step(P: Problem, L: Plan) -> int:
     """
     C = P.control
     stand_at_start(P)
-    if P.sizes[IMPLICIT_MASS]:
-        if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
-            return SINGULAR_MASS
-        for k in range(P.sizes[NZ]):
-            if not abs(P.x[k]) > VANISHING * abs(P.pivot0[k]):
-                return SINGULAR_MASS
+    if mass_vanishes(P, L, int(C[SIGNATURE])):
+        return SINGULAR_MASS
     P.report[WHERE] = C[BLAMED]
     if P.search[FREED] > 0.0:
         return CHATTERING
