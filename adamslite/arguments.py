@@ -11,7 +11,7 @@ from typing import Any
 from adamslite.messages import did_you_mean
 from adamslite.mistakes import Syntax
 from adamslite.parse import OPERATORS, Item, Lexeme, end_of, spelled
-from adamslite.statement import Argument, Statement
+from adamslite.statement import STATEMENTS, Argument, Statement
 from adamslite.values import Reader, Refused
 from adamslite.vocabulary import Ambiguous, vocabulary
 
@@ -46,6 +46,8 @@ class Grouping:
         self.found: dict[str, Pieces] = {}
         self.current: Pieces | None = None
         self.skipping = False
+        self.unknown_flag = False
+        """A word was not understood: it may be the choice that is missing."""
 
     def collect(self, items: tuple[Item, ...]) -> dict[str, Pieces]:
         """The pieces of each argument that is given, by field name."""
@@ -164,6 +166,10 @@ class Grouping:
             table = self.words.valued if valued else self.words.bare
             others = self.words.bare if valued else self.words.valued
             hint = did_you_mean(word, table) or did_you_mean(word, others)
+            self.unknown_flag = self.unknown_flag or not valued
+            if not valued:
+                homes = [c.keyword for c in STATEMENTS.values() if word in vocabulary(c).bare]
+                hint = hint or f"{word} belongs to {' or '.join(homes[:3])}" * bool(homes)
             self.log.add(
                 "unknown-argument", *place, word=token[1], keyword=self.cls.keyword,
                 known=", ".join(self.words.known), hint=hint,
@@ -185,7 +191,8 @@ def read_arguments(
 
     Fields with a mistake are left out of the values; ``partial`` statements need no argument.
     """
-    found = Grouping(cls, syntax, reader).collect(items)
+    grouping = Grouping(cls, syntax, reader)
+    found = grouping.collect(items)
     values: dict[str, Any] = {}
     ranges: dict[str, tuple[int, int]] = {}
     for name, pieces in found.items():
@@ -196,7 +203,8 @@ def read_arguments(
             continue
     if syntax.whole and not partial:
         for name, argument in cls.arguments.items():
-            if argument.required and name not in found:
+            unclear = argument.bare and grouping.unknown_flag
+            if argument.required and name not in found and not unclear:
                 hint = f"{argument.key}: {argument.help}"
                 if argument.bare:
                     hint = f"one of {', '.join(argument.options)}"

@@ -104,7 +104,9 @@ def pages(name: str) -> str:
         if key in register
     ]
     if not found:
-        hint = did_you_mean(name, [*STATEMENTS, *FUNCTIONS, *MESSAGES])
+        names = [*STATEMENTS, *FUNCTIONS, *MESSAGES]
+        longer = [each for each in names if each.startswith(name.upper())]
+        hint = did_you_mean(name, names) if len(longer) != 1 else f"did you mean {longer[0]}?"
         raise UsageError(f"there is no statement, function or message '{name}'; {hint or LISTED}")
     return "\n".join(found)
 

@@ -24,6 +24,15 @@ from adamslite.parse import (
 MOST_MISTAKES = 20
 """After so many in one statement the rest of it is given up."""
 
+WRITTEN = {
+    "^": "a power is written **",
+    "÷": "a division is written /",
+    ">": "IF(x: a, b, c) is a below, b at and c above x = 0",
+    "<": "IF(x: a, b, c) is a below, b at and c above x = 0",
+    "{": "brackets are ( ) and [ ]",
+}
+"""What stands for characters that other languages have."""
+
 _SEPARATORS = ("COMMA", "BACKSLASH")
 
 
@@ -107,7 +116,12 @@ def _statement_mistake(tokens: list[Lexeme], at: int) -> Mistake:
         return Mistake("stray-equal", here, here)
     if kind == "AMPERSAND":
         return Mistake("stray-ampersand", here, here)
-    return Mistake("stray-character", here, here, {"word": tokens[here][1]})
+    return _stray(tokens, here)
+
+
+def _stray(tokens: list[Lexeme], here: int) -> Mistake:
+    word = tokens[here][1]
+    return Mistake("stray-character", here, here, {"word": word, "hint": WRITTEN.get(word, "")})
 
 
 def _header_mistake(tokens: list[Lexeme], at: int, kind: str) -> Mistake:
@@ -164,6 +178,8 @@ def expression_mistake(tokens: list[Lexeme]) -> Mistake | None:
     before = tokens[at - 1][0] if at else "START"
     if kind in ("NUMBER", "NAME", *CLOSES):
         words = {"word": tokens[at - 1][1], "other": tokens[here][1]}
+        if before == "NUMBER" and kind != "NUMBER" and words["other"][0] not in "eE":
+            words["hint"] = f"a product is written {words['word']}*{words['other']}"
         return Mistake("missing-operator", at - 1, here, words)
     if before == "COMMA" or kind == "COMMA" and before in CLOSES:
         return Mistake("empty-argument", at - 1, here)
@@ -175,4 +191,4 @@ def expression_mistake(tokens: list[Lexeme]) -> Mistake | None:
         return Mistake("empty-brackets", at - 1, here)
     if kind in ("COMMA", "COLON"):
         return Mistake("stray-comma", here, here, {"word": tokens[here][1]})
-    return Mistake("stray-character", here, here, {"word": tokens[here][1]})
+    return _stray(tokens, here)

@@ -6,6 +6,7 @@ reads arguments and expressions.
 
 from __future__ import annotations
 
+import re
 from typing import Any, NamedTuple
 
 import adamslite.elements  # noqa: F401  registers the statements
@@ -23,6 +24,8 @@ from adamslite.values import Reader, to_id
 from adamslite.vocabulary import Ambiguous, match, vocabulary
 
 Body = tuple[str, Key | None]
+# A line that begins as a statement does.
+BEGINNING = re.compile(r"^[ \t]*(\w+)[ \t]*/", re.MULTILINE)
 
 
 class Entry(NamedTuple):
@@ -98,10 +101,18 @@ class Reading:
             if cls is not None:
                 self._enter(cls, syntax)
                 if cls.ends:
+                    self._behind_end(syntax.range[1])
                     break
         for keyword, syntax in self._guesses:
             self._remember(keyword, syntax)
         return self._second_pass()
+
+    def _behind_end(self, start: int) -> None:
+        """Warn of the first statement behind END; whatever else stands there is no concern."""
+        for found in BEGINNING.finditer(self.log.source.text, start):
+            if found[1].upper() in STATEMENTS:
+                self.log.add("after-end", *found.span(1), word=found[1])
+                return
 
     # ---- first pass ---------------------------------------------------------------------------
 

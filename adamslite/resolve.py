@@ -269,6 +269,8 @@ class Resolver:
             raise Unresolved
         if self.names.find("VARIABLE", name) is not None:
             hint = f"{token[1]} is a VARIABLE: an operator is missing before the bracket"
+        elif name in RESERVED:
+            hint = f"{name} takes no arguments: write {name}"
         elif name == "D":
             hint = "the time derivative of a VARIABLE is written VARVAL(d(name)/dt)"
         else:
@@ -278,10 +280,9 @@ class Resolver:
     def _count(self, function: Function, at: int, separators: str, branches: tuple) -> None:
         count, most = len(branches), function.maximum
         if count < function.minimum or (most is not None and count > most):
-            limits = f"{function.minimum}" if most == function.minimum else _limits(function)
             self._refuse(
                 "argument-count", self.tokens[at],
-                word=function.name, count=count, limits=limits, usage=function.usage,
+                word=function.name, count=count, limits=_limits(function), usage=function.usage,
             )  # fmt: skip
         if separators[:1] == ":" and not function.colon or ":" in separators[1:]:
             self._refuse("wrong-separator", self.tokens[at], usage=function.usage)
@@ -371,6 +372,7 @@ def _default(parameter: Parameter) -> Node:
 
 
 def _limits(function: Function) -> str:
-    if function.maximum is None:
-        return f"{function.minimum} or more"
-    return f"{function.minimum} to {function.maximum}"
+    least, most = function.minimum, function.maximum
+    if least == most:
+        return f"{least} argument{'s' * (least != 1)}"
+    return f"{least} or more arguments" if most is None else f"{least} to {most} arguments"

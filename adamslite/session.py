@@ -1,10 +1,14 @@
 """One run: a model, its present state, and the commands carried out on it one after another.
 
-INTEGRATOR EQUILIBRIUM              settings from here on
-SIMULATE                            statics, dynamics, kinematics, initial conditions, from where
-it stands ACTIVATE DEACTIVATE redefinitions   another deck; bodies, multipliers and states keep
-their values LINEAR                              the model about the present state
-STOP                                the end
+::
+
+    INTEGRATOR EQUILIBRIUM              settings from here on
+    SIMULATE                            statics, dynamics, kinematics, initial conditions, from
+                                        where it stands
+    ACTIVATE DEACTIVATE redefinitions   another deck; bodies, multipliers and states keep their
+                                        values
+    LINEAR                              the model about the present state
+    STOP                                the end
 """
 
 from __future__ import annotations

@@ -161,7 +161,7 @@ def test_changes_are_checked_where_they_come_to_run() -> None:
 @pytest.mark.parametrize(
     ("text", "code", "hint"),
     [
-        ("VARIABLE/55, FUNCTION=1", "missing-reference", "did you mean"),
+        ("VARIABLE/55, FUNCTION=1", "missing-reference", "there is VARIABLE/5"),
         ("VARIABLE/lfit, FUNCTION=1", "missing-reference", "did you mean LIFT?"),
         ("VARIABLE/, FUNCTION=1", "missing-id", "write VARIABLE/1"),
         ("VARIABLE/5, FUNCTION=VARVAL(66)", "missing-reference", ""),

@@ -44,6 +44,8 @@ def test_a_name_may_be_a_statement_and_a_function() -> None:
 def test_help_suggests_a_name(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["help", "SPRINGDAMPR"]) == 2
     assert "did you mean SPRINGDAMPER?" in capsys.readouterr().err
+    assert cli.main(["help", "sim"]) == 2
+    assert "did you mean SIMULATE?" in capsys.readouterr().err
 
 
 def test_help_without_a_name_lists_them(capsys: pytest.CaptureFixture[str]) -> None:

@@ -100,12 +100,25 @@ def test_all_mistakes_are_told_at_once_and_in_order() -> None:
         ("CURVE/1, MINPAR=0", "write points of the curve into a MATRIX"),
         ("CVCV/1, ICURVE=1, JCURVE=2", "curves that roll on each other cannot be run"),
         (f"BEAM/1, I=2, J=1, {SECTION}, FORMULATION=NONLINEAR", "a beam that bends far is a row"),
+        ("VARIABLE/1, FUNCTION=2^3", "a power is written **"),
+        ("VARIABLE/1, FUNCTION=TIME > 1", "IF(x: a, b, c)"),
+        ("VARIABLE/1, FUNCTION=TIME(1)", "TIME takes no arguments"),
+        ("VARIABLE/1, FUNCTION=2TIME", "a product is written 2*TIME"),
+        ("VARIABLE/1, FUNCTION=1E", "an expression ends with a backslash"),
+        ("JOINT/1, INLINE, I=2, J=1", "INLINE belongs to JPRIM"),
+        (f"MARKER/{'9' * 19}, PART=1", "an id is a number from 1 up, of 18 digits at most"),
+        ("VARIABLE/1, FUNCTION=DX(12)", "there is MARKER/1, 2, 3"),
         ("VARIABLE/1, FUNCTION=DX + 1", "DX is a function: write DX(i[, j][, k])"),
     ],
 )
 def test_hints_name_what_was_meant(broken: str, hint: str) -> None:
     (diagnostic,) = told(START + broken + "\n")
     assert diagnostic.hint.startswith(hint)
+
+
+def test_one_argument_is_one_argument() -> None:
+    (diagnostic,) = told(START + "VARIABLE/1, FUNCTION=SIN()\n")
+    assert diagnostic.message == "SIN takes 1 argument and has 0"
 
 
 def test_what_is_not_supported_is_told_once_with_its_number() -> None:

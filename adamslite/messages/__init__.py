@@ -25,6 +25,10 @@ MESSAGES: dict[str, Message] = STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CO
 BODIES = {"PART": "POINT_MASS", "POINT_MASS": "PART"}
 """Which kind of body is easily written for which."""
 
+LEAST_GUESSED = 100
+"""Numbers of one or two digits are all alike: those that there are say more than a guess."""
+MOST_LISTED = 6
+
 START = """a deck to add broken statements to
 PART/1, GROUND
 MARKER/1, PART=1
@@ -97,6 +101,9 @@ class Log:
         other = BODIES.get(kind)
         if other and names.find(other, key) is not None:
             hint = f"there is a {other}/{key}"
+        elif isinstance(key, int) and key < LEAST_GUESSED:
+            known = list(map(str, names.ids.get(kind, ())))
+            hint = f"there is {kind}/{', '.join(known)}" if 0 < len(known) <= MOST_LISTED else ""
         else:
             hint = did_you_mean(str(key), names.known(kind))
         self.add("missing-reference", start, end, kind=kind, key=key, hint=hint)

@@ -50,7 +50,7 @@ EXPRESSIONS: dict[str, Message] = {
         _variables("USER(1,2,3)", "AKISPL(TIME,0,1)+AKISPL(TIME,0,2)"),
     ),
     "argument-count": Message(
-        "{word} takes {limits} arguments and has {count}",
+        "{word} takes {limits} and has {count}",
         "it is written {usage}",
         _variables("DX()", "DX(1,1,1,1)", "STEP(TIME,0,0,1)", "IF(1: 2, 3)"),
     ),
@@ -61,7 +61,7 @@ EXPRESSIONS: dict[str, Message] = {
     ),
     "not-an-id": Message(
         "{word} takes the id or name of a {kind} here",
-        "an id cannot be computed",
+        "an id is written, as a whole number of 18 digits at most or a name, and not computed",
         _variables("DX(1+1)", "DX(1.5)", "DX(-1)", "VARVAL(2*3)"),
     ),
     "not-constant": Message(

@@ -39,7 +39,7 @@ STATEMENTS: dict[str, Message] = {
     ),
     "bad-id": Message(
         "{text} is not an id",
-        "an id is a number from 1 up, or a name beginning with a letter",
+        "an id is a number from 1 up, of 18 digits at most, or a name beginning with a letter",
         ("MARKER/1.5, PART=1", "MARKER/-1, PART=1", "MARKER/0, PART=1", "MARKER/2nd, PART=1"),
     ),
     "duplicate-id": Message(
@@ -74,6 +74,12 @@ STATEMENTS: dict[str, Message] = {
         "not supported yet: {word} as a command{times}",
         "put the statement in the deck",
         commands=("UNITS/SYSTEM=MKS\nstop", "RESULTS/\nRESULTS/"),
+    ),
+    "after-end": Message(
+        "{word} stands behind END and is not read",
+        "nothing behind END is; put END last",
+        ("END\nMARKER/9, PART=1\nMARKER/9, PART=7",),
+        severity=WARNING,
     ),
     "unclosed-bracket": Message(
         "the bracket {word} is never closed",
