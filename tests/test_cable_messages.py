@@ -82,7 +82,11 @@ WRONG = {
     "needs-brute": (DRIVES, "elements = 6", "level = 1", (20, 1)),
     "brute-no-wheel": (ATWOOD[: ATWOOD.index("[[route]]\nkind = \"pulley\"")] + ATWOOD[LAST:],
                        "level = 1", 'form = "brute"', (14, 1)),
-    "brute-reel": (LOWERS, PAYOUT, PAYOUT + "\nreel = { thickness = 0.01, core = 0.1 }", (12, 1)),
+    "mount-moves": (ATWOOD, "radius = 0.2", "radius = 0.2\nmass = 2\n"
+                    "mount = { foot = [0, 1, 0], mass = 5 }", (14, 1)),
+    "reel-leans": (LOWERS, PAYOUT, PAYOUT + "\nreel = { thickness = 0.01, core = 0.1 }\n"
+                   "leans = true", (13, 1)),
+    "brute-cannot": (LOWERS, PAYOUT, PAYOUT + "\nreel = { thickness = 0.01, core = 0.1 }", (12, 1)),
     "brute-plane": (LOWERS, "level = 3", 'gravity = [0, -9, 1]', (18, 1)),
     "bend-too-tight": (FOLD, "radius = 0.01", "radius = 0.005", (11, 1)),
     "speed-on-a-route": (FOLD, "end = 1", "end = 1\nspeed = 3", (2, 1)),
@@ -98,7 +102,7 @@ WRONG = {
     "paper-not-valid": (LOWERS, "level = 3", 'level = 3\nform = "paper"\naccuracy = 1e-4', (18, 1)),
     "faster-than-waves": (LOWERS, "0.5*TIME**2", "60*TIME**2", (17, 1)),
 }  # fmt: skip
-BRUTE = {"stored-too-little", "brute-plane", "brute-reel"}
+BRUTE = {"stored-too-little", "brute-plane", "brute-cannot"}
 
 
 def told(spec: str) -> list[Diagnostic]:

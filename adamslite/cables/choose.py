@@ -68,15 +68,21 @@ def needs_brute(spec: Spec, spans: list[Span]) -> list[str]:
     for i, each in enumerate(spec.route):
         if each.teeth:
             found.append(f"the wheel of station {i + 1} has teeth")
-        if each.is_wheel and not spec.is_end(i) and (each.is_carried or each.is_moved):
+        if each.is_wheel and not spec.is_end(i) and each.gives_way:
             if not spec.closed and not _stays_tangent(spec, spans, i):
                 found.append(f"the wheel of station {i + 1} moves across its cable")
     return found
 
 
 def _stays_tangent(spec: Spec, spans: list[Span], i: int) -> bool:
-    """Whether wheel i moves along both its spans, so that they touch it where they did."""
+    """Whether wheel i moves along both its spans, so that they touch it where they did, or on
+    links that follow."""
     each = spec.route[i]
+    near = [spec.route[j] for p in spec.beside(i) for j in spec.pairs[p]]
+    if all(other.leans or not other.is_wheel for other in near):
+        return True
+    if each.mount:
+        return False
     ways = [each.slide] if each.is_carried else []
     ways += [tuple(float(k == j) for k in range(3)) for j in range(3) if each.motion[j]]
     return all(

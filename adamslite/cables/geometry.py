@@ -59,7 +59,8 @@ def turned(spec: Spec) -> Spec:
             before, behind = route[max(i - 1, 0)].at, route[min(i + 1, n - 1)].at
         side = dot(cross(add(each.at, before, -1), add(behind, each.at, -1)), axis)
         # A loop of two stations has no side: all its wheels turn alike.
-        route[i] = replace(each, axis=axis, turn=each.turn or (-1 if side < 0 else 1))
+        route[i] = replace(each, axis=axis, turn=each.turn or (-1 if side < 0 else 1),
+                           leans=each.leans or each.wander is not None)  # fmt: skip
     return replace(spec, route=tuple(route))
 
 

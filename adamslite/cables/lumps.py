@@ -20,7 +20,7 @@ from adamslite.cables.lay import Laid, Line, lay, length, plane, stretches, way
 from adamslite.cables.pieces import end
 from adamslite.cables.statements import number, point, section
 from adamslite.cables.vocabulary import Spec, Vector
-from adamslite.cables.wheels import drive, marker, triple, turning
+from adamslite.cables.wheels import drive, marker, mount_request, triple, turning
 
 # What a wheel without mu has: the cable creeps on it by a fifth of what mu = 1 would let it.
 GRIP = 5.0
@@ -286,4 +286,5 @@ def _requests(spec: Spec, found: list[Stretch]) -> str:
                 f"REQUEST/{n}, F2={rim}*{turning(i, spec)}\\ F3={rim}*{turning(i, spec, 1)}"
                 f"\\ F4=JOINT({n},0,1,0){pull}\n"
             )
+        text += mount_request(spec, i)
     return text

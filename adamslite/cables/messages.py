@@ -34,6 +34,13 @@ MESSAGES: dict[str, Message] = {
     "moved-twice": Message(
         "a wheel moves by its motion or by the forces on its mass", "leave motion or mass out"
     ),
+    "mount-moves": Message(
+        "a mount stands on the ground: its wheel has no motion and no mass of its own",
+        "leave mount out, or motion and mass",
+    ),
+    "reel-leans": Message(
+        "where the cable leaves a reel stays where it was", "leave {word} out, or reel"
+    ),
     "no-carriage": Message("{word} is for a wheel that is free to move", "give it a mass"),
     "no-slide": Message("pull goes along slide", "slide = [1, 0, 0]"),
     "expression": Message(
@@ -67,14 +74,15 @@ MESSAGES: dict[str, Message] = {
     ),
     "form-has-level": Message("form {form} is one of level 3", "level = 3, or leave one out"),
     "needs-brute": Message(
-        "{why}: only sections that run over the rims can show that", 'form = "brute"'
+        "{why}: only sections that run over the rims can show that",
+        'form = "brute"; a wheel may move where it and the wheels beside it lean: leans = true',
     ),
     "brute-no-wheel": Message(
         "form brute is for wheels, and there is none", "level = 2 has the same sections"
     ),
-    "brute-reel": Message(
-        "the radius of a reel changes, and form brute lays sections on rims that stay",
-        "level = 1, 2 or 3, or leave reel out",
+    "brute-cannot": Message(
+        "form brute lays sections on rims of one radius, in one plane: no {word}",
+        "level = 1, 2 or 3, or leave {word} out",
     ),
     "brute-plane": Message(
         "sections round wheels and bends lie in one plane across their axes",

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from adamslite.cables.choose import Choice, tensions
 from adamslite.cables.geometry import Span, add, dot, wrap
+from adamslite.cables.links import comes, link, spun, unloaded
 from adamslite.cables.statements import (
     AXES,
     Side,
@@ -19,7 +20,16 @@ from adamslite.cables.statements import (
     section,
 )
 from adamslite.cables.vocabulary import ZERO, Spec, Vector
-from adamslite.cables.wheels import arm, drive, marker, rolled, slipping, travel, triple
+from adamslite.cables.wheels import (
+    arm,
+    carrier,
+    drive,
+    marker,
+    rolled,
+    slipping,
+    travel,
+    triple,
+)
 
 # Sliding speed at which friction is full [m/s].
 CREEP = 1e-3
@@ -65,19 +75,19 @@ def _piece(spec: Spec, p: int, span: Span, tension: float) -> Piece:
 
 
 def write_pieces(spec: Spec, spans: list[Span], choice: Choice) -> str:
-    """Spans, ends, what turns the wheels, results."""
+    """Spans, ends, what turns the wheels."""
     found = pieces(spec, spans)
     text = "".join(_span(spec, choice, piece) for piece in found)
     text += _ends(spec, choice, found)
     for i, each in enumerate(spec.route):
         if each.is_wheel:
             text += _turned(spec, spans, choice, i)
-    return text + _requests(spec, choice, found)
+    return text
 
 
 def _feed(spec: Spec, piece: Piece, order: int = 0) -> str:
     """Cable that comes in at the wheel at the root of a piece, with its sign."""
-    moves = travel(piece.root, spec, order)
+    moves = comes(spec, piece.root, piece.first, order)
     return f"+{moves}" if piece.sense > 0 else f"-({moves})"
 
 
@@ -95,7 +105,8 @@ def _span(spec: Spec, choice: Choice, piece: Piece) -> str:
     text = f"\n! ---- span {piece.number}, from station {i + 1} to {j + 1} ----\n"
     root = spec.route[piece.root]
     if root.is_wheel and (_moves(spec, piece) or not _between(spec, piece)):
-        text += _touches(spec, piece.root, piece.first, piece.place, "leaves")
+        to = _next(spec, choice, piece)
+        text += _touches(spec, piece, piece.first, to)
     if choice.level == 1:
         return text + _rigid(spec, piece)
     if spec.route[piece.tip].kind == "run":
@@ -105,34 +116,57 @@ def _span(spec: Spec, choice: Choice, piece: Piece) -> str:
     return text + _chain(spec, choice, piece)
 
 
-def _touches(spec: Spec, i: int, m: int, place: Vector, word: str) -> str:
-    """MARKER/m where the cable touches wheel i."""
-    each, carrier = spec.route[i], 1
-    if each.is_moved or each.is_carried:
-        carrier, place = marker(i) + 2, add(place, each.at, -1)
-    return f"MARKER/{m}, PART={carrier}, QP={triple(place)}  ! cable {word}\n"
+def _next(spec: Spec, choice: Choice, piece: Piece) -> int:
+    """The marker that the cable goes to from the root."""
+    if _between(spec, piece):
+        return piece.first + 1
+    whole = choice.level == 1 or spec.route[piece.tip].kind == "run"
+    return marker(piece.tip) if whole else _side(piece, choice).node(1)
+
+
+def _touches(spec: Spec, piece: Piece, m: int, to: int) -> str:
+    """MARKER/m where the piece touches the wheel at its root or, the second one, at its tip."""
+    i, place, word = piece.root, piece.place, "leaves"
+    if m > piece.first:
+        i, place, word = piece.tip, piece.span.finish, "arrives"
+    each = spec.route[i]
+    if each.leans:
+        tip = spec.route[piece.tip]
+        # Between nodes the cable is at rest; alone it turns with its end.
+        velocity = tip.velocity if to == marker(piece.tip) else ZERO
+        spin = spun(spec, i, piece.along, piece.span.length, velocity)
+        return link(spec, i, m, place, to, spin)
+    part = carrier(spec, i)
+    place = add(place, each.at, -1) if part > 1 else place
+    return f"MARKER/{m}, PART={part}, QP={triple(place)}  ! cable {word}\n"
 
 
 def _moves(spec: Spec, piece: Piece) -> bool:
-    """Whether the piece lies between two wheels, one of which moves."""
+    """Whether the piece lies between two wheels that do not both stay, or carry its pull on."""
     ends = [spec.route[i] for i in (piece.root, piece.tip)]
-    return _between(spec, piece) and any(each.is_moved or each.is_carried for each in ends)
+    return _between(spec, piece) and any(each.is_mobile or each.leans for each in ends)
+
+
+def _way(spec: Spec, piece: Piece, order: int = 0) -> str:
+    """Cable that comes onto a piece between two wheels, or its rate."""
+    root = comes(spec, piece.root, piece.first, order)
+    return f"{root}-({comes(spec, piece.tip, piece.first + 1, order)})"
 
 
 def _rigid(spec: Spec, piece: Piece) -> str:
     p = piece.number
     if _between(spec, piece):
         text, apart = _apart(spec, piece)
-        way = f"{travel(piece.root, spec)}-({travel(piece.tip, spec)})"
-        return text + f"GCON/{p}, FUNCTION={apart}-{number(piece.span.length)}-({way})\n"
+        way = f"{apart}-{number(piece.span.length)}-({_way(spec, piece)})"
+        return text + f"GCON/{p}, FUNCTION={way}\n"
     ends = [spec.route[i] for i in (piece.root, piece.tip)]
-    comes = ""
+    feed = ""
     if ends[0].is_wheel:
-        comes = f"-({_feed(spec, piece)})"
+        feed = f"-({_feed(spec, piece)})"
     elif not any(each.is_free for each in ends):
         return "! Held at both ends: nothing moves.\n"
     i, j = marker(piece.tip), _root_marker(spec, piece)
-    return f"GCON/{p}, FUNCTION=DM({i},{j})-{number(piece.span.length)}{comes}\n"
+    return f"GCON/{p}, FUNCTION=DM({i},{j})-{number(piece.span.length)}{feed}\n"
 
 
 def _link(spec: Spec, piece: Piece) -> str:
@@ -140,18 +174,19 @@ def _link(spec: Spec, piece: Piece) -> str:
     p, long = piece.number, piece.span.length
     text, apart = _apart(spec, piece)
     free = long / (1 + piece.tension / spec.cable.stiffness)
-    comes = f"{number(free)}+{travel(piece.root, spec)}-({travel(piece.tip, spec)})"
     pull = f"EA*({apart}/LT{p}-1)"
     if spec.cable.damping:
-        rate = f"({travel(piece.root, spec, 1)}-({travel(piece.tip, spec, 1)}))"
+        rate = f"({_way(spec, piece, 1)})"
         own = f"VR({piece.first},{piece.first + 1})" if _moves(spec, piece) else ""
         pull += f"+damper*({own}-{rate}*{apart}/LT{p})"
     pull = _law(spec, pull)
     if _moves(spec, piece):
         text += f"SFORCE/{piece.first}, I={piece.first}, J={piece.first + 1}, FUNCTION=-T{p}\n"
+        for i, m, sense in ((piece.root, piece.first, 1), (piece.tip, piece.first + 1, -1)):
+            text += unloaded(spec, i, m, sense, f"T{p}") if spec.route[i].leans else ""
     return text + (
         "! One massless spring from wheel to wheel.\n"
-        f"VARIABLE/LT{p}, FUNCTION={comes}\n"
+        f"VARIABLE/LT{p}, FUNCTION={number(free)}+{_way(spec, piece)}\n"
         f"VARIABLE/T{p}, FUNCTION={pull}\n"
     )
 
@@ -161,7 +196,7 @@ def _apart(spec: Spec, piece: Piece) -> tuple[str, str]:
     if not _moves(spec, piece):
         return "", number(piece.span.length)
     i, j = piece.first, piece.first + 1
-    return _touches(spec, piece.tip, j, piece.span.finish, "arrives"), f"DM({i},{j})"
+    return _touches(spec, piece, j, i), f"DM({i},{j})"
 
 
 def _law(spec: Spec, pull: str) -> str:
@@ -179,7 +214,19 @@ def _run(spec: Spec, piece: Piece) -> str:
         text += f"{triple(add(piece.place, piece.along))}\n"
         speed = f"-VZ({marker(piece.root)},{end},{end})"
         text += f"SFORCE/{end}, ACTIONONLY, I={marker(piece.root)}, J={end}, FUNCTION=T{p}\n"
+    elif root.leans or root.mount:
+        text += _on_axle(spec, piece)
     return text + f"VARIABLE/T{p}, FUNCTION={number(piece.tension)}+SQRT(EA*rho)*({speed})\n"
+
+
+def _on_axle(spec: Spec, piece: Piece) -> str:
+    """The pull of a long run on the link or mount of the wheel."""
+    i, end, m = piece.root, marker(piece.tip), piece.first
+    text = f"MARKER/{end}, PART=1, QP={triple(spec.route[piece.tip].at)}\n"
+    text += f"SFORCE/{m}, I={m}, J={end}, FUNCTION=-T{piece.number}\n"
+    if spec.route[i].leans:
+        text += unloaded(spec, i, m, piece.sense, f"T{piece.number}")
+    return text
 
 
 def _hanging(spec: Spec, choice: Choice, piece: Piece) -> tuple[float, list[float]]:
@@ -236,11 +283,11 @@ def _lengths(spec: Spec, choice: Choice, piece: Piece, free: float) -> str:
     if choice.level == 3 and wheel:
         ways = [_feed(spec, piece, order) for order in range(3)]
         return length_variables(str(p), n, free, ways) + "\n"
-    comes = _feed(spec, piece) if wheel else ""
+    feed = _feed(spec, piece) if wheel else ""
     return (
         "! Free length of a section, and of the one at the root.\n"
         f"VARIABLE/L{p}, FUNCTION={number(free / n)}\n"
-        f"VARIABLE/L{p}_0, FUNCTION={number(free / n)}{comes}\n"
+        f"VARIABLE/L{p}_0, FUNCTION={number(free / n)}{feed}\n"
     )
 
 
@@ -259,7 +306,11 @@ def _pull(spec: Spec, choice: Choice, piece: Piece, grows: bool) -> str:
     if damping:
         rate = f"-SD{p}*DM({i},{j})/LT{p}" if grows else ""
         pull += f"+damper*(VR({i},{j}){rate})"
-    text = f"VARIABLE/T{p}, FUNCTION={_law(spec, pull)}"
+    text, root = f"VARIABLE/T{p}, FUNCTION={_law(spec, pull)}", spec.route[piece.root]
+    if root.leans:
+        text = f"VARIABLE/P{p}, FUNCTION={_law(spec, pull)}\n"
+        text += unloaded(spec, piece.root, piece.first, piece.sense, f"P{p}")
+        text += f"VARIABLE/T{p}, FUNCTION=P{p}"
     weight = dot(spec.gravity, piece.along)
     if spec.route[piece.root].is_wheel:
         # A cable that slips has the half section among the mass on its wheel instead.
@@ -332,19 +383,3 @@ def _turned(spec: Spec, spans: list[Span], choice: Choice, i: int) -> str:
         return text + drive(spec, i, [f"{radius}*F_{n}"])
     pulls = (f"+{behind}" if behind else "") + (f"-{before}" if before else "")
     return drive(spec, i, [f"{radius}*({pulls})"] if choice.level > 1 else [])
-
-
-def _requests(spec: Spec, choice: Choice, found: list[Piece]) -> str:
-    """Tension of every span, travel of every wheel."""
-    text = "\n! ---- results ----\n"
-    if choice.level > 1:
-        text += "".join(
-            f"REQUEST/{p.number}, F2=T{p.number}             ! tension of span {p.number}\n"
-            for p in found
-        )
-    for i, each in enumerate(spec.route):
-        if each.is_wheel:
-            pull = f"\\ F6=-GCON({marker(i)})" if each.payout else ""
-            text += f"REQUEST/{marker(i)}, F2={travel(i, spec)}\\ F3={travel(i, spec, 1)}{pull}"
-            text += f"  ! cable over station {i + 1}{', pull of the winch' if pull else ''}\n"
-    return text

@@ -44,6 +44,9 @@ def _winch(faults: Faults, each: dict[str, Any], i: int, ends: bool) -> None:
     reel = each.get("reel")
     if reel and not ends:
         faults.add("reel-between", ("route", i, "reel"))
+    for word in ("leans", "wander"):
+        if reel and each[word]:
+            faults.add("reel-leans", ("route", i, word), word=word)
     if reel and reel.core >= each.get("radius", inf):
         faults.add("reel-core", ("route", i, "reel"), core=reel.core, radius=each["radius"])
 
@@ -52,6 +55,8 @@ def _carriage(faults: Faults, each: dict[str, Any], i: int) -> None:
     """A wheel that moves has either a law, or a mass that forces move."""
     if each["mass"] and any(each["motion"]):
         faults.add("moved-twice", ("route", i, "motion"))
+    if each["mount"] and (each["mass"] or any(each["motion"])):
+        faults.add("mount-moves", ("route", i, "mount"))
     for key in ("slide", "pull"):
         if not each["mass"] and any(each[key]):
             faults.add("no-carriage", ("route", i, key), word=key)

@@ -75,8 +75,9 @@ def _check_brute(spec: Spec, faults: Faults) -> None:
     elif not in_plane(spec):
         faults.add("brute-plane", ("model", "form"))
     for i, each in enumerate(spec.route):
-        if each.reel:
-            faults.add("brute-reel", ("route", i, "reel"))
+        for word in ("reel", "wander"):
+            if getattr(each, word):
+                faults.add("brute-cannot", ("route", i, word), word=word)
 
 
 def _check_chain(spec: Spec, pieces: list[Span], faults: Faults) -> None:

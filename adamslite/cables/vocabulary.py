@@ -57,6 +57,29 @@ class Reel:
 
 
 @dataclass(frozen=True)
+class Mount:
+    """What the bearing of a wheel sits on: a bracket of `mass` [kg] that stands on the ground.
+
+    It is rigid without `stiffness` [N/m]; else it gives way in all directions and does not turn.
+    """
+
+    foot: Vector
+    mass: float
+    stiffness: float = 0.0
+    damping: float = 0.0
+
+
+@dataclass(frozen=True)
+class Wander:
+    """A guide of `mass` [kg] slides along the axle with the cable, against a spring and a damper
+    ([N/m], [N s/m])."""
+
+    mass: float
+    stiffness: float
+    damping: float = 0.0
+
+
+@dataclass(frozen=True)
 class Station:
     """A point of the route: an end, a weight on the cable, a wheel the cable lies on, or a bend
     that it has at the start and nothing holds.
@@ -84,6 +107,9 @@ class Station:
     teeth: int = 0
     torque: str = ""
     reel: Reel | None = None
+    leans: bool = False
+    mount: Mount | None = None
+    wander: Wander | None = None
 
     @property
     def is_wheel(self) -> bool:
@@ -109,6 +135,16 @@ class Station:
     def is_carried(self) -> bool:
         """Whether it is a wheel whose axle moves with what it meets."""
         return self.is_wheel and self.mass > 0
+
+    @property
+    def is_mobile(self) -> bool:
+        """Whether its bearing is not on the ground itself."""
+        return self.is_moved or self.is_carried or self.mount is not None
+
+    @property
+    def gives_way(self) -> bool:
+        """Whether its axle moves in the plane of the cable."""
+        return self.is_mobile and not (self.mount and not self.mount.stiffness)
 
     @property
     def pitch(self) -> float:
@@ -228,6 +264,23 @@ REEL = Group(
     Reel,
     {"thickness": ("number", "not-positive", None), "core": ("number", "not-positive", None)},
 )
+MOUNT = Group(
+    Mount,
+    {
+        "foot": ("vector", "", None),
+        "mass": ("number", "not-positive", None),
+        "stiffness": ("number", "not-positive", 0.0),
+        "damping": ("number", "negative", 0.0),
+    },
+)
+WANDER = Group(
+    Wander,
+    {
+        "mass": ("number", "not-positive", None),
+        "stiffness": ("number", "negative", None),
+        "damping": ("number", "negative", 0.0),
+    },
+)
 PLACE = {"kind": (KINDS, "", None), "at": ("vector", "", None)}
 MOVED = {"motion": ("laws", "", ("", "", ""))}
 CARRIED = {
@@ -249,6 +302,9 @@ WHEEL = (
         "friction": ("number", "negative", 0.0),
         "mu": ("number", "negative", -1.0),
         "teeth": ("whole", "not-positive", 0),
+        "leans": ("yes or no", "", False),
+        "mount": (MOUNT, "", None),
+        "wander": (WANDER, "", None),
     }
 )
 MASS = {"mass": ("number", "not-positive", None), "velocity": ("vector", "", ZERO)}

@@ -2,7 +2,8 @@
 
 Station i of the route is MARKER/n, n = 10 i (from 1); a wheel is PART/n on the bearing MARKER/n+1,
 z along the axle. A carriage that moves is PART/n+2 with MARKER/n+2; MARKER/n+3 is where it starts,
-on the ground, z along the way it slides. MARKER/n+4 floats for contacts.
+on the ground, z along the way it slides, or the foot of a mount that MARKER/n+5 stands on.
+MARKER/n+4 floats for contacts.
 """
 
 import re
@@ -76,8 +77,8 @@ def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
     upright = each.axis == (0.0, 0.0, 1.0)
     own = "" if upright else f", ZP={triple(each.axis)}"
     text = f"\n! The {each.kind} of station {i + 1}, R = {number(each.radius)} m.\n"
-    if each.is_moved or each.is_carried:
-        text += _carriage(each, n)
+    if each.is_mobile:
+        text += _mount(each, n) if each.mount else _carriage(each, n)
         text += f"MARKER/{n + 1}, PART={n + 2}{own}\n"
     else:
         ground = "" if upright else f", ZP={triple(add(each.at, each.axis))}"
@@ -108,6 +109,41 @@ def _pack(spec: Spec, i: int) -> str:
         f"+({number(_growth(i, spec))})*{turning(i, spec)}\n"
         f"VARIABLE/J_{n}, FUNCTION={number(heavy)}*(R_{n}**4-{number(each.reel.core**4)})\n"
     )
+
+
+def carrier(spec: Spec, i: int) -> int:
+    """The part the bearing of wheel i sits on."""
+    return marker(i) + 2 if spec.route[i].is_mobile else 1
+
+
+def _mount(each: Station, n: int) -> str:
+    """A bracket with its mass centre at the axle, on its foot: MARKER/n+5 on MARKER/n+3."""
+    own = each.mount
+    inertia = ",".join([number(own.mass * each.radius**2)] * 3)
+    text = (
+        f"PART/{n + 2}, MASS={number(own.mass)}, CM={n + 2}, IP={inertia}, QG={triple(each.at)}\n"
+        f"MARKER/{n + 2}, PART={n + 2}\n"
+        f"MARKER/{n + 3}, PART=1, QP={triple(own.foot)}  ! foot of its mount\n"
+        f"MARKER/{n + 5}, PART={n + 2}, QP={triple(add(own.foot, each.at, -1))}\n"
+    )
+    if not own.stiffness:
+        return text + f"JOINT/{n + 2}, FIXED, I={n + 5}, J={n + 3}\n"
+    k, c = (",".join([number(x)] * 3) for x in (own.stiffness, own.damping))
+    return text + (
+        f"JPRIM/{n + 2}, ORIENTATION, I={n + 5}, J={n + 3}\n"
+        f"BUSHING/{n + 2}, I={n + 5}, J={n + 3}, K={k}, C={c}\n"
+    )
+
+
+def mount_request(spec: Spec, i: int) -> str:
+    """Load and torque on the ground at the foot of a mount."""
+    n = marker(i)
+    if not spec.route[i].mount:
+        return ""
+    named = {2: "FX", 3: "FY", 4: "FZ", 6: "TX", 7: "TY", 8: "TZ"}
+    parts = [f"F{k}={name}({n + 3},{n + 5})" for k, name in named.items()]
+    told = f"! Load and torque on the ground at the foot of the mount of station {i + 1}.\n"
+    return f"{told}REQUEST/{n + 1}, " + "\\ ".join(parts) + "\n"
 
 
 def _carriage(each: Station, n: int) -> str:
@@ -190,7 +226,8 @@ def drive(spec: Spec, i: int, torques: list[str]) -> str:
     if each.friction:
         torques.append(f"-{number(each.friction)}*STEP({turning(i, spec, 1)},-0.01,-1,0.01,1)")
     if each.reel:
-        torques.append(f"-J_{n}*{turning(i, spec, 2)}")
+        text += f"SFORCE/{n + 3}, ROTATIONAL, ACTIONONLY, I={n}, J={n + 1}"
+        text += f", FUNCTION=-J_{n}*{turning(i, spec, 2)}\n"
     if each.force or each.torque:
         text += (
             "\n! Payout of the winch and its speed.\n"
@@ -200,7 +237,8 @@ def drive(spec: Spec, i: int, torques: list[str]) -> str:
         held = out if each.force else number(sense * each.turn)
         torques.append(f"-({held})*({own_names(each.force or each.torque, n)})")
     if torques:
-        text += f"SFORCE/{n}, ROTATIONAL, ACTIONONLY, I={n}, J={n + 1}\n, FUNCTION="
+        only = "" if each.mount else ", ACTIONONLY"
+        text += f"SFORCE/{n}, ROTATIONAL{only}, I={n}, J={n + 1}\n, FUNCTION="
         text += "\n, +".join(torques) + "\n"
     if each.payout:
         text += f"GCON/{n}, FUNCTION={rolled(i, spec, 0, sense)}\n, -({each.payout})\n"

@@ -5,6 +5,7 @@ from adamslite.cables.estimate import Moves
 from adamslite.cables.geometry import Span
 from adamslite.cables.lumps import start_speed, write_lumps
 from adamslite.cables.pieces import write_pieces
+from adamslite.cables.requests import write_requests
 from adamslite.cables.statements import cable_variables, head, number, tail
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import wheel
@@ -50,5 +51,5 @@ def write(spec: Spec, spans: list[Span], moves: Moves, choice: Choice) -> str:
     if brute or spec.bends:
         text += write_lumps(spec, spans, choice, moves)
     else:
-        text += write_pieces(spec, spans, choice)
+        text += write_pieces(spec, spans, choice) + write_requests(spec, spans, choice)
     return text + tail(choice.integrator, spec.end, spec.steps)

@@ -19,6 +19,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 import arrest  # noqa: E402
 from formulas import G, Winch, sliding_ratio  # noqa: E402
 from laws import Move  # noqa: E402
+from leaning import mount, wander  # noqa: E402
 from spans import table  # noqa: E402
 from wound import reels  # noqa: E402
 
@@ -172,7 +173,8 @@ def folded() -> str:
 
 
 def main() -> None:
-    for case in (drum, belt, slip, crane, arrestment, reels, ring, folded):
+    cases = (drum, belt, slip, crane, arrestment, reels, mount, wander, ring, folded)
+    for case in cases:
         name = case.__name__
         text, _ = deck((HERE / f"{name}.toml").read_text(encoding="utf-8"))
         (HERE / f"{name}.adm").write_text(text, encoding="utf-8")

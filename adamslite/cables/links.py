@@ -1,0 +1,98 @@
+"""Where the cable touches a wheel that it may leave in any direction: on a link about the axle.
+
+                  o next point of the cable         link m   PART/m about the axle, turned by b;
+                 /                                           MARKER/m+900 is on the axle
+        b   .-. / T                                 touch    MARKER/m at its tip, z outwards
+         --( + o                                    JPRIM/m  keeps the next point in the plane that
+            '-'  MARKER/m                                    touches the rim there
+
+A link that turns by b along the route winds up R b of the cable that the rim brings. It has no mass
+and the torque -R T of the rim, so that the cable loads nothing but the axle. One that wanders is a
+guide of some mass, and slides along the axle against a spring and a damper.
+"""
+
+from adamslite.cables.geometry import add, cross, dot
+from adamslite.cables.statements import AXES, number
+from adamslite.cables.vocabulary import ZERO, Spec, Vector
+from adamslite.cables.wheels import carrier, marker, travel, triple
+
+AXLE = 900
+
+
+def comes(spec: Spec, i: int, m: int, order: int = 0) -> str:
+    """Cable that wheel i brings to its link m along the route [m], or its time derivative."""
+    each, moves = spec.route[i], travel(i, spec, order)
+    if not each.leans:
+        return moves
+    return f"{moves}-({number(each.turn * each.radius)}*{leaning(spec, i, m, order)})"
+
+
+def leaning(spec: Spec, i: int, m: int, order: int = 0) -> str:
+    """Angle of link m about the axle of wheel i, or its time derivative."""
+    a, b = m + AXLE, marker(i) + 1
+    seen = "" if spec.route[i].axis == (0.0, 0.0, 1.0) else f",{b}"
+    return (f"AZ({a},{b})", f"WZ({a},{b}{seen})", f"WDTZ({a},{b}{seen})")[order]
+
+
+def link(spec: Spec, i: int, m: int, place: Vector, to: int, spin: float) -> str:
+    """Link m of wheel i, which starts at `place` and follows MARKER/to with `spin` [rad/s]."""
+    each, n = spec.route[i], marker(i)
+    out, own = add(place, each.at, -1), _own_axis(each.axis)
+    kind = "CYLINDRICAL" if each.wander else "REVOLUTE"
+    text = (
+        "! The link that the cable leaves on turns with it.\n"
+        f"PART/{m}{_mass(each, m)}, QG={triple(each.at)}{_start(each, out, spin)}\n"
+        f"MARKER/{m}, PART={m}, QP={triple(out)}, ZP={triple(add(out, out))}\n"
+        f"MARKER/{m + AXLE}, PART={m}{own}\n"
+        f"JOINT/{m}, {kind}, I={m + AXLE}, J={n}\n"
+        f"JPRIM/{m}, INPLANE, I={to}, J={m}\n"
+    )
+    return text + (_wander(spec, i, m) if each.wander else "")
+
+
+def _own_axis(axis: Vector) -> str:
+    return "" if axis == (0.0, 0.0, 1.0) else f", ZP={triple(axis)}"
+
+
+def _mass(each, m: int) -> str:
+    return f", MASS={number(each.wander.mass)}, CM={m}" if each.wander else ""
+
+
+def _start(each, out: Vector, spin: float) -> str:
+    turn = add(ZERO, each.axis, spin)
+    moves = cross(turn, out) if each.wander else ZERO
+    return "".join(
+        f", {letter}{a}={number(x)}"
+        for letter, values in (("V", moves), ("W", turn))
+        for a, x in zip(AXES, values, strict=True) if abs(x) > 0
+    )  # fmt: skip
+
+
+def _wander(spec: Spec, i: int, m: int) -> str:
+    """Way of a guide along the axle, and what pulls it back."""
+    b, own = marker(i) + 1, spec.route[i].wander
+    a = m + AXLE
+    return (
+        f"VARIABLE/wander_{m}, FUNCTION=DZ({a},{b},{b})\n"
+        f"VFORCE/{m + AXLE}, I={m}, J_PART={carrier(spec, i)}, RM={b}\n"
+        f", FZ=-{number(own.stiffness)}*wander_{m}-{number(own.damping)}*VZ({a},{b},{b})\n"
+    )
+
+
+def spun(spec: Spec, i: int, along: Vector, length: float, velocity: Vector) -> float:
+    """Spin of a link whose cable leaves `along` and has a weight with `velocity` at its end."""
+    return dot(velocity, cross(spec.route[i].axis, along)) / length
+
+
+def unloaded(spec: Spec, i: int, m: int, sense: int, pull: str) -> str:
+    """The torque of the rim on link m, where the cable leaves along the route (`sense` 1)."""
+    each = spec.route[i]
+    back = number(-sense * each.turn * each.radius)
+    a, b = m + AXLE, marker(i) + 1
+    return f"SFORCE/{a}, ROTATIONAL, I={a}, J={b}, FUNCTION={back}*{pull}\n"
+
+
+def wrapped(spec: Spec, i: int, before: int, behind: int, angle: float) -> str:
+    """Angle over which the cable lies on wheel i between its links."""
+    turn = "+" if spec.route[i].turn > 0 else "-"
+    return f"{number(angle)}{turn}({leaning(spec, i, behind)}-{leaning(spec, i, before)})"

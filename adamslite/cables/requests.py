@@ -1,0 +1,48 @@
+"""What the deck of levels 1 to 3 reports besides its states."""
+
+from adamslite.cables.choose import Choice
+from adamslite.cables.geometry import Span, wrap
+from adamslite.cables.links import wrapped
+from adamslite.cables.pieces import Piece, pieces
+from adamslite.cables.vocabulary import Spec
+from adamslite.cables.wheels import marker, mount_request, travel
+
+
+def write_requests(spec: Spec, spans: list[Span], choice: Choice) -> str:
+    """Tension of every span; travel of every wheel, how the cable lies on it and loads it."""
+    found = pieces(spec, spans)
+    text = "\n! ---- results ----\n"
+    if choice.level > 1:
+        text += "".join(
+            f"REQUEST/{p.number}, F2=T{p.number}             ! tension of span {p.number}\n"
+            for p in found
+        )
+    for i, each in enumerate(spec.route):
+        if each.is_wheel:
+            text += _wheel(spec, spans, found, i) + mount_request(spec, i)
+    return text
+
+
+def _wheel(spec: Spec, spans: list[Span], found: list[Piece], i: int) -> str:
+    each, n = spec.route[i], marker(i)
+    told = f"cable over station {i + 1}"
+    parts = [f"F2={travel(i, spec)}", f"F3={travel(i, spec, 1)}"]
+    if each.leans:
+        parts.append(f"F4=JOINT({n},0,1,0)")
+        told += ", load on the axle"
+    if each.payout:
+        parts.append(f"F6=-GCON({n})")
+        told += ", pull of the winch"
+    if each.leans and not spec.is_end(i):
+        before, behind = (_touch(found[p], i) for p in spec.beside(i))
+        parts.append(f"F7={wrapped(spec, i, before, behind, wrap(spec, spans, i))}")
+        told += ", wrap angle"
+    text = "\\ ".join(parts)
+    if len(parts) > 3:
+        return f"! {told[0].upper()}{told[1:]}.\nREQUEST/{n}, {text}\n"
+    return f"REQUEST/{n}, {text}  ! {told}\n"
+
+
+def _touch(piece: Piece, i: int) -> int:
+    """The marker where a piece touches wheel i."""
+    return piece.first if piece.root == i else piece.first + 1
