@@ -45,8 +45,8 @@ def solve(gives: str = "", model: str = "level = 1", mass: float = 5, velocity: 
     return results
 
 
-FORMS = ["level = 1", "level = 2\nelements = 4", 'level = 3\nelements = 4\nform = "paper"',
-         'level = 3\nelements = 4\nform = "ale"']  # fmt: skip
+FORMS = ["level = 1", "level = 2\nelements = 2", 'level = 3\nelements = 2\nform = "paper"',
+         'level = 3\nelements = 2\nform = "ale"']  # fmt: skip
 
 
 @pytest.mark.parametrize("model", FORMS)
@@ -65,7 +65,7 @@ def test_a_mount_carries_what_hangs_on_its_wheel(model: str) -> None:
     np.testing.assert_allclose(results["REQUEST/20.F7"], np.pi, atol=1e-6)
 
 
-@pytest.mark.parametrize("model", FORMS)
+@pytest.mark.parametrize("model", [FORMS[0], FORMS[-1]])
 def test_a_mount_gives_way(model: str) -> None:
     """The whole weight of 32.5 kg bounces on 5e4 N/m: y = -(m g/k) (1 - cos w t), w^2 = k/m.
 
