@@ -192,6 +192,10 @@ def hanging() -> Iterator[tuple[str, str, str]]:
     )
 
 
+#: Of the cable that runs out, relative.
+ERROR = 1e-10
+
+
 # ---- running out by itself -------------------------------------------------------------------
 
 
@@ -258,6 +262,7 @@ def running() -> Iterator[tuple[str, str, str]]:
                     ["time", "REQUEST/1.F2", "REQUEST/1.F3"],
                     lines,
                     [t, *running_out(span, inertia, t)],
+                    ERROR,
                 ),
             )
 

@@ -29,6 +29,8 @@ from adamslite.cables.statements import (
 )
 
 CARRIAGE, WHEEL, DAMPING = 2, 9001, 0.2
+#: Of the car that coasts, relative.
+ERROR = 1e-8
 
 
 @dataclass(frozen=True)
@@ -261,7 +263,7 @@ def coasts() -> Iterator[tuple[str, str, str]]:
             "tolerance REQUEST/2.F2: peak 2e-3",
         ]
         header = ["time", "REQUEST/1.F2", "REQUEST/1.F3", "REQUEST/2.F2"]
-        yield f"coasting{name}", text, table(header, lines, [t, *columns])
+        yield f"coasting{name}", text, table(header, lines, [t, *columns], ERROR)
 
 
 HAULS = {
@@ -284,7 +286,7 @@ def hauls() -> Iterator[tuple[str, str, str]]:
             "tolerance REQUEST/2.F2: peak 5e-3",
         ]
         header = ["time", "REQUEST/1.F3", "REQUEST/2.F2"]
-        yield f"hauled{name}", text, table(header, lines, [t, *columns])
+        yield f"hauled{name}", text, table(header, lines, [t, *columns], strings.HAULED_ERROR)
 
 
 SLOW = {
@@ -313,7 +315,7 @@ def slow() -> Iterator[tuple[str, str, str]]:
             "tolerance REQUEST/2.F3: peak 1e-2",
         ]
         header = ["time", "REQUEST/1.F2", "REQUEST/1.F3", "REQUEST/2.F2", "REQUEST/2.F3"]
-        yield f"slow{name}", text, table(header, lines, [t, places, *columns])
+        yield f"slow{name}", text, table(header, lines, [t, places, *columns], strings.REST_ERROR)
 
 
 def cable_car() -> Iterator[tuple[str, str, str]]:

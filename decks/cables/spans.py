@@ -1,6 +1,7 @@
 """A cable of variable length and what its decks share."""
 
 from dataclasses import dataclass
+from math import ceil, log10
 
 import numpy as np
 from formulas import Cable
@@ -41,9 +42,24 @@ class Span:
         )
 
 
-def table(header: list[str], lines: list[str], columns: list[np.ndarray]) -> str:
-    """A reference with instructions and a table."""
+def supported(column: np.ndarray, error: float) -> np.ndarray:
+    """A column without the digits below its relative `error`, of the largest value."""
+    worst = error * np.abs(column).max()
+    return np.round(column, -ceil(log10(worst))) if worst else column
+
+
+def table(
+    header: list[str], lines: list[str], columns: list[np.ndarray], error: float = 0.0
+) -> str:
+    """A reference with instructions and a table.
+
+    `error` is more than that of the integration that computed the columns, which shows in a run
+    with a thousandth of its tolerance. Digits below it are not printed, as they differ between
+    processors, whose BLAS sums products of matrices in different orders: 1e-16 there is 1e-12 to
+    1e-8 when it has gone through the choice of steps.
+    """
+    shown = [columns[0], *(supported(np.asarray(column), error) for column in columns[1:])]
     rows = "".join(
-        ",".join(f"{value + 0.0:.12g}" for value in row) + "\n" for row in np.column_stack(columns)
+        ",".join(f"{value + 0.0:.12g}" for value in row) + "\n" for row in np.column_stack(shown)
     )
     return "".join(f"# {line}\n" for line in lines) + ",".join(header) + "\n" + rows

@@ -15,6 +15,8 @@ from scipy.optimize import brentq, fsolve
 
 # Polynomials on a part have this degree; with 12, the place of the load changes by 1e-7 m.
 POINTS = 8
+#: Of the load at rest and hauled, relative.
+REST_ERROR, HAULED_ERROR = 1e-10, 1e-6
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 HERE = Path(__file__).resolve().parent
+#: Of equations of motion, relative.
+ERROR = 1e-8
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import arrest  # noqa: E402
@@ -79,7 +81,7 @@ def slip() -> str:
         "tolerance REQUEST/20.F2: abs 9e-3",
         "tolerance REQUEST/20.F3: abs 9e-3",
     ]
-    return table(["time", "REQUEST/20.F2", "REQUEST/20.F3"], lines, [t, -way, -speed])
+    return table(["time", "REQUEST/20.F2", "REQUEST/20.F3"], lines, [t, -way, -speed], ERROR)
 
 
 def crane() -> str:
@@ -102,7 +104,7 @@ def crane() -> str:
         "tolerance POINT_MASS/20.*: abs 1e-4",
     ]
     columns = [t, place + rope * np.sin(q), -rope * np.cos(q)]
-    return table(["time", "POINT_MASS/20.x", "POINT_MASS/20.y"], lines, columns)
+    return table(["time", "POINT_MASS/20.x", "POINT_MASS/20.y"], lines, columns, ERROR)
 
 
 def arrestment() -> str:
@@ -115,7 +117,9 @@ def arrestment() -> str:
         "tolerance POINT_MASS/20.y: peak 1e-2",
         "tolerance POINT_MASS/20.vy: peak 2.5e-2",
     ]
-    return table(["time", "POINT_MASS/20.y", "POINT_MASS/20.vy"], lines, [t, y, speed])
+    return table(
+        ["time", "POINT_MASS/20.y", "POINT_MASS/20.vy"], lines, [t, y, speed], arrest.ERROR
+    )
 
 
 def ring() -> str:
@@ -169,7 +173,7 @@ def folded() -> str:
         "tolerance POINT_MASS/30.vy: abs 3e-2",
     ]
     columns = [t, -h * np.cos(a).sum(0), h * (np.sin(a) * w).sum(0)]
-    return table(["time", "POINT_MASS/30.y", "POINT_MASS/30.vy"], lines, columns)
+    return table(["time", "POINT_MASS/30.y", "POINT_MASS/30.vy"], lines, columns, ERROR)
 
 
 def main() -> None:

@@ -1,0 +1,56 @@
+"""Decks and references in the tree are what their generators write."""
+
+import runpy
+from collections.abc import Callable
+
+import cranes
+import draglines
+import generate
+import numpy as np
+import pytest
+import ropeways
+import strings
+from written import assert_same_reference, assert_same_text
+
+from adamslite.places import find
+
+#: Folders of decks/cables that take seconds to write: what is integrated, and its columns.
+SLOW = {
+    "cable-car": [(ropeways, "coasting", 3), (strings, "hauled", 2)],
+    "crane": [(cranes, "straight", 4)],
+    "drag-line": [(draglines, "motion", 5)],
+}
+DESCRIBE = runpy.run_path(str(find("decks") / "cables" / "described" / "describe.py"))
+
+
+@pytest.mark.parametrize("case", sorted(set(generate.CASES) - set(SLOW)))
+def test_a_folder_of_cables_is_what_its_generator_writes(case: str) -> None:
+    folder = find("decks") / "cables" / case
+    for name, deck, reference in generate.CASES[case]():
+        assert_same_text(deck, (folder / f"{name}.adm").read_text(encoding="utf-8"))
+        kept = (folder / f"{name}.reference.csv").read_text(encoding="utf-8")
+        assert_same_reference(reference, kept)
+
+
+def resting(columns: int) -> Callable[..., np.ndarray]:
+    """In the place of an integration, whose last argument are the times."""
+    return lambda *given: np.zeros((columns, len(given[-1])))
+
+
+@pytest.mark.parametrize("case", SLOW)
+def test_the_decks_of_a_folder_are_what_its_generator_writes(
+    case: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without their references, which take seconds."""
+    for module, integrated, columns in SLOW[case]:
+        monkeypatch.setattr(module, integrated, resting(columns))
+    for name, deck, _ in generate.CASES[case]():
+        kept = (find("decks") / "cables" / case / f"{name}.adm").read_text(encoding="utf-8")
+        assert_same_text(deck, kept)
+
+
+@pytest.mark.parametrize("case", ["drum", "belt", "slip", "crane", "arrestment", "ring", "folded"])
+def test_a_reference_of_a_described_scene_is_what_its_generator_writes(case: str) -> None:
+    folder = find("decks") / "cables" / "described"
+    kept = (folder / f"{case}.reference.csv").read_text(encoding="utf-8")
+    assert_same_reference(DESCRIBE[case](), kept)
