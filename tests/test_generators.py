@@ -1,7 +1,10 @@
 """Decks and references in the tree are what their generators write."""
 
 import runpy
+import shutil
+import sys
 from collections.abc import Callable
+from pathlib import Path
 
 import cranes
 import draglines
@@ -20,6 +23,20 @@ SLOW = {
     "crane": [(cranes, "straight", 4)],
     "drag-line": [(draglines, "motion", 5)],
 }
+#: Other folders of decks, whose generators take less than a third of a second.
+QUICK = (
+    "beam-cantilever",
+    "bushing",
+    "conical-pendulum",
+    "gforce-pair",
+    "growing-mass-dalembert",
+    "growing-mass-printed",
+    "growing-mass-singular",
+    "hanging-mass",
+    "paper-sforce",
+    "pendulum-gcon",
+    "pendulum-revolute",
+)
 DESCRIBE = runpy.run_path(str(find("decks") / "cables" / "described" / "describe.py"))
 
 
@@ -54,3 +71,20 @@ def test_a_reference_of_a_described_scene_is_what_its_generator_writes(case: str
     folder = find("decks") / "cables" / "described"
     kept = (folder / f"{case}.reference.csv").read_text(encoding="utf-8")
     assert_same_reference(DESCRIBE[case](), kept)
+
+
+@pytest.mark.parametrize("case", QUICK)
+def test_a_reference_of_a_deck_is_what_its_generator_writes(
+    case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In a copy of its folder: a generator writes beside itself."""
+    kept, copy = find("decks") / case, tmp_path / case
+    shutil.copytree(kept, copy)
+    shutil.copy(find("decks") / "minimal.py", tmp_path)
+    for reference in copy.glob("*.csv"):
+        reference.unlink()
+    monkeypatch.setattr(sys, "path", [str(copy), *sys.path])
+    runpy.run_path(str(copy / "make_reference.py"), run_name="__main__")
+    for reference in kept.glob("*.csv"):
+        written = (copy / reference.name).read_text(encoding="utf-8")
+        assert_same_reference(written, reference.read_text(encoding="utf-8"))
