@@ -213,6 +213,20 @@ def test_an_expression_without_a_value_is_named(method):
     assert results.time[-1] >= 0.4
 
 
+@pytest.mark.parametrize("method", ("GSTIFF", "HHT", "RADAU", "ABAM"))
+def test_a_variable_without_a_root_any_more_names_equation_unknown_and_iteration(method):
+    """V = V^2 + t has a root until t = 1/4 only."""
+    loop = "VARIABLE/6, FUNCTION=VARVAL(6)**2+TIME\nVFORCE/7, I=2, J_PART=1, FX=VARVAL(6)\nEND\n"
+    results = said(with_integrator(FALLING + loop, method))
+    assert results.outcome is Outcome.NEWTON_FAILED
+    assert results.summary["t_end"] == pytest.approx(0.25, abs=1e-3)
+    told = rf"\w+/\d \(<text>:\d:1\).*: {WHEN} and order \d, this equation is off by \S+ after "
+    told += (
+        r"iteration \d+, more than all others\. VARIABLE/6 \(<text>:8:1\), changes most, by \S+\."
+    )
+    assert re.fullmatch(told, reason(results))
+
+
 ALL = ("GSTIFF", "GSTIFF, I3", "CONSTANT_BDF", "HHT", "NEWMARK", "RADAU", "ABAM", "VERLET")
 
 

@@ -12,6 +12,7 @@ from adamslite.integrators.base import (
     ACCELERATION,
     FACTORIZATIONS,
     IMPLICIT_MASS,
+    ITERATION,
     MODE_DYNAMICS,
     NS,
     NV,
@@ -31,6 +32,7 @@ from adamslite.integrators.equations import (
     spread,
 )
 from adamslite.integrators.linalg import factor, signature, solve
+from adamslite.integrators.trouble import note_trouble
 from adamslite.translate import Reals, native
 
 MAX_ITERATIONS = 12
@@ -81,13 +83,14 @@ def settle(P: Problem, L: Plan, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool
     """Newton at the workspace's state with the matrix that is factored, renewed when it is slow."""
     last = 1e300
     for iteration in range(MAX_ITERATIONS):
+        P.report[ITERATION] = iteration + 1.0
         residual(P, ACCELERATION, P.F)
         for k in range(P.sizes[NZ] - P.sizes[N] - P.sizes[M] - P.sizes[NV] - P.sizes[NS]):
             P.F[P.sizes[NZ] - 1 - k] = 0.0
         solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
         size = correct_rates(P, a, z, sd)
         if not size < 1e300:
-            return False
+            break
         put_motion(P, u, a)
         put_scalars(P, z, sd)
         if size <= ROUND_OFF or (iteration > 1 and size >= 0.5 * last and size < 1e-7):
@@ -97,6 +100,7 @@ def settle(P: Problem, L: Plan, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool
             if not factor(L, P.LA, P.pivots_a, P.work):
                 return False
         last = size
+    note_trouble(P, ACCELERATION, P.report[ITERATION])
     return False
 
 

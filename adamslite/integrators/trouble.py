@@ -5,6 +5,7 @@ open.
 from __future__ import annotations
 
 from adamslite.integrators.base import (
+    ACCELERATION,
     CHANGE,
     CHANGED,
     ITERATION,
@@ -25,10 +26,11 @@ def note_trouble(P: Problem, phases: int, iteration: float) -> None:
     the equation with the largest residual at the workspace's state; overwrites ``P.F``.
     """
     n, where, top = P.sizes[N], 0, -1.0
+    solved = P.a if phases == ACCELERATION else P.q
     for k in range(P.sizes[NZ]):
         value = 0.0
         if k < n:
-            value = P.q[k]
+            value = solved[k]
         elif k - n < P.z.size - 1:
             value = P.z[k - n]
         weight = max(1.0, abs(value))
