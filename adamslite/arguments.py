@@ -6,6 +6,7 @@ the next ``KEY=``.  Keywords may be shortened to any prefix that fits one argume
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 from adamslite.messages import did_you_mean
@@ -202,9 +203,9 @@ def read_arguments(
         except Refused:
             continue
     if syntax.whole and not partial:
-        for name, argument in cls.arguments.items():
+        for name, argument in _required(cls):
             unclear = argument.bare and grouping.unknown_flag
-            if argument.required and name not in found and not unclear:
+            if name not in found and not unclear:
                 hint = f"{argument.key}: {argument.help}"
                 if argument.bare:
                     hint = f"one of {', '.join(argument.options)}"
@@ -212,3 +213,8 @@ def read_arguments(
                 place = syntax.range
                 reader.log.add("missing-argument", *place, label=label, word=word, hint=hint)
     return values, ranges
+
+
+@cache
+def _required(cls: type[Statement]) -> list[tuple[str, Argument]]:
+    return [(name, argument) for name, argument in cls.arguments.items() if argument.required]

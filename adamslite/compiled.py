@@ -19,6 +19,7 @@ from adamslite.model import Model
 from adamslite.shape import Binder, Binding, Reader, Tree, reactions, symbolic_view
 from adamslite.statement import Statement
 from adamslite.symbolic import Scope
+from adamslite.uncollected import uncollected
 
 HERE = Path(__file__).parent
 
@@ -57,12 +58,13 @@ def compile_model(model: Model, progress: Any = None) -> Kernels:
     """Bind every statement, compile the shapes not seen before, link all of them."""
     groups: dict[tuple, Group] = {}
     outputs = []
-    for statement in model.deck.statements:
-        for face in faces(statement, model):
-            _add(groups, model, statement, face)
-        if getattr(statement, "result_names", ()):
-            outputs.append((statement, statement.result_names))
-            _add(groups, model, statement, "output")
+    with uncollected():
+        for statement in model.deck.statements:
+            for face in faces(statement, model):
+                _add(groups, model, statement, face)
+            if getattr(statement, "result_names", ()):
+                outputs.append((statement, statement.result_names))
+                _add(groups, model, statement, "output")
     fresh = sum(_compile(group, progress) for group in groups.values())
     addresses = native.addresses((group.code, _entry_points(group)) for group in groups.values())
     return Kernels(model, list(groups.values()), outputs, addresses, fresh)

@@ -8,10 +8,8 @@
 
 from __future__ import annotations
 
-import gc
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -24,6 +22,7 @@ from adamslite.redefinition import Redefinition, settled
 from adamslite.resolve import Key, Names
 from adamslite.statement import STATEMENTS, Statement
 from adamslite.switching import Switch
+from adamslite.uncollected import uncollected
 
 SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
 ANALYSES = ("SIMULATE", "LINEAR")
@@ -70,7 +69,8 @@ class Deck:
         self._enter(statements)
         groups = [(each, each.companions(self)) for each in statements]
         self.statements = tuple(s for each, group in groups for s in (each, *group))
-        self._enter(self.statements)
+        if len(self.statements) > len(statements):
+            self._enter(self.statements)
 
     def _enter(self, statements: Iterable[Statement]) -> None:
         """Make statements, and no others, known to :meth:`of` and :meth:`find`."""
@@ -205,7 +205,7 @@ def read(source: str | Path) -> Deck:
     title = text[:end_of_title]
     reading = Reading(Source(text, str(path or "<text>")), Names(), "deck")
     reading.title(title)
-    with _no_collection():
+    with uncollected():
         statements = reading.statements(end_of_title)
         deck = Deck(reading.log.source, title, statements, reading.names, path)
         deck.warnings = _judged(deck, reading, RULES)
@@ -256,19 +256,6 @@ def _caused(deck: Deck, commands: Iterable[Any]) -> list[Diagnostic]:
             unchecked = False
         started = started or getattr(command, "keyword", "") == "SIMULATE"
     return list(found)
-
-
-@contextmanager
-def _no_collection() -> Iterator[None]:
-    """No garbage collection inside: reading only makes things, and it would take a fifth longer."""
-    if not gc.isenabled():
-        yield
-        return
-    gc.disable()
-    try:
-        yield
-    finally:
-        gc.enable()
 
 
 def _judged(deck: Deck, reading: Reading, rules: Sequence[Any]) -> tuple[Diagnostic, ...]:

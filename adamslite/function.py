@@ -28,6 +28,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from inspect import cleandoc
 from typing import Any
 
@@ -81,18 +82,23 @@ class Function:
         """True when every derivative is continuous wherever the function is defined."""
         return self.edges is None
 
-    @property
+    @cached_property
     def minimum(self) -> int:
         """The least number of arguments."""
         return sum(p.counts[0] if p.counts else p.default is None for p in self.parameters)
 
-    @property
+    @cached_property
     def maximum(self) -> int | None:
         """The largest number of arguments; ``None`` when there is no limit."""
         last = self.parameters[-1]
         if not last.counts:
             return len(self.parameters)
         return None if last.counts[1] is None else len(self.parameters) - 1 + last.counts[1]
+
+    @cached_property
+    def ruled(self) -> bool:
+        """Whether numbers of a call can be wrong."""
+        return bool(self.rule) or any(parameter.allowed for parameter in self.parameters)
 
     def parameter(self, index: int) -> Parameter:
         """The parameter that takes argument number ``index``, counted from 0."""

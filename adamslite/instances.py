@@ -82,26 +82,25 @@ class Instances(Numbering):
 
     def _integers(self, group: Group, binding: Binding, instance: int) -> list[int]:
         nodes = [("BODY", b) for b in binding.bodies] + binding.nodes
-        offsets = [self.w_at.get(node, 0) for node in nodes]
-        signals = [self.w_at["SIGNAL", s] for s in binding.signals]
-        rows = [self._row(group, node) for node in nodes]
-        pairs = [
-            (self._row_node(group, nodes[r]), self.node_at[nodes[c]])
-            for r, c in group.meta["blocks"]
-        ]
+        found = [self.w_at.get(node, 0) for node in nodes]
+        found += [self.w_at["SIGNAL", s] for s in binding.signals]
+        found += [self._row(group, node) for node in nodes]
         guards = group.meta["guards"]
-        branches = [
-            self.first_branch[place, group.name] + instance * len(found)
-            for place, found in guards.items()
-            if any(guards.values())
-        ]
-        return offsets + signals + rows + branches + [self.block(r, c) for r, c in pairs]
+        if any(guards.values()):
+            found += [
+                self.first_branch[place, group.name] + instance * len(each)
+                for place, each in guards.items()
+            ]
+        if group.meta["blocks"]:
+            rows = [self._row_node(group, node) for node in nodes]
+            columns = [self.node_at[node] for node in nodes]
+            found += [self.block(rows[r], columns[c]) for r, c in group.meta["blocks"]]
+        return found
 
     def _row_node(self, group: Group, node: tuple[str, Any]) -> int:
         """Node whose rows an instance writes: velocity rows stand at mu."""
-        mu = ("MU", node)
-        if group.face == "velocity" and mu in self.node_at:
-            return self.node_at[mu]
+        if group.face == "velocity" and ("MU", node) in self.node_at:
+            return self.node_at["MU", node]
         return self.node_at[node]
 
     def _row(self, group: Group, node: tuple[str, Any]) -> int:

@@ -252,6 +252,7 @@ class Reading:
         for number, entry in enumerate(self.entries):
             if number not in made:
                 made[number] = self._statement(entry, reader)
+        self.entries.clear()  # their tokens are most of what reading takes
         return tuple(each for _, each in sorted(made.items()) if each is not None)
 
     def _ground(self) -> Key | None:

@@ -102,10 +102,13 @@ def fold(node: Node) -> float | None:
 
 
 class _Slot(NamedTuple):
-    """What an argument of a function must be: the kind of statement, or None for an expression."""
+    """What an argument of a function must be: the kind of statement, or None for an expression;
+    and what stands for it where it is left out.
+    """
 
     kind: str | None
     constant: bool
+    default: Node | None
 
 
 class Resolver:
@@ -248,17 +251,17 @@ class Resolver:
             self._argument(function, slots[min(i, last)], branch, depth + 1)
             for i, branch in enumerate(branches)
         ]
-        if function.rule or any(parameter.allowed for parameter in function.parameters):
+        if function.ruled:
             self._rules(function, args, branches)
-        for parameter in function.parameters[len(args) :]:
-            if parameter.default is not None:
-                args.append(_default(parameter))
+        args += [slot.default for slot in slots[len(args) :] if slot.default is not None]
         return Call(name, tuple(args))
 
     def _signature(self, function: Function) -> list[_Slot]:
         slots = self._slots.get(function.name)
         if slots is None:
-            slots = [_Slot(p.statement, p.kind == "constant") for p in function.parameters]
+            slots = [
+                _Slot(p.statement, p.kind == "constant", _default(p)) for p in function.parameters
+            ]
             self._slots[function.name] = slots
         return slots
 
@@ -365,7 +368,9 @@ class Resolver:
         raise Unresolved
 
 
-def _default(parameter: Parameter) -> Node:
+def _default(parameter: Parameter) -> Node | None:
+    if parameter.default is None:
+        return None
     if parameter.statement:
         return Ref(parameter.statement, int(parameter.default))
     return Num(parameter.default)

@@ -19,6 +19,7 @@ from typing import Any, ClassVar
 from adamslite.diagnostics import Span, Spans
 
 STATEMENTS: dict[str, type[Statement]] = {}
+NO_SPANS = Spans()
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,13 +193,13 @@ class Statement:
 
     def __init__(self, **values: Any) -> None:
         # One initialiser for all classes, and the dictionary directly: generated ones cost more
-        # than reading the deck.
-        defaults = _defaults(type(self))
-        if not values.keys() <= defaults.keys():
-            unknown = ", ".join(sorted(values.keys() - defaults.keys()))
+        # than reading the deck.  Defaults stay with the class.
+        known = _fields(type(self))
+        if not values.keys() <= known:
+            unknown = ", ".join(sorted(values.keys() - known))
             raise TypeError(f"{type(self).__name__} has no field {unknown}")
-        self.__dict__.update(defaults)
         self.__dict__.update(values)
+        self.__dict__.setdefault("spans", NO_SPANS)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise FrozenInstanceError(f"cannot assign to field {name!r}")
@@ -235,9 +236,8 @@ class Statement:
 
 
 @cache
-def _defaults(cls: type[Statement]) -> dict[str, Any]:
-    arguments = {argument.name: argument.default for argument in cls.arguments.values()}
-    return {"id": 0, "name": None, "spans": Spans(), **arguments}
+def _fields(cls: type[Statement]) -> frozenset[str]:
+    return frozenset(each.name for each in dataclasses.fields(cls))
 
 
 def statement(

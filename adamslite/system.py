@@ -15,7 +15,7 @@ from adamslite.elimination import Elimination
 from adamslite.engine import INTEGRATORS, address_table, engine, ints, reals
 from adamslite.faults import UsageError
 from adamslite.integrators import base
-from adamslite.model import PART, Body
+from adamslite.model import PART
 
 # Moves of the assembly below this are round-off.
 MOVED = 1e-9
@@ -68,14 +68,22 @@ class System(Elimination):
     def _bodies(self) -> None:
         bodies = self.model.bodies
         self.mass = reals([b.mass for b in bodies])
-        self.inertia = reals([v for b in bodies for v in b.inertia.ravel()])
-        self.base = reals([v for b in bodies for v in b.attitude.ravel()])
-        self.weight = reals([_rotation_weight(b) for b in bodies])
+        inertia = reals([b.inertia for b in bodies]).reshape(-1, 3, 3)
+        self.inertia = inertia.ravel()
+        self.base = reals([b.attitude for b in bodies]).ravel()
+        self.weight = _rotation_weights(self.mass, inertia)
+        if bodies:
+            at = self._first_three()
+            self.q[at], self.u[at] = [b.x for b in bodies], [b.v for b in bodies]
         for b, body in enumerate(bodies):
-            i = self.starts[b]
-            self.q[i : i + 3], self.u[i : i + 3] = body.x, body.v
             if body.width == PART:
+                i = self.starts[b]
                 self.u[i + 3 : i + 6] = body.w
+
+    def _first_three(self) -> np.ndarray:
+        """Numbers of the unknowns of each body that are its place, (bodies, 3)."""
+        starts = self.starts[: len(self.model.bodies)]
+        return np.array(starts)[:, None] + np.arange(3)
 
     def _scalars(self) -> None:
         """Start values of variables that are solved for and of DIFF states: their IC."""
@@ -124,22 +132,26 @@ class System(Elimination):
 
     def largest_changes(self) -> list[str]:
         """The five largest moves of bodies from where the deck puts them, as text."""
+        bodies = self.model.bodies
+        if not bodies:
+            return []
+        shifts = np.abs(self.q[self._first_three()] - [b.x for b in bodies]).max(axis=1)
+        turns = _turns_between(reals([b.attitude for b in bodies]), self.base.reshape(-1, 3, 3))
         moved = []
-        for b, body in enumerate(self.model.bodies):
-            i = self.starts[b]
-            turn = _turn_between(body.attitude, self.base[9 * b : 9 * b + 9].reshape(3, 3))
-            shift = float(np.abs(self.q[i : i + 3] - body.x).max())
-            if max(shift, turn) > MOVED:
-                text = f"{body.statement.label} by {shift:.3g}"
-                moved.append(
-                    (max(shift, turn), text + (f" and {turn:.3g} rad" if turn > MOVED else ""))
-                )
+        for b in np.flatnonzero(np.maximum(shifts, turns) > MOVED).tolist():
+            shift, turn = float(shifts[b]), float(turns[b])
+            text = f"{bodies[b].statement.label} by {shift:.3g}"
+            moved.append(
+                (max(shift, turn), text + (f" and {turn:.3g} rad" if turn > MOVED else ""))
+            )
         return [text for _, text in sorted(moved, reverse=True)[:5]]
 
     def changed_speeds(self) -> list[str]:
         """The five largest changes of velocities that the deck gives, as text."""
         changed = []
         for b, body in enumerate(self.model.bodies):
+            if not (body.v.any() or body.w.any()):
+                continue
             i, given = self.starts[b], np.concatenate([body.v, body.w])[: self.widths[b]]
             change = float(np.abs(self.u[i : i + self.widths[b]] - given).max())
             size = float(np.abs(given).max())
@@ -234,14 +246,17 @@ class System(Elimination):
         return engine(operation)(problem.ctypes.data, plan.ctypes.data, *more)
 
 
-def _turn_between(a: np.ndarray, b: np.ndarray) -> float:
-    """Angle of the rotation from one attitude to another [rad]."""
-    spin = b @ a.T
-    axis = np.array([spin[2, 1] - spin[1, 2], spin[0, 2] - spin[2, 0], spin[1, 0] - spin[0, 1]])
-    return float(np.arctan2(np.linalg.norm(axis), np.trace(spin) - 1.0))
+def _turns_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Angles (n,) of the rotations from attitudes (n, 3, 3) to others [rad]."""
+    spin = b @ a.transpose(0, 2, 1)
+    axis = [spin[:, i, j] - spin[:, j, i] for i, j in ((2, 1), (0, 2), (1, 0))]
+    return np.arctan2(np.linalg.norm(axis, axis=0), np.trace(spin, axis1=1, axis2=2) - 1.0)
 
 
-def _rotation_weight(body: Body) -> float:
-    """1/(radius of gyration)^2: puts rotations on the scale of translations in W G^T mu."""
-    trace = float(np.trace(body.inertia))
-    return body.mass / trace if trace > 0.0 and body.mass > 0.0 else 1.0
+def _rotation_weights(mass: np.ndarray, inertia: np.ndarray) -> np.ndarray:
+    """1/(radius of gyration)^2 of each body: puts rotations on the scale of translations in
+    W G^T mu; 1 for a body without mass or inertia.
+    """
+    trace = np.trace(inertia, axis1=1, axis2=2)
+    known = (trace > 0.0) & (mass > 0.0)
+    return np.divide(mass, trace, out=np.ones(mass.size), where=known)

@@ -53,7 +53,8 @@ def split(tokens: list[Lexeme], separator: str) -> list[list[Lexeme]]:
 
 def to_id(tokens: list[Lexeme]) -> Key | None:
     """The id that tokens spell, a number or a name as written; None when they spell none."""
-    tokens = unwrapped(tokens)
+    if len(tokens) != 1:
+        tokens = unwrapped(tokens)
     if not tokens:
         return None
     kind, text, _ = tokens[0]

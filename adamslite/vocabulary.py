@@ -37,7 +37,7 @@ class Vocabulary:
     def __init__(self, cls: type[Statement]) -> None:
         self.valued: dict[str, Argument | str] = {key: key for key in cls.planned}
         self.bare: dict[str, tuple[Argument, str]] = {}
-        self._seen: dict[tuple[bool, str], Any] = {}
+        self._seen: dict[bool, dict[str, Any]] = {True: {}, False: {}}
         for argument in cls.arguments.values():
             if argument.kind == "flag" or argument.bare:
                 for option in argument.keys or argument.options:
@@ -47,10 +47,10 @@ class Vocabulary:
 
     def look_up(self, word: str, valued: bool) -> Any:
         """The argument (or planned key) of ``WORD=``, or the (argument, option) of a bare word."""
-        if (valued, word) not in self._seen:
-            table = self.valued if valued else self.bare
-            self._seen[valued, word] = match(spelled(word).upper(), table)
-        return self._seen[valued, word]
+        seen = self._seen[valued]
+        if word not in seen:
+            seen[word] = match(spelled(word).upper(), self.valued if valued else self.bare)
+        return seen[word]
 
     @property
     def known(self) -> list[str]:
