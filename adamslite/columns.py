@@ -11,6 +11,9 @@ from adamslite.system import System
 # Below this sine of theta the first and third angle of the 3-1-3 sequence are one angle.
 ALIGNED = 1e-10
 
+OF_PART = "x y z psi theta phi vx vy vz wx wy wz ax ay az alx aly alz".split()
+OF_POINT = "x y z vx vy vz ax ay az".split()
+
 
 def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
     """Names and values (nt, nc) of every body and every statement that writes something.
@@ -24,7 +27,7 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
         w = record[:, system.w_at["BODY", b] :]
         label = body.statement.label
         turns = body.statement.keyword == "PART"
-        names += [f"{label}.{c}" for c in _components(turns)]
+        names += [f"{label}.{c}" for c in (OF_PART if turns else OF_POINT)]
         parts.append(_part(system, b, w) if turns else _point(body.width, w))
     for statement, suffixes in system.kernels.outputs:
         names += [f"{statement.label}.{s}" if s else statement.label for s in suffixes]
@@ -38,11 +41,6 @@ def _point(width: int, w: np.ndarray) -> np.ndarray:
     if width != PART:
         return w[:, :9]
     return np.concatenate([w[:, k : k + 3] for k in (POSITION, VELOCITY, ACCELERATION)], axis=1)
-
-
-def _components(part: bool) -> list[str]:
-    words = "x y z psi theta phi vx vy vz wx wy wz ax ay az alx aly alz".split()
-    return words if part else [w for w in words if w[0] in "xyz" or w[0] in "va" and w[1] in "xyz"]
 
 
 def _part(system: System, b: int, w: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ force * UCF = mass * acceleration.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -81,20 +81,22 @@ def frame_axes(statement: Statement, origin: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a marker sits: ``p`` from the mass centre or ground origin, ``axes`` in body axes."""
+    """Where a marker sits: ``p`` from the mass centre or ground origin, ``axes`` in body axes.
+
+    ``offset``, ``turned``: whether these differ from zero and from the axes of the body.
+    """
 
     kind: str
     body: int
     p: np.ndarray
     axes: np.ndarray
+    offset: bool = field(init=False)
+    turned: bool = field(init=False)
 
-    @cached_property
-    def offset(self) -> bool:
-        return bool(self.p.any())
-
-    @cached_property
-    def turned(self) -> bool:
-        return self.axes is not IDENTITY and not np.array_equal(self.axes, IDENTITY)
+    def __post_init__(self) -> None:
+        turned = self.axes is not IDENTITY and not np.array_equal(self.axes, IDENTITY)
+        object.__setattr__(self, "offset", bool(self.p.any()))
+        object.__setattr__(self, "turned", turned)
 
 
 @dataclass(frozen=True)

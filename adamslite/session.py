@@ -38,6 +38,7 @@ from adamslite.outcomes import Outcome
 from adamslite.results import Linearized
 from adamslite.system import System
 from adamslite.times import output_times
+from adamslite.uncollected import uncollected
 
 # Outcomes after which the rank of the constraints is looked at again.
 STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
@@ -249,7 +250,8 @@ class Session:
     # helpers
 
     def _numbered(self, pivoting: bool) -> System:
-        system = System(self.kernels, self.settings.form == "SI2", pivoting)
+        with uncollected():
+            system = System(self.kernels, self.settings.form == "SI2", pivoting)
         system.settings[base.T] = self.time
         return system
 

@@ -31,6 +31,8 @@ from adamslite.symbolic import ORIGIN, Load, Scope, Slot
 
 Tree = tuple
 IGNORED = ("text", "texts")
+# What cannot be switched off.
+LASTING = ("MARKER", "VARIABLE", "DIFF")
 
 
 class ForceLoop(Exception):
@@ -180,8 +182,9 @@ class Binder:
     def call(self, node: Call) -> Tree:
         if node.name in NET:
             return self.expression(written_out(node, self.model))
-        if any([type(arg) is Ref and self._is_off(arg) for arg in node.args]):
-            return ("c", 0.0)
+        for arg in node.args:
+            if type(arg) is Ref and arg.kind not in LASTING and self._is_off(arg):
+                return ("c", 0.0)
         function = FUNCTIONS[node.name]
         return (
             "f",
@@ -191,8 +194,6 @@ class Binder:
 
     def _is_off(self, ref: Ref) -> bool:
         """A reference to an element that is switched off: whatever it measures is zero."""
-        if ref.kind in ("MARKER", "VARIABLE", "DIFF"):
-            return False
         return not self.model.acts(self.model.element(ref.kind, ref.id))
 
     def _taken(self, function: Function, n: int, node: Node) -> Tree:
