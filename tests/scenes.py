@@ -26,6 +26,20 @@ JOINT/1, REVOLUTE, I=3, J=1
 END
 """
 LENGTH, GRAVITY, MASS, INERTIA = 1.0, 9.81, 2.0, 0.3
+#: m x'' = -k (x - 1) with m = 2, k = 8, let go at x = 2.
+SPRING = (
+    GROUND
+    + """POINT_MASS/2, MASS=2, CM=2, QG=2,0,0
+MARKER/2, POINT_MASS=2
+SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=1, K=8, LENGTH=1
+END
+"""
+)
+
+
+def spring_energy(results: Results) -> np.ndarray:
+    """4 (x - 1)^2 + v^2 = 4 of that mass, (nt,)."""
+    return 4 * (results["POINT_MASS/2.x"] - 1) ** 2 + results["POINT_MASS/2.vx"] ** 2
 
 
 def run(deck: str, end: float, steps: int = 10, **options: Any) -> Results:

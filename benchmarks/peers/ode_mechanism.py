@@ -36,6 +36,13 @@ def solution(scene: str, n: int, y: Array, setup: float, took: float, steps: int
     return Solution(values, setup, took, steps, bool(np.isfinite(values).all()))
 
 
+def finished(scene: str, n: int, run: Any, setup: float, took: float) -> Solution:
+    """What a run of SUNDIALS came to; an early end is told."""
+    if not run.success:
+        return Solution(np.full(1, np.nan), setup, took, ok=False)
+    return solution(scene, n, np.array(run.y[-1]), setup, took, 0)
+
+
 def scipy(method: str, scene: str, n: int, settings: Settings) -> Solution:
     """One of scipy's methods on the accelerations."""
     import scipy.integrate
@@ -69,10 +76,7 @@ def cvode(scene: str, n: int, settings: Settings) -> Solution:
     solver = CVODE(rhs, method="BDF", max_num_steps=10_000_000, **settings)
     setup = laps.lap()
     run = solver.solve([0.0, m.end], equations.start)
-    took = laps.lap()
-    if not run.success:
-        return Solution(np.full(1, np.nan), setup, took, ok=False)
-    return solution(scene, n, np.array(run.y[-1]), setup, took, 0)
+    return finished(scene, n, run, setup, laps.lap())
 
 
 def ida(scene: str, n: int, settings: Settings) -> Solution:
@@ -100,10 +104,7 @@ def ida(scene: str, n: int, settings: Settings) -> Solution:
     solver = IDA(residual, algebraic_idx=algebraic, max_num_steps=10_000_000, **settings)
     setup = laps.lap()
     run = solver.solve([0.0, m.end], start, rate)
-    took = laps.lap()
-    if not run.success:
-        return Solution(np.full(1, np.nan), setup, took, ok=False)
-    return solution(scene, n, np.array(run.y[-1]), setup, took, 0)
+    return finished(scene, n, run, setup, laps.lap())
 
 
 def idas(scene: str, n: int, settings: Settings) -> Solution:

@@ -13,21 +13,25 @@ from minimal import solve, write  # noqa: E402  (it lies beside the folders of t
 from tackle import (  # noqa: E402
     BLOCK,
     CABLE,
+    DYNAMIC,
+    FALL,
     HEIGHTS,
     HOOK,
     INERTIA,
     LINK,
+    LOAD,
     PULLEY,
     RADIUS,
+    STATIC,
     TURRET,
     Deck,
     centre,
 )  # fmt: skip
 
-LOAD, CARGO, FREE, SPEED = 800.0, 50.0, 0.2, 0.2
+CARGO, FREE, SPEED = 50.0, 0.2, 0.2
 STIFF = np.array([40000.0, 10000.0, 5000.0])
 FORCES = LOAD / 2 ** np.arange(1, 4)
-FALL, TOP = (1.5, 2.6, 3.6), 3.8
+TOP = 3.8
 REST = """
 Rest of a tackle with springs: see README.md
 tolerance: abs 1e-10
@@ -39,14 +43,6 @@ Vibration of a tackle with springs, linear modes: see README.md
 tolerance: abs 1e-6
 tolerance *.vy: abs 1e-4
 tolerance SPRINGDAMPER/*: abs 1e-2
-"""
-STATIC = """
-EQUILIBRIUM/ERROR=1.0E-10, IMBALANCE=1.0E-10, MAXIT=100
-SIMULATE/STATICS
-"""
-DYNAMIC = """
-INTEGRATOR/GSTIFF, SI2, ERROR=1.0E-8
-SIMULATE/DYNAMIC, END=1, STEPS=100
 """
 
 
@@ -113,7 +109,7 @@ def vibrating():
     )  # fmt: skip
     tackle(deck)
     deck.lines = [moving(line, 1) for line in deck.lines]
-    (HERE / "vibration.adm").write_text(deck.text(DYNAMIC))
+    (HERE / "vibration.adm").write_text(deck.text(DYNAMIC.format(steps=100)))
     t = np.linspace(0, 1, 101)
     mass, stretch, stiffness = modes()
     squares, shapes = eigh(stiffness, mass)

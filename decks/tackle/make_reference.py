@@ -13,19 +13,22 @@ from tackle import (  # noqa: E402
     BLOCK,
     CABLE,
     DOWN,
+    DYNAMIC,
+    FALL,
     HEIGHTS,
     HOOK,
     INERTIA,
     LINK,
+    LOAD,
     PULLEY,
     RADIUS,
+    STATIC,
     TURRET,
     Deck,
     centre,
     strand_length,
 )  # fmt: skip
 
-LOAD, FALL = 800.0, (1.5, 2.6, 3.6)
 G, CARGO, EFFORT, HEAD = 9.81, 100.0, 20.0, 5.0
 REST = """
 Rest, rope forces halved by each stage: see README.md
@@ -37,14 +40,6 @@ MOVING = """
 Constant accelerations, closed form: see README.md
 tolerance: abs 1e-8
 tolerance PART/*.y: abs 1e-6
-"""
-STATIC = """
-EQUILIBRIUM/ERROR=1.0E-10, IMBALANCE=1.0E-10, MAXIT=100
-SIMULATE/STATICS
-"""
-DYNAMIC = """
-INTEGRATOR/GSTIFF, SI2, ERROR=1.0E-8
-SIMULATE/DYNAMIC, END=1, STEPS=50
 """
 
 
@@ -115,7 +110,7 @@ def hoisting():
     deck.side(450, 410, head, False, 1.0, "effort", up=False, end_mass=EFFORT, joint=406)
     deck.part(500, CARGO, (0.5, 0.5, 0.5), 500, (0.0, -HOOK), "cargo")
     deck.add("MARKER/500, PART=500", "JOINT/501, SPHERICAL, I=500, J=101", "")
-    (HERE / "hoisting.adm").write_text(deck.text(DYNAMIC))
+    (HERE / "hoisting.adm").write_text(deck.text(DYNAMIC.format(steps=50)))
     t = np.linspace(0, 1, 51)
     a, beckets, mount = closed_form()
     columns = {"PART/500.ay": a, "PART/500.y": -HOOK + a * t**2 / 2, "PART/470.ay": -8 * a,

@@ -11,7 +11,17 @@ import numpy as np
 
 RADIUS, HOOK = 0.1, 0.2
 HEIGHTS = (0.0, 1.2, 2.4)
+#: Weight on the hook of stage 1 [N]; heights of the beckets [m].
+LOAD, FALL = 800.0, (1.5, 2.6, 3.6)
 BLOCK, PULLEY, INERTIA, LINK, TURRET, CABLE = 1.0, 0.5, 0.004, 0.1, 0.05, 0.2
+STATIC = """
+EQUILIBRIUM/ERROR=1.0E-10, IMBALANCE=1.0E-10, MAXIT=100
+SIMULATE/STATICS
+"""
+DYNAMIC = """
+INTEGRATOR/GSTIFF, SI2, ERROR=1.0E-8
+SIMULATE/DYNAMIC, END=1, STEPS={steps}
+"""
 UP, LEFT, RIGHT, DOWN = "0,-90D,0", "-90D,90D,0", "90D,90D,0", "0,90D,0"
 
 
