@@ -59,6 +59,16 @@ def system(deck: str, stabilised: bool = True) -> System:
     return System(al.compile_model(al.assemble(al.read(deck))), stabilised)
 
 
+def added_mass(share: float) -> str:
+    """A mass of 2 that falls with the force 3 along x, and F = -dm (a - g) with dm = 2 share."""
+    added = 2 * share
+    return (
+        GROUND
+        + "ACCGRAV/JGRAV=-9.81\nPOINT_MASS/2, MASS=2, CM=2\nMARKER/2, POINT_MASS=2\n"
+        + f"VFORCE/1, I=2, J_PART=1, FX=3\\FY=-{added}*(ACCY(2)+9.81)\\FZ=-{added}*ACCZ(2)\nEND\n"
+    )
+
+
 def chain(count: int, force: str = "") -> str:
     """Point masses on springs, hanging from the ground; ``force`` with {id} acts on each."""
     lines = [GROUND, "ACCGRAV/JGRAV=-9.81"]

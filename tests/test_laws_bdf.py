@@ -6,7 +6,18 @@ import math
 
 import numpy as np
 import pytest
-from scenes import GRAVITY, GROUND, INERTIA, LENGTH, MASS, PENDULUM, SPRING, done, spring_energy
+from scenes import (
+    GRAVITY,
+    GROUND,
+    INERTIA,
+    LENGTH,
+    MASS,
+    PENDULUM,
+    SPRING,
+    added_mass,
+    done,
+    spring_energy,
+)
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
@@ -330,13 +341,7 @@ END
 @pytest.mark.parametrize("share", (0.5, 0.9, 1.0, 1.1, 2.0, 10.0))
 def test_added_mass_is_implicit(share):
     """F = -dm (a - g): (m0 + dm) a = (m0 + dm) g + 3, whatever dm against m0."""
-    added = 2 * share
-    deck = (
-        GROUND
-        + "ACCGRAV/JGRAV=-9.81\nPOINT_MASS/2, MASS=2, CM=2\nMARKER/2, POINT_MASS=2\n"
-        + f"VFORCE/1, I=2, J_PART=1, FX=3\\FY=-{added}*(ACCY(2)+9.81)\\FZ=-{added}*ACCZ(2)\nEND\n"
-    )
-    results = done(deck, 1.0, 10, error=1e-6)
+    results = done(added_mass(share), 1.0, 10, error=1e-6)
     np.testing.assert_allclose(results["POINT_MASS/2.ay"], -9.81, rtol=1e-9)
     np.testing.assert_allclose(results["POINT_MASS/2.y"], -4.905 * results.time**2, atol=1e-5)
     np.testing.assert_allclose(results["POINT_MASS/2.ax"], 1.5, rtol=1e-9)

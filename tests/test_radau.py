@@ -14,6 +14,7 @@ from scenes import (
     MASS,
     PENDULUM,
     SPRING,
+    added_mass,
     done,
     run,
     spring_energy,
@@ -176,13 +177,7 @@ def test_a_fast_spin_is_followed_through_full_turns():
 @pytest.mark.parametrize("share", (0.5, 1.1, 10.0))
 def test_added_mass_is_implicit(share):
     """F = -dm (a - g): (m0 + dm) a = (m0 + dm) g + 3, whatever dm against m0."""
-    added = 2 * share
-    deck = (
-        GROUND
-        + "ACCGRAV/JGRAV=-9.81\nPOINT_MASS/2, MASS=2, CM=2\nMARKER/2, POINT_MASS=2\n"
-        + f"VFORCE/1, I=2, J_PART=1, FX=3\\FY=-{added}*(ACCY(2)+9.81)\\FZ=0\nEND\n"
-    )
-    results = radau(deck, 1.0, 10, error=1e-6)
+    results = radau(added_mass(share), 1.0, 10, error=1e-6)
     np.testing.assert_allclose(results["POINT_MASS/2.ay"], -9.81, rtol=1e-9)
     np.testing.assert_allclose(results["POINT_MASS/2.y"], -4.905 * results.time**2, atol=1e-9)
 
