@@ -80,7 +80,7 @@ def at_rest():
     write(HERE / "rest.reference.csv", REST, list(columns), [[0.0], *columns.values()])
 
 
-def moving(line, k):
+def moving(line):
     """Speeds of what moves with block 1, added to the line that opens its part."""
     number = line.removeprefix("PART/").partition(",")[0]
     if not line.startswith("PART/") or number not in SPEEDS:
@@ -108,7 +108,7 @@ def vibrating():
         "block 1 moves with it. Written by make_reference.py",
     )  # fmt: skip
     tackle(deck)
-    deck.lines = [moving(line, 1) for line in deck.lines]
+    deck.lines = [moving(line) for line in deck.lines]
     (HERE / "vibration.adm").write_text(deck.text(DYNAMIC.format(steps=100)))
     t = np.linspace(0, 1, 101)
     mass, stretch, stiffness = modes()
