@@ -1,0 +1,105 @@
+"""The LLVM text of all kernels of a shape."""
+
+from __future__ import annotations
+
+from adamslite.guards import guards
+from adamslite.kernel.jacobian import JacobianWriter
+from adamslite.kernel.shape import Shape
+from adamslite.kernel.writer import Writer
+from adamslite.symbolic import Scope
+
+RESIDUAL_HEAD = (
+    "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias {reals} %reals, "
+    "ptr noalias readonly %W, ptr noalias %F) nounwind"
+)
+JACOBIAN_HEAD = (
+    "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias readonly %reals, "
+    "ptr noalias readonly %W, ptr noalias readonly %c, ptr noalias %F) nounwind"
+)
+LOOP = """{head} {{
+entry:
+{prelude}  %some = icmp sgt i64 %n, 0
+  br i1 %some, label %loop, label %exit
+loop:
+  %k = phi i64 [0, %entry], [%next, %loop]
+  %io = mul i64 %k, {n_ints}
+  %ip = getelementptr i64, ptr %ints, i64 %io
+  %ro = mul i64 %k, {n_reals}
+  %rp = getelementptr double, ptr %reals, i64 %ro
+{body}
+  %next = add nuw nsw i64 %k, 1
+  %more = icmp slt i64 %next, %n
+  br i1 %more, label %loop, label %exit
+exit:
+  ret void
+}}
+"""
+
+
+def write_kernels(shape: Shape, name: str, with_jacobian: bool, guarded: bool) -> tuple[str, dict]:
+    """LLVM text of a shape's kernels and what an instance must provide.
+
+    ``guarded``: choices keep their branch within a step; for equations, not for what is written.
+
+    Returns
+    -------
+    text, meta
+        ``meta["blocks"]``: pairs (row node, column node) of Jacobian blocks in the order of the
+        integers; ``meta["n_ints"]``: integers of an instance; ``meta["angles"]``: how many angles
+        it remembers; ``meta["mass"]``: a force depends on accelerations; ``meta["guards"]``: kinds
+        of the guards of the clock and of the watch.
+    """
+    scope = Scope(shape.slots)
+    out = shape.outputs(scope)
+    shape.n_angles = len(scope.angles)
+    if guarded:
+        shape.guards = guards(out.expressions, scope.leaves)
+    blocks: list[tuple[int, int]] = []
+    bodies: list[tuple[str, str, Writer]] = []
+    if with_jacobian:
+        writer = JacobianWriter(shape, scope)
+        writer.jacobian(out)
+        blocks = writer.blocks
+        bodies.append((f"{name}_jacobian", JACOBIAN_HEAD, writer))
+    writer = Writer(shape, scope)
+    writer.residual(out)
+    bodies.append((f"{name}_residual", RESIDUAL_HEAD, writer))
+    if scope.angles:
+        writer = Writer(shape, scope)
+        writer.track()
+        bodies.append((f"{name}_track", RESIDUAL_HEAD, writer))
+    for place, (kind, found) in enumerate(shape.guards.kinds.items()):
+        if found:
+            writer = Writer(shape, scope)
+            writer.guard_values(place)
+            bodies.append((f"{name}_{kind}", RESIDUAL_HEAD, writer))
+    n_ints = shape.blocks_at + len(blocks)
+    meta = {
+        "n_ints": n_ints,
+        "blocks": blocks,
+        "angles": len(scope.angles),
+        "guards": shape.guards.kinds,
+        "mass": any(leaf[0] in ("a", "al") for leaf in scope.symbols),
+    }
+    return _module(bodies, n_ints, shape.n_reals), meta
+
+
+def _module(bodies: list[tuple[str, str, Writer]], n_ints: int, n_reals: int) -> str:
+    parts, declared = [], set()
+    for name, head, writer in bodies:
+        prelude = "".join(
+            f"  %cp{n} = getelementptr double, ptr %c, i64 {n}\n  %c{n} = load double, ptr %cp{n}\n"
+            for n in range(5)
+        )
+        reals = "" if name.endswith("_track") else "readonly"
+        parts.append(
+            LOOP.format(
+                head=head.format(name=name, reals=reals),
+                prelude=prelude if head is JACOBIAN_HEAD else "",
+                n_ints=n_ints,
+                n_reals=n_reals,
+                body="\n".join(writer.b.lines),
+            )
+        )
+        declared |= writer.b.declared
+    return "\n".join([*sorted(declared), *parts, "!0 = !{}"])
