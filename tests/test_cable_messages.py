@@ -40,6 +40,35 @@ at = [0.02, 0, 0]
 [model]
 elements = 60
 """
+BEAD = """\
+end = 1
+[cable]
+EA = 1e6
+rho = 0.01
+[[route]]
+kind = "fixed"
+at = [0, 0, 0]
+[[route]]
+kind = "mass"
+at = [2, -1, 0]
+mass = 20
+slides = true
+[[route]]
+kind = "fixed"
+at = [6, 0, 0]
+[model]
+level = 1
+"""
+ZERO = "at = [0, 0, 0]"
+WOUND = (
+    ZERO
+    + """
+radius = 0.1
+inertia = 0.1
+payout = "TIME"
+turn = 1
+mu = 1"""
+)
 SLIPPING = ATWOOD.replace("radius = 0.2", "radius = 0.2\nmu = 0.3", 1)
 LAST = ATWOOD.index("[[route]]", ATWOOD.index("1.8"))
 # Code: (description, what is replaced, by what, the line and column of the caret).
@@ -90,6 +119,9 @@ WRONG = {
     "brute-plane": (LOWERS, "level = 3", 'gravity = [0, -9, 1]', (18, 1)),
     "bend-too-tight": (FOLD, "radius = 0.01", "radius = 0.005", (11, 1)),
     "speed-on-a-route": (FOLD, "end = 1", "end = 1\nspeed = 3", (2, 1)),
+    "slides-between": (BEAD.replace("fixed", "winch", 1).replace(ZERO, WOUND, 1), "", "", (17, 1)),
+    "no-slider": (BEAD, "slides = true", 'haul = "TIME"', (12, 1)),
+    "slider-form": (BEAD, "level = 1", "level = 2", (12, 1)),
     "pitches": (CHAIN, "teeth = 12\ninertia = 0.1\n[model]", "teeth = 13\ninertia = 0.1\n[model]",
                 (18, 1)),
     "loop-of-links": (CHAIN, "[0.52, 0, 0]", "[0.53, 0, 0]", (17, 1)),

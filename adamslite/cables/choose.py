@@ -42,7 +42,8 @@ def tensions(spec: Spec, spans: list[Span]) -> list[float]:
     down = -dot(spec.gravity, spans[0].along), dot(spec.gravity, spans[-1].along)
     ends = [first.mass * max(0.0, down[0]), last.mass * max(0.0, down[1])]
     # Free wheels pass a tension on; nothing at an end takes what the other end, or a block, asks.
-    blocks = [_block(spec, spans, i) for i, each in enumerate(spec.route) if each.is_carried]
+    blocks = [_block(spec, spans, i) for i, each in enumerate(spec.route)
+              if each.is_carried or each.slides]  # fmt: skip
     ends[0] = ends[0] or ends[1] or max(blocks, default=0.0)
     ends[1] = ends[1] or ends[0]
     carried = [ends[0], *[sum(ends) / 2] * (len(spans) - 2), ends[1]]
@@ -52,11 +53,19 @@ def tensions(spec: Spec, spans: list[Span]) -> list[float]:
 
 
 def _block(spec: Spec, spans: list[Span], i: int) -> float:
-    """Tension that holds the wheel of station i, which is free to move, against gravity [N]."""
+    """Tension that holds the wheel or weight of station i, which is free to move, against gravity,
+    with half of the cable beside a weight [N]."""
     before, behind = (spans[p] for p in spec.beside(i))
     pull = add(behind.along, before.along, -1)
     size = dot(pull, pull)
-    return max(0.0, -spec.route[i].mass * dot(spec.gravity, pull) / size) if size else 0.0
+    mass = spec.route[i].mass
+    if spec.route[i].slides:
+        mass += spec.cable.density * (before.length + behind.length) / 2
+    if spec.route[i].haul:
+        along = unit(add(behind.finish, before.start, -1))
+        pull = add(pull, along, -dot(pull, along))
+        size = dot(pull, pull)
+    return max(0.0, -mass * dot(spec.gravity, pull) / size) if size else 0.0
 
 
 def needs_brute(spec: Spec, spans: list[Span]) -> list[str]:
@@ -119,7 +128,7 @@ def asked(spec: Spec, spans: list[Span], moves: Moves) -> Demand:
     cable = spec.cable
     longest = max(reaches(spec, spans))
     weight = max(abs(dot(spec.gravity, span.along)) for span in spans)
-    tied = any(each.is_wheel or each.is_moved or each.kind == "body" for each in spec.route)
+    tied = any(each.feeds or each.is_moved or each.kind == "body" for each in spec.route)
     return Demand(
         stiffness=cable.stiffness, density=cable.density, length=longest,
         tension=min(tensions(spec, spans)) + cable.density * longest * weight / 2,

@@ -116,10 +116,10 @@ def laws(spec: Spec, faults: Faults) -> Laws:
                     found.engines.append(law)
                 elif law and key == "torque":
                     found.engines.append(Op("/", (law, Num(each.radius))))
-        for text in filter(None, each.motion):
-            law = parse(text, ("route", i, "motion"), faults)
+        for key, text in [*(("motion", text) for text in each.motion), ("haul", each.haul)]:
+            law = parse(text, ("route", i, key), faults) if text else None
             if law:
-                found.moved.append(_told(spec, law, ("route", i, "motion"), faults))
+                found.moved.append(_told(spec, law, ("route", i, key), faults))
     return found
 
 
@@ -155,6 +155,8 @@ def _told(spec: Spec, law: Node, path: Path, faults: Faults) -> Travel | None:
 
 def _free(spec: Spec, spans: list[Span], engines: list[Node]) -> Travel | str | None:
     """The way of a cable that weights and an engine move, or why it is not known."""
+    if any(each.slides for each in spec.route):
+        return "a weight slides along the cable"
     if not any(each.is_wheel for each in spec.route):
         return None
     inside = spec.route if spec.closed else spec.route[1:-1]

@@ -95,6 +95,14 @@ MESSAGES: dict[str, Message] = {
     "speed-on-a-route": Message(
         "a cable with ends does not run along itself", "closed = true, or velocity of a mass"
     ),
+    "slides-between": Message(
+        "a weight slides between two points that its cable ends at",
+        "beside it: fixed, free, or a mass or body that does not slide",
+    ),
+    "no-slider": Message("haul is for a weight that slides along its cable", "slides = true"),
+    "slider-form": Message(
+        "a weight slides at level 1 and in form ale only", 'level = 1, or form = "ale"'
+    ),
     "pitches": Message(
         "the pitch of station {i} is {first:.6g} m, of station {j} {second:.6g} m",
         "2 R sin(pi/teeth) is one for all: radius = {radius:.8g}",

@@ -5,7 +5,10 @@ one. A span between two wheels is one massless spring; a run that goes on pulls 
 """
 
 from dataclasses import dataclass
+from itertools import accumulate, pairwise
+from math import sqrt
 
+from adamslite.cables import sliders
 from adamslite.cables.choose import Choice, tensions
 from adamslite.cables.geometry import Span, add, dot, wrap
 from adamslite.cables.links import comes, link, spun, unloaded
@@ -67,7 +70,7 @@ def pieces(spec: Spec, spans: list[Span]) -> list[Piece]:
 def _piece(spec: Spec, p: int, span: Span, tension: float) -> Piece:
     i, j = spec.pairs[p]
     a, b = spec.route[i], spec.route[j]
-    backwards = b.is_wheel and not a.is_wheel or a.kind == "run"
+    backwards = b.feeds and not a.feeds or a.kind == "run"
     root, tip = (j, i) if backwards else (i, j)
     sense = -1 if backwards else 1
     place = span.finish if backwards else span.start
@@ -82,6 +85,8 @@ def write_pieces(spec: Spec, spans: list[Span], choice: Choice) -> str:
     for i, each in enumerate(spec.route):
         if each.is_wheel:
             text += _turned(spec, spans, choice, i)
+        elif each.slides and choice.level > 1:
+            text += sliders.flow(spec, i, found[i].tension)
     return text
 
 
@@ -96,7 +101,7 @@ def _between(spec: Spec, piece: Piece) -> bool:
 
 
 def _root_marker(spec: Spec, piece: Piece) -> int:
-    return piece.first if spec.route[piece.root].is_wheel else marker(piece.root)
+    return piece.first if spec.route[piece.root].feeds else marker(piece.root)
 
 
 def _span(spec: Spec, choice: Choice, piece: Piece) -> str:
@@ -107,6 +112,10 @@ def _span(spec: Spec, choice: Choice, piece: Piece) -> str:
     if root.is_wheel and (_moves(spec, piece) or not _between(spec, piece)):
         to = _next(spec, choice, piece)
         text += _touches(spec, piece, piece.first, to)
+    if root.slides and choice.level == 1:
+        return text + (sliders.rigid(spec, piece.root) if piece.sense < 0 else "! With the last.\n")
+    if root.slides:
+        text += sliders.opening(spec, piece.root, piece.first)
     if choice.level == 1:
         return text + _rigid(spec, piece)
     if spec.route[piece.tip].kind == "run":
@@ -229,17 +238,37 @@ def _on_axle(spec: Spec, piece: Piece) -> str:
     return text
 
 
-def _hanging(spec: Spec, choice: Choice, piece: Piece) -> tuple[float, list[float]]:
-    """Free length at rest [m], and where the nodes are on the way from root to tip."""
+def _hanging(spec: Spec, choice: Choice, piece: Piece) -> tuple[float, list[Vector]]:
+    """Free length at rest [m], and the places of the nodes from root to tip."""
     n, cable = choice.elements, spec.cable
     weight = dot(spec.gravity, piece.along) if not spec.route[piece.tip].kind == "fixed" else 0.0
+    falls = _sag(spec, n, piece)
+    drops = [sqrt(dot(d, d)) for d in (add(b, a, -1) for a, b in pairwise([ZERO, *falls]))]
     free = piece.span.length
     for _ in range(20):
         node = cable.density * free / n * weight
         pulls = [piece.tension + node * (n - k + 0.5) for k in range(1, n + 1)]
         steps = [free / n * (1 + pull / cable.stiffness) for pull in pulls]
+        steps = [sqrt(max(h * h - d * d, 0.0)) for h, d in zip(steps, drops, strict=True)]
         free *= piece.span.length / sum(steps)
-    return free, [sum(steps[:k]) for k in range(1, n + 1)]
+    ways = accumulate(steps)
+    return free, [
+        add(add(piece.place, piece.along, way), fall) for way, fall in zip(ways, falls, strict=True)
+    ]
+
+
+def _sag(spec: Spec, n: int, piece: Piece) -> list[Vector]:
+    """How far nodes 1 to n hang below the line: T (2 y_k - y_(k-1) - y_(k+1)) = rho h^2 g across.
+
+    A cable that its tension hardly carries, T < rho g l/2, has no shape near a line: it is drawn
+    as one.
+    """
+    h, density = piece.span.length / n, spec.cable.density
+    across = add(spec.gravity, piece.along, -dot(spec.gravity, piece.along))
+    if piece.tension < density * n * h * sqrt(dot(across, across)) / 2 or not piece.tension:
+        return [ZERO] * n
+    share = density * h * h / (2 * piece.tension)
+    return [add(ZERO, across, share * k * (n - k)) for k in range(1, n + 1)]
 
 
 def _axes(spec: Spec) -> str:
@@ -259,13 +288,15 @@ def _side(piece: Piece, choice: Choice) -> Side:
 def _chain(spec: Spec, choice: Choice, piece: Piece) -> str:
     """Nodes and sections."""
     n, p, cable = choice.elements, piece.number, spec.cable
-    free, ways = _hanging(spec, choice, piece)
+    free, places = _hanging(spec, choice, piece)
     side, axes = _side(piece, choice), _axes(spec)
-    grows = choice.level == 3 and spec.route[piece.root].is_wheel
+    grows = choice.level == 3 and spec.route[piece.root].feeds
     mass = cable.density * free / n
+    # Nodes go with a weight that slides; the cable runs the other way through both.
+    speed = spec.route[piece.root].velocity if spec.route[piece.root].slides else ZERO
     text = _lengths(spec, choice, piece, free)
     for k in range(1, n):
-        text += point(side.node(k), mass, add(piece.place, piece.along, ways[k - 1]))
+        text += point(side.node(k), mass, places[k - 1], add(ZERO, speed, 1 - k / n))
         text += grown(choice.form, k, n, axes, side) if grows else ""
     if grows and spec.route[piece.tip].is_free:
         text += grown_tip(choice.form, side.first + n, n, axes, side)
@@ -273,17 +304,19 @@ def _chain(spec: Spec, choice: Choice, piece: Piece) -> str:
         i = _root_marker(spec, piece) if k == 1 else side.node(k - 1)
         name = f"H{p}" if grows else f"L{p}_0" if k == 1 else f"L{p}"
         text += section(side.first + k, i, side.node(k), name, cable.damping, cable.pulls_only)
+    if spec.route[piece.root].slides:
+        text += sliders.through(p, side.node(0), side.node(1), axes)
     return text + _pull(spec, choice, piece, grows)
 
 
 def _lengths(spec: Spec, choice: Choice, piece: Piece, free: float) -> str:
     """Names for the free length of the sections."""
     p, n = piece.number, choice.elements
-    wheel = spec.route[piece.root].is_wheel
-    if choice.level == 3 and wheel:
+    feeds = spec.route[piece.root].feeds
+    if choice.level == 3 and feeds:
         ways = [_feed(spec, piece, order) for order in range(3)]
         return length_variables(str(p), n, free, ways) + "\n"
-    feed = _feed(spec, piece) if wheel else ""
+    feed = _feed(spec, piece) if feeds else ""
     return (
         "! Free length of a section, and of the one at the root.\n"
         f"VARIABLE/L{p}, FUNCTION={number(free / n)}\n"
@@ -293,7 +326,7 @@ def _lengths(spec: Spec, choice: Choice, piece: Piece, free: float) -> str:
 
 def _half(choice: Choice, piece: Piece, spec: Spec) -> str:
     """Free length of the half section at the root."""
-    grows = choice.level == 3 and spec.route[piece.root].is_wheel
+    grows = choice.level == 3 and spec.route[piece.root].feeds
     return f"H{piece.number}/2" if grows else f"L{piece.number}_0/2"
 
 
@@ -318,6 +351,8 @@ def _pull(spec: Spec, choice: Choice, piece: Piece, grows: bool) -> str:
         feeds = "" if slipping(piece.root, spec) or grows and choice.form == "paper" else feeds
         if weight or feeds:
             text += f"\n, +rho*{_half(choice, piece, spec)}*({number(weight)}{feeds})"
+    elif spec.route[piece.root].slides:
+        text += f"\n, +rho*{_half(choice, piece, spec)}*{sliders.lean(i, j)}"
     return f"! Tension at the {'wheel' if spec.route[piece.root].is_wheel else 'start'}.\n{text}\n"
 
 
@@ -331,7 +366,9 @@ def _ends(spec: Spec, choice: Choice, found: list[Piece]) -> str:
                 if "run" not in (spec.route[found[p].tip].kind, spec.route[found[p].root].kind):
                     free, _ = _hanging(spec, choice, found[p])
                     half += spec.cable.density * free / choice.elements / 2
-        text += end(spec, i, half) if not each.is_wheel else ""
+        # What lies at a weight that slides goes with the cable.
+        text += end(spec, i, 0.0 if each.slides else half) if not each.is_wheel else ""
+        text += sliders.slider(spec, i) if each.slides else ""
     return text
 
 

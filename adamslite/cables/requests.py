@@ -9,7 +9,8 @@ from adamslite.cables.wheels import marker, mount_request, travel
 
 
 def write_requests(spec: Spec, spans: list[Span], choice: Choice) -> str:
-    """Tension of every span; travel of every wheel, how the cable lies on it and loads it."""
+    """Tension of every span; travel over every wheel and through every weight that slides, how
+    the cable lies on a wheel and loads it."""
     found = pieces(spec, spans)
     text = "\n! ---- results ----\n"
     if choice.level > 1:
@@ -19,11 +20,13 @@ def write_requests(spec: Spec, spans: list[Span], choice: Choice) -> str:
         )
     for i, each in enumerate(spec.route):
         if each.is_wheel:
-            text += _wheel(spec, spans, found, i) + mount_request(spec, i)
+            text += _over(spec, spans, found, i) + mount_request(spec, i)
+        elif each.slides and choice.level > 1:
+            text += _over(spec, spans, found, i)
     return text
 
 
-def _wheel(spec: Spec, spans: list[Span], found: list[Piece], i: int) -> str:
+def _over(spec: Spec, spans: list[Span], found: list[Piece], i: int) -> str:
     each, n = spec.route[i], marker(i)
     told = f"cable over station {i + 1}"
     parts = [f"F2={travel(i, spec)}", f"F3={travel(i, spec, 1)}"]

@@ -8,6 +8,7 @@ from adamslite.cables.vocabulary import WHEELS
 
 INSIDE = ("pulley", "winch", "mass", "body", "bend")
 AT_ENDS = ("fixed", "free", "run", "mass", "body", "winch")
+POINTS = ("fixed", "free", "mass", "body")
 ON_A_LOOP = ("pulley", "winch", "mass", "bend")
 
 
@@ -24,6 +25,18 @@ def check_route(faults: Faults, route: list[dict[str, Any]], closed: bool) -> No
             _winch(faults, each, i, not closed and i in (0, len(route) - 1))
         if each.get("kind") in WHEELS and "slide" in each:
             _carriage(faults, each, i)
+    _sliders(faults, route)
+
+
+def _sliders(faults: Faults, route: list[dict[str, Any]]) -> None:
+    """A weight that slides does so between two points; only such a one is hauled."""
+    for i, each in enumerate(route):
+        beside = [route[k] for k in (i - 1, i + 1) if 0 <= k < len(route)]
+        points = [x for x in beside if x.get("kind") in POINTS and not x.get("slides")]
+        if each.get("slides") and len(points) < 2:
+            faults.add("slides-between", ("route", i, "slides"))
+        if each.get("haul") and not each.get("slides"):
+            faults.add("no-slider", ("route", i, "haul"))
 
 
 def _place(faults: Faults, each: dict[str, Any], i: int, count: int, closed: bool) -> None:

@@ -7,6 +7,7 @@ from adamslite.cables.geometry import Span, reaches, spans, turned
 from adamslite.cables.lay import length, stretches, way
 from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
+from adamslite.cables.sliders import is_straight, is_wire
 from adamslite.cables.spec import read
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import in_plane, slipping
@@ -53,6 +54,10 @@ def _check_form(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) 
         faults.add("needs-brute", ("model", key), why="; ".join(why))
     if brute or spec.bends:
         _check_brute(spec, faults)
+    shows_sliding = choice.level == 1 or choice.level == 3 and choice.form == "ale"
+    for i, each in enumerate(spec.route):
+        if each.slides and not shows_sliding:
+            faults.add("slider-form", ("route", i, "slides"))
     if choice.level == 1:
         _check_rigid(spec, faults)
 
@@ -64,6 +69,8 @@ def _check_rigid(spec: Spec, faults: Faults) -> None:
     for i, each in enumerate(spec.route):
         if each.kind == "run":
             faults.add("rigid-cannot", ("route", i, "kind"), what="a long run has waves")
+        if each.slides and is_straight(spec, i) and not is_wire(spec, i):
+            faults.add("rigid-cannot", ("route", i, "slides"), what="its straight length is fixed")
         if slipping(i, spec):
             faults.add("rigid-cannot", ("route", i, "mu"), what="its cable cannot slip")
 
@@ -147,7 +154,7 @@ def _check_fixed(spec: Spec, choice: Choice, moves: Moves, section: float, fault
     route = spec.route
     # Between two wheels there is one spring, which cable may run through.
     sections = any(not (route[i].is_wheel and route[j].is_wheel) for i, j in spec.pairs)
-    if choice.level != 2 or choice.form == "brute" or not sections:
+    if choice.level != 2 or choice.form == "brute" or not sections or faults.errors:
         return
     if moves.way > section / 2:
         faults.add("level-2-pays-out", ("model", "level"), section=section, travel=moves.way)

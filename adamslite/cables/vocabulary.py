@@ -105,6 +105,8 @@ class Station:
     slide: Vector = ZERO
     pull: str = ""
     teeth: int = 0
+    slides: bool = False
+    haul: str = ""
     torque: str = ""
     reel: Reel | None = None
     leans: bool = False
@@ -115,6 +117,11 @@ class Station:
     def is_wheel(self) -> bool:
         """Whether the cable lies on it."""
         return self.kind in WHEELS
+
+    @property
+    def feeds(self) -> bool:
+        """Whether cable comes over it, or through it."""
+        return self.is_wheel or self.slides
 
     @property
     def is_round(self) -> bool:
@@ -307,7 +314,12 @@ WHEEL = (
         "wander": (WANDER, "", None),
     }
 )
-MASS = {"mass": ("number", "not-positive", None), "velocity": ("vector", "", ZERO)}
+MASS = {
+    "mass": ("number", "not-positive", None),
+    "velocity": ("vector", "", ZERO),
+    "slides": ("yes or no", "", False),
+    "haul": ("text", "", ""),
+}
 STATIONS = {
     "fixed": PLACE | MOVED,
     "free": PLACE,

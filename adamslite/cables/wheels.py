@@ -25,9 +25,9 @@ def triple(a: Vector) -> str:
 
 
 def travel(i: int, spec: Spec, order: int = 0) -> str:
-    """Cable that runs over the wheel of station i along the route [m], or its time derivative."""
+    """Cable that runs over or through station i along the route [m], or its time derivative."""
     n = marker(i)
-    if slipping(i, spec):
+    if slipping(i, spec) or spec.route[i].slides:
         return (f"DIF(paid_{n})", f"DIF(run_{n})", f"A_{n}")[order]
     return rolled(i, spec, order)
 

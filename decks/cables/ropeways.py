@@ -190,8 +190,25 @@ def tension(r: Ropeway, place: np.ndarray) -> float:
     return brentq(surplus, 1.0, r.cable.stiffness, rtol=1e-14)
 
 
-def coasting(r: Ropeway, t: np.ndarray) -> np.ndarray:
-    """Place of the car, (2,), and tension, (3, nt), from rest at the start.
+def loose(r: Ropeway) -> float:
+    """Height of a car that nothing holds across its rope at the start [m]: T (e_1 + e_2) and its
+    weight, with half of the rope, balance along e_1 + e_2.
+    """
+    towers = np.array([[0.0, 0.0], [r.span, 0.0]])
+
+    def surplus(y):
+        place = np.array([r.start, y])
+        d = np.linalg.norm(towers - place, axis=1)
+        pull = ((towers - place) / d[:, None]).sum(0)
+        weight = (r.mass + r.cable.density * d.sum() / 2) * G
+        return tension(r, place) - weight * pull[1] / (pull @ pull)
+
+    return brentq(surplus, -0.1 * r.span, -1e-3 * r.span)
+
+
+def coasting(r: Ropeway, t: np.ndarray, height: float | None = None) -> np.ndarray:
+    """Place of the car, (2,), and tension, (3, nt), from rest at the start: where it begins to
+    move along the ground, or at a `height`.
 
     Along a part of the length d, direction e from its tower to the car, the rope does not move but
     across: at the distance x d from the tower it has the acceleration x d e".
@@ -225,7 +242,8 @@ def coasting(r: Ropeway, t: np.ndarray) -> np.ndarray:
         return rates(0.0, [r.start, y, 0.0, 0.0])[3]
 
     lowest = -0.45 * r.span
-    start = [r.start, brentq(upward, lowest, -1e-3), 0.0, 0.0]
+    height = brentq(upward, lowest, -1e-3) if height is None else height
+    start = [r.start, height, 0.0, 0.0]
     run = solve_ivp(rates, (0, t[-1]), start, "DOP853", t_eval=t, rtol=1e-9, atol=1e-9)
     return np.array([*run.y[:2], [tension(r, y[:2]) for y in run.y.T]])
 

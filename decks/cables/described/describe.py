@@ -22,6 +22,7 @@ import arrest  # noqa: E402
 from formulas import G, Winch, sliding_ratio  # noqa: E402
 from laws import Move  # noqa: E402
 from leaning import mount, wander  # noqa: E402
+from sliding import bead, ropeway  # noqa: E402
 from spans import table  # noqa: E402
 from wound import reels  # noqa: E402
 
@@ -177,7 +178,7 @@ def folded() -> str:
 
 
 def main() -> None:
-    cases = (drum, belt, slip, crane, arrestment, reels, mount, wander, ring, folded)
+    cases = (drum, belt, slip, crane, arrestment, reels, mount, wander, ring, folded, bead, ropeway)
     for case in cases:
         name = case.__name__
         text, _ = deck((HERE / f"{name}.toml").read_text(encoding="utf-8"))
