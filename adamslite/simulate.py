@@ -28,6 +28,8 @@ CAPPED = (
     "held at 2: stiff vibrations without damping limited the steps of higher orders; HHT suits "
     "such a scene"
 )
+# Columns named that hold entries without a value.
+MOST_TOLD = 5
 COUNTED = (
     "steps", "rejected", "newton", "jacobians", "factorizations", "events", "restarts",
 )  # fmt: skip
@@ -144,6 +146,17 @@ def _deck(scene: Any) -> Any:
     return scene.deck if isinstance(scene, Model) else scene
 
 
+def _without_value(time: np.ndarray, names: tuple[str, ...], values: np.ndarray) -> str:
+    """The first columns with entries that are no numbers, and since when."""
+    columns = np.flatnonzero(~np.isfinite(values).all(axis=0))
+    told = [
+        f"{names[k]} at t = {time[np.flatnonzero(~np.isfinite(values[:, k]))[0]]:.6g}"
+        for k in columns[:MOST_TOLD]
+    ]
+    more = f" and {len(columns) - MOST_TOLD} more" if len(columns) > MOST_TOLD else ""
+    return "; ".join(told) + more
+
+
 def _results(session: Session, cpu: tuple[float, float]) -> Results:
     system = session.system
     time = np.concatenate([t for t, _ in session.pieces]) if session.pieces else np.zeros(0)
@@ -158,8 +171,10 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
         "max_violation": float(system.report[base.VIOLATION]),
     }  # fmt: skip
     done = session.outcome is Outcome.DONE
+    without = _without_value(time, session.names, values)
+    meta = {**_meta(session), **({"no number": without} if without else {})}
     return Results(
-        time=time, names=session.names, values=values, meta=_meta(session), outcome=session.outcome,
+        time=time, names=session.names, values=values, meta=meta, outcome=session.outcome,
         message="" if done else explain(system, session.outcome, session.unclosed), summary=summary,
         linearizations=tuple(session.linearizations),
     )  # fmt: skip

@@ -93,6 +93,13 @@ def test_poles_known_beforehand_are_not_a_number_not_a_crash():
     assert np.isnan(results["VARIABLE/6"]).all()
 
 
+def test_columns_without_a_value_are_told():
+    """A request need not have a value, but it is said where it has none."""
+    results = done(FALLING + "REQUEST/1, F1=1/TIME\\F2=SQRT(0.6-TIME)\\F3=1\nEND\n", 1.0, 4)
+    assert results.meta["no number"] == "REQUEST/1.F1 at t = 0; REQUEST/1.F2 at t = 0.75"
+    assert "no number" not in done(FALLING + "END\n", 1.0, 2).meta
+
+
 def test_time_only_variables_need_no_order():
     """A variable may use one that the deck defines later."""
     deck = FALLING + "VARIABLE/6, FUNCTION=2*VARVAL(7)\nVARIABLE/7, FUNCTION=3*VARVAL(5)\nEND\n"

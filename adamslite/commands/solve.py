@@ -35,7 +35,7 @@ SUMMARY = """\
 """
 
 #: Comments of the results that the summary repeats: what was done to the model and the method.
-NOTES = ("assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy")
+NOTES = ("assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "no number")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
