@@ -145,6 +145,10 @@ def orientations(deck: Deck) -> Iterator[Diagnostic]:
             first = plane if getattr(each, "usexp", False) else along
             if (points or first == "xp") and not each.given(first):
                 yield say(each, "orientation-incomplete", word=f"add {first.upper()}=")
+            origin = (each.qp if keyword == "MARKER" else each.qg) or (0.0, 0.0, 0.0)
+            for field in points:
+                if tuple(getattr(each, field)) == tuple(origin):
+                    yield say(each, "orientation-nowhere", field, word=field.upper())
 
 
 def floating_alone(deck: Deck) -> Iterator[Diagnostic]:

@@ -82,6 +82,11 @@ MODEL: dict[str, Message] = {
         "{word}",
         ("MARKER/4, PART=1, USEXP, ZP=0,0,1", "MARKER/4, PART=1, USEXP"),
     ),
+    "orientation-nowhere": Message(
+        "{word} of {label} is its own origin and gives no direction",
+        "{word} is a point on the axis, in the coordinates in which the origin is given",
+        ("MARKER/4, PART=1, ZP=0,0,0", "MARKER/4, PART=1, QP=1,2,3, ZP=1,2,3"),
+    ),
     "floating-placed": Message(
         "{label} is FLOATING and has a place of its own",
         "the solver places it: leave out QP, REULER, ZP and XP",
