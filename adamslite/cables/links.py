@@ -84,12 +84,27 @@ def spun(spec: Spec, i: int, along: Vector, length: float, velocity: Vector) -> 
     return dot(velocity, cross(spec.route[i].axis, along)) / length
 
 
-def unloaded(spec: Spec, i: int, m: int, sense: int, pull: str) -> str:
-    """The torque of the rim on link m, where the cable leaves along the route (`sense` 1)."""
+def borne(spec: Spec, i: int, m: int, to: int, sense: int, pull: str, more: str = "") -> str:
+    """What a side of the cable with tension `pull`, and `more` at the rim, leaves on the axle of
+    wheel i.
+
+    Cable that runs turns round with its momentum: rho v^2 of the tension does not press on the
+    wheel.  The side leaves along the route (`sense` 1) or comes along it, and goes to MARKER/to.
+    """
     each = spec.route[i]
-    back = number(-sense * each.turn * each.radius)
-    a, b = m + AXLE, marker(i) + 1
-    return f"SFORCE/{a}, ROTATIONAL, I={a}, J={b}, FUNCTION={back}*{pull}\n"
+    if not (each.leans or each.mount):
+        return ""
+    back = [f"F{x}=Q{m}*D{x}({m},{to})/DM({m},{to})" for x in AXES]
+    text = (
+        "! What of the pull does not press on the wheel: the momentum that passes.\n"
+        f"VARIABLE/Q{m}, FUNCTION=rho*({comes(spec, i, m, 1)})**2{f'-({more})' if more else ''}\n"
+        f"VFORCE/{m}, I={m}, J_PART=1\n, " + "\\\n, ".join(back) + "\n"
+    )
+    if each.leans:
+        torque = number(-sense * each.turn * each.radius)
+        a, b = m + AXLE, marker(i) + 1
+        text += f"SFORCE/{a}, ROTATIONAL, I={a}, J={b}, FUNCTION={torque}*({pull}-Q{m})\n"
+    return text
 
 
 def wrapped(spec: Spec, i: int, before: int, behind: int, angle: float) -> str:

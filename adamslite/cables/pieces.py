@@ -11,7 +11,7 @@ from math import sqrt
 from adamslite.cables import sliders
 from adamslite.cables.choose import Choice, tensions
 from adamslite.cables.geometry import Span, add, dot, wrap
-from adamslite.cables.links import comes, link, spun, unloaded
+from adamslite.cables.links import borne, comes, link, spun
 from adamslite.cables.statements import (
     AXES,
     Side,
@@ -191,8 +191,9 @@ def _link(spec: Spec, piece: Piece) -> str:
     pull = _law(spec, pull)
     if _moves(spec, piece):
         text += f"SFORCE/{piece.first}, I={piece.first}, J={piece.first + 1}, FUNCTION=-T{p}\n"
-        for i, m, sense in ((piece.root, piece.first, 1), (piece.tip, piece.first + 1, -1)):
-            text += unloaded(spec, i, m, sense, f"T{p}") if spec.route[i].leans else ""
+        a, b = piece.first, piece.first + 1
+        text += borne(spec, piece.root, a, b, 1, f"T{p}")
+        text += borne(spec, piece.tip, b, a, -1, f"T{p}")
     return text + (
         "! One massless spring from wheel to wheel.\n"
         f"VARIABLE/LT{p}, FUNCTION={number(free)}+{_way(spec, piece)}\n"
@@ -233,9 +234,7 @@ def _on_axle(spec: Spec, piece: Piece) -> str:
     i, end, m = piece.root, marker(piece.tip), piece.first
     text = f"MARKER/{end}, PART=1, QP={triple(spec.route[piece.tip].at)}\n"
     text += f"SFORCE/{m}, I={m}, J={end}, FUNCTION=-T{piece.number}\n"
-    if spec.route[i].leans:
-        text += unloaded(spec, i, m, piece.sense, f"T{piece.number}")
-    return text
+    return text + borne(spec, i, m, end, piece.sense, f"T{piece.number}")
 
 
 def _hanging(spec: Spec, choice: Choice, piece: Piece) -> tuple[float, list[Vector]]:
@@ -340,9 +339,9 @@ def _pull(spec: Spec, choice: Choice, piece: Piece, grows: bool) -> str:
         rate = f"-SD{p}*DM({i},{j})/LT{p}" if grows else ""
         pull += f"+damper*(VR({i},{j}){rate})"
     text, root = f"VARIABLE/T{p}, FUNCTION={_law(spec, pull)}", spec.route[piece.root]
-    if root.leans:
+    if root.leans or root.mount:
         text = f"VARIABLE/P{p}, FUNCTION={_law(spec, pull)}\n"
-        text += unloaded(spec, piece.root, piece.first, piece.sense, f"P{p}")
+        text += borne(spec, piece.root, i, j, piece.sense, f"P{p}", f"T{p}-P{p}")
         text += f"VARIABLE/T{p}, FUNCTION=P{p}"
     weight = dot(spec.gravity, piece.along)
     if spec.route[piece.root].is_wheel:

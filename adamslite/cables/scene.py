@@ -135,7 +135,8 @@ def _check(spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults:
         if each.reel and paid.most > each.reel.holds(each.radius):
             faults.add("stored-too-little", ("route", i, "reel"), value=paid.most,
                        held=each.reel.holds(each.radius))  # fmt: skip
-        length = pieces[0 if i == 0 else -1].length
+        # Over wheels cable comes on: the span at the weight, or the other end, runs out.
+        length = pieces[stretches(spec)[0][-1] if i == 0 else stretches(spec)[-1][0]].length
         key = ("route", i, "payout")
         if length + paid.least <= 0:
             faults.add("payout-too-far-in", key, time=paid.least_at, value=paid.least,
