@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -66,6 +67,12 @@ def to_id(tokens: list[Lexeme]) -> Key | None:
     return "".join(spelled(token[1]) for token in tokens)
 
 
+def _has_no_angle(unit: str) -> bool:
+    """Whether a unit is made of lengths, masses, times and forces only."""
+    words = set(re.findall("[a-z]+", unit))
+    return bool(words) and words <= {"length", "mass", "time", "force"}
+
+
 class Reader:
     """Reads values; knows the names of the deck.
 
@@ -119,6 +126,11 @@ class Reader:
         plain = tokens[1:] if len(tokens) == 2 and tokens[0][0] in ("MINUS", "PLUS") else tokens
         if len(plain) == 1 and plain[0][0] == "NUMBER":
             value = to_number(plain[0][1]) * (sign if plain is not tokens else 1.0)
+            if plain[0][1][-1] in "dD" and _has_no_angle(argument.unit):
+                self.log.add(
+                    "degrees-of-no-angle", tokens[0][2], end_of(tokens[-1]), value=value,
+                    text=self._written(tokens), word=argument.key, unit=argument.unit,
+                )  # fmt: skip
         else:
             value = self.resolver.constant(tokens)
             if value is None:

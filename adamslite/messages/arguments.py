@@ -64,6 +64,12 @@ ARGUMENTS: dict[str, Message] = {
     "number-too-large": Message(
         "{word} is too large for a number", "", ("VARIABLE/1, IC=1E999, FUNCTION=1E999",)
     ),
+    "degrees-of-no-angle": Message(
+        "{text} is {value:.4g}: D turns degrees into radians, and {word} has the unit {unit}",
+        "leave D out; an exponent has digits behind the D",
+        ("PART/2, MASS=5D, CM=2",),
+        severity=WARNING,
+    ),
     "not-an-integer": Message(
         "{word} takes a whole number", "", ("SIMULATE/DYNAMICS, END=1, STEPS=1.5",)
     ),
