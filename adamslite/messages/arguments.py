@@ -67,7 +67,7 @@ ARGUMENTS: dict[str, Message] = {
     "degrees-of-no-angle": Message(
         "{text} is {value:.4g}: D turns degrees into radians, and {word} has the unit {unit}",
         "leave D out; an exponent has digits behind the D",
-        ("PART/2, MASS=5D, CM=2",),
+        ("ACCGRAV/JGRAV=-9.81D",),
         severity=WARNING,
     ),
     "not-an-integer": Message(
