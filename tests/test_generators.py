@@ -66,7 +66,9 @@ def test_the_decks_of_a_folder_are_what_its_generator_writes(
         assert_same_text(deck, kept)
 
 
-@pytest.mark.parametrize("case", ["drum", "belt", "slip", "crane", "arrestment", "ring", "folded"])
+@pytest.mark.parametrize(
+    "case", ["drum", "belt", "slip", "crane", "arrestment", "ring", "folded", "mount"]
+)
 def test_a_reference_of_a_described_scene_is_what_its_generator_writes(case: str) -> None:
     folder = find("decks") / "cables" / "described"
     kept = (folder / f"{case}.reference.csv").read_text(encoding="utf-8")

@@ -74,7 +74,7 @@ def mount() -> str:
         "tolerance REQUEST/20.F7: abs 1e-6",
     ]
     values = np.broadcast_arrays(t, *found(*np.column_stack([y, second]).T))
-    return table(["time", *columns], lines, values)
+    return table(["time", *columns], lines, values, 1e-10)
 
 
 def wander() -> str:
@@ -106,4 +106,4 @@ def wander() -> str:
         "tolerance: abs 1e-6",
         "tolerance PART/20.wz: abs 2e-5",
     ]
-    return table(["time", *out], lines, np.broadcast_arrays(t, *found))
+    return table(["time", *out], lines, np.broadcast_arrays(t, *found), 1e-9)

@@ -65,4 +65,4 @@ def reels() -> str:
         "tolerance REQUEST/*.F3: abs 1e-4",
         "tolerance VARIABLE/R_*: abs 3e-8",
     ]
-    return table(["time", *columns], lines, [t, *columns.values()])
+    return table(["time", *columns], lines, [t, *columns.values()], 1e-7)
