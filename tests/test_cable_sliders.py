@@ -128,3 +128,32 @@ def test_a_light_rope_is_an_ellipse() -> None:
     assert np.ptp(rigid["POINT_MASS/20.x"]) > 2.5
     np.testing.assert_allclose(elastic["POINT_MASS/20.x"], rigid["POINT_MASS/20.x"], atol=4.8e-2)
     np.testing.assert_allclose(elastic["POINT_MASS/20.y"], rigid["POINT_MASS/20.y"], atol=1e-2)
+
+
+def test_a_span_starts_hanging_in_its_sag() -> None:
+    """rho g l^2/(8 T) = 31 mm, and it stays there: T is (rho g l/2 T)^2/2 = 8e-5 higher at
+    the ends than in the middle, a third of which lengthens it by 5e-7 m and the sag by
+    3 l/(16 f) times as much, 3e-5 m; it swings by twice that."""
+    _, results = solve(
+        f"""
+        end = 0.5
+        steps = 50
+        gravity = [0, {-G}, 0]
+        [cable]
+        EA = 1e6
+        rho = 0.5
+        pretension = 2000
+        [[route]]
+        kind = "fixed"
+        at = [0, 0, 0]
+        [[route]]
+        kind = "fixed"
+        at = [10, 0, 0]
+        [model]
+        level = 2
+        elements = 10
+        """
+    )
+    height = results["POINT_MASS/1005.y"]
+    assert height[0] == pytest.approx(-0.5 * G * 10**2 / (8 * 2000), rel=1e-2)
+    assert np.ptp(height) < 6e-5

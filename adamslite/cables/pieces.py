@@ -5,12 +5,11 @@ one. A span between two wheels is one massless spring; a run that goes on pulls 
 """
 
 from dataclasses import dataclass
-from itertools import accumulate, pairwise
-from math import sqrt
 
 from adamslite.cables import sliders
 from adamslite.cables.choose import Choice, tensions
 from adamslite.cables.geometry import Span, add, dot, wrap
+from adamslite.cables.hang import hanging
 from adamslite.cables.links import borne, comes, link, spun
 from adamslite.cables.statements import (
     AXES,
@@ -239,35 +238,9 @@ def _on_axle(spec: Spec, piece: Piece) -> str:
 
 def _hanging(spec: Spec, choice: Choice, piece: Piece) -> tuple[float, list[Vector]]:
     """Free length at rest [m], and the places of the nodes from root to tip."""
-    n, cable = choice.elements, spec.cable
-    weight = dot(spec.gravity, piece.along) if not spec.route[piece.tip].kind == "fixed" else 0.0
-    falls = _sag(spec, n, piece)
-    drops = [sqrt(dot(d, d)) for d in (add(b, a, -1) for a, b in pairwise([ZERO, *falls]))]
-    free = piece.span.length
-    for _ in range(20):
-        node = cable.density * free / n * weight
-        pulls = [piece.tension + node * (n - k + 0.5) for k in range(1, n + 1)]
-        steps = [free / n * (1 + pull / cable.stiffness) for pull in pulls]
-        steps = [sqrt(max(h * h - d * d, 0.0)) for h, d in zip(steps, drops, strict=True)]
-        free *= piece.span.length / sum(steps)
-    ways = accumulate(steps)
-    return free, [
-        add(add(piece.place, piece.along, way), fall) for way, fall in zip(ways, falls, strict=True)
-    ]
-
-
-def _sag(spec: Spec, n: int, piece: Piece) -> list[Vector]:
-    """How far nodes 1 to n hang below the line: T (2 y_k - y_(k-1) - y_(k+1)) = rho h^2 g across.
-
-    A cable that its tension hardly carries, T < rho g l/2, has no shape near a line: it is drawn
-    as one.
-    """
-    h, density = piece.span.length / n, spec.cable.density
-    across = add(spec.gravity, piece.along, -dot(spec.gravity, piece.along))
-    if piece.tension < density * n * h * sqrt(dot(across, across)) / 2 or not piece.tension:
-        return [ZERO] * n
-    share = density * h * h / (2 * piece.tension)
-    return [add(ZERO, across, share * k * (n - k)) for k in range(1, n + 1)]
+    held = spec.route[piece.tip].kind == "fixed"
+    return hanging(spec, choice.elements, piece.span.length, (piece.place, piece.along),
+                   piece.tension, held)  # fmt: skip
 
 
 def _axes(spec: Spec) -> str:

@@ -1,0 +1,60 @@
+"""Where the nodes of a span hang at the start, and how long the span is without its tension."""
+
+from itertools import accumulate, pairwise
+from math import sqrt
+
+from adamslite.cables.geometry import add, dot
+from adamslite.cables.vocabulary import ZERO, Spec, Vector
+
+
+def hanging(
+    spec: Spec, n: int, length: float, line: tuple[Vector, Vector], tension: float, held: bool
+) -> tuple[float, list[Vector]]:
+    """A span of n sections at rest.
+
+    Parameters
+    ----------
+    length : float
+        From end to end [m].
+    line : (Vector, Vector)
+        Where the span begins, and its direction.
+    tension : float
+        At its far end [N].
+    held : bool
+        Whether the far end is a fixed point: then gravity along the span is left out.
+
+    Returns
+    -------
+    float
+        Free length [m].
+    list of Vector, n
+        Places of the nodes, the far end included.
+    """
+    (place, along), cable = line, spec.cable
+    weight = 0.0 if held else dot(spec.gravity, along)
+    falls = _sag(spec, n, length, along, tension)
+    drops = [sqrt(dot(d, d)) for d in (add(b, a, -1) for a, b in pairwise([ZERO, *falls]))]
+    free = length
+    for _ in range(20):
+        node = cable.density * free / n * weight
+        pulls = [tension + node * (n - k + 0.5) for k in range(1, n + 1)]
+        steps = [free / n * (1 + pull / cable.stiffness) for pull in pulls]
+        steps = [sqrt(max(h * h - d * d, 0.0)) for h, d in zip(steps, drops, strict=True)]
+        free *= length / sum(steps)
+    ways = zip(accumulate(steps), falls, strict=True)
+    return free, [add(add(place, along, way), fall) for way, fall in ways]
+
+
+def _sag(spec: Spec, n: int, length: float, along: Vector, tension: float) -> list[Vector]:
+    """How far nodes 1 to n hang below the line: T (2 y_k - y_(k-1) - y_(k+1)) = rho h^2 g across,
+    rho of the stretched cable.
+
+    A cable that its tension hardly carries, T < rho g l/2, has no shape near a line: it is drawn
+    as one.
+    """
+    h, density = length / n, spec.cable.density / (1 + tension / spec.cable.stiffness)
+    across = add(spec.gravity, along, -dot(spec.gravity, along))
+    if tension < density * length * sqrt(dot(across, across)) / 2 or not tension:
+        return [ZERO] * n
+    share = density * h * h / (2 * tension)
+    return [add(ZERO, across, share * k * (n - k)) for k in range(1, n + 1)]
