@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from adamslite.cables import sliders
 from adamslite.cables.choose import Choice, tensions
+from adamslite.cables.ends import end
 from adamslite.cables.geometry import Span, add, dot, wrap
 from adamslite.cables.hang import hanging
 from adamslite.cables.links import borne, comes, link, spun
@@ -342,28 +343,6 @@ def _ends(spec: Spec, choice: Choice, found: list[Piece]) -> str:
         text += end(spec, i, 0.0 if each.slides else half) if not each.is_wheel else ""
         text += sliders.slider(spec, i) if each.slides else ""
     return text
-
-
-def end(spec: Spec, i: int, cable: float) -> str:
-    """Station i, not a wheel, with the mass of `cable` at it."""
-    from adamslite.cables.wheels import moved
-
-    each, n = spec.route[i], marker(i)
-    if each.kind in ("mass", "free"):
-        return point(n, each.mass + cable, each.at, each.velocity)
-    if each.kind == "body":
-        speed = "".join(
-            f", V{a}={number(v)}" for a, v in zip(AXES, each.velocity, strict=True) if v
-        )
-        inertia = ",".join([number(each.inertia)] * 3)
-        return (
-            f"PART/{n}, MASS={number(each.mass + cable)}, CM={n}, IP={inertia}"
-            f", QG={triple(each.at)}{speed}\nMARKER/{n}, PART={n}\n"
-        )
-    if each.is_moved:
-        start = f"MARKER/{n + 3}, PART=1, QP={triple(each.at)}\n"
-        return start + point(n, 1.0, each.at) + moved(n, n + 3, each)
-    return f"MARKER/{n}, PART=1, QP={triple(each.at)}\n" if each.kind == "fixed" else ""
 
 
 def _turned(spec: Spec, spans: list[Span], choice: Choice, i: int) -> str:
