@@ -12,7 +12,7 @@ guide of some mass, and slides along the axle against a spring and a damper.
 """
 
 from adamslite.cables.geometry import add, cross, dot
-from adamslite.cables.statements import AXES, number
+from adamslite.cables.statements import AXES, number, rounded
 from adamslite.cables.vocabulary import ZERO, Spec, Vector
 from adamslite.cables.wheels import carrier, marker, travel, triple
 
@@ -64,7 +64,7 @@ def _start(each, out: Vector, spin: float) -> str:
     return "".join(
         f", {letter}{a}={number(x)}"
         for letter, values in (("V", moves), ("W", turn))
-        for a, x in zip(AXES, values, strict=True) if abs(x) > 0
+        for a, x in zip(AXES, rounded(values), strict=True) if x
     )  # fmt: skip
 
 

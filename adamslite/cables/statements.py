@@ -14,6 +14,7 @@ d/dk the central difference, the ale node has the force
 which is -Dm (ACC - g) less (m0 + Dm) times the convective part of the acceleration.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from textwrap import wrap
 
@@ -54,6 +55,12 @@ def number(value: float) -> str:
     return f"{value + 0.0:.11g}"
 
 
+def rounded(values: Sequence[float]) -> tuple[float, ...]:
+    """Components without those that are rounding errors of the largest."""
+    least = 1e-12 * max(map(abs, values), default=0.0)
+    return tuple(x if abs(x) > least else 0.0 for x in values)
+
+
 def head(title: str, notes: str, *lines: str, author: str = "generate.py") -> str:
     """Title, comments and units."""
     text = "".join(f"! {line}\n" for line in wrap(" ".join(notes.split()), 96))
@@ -69,8 +76,9 @@ def tail(integrator: str, end: float, steps: int) -> str:
 
 def point(i: int, mass: float, place, speed=()) -> str:
     """A mass with a marker of its number."""
-    start = "".join(f", V{a}={number(v)}" for a, v in zip(AXES, speed, strict=False) if v)
-    x, y, z = (*place, 0.0, 0.0)[:3]
+    ways = zip(AXES, rounded(speed), strict=False)
+    start = "".join(f", V{a}={number(v)}" for a, v in ways if v)
+    x, y, z = (*rounded(place), 0.0, 0.0)[:3]
     return (
         f"POINT_MASS/{i}, MASS={number(mass)}, CM={i}"
         f", QG={number(x)},{number(y)},{number(z)}{start}\nMARKER/{i}, POINT_MASS={i}\n"

@@ -10,7 +10,7 @@ import re
 from math import pi
 
 from adamslite.cables.geometry import add, cross, dot, unit
-from adamslite.cables.statements import AXES, number
+from adamslite.cables.statements import AXES, number, rounded
 from adamslite.cables.vocabulary import Spec, Station, Vector
 
 
@@ -21,7 +21,7 @@ def marker(i: int) -> int:
 
 def triple(a: Vector) -> str:
     """Three numbers."""
-    return ",".join(number(x) for x in a)
+    return ",".join(number(x) for x in rounded(a))
 
 
 def travel(i: int, spec: Spec, order: int = 0) -> str:
