@@ -118,7 +118,7 @@ def test_any_statement_with_an_id_may_change(
 
 
 def test_one_way_to_say_it_replaces_the_other() -> None:
-    marker = changed("MARKER/4, ZP=0,0,1, XP=1,0,0").find("MARKER", 4)
+    marker = changed("MARKER/4, ZP=1,0,1, XP=2,0,0").find("MARKER", 4)
     assert marker.reuler == (0.0, 0.0, 0.0) and not marker.given("reuler")
     assert marker.given("zp") and marker.qp == (1.0, 0.0, 0.0)
     request = changed("REQUEST/9, F2=TIME").find("REQUEST", 9)
