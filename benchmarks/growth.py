@@ -26,7 +26,7 @@ SETTINGS: tuple[Settings, ...] = (
 FROM = 50
 #: Fewer steps than this in ``STARTING`` at ``PROBE`` masses are mostly first steps.
 LEAST_STEPS = 60
-PROBE = 200
+PROBE = 1000
 
 
 def setting(program: Program) -> Settings | None:
@@ -43,7 +43,7 @@ def growth(names: Iterable[str], crew: Crew, largest: int) -> list[Point]:
         settings = setting(program) if "S1" in program.scenes else None
         if settings is None or crew.effort.over:
             continue
-        scene = worth_measuring(name, settings, crew)
+        scene = worth_measuring(name, settings, crew, min(PROBE, largest))
         points: list[Point] = []
         for n in (n for n in SCALING_SIZES if n <= largest):
             if points and cost_at(points[-1], n) > crew.effort.budget:
@@ -60,9 +60,9 @@ def growth(names: Iterable[str], crew: Crew, largest: int) -> list[Point]:
     return made
 
 
-def worth_measuring(name: str, settings: Settings, crew: Crew) -> str:
+def worth_measuring(name: str, settings: Settings, crew: Crew, n: int) -> str:
     """The start of S1 in which a program takes more than its first steps."""
-    probe = point(name, STARTING, PROBE, settings)
+    probe = point(name, STARTING, n, settings)
     warm_up(crew[name], PROGRAMS[name], probe)
     probe = first_run(crew[name], probe)
     return FALLING if probe.ok and probe.steps < LEAST_STEPS else STARTING

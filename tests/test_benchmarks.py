@@ -161,7 +161,7 @@ def test_the_cost_of_a_step_is_not_that_of_first_steps(steps: int, scene: str) -
             return {"ok": True, "steps": steps}
 
     name = "adamslite GSTIFF SI2"
-    assert worth_measuring(name, {"error": 1e-4}, {name: Finished()}) == scene
+    assert worth_measuring(name, {"error": 1e-4}, {name: Finished()}, 200) == scene
 
 
 def row(program: str, kind: str, error: float | None, cpu: float, **facts: object) -> Row:
