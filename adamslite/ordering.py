@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 # With constraints, up to this many unknowns ordinary dense elimination with pivoting is as quick
-# and safer; without them every block is regular and blocks win from the first.
-DENSE = 96
+# and safer, unless it takes so many times the multiplications of the blocks, as on a chain;
+# without constraints every block is regular and blocks win from the first.
+DENSE, WASTE = 96, 20
 
 
 @dataclass
@@ -44,10 +45,21 @@ def analyse(
     matrix as one dense block.
     """
     total = sum(widths)
-    if pivoting or (late and total <= DENSE):
+    if pivoting:
         return _dense(widths, starts, pairs, total)
     order, below = _order(len(widths), pairs, late)
+    if late and total <= DENSE and total**3 <= WASTE * _work(widths, order, below):
+        return _dense(widths, starts, pairs, total)
     return _block_plan(widths, starts, order, below)
+
+
+def _work(widths: list[int], order: list[int], below: list[list[int]]) -> int:
+    """Multiplications of the elimination by blocks; a dense one of n unknowns counts n^3."""
+    work = 0
+    for node, rest in zip(order, below, strict=True):
+        own, others = widths[node], sum(widths[other] for other in rest)
+        work += own * (own * own + own * others + others * others)
+    return work
 
 
 def _place(widths: list[int], starts: list[int], first: list[int]) -> np.ndarray:

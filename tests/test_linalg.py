@@ -86,6 +86,15 @@ def test_small_systems_are_dense_and_pivoted():
     )
 
 
+@pytest.mark.parametrize(("coupled", "nodes"), [(1, 41), (40, 1)])
+def test_chains_are_not_dense(coupled: int, nodes: int):
+    """Forty masses in a plane and a constraint on the last, each coupled with so many others."""
+    pairs = {(r, c) for r in range(40) for c in range(40) if abs(r - c) <= coupled}
+    pairs |= {(40, 39), (39, 40), (40, 40)}
+    widths, starts = [2] * 40 + [1], [2 * k for k in range(41)]
+    assert len(analyse(widths, starts, pairs, {40: {39}}).plan["size"]) == nodes
+
+
 @pytest.mark.parametrize("count", (4, 9))
 def test_joints_are_saddle_points(count):
     """A chain of bodies hinged in pairs: the multipliers' own blocks are zero."""
