@@ -62,6 +62,19 @@ def test_the_coordinate_that_loses_its_inertia_is_named(method):
     assert "POINT_MASS/2 (<text>:5:1), y, loses its inertia" in results.message
 
 
+@pytest.mark.parametrize("method", ("GSTIFF", "HHT", "RADAU", "ABAM"))
+def test_a_pole_beside_a_force_of_accelerations_is_not_a_lost_mass(method):
+    """The added mass 0.5 adds, and does not cancel; beside it a wheel, whose joint has no pivots.
+
+    x" = 1/(0.707.. - t)^2/10.5, driven past its pole.
+    """
+    wheel = "PART/3, MASS=1, CM=3, IP=1,1,1\nMARKER/3, PART=3\nJOINT/3, REVOLUTE, I=3, J=1\n"
+    force = "VFORCE/7, I=2, J_PART=1, FX=-0.5*ACCX(2)+1/(SQRT(0.5)-TIME)**2\nEND\n"
+    results = run(with_integrator(FALLING + wheel + force, method), 2.0, 20)
+    assert results.outcome is Outcome.STEP_TOO_SMALL
+    assert results.summary["t_end"] == pytest.approx(0.5**0.5, abs=1e-3)
+
+
 def test_a_mass_cancelled_through_a_variable_is_seen_too():
     deck = (
         FALLING

@@ -144,6 +144,6 @@ def mass_vanishes(P: Problem, L: Plan, before: int) -> bool:
     if mass_signature(P, L, P.x) != before:
         return True
     for k in range(P.sizes[NZ]):
-        if not abs(P.x[k]) > VANISHING * abs(P.pivot0[k]):
+        if not abs(P.x[k]) >= VANISHING * abs(P.pivot0[k]):
             return True
     return False
