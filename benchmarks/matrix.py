@@ -1,6 +1,6 @@
 """Every hard case by every integrator: inside the band, refused, or outside of it.
 
-    python -m benchmarks.matrix                            every case, about an hour
+    python -m benchmarks.matrix                            every case, some minutes
     python -m benchmarks.matrix --case pulse --only HHT    parts of it; the other cells stay
 
 A case is a deck with a reference and a band (decks/README.md).  ERROR limits what one step adds,
