@@ -54,7 +54,7 @@ ACCEPTANCE = (
 
 def form(text: str) -> str:
     """What the statements of a deck are, by the words they use."""
-    if re.search(r"[*+]SDD", text):
+    if re.search(r"\*\*2/H", text):
         return "ale"
     if "VARIABLE/Dm" in text:
         return "paper"

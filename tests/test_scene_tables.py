@@ -104,6 +104,7 @@ def test_measured_rows_replace_those_of_the_page(script: ModuleType, tmp_path: P
     [
         ("payout-level/ale", "ale"),
         ("payout-level/paper", "paper"),
+        ("drag-line/dig-paper", "paper"),
         ("crane/no-sway", "rigid rope"),
         ("kink-anchored/anchored", "sections"),
     ],
