@@ -20,8 +20,6 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from adamslite import elf
-
 CPUINFO = Path("/proc/cpuinfo")
 
 
@@ -151,6 +149,8 @@ _linked: dict[str, int] = {}
 
 
 def _link(code: bytes, names: list[str]) -> dict[str, int]:
+    from adamslite import elf  # which imports numpy, and the syntax is cached here, too
+
     try:
         places = elf.link(code)
     except elf.Foreign:
