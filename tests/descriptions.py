@@ -74,6 +74,30 @@ inertia = 0.1
 """
 
 
+def folded(depth: float, radius: float, other: str, end: float) -> str:
+    """A chain of 51 sections that hangs in a fold; its second end is `other`: fixed or free."""
+    return f"""\
+end = {end}
+steps = {round(1000 * end)}
+[cable]
+EA = 1e5
+rho = 1
+damping = 0.1
+[[route]]
+kind = "fixed"
+at = [0, 0, 0]
+[[route]]
+kind = "bend"
+at = [{radius}, {-depth}, 0]
+radius = {radius}
+[[route]]
+kind = "{other}"
+at = [{2 * radius}, 0, 0]
+[model]
+elements = 51
+"""
+
+
 def solve(spec: str, warns: bool = False) -> adamslite.Results:
     """The run of the deck that is written, with or without warnings, for a description."""
     text, warnings = deck(spec)

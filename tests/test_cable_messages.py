@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from descriptions import ATWOOD, BELT, HOIST, PAYOUT
+from descriptions import ATWOOD, BELT, HOIST, PAYOUT, folded
 
 import adamslite
 from adamslite.cables.messages import MESSAGES
@@ -22,24 +22,7 @@ at = [0.52, 0, 0]
 radius = 0.1
 teeth = 12""",
 ).replace("radius = 0.1\ninertia = 0.1\npay", "radius = 0.1\nteeth = 12\ninertia = 0.1\npay")
-FOLD = """\
-end = 1
-[cable]
-EA = 1e5
-rho = 1
-[[route]]
-kind = "fixed"
-at = [0, 0, 0]
-[[route]]
-kind = "bend"
-at = [0.01, -0.49, 0]
-radius = 0.01
-[[route]]
-kind = "free"
-at = [0.02, 0, 0]
-[model]
-elements = 60
-"""
+FOLD = folded(0.49, 0.01, "free", end=1)
 BEAD = """\
 end = 1
 [cable]
@@ -117,7 +100,7 @@ WRONG = {
                    "leans = true", (13, 1)),
     "brute-cannot": (LOWERS, PAYOUT, PAYOUT + "\nreel = { thickness = 0.01, core = 0.1 }", (12, 1)),
     "brute-plane": (LOWERS, "level = 3", 'gravity = [0, -9, 1]', (18, 1)),
-    "bend-too-tight": (FOLD, "radius = 0.01", "radius = 0.005", (11, 1)),
+    "bend-too-tight": (FOLD, "radius = 0.01", "radius = 0.005", (13, 1)),
     "speed-on-a-route": (FOLD, "end = 1", "end = 1\nspeed = 3", (2, 1)),
     "slides-between": (BEAD.replace("fixed", "winch", 1).replace(ZERO, WOUND, 1), "", "", (17, 1)),
     "no-slider": (BEAD, "slides = true", 'haul = "TIME"', (12, 1)),

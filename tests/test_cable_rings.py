@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from descriptions import G, solve
+from descriptions import G, folded, solve
 
 RING = """
 title = "Spinning ring"
@@ -97,28 +97,7 @@ def test_a_folded_chain_falls_faster_than_a_stone() -> None:
     51 sections as lumps: the last link of an arm turns over as a lump, which carries 1/51 of the
     chain and leaves it 3 % slow half way.  4 % of the speed there, and faster than a stone.
     """
-    results = solve(
-        """
-        end = 0.33
-        steps = 330
-        [cable]
-        EA = 1e5
-        rho = 1
-        damping = 0.1
-        [[route]]
-        kind = "fixed"
-        at = [0, 0, 0]
-        [[route]]
-        kind = "bend"
-        at = [0.01, -0.49, 0]
-        radius = 0.01
-        [[route]]
-        kind = "free"
-        at = [0.02, 0, 0]
-        [model]
-        elements = 51
-        """
-    )
+    results = solve(folded(0.49, 0.01, "free", end=0.33))
     fall, speed = -results["POINT_MASS/30.y"], -results["POINT_MASS/30.vy"]
     half = np.searchsorted(fall, 0.5)
     length = 2 * 0.49 + np.pi * 0.01
@@ -133,28 +112,7 @@ def test_a_chain_in_a_fold_hangs_from_both_its_ends() -> None:
     The fold of one link settles by less than the radius of its bend, 0.02 m, and with it less than
     rho g times that goes to and fro; the first section counts from its middle, h/2.
     """
-    results = solve(
-        """
-        end = 0.5
-        steps = 50
-        [cable]
-        EA = 1e5
-        rho = 1
-        damping = 0.1
-        [[route]]
-        kind = "fixed"
-        at = [0, 0, 0]
-        [[route]]
-        kind = "bend"
-        at = [0.02, -0.48, 0]
-        radius = 0.02
-        [[route]]
-        kind = "fixed"
-        at = [0.04, 0, 0]
-        [model]
-        elements = 51
-        """
-    )
+    results = solve(folded(0.48, 0.02, "fixed", end=0.5))
     length = 2 * 0.48 + np.pi * 0.02
     mean = np.mean(results["REQUEST/1.F2"] + results["REQUEST/1.F3"]) / 2
     assert mean == pytest.approx(G * length / 2, abs=G * (0.02 + length / 102))

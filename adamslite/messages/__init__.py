@@ -22,8 +22,8 @@ from adamslite.unsupported import INSTEAD
 
 MESSAGES: dict[str, Message] = STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CONSTRAINTS | RUNS
 
-BODIES = {"PART": "POINT_MASS", "POINT_MASS": "PART"}
-"""Which kind of body is easily written for which."""
+ALIKE = {"PART": "POINT_MASS", "POINT_MASS": "PART", "VARIABLE": "DIFF", "DIFF": "VARIABLE"}
+"""Which kind of statement is easily written for which."""
 
 LEAST_GUESSED = 100
 """Numbers of one or two digits are all alike: those that there are say more than a guess."""
@@ -98,7 +98,7 @@ class Log:
 
     def missing(self, names: Any, kind: str, key: int | str, start: int, end: int) -> None:
         """Say that a statement is referred to and does not exist."""
-        other = BODIES.get(kind)
+        other = ALIKE.get(kind)
         if other and names.find(other, key) is not None:
             hint = f"there is a {other}/{key}"
         elif isinstance(key, int) and key < LEAST_GUESSED:
