@@ -3,9 +3,10 @@
 LLVM compiles; what has been compiled is linked by :mod:`adamslite.elf` where that can be, so that
 its library, 40 MB of memory, is loaded for new code only.
 
-Object code is cached under a hash of its LLVM text, the compiler version and the processor, so a
-deck seen before, or one whose expressions have the same shape, compiles nothing.  The cache
-folder is ``ADAMSLITE_CACHE`` or the user's cache folder; it may be deleted at any time.
+Object code is cached under a hash of its LLVM text, the compiler version and the processor
+(:mod:`adamslite.processor`), so a deck seen before, or one whose expressions have the same shape,
+compiles nothing.  The cache folder is ``ADAMSLITE_CACHE`` or the user's cache folder; it may be
+deleted at any time.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-CPUINFO = Path("/proc/cpuinfo")
+from adamslite import processor
 
 
 def cache_folder() -> Path:
@@ -66,52 +67,8 @@ def recall(key: str, suffix: str, make: Callable[[], bytes]) -> bytes:
 
 def digest(*parts: str) -> str:
     """Content hash of texts, compiler and processor."""
-    text = "\0".join((*parts, processor()))
+    text = "\0".join((*parts, processor.identity()))
     return hashlib.sha256(text.encode()).hexdigest()[:32]
-
-
-@functools.cache
-def processor() -> str:
-    """What decides whether object code made earlier may run here."""
-    import llvmlite
-
-    return f"{llvmlite.__version__} {_processor_by_system() or _processor_by_llvm()}"
-
-
-def _processor_by_system() -> str:
-    """Model and abilities of the first processor as Linux tells them; empty where it does not."""
-    facts = ("vendor_id", "cpu family", "model", "stepping", "flags")
-    try:
-        first, _, _ = CPUINFO.read_text().partition("\n\n")
-    except OSError:
-        return ""
-    told = dict(map(str.strip, line.partition(":")[::2]) for line in first.splitlines())
-    if not all(told.get(fact) for fact in facts):
-        return ""
-    return " ".join([os.uname().machine, str(sys.maxsize), *(told[fact] for fact in facts)])
-
-
-def _processor_by_llvm() -> str:
-    import llvmlite.binding as llvm
-
-    features = llvm.get_host_cpu_features().flatten()
-    return f"{llvm.get_process_triple()} {llvm.get_host_cpu_name()} {features}"
-
-
-@functools.cache
-def target_machine() -> Any:
-    """The optimising code generator for this processor."""
-    import llvmlite.binding as llvm
-
-    llvm.initialize_native_target()
-    llvm.initialize_native_asmprinter()
-    return llvm.Target.from_default_triple().create_target_machine(
-        cpu=llvm.get_host_cpu_name(),
-        features=llvm.get_host_cpu_features().flatten(),
-        opt=3,
-        reloc="static",
-        codemodel="jitdefault",
-    )
 
 
 # LLVM takes functions in up to this size. Its own 250 makes the integrators a third longer to
@@ -123,7 +80,7 @@ def object_code(text: str, speed: int = 3) -> bytes:
     """Compile LLVM assembly to object code at full optimisation."""
     import llvmlite.binding as llvm
 
-    machine = target_machine()
+    machine = processor.target_machine()
     module = llvm.parse_assembly(text)
     module.triple = machine.triple
     module.data_layout = str(machine.target_data)
@@ -175,7 +132,7 @@ def _llvm_linker() -> Any:
     """The one linker of LLVM; code added to it lives as long as the process."""
     import llvmlite.binding as llvm
 
-    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), target_machine())
+    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), processor.target_machine())
 
 
 _kept: list[tuple[bytes, Any]] = []
