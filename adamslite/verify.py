@@ -6,7 +6,10 @@ A case is one reference file and the deck it belongs to: `reference*.csv` in a f
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from functools import partial
+from itertools import chain, groupby
 from pathlib import Path
 from typing import Any
 
@@ -43,11 +46,25 @@ class Case:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Whether a case passed, and one line on how."""
+    """Whether a case passed, and one line on how.
+
+    Parameters
+    ----------
+    case : Case
+        What was judged.
+    passed : bool
+        Whether the run came as close as the reference asks.
+    text : str
+        One line, without the name of the case.
+    share : float or None
+        Part of its band that the worst channel uses, error / allowed; None when nothing could be
+        compared.
+    """
 
     case: Case
     passed: bool
     text: str
+    share: float | None = None
 
 
 def find_cases(paths: Iterable[Path]) -> list[Case]:
@@ -64,25 +81,27 @@ def find_cases(paths: Iterable[Path]) -> list[Case]:
     return list(cases.values())
 
 
-def verify(cases: Iterable[Case], run: Run | None = None) -> Iterator[Verdict]:
-    """Solve and judge one case after the other.
+def verify(cases: Iterable[Case], run: Run | None = None, jobs: int = 1) -> Iterator[Verdict]:
+    """Solve and judge one case after the other, in their order.
 
     Parameters
     ----------
     cases : iterable of Case
         Those of one deck should follow each other: a run with the same flags is not repeated.
     run : function of a deck's path and run options, optional
-        Returns Results; by default `solve_quietly`.
+        Returns Results; by default `solve_quietly`. With several jobs it must be one that another
+        process can import.
+    jobs : int, optional
+        How many processes share the decks.
     """
-    run = _remembering(run or solve_quietly)
-    for case in cases:
-        try:
-            yield _judge(case, run)
-        except DeckError as fault:
-            first = fault.errors[0]
-            yield Verdict(case, False, f"the deck has errors: {first.span}: {first.message}")
-        except (Mismatch, FormatError, UsageError) as fault:
-            yield Verdict(case, False, str(fault))
+    judge_deck = partial(_judge_deck, run=run or solve_quietly)
+    decks = [list(group) for _, group in groupby(cases, key=lambda case: case.deck)]
+    if min(jobs, len(decks)) < 2:
+        for group in decks:
+            yield from judge_deck(group)
+        return
+    with ProcessPoolExecutor(min(jobs, len(decks))) as pool:
+        yield from chain.from_iterable(pool.map(judge_deck, decks))
 
 
 def solve_quietly(
@@ -110,19 +129,27 @@ def _deck_of(file: Path) -> Path | None:
     return decks[0] if len(decks) == 1 else None
 
 
-def _remembering(run: Run) -> Run:
-    """Return `run` with a memory for the runs of one deck, the last it was asked for."""
-    of_deck: dict[Any, Results] = {}
+def _judge_deck(cases: Iterable[Case], run: Run) -> list[Verdict]:
+    """Judge the cases of one deck; runs with the same flags are one run."""
+    runs: dict[Any, Results] = {}
 
     def remembered(deck: Path, options: Mapping[str, Any]) -> Results:
         key = (deck, *sorted(options.items()))
-        if not any(deck == known[0] for known in of_deck):
-            of_deck.clear()
-        if key not in of_deck:
-            of_deck[key] = run(deck, options)
-        return of_deck[key]
+        if key not in runs:
+            runs[key] = run(deck, options)
+        return runs[key]
 
-    return remembered
+    return [_judge_safely(case, remembered) for case in cases]
+
+
+def _judge_safely(case: Case, run: Run) -> Verdict:
+    try:
+        return _judge(case, run)
+    except DeckError as fault:
+        first = fault.errors[0]
+        return Verdict(case, False, f"the deck has errors: {first.span}: {first.message}")
+    except (Mismatch, FormatError, UsageError) as fault:
+        return Verdict(case, False, str(fault))
 
 
 def _judge(case: Case, run: Run) -> Verdict:
@@ -136,7 +163,8 @@ def _judge(case: Case, run: Run) -> Verdict:
     if ending:
         return Verdict(case, False, ending)
     comparison = reference.judge(results)
-    return Verdict(case, comparison.inside, _sentence(reference, results, comparison))
+    sentence = _sentence(reference, results, comparison)
+    return Verdict(case, comparison.inside, sentence, _share(reference, results, comparison))
 
 
 def _wrong_ending(reference: Reference, results: Results) -> str:
@@ -151,6 +179,15 @@ def _wrong_ending(reference: Reference, results: Results) -> str:
                 f"expected at {time:g} within {slack:g}"
             )
     return ""
+
+
+def _share(reference: Reference, results: Results, comparison: Comparison) -> float:
+    """Part of its band that the worst channel uses; the time of a named end is a channel, too."""
+    shares = [difference.severity for difference in comparison]
+    if reference.stop:
+        time, slack = reference.stop
+        shares.append(abs(_end(results) - time) / slack)
+    return max(shares, default=0.0)
 
 
 def _end(results: Results) -> float:

@@ -281,12 +281,31 @@ def test_verify_prints_one_line_each(pipeline, capsys) -> None:
     Path("reference-bad.csv").write_text("# tolerance: abs 1e-3\ntime,PART/2.x\n1,0.6\n")
     assert main(["verify", "."]) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert lines[0].startswith("ok    ") and lines[1].startswith("FAIL  ")
-    assert lines[2] == "1 of 2 references met"
+    assert lines[0].startswith("ok    0.00  ") and lines[1].startswith("FAIL 100.00  ")
+    told = "1 of 2 references met; the largest share of a tolerance is 100.00, in "
+    assert lines[2].startswith(told)
     Path("reference-bad.csv").unlink()
     assert main(["verify", "cable.adm"]) == 0
     Path("reference.csv").unlink()
     assert main(["verify", "cable.adm"]) == 2
+
+
+def test_verify_shares_decks_among_processes(tmp_path: Path, capsys) -> None:
+    """Two decks that hold still, each with a reference that is off by 0.5 mm of 2 mm."""
+    reference = "# tolerance: abs 2e-3\n# measure: last POINT_MASS/2.x = 1.0005 tol abs 2e-3\n"
+    for name in ("a", "b"):
+        (tmp_path / f"{name}.adm").write_text(
+            "Stays\nPART/1, GROUND\nPOINT_MASS/2, MASS=1, QG=1,0,0, CM=2\n"
+            "MARKER/2, POINT_MASS=2\nSIMULATE/DYNAMICS, END=1, STEPS=1\nEND\n"
+        )
+        (tmp_path / f"{name}.reference.csv").write_text(reference)
+    assert main(["verify", str(tmp_path), "-j", "2"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line[:12] for line in lines[:2]] == 2 * ["ok    0.25  "]
+    assert [line.split()[2].rpartition("/")[2] for line in lines[:2]] == ["a", "b"]
+    assert lines[2].endswith(
+        f"2 references met; the largest share of a tolerance is 0.25, in {tmp_path.name}/a"
+    )
 
 
 def test_verify_reports_a_broken_deck_and_goes_on(pipeline, capsys) -> None:

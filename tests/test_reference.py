@@ -159,6 +159,7 @@ def test_the_worst_deviation_against_its_tolerance(tmp_path: Path) -> None:
     verdict = judge(tmp_path, "# tolerance: abs 2e-3\n" + TABLE, results)
     assert verdict.passed
     assert verdict.text == "PART/2.x off by 1.00e-03 of 2.00e-03 allowed at t = 0.5"
+    assert verdict.share == pytest.approx(0.5)
     tighter = "# tolerance: abs 1e-4\n" + TABLE
     (verdict,) = verify([_rewritten(verdict.case, tighter)], lambda deck, options: results)
     assert not verdict.passed and verdict.text.endswith("; outside from t = 0.5")
@@ -196,6 +197,12 @@ def test_the_named_end(tmp_path: Path, expected: str, results: Results, passed: 
     verdict = judge(tmp_path, f"# tolerance: abs 1\n{expected}{TABLE}", results)
     assert verdict.passed is passed
     assert "\n" not in verdict.text
+
+
+def test_the_time_of_the_end_uses_a_share(tmp_path: Path) -> None:
+    text = f"# tolerance: abs 1\n# expect: SINGULAR_ACCELERATION at 1.0005 within 1e-3\n{TABLE}"
+    verdict = judge(tmp_path, text, stopped(Outcome.SINGULAR_ACCELERATION))
+    assert verdict.share == pytest.approx(0.5)
 
 
 def test_a_run_is_not_repeated_for_a_second_reference_with_the_same_flags(tmp_path: Path) -> None:
