@@ -41,9 +41,11 @@ def error(scene: CableScene, advice: Advice) -> float:
     ("name", "accuracy"), [*((name, 0.01) for name in SCENES), *((name, 0.001) for name in FINE)]
 )
 def test_the_advice_keeps_its_promise_and_asks_for_no_more(name: str, accuracy: float) -> None:
-    """The model it chooses is as accurate as wanted; one level less is not."""
+    """The model it chooses is as accurate as wanted, with room for another processor's rounding;
+    one level less is not.
+    """
     advice = advised(SCENES[name], accuracy)
-    assert error(SCENES[name], advice) < accuracy
+    assert error(SCENES[name], advice) < 0.95 * accuracy
     assert error(SCENES[name], less(advice)) > accuracy
 
 
@@ -144,6 +146,6 @@ def test_check_prints_a_few_lines_for_a_cable_and_none_without(capsys) -> None:
         "cable", "waves", "sections", "payout", "paper form", "for 1 %", "for 0.1 %",
     ]  # fmt: skip
     assert "axial 2236 m/s, 8.94 ms along it" in told[2]
-    assert "ale form, 29 of them; GSTIFF ERROR=2E-06" in told[6]
+    assert "ale form, 32 of them; GSTIFF ERROR=2E-06" in told[6]
     assert main(["check", str(DECKS / "pendulum-revolute" / "pendulum-revolute.adm")]) == 0
     assert "cable" not in capsys.readouterr().out
