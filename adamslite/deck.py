@@ -128,6 +128,10 @@ class Deck:
         fresh = {id(each): _with_constants(each, constants) for each in renewed}
         return self._but(own=tuple(fresh.get(id(each), each) for each in own))
 
+    def with_more(self, extra: Iterable[Statement]) -> Deck:
+        """The deck with further statements."""
+        return self._but(own=(*self.own, *extra))
+
     def with_active(self, keyword: str, ids: Iterable[Key], on: bool) -> Deck:
         """The deck with elements of one kind switched on or off."""
         named = {(keyword, id.upper() if isinstance(id, str) else id) for id in ids}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isnan
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,8 @@ MOST_SEARCHED = 1500
 RANK = 1e-12
 # The search ahead for an expression without a value doubles its way so often at most.
 DOUBLINGS = 40
+# Contradicting statements named.
+MOST_NAMED = 4
 # Least steps below this share of the run are its own.
 ROUND_OFF = 1e-12
 
@@ -27,10 +30,19 @@ ROUND_OFF = 1e-12
 def explain(system: System, outcome: Outcome, unclosed: Any) -> str:
     """One paragraph for the user: where, when, what, and the outcome's own remedy."""
     if unclosed:
-        found = f"{placed(unclosed.statement)}, {unclosed.equation}, stays open by "
-        return f"{found}{unclosed.size:.3g} at {unclosed.level} level. {outcome.value}"
+        return f"{_contradiction(unclosed)} {outcome.value}"
     told = REASONS.get(outcome, _when)(system)
     return f"{told[:1].upper()}{told[1:]}. {outcome.value}"
+
+
+def _contradiction(unclosed: Any) -> str:
+    """The constraint that stays open at the start, and those that keep it from closing."""
+    found = f"{placed(unclosed.statement)}, {unclosed.equation},"
+    if isnan(unclosed.size):
+        return f"{found} has no value at the start."
+    told = f"{found} stays open by {unclosed.size:.3g} at {unclosed.level} level"
+    others = unclosed.others[:MOST_NAMED]
+    return f"{told}{', against ' * bool(others)}{' and '.join(map(placed, others))}."
 
 
 def _when(system: System) -> str:

@@ -192,4 +192,4 @@ def _block_plan(
         "place": _place(widths, starts, at),
     }
     plan = {name: np.ascontiguousarray(values, dtype=np.int64) for name, values in arrays.items()}
-    return Elimination(plan, places, size, max(widths))
+    return Elimination(plan, places, size, max(widths, default=0))

@@ -212,7 +212,8 @@ class System(Elimination):
             self.history = np.zeros(max(room, self.history.size))
             self.parts = np.zeros(3 * self.J.size)
             self.LC, self.pivots_c = np.zeros(2 * self.LV.size), ints([0] * self.nz)
-            self.work = np.zeros(max(self.work.size, 2 * int(self.plan["size"].max()) ** 2))
+            widest = int(self.plan["size"].max(initial=0))
+            self.work = np.zeros(max(self.work.size, 2 * widest**2))
 
     def start_record(self, times: np.ndarray) -> None:
         """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier

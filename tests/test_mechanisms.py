@@ -209,8 +209,8 @@ def test_joints_tell_what_they_ask_for_at_the_start() -> None:
     )
     first, second = deck.of("JOINT")
     assert first.initial() == [
-        ("TRANSLATION", 2.0, None),
-        ("ROTATION", pytest.approx(np.pi / 2), 3),
+        ("ictran", "TRANSLATION", 2.0, None),
+        ("icrot", "ROTATION", pytest.approx(np.pi / 2), 3),
     ]
-    assert second.initial() == [("ROTATION", 1.0, 2.0)]
-    assert deck.of("MOTION")[0].initial() == [("ROTATION", 4.0, None)]
+    assert second.initial() == [("ic", "ROTATION", 1.0, 2.0)]
+    assert deck.of("MOTION")[0].initial() == [("icdisp", "ROTATION", 4.0, None)]

@@ -306,7 +306,8 @@ def test_a_joint_that_cannot_close():
     results = said(PENDULUM.replace("END", second))
     assert results.outcome is Outcome.INITIAL_CONDITIONS_FAILED
     told = (
-        r"JOINT/[12] \(<text>:[89]:1\), [xyz] of I - J, stays open by 0\.5\d* at position level\."
+        r"JOINT/[12] \(<text>:[89]:1\), [xyz] of I - J, stays open by 0\.5\d* at position level, "
+        r"against JOINT/[12] \(<text>:[89]:1\)\."
     )
     assert re.fullmatch(told, reason(results))
 

@@ -10,7 +10,9 @@ Reference: Haug, Computer Aided Kinematics and Dynamics, 1989, section 4.3.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -31,27 +33,38 @@ OPEN = 1e-9
 MOST_TURN, HALVINGS = 0.5, 12
 # Singular values below this share of the largest are redundant rows.
 RANK = 1e-9
+# Rows off by this share of the worst take part in a contradiction.
+INVOLVED = 1e-3
+SPEEDS = base.VELOCITY_ROWS | base.RATE_ROWS
 
 
 @dataclass
 class Unclosed:
-    """A constraint the initial conditions cannot satisfy: which row, and by how much."""
+    """A constraint the initial conditions cannot satisfy: which row, and by how much.
 
-    statement: object
+    ``size`` is not a number where the row has no value; ``others`` are the statements that the row
+    contradicts.
+    """
+
+    statement: Any
     size: float
     level: str
     equation: str
+    others: list[Any] = field(default_factory=list)
 
 
-def initial_conditions(system: System) -> Unclosed | None:
-    """Put the nearest consistent positions and velocities into ``system``; None when it worked."""
+def initial_conditions(system: System, free: Iterable[Any] = ()) -> Unclosed | None:
+    """Put the nearest consistent positions and velocities into ``system``; None when it worked.
+
+    ``free``: constraints that leave the velocities alone.
+    """
     if system.m == 0:
         return None
     if system.holonomic:
         unclosed = _positions(system)
         if unclosed:
             return unclosed
-    return _velocities(system)
+    return _velocities(system, free)
 
 
 def _positions(system: System) -> Unclosed | None:
@@ -59,17 +72,13 @@ def _positions(system: System) -> Unclosed | None:
     size = max(1.0, float(np.abs(system.q).max()))
     g = _residual(system, base.POSITION_ROWS)[rows]
     for _ in range(MAX_ITERATIONS):
-        if float(np.abs(g).max()) <= CLOSED * size:
+        if not np.isfinite(g).all() or float(np.abs(g).max()) <= CLOSED * size:
             break
         step = _least_change(system, _gradient(system, base.POSITION_ROWS, 0, rows), g)
         g, moved = _damped(system, step, g, rows)
         if moved <= 1e-15 * size:
             break
-    worst = float(np.abs(g).max())
-    if worst > OPEN * size:
-        statement, equation = _owner(system, int(np.argmax(np.abs(g))))
-        return Unclosed(statement, worst, "position", equation)
-    return None
+    return _unclosed(system, g, np.arange(len(g)), OPEN * size, "position")
 
 
 def _damped(
@@ -101,20 +110,48 @@ def _largest_turn(system: System, step: np.ndarray) -> float:
     return max(turns, default=0.0)
 
 
-def _velocities(system: System) -> Unclosed | None:
-    phases = base.VELOCITY_ROWS | base.RATE_ROWS
-    rows = _velocity_rows(system)
+def _velocities(system: System, free: Iterable[Any]) -> Unclosed | None:
+    kept = np.setdiff1d(np.arange(system.m), [row for c in free for row in _rows_of(system, c)])
+    rows = _velocity_rows(system)[kept]
+    if not len(rows):
+        return None
     for _ in range(3):
-        defect = _residual(system, phases)[rows]
-        step = _least_change(system, _gradient(system, phases, 1, rows), defect)
-        system.u[: system.n] -= step
-    defect = _residual(system, phases)[rows]
+        defect = _residual(system, SPEEDS)[rows]
+        gradient = _gradient(system, SPEEDS, 1, rows)
+        if not (np.isfinite(defect).all() and np.isfinite(gradient).all()):
+            defect = defect + 0.0 * gradient.sum(axis=1)
+            break
+        system.u[: system.n] -= _least_change(system, gradient, defect)
+        defect = _residual(system, SPEEDS)[rows]
     size = max(1.0, float(np.abs(system.u).max()))
-    if np.abs(defect).max() > 1e-8 * size:
-        worst = int(np.argmax(np.abs(defect)))
-        statement, equation = _owner(system, worst)
-        return Unclosed(statement, float(np.abs(defect[worst])), "velocity", equation)
-    return None
+    return _unclosed(system, defect, kept, 1e-8 * size, "velocity")
+
+
+def speed_defects(system: System, constraints: Iterable[Any]) -> list[np.ndarray]:
+    """What the velocity rows of each constraint are off by."""
+    defect = _residual(system, SPEEDS)[_velocity_rows(system)]
+    return [defect[_rows_of(system, each)] for each in constraints]
+
+
+def _unclosed(
+    system: System, defect: np.ndarray, rows: np.ndarray, allowed: float, level: str
+) -> Unclosed | None:
+    """The worst of the constraint rows ``rows`` when it is off by more than ``allowed``.
+
+    At the least sum of squares the defects are a combination of rows that cancels: rows that are
+    off contradict each other.
+    """
+    sizes = np.where(np.isfinite(defect), np.abs(defect), np.inf)
+    worst = int(np.argmax(sizes))
+    if sizes[worst] <= allowed:
+        return None
+    statement, equation = _owner(system, int(rows[worst]))
+    size, others = float("nan"), []
+    if np.isfinite(sizes[worst]):
+        size = float(sizes[worst])
+        also = [_owner(system, int(row))[0] for row in rows[sizes > INVOLVED * size]]
+        others = list(dict.fromkeys(each for each in also if each is not statement))
+    return Unclosed(statement, size, level, equation, others)
 
 
 def _residual(system: System, phases: int) -> np.ndarray:
@@ -139,8 +176,7 @@ def _least_change(system: System, gradient: np.ndarray, defect: np.ndarray) -> n
 
 def constraint_gradient(system: System) -> np.ndarray:
     """G: derivative of every constraint row with respect to velocities, (m, n)."""
-    phases = base.VELOCITY_ROWS | base.RATE_ROWS
-    return _gradient(system, phases, 1, _velocity_rows(system))
+    return _gradient(system, SPEEDS, 1, _velocity_rows(system))
 
 
 def _velocity_rows(system: System) -> np.ndarray:
@@ -183,7 +219,17 @@ def _cayley(c: np.ndarray) -> np.ndarray:
     return np.eye(3) + (skew + 0.5 * skew @ skew) / (1.0 + 0.25 * c @ c)
 
 
-def _owner(system: System, row: int) -> tuple[object, str]:
+def _rows_of(system: System, constraint: Any) -> range:
+    """Numbers of the rows of a constraint, counted from the first multiplier."""
+    first = 0
+    for each in system.model.constraints:
+        if (each.keyword, each.key) == (constraint.keyword, constraint.key):
+            return range(first, first + each.n_rows)
+        first += each.n_rows
+    return range(0)
+
+
+def _owner(system: System, row: int) -> tuple[Any, str]:
     """The constraint that owns multiplier row ``row``, and what the row keeps at zero."""
     for constraint in system.model.constraints:
         if row < constraint.n_rows:

@@ -41,6 +41,11 @@ class Coupler(Constraint, Statement):
         missing = len(self.scales) < len(self.joints)
         return (1.0, *self.scales) if missing else self.scales
 
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """What the row keeps at zero."""
+        return ("sum of the scaled freedoms",)
+
     def uses(self, number: int, freedoms: tuple[str, ...]) -> str | None:
         """TRANSLATION or ROTATION of joint ``number`` with these freedoms; None when unclear."""
         if number < len(self.type):

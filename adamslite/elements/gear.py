@@ -34,6 +34,11 @@ class Gear(Constraint, Statement):
         "CV", to="MARKER", required=True, help="marker at the pitch point, z along its velocity"
     )
 
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """What the row keeps at zero."""
+        return ("travel of one gear past the other along z of CV",)
+
     def derived(self, model: Any) -> dict[str, Any]:
         """For each joint (factor, built value) of its translation and of its rotation."""
         pitch = model.marker(self.cv)

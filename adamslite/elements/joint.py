@@ -48,7 +48,7 @@ from adamslite.coordinates import (
 from adamslite.statement import Statement, choice, number, reference, statement, vector
 from adamslite.symbolic import Scope, dot
 
-Initial = tuple[str, float | None, float | None]
+Initial = tuple[str, str, float | None, float | None]
 
 
 @statement("JOINT", planned=("FRICTION",))
@@ -119,11 +119,12 @@ class Joint(Constraint, Statement):
         return self.free.get(self.kind, ())
 
     def initial(self) -> list[Initial]:
-        """(coordinate, displacement, velocity) asked for at the start; None where free."""
-        asked = {"TRANSLATION": self.ictran, "ROTATION": self.icrot}
-        if self.ic and len(self.coordinates) == 1:
-            asked[self.coordinates[0]] = self.ic
-        return [(name, *(*given, None)[:2]) for name, given in asked.items() if given]
+        """(field, freedom, displacement, velocity) asked for at the start; None where free."""
+        asked = {"ictran": "TRANSLATION", "icrot": "ROTATION"}
+        if len(self.coordinates) == 1:
+            asked = {"ic": self.coordinates[0]}
+        given = ((field, freedom, getattr(self, field)) for field, freedom in asked.items())
+        return [(field, name, *(*values, None)[:2]) for field, name, values in given if values]
 
     def derived(self, model: Any) -> dict[str, Any]:
         """From the posture the deck draws: where SCREW and RACKPIN start, how CONVEL faces."""

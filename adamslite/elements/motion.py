@@ -7,7 +7,8 @@ Equation (q the freedom, e = FUNCTION)::
     ACCELERATION   dq/dt - s = 0,  ds/dt = e,  s(0) = ICVEL
 
 VELOCITY and ACCELERATION constrain the velocity: no position is held, it follows by integration
-from the start.  ACCELERATION brings a state s of its own, written as ``DIFF/MOTION_id``, so that
+from the start.  Without ICDISP that is where the bodies are, without ICVEL s(0) is the speed they
+have.  ACCELERATION brings a state s of its own, written as ``DIFF/MOTION_id``, so that
 the highest level a constraint is stated on stays the velocity.
 
 Freedoms: translation along and rotation about z of J of a joint, or, between markers I and J,
@@ -89,11 +90,18 @@ class Motion(Constraint, Statement):
             return free[0] if len(free) == 1 else None
         return self.axis if self.axis in free else None
 
-    def initial(self) -> list[tuple[str, float | None, float | None]]:
-        """(coordinate, displacement, velocity) asked for at the start; None where free."""
+    def initial(self) -> list[tuple[str, str, float | None, float | None]]:
+        """(field, freedom, displacement, velocity) asked for at the start; None where free."""
         if self.level == "DISPLACEMENT" or self.icdisp is None:
             return []
-        return [(self.axis or "", self.icdisp, None)]
+        return [("icdisp", self.axis or "", self.icdisp, None)]
+
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """What is prescribed."""
+        if self.joint is None:
+            return (f"{self.axis} of I from J",)
+        return (f"{(self.axis or 'freedom').lower()} of JOINT/{self.joint}",)
 
     def derived(self, model: Any) -> dict[str, Any]:
         """The freedom, and the expression its value or rate follows."""

@@ -45,6 +45,12 @@ class Ptcv(Constraint, Statement):
         return 5
 
     @property
+    def row_names(self) -> tuple[str, ...]:
+        """What each row keeps at zero."""
+        away = tuple(f"distance from the curve along {axis}" for axis in "xyz")
+        return (*away, *(f"unused {axis} of the parameter" for axis in "yz"))
+
+    @property
     def slider(self) -> str:
         """Name of the massless point that carries the parameter."""
         return f"PTCV_{self.key}"

@@ -1,0 +1,92 @@
+"""Conditions at the start: ICDISP and ICVEL of motions, IC, ICTRAN and ICROT of joints."""
+
+from __future__ import annotations
+
+from math import pi
+
+import pytest
+from scenes import GROUND, run
+
+from adamslite import Outcome
+
+INTEGRATORS = ("GSTIFF", "RADAU", "HHT", "ABAM")
+SLIDER = "PART/2, MASS=2, CM=2, IP=1,1,1{speeds}\nMARKER/2, PART=2\nJOINT/1, {joint}\n{motion}\n"
+SLIDER += "REQUEST/1, F1=DZ(2,1)\\F2=VZ(2,1)\\F3=AZ(2,1)\\F4=WZ(2,1)\nEND\n"
+SLIDES, TURNS = "TRANSLATIONAL, I=2, J=1", "REVOLUTE, I=2, J=1"
+
+
+def moved(joint: str, motion: str = "", speeds: str = "", integrator: str = "GSTIFF"):
+    """A part on one joint for 0.5 s."""
+    deck = GROUND + SLIDER.format(joint=joint, motion=motion, speeds=speeds)
+    return run(deck, 0.5, 1, integrator=integrator, error=1e-8)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize(("d", "v", "a"), ((0.5, 2.0, 1.0), (-1.2, -0.7, 3.0)))
+@pytest.mark.parametrize("start", ("rate", "both", "displacement alone"))
+def test_a_motion_starts_where_icdisp_says_and_as_fast_as_it_says(start, d, v, a, integrator):
+    """x = d + v t + a t^2/2: v from FUNCTION, from ICVEL, or what the part has."""
+    how = {
+        "rate": (f"VELOCITY, ICDISP={d}, FUNCTION={v}+{a}*TIME", ""),
+        "both": (f"ACCELERATION, ICDISP={d}, ICVEL={v}, FUNCTION={a}", ""),
+        "displacement alone": (f"ACCELERATION, ICDISP={d}, FUNCTION={a}", f", VZ={v}, WZ={v}"),
+    }
+    motion, speeds = how[start]
+    for joint, place, speed in ((SLIDES, "F1", "F2"), (TURNS, "F3", "F4")):
+        results = moved(joint, f"MOTION/1, JOINT=1, {motion}", speeds, integrator)
+        assert results.outcome is Outcome.DONE
+        x, u = results[f"REQUEST/1.{place}"], results[f"REQUEST/1.{speed}"]
+        assert (x[0], u[0]) == pytest.approx((d, v), abs=1e-10)
+        assert x[1] == pytest.approx(d + v / 2 + a / 8, abs=1e-6)
+        assert u[1] == pytest.approx(v + a / 2, abs=1e-6)
+
+
+@pytest.mark.parametrize("given", (4.0, -1.5))
+def test_a_displacement_alone_leaves_the_speed(given):
+    """IC=0.7 of a slider that has VZ, IC=30 degrees of a hinge that has WZ; ICTRAN likewise."""
+    speeds = f", VZ={given}, WZ={given}"
+    for joint, d, v in (
+        (f"{SLIDES}, IC=0.7", ("F1", 0.7), ("F2", given)),
+        (f"{SLIDES}, IC=0.7, -2", ("F1", 0.7), ("F2", -2.0)),
+        (f"{TURNS}, IC=30D", ("F3", pi / 6), ("F4", given)),
+        ("CYLINDRICAL, I=2, J=1, ICTRAN=1", ("F1", 1.0), ("F2", given)),
+        ("CYLINDRICAL, I=2, J=1, ICTRAN=1, ICROT=0.3,2", ("F3", 0.3), ("F4", 2.0)),
+    ):
+        results = moved(joint, speeds=speeds)
+        assert results[f"REQUEST/1.{d[0]}"][0] == pytest.approx(d[1], abs=1e-10)
+        assert results[f"REQUEST/1.{v[0]}"][0] == pytest.approx(v[1], abs=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("joint", "motion", "told"),
+    [
+        (", IC=0.7", "MOTION/1, JOINT=1, FUNCTION=TIME", ("IC of JOINT/1", "MOTION/1")),
+        (", IC=0.7, 2", "MOTION/1, JOINT=1, VELOCITY, FUNCTION=0", ("IC of JOINT/1", "MOTION/1")),
+        (
+            ", IC=0.7",
+            "MOTION/1, JOINT=1, VELOCITY, ICDISP=0.2, FUNCTION=0",
+            ("IC of JOINT/1", "ICDISP of MOTION/1"),
+        ),
+        (
+            "",
+            "MOTION/1, JOINT=1, VELOCITY, ICDISP=0.2, FUNCTION=0\nGCON/1, FUNCTION=DZ(2)-1",
+            ("GCON/1", "ICDISP of MOTION/1"),
+        ),
+    ],
+)
+def test_contradicting_conditions_are_both_named(joint, motion, told):
+    results = moved(SLIDES + joint, motion)
+    assert results.outcome is Outcome.INITIAL_CONDITIONS_FAILED
+    for name in told:
+        assert f"{name} (<text>:" in results.message
+    assert "condition 1" not in results.message
+
+
+@pytest.mark.parametrize(
+    "integrator", ("GSTIFF", "RADAU", "HHT", "NEWMARK", "ABAM", "VERLET", "AUTO")
+)
+def test_a_deck_in_which_nothing_moves_tabulates_its_expressions(integrator):
+    deck = GROUND + "VARIABLE/1, FUNCTION=TIME**2\nREQUEST/1, F1=VARVAL(1)*3\nEND\n"
+    results = run(deck, 2.0, 4, integrator=integrator)
+    assert results.outcome is Outcome.DONE
+    assert results["REQUEST/1.F1"] == pytest.approx(3 * results.time**2, abs=1e-12)
