@@ -19,9 +19,13 @@ so that `adamslite --help` does not wait for numpy.
 
 import importlib
 import sys
+import time
 import types
 
 __version__ = "0.1.0"
+
+STARTED = time.time()
+"""When this process imported the package: a source file changed later may not be what it runs."""
 
 _HOME = {
     "DeckError": "diagnostics",

@@ -7,6 +7,7 @@
     adamslite linear DECK [COMMANDS.acf]    eigenvalues and modes of small motions
     adamslite chart  DECK [COMMANDS.acf]    what accuracy costs with each integrator
     adamslite cable  SPEC.toml              write the deck of a cable scene from a short description
+    adamslite cache  [--clear]              what is kept between runs
     adamslite help   [NAME]                 what a statement, a function or a message means
 
 Exit codes: 0 done or equal, 1 outside tolerance, 2 usage, 3 the deck has errors,
@@ -22,7 +23,7 @@ import sys
 from collections.abc import Sequence
 
 from adamslite import __version__
-from adamslite.commands import cable, chart, check, diff, help, linear, solve, verify
+from adamslite.commands import cable, cache, chart, check, diff, help, linear, solve, verify
 from adamslite.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, STOPPED_EARLY, USAGE
 
 EXIT_CODES = """exit codes:
@@ -72,7 +73,7 @@ def _parser() -> argparse.ArgumentParser:
         "--debug", action="store_true", help="show the traceback of a program fault"
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for module in (check, solve, diff, verify, linear, chart, cable, help):
+    for module in (check, solve, diff, verify, linear, chart, cable, cache, help):
         name = module.__name__.rpartition(".")[2]
         summary = module.__doc__.partition("\n")[0]
         command = commands.add_parser(

@@ -7,21 +7,21 @@ instances of one face with one shape form a :class:`Group`, run by one kernel in
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from adamslite import native
+from adamslite.caching.entries import recall, recall_json
+from adamslite.caching.sources import version_of
 from adamslite.model import Model
 from adamslite.shape import Binder, Binding, Reader, Tree, reactions, symbolic_view
 from adamslite.statement import Statement
 from adamslite.symbolic import Scope
 from adamslite.uncollected import uncollected
-
-HERE = Path(__file__).parent
 
 
 @dataclass
@@ -98,7 +98,7 @@ def _add(groups: dict[tuple, Group], model: Model, statement: Statement, face: s
     rate = (statement.keyword, statement.key) in model.held and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
     if key not in groups:
-        name = "k" + native.digest(repr(key), generator_version())
+        name = "k" + native.digest(repr(key), version_of("compiled"), algebra())
         groups[key] = Group(face, name, _maker(binder, statement, face, fields, own, name, model))
     groups[key].instances.append((statement, binder.instance))
 
@@ -192,8 +192,8 @@ def _compile(group: Group, progress: Any) -> bool:
             made.append(group.make())
         return made[0]
 
-    group.meta = native.recall_json(group.name, lambda: text_and_meta()[1])
-    group.code = native.recall(group.name, ".o", lambda: native.object_code(text_and_meta()[0]))
+    group.meta = recall_json(f"{group.name}.json", lambda: text_and_meta()[1])
+    group.code = recall(f"{group.name}.o", lambda: native.object_code(text_and_meta()[0]))
     return bool(made)
 
 
@@ -208,34 +208,7 @@ def _entry_points(group: Group) -> list[str]:
 
 
 @cache
-def version_of(*sources: str) -> str:
-    """Changes whenever one of these modules or folders of the package changes."""
-    stamps = []
-    for source in sources:
-        for folder, _, files in sorted(os.walk(HERE / source)) or [
-            (str(HERE), [], [f"{source}.py"])
-        ]:
-            for file in sorted(f for f in files if f.endswith(".py")):
-                facts = os.stat(os.path.join(folder, file))
-                stamps.append(f"{file} {facts.st_size} {facts.st_mtime_ns}")
-    return "\n".join(stamps)
-
-
-def generator_version() -> str:
-    """Version of everything that decides the text of a kernel."""
-    return version_of(
-        "kernel",
-        "kinematics",
-        "lowering",
-        "symbolic",
-        "shape",
-        "compiled",
-        "algebra",
-        "guards",
-        "coordinates",
-        "constraint",
-        "spline_curve",
-        "wrench",
-        "functions",
-        "elements",
-    )
+def algebra() -> str:
+    """Version of sympy, whose transformations shape the text of a kernel; sympy is not imported."""
+    place = find_spec("sympy").submodule_search_locations[0]
+    return (Path(place) / "release.py").read_text(encoding="utf-8")

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from adamslite import native
-from adamslite.compiled import version_of
+from adamslite.caching.entries import recall
+from adamslite.caching.sources import version_of
 
 (
     RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
@@ -36,7 +37,7 @@ _built: dict[str, Any] = {}
 
 
 def _build(name: str, progress: Any) -> Any:
-    key = name + native.digest(version_of("integrators", "translate", "lowering"))
+    key = name + native.digest(version_of("engine"))
 
     def compiled() -> bytes:
         if progress is not None:
@@ -45,7 +46,7 @@ def _build(name: str, progress: Any) -> Any:
 
         return native.object_code(engine_text(name))
 
-    address = native.addresses([(native.recall(key, ".o", compiled), [name])])[name]
+    address = native.addresses([(recall(f"{key}.o", compiled), [name])])[name]
     integers = [] if name != OPERATIONS else [ctypes.c_int64, ctypes.c_int64]
     return ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, *integers)(address)
 

@@ -1,68 +1,21 @@
-"""Native code on disk: LLVM text in, callable addresses out.
+"""Native code: LLVM text in, object code and callable addresses out.
 
 LLVM compiles; what has been compiled is linked by :mod:`adamslite.elf` where that can be, so that
 its library, 40 MB of memory, is loaded for new code only.
 
-Object code is cached under a hash of its LLVM text, the compiler version and the processor
-(:mod:`adamslite.processor`), so a deck seen before, or one whose expressions have the same shape,
-compiles nothing.  The cache folder is ``ADAMSLITE_CACHE`` or the user's cache folder; it may be
-deleted at any time.
+Object code is kept (:mod:`adamslite.caching`) under a hash of what it is made from, the compiler
+version and the processor (:mod:`adamslite.processor`), so a deck seen before, or one whose
+expressions have the same shape, compiles nothing.
 """
 
 from __future__ import annotations
 
 import functools
 import hashlib
-import json
-import os
-import sys
-import tempfile
-from collections.abc import Callable, Iterable
-from pathlib import Path
+from collections.abc import Iterable
 from typing import Any
 
 from adamslite import processor
-
-
-def cache_folder() -> Path:
-    """The folder that holds compiled code; made when missing."""
-    chosen = os.environ.get("ADAMSLITE_CACHE")
-    if chosen:
-        folder = Path(chosen)
-    elif sys.platform == "win32":
-        folder = Path(os.environ.get("LOCALAPPDATA", Path.home())) / "adamslite" / "cache"
-    elif sys.platform == "darwin":
-        folder = Path.home() / "Library" / "Caches" / "adamslite"
-    else:
-        folder = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "adamslite"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
-        folder = Path(tempfile.gettempdir()) / "adamslite-cache"
-        folder.mkdir(parents=True, exist_ok=True)
-    return folder
-
-
-def store(path: Path, data: bytes) -> None:
-    """Write a file whole or not at all; a full disk only costs the cache entry."""
-    try:
-        handle, name = tempfile.mkstemp(dir=path.parent)
-        with os.fdopen(handle, "wb") as out:
-            out.write(data)
-        os.replace(name, path)
-    except OSError:
-        return
-
-
-def recall(key: str, suffix: str, make: Callable[[], bytes]) -> bytes:
-    """The cached bytes of ``key``, made and stored on first use."""
-    path = cache_folder() / f"{key}{suffix}"
-    try:
-        return path.read_bytes()
-    except OSError:
-        data = make()
-        store(path, data)
-        return data
 
 
 def digest(*parts: str) -> str:
@@ -136,8 +89,3 @@ def _llvm_linker() -> Any:
 
 
 _kept: list[tuple[bytes, Any]] = []
-
-
-def recall_json(key: str, make: Callable[[], Any]) -> Any:
-    """A cached JSON value."""
-    return json.loads(recall(key, ".json", lambda: json.dumps(make()).encode()))

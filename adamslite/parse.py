@@ -13,19 +13,25 @@ joining continuation lines moves no column.
 
 from __future__ import annotations
 
+import pickle
 import re
+import sys
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache, lru_cache
+from hashlib import sha256
+from io import BytesIO
 from itertools import accumulate
+from pathlib import Path
 from sys import intern
 from typing import Any, NamedTuple
 
+import lark
 from lark import Lark, Token, Transformer
 from lark.exceptions import UnexpectedToken
 from lark.lexer import Lexer
 
 from adamslite import places
-from adamslite.native import cache_folder
+from adamslite.caching.entries import recall
 
 Lexeme = tuple[str, str, int]
 """Kind, text and offset of a token."""
@@ -128,18 +134,33 @@ class _Forms(Transformer):
         return ("call", children[0].start_pos, separators, *branches)
 
 
+FORM = {"parser": "lalr", "lexer": _Replay, "keep_all_tokens": True}
+
+
 @cache
 def _parser(grammar: str, start: str) -> Lark:
-    """The parser of ``grammar/<grammar>.lark``, built when first needed and kept on disk."""
-    return Lark.open(
-        str(places.find("grammar") / f"{grammar}.lark"),
-        start=start,
-        parser="lalr",
-        lexer=_Replay,
-        keep_all_tokens=True,
-        transformer=_Forms(),
-        cache=str(cache_folder() / f"{grammar}.parser"),
-    )
+    """The parser of ``grammar/<grammar>.lark``, built when first needed; its tables are kept."""
+    folder = places.find("grammar")
+
+    def tables() -> bytes:
+        found = BytesIO()
+        Lark.open(str(folder / f"{grammar}.lark"), start=start, **FORM).save(found)
+        return found.getvalue()
+
+    kept = pickle.loads(recall(f"{grammar}{_grammars(folder)}.parser", tables))
+    return Lark._load_from_dict(kept["data"], kept["memo"], transformer=_Forms())
+
+
+@cache
+def _grammars(folder: Path) -> str:
+    """Digest of what parser tables are made from: the grammars, which import each other, and Lark.
+
+    The tables name classes of this module, so it belongs to them.
+    """
+    files = sorted(folder.glob("*.lark"))
+    texts = [each.read_bytes() for each in (*files, Path(__file__))]
+    versions = f"{lark.__version__} {sys.implementation.cache_tag}".encode()
+    return sha256(b"\0".join((versions, *texts))).hexdigest()[:32]
 
 
 def _form(parser: Lark, kinds: tuple[str, ...]) -> Any:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from adamslite.caching import entries, folder
 from adamslite.places import find
 
 sys.path.append(str(find("decks") / "cables"))
@@ -23,3 +24,17 @@ def compiled_code(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     yield folder
     if given is None:
         del os.environ["ADAMSLITE_CACHE"]
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """An empty cache folder for one test."""
+    chosen = tmp_path / "cache"
+    chosen.mkdir(mode=0o700)
+    monkeypatch.setenv("ADAMSLITE_CACHE", str(chosen))
+    folder._settled.cache_clear()
+    folder._private.cache_clear()
+    entries._totals.clear()
+    yield chosen.resolve()
+    folder._settled.cache_clear()
+    folder._private.cache_clear()

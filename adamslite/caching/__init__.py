@@ -1,0 +1,6 @@
+"""What is kept between runs: where it lies, how an entry is sealed, and what its name covers.
+
+sources   a digest of every file that shapes an entry: part of the entry's name
+folder    where entries lie; nobody else may write there
+entries   an entry is verified before it is used, and made again when it fails
+"""

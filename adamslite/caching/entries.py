@@ -1,0 +1,209 @@
+"""Entries: bytes kept under a name that says what they were made from.
+
+An entry is verified before anything of it is used, and made again when it fails::
+
+    magic and format | length of the content | SHA-256 of name and content | content
+    8 bytes            8 bytes                 32 bytes
+
+The folder is kept to a size: what has not been used for longest goes first. Any number of processes
+may read, write and clear at once: an entry appears whole by a rename, and one that has gone is made
+again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import struct
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from itertools import count
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from adamslite.caching.folder import cache_folder, say
+from adamslite.faults import UsageError
+
+HEAD = struct.Struct("<8sQ32s")
+MAGIC = b"alentry1"
+#: Names of entries, and of those being written. Nothing else in the folder is ever touched.
+ENTRY = re.compile(r"[a-z_]+[0-9a-f]{32}\.(?:o|json|parser)")
+DRAFT = re.compile(rf"\.{ENTRY.pattern}\.\d+-\d+\.part")
+
+BOUND = 512.0
+"""Size of the folder [MB = 1e6 bytes] unless ``ADAMSLITE_CACHE_SIZE`` says another."""
+SPARED = 0.9
+"""Share of the bound to which a folder that has outgrown it is cut, so that it is not cut often."""
+HOUR = 3600.0
+"""A draft older than this was left by a process that has died [s]."""
+DAY = 24 * HOUR
+"""When an entry was last used is noted to a day [s]."""
+
+
+class Entry(NamedTuple):
+    """A file of the folder: its size [bytes] and when it was last used [s since 1970]."""
+
+    path: Path
+    size: int
+    used: float
+
+
+def recall(name: str, make: Callable[[], bytes]) -> bytes:
+    """The content kept under ``name``, verified; made and kept when there is none or it fails."""
+    path = cache_folder() / name
+    try:
+        sealed = path.read_bytes()
+        content = unsealed(name, sealed)
+    except FileNotFoundError:
+        pass
+    except (Damaged, OSError) as fault:
+        say(f"the cache entry {path} is made again: {getattr(fault, 'strerror', None) or fault}")
+    else:
+        _note_use(path)
+        return content
+    content = make()
+    store(path, content)
+    return content
+
+
+def recall_json(name: str, make: Callable[[], Any]) -> Any:
+    """A value of JSON, kept as :func:`recall` does."""
+    return json.loads(recall(name, lambda: json.dumps(make()).encode()))
+
+
+class Damaged(Exception):
+    """An entry that is not what was written; the argument says what is wrong."""
+
+
+def sealed(name: str, content: bytes) -> bytes:
+    """An entry: the content behind its head."""
+    return HEAD.pack(MAGIC, len(content), _digest(name, content)) + content
+
+
+def unsealed(name: str, entry: bytes) -> bytes:
+    """The content of an entry; raises :class:`Damaged`."""
+    if len(entry) < HEAD.size:
+        raise Damaged("it is cut short" if entry else "it is empty")
+    magic, length, digest = HEAD.unpack_from(entry)
+    if magic != MAGIC:
+        raise Damaged("it does not begin as an entry does")
+    if length != len(entry) - HEAD.size:
+        raise Damaged(f"{len(entry) - HEAD.size} bytes follow where {length} were written")
+    content = entry[HEAD.size :]
+    if digest != _digest(name, content):
+        raise Damaged("its content is not what was written")
+    return content
+
+
+def _digest(name: str, content: bytes) -> bytes:
+    found = hashlib.sha256(name.encode() + b"\0")
+    found.update(content)
+    return found.digest()
+
+
+def _note_use(path: Path) -> None:
+    with suppress(OSError):
+        if time.time() - path.stat().st_mtime > DAY:
+            os.utime(path)
+
+
+_numbers = count()
+
+
+def store(path: Path, content: bytes) -> None:
+    """Keep an entry, whole or not at all; a full disk only costs the entry."""
+    draft = path.with_name(f".{path.name}.{os.getpid()}-{next(_numbers)}.part")
+    entry = sealed(path.name, content)
+    try:
+        with open(draft, "xb") as out:
+            out.write(entry)
+            out.flush()
+            os.fsync(out.fileno())
+        os.replace(draft, path)
+    except OSError:
+        return
+    finally:
+        with suppress(OSError):
+            draft.unlink(missing_ok=True)
+    _keep_bound(path.parent, len(entry))
+
+
+# ---- the size of the folder -------------------------------------------------------------------
+
+
+def bound() -> float:
+    """How large the folder may become [bytes].
+
+    Raises
+    ------
+    UsageError
+        When ``ADAMSLITE_CACHE_SIZE`` is not a number of megabytes.
+    """
+    told = os.environ.get("ADAMSLITE_CACHE_SIZE", "")
+    try:
+        size = float(told or BOUND)
+    except ValueError:
+        size = -1.0
+    if not size >= 0.0:
+        raise UsageError(f"ADAMSLITE_CACHE_SIZE={told}: it is a number of megabytes, 0 or more")
+    return 1e6 * size
+
+
+def entries(folder: Path) -> list[Entry]:
+    """What is kept in a folder, unused for longest first."""
+    return sorted(_found(folder, ENTRY), key=lambda entry: (entry.used, entry.path))
+
+
+def clear(folder: Path) -> list[Entry]:
+    """Remove every entry; returns those that there were."""
+    found = entries(folder)
+    for entry in (*found, *_found(folder, DRAFT)):
+        _remove(entry)
+    return found
+
+
+def trim(folder: Path, most: float) -> int:
+    """Remove what has not been used for longest until ``most`` bytes are left, and dead drafts.
+
+    Returns the bytes that are left.
+    """
+    for draft in _found(folder, DRAFT):
+        if time.time() - draft.used > HOUR:
+            _remove(draft)
+    kept = entries(folder)
+    total = sum(entry.size for entry in kept)
+    for entry in kept if total > most else ():
+        _remove(entry)
+        total -= entry.size
+        if total <= SPARED * most:
+            break
+    return total
+
+
+_totals: dict[Path, int] = {}
+
+
+def _keep_bound(folder: Path, added: int) -> None:
+    """Trim the folder when this process first adds to it, and when its own additions fill it."""
+    known = _totals.get(folder)
+    if known is None or known + added > bound():
+        _totals[folder] = trim(folder, bound())
+    else:
+        _totals[folder] = known + added
+
+
+def _found(folder: Path, kind: re.Pattern[str]) -> Iterator[Entry]:
+    with suppress(OSError), os.scandir(folder) as files:
+        for file in files:
+            if kind.fullmatch(file.name):
+                with suppress(FileNotFoundError):
+                    facts = file.stat(follow_symlinks=False)
+                    yield Entry(Path(file.path), facts.st_size, facts.st_mtime)
+
+
+def _remove(entry: Entry) -> None:
+    with suppress(OSError):
+        entry.path.unlink(missing_ok=True)

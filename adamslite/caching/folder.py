@@ -1,0 +1,126 @@
+"""Where entries lie: a folder that nobody else may write to.
+
+Whoever can write an entry can have this program run what he likes, so a folder is used only when
+the user (or the administrator) owns it and no one else may change it:
+
+    ADAMSLITE_CACHE, else the user's cache folder
+    else adamslite-<user number> in the folder for temporary files
+    else a folder of this process alone, which goes when it ends
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+import sys
+from functools import cache
+from pathlib import Path
+
+OTHERS = stat.S_IWGRP | stat.S_IWOTH
+ADMINISTRATOR = 0
+#: Unix: elsewhere the folders of a user are closed by the system, and modes say nothing.
+HAS_OWNERS = hasattr(os, "geteuid")
+
+
+def cache_folder() -> Path:
+    """The folder that holds what is kept; made when missing."""
+    chosen = os.environ.get("ADAMSLITE_CACHE")
+    return _settled(Path(chosen) if chosen else usual_folder(), bool(chosen))
+
+
+def usual_folder() -> Path:
+    """The folder of this program among the user's cache folders."""
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", Path.home())) / "adamslite" / "cache"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches" / "adamslite"
+    return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "adamslite"
+
+
+@cache
+def _settled(folder: Path, chosen: bool) -> Path:
+    """``folder`` if it can be had and trusted, else another, which is said."""
+    try:
+        made = _made(folder)
+    except OSError:
+        return _temporary()
+    doubt = _doubt(made)
+    if doubt and not chosen and _taken_back(made):
+        say(f"the cache folder {made} could be written to by others: it was emptied and closed")
+        return made
+    if doubt:
+        other = _temporary()
+        say(f"the cache folder {made} {doubt}: {other} is used instead")
+        return other
+    return made
+
+
+def _made(folder: Path) -> Path:
+    """The folder with its links followed, so that turning one later changes nothing."""
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    return folder.resolve()
+
+
+def _doubt(folder: Path) -> str:
+    """Why a folder cannot be trusted; empty when it can."""
+    if not HAS_OWNERS:
+        return ""
+    facts = folder.lstat()
+    if not stat.S_ISDIR(facts.st_mode):
+        return "is not a folder"
+    if facts.st_uid not in (os.geteuid(), ADMINISTRATOR):
+        return "belongs to another user"
+    if facts.st_mode & OTHERS:
+        return f"can be written to by others (chmod go-w {folder})"
+    for parent in folder.parents:
+        mode = parent.stat().st_mode
+        if mode & stat.S_IWOTH and not mode & stat.S_ISVTX:
+            return f"can be replaced by others, who may write to {parent}"
+    return ""
+
+
+def _taken_back(folder: Path) -> bool:
+    """Close a folder of our own that was open to others, and drop what they may have put there."""
+    from adamslite.caching.entries import clear
+
+    if folder.stat().st_uid != os.geteuid():
+        return False
+    folder.chmod(0o700)
+    clear(folder)
+    return not _doubt(folder)
+
+
+def _temporary() -> Path:
+    """A folder of this user among the temporary ones; where that is not safe, a private one."""
+    from tempfile import gettempdir
+
+    folder = Path(gettempdir()).resolve() / f"adamslite-{os.geteuid() if HAS_OWNERS else 'cache'}"
+    try:
+        folder.mkdir(mode=0o700, exist_ok=True)
+        doubt = _doubt(folder)
+    except OSError as fault:
+        doubt = f"cannot be had ({fault.strerror})"
+    if not doubt:
+        return folder
+    private = _private()
+    say(f"the cache folder {folder} {doubt}: what is compiled in {private} goes with this process")
+    return private
+
+
+@cache
+def _private() -> Path:
+    """A folder of this process alone, removed at its end."""
+    import atexit
+    import shutil
+    import tempfile
+
+    folder = tempfile.mkdtemp(prefix="adamslite-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return Path(folder).resolve()
+
+
+def say(sentence: str) -> None:
+    """One line on standard error, or wherever a program that uses this one sends warnings."""
+    from logging import getLogger
+
+    getLogger("adamslite").warning("adamslite: %s", sentence)

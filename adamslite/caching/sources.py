@@ -1,0 +1,91 @@
+"""Which source files shape what is kept, and a digest of their content.
+
+The files are found from the import graph: those of a module, of all it imports from this package,
+and so on. Importing a module runs the packages that it lies in, and a package may import what no
+statement names, so each stands for all its modules; of this one it is only `__init__.py`. The graph
+is read anew from the files themselves each time, so nothing about it can be out of date; that takes
+a few milliseconds and only what needs compiled code pays them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import sys
+from functools import cache
+
+import adamslite
+
+PACKAGE = os.path.dirname(adamslite.__file__)
+#: An import from this package, as ruff formats it: its module, and the names taken from there.
+IMPORT = re.compile(rb"\n *(?:from|import) adamslite\.?([\w.]*)(?: import (\([^)]*\)|.*))?")
+NAME, DOT = re.compile(r"\w+"), re.compile(r"\.")
+
+
+@cache
+def version_of(*modules: str) -> str:
+    """Changes whenever a file that ``modules`` are made of, or the Python that runs them, does."""
+    return digest_of(PACKAGE, *modules)
+
+
+def digest_of(package: str, *modules: str) -> str:
+    """What :func:`version_of` says of the package in a folder.
+
+    A file replaced since this process began may not be what the process runs: the digest is then
+    one that no other process has.
+    """
+    stamps = [sys.implementation.cache_tag]
+    for path, content in sorted(covered(package, *modules).items()):
+        stamps.append(f"{path[len(package) :]} {hashlib.sha256(content).hexdigest()}")
+        if os.stat(path).st_ctime > adamslite.STARTED:
+            stamps.append(f"{os.getpid()} {adamslite.STARTED}")
+    return hashlib.sha256("\n".join(stamps).encode()).hexdigest()
+
+
+def covered(package: str, *modules: str) -> dict[str, bytes]:
+    """The files that ``modules`` of the package in folder ``package`` need, with their content."""
+    found: dict[str, bytes] = {}
+    met, new = {"", *modules}, ["", *modules]
+    while new:
+        for path in _files(package, new.pop()):
+            if path not in found:
+                with open(path, "rb") as file:
+                    found[path] = file.read()
+                fresh = _with_packages(_imported(package, found[path])) - met
+                met |= fresh
+                new += fresh
+    return found
+
+
+def _imported(package: str, content: bytes) -> set[str]:
+    """Names of the modules that a file imports from this package."""
+    found = set()
+    for imported in IMPORT.finditer(b"\n" + content):
+        module, names = imported[1].decode(), (imported[2] or b"").decode()
+        found.add(module)
+        if os.path.isdir(_place(package, module)):
+            found |= {f"{module}.{name}".lstrip(".") for name in NAME.findall(names)}
+    return found
+
+
+def _with_packages(modules: set[str]) -> set[str]:
+    """The modules and the packages that they lie in."""
+    return modules | {name[: dot.start()] for name in modules for dot in DOT.finditer(name)}
+
+
+def _files(package: str, module: str) -> list[str]:
+    """The files of a module; none for what is no module."""
+    place = _place(package, module)
+    start = os.path.join(place, "__init__.py")
+    if not os.path.isdir(place):
+        return [f"{place}.py"] if os.path.isfile(f"{place}.py") else []
+    if not module or not os.path.isfile(start):
+        return [] if module else [start]
+    inside = [os.path.join(at, file) for at, _, files in os.walk(place) for file in files]
+    return [path for path in inside if path.endswith(".py")]
+
+
+def _place(package: str, module: str) -> str:
+    """A module's file without its suffix, or its folder."""
+    return os.path.join(package, *filter(None, module.split(".")))

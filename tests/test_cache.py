@@ -1,0 +1,295 @@
+"""What is kept between runs: verified before use, in a folder of one's own, of bounded size."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from adamslite import parse
+from adamslite.caching import entries, folder
+from adamslite.caching.entries import Damaged, recall, sealed, unsealed
+from adamslite.cli import main
+from adamslite.faults import UsageError
+from adamslite.results import Results
+
+UNIX = pytest.mark.skipif(not folder.HAS_OWNERS, reason="modes and owners of Unix")
+OWNER = os.geteuid() if folder.HAS_OWNERS else 0
+NAME = "k" + "0" * 31 + "1.o"
+DECK = """\
+a mass on its way down and sideways
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=1
+MARKER/2, POINT_MASS=2
+VFORCE/1, I=2, JFLOAT=3, RM=1, FX=2, FY=0, FZ=0
+MARKER/3, PART=1, FLOATING
+ACCGRAV/JGRAV=-9.81
+INTEGRATOR/VERLET
+END
+"""
+
+
+def name(number: int) -> str:
+    return f"k{number:032x}.o"
+
+
+# ---- entries are verified ---------------------------------------------------------------------
+
+
+def flipped(entry: bytes, at: int) -> bytes:
+    return entry[:at] + bytes([entry[at] ^ 0x10]) + entry[at + 1 :]
+
+
+DAMAGE: dict[str, Callable[[bytes], bytes]] = {
+    "empty": lambda entry: b"",
+    "cut in the head": lambda entry: entry[: entries.HEAD.size // 2],
+    "cut behind the head": lambda entry: entry[: entries.HEAD.size],
+    "cut by a byte": lambda entry: entry[:-1],
+    "cut to half": lambda entry: entry[: len(entry) // 2],
+    "longer by a byte": lambda entry: entry + b"\0",
+    "zeroed": lambda entry: bytes(len(entry)),
+    "zeroed behind the head": lambda entry: entry[:48] + bytes(len(entry) - 48),
+    "a last block of zeros": lambda entry: entry[:-64] + bytes(64),
+    "a bit of the format": lambda entry: flipped(entry, 7),
+    "a bit of the length": lambda entry: flipped(entry, 9),
+    "a bit of the digest": lambda entry: flipped(entry, 20),
+    "a bit of the content": lambda entry: flipped(entry, len(entry) // 2),
+    "the last bit": lambda entry: flipped(entry, len(entry) - 1),
+    "without a head": lambda entry: entry[entries.HEAD.size :],
+}
+CONTENT = bytes(range(256)) * 4
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_a_damaged_entry_is_made_again_and_said_in_one_line(damage, cache, caplog) -> None:
+    assert recall(NAME, lambda: CONTENT) == CONTENT
+    kept = (cache / NAME).read_bytes()
+    (cache / NAME).write_bytes(DAMAGE[damage](kept))
+    assert recall(NAME, lambda: CONTENT) == CONTENT
+    (line,) = caplog.messages
+    assert str(cache / NAME) in line and "made again" in line and "\n" not in line
+    assert (cache / NAME).read_bytes() == kept
+    recall(NAME, pytest.fail)
+    assert len(caplog.messages) == 1
+
+
+def test_an_entry_under_the_name_of_another_is_damaged() -> None:
+    with pytest.raises(Damaged):
+        unsealed(name(2), sealed(name(1), CONTENT))
+    assert unsealed(name(1), sealed(name(1), b"")) == b""
+
+
+def solve(cache: Path, tmp_path: Path) -> subprocess.CompletedProcess:
+    """A run in a process of its own, where code is linked and tables are unpickled anew."""
+    (tmp_path / "a.adm").write_text(DECK)
+    words = ["-m", "adamslite", "solve", "a.adm", "--end", "1", "--steps", "2"]
+    path = str(Path(parse.__file__).parents[1])
+    environment = {**os.environ, "ADAMSLITE_CACHE": str(cache), "PYTHONPATH": path}
+    return subprocess.run(
+        [sys.executable, *words], cwd=tmp_path, env=environment, capture_output=True, text=True
+    )
+
+
+def test_each_kind_of_entry_survives_damage_in_a_real_run(cache, tmp_path) -> None:
+    """Tables of the parser (pickle), facts of kernels (JSON), object code: all files at once.
+
+    x(1) = F / 2 m, y(1) = -g / 2 from rest.
+    """
+    assert solve(cache, tmp_path).returncode == 0
+    right = (tmp_path / "a.csv").read_bytes()
+    found = Results.load(tmp_path / "a.csv")
+    assert abs(found["POINT_MASS/2.x"][-1] - 1.0) < 1e-9
+    assert abs(found["POINT_MASS/2.y"][-1] + 9.81 / 2) < 1e-9
+    names = sorted(os.listdir(cache))
+    assert {each.rpartition(".")[2] for each in names} == {"o", "json", "parser"}
+    kinds = iter(("empty", "zeroed", "cut to half", "a bit of the content"))
+    damage = next(kinds)
+    for file in map(cache.joinpath, names):
+        file.write_bytes(DAMAGE[damage](file.read_bytes()))
+        damage = next(kinds, "without a head")
+    ran = solve(cache, tmp_path)
+    assert ran.returncode == 0 and (tmp_path / "a.csv").read_bytes() == right
+    lines = [line for line in ran.stderr.splitlines() if "is made again" in line]
+    assert len(lines) == len(names) and all(line.startswith("adamslite: ") for line in lines)
+    assert "made again" not in solve(cache, tmp_path).stderr
+
+
+@pytest.mark.parametrize("damage", ("empty", "zeroed", "cut to half", "a bit of the content"))
+def test_tables_of_the_parser_are_not_unpickled_before_they_are_verified(
+    damage, cache, monkeypatch, caplog
+) -> None:
+    def parser() -> object:
+        parse._parser.cache_clear()
+        return parse._parser("deck", "statement")
+
+    parser()
+    (file,) = cache.glob("deck*.parser")
+    file.write_bytes(DAMAGE[damage](file.read_bytes()))
+    seen = []
+    loads = parse.pickle.loads
+    monkeypatch.setattr(parse.pickle, "loads", lambda data: (seen.append(data), loads(data))[1])
+    parser()
+    assert len(caplog.messages) == 1
+    assert seen == [unsealed(file.name, file.read_bytes())]
+
+
+def test_json_and_code_of_a_kernel_are_verified(cache, caplog) -> None:
+    facts = name(7).replace(".o", ".json")
+    assert entries.recall_json(facts, lambda: {"angles": 0}) == {"angles": 0}
+    (cache / facts).write_bytes(json.dumps({"angles": 1}).encode())
+    assert entries.recall_json(facts, lambda: {"angles": 0}) == {"angles": 0}
+    assert len(caplog.messages) == 1
+
+
+def test_an_entry_that_cannot_be_read_is_made_each_time(cache, caplog) -> None:
+    (cache / NAME).mkdir()
+    assert recall(NAME, lambda: CONTENT) == CONTENT
+    assert "directory" in caplog.text and os.listdir(cache) == [NAME]
+
+
+# ---- entries are written whole ----------------------------------------------------------------
+
+
+def test_content_is_on_the_disk_before_it_gets_its_name(cache, monkeypatch) -> None:
+    done = []
+    fsync, replace = os.fsync, os.replace
+    monkeypatch.setattr(os, "fsync", lambda file: (done.append("sync"), fsync(file)))
+    monkeypatch.setattr(os, "replace", lambda *names: (done.append("name"), replace(*names)))
+    recall(NAME, lambda: CONTENT)
+    assert done == ["sync", "name"]
+
+
+@pytest.mark.parametrize("call", ("fsync", "replace"))
+def test_a_full_disk_leaves_nothing_behind(call, cache, monkeypatch) -> None:
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, call, full)
+    assert recall(NAME, lambda: CONTENT) == CONTENT
+    assert os.listdir(cache) == []
+
+
+@UNIX
+def test_a_disk_that_fills_while_an_entry_is_written_leaves_nothing_behind(cache) -> None:
+    """The system takes 100 bytes of a file and no more."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    heard = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, hard))
+    try:
+        assert recall(NAME, lambda: CONTENT) == CONTENT
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+        signal.signal(signal.SIGXFSZ, heard)
+    assert os.listdir(cache) == []
+
+
+# ---- the folder is of bounded size ------------------------------------------------------------
+
+
+def fill(cache: Path, number: int, size: int = 1000) -> None:
+    """Entries of ``size`` bytes, entry k used k days after the first."""
+    for k in range(number):
+        entries.store(cache / name(k), bytes(size - entries.HEAD.size))
+        os.utime(cache / name(k), (1e9 + k * entries.DAY,) * 2)
+
+
+def kept(cache: Path) -> list[int]:
+    return sorted(int(entry.path.name[1:33], 16) for entry in entries.entries(cache))
+
+
+def test_the_oldest_entries_go_first(cache, monkeypatch) -> None:
+    fill(cache, 20)
+    (cache / "notes.txt").write_text("of the user")
+    monkeypatch.setenv("ADAMSLITE_CACHE_SIZE", "0.010")
+    entries.store(cache / name(20), bytes(1000 - entries.HEAD.size))
+    assert kept(cache) == [*range(12, 21)]  # 9000 bytes: a tenth below the bound
+    assert (cache / "notes.txt").exists()
+
+
+def test_an_entry_in_use_is_not_old(cache) -> None:
+    fill(cache, 5)
+    recall(name(0), pytest.fail)
+    assert entries.trim(cache, 2000.0) <= 2000
+    assert 0 in kept(cache)
+
+
+def test_the_bound_holds_while_one_process_adds(cache, monkeypatch) -> None:
+    monkeypatch.setenv("ADAMSLITE_CACHE_SIZE", "0.005")
+    for k in range(30):
+        entries.store(cache / name(k), bytes(1000))
+        assert sum(entry.size for entry in entries.entries(cache)) <= 5000
+    assert 29 in kept(cache)
+
+
+def test_drafts_of_dead_processes_go(cache) -> None:
+    old, new = cache / f".{name(1)}.77-0.part", cache / f".{name(1)}.78-0.part"
+    for draft in (old, new):
+        draft.write_bytes(b"half")
+    os.utime(old, (time.time() - 2 * entries.HOUR,) * 2)
+    entries.trim(cache, 1e9)
+    assert os.listdir(cache) == [new.name]
+
+
+@pytest.mark.parametrize("told", ("much", "-1", "nan"))
+def test_a_bound_that_is_no_size_is_a_usage_error(told, monkeypatch) -> None:
+    monkeypatch.setenv("ADAMSLITE_CACHE_SIZE", told)
+    with pytest.raises(UsageError, match="ADAMSLITE_CACHE_SIZE"):
+        entries.bound()
+
+
+def test_the_usual_bound_is_512_megabytes(monkeypatch) -> None:
+    monkeypatch.delenv("ADAMSLITE_CACHE_SIZE", raising=False)
+    assert entries.bound() == 512e6
+
+
+WORKER = """\
+import sys
+from adamslite.caching import entries, folder
+name = "k{:032x}.o".format
+for turn in range(60):
+    for k in range(8):
+        content = bytes([k]) * 2000
+        assert entries.recall(name(k), lambda: content) == content
+    if turn % 5 == 0:
+        entries.clear(folder.cache_folder())
+"""
+
+
+def test_processes_that_read_write_trim_and_clear_at_once(cache) -> None:
+    environment = {**os.environ, "ADAMSLITE_CACHE_SIZE": "0.009"}
+    environment["PYTHONPATH"] = str(Path(parse.__file__).parents[1])
+    run = [sys.executable, "-c", WORKER]
+    running = [
+        subprocess.Popen(run, env=environment, stderr=subprocess.PIPE, text=True) for _ in range(3)
+    ]
+    assert [(p.communicate()[1], p.returncode) for p in running] == [("", 0)] * 3
+    assert not [*cache.glob(".*")]
+
+
+# ---- the command ------------------------------------------------------------------------------
+
+
+def test_the_command_shows_and_clears(cache, capsys, monkeypatch) -> None:
+    monkeypatch.delenv("ADAMSLITE_CACHE_SIZE", raising=False)
+    fill(cache, 3, size=100_000)
+    (cache / "notes.txt").write_text("of the user")
+    assert main(["cache"]) == 0
+    shown = capsys.readouterr().out
+    assert shown.splitlines() == [
+        f"folder    {cache}",
+        "entries   3",
+        "size      0.3 MB of 512 MB at most",
+    ]
+    assert main(["cache", "--clear"]) == 0
+    assert capsys.readouterr().out == f"removed 3 entries, 0.3 MB, from {cache}\n"
+    assert os.listdir(cache) == ["notes.txt"]

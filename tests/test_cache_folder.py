@@ -1,0 +1,139 @@
+"""The folder of what is kept: nobody else may write there."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import adamslite
+from adamslite.caching import folder
+from adamslite.caching.entries import recall, sealed
+
+UNIX = pytest.mark.skipif(not folder.HAS_OWNERS, reason="modes and owners of Unix")
+OWNER = os.geteuid() if folder.HAS_OWNERS else 0
+NAME, CONTENT = "k" + "0" * 32 + ".o", b"made by this process"
+
+
+@UNIX
+def test_a_new_folder_is_closed_to_others(cache, tmp_path, monkeypatch) -> None:
+    monkeypatch.setenv("ADAMSLITE_CACHE", str(tmp_path / "new"))
+    assert folder.cache_folder() == (tmp_path / "new").resolve()
+    assert (tmp_path / "new").stat().st_mode & 0o777 == 0o700
+
+
+@UNIX
+@pytest.mark.parametrize("mode", (0o770, 0o707, 0o777, 0o1777))
+def test_a_chosen_folder_that_others_may_write_to_is_not_used(
+    mode, cache, tmp_path, monkeypatch, caplog
+) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    cache.chmod(mode)
+    used = folder.cache_folder()
+    assert used == tmp_path.resolve() / f"adamslite-{os.geteuid()}"
+    assert used.stat().st_mode & 0o777 == 0o700
+    assert caplog.messages == [
+        f"adamslite: the cache folder {cache} can be written to by others (chmod go-w {cache}): "
+        f"{used} is used instead"
+    ]
+    assert folder.cache_folder() == used and len(caplog.messages) == 1
+
+
+@UNIX
+def test_a_folder_that_others_may_replace_is_not_used(cache, tmp_path, monkeypatch, caplog) -> None:
+    """In a folder with the sticky bit, as that for temporary files, they may not."""
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    open_to_all = tmp_path / "open"
+    open_to_all.mkdir()
+    open_to_all.chmod(0o1777)
+    monkeypatch.setenv("ADAMSLITE_CACHE", str(open_to_all / "cache"))
+    assert folder.cache_folder() == open_to_all.resolve() / "cache" and not caplog.messages
+    open_to_all.chmod(0o777)
+    folder._settled.cache_clear()
+    assert folder.cache_folder() != open_to_all.resolve() / "cache"
+    assert "can be replaced by others" in caplog.text
+
+
+@UNIX
+def test_the_usual_folder_is_taken_back_from_others(cache, monkeypatch, caplog) -> None:
+    """Earlier versions made it with the user's mask; what others may have put there is dropped."""
+    usual = cache / "adamslite"
+    usual.mkdir()
+    (usual / NAME).write_bytes(sealed(NAME, b"forged"))
+    usual.chmod(0o775)
+    monkeypatch.delenv("ADAMSLITE_CACHE")
+    monkeypatch.setattr(folder, "usual_folder", lambda: usual)
+    assert recall(NAME, lambda: CONTENT) == CONTENT
+    assert usual.stat().st_mode & 0o777 == 0o700
+    assert len(caplog.messages) == 1 and "emptied and closed" in caplog.text
+
+
+def nowhere(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    """No folder can be made where the variable says; temporary files go to ``tmp_path``."""
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("ADAMSLITE_CACHE", str(tmp_path / "file" / "cache"))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    return tmp_path.resolve() / (f"adamslite-{os.geteuid()}" if folder.HAS_OWNERS else "cache")
+
+
+@UNIX
+def test_the_way_out_is_a_closed_folder_of_this_user(cache, tmp_path, monkeypatch, caplog) -> None:
+    expected = nowhere(monkeypatch, tmp_path)
+    assert folder.cache_folder() == expected
+    assert expected.stat().st_mode & 0o777 == 0o700 and not caplog.messages
+
+
+@UNIX
+@pytest.mark.parametrize("trap", ("open", "link", "file", "foreign"))
+def test_a_trap_in_its_place_is_not_stepped_into(
+    trap, cache, tmp_path, monkeypatch, caplog
+) -> None:
+    """Whoever made the folder first: then this process keeps to itself, and says so."""
+    expected = nowhere(monkeypatch, tmp_path)
+    victim = tmp_path / "elsewhere"
+    victim.mkdir(mode=0o700)
+    if trap == "link":
+        expected.symlink_to(victim)
+    elif trap == "file":
+        expected.write_text("")
+    else:
+        expected.mkdir()
+        expected.chmod(0o777 if trap == "open" else 0o755)
+    (victim / NAME).write_bytes(sealed(NAME, b"forged"))
+    if trap in ("open", "foreign"):
+        (expected / NAME).write_bytes(sealed(NAME, b"forged"))
+    if trap == "foreign":
+        monkeypatch.setattr(os, "geteuid", lambda: OWNER + 1)
+        expected.rename(expected.with_name(f"adamslite-{os.geteuid()}"))
+    monkeypatch.setattr(folder, "ADMINISTRATOR", -1)
+    used = folder.cache_folder()
+    assert recall(NAME, lambda: CONTENT) == CONTENT
+    assert used.parent == tmp_path.resolve() and re.fullmatch(r"adamslite-\w{8}", used.name)
+    assert used.stat().st_mode & 0o777 == 0o700
+    assert len(caplog.messages) == 1 and "goes with this process" in caplog.text
+
+
+@UNIX
+def test_the_folder_of_another_user_is_not_used(cache, tmp_path, monkeypatch, caplog) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    monkeypatch.setattr(folder, "ADMINISTRATOR", -1)
+    monkeypatch.setattr(os, "geteuid", lambda: OWNER + 1)
+    assert folder.cache_folder() != cache
+    assert "belongs to another user" in caplog.messages[-1]
+
+
+def test_the_private_folder_goes_with_its_process(tmp_path) -> None:
+    code = (
+        "from adamslite.caching.folder import _private; p = _private(); "
+        "(p / 'entry').write_text(''); print(p)"
+    )
+    environment = {**os.environ, "TMPDIR": str(tmp_path)}
+    environment["PYTHONPATH"] = str(Path(adamslite.__file__).parents[1])
+    ran = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True
+    )
+    assert ran.stdout.startswith(str(tmp_path.resolve())) and os.listdir(tmp_path) == []
