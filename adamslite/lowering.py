@@ -189,6 +189,21 @@ class Builder:
         self.lines.append(f"  store double {self.operand(value)}, ptr {address}")
 
 
+def joined(factors: tuple[Any, ...]) -> list[Any]:
+    """Factors of a product with x**e/x as x**(e - 1): the slope of x**e, at x = 0 not 0/0."""
+    raised = [f for f in factors if f.is_Pow and not f.exp.is_number]
+    if not raised:
+        return list(factors)
+    powers: dict[Any, Any] = {}
+    for factor in raised:
+        powers[factor.base] = powers.get(factor.base, 0) + factor.exp
+    rest = [f for f in factors if f not in raised]
+    for factor in [f for f in rest if f.is_Pow and f.base in powers]:
+        powers[factor.base] += factor.exp
+        rest.remove(factor)
+    return [*rest, *(base**exponent for base, exponent in powers.items())]
+
+
 class Lowering:
     """Turns sympy expressions into builder values; ``leaves`` maps symbols to values.
 
@@ -237,7 +252,7 @@ class Lowering:
     def _Mul(self, expr: Any) -> Value:
         top: Value = 1.0
         bottom: Value = 1.0
-        for factor in expr.args:
+        for factor in joined(expr.args):
             if factor.is_Pow and factor.exp.is_Rational and factor.exp < 0:
                 bottom = self.b.mul(bottom, self(factor.base ** (-factor.exp)))
             else:

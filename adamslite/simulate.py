@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.choose import doubts
+from adamslite.analyses.doubts import doubts, longest_way
 from adamslite.analyses.linear import Linearization, linear
 from adamslite.analyses.redundancy import row_name
 from adamslite.compiled import Kernels
@@ -193,6 +193,12 @@ def _meta(session: Session) -> Mapping[str, str]:
     }
 
 
+def _doubt(session: Session, steps: int) -> str:
+    values = np.concatenate([v for _, v in session.pieces])
+    way, reach = longest_way(session.names, values)
+    return doubts(session.chosen.settings, steps, session.system.report, way, reach)
+
+
 def _notes(session: Session) -> dict[str, str]:
     """What the program did to the model on its own: moves of the assembly, rows left out."""
     found = {}
@@ -206,10 +212,8 @@ def _notes(session: Session) -> dict[str, str]:
         found["equilibrium"] = f"unstable in {ways}: the least disturbance makes it leave"
     if session.system.report[base.ORDER_CAPPED]:
         found["order"] = CAPPED
-    steps, rough = (
-        int(session.counts[base.STEPS]), int(session.system.report[base.ROUGH_STEPS])
-    )  # fmt: skip
-    if steps and (doubt := doubts(session.chosen.settings, steps, rough)):
+    steps = int(session.counts[base.STEPS])
+    if steps and (doubt := _doubt(session, steps)):
         found["accuracy"] = doubt
     idle = list(without_effect(session.chosen.settings.method, session.settings.given))
     if idle:

@@ -271,7 +271,8 @@ def test_a_refusal_is_no_wrong_answer() -> None:
 
 
 def test_no_time_is_no_pass(square_wave: matrix.Scene) -> None:
-    assert matrix.attempt(square_wave, column("HHT"), 0.0).verdict == matrix.SLOW
+    cell = matrix.attempt(square_wave, column("HHT"), 0.0)
+    assert cell.share > 1.0 and cell.verdict in (matrix.SLOW, matrix.TOLD)
 
 
 def test_an_answer_outside_of_the_band_is_not_passed(square_wave: matrix.Scene) -> None:

@@ -100,7 +100,7 @@ def test_waves_that_hht_filters_are_told() -> None:
     told = solved("torture/ringing/waves.adm", integrator="HHT", error=1e-4).meta["accuracy"]
     assert "damped, not followed" in told and "RADAU" in told
     calm = solved("pendulum-gcon/pendulum-gcon.adm", integrator="HHT", error=1e-4)
-    assert "accuracy" not in calm.meta
+    assert "damped" not in calm.meta.get("accuracy", "")
 
 
 def test_a_start_that_contradicts_a_rod_is_told() -> None:

@@ -35,14 +35,9 @@ CONSTANT = "CONSTANT_BDF"
 STEPS_WORTH = 3000.0
 # Formulas of second order pay from here on.
 COARSE = 1e-4
-# ERROR below which a user means digits that methods of order 2, or without a test of velocities, do
-# not have to offer.
-FINE = 1e-6
 # Share of an error across a constraint that may be left after a step.  HHT: ALPHA of -0.016; with
 # -0.01 the ringing costs a pendulum twenty times the steps of -0.05.
 LOUDEST = 0.97
-# Share of rough steps that is told.
-OFTEN = 0.05
 
 
 @dataclass(frozen=True)
@@ -93,35 +88,6 @@ def echo(beta: float, gamma: float) -> float:
     given; the largest root of that.  1 is the trapezoidal rule.
     """
     return float(np.abs(np.roots([beta, 0.5 + gamma - 2.0 * beta, 0.5 - gamma + beta])).max())
-
-
-def doubts(settings: Any, steps: int, rough: int) -> str:
-    """What ERROR does not say about the accuracy of a run, as a sentence; empty when it does.
-
-    rough : steps of HHT in which accelerations changed by more than half
-    """
-    method, (alpha, _, gamma) = settings.method, settings.second_order
-    if method == CONSTANT:
-        return "equal steps without error test: a run with half of HINIT tells how far off they are"
-    kind = METHODS[method]
-    if kind == HHT and abs(gamma + alpha - 0.5) > 1e-9:
-        return (
-            f"with GAMMA={gamma:g} the formula is of order 1, and a run is off by the root of ERROR"
-            " rather than by ERROR; HHT damps as well and is of order 2"
-        )
-    if kind == HHT and rough > OFTEN * steps:
-        return (
-            f"accelerations changed by more than half in {rough} of {steps} steps: vibrations "
-            "faster than the steps were damped, not followed; GSTIFF or RADAU follow them"
-        )
-    if kind in (HHT, VERLET) and settings.error < FINE:
-        return (
-            f"the formula is of order 2: {steps} steps of ERROR={settings.error:g} add up to more "
-            "than that; GSTIFF, RADAU or RKF45 get further with fewer"
-        )
-    if kind == BDF and settings.form == "I3":
-        return "I3 does not test velocities, so that their errors add up; SI2 does"
-    return ""
 
 
 def what_ties(system: System) -> str:

@@ -37,6 +37,7 @@ from adamslite.integrators.base import (
     ORDER_CAPPED,
     SI2,
     SINGULAR_MASS,
+    SPENT,
     STABILISED,
     STEP,
     STEPS,
@@ -205,6 +206,7 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     C, D = P.control, P.history
     k = int(C[K])
     P.count[STEPS] += 1
+    P.report[SPENT] += norm
     make_undoable(P, C[NOW], C[H], C[RETRIES] == 0.0 and C[NORM] == 0.0)
     C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0
     C[AGE] += 1.0

@@ -14,6 +14,7 @@ from adamslite.integrators.base import (
     ADAPTIVITY,
     ALL_CONVERGE,
     ERROR,
+    FIXED_STEP,
     ITERATION,
     MAX_IT,
     NEWTON,
@@ -51,6 +52,8 @@ from adamslite.translate import Reals, native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
 CORRECTOR_SHARE = 0.02
+# Fixed steps have no error test: a corrector looser than this would be all that errs.
+LOOSEST = 1e-3
 # Near a singular posture round-off keeps increments of velocities from shrinking further: with a
 # new matrix this share of ERROR is as good as it gets.
 STALL_SHARE = 0.2
@@ -96,7 +99,7 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     n, C = P.sizes[N], P.control
     w = 2 * n + P.sizes[NS]
     yp, psi, v, e = P.trial[0:], P.trial[w:], P.trial[2 * w :], P.trial[2 * w + n :]
-    error = P.settings[ERROR]
+    error = asked(P, P.settings[FIXED_STEP])
     tolerance = CORRECTOR_SHARE * error + P.settings[ADAPTIVITY] / C[H]
     tested = cu if P.sizes[SI2] == 1 else 0.0
     last = 0.0
@@ -133,6 +136,12 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
             return True
         last = size
     return False
+
+
+@native
+def asked(P: Problem, fixed: float) -> float:
+    """ERROR; with ``fixed`` steps at most LOOSEST."""
+    return min(P.settings[ERROR], LOOSEST) if fixed > 0.0 else P.settings[ERROR]
 
 
 @native

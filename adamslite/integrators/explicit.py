@@ -32,6 +32,7 @@ from adamslite.integrators.base import (
     NV,
     ORDER,
     SINGULAR_MASS,
+    SPENT,
     STEP,
     STEPS,
     STOP,
@@ -194,6 +195,7 @@ def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
     C, K, width = P.control, P.history, int(P.control[WIDTH])
     new = K[NEXT_STATE * w :]
     P.count[STEPS] += 1
+    P.report[SPENT] += error
     make_undoable(P, C[CLOCK], C[H], C[TRIES] == 0.0)
     C[FAILED], C[TRIES] = 0.0, 0.0
     note_violation(P, t)

@@ -29,6 +29,7 @@ from adamslite.integrators.explicit_state import (
     OLD,
     RUNNING,
     SIGNATURE,
+    STALE,
     H,
     keep_solution,
     stand_again,
@@ -105,7 +106,8 @@ def rates_anew(P: Problem, L: Plan, w: int, restart: bool) -> int:
         P.count[RESTARTS] += 1
         keep_solution(P)
         if P.sizes[IMPLICIT_MASS]:
-            C[SIGNATURE] = float(mass_signature(P, L, P.x))
+            # What it leaves in P.LA is no factored matrix: the next rates make one of their own.
+            C[SIGNATURE], C[STALE] = float(mass_signature(P, L, P.x)), 1.0
         C[H], C[LAST_ERROR] = starting_step(P, L, w), 1e-4
         if not exact_rates(P, L, C[CLOCK], y, k):
             return NEWTON_FAILED

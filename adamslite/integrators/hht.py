@@ -38,8 +38,8 @@ from adamslite.integrators.base import (
     AT,
     BROKEN_START,
     CHATTERING,
+    DIVIDED,
     DONE,
-    ERROR,
     FAILURES,
     H_INIT,
     H_MAX,
@@ -59,6 +59,7 @@ from adamslite.integrators.base import (
     REJECTED,
     ROUGH_STEPS,
     SINGULAR_MASS,
+    SPENT,
     STEP,
     STEP_TOO_SMALL,
     STEPS,
@@ -72,7 +73,7 @@ from adamslite.integrators.base import (
     Problem,
     T,
 )
-from adamslite.integrators.bdf_corrector import wildest
+from adamslite.integrators.bdf_corrector import asked, wildest
 from adamslite.integrators.bdf_recovery import (
     SINGULAR_RESOLUTION,
     corrector_failed,
@@ -234,7 +235,7 @@ def correct_step(P: Problem, L: Plan) -> bool:
     A kept matrix that converges slowly is no longer believed: back to the prediction, or on from
     here when the matrix was made in this step, with a new matrix at every iteration.
     """
-    C, tolerance, last = P.control, CORRECTOR_SHARE * P.settings[ERROR], 0.0
+    C, tolerance, last = P.control, CORRECTOR_SHARE * asked(P, P.control[FIXED]), 0.0
     if first_order_share(P) > 0.0:
         tolerance *= min(1.0, C[H])  # Velocities are tested: they are off by that of positions / h.
     full, tries = False, 0
@@ -282,6 +283,8 @@ def after_no_convergence(P: Problem) -> int:
     C = P.control
     P.count[FAILURES] += 1
     C[FACTORED], C[EQUAL] = 0.0, 0.0
+    if C[FIXED] > 0.0:
+        P.report[DIVIDED] += 1.0
     if let_go(P):
         return RUNNING
     C[RETRIES] += 1.0
@@ -296,6 +299,7 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
     """Move on, write records, choose the next step."""
     C, h = P.control, P.control[H]
     P.count[STEPS] += 1
+    P.report[SPENT] += norm
     t = C[NOW] + h
     limit = step_limit(P, int(C[NEXT])) if C[FIXED] == 0.0 else horizon(P)
     if t + 1e-7 * h > limit:

@@ -30,6 +30,7 @@ from adamslite.integrators.base import (
     BROKEN_START,
     CHATTERING,
     DONE,
+    ERROR,
     H_MAX,
     HOW_MUCH,
     IMPLICIT_MASS,
@@ -42,6 +43,7 @@ from adamslite.integrators.base import (
     ORDER,
     REJECTED,
     SINGULAR_MASS,
+    SPENT,
     STEP,
     STEP_TOO_SMALL,
     STEPS,
@@ -232,6 +234,8 @@ def accept_stages(P: Problem, L: Plan, norm: float) -> int:
     """Move on, write records, choose the next step."""
     C, h = P.control, P.control[H]
     P.count[STEPS] += 1
+    # The formula is of order 5, its estimate of order 3.
+    P.report[SPENT] += norm * (norm * P.settings[ERROR]) ** 0.5
     t, row = C[NOW] + h, int(C[NEXT])
     if t + 1e-7 * h > horizon(P):
         t = horizon(P)

@@ -32,6 +32,8 @@ from adamslite.integrators.base import (
     ORDER,
     REJECTED,
     RESIDUALS,
+    SPENT,
+    STABLE_STEP,
     STEP,
     STEP_TOO_SMALL,
     STEPS,
@@ -56,6 +58,8 @@ STABLE = 0.93
 # begin and end between two looks) and stability decides how long they are: eight of these are one
 # or two periods of the fastest vibration.
 SAMPLE = 8
+# ... and with equal steps, whose length nothing changes.
+FIXED_SAMPLE = 32
 # Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
 WORTH = 200.0
 SHRINK, GROW = 0.25, 2.0
@@ -64,7 +68,7 @@ SHRINK, GROW = 0.25, 2.0
 MOST_BLOWN = 8
 
 # Places in P.control.
-LIMIT, WANTED, SINCE = range(3)
+LIMIT, WANTED, SINCE, SUM = range(4)
 
 
 @native
@@ -75,6 +79,7 @@ def verlet(P: Problem, L: Plan) -> int:
         C[i] = 0.0
     P.report[ORDER] = 2.0
     start_events(P, False)
+    P.report[STABLE_STEP] = 1e300
     synchronise(P, P.times[0], 0)
     P.report[AT] = P.times[0]
     C[SINCE] = WORTH
@@ -133,6 +138,7 @@ def look_at_stability(P: Problem) -> None:
     kappa, c = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
     bottom = c + (c * c + 4.0 * kappa) ** 0.5
     C[LIMIT] = 4.0 * STABLE / bottom if bottom > 0.0 else 1e300
+    P.report[STABLE_STEP] = min(P.report[STABLE_STEP], C[LIMIT] / STABLE)
 
 
 @native
@@ -155,6 +161,7 @@ def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
         error = march(P, t, h, int((end - t) / h + 0.5), fixed)
         P.report[HOW_MUCH] = error
         if error <= 1.0:
+            P.report[SPENT] += C[SUM]
             if not fixed and error < 0.5:
                 C[WANTED] = min(GROW, 0.9 * max(error, 1e-3) ** (-1.0 / 3.0)) * h
             else:
@@ -173,22 +180,23 @@ def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
 @native
 def march(P: Problem, t: float, h: float, count: int, fixed: bool) -> float:
     """``count`` steps; returns the largest local error seen against ERROR, 1e300 for a blow-up."""
-    top, every = 0.0, 1
-    if P.sizes[WATCHED] == 0 and 2.0 * h > P.control[LIMIT]:
+    top, every, P.control[SUM] = 0.0, FIXED_SAMPLE if fixed else 1, 0.0
+    if not fixed and P.sizes[WATCHED] == 0 and 2.0 * h > P.control[LIMIT]:
         every = SAMPLE
     put_free(P, t, P.q, P.u)
     for s in range(count + 1):
         if s > 0:
             put_time(P, t + s * h)
         run_groups(P, LOADS, P.F)
-        if not fixed:
-            if s > 0 and s % every == 1 % every:
-                divide_by_mass(P, P.F, P.history, 0.0, P.a)
-                top = max(top, sampled_error(P, h))
-                if not top < 1e6:
-                    return top
-            if s % every == 0:
-                divide_by_mass(P, P.F, P.history, 0.0, P.ra)
+        if s > 0 and s % every == 1 % every:
+            divide_by_mass(P, P.F, P.history, 0.0, P.a)
+            error = sampled_error(P, h)
+            top = max(top, error)
+            if not top < 1e6 and not fixed:
+                return top
+            P.control[SUM] += every * error
+        if s % every == 0:
+            divide_by_mass(P, P.F, P.history, 0.0, P.ra)
         kick = 0.5 * h if s == 0 or s == count else h
         leap(P, kick, h if s < count else 0.0)
     if not take_over(P):
@@ -196,7 +204,7 @@ def march(P: Problem, t: float, h: float, count: int, fixed: bool) -> float:
     P.count[STEPS] += count
     P.count[RESIDUALS] += count + 1
     P.control[SINCE] += float(count)
-    return top
+    return 0.0 if fixed else top
 
 
 @native

@@ -1,0 +1,104 @@
+"""What a run says about its own accuracy: where ERROR, which bounds a step, does not tell it.
+
+Every method adds up the errors that it estimated for its accepted steps.  Where nothing amplifies
+or damps them, their sum bounds what the end is off by; it is compared with the longest way of a
+body.  Sums are of what is propagated: RADAU's estimate e, of order 3, stands for one of order 5 and
+counts as e^(3/2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from adamslite.analyses.choose import CONSTANT, METHODS
+from adamslite.engine import BDF, HHT, VERLET
+from adamslite.integrators import base
+from adamslite.integrators.verlet import STABLE
+
+# ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do
+# not have to offer.
+FINE = 1e-6
+# Share of rough steps that is told.
+OFTEN = 0.05
+# Share of the longest way that added errors may come to untold.
+FELT = 1e-3
+FIRST_ORDER = 1e-9
+# Coordinates that go less than this share of the longest way say nothing about its weight.
+MOVING = 0.1
+
+
+def doubts(settings: Any, steps: int, report: np.ndarray, way: float, reach: float) -> str:
+    """What ERROR does not say about the accuracy of a run, in sentences; empty when it does.
+
+    Parameters
+    ----------
+    report : (len(base.REPORT),)
+        Of the run.
+    way, reach : float
+        The longest way of a body along an axis, the largest coordinate of those that move [length].
+    """
+    if settings.method == CONSTANT:
+        return "equal steps without error test: a run with half of HINIT tells how far off they are"
+    off = float(report[base.SPENT]) * settings.error * max(1.0, reach)
+    found = [*_of_method(settings, steps, report, off), *_added_up(settings, steps, off, way)]
+    return "; ".join(found)
+
+
+def longest_way(names: tuple[str, ...], values: np.ndarray) -> tuple[float, float]:
+    """The longest way of a body along an axis, and the largest coordinate of those that move."""
+    places = [k for k, name in enumerate(names) if name.endswith((".x", ".y", ".z"))
+              and name.startswith(("PART/", "POINT_MASS/"))]  # fmt: skip
+    found = values[:, places]
+    if not found.size or not np.isfinite(found).all():
+        return 0.0, 0.0
+    ways = np.ptp(found, axis=0)
+    moving = ways >= MOVING * ways.max()
+    return float(ways.max()), float(np.abs(found[:, moving]).max())
+
+
+def _of_method(settings: Any, steps: int, report: np.ndarray, off: float) -> Iterator[str]:
+    """What belongs to a formula."""
+    kind, (alpha, _, gamma) = METHODS[settings.method], settings.second_order
+    rough, divided = int(report[base.ROUGH_STEPS]), int(report[base.DIVIDED])
+    if kind == HHT and abs(gamma + alpha - 0.5) > FIRST_ORDER:
+        yield (
+            f"with GAMMA={gamma:g} the formula is of order 1, and a run is off by the root of ERROR"
+            " rather than by ERROR; HHT damps as well and is of order 2"
+        )
+    if kind == HHT and rough > OFTEN * steps:
+        yield (
+            f"accelerations changed by more than half in {rough} of {steps} steps: vibrations "
+            "faster than the steps were damped, not followed; GSTIFF or RADAU follow them"
+        )
+    if kind == HHT and divided:
+        yield (
+            f"steps were divided {divided} times, because the corrector did not converge with the "
+            f"{settings.hinit:g} asked for: a shorter HINIT, or none, for an error test"
+        )
+    if kind == VERLET and settings.hinit and settings.hinit > STABLE * report[base.STABLE_STEP]:
+        longest = report[base.STABLE_STEP]
+        yield (
+            f"HINIT={settings.hinit:g} is close to the longest stable step, {longest:.3g} by "
+            f"estimate: above it vibrations grow without bound; stay below {STABLE * longest:.3g}"
+        )
+    if kind in (HHT, VERLET) and settings.error <= FINE:
+        yield (
+            f"the formula is of order 2: {steps} steps of ERROR={settings.error:g} add up to "
+            f"{off:.1e}; GSTIFF, RADAU or RKF45 get further with fewer"
+        )
+    if kind == BDF and settings.form == "I3":
+        yield "I3 does not test velocities, so that their errors add up; SI2 does"
+
+
+def _added_up(settings: Any, steps: int, off: float, way: float) -> Iterator[str]:
+    """What belongs to every method."""
+    fixed = settings.hinit and (settings.method == "VERLET" or settings.hinit == settings.hmin)
+    remedy = "a shorter step" if fixed else f"a smaller ERROR than {settings.error:g}"
+    if off > FELT * way > 0.0:
+        yield (
+            f"the estimated errors of {steps} steps add up to {off:.1e}, {off / way:.1%} of the "
+            f"longest way of a body: {remedy} keeps more digits"
+        )

@@ -1,0 +1,84 @@
+"""What a run says about its own accuracy: errors that add up, steps near a bound, divided steps."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scenes import GROUND, done
+
+METHODS = ("GSTIFF", "HHT", "NEWMARK", "RADAU", "ABAM", "VERLET", "AUTO")
+
+
+def spring(stiffness: float, start: float) -> str:
+    """1 kg on a spring to the origin, let go at x = start: x = start cos(w t), w^2 = stiffness."""
+    return (
+        GROUND
+        + f"POINT_MASS/2, MASS=1, CM=2, QG={start},0,0\nMARKER/2, POINT_MASS=2\n"
+        + f"VFORCE/1, I=2, J_PART=1, FX=-{stiffness}*DX(2)\nEND\n"
+    )
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    ("stiffness", "start", "end"), [(1e5, 0.5, 5.0), (2.5e3, 0.02, 20.0)], ids=["stiff", "small"]
+)
+def test_errors_that_add_up_are_told(method: str, stiffness: float, start: float, end: float):
+    """Off by more than 1e-3 of the way (twice the amplitude), a run says so."""
+    results = done(spring(stiffness, start), end, 200, integrator=method, error=1e-6)
+    truth = start * np.cos(math.sqrt(stiffness) * results.time)
+    off = np.abs(results["POINT_MASS/2.x"] - truth).max() / (2 * start)
+    assert off < 1e-3 or "add up to" in results.meta["accuracy"]
+
+
+@pytest.mark.parametrize("method", ("GSTIFF", "RADAU", "ABAM"))
+def test_a_short_run_says_nothing(method: str):
+    """A period of 2 pi, 1e-6 allowed in a step: some hundred steps at most, 1e-4 of the way."""
+    results = done(spring(1.0, 1.0), 2 * math.pi, 20, integrator=method, error=1e-6)
+    assert "accuracy" not in results.meta
+
+
+@pytest.mark.parametrize("error", [1.0, 1e-3])
+@pytest.mark.parametrize("method", ["HHT", "CONSTANT_BDF"])
+def test_equal_steps_do_not_depend_on_error(method: str, error: float):
+    """A pendulum of 1 kg on a spring of 1e5 N/m: with ERROR = 1 the corrector still converges."""
+    deck = (
+        GROUND + "ACCGRAV/JGRAV=-9.81\nPOINT_MASS/2, MASS=1, CM=2, QG=1,0,0\n"
+        "MARKER/2, POINT_MASS=2\n"
+        "SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=1, K=1E5, LENGTH=1\n"
+        f"INTEGRATOR/{method}, HINIT=1E-3, HMIN=1E-3, HMAX=1E-3, ERROR={error}\nEND\n"
+    )
+    results, tight = done(deck, 1.0, 10), done(deck, 1.0, 10, error=1e-8)
+    assert results.summary["steps"] == tight.summary["steps"]
+    for name in ("POINT_MASS/2.x", "POINT_MASS/2.y"):
+        np.testing.assert_allclose(results[name], tight[name], atol=2e-3)
+
+
+def test_divided_steps_are_told():
+    """The same pendulum in steps of 10 ms: the first one takes more than three iterations."""
+    deck = (
+        GROUND + "ACCGRAV/JGRAV=-9.81\nPOINT_MASS/2, MASS=1, CM=2, QG=1,0,0\n"
+        "MARKER/2, POINT_MASS=2\n"
+        "SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=1, K=1E5, LENGTH=1\n"
+        "INTEGRATOR/HHT, HINIT=1E-2, HMIN=1E-2, HMAX=1E-2, MAXIT={}\nEND\n"
+    )
+    assert "divided" not in done(deck.format(10), 1.0).meta.get("accuracy", "")
+    results = done(deck.format(3), 1.0)
+    assert results.summary["steps"] > 100
+    assert "steps were divided" in results.meta["accuracy"]
+
+
+@pytest.mark.parametrize(("mass", "stiffness"), [(1.0, 1e4), (0.25, 100.0)])
+@pytest.mark.parametrize("share", [0.5, 0.9, 0.97])
+def test_a_step_near_the_bound_of_stability_is_told(mass: float, stiffness: float, share: float):
+    """VERLET is stable up to h = 2 sqrt(m/k) without damping; above 0.93 of that it is told."""
+    bound = 2.0 * math.sqrt(mass / stiffness)
+    deck = (
+        GROUND + f"POINT_MASS/2, MASS={mass}, CM=2, QG=1,0,0\nMARKER/2, POINT_MASS=2\n"
+        f"VFORCE/1, I=2, J_PART=1, FX=-{stiffness}*DX(2)\n"
+        f"INTEGRATOR/VERLET, HINIT={share * bound!r}\nEND\n"
+    )
+    note = done(deck, 10 * share * bound, 1).meta.get("accuracy", "")
+    assert ("longest stable step" in note) == (share > 0.93)
+    assert f"{bound:.3g}" in note or share < 0.93
