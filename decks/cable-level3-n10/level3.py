@@ -92,7 +92,7 @@ REQUEST/2, F2=0.5*AZ({pulley},{bearing}) \\
 , F3=0.5*WZ({pulley},{bearing}) \\
 , F4=DX({tip},1)
 
-INTEGRATOR/GSTIFF, SI2, ERROR=1.0E-6
+INTEGRATOR/GSTIFF, SI2, ERROR=1.0E-7
 SIMULATE/DYNAMIC, END=2, STEPS=400
 END
 """
