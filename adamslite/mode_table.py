@@ -56,7 +56,7 @@ def mode_rows(linearization: Any) -> list[ModeRow]:
 
 
 def mode_table(linearization: Any) -> str:
-    """The modes as a table to read."""
+    """The modes as a table to read, and below it what to know before they are used."""
     number, *rest = HEAD
     lines = [f"{number:>4}  " + "  ".join(f"{word:>16}" for word in rest)]
     for row in mode_rows(linearization):
@@ -64,6 +64,8 @@ def mode_table(linearization: Any) -> str:
         imaginary = f"{sign}{row.imaginary:.9g}"
         values = (f"{row.frequency:.9g}", f"{row.damping:.6g}", f"{row.real:.9g}", imaginary)
         lines.append(f"{row.number:4}  " + "  ".join(f"{value:>16}" for value in values))
+    if linearization.note:
+        lines += ["", linearization.note]
     return "\n".join(lines) + "\n"
 
 
@@ -127,6 +129,7 @@ def _json(linearization: Any) -> str:
         "input_matrix": found.input_matrix.tolist(),
         "output_matrix": found.output_matrix.tolist(),
         "feedthrough": found.feedthrough.tolist(),
+        "note": found.note,
     }
     return json.dumps(whole, indent=1) + "\n"
 

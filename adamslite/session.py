@@ -239,7 +239,6 @@ class Session:
         self._keep(np.array([self.time]), True)
 
     def _do_linear(self, command: Any) -> None:
-        self.system.unfold()
         ports = (("PINPUT", command.pinput), ("POUTPUT", command.poutput))
         inputs, outputs = (
             self.deck.find(kind, key).variables if key is not None else () for kind, key in ports

@@ -215,6 +215,9 @@ def _notes(session: Session) -> dict[str, str]:
     steps = int(session.counts[base.STEPS])
     if steps and (doubt := _doubt(session, steps)):
         found["accuracy"] = doubt
+    told = {each.model.note: each.time for each in reversed(session.linearizations)}
+    if varying := [f"t = {t:g}: {note}" for note, t in reversed(told.items()) if note]:
+        found["linear"] = "; ".join(varying)
     idle = list(without_effect(session.chosen.settings.method, session.settings.given))
     if idle:
         told = "; ".join(f"{word}, because {reason}" for word, reason in idle)

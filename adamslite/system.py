@@ -73,14 +73,15 @@ class System(Elimination):
         self.base = reals([b.attitude for b in bodies]).ravel()
         self.weight = _rotation_weights(self.mass, inertia)
         if bodies:
-            at = self._first_three()
+            at = self.places
             self.q[at], self.u[at] = [b.x for b in bodies], [b.v for b in bodies]
         for b, body in enumerate(bodies):
             if body.width == PART:
                 i = self.starts[b]
                 self.u[i + 3 : i + 6] = body.w
 
-    def _first_three(self) -> np.ndarray:
+    @property
+    def places(self) -> np.ndarray:
         """Numbers of the unknowns of each body that are its place, (bodies, 3)."""
         starts = self.starts[: len(self.model.bodies)]
         return np.array(starts)[:, None] + np.arange(3)
@@ -135,7 +136,7 @@ class System(Elimination):
         bodies = self.model.bodies
         if not bodies:
             return []
-        shifts = np.abs(self.q[self._first_three()] - [b.x for b in bodies]).max(axis=1)
+        shifts = np.abs(self.q[self.places] - [b.x for b in bodies]).max(axis=1)
         turns = _turns_between(reals([b.attitude for b in bodies]), self.base.reshape(-1, 3, 3))
         moved = []
         for b in np.flatnonzero(np.maximum(shifts, turns) > MOVED).tolist():
@@ -171,6 +172,20 @@ class System(Elimination):
             )
             full[r : r + h, c : c + w] = self.J[at : at + h * w].reshape(h, w)
         return full
+
+    def sparse_jacobian(self) -> Any:
+        """The Jacobian blocks as one sparse matrix (nz, nz)."""
+        from scipy.sparse import coo_array
+
+        rows, columns, places = [], [], []
+        for (row, column), at in self.blocks.items():
+            h, w = self.widths[row], self.widths[column]
+            rows.append(np.repeat(self.starts[row] + np.arange(h), w))
+            columns.append(np.tile(self.starts[column] + np.arange(w), h))
+            places.append(at + np.arange(h * w))
+        at = (np.concatenate(rows), np.concatenate(columns)) if rows else (ints([]), ints([]))
+        values = self.J[np.concatenate(places)] if places else reals([])
+        return coo_array((values, at), shape=(self.nz, self.nz)).tocsr()
 
     def release_guards(self) -> None:
         """Let every expression take the branch of the moment again."""

@@ -332,6 +332,7 @@ class Modes:
     feedthrough: np.ndarray = field(default_factory=lambda: np.zeros((1, 1)))
     inputs: tuple[str, ...] = ("VARIABLE/1",)
     outputs: tuple[str, ...] = ("VARIABLE/2",)
+    note: str = ""
 
 
 def test_linear_prints_a_table_of_modes(pipeline, capsys) -> None:

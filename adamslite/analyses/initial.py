@@ -112,7 +112,7 @@ def _largest_turn(system: System, step: np.ndarray) -> float:
 
 def _velocities(system: System, free: Iterable[Any]) -> Unclosed | None:
     kept = np.setdiff1d(np.arange(system.m), [row for c in free for row in _rows_of(system, c)])
-    rows = _velocity_rows(system)[kept]
+    rows = velocity_rows(system)[kept]
     if not len(rows):
         return None
     for _ in range(3):
@@ -129,7 +129,7 @@ def _velocities(system: System, free: Iterable[Any]) -> Unclosed | None:
 
 def speed_defects(system: System, constraints: Iterable[Any]) -> list[np.ndarray]:
     """What the velocity rows of each constraint are off by."""
-    defect = _residual(system, SPEEDS)[_velocity_rows(system)]
+    defect = _residual(system, SPEEDS)[velocity_rows(system)]
     return [defect[_rows_of(system, each)] for each in constraints]
 
 
@@ -176,10 +176,10 @@ def _least_change(system: System, gradient: np.ndarray, defect: np.ndarray) -> n
 
 def constraint_gradient(system: System) -> np.ndarray:
     """G: derivative of every constraint row with respect to velocities, (m, n)."""
-    return _gradient(system, SPEEDS, 1, _velocity_rows(system))
+    return _gradient(system, SPEEDS, 1, velocity_rows(system))
 
 
-def _velocity_rows(system: System) -> np.ndarray:
+def velocity_rows(system: System) -> np.ndarray:
     """Rows of the velocity conditions: holonomic ones (at mu when there is one), then rates."""
     first = system.nz - system.holonomic if system.stabilised else system.n
     rates = np.arange(system.n + system.holonomic, system.n + system.m)

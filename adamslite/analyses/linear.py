@@ -1,16 +1,11 @@
-"""Linearisation: eigenvalues, modes and state matrices about the present state.
+"""Linearisation: eigenvalues, modes and state matrices about the present, moving or resting, state.
 
-With N an orthonormal basis of the velocities all constraints allow, x = (y, y', s) the states
-(q = N y, u = N y', s those of DIFF) and inputs w added to the VARIABLEs of a PINPUT
+Small motions are those that an :class:`~adamslite.analyses.observer.Observer` sees; how they follow
+from the equations of motion, constraints and all, says :mod:`adamslite.analyses.first_order`.  For
+an observer to whom nothing of that changes with time the eigenvalues are the exponents of small
+motions.  Otherwise they are those of the coefficients of this moment, and the result says so.
 
-    [F_a N, F_lam, F_V, F_s'] (y'', lam, V, s') = E w - [F_q N, F_u N, F_s] x
-
-are the equations of motion, of VARIABLEs and of DIFFs; solved for the left vector they are
-x' = A x + B w and, with the rows of V of a POUTPUT, v = C x + D w.
-
-F_q holds the forces' derivatives and those of G^T lam, so tension and reactions stiffen as they
-should. Undamped frequencies come from the columns of y and y'' alone.
-Reference: Negrut, Ortiz, J. Comput. Nonlinear Dynam. 1 (2006) 230.
+Undamped frequencies come from the columns of y and p' alone.
 """
 
 from __future__ import annotations
@@ -21,14 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.initial import constraint_gradient
-from adamslite.engine import ACCELERATIONS, JACOBIAN
-from adamslite.integrators import base
-from adamslite.model import PART
+from adamslite.analyses.course import Course
+from adamslite.analyses.eigen import eigen
+from adamslite.analyses.first_order import Ports
+from adamslite.analyses.observer import Observer
 from adamslite.system import System
 
-PHASES = base.LOADS | base.REACTIONS | base.ROWS
-RANK = 1e-9
+VARIES = "the linear system varies with time: its eigenvalues are those of this moment only"
 
 
 @dataclass(frozen=True)
@@ -43,13 +37,18 @@ class Linearization:
         Natural frequencies without damping [1/time], imaginary parts as negative numbers for
         unstable directions (a negative stiffness gives -sqrt|k/m|).
     modes : (n, nx) complex array
-        Body coordinates (translations and rotations in ground axes) of each eigenvector.
+        Body coordinates (translations, rotation vectors) of each eigenvector, relative to the
+        observer's body and in the observer's axes.
     state_matrix : (nx, nx) array
-        A of x' = A x + B w with x = (y, y', s).
+        A of x' = A x + B w with x = (y, p, s), see :mod:`adamslite.analyses.first_order`.
     input_matrix, output_matrix, feedthrough : (nx, nw), (nv, nx), (nv, nw) arrays
         B, C, D; w is added to the VARIABLEs of PINPUT, v = C x + D w is those of POUTPUT.
     coordinates, inputs, outputs : tuple of str
         Names of the rows of ``modes``, of w and of v.
+    steady : bool
+        Whether A to D stay as they are while the motion goes on.
+    steady_for : str
+        Where they do not, for which observer they would ("RM=5"); empty if for none.
     """
 
     eigenvalues: np.ndarray
@@ -62,6 +61,8 @@ class Linearization:
     feedthrough: np.ndarray
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
+    steady: bool = True
+    steady_for: str = ""
 
     @property
     def frequencies(self) -> np.ndarray:
@@ -72,7 +73,15 @@ class Linearization:
     def damping_ratios(self) -> np.ndarray:
         """-Re/|eigenvalue|; zero where the eigenvalue vanishes."""
         size = np.abs(self.eigenvalues)
-        return np.where(size > 0.0, -self.eigenvalues.real / np.where(size > 0.0, size, 1.0), 0.0)
+        shares = -self.eigenvalues.real / np.where(size > 0.0, size, 1.0)
+        return np.where(np.abs(shares) > 0.0, shares, 0.0)
+
+    @property
+    def note(self) -> str:
+        """What to know before the eigenvalues are used; empty for a steady state."""
+        if self.steady:
+            return ""
+        return f"{VARIES}; it is steady {self.steady_for}" if self.steady_for else VARIES
 
 
 def linear(
@@ -91,82 +100,56 @@ def linear(
     damping : bool
         Without it, what depends on velocities is left out.
     relative_to : id
-        A MARKER: modes show the motion relative to its body, in ground axes.
+        A MARKER: motions are those that an observer on its body sees, with its axes.
     """
-    system.run(ACCELERATIONS)
-    free = _free_directions(system)
-    places = [system.starts[system.node_at["VARIABLE", key]] for key in inputs]
-    seen = [system.starts[system.node_at["VARIABLE", key]] - system.n for key in outputs]
-    solved = _solved(system, free, places, damping)
-    f, ns, nx = free.shape[1], system.ns, 2 * free.shape[1] + system.ns
-    rows = np.r_[0:f, len(solved) - ns : len(solved)]
-    whole = np.vstack([np.zeros((f, nx + len(places))), solved[rows]])
-    whole[:f, f : 2 * f] = np.eye(f)
-    a, b = whole[:, :nx], whole[:, nx:]
-    values, vectors = np.linalg.eig(a)
+    places = [
+        tuple(system.starts[system.node_at["VARIABLE", key]] for key in keys)
+        for keys in (inputs, outputs)
+    ]
+    system.unfold()
+    observer = Observer(system, relative_to)
+    course = Course(system, Ports(*places, damping))
+    found = course.seen(observer)
+    steady = course.is_steady(observer)
+    steady_for = "" if steady else course.steady_observer()
+    nx = len(found.whole[0]) - len(inputs)
+    a, b, c, d = (
+        found.whole[rows, columns]
+        for rows in (slice(0, nx), slice(nx, None))
+        for columns in (slice(0, nx), slice(nx, None))
+    )
+    n, speeds = found.basis.positions[0], found.basis.speeds[0]
+    f, g = speeds.shape
+    values, vectors = eigen(a)
     order = np.lexsort((-values.imag, np.round(np.abs(values), 12)))
-    told = solved[[f + k for k in seen]]
-    modes = _relative(system, free @ vectors[:f, order], relative_to)
+    moved, speed = found.q @ vectors[:f], found.q @ speeds @ vectors[f : f + g]
+    modes = (n @ vectors[:f] * _factors(moved, speed))[:, order]
+    modes[observer.own] = 0.0
     return Linearization(
-        values[order], _undamped(a[f : 2 * f, :f]), modes, a, _names(system),
-        b, told[:, :nx], told[:, nx:],
-        tuple(f"VARIABLE/{key}" for key in inputs), tuple(f"VARIABLE/{key}" for key in outputs),
+        values[order], _undamped(a[f : f + g, :f] @ speeds), modes, a, _names(system), b, c, d,
+        *(tuple(f"VARIABLE/{key}" for key in keys) for keys in (inputs, outputs)),
+        steady, steady_for,
     )  # fmt: skip
 
 
-def _solved(system: System, free: np.ndarray, places: list[int], damping: bool) -> np.ndarray:
-    """Derivatives (f + m + nv + ns, nx + nw) of (y'', lam, V, s') with respect to (x, w)."""
-    n, m = system.n, system.m
-    fq, fu, fa, fz, fd = (_matrix(system, kind) for kind in range(5))
-    z, s = slice(n, n + m + system.nv), slice(n + m + system.nv, n + m + system.nv + system.ns)
-    rows = np.r_[0:n, n + m : s.stop]
-    left = np.hstack([fa[:, :n] @ free, fz[:, z], fd[:, s]])[rows]
-    right = -np.hstack([fq[:, :n] @ free, damping * fu[:, :n] @ free, fq[:, s]])[rows]
-    pushes = np.zeros((len(fq), len(places)))
-    pushes[places, range(len(places))] = 1.0
-    # Least squares: multipliers of redundant rows are not determined.
-    return np.linalg.lstsq(left, np.hstack([right, pushes[rows]]), rcond=None)[0]
+def _factors(places: np.ndarray, speeds: np.ndarray) -> np.ndarray:
+    """What to scale eigenvectors (nx,) with, given their motion in ground axes (n, nx): to unit
+    size, their largest displacement real and positive.
+    """
+    size = np.sqrt((np.abs(places) ** 2 + np.abs(speeds) ** 2).sum(axis=0))
+    factors = 1.0 / np.where(size > 0.0, size, 1.0) + 0j
+    for k, column in enumerate(places.T):
+        far = np.abs(column)
+        if far.any():
+            largest = column[np.flatnonzero(far > (1.0 - 1e-6) * far.max())[0]]
+            factors[k] *= largest.conjugate() / abs(largest)
+    return factors
 
 
 def _undamped(minus_stiffness: np.ndarray) -> np.ndarray:
     """Signed roots of the eigenvalues of M^-1 K, smallest first."""
     squares = np.sort(np.linalg.eigvals(-minus_stiffness).real)
     return np.sign(squares) * np.sqrt(np.abs(squares))
-
-
-def _relative(system: System, modes: np.ndarray, marker: Any) -> np.ndarray:
-    """Modes less the rigid motion of the marker's body."""
-    place = None if marker is None else system.model.marker(marker)
-    if place is None or place.kind == "ground":
-        return modes
-    i = system.starts[place.body]
-    moves, origin = modes.copy(), system.q[i : i + 3]
-    shift = modes[i : i + 3]
-    turn = modes[i + 3 : i + 6] if system.model.bodies[place.body].width == PART else 0.0 * shift
-    for b, body in enumerate(system.model.bodies):
-        k = system.starts[b]
-        arm = system.q[k : k + 3] - origin
-        moves[k : k + 3] -= shift + np.cross(turn.T, arm).T
-        if body.width == PART:
-            moves[k + 3 : k + 6] -= turn
-    return moves
-
-
-def _free_directions(system: System) -> np.ndarray:
-    """Orthonormal basis (n, f) of the velocities all constraints allow."""
-    if system.m == 0:
-        return np.eye(system.n)
-    _, size, vt = np.linalg.svd(constraint_gradient(system))
-    rank = int((size > RANK * max(size[0], 1e-300)).sum())
-    return vt[rank:].T
-
-
-def _matrix(system: System, kind: int) -> np.ndarray:
-    """Dense derivative of all equations: kind 0 q and s, 1 u, 2 a, 3 lam and V, 4 s'."""
-    system.coef[:5] = 0.0
-    system.coef[kind] = 1.0
-    system.run(JACOBIAN, PHASES)
-    return system.dense_jacobian()
 
 
 def _names(system: System) -> tuple[str, ...]:

@@ -35,7 +35,10 @@ SUMMARY = """\
 """
 
 #: Comments of the results that the summary repeats: what was done to the model and the method.
-NOTES = ("assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "no number")
+NOTES = (
+    "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "linear",
+    "no number",
+)  # fmt: skip
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

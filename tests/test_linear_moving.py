@@ -1,0 +1,129 @@
+"""Small motions about moving states against closed forms."""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+
+import adamslite
+from adamslite.cli import main
+from adamslite.deck import read_commands
+
+TURNS = np.array([60.0, -35.0])
+
+
+def linearized(text: str, *arguments: str) -> list:
+    """What LINEAR commands with these arguments find at the start of a deck."""
+    deck = adamslite.read(text)
+    lines = [f"LINEAR/{each}" for each in arguments or ["EIGENSOL"]]
+    commands = read_commands("\n".join(["SIMULATE/INITIAL", *lines, "STOP", ""]), deck)
+    return [each.model for each in adamslite.simulate(deck, commands=commands).linearizations]
+
+
+def spectrum(model) -> np.ndarray:
+    """Imaginary parts of a spectrum without real part, from the smallest on."""
+    assert np.abs(model.eigenvalues.real).max() < 1e-8 * np.abs(model.eigenvalues).max()
+    return np.sort(model.eigenvalues.imag)
+
+
+def rotor(across: float, along: float, spin: float, scale: float = 1.0) -> str:
+    return f"""\
+a symmetric rotor held at its mass centre
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=3, CM=21, IP={across * scale**2},{across * scale**2},{along * scale**2}, WZ={spin}
+MARKER/21, PART=2
+JOINT/1, SPHERICAL, I=21, J=1
+END
+"""
+
+
+@pytest.mark.parametrize("scale", [1.0, 1000.0])
+@pytest.mark.parametrize(
+    ("across", "along", "spin"), [(0.02, 0.01, 60.0), (0.03, 0.05, -35.0), (0.02, 0.02, 7.0)]
+)
+def test_a_free_symmetric_rotor(across: float, along: float, spin: float, scale: float) -> None:
+    """Ground sees the axis nutate at W Ia/It; the rotor sees that less its own turning, the
+    precession (Ia - It)/It W of Euler's equations, and tilts that rest in space turn at -W.
+    """
+    ground, own = linearized(rotor(across, along, spin, scale), "EIGENSOL", "EIGENSOL, RM=21")
+    nutation, precession = abs(spin * along / across), abs(spin * (along - across) / across)
+    assert spectrum(ground) == pytest.approx([-nutation, *4 * [0.0], nutation], rel=1e-8, abs=1e-8)
+    seen = sorted([0.0, 0.0, precession, -precession, spin, -spin])
+    assert spectrum(own) == pytest.approx(seen, rel=1e-8, abs=1e-8)
+    assert ground.steady and own.steady and not ground.note
+
+
+@pytest.mark.parametrize(
+    ("mass", "height", "across", "along", "spin", "gravity"),
+    [(1.0, 0.1, 0.02, 0.01, 60.0, 9.81), (2.5, 70.0, 4000.0, 5500.0, -90.0, 9810.0)],
+)
+@pytest.mark.parametrize("marker", [None, 1, 22])
+def test_a_sleeping_top(mass, height, across, along, spin, gravity, marker) -> None:
+    """It z'' - i Ia W z' - m g h z = 0 for the tilt z = x + i y, It about the tip; whoever turns
+    with the top sees exp(-i W t) z.  With the first numbers 2.897 and 0.286 Hz.
+    """
+    text = f"""\
+a sleeping top
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS={mass}, CM=21, IP={across},{across},{along}, WZ={spin}, QG=0,0,{height}
+MARKER/21, PART=2
+MARKER/22, PART=2, QP=0,0,{-height}
+JOINT/1, SPHERICAL, I=22, J=1
+ACCGRAV/KGRAV={-gravity}
+END
+"""
+    (model,) = linearized(text, "EIGENSOL" if marker is None else f"EIGENSOL, RM={marker}")
+    tip = across + mass * height**2
+    root = sqrt((along * spin) ** 2 - 4 * tip * mass * gravity * height)
+    turned = spin if marker == 22 else 0.0
+    rates = [(along * spin + sign * root) / (2 * tip) - turned for sign in (1, -1)]
+    exact = sorted([0.0, 0.0, *rates, *(-rate for rate in rates)])
+    assert spectrum(model) == pytest.approx(exact, rel=1e-9, abs=1e-9)
+    if marker is None and mass == 1.0:
+        assert model.frequencies[[2, 4]] == pytest.approx([0.286, 2.897], abs=5e-4)
+
+
+def turntable(length: float, spin: float, gravity: float, drive: str) -> str:
+    return f"""\
+a pendulum on a shaft
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=1, CM=20, IP=1,1,1, WZ={spin}
+MARKER/20, PART=2
+MARKER/21, PART=2, REULER=30D,90D,0
+JOINT/1, REVOLUTE, I=20, J=1
+{drive}
+PART/3, MASS=2, CM=30, IP=1E-12,1E-12,1E-12, QG=0,0,{-length}, WZ={spin}
+MARKER/30, PART=3
+MARKER/31, PART=3, QP=0,0,{length}, REULER=30D,90D,0
+JOINT/2, REVOLUTE, I=31, J=21
+ACCGRAV/KGRAV={-gravity}
+END
+"""
+
+
+@pytest.mark.parametrize(
+    ("length", "spin", "gravity"), [(1.0, 2.0, 9.81), (1.0, -2.0, 9.81), (250.0, 4.0, 9810.0)]
+)
+@pytest.mark.parametrize("level", ["DISPLACEMENT", "VELOCITY"])
+def test_a_pendulum_on_a_driven_shaft(length, spin, gravity, level, tmp_path, capsys) -> None:
+    """sqrt(g/l - W^2)/(2 pi), with the first numbers 0.38363 Hz; the ground is told who sees a
+    steady state.  A shaft driven by its speed may stand at any angle: one eigenvalue 0 more.
+    """
+    function = f"{spin}*TIME" if level == "DISPLACEMENT" else str(spin)
+    text = turntable(length, spin, gravity, f"MOTION/1, JOINT=1, {level}, FUNCTION={function}")
+    exact = sqrt(gravity / length - spin**2) / (2 * pi)
+    ground, seen, bob = linearized(text, "EIGENSOL", "EIGENSOL, RM=21", "EIGENSOL, RM=30")
+    for model in (ground, seen, bob):
+        assert model.frequencies[-1] == pytest.approx(exact, rel=1e-6)
+        assert len(model.eigenvalues) == (2 if level == "DISPLACEMENT" else 3)
+    assert seen.steady and bob.steady
+    assert ground.note.endswith("it is steady with RM=20")
+    deck = tmp_path / "shaft.adm"
+    deck.write_text(text)
+    assert main(["linear", str(deck)]) == 0
+    assert "the linear system varies with time" in capsys.readouterr().out
