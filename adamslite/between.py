@@ -34,7 +34,7 @@ def _sum_of(model: Any, i: Key, j: Key, component: int, k: Key) -> Node:
             measure(MEASURES[s.keyword], Ref(s.keyword, s.key), component, axes, jflag)
             for s in model.deck.statements
             if s.keyword in MEASURES
-            for jflag in _flags(ends(model.deck, s), i, j)
+            for jflag in _flags(model, s, i, j)
         ]
     )
 
@@ -48,7 +48,10 @@ def ends(deck: Any, element: Any) -> tuple[Key | None, Key | None]:
     return i, j if j is not None else getattr(element, "j", None)
 
 
-def _flags(found: tuple[Key | None, Key | None], i: Key, j: Key) -> list[int]:
+def _flags(model: Any, element: Any, i: Key, j: Key) -> list[int]:
+    if hasattr(element, "flags"):
+        return element.flags(model, i, j)
+    found = ends(model.deck, element)
     return [n for n in (0, 1) if found[n] == i and (j == 0 or found[1 - n] == j)]
 
 

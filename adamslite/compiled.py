@@ -18,10 +18,11 @@ from adamslite import native
 from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
 from adamslite.model import Model
-from adamslite.shape import Binder, Binding, Reader, Tree, reactions, symbolic_view
+from adamslite.shape import Binder, Binding, Tree
 from adamslite.statement import Statement
 from adamslite.symbolic import Scope
 from adamslite.uncollected import uncollected
+from adamslite.view import Reader, reactions, symbolic_view
 
 
 @dataclass

@@ -3,8 +3,7 @@
 :class:`Binder` walks a statement's declared arguments and replaces every id, number and marker by
 a slot. What remains, written as text, is the *key* of the shape; what was taken out is the
 instance.  The walk needs no sympy, so a deck whose shapes are cached compiles nothing.
-:func:`symbolic_view` does the reverse: the statement as its physics sees it, with frames for
-markers and symbols for numbers.
+:mod:`adamslite.view` does the reverse.
 
 A bound tree is one of
 
@@ -16,7 +15,6 @@ A bound tree is one of
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -26,8 +24,8 @@ from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.function import FUNCTIONS, Function
 from adamslite.functions.forces import NET
 from adamslite.model import folded
-from adamslite.statement import STATEMENTS, Statement
-from adamslite.symbolic import ORIGIN, Load, Scope, Slot
+from adamslite.statement import Statement
+from adamslite.symbolic import ORIGIN, Slot
 
 Tree = tuple
 IGNORED = ("text", "texts")
@@ -186,6 +184,11 @@ class Binder:
             if type(arg) is Ref and arg.kind not in LASTING and self._is_off(arg):
                 return ("c", 0.0)
         function = FUNCTIONS[node.name]
+        if (
+            node.name == "GCON" and not node.args[2].value
+        ):  # its multiplier, and nothing of its kind
+            strength = ("z", self.node_slot(("GCON", node.args[0].id)), 0)
+            return ("f", "GCON", (strength, ("c", 0), ("c", 0), self.marker(0)))
         return (
             "f",
             node.name,
@@ -211,8 +214,6 @@ class Binder:
             return self.variable(ref.id)
         if ref.kind == "DIFF":
             return ("dif", self.node_slot(("DIFF", ref.id)))
-        if ref.kind == "GCON":
-            return ("z", self.node_slot(("GCON", ref.id)), 0)
         return self.element(ref)
 
     def variable(self, variable_id: Any) -> Tree:
@@ -254,154 +255,3 @@ class Binder:
         scalars = tuple([self.model.node_width(n) for n in at.nodes])
         counts = (len(at.params), len(at.signals))
         return (face, body, tuple(self.elements), tuple(self.slots), widths, scalars, counts)
-
-
-class View:
-    """A statement as its physics sees it: frames, symbols, expressions, words."""
-
-    def __init__(self, cls: type[Statement], fields: dict[str, Any], unknowns: list[Any]) -> None:
-        self.__dict__.update(fields)
-        self.cls = cls
-        self.unknowns = unknowns
-
-    def own_loads(self, scope: Scope) -> list[Load]:
-        """Loads of a force, or the reactions of a constraint."""
-        if hasattr(self.cls, "loads"):
-            return self.cls.loads(self, scope)
-        with scope.everything_moves():
-            return reactions(self, scope)
-
-    def end(self, jflag: int) -> int | None:
-        """The frame called I (``jflag`` 0) or J: its own, or that of the (first) joint it acts
-        on.
-        """
-        known = self.__dict__
-        held = known.get("joint") or (known.get("joints") or (None,))[0]
-        if held is not None:
-            return held.end(jflag)
-        names = ("j", "jfloat", "j_part") if jflag else ("i",)
-        return next((known[name] for name in names if known.get(name) is not None), None)
-
-
-def reactions(view: View, scope: Scope) -> list[Load]:
-    """-G^T lam as loads: what the constraint exerts.
-
-    A row g gives the force -lam dg/dd on I of each relative position d(i,j), the opposite on J,
-    and the torque -lam sum x_c cross dg/dx_c on the part of each axis used; for velocity rows d
-    and x are replaced by v and w (Jourdain's principle).
-    """
-    from adamslite.algebra import sp
-    from adamslite.symbolic import ZERO, cross, scale
-
-    loads = []
-    for row, lam in zip(view.cls.constraints(view, scope), view.unknowns, strict=True):
-        row = sp.S.Zero + row
-        groups: dict[tuple, list[Any]] = {}
-        for symbol in sorted(row.free_symbols, key=str):
-            leaf = scope.leaves[symbol]
-            if leaf[0] in ("d", "x", "v", "w"):
-                groups.setdefault(leaf[:-1], [sp.S.Zero] * 3)[leaf[-1]] = sp.diff(row, symbol)
-        rates = any(leaf[0] in ("v", "w") for leaf in groups)
-        for leaf, slope in groups.items():
-            pull = scale(-lam, tuple(slope))
-            if leaf[0] == ("v" if rates else "d"):
-                loads.append(Load(leaf[1], pull, ZERO, leaf[2]))
-            elif leaf[0] == "w":
-                loads.append(Load(leaf[1], ZERO, pull, leaf[2]))
-            elif leaf[0] == "x" and not rates and scope.turns(leaf[1]):
-                axis = scope.vector("x", leaf[1], leaf[2])
-                loads.append(Load(leaf[1], ZERO, cross(axis, pull)))
-    return loads
-
-
-class Reader:
-    """Turns bound trees into sympy with a scope."""
-
-    def __init__(self, scope: Scope, n_bodies: int) -> None:
-        self.scope = scope
-        self.n_bodies = n_bodies
-        self.memo: dict[Tree, Any] = {}
-
-    def __call__(self, tree: Tree) -> Any:
-        if tree[0] == "c":  # not remembered: 0.0 and False are one key
-            return self._read(tree)
-        if tree not in self.memo:
-            self.memo[tree] = self._defined(self._read(tree))
-        return self.memo[tree]
-
-    def _defined(self, value: Any) -> Any:
-        """What sympy knows to be undefined (a pole, a division by zero) becomes not-a-number."""
-        from adamslite.algebra import sp
-
-        if isinstance(value, sp.Basic) and value.has(sp.zoo, sp.nan):
-            return self.scope.symbol("nan")
-        return value
-
-    def _read(self, tree: Tree) -> Any:
-        scope = self.scope
-        match tree:
-            case ("p", _) | ("sig", _, _):
-                return scope.symbol(*tree)
-            case ("c", value):
-                return _exact(value) if isinstance(value, float) else value
-            case ("t",) | ("mode",):
-                return scope.symbol(tree[0])
-            case ("m", frame):
-                return frame
-            case ("v", trees):
-                return tuple(self(t) for t in trees)
-            case ("s", keyword, fields):
-                return View(STATEMENTS[keyword], {name: self(t) for name, t in fields}, [])
-            case ("z", node, component):
-                return scope.symbol("z", self.n_bodies + node, component)
-            case ("o", op, args):
-                return self._operation(op, [self(t) for t in args])
-        return self._call(tree)
-
-    def _call(self, tree: Tree) -> Any:
-        function = FUNCTIONS[tree[1]]
-        args = []
-        for n, arg in enumerate(tree[2]):
-            statement = function.parameter(n).statement
-            if statement is None or statement == "MARKER":
-                args.append(self(arg))
-            else:
-                args.append(self._shifted(arg))
-        return function.body(self.scope, *args)
-
-    def _shifted(self, arg: Tree) -> Tree:
-        return ("dif", self.n_bodies + arg[1]) if arg[0] == "dif" else arg
-
-    def _operation(self, op: str, args: list[Any]) -> Any:
-        from adamslite.algebra import power
-
-        if op == "neg":
-            return -args[0]
-        a, b = args
-        if op == "**":
-            return power(a, b)
-        return {"+": lambda: a + b, "-": lambda: a - b, "*": lambda: a * b, "/": lambda: a / b}[
-            op
-        ]()
-
-
-def _exact(value: float) -> Any:
-    from adamslite.algebra import sp
-
-    doubled = 2.0 * value
-    if math.isfinite(doubled) and doubled == int(doubled) and abs(doubled) < 1e6:
-        return sp.Rational(int(doubled), 2)
-    return sp.Float(value, 17)
-
-
-def symbolic_view(
-    keyword: str, fields: Tree, node: int, width: int, scope: Scope, n_bodies: int
-) -> View:
-    """The statement of bound fields; ``node`` is the slot of its own unknowns or -1."""
-    cls = STATEMENTS[keyword]
-    values = {name: scope.read(tree) for name, tree in fields}
-    if keyword == "DIFF" and node >= 0:
-        own = [scope.symbol(kind, n_bodies + node) for kind in ("dif", "dif1")]
-    else:
-        own = [scope.symbol("z", n_bodies + node, c) for c in range(width)] if node >= 0 else []
-    return View(cls, values, own)

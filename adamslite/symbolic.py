@@ -219,9 +219,11 @@ class Scope:
 
     def net_load(self, view: Any, jflag: int) -> tuple[Vector, Vector]:
         """What an element, seen as a view, does to its marker I or J."""
-        end = view.end(jflag)
+        end, against = view.side(jflag)
         force, torque = ZERO, ZERO
         for load in view.own_loads(self):
+            if against not in (None, load.frame, load.reaction):
+                continue
             sign = (load.frame == end) - (load.reaction == end)
             force = plus(force, scale(sign, load.force))
             torque = plus(torque, scale(sign, load.torque))

@@ -61,3 +61,61 @@ def test_nothing_is_left_of_one_that_is_switched_off() -> None:
     results = adamslite.simulate(deck, commands=read_commands(run, deck))
     assert not np.any(results["GCON/1.f"])
     assert results["POINT_MASS/2.ay"] == pytest.approx(-9.81)
+
+
+HUNG = (
+    "title\nPART/1, GROUND\nMARKER/1, PART=1\nMARKER/5, PART=1, QP=0,-{length},0\n"
+    "ACCGRAV/JGRAV=-9.81\n"
+    "PART/2, MASS={mass}, CM=2, IP=1,1,1, QG=0,-{length},0\nMARKER/2, PART=2\n"
+    "GCON/1, FUNCTION={rule}\n"
+    "REQUEST/1, F1=FY(2)\\F2=FY(2,1)\\F3=FM(1,2)\\F4=FY(1)\\F5=GCON(1,0,3)\\F6=GCON(1,1,3,2)\\\n"
+    ", F7=GCON(1,0,1)\\F8=FY(2,5)\n"
+    "REQUEST/2, FORCE, I=2, J=1\nREQUEST/3, FORCE, I=1, J=2\nEND\n"
+)
+
+
+@pytest.mark.parametrize("integrator", ["GSTIFF", "RADAU", "HHT", "ABAM"])
+@pytest.mark.parametrize(("mass", "length"), [(2.0, 1.0), (0.5, 3.0)])
+@pytest.mark.parametrize(
+    "rule", ["DM(2,1)-{l}", "{l}*DM(2,1)**2-{l}**3", "DY(2,1)+{l}", "VY(2,1)", "VR(2,1)"]
+)
+def test_what_hangs_pulls_at_the_markers_of_the_expression(rule, mass, length, integrator):
+    """Weight m g between the two markers: on the mass upwards, on the hook downwards."""
+    if integrator == "HHT" and rule.startswith("V"):
+        pytest.skip("one integrator of index 3 is enough for the velocity level")
+    deck = HUNG.format(rule=rule.format(l=length), mass=mass, length=length)
+    results = adamslite.simulate(adamslite.read(deck), end=0.1, steps=2, integrator=integrator)
+    w = mass * 9.81
+    expected = {"1.F1": w, "1.F2": w, "1.F3": w, "1.F4": -w, "1.F5": w, "1.F6": -w, "1.F7": w}
+    expected |= {"1.F8": 0.0, "2.F1": w, "2.F3": w, "2.F5": 0.0, "3.F3": -w}
+    for name, value in expected.items():
+        assert results[f"REQUEST/{name}"] == pytest.approx(value, abs=1e-8), name
+
+
+def test_every_leg_of_a_rope_over_three_markers_has_its_own_force() -> None:
+    """|2-1| + |2-5| = const on a mass between two hooks: the same tension T in both legs.
+
+    Two legs at 45 degrees carry m g: T = m g/sqrt(2).
+    """
+    text = HEAD + (
+        "MARKER/5, PART=1, QP=2,0,0\nPOINT_MASS/2, MASS=2, CM=2, QG=1,-1,0\n"
+        "MARKER/2, POINT_MASS=2\nGCON/1, FUNCTION=DM(2,1)+DM(2,5)-2*SQRT(2)\n"
+        "REQUEST/1, F1=FX(2,1)\\F2=FY(2,1)\\F3=FX(2,5)\\F4=FY(2)\\F5=FX(5)\\F6=FX(1,5)\nEND\n"
+    )
+    results = adamslite.simulate(adamslite.read(text), end=0.1, steps=1)
+    half = 9.81  # m g/2 = T/sqrt(2)
+    found = [results[f"REQUEST/1.F{n}"][0] for n in range(1, 7)]
+    assert found == pytest.approx([-half, half, half, 2 * half, -half, 0.0], abs=1e-8)
+
+
+@pytest.mark.parametrize("rule", ["AZ(2,1)-0.3*TIME**2", "WZ(2,1)-0.6*TIME"])
+def test_a_rule_about_an_angle_is_a_torque(rule: str) -> None:
+    """theta = 0.3 t^2 about the principal axis with moment 4: T = 2.4, the opposite on the hook."""
+    text = HEAD + (
+        "PART/2, MASS=1, CM=2, IP=1,1,4\nMARKER/2, PART=2\nJOINT/1, SPHERICAL, I=2, J=1\n"
+        f"GCON/1, FUNCTION={rule}\n"
+        "REQUEST/1, F1=GCON(1,0,8)\\F2=GCON(1,1,8)\\F3=TZ(2,1)\\F4=TM(1,2)\nEND\n"
+    )
+    results = adamslite.simulate(adamslite.read(text), end=0.5, steps=2, error=1e-8)
+    for name, value in (("F1", 2.4), ("F2", -2.4), ("F3", 2.4), ("F4", 2.4)):
+        assert results[f"REQUEST/1.{name}"] == pytest.approx(value, abs=1e-6)

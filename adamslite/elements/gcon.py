@@ -3,13 +3,18 @@
 Equation::
 
     FUNCTION = 0
+    force on the model   -(d FUNCTION/dq)^T lam
+
+The force acts between the markers i and j of the measures in FUNCTION: FX(i, j) and REQUEST/FORCE
+count it, GCON(id, 0, comp) is what acts on the first of them.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from adamslite.expression import Call, Node, Ref, walk
+from adamslite.expression import Call, Node, Ref, measure, walk
+from adamslite.function import FUNCTIONS
 from adamslite.statement import Statement, expression, statement
 from adamslite.symbolic import Scope
 
@@ -47,6 +52,52 @@ class Gcon(Statement):
                     pending.append(model.variable(node.id).function)
         return False
 
+    def pairs(self, model: Any) -> list[tuple[Any, Any]]:
+        """Markers (i, j) of the measures in FUNCTION, itself and through variables, both ways
+        round.
+        """
+        found: dict[tuple[Any, Any], None] = {}
+        pending, seen = [self.function], set()
+        while pending:
+            for node in walk(pending.pop()):
+                if isinstance(node, Ref) and node.kind == "VARIABLE" and node.id not in seen:
+                    seen.add(node.id)
+                    pending.append(model.variable(node.id).function)
+                if isinstance(node, Call):
+                    ends = _ends(node)
+                    if len(ends) == 2 and ends[0] != ends[1]:
+                        found |= dict.fromkeys((ends, ends[::-1]))
+        return list(found)
+
+    def sides(self, model: Any) -> list[tuple[Any, Any]]:
+        """What the function GCON measures by its jflag: (marker, what it is measured against).
+
+        First the pairs, where ``None`` stands for the only partner of a marker; then each marker
+        of several pairs with all of them.
+        """
+        pairs = self.pairs(model)
+        partners: dict[Any, list[Any]] = {}
+        for at, against in pairs:
+            partners.setdefault(at, []).append(against)
+        several = [at for at, others in partners.items() if len(others) > 1]
+        return [(a, b if a in several else None) for a, b in pairs] + [(a, None) for a in several]
+
+    def flags(self, model: Any, i: Any, j: Any) -> list[int]:
+        """The jflag of what acts at marker i, from marker j or (j = 0) from all."""
+        pairs, sides = self.pairs(model), self.sides(model)
+        if j == 0:
+            return [n for n, side in enumerate(sides) if side == (i, None)]
+        return [n for n, pair in enumerate(pairs) if pair == (i, j)]
+
+    def derived(self, model: Any) -> dict[str, Any]:
+        """The markers of ``sides`` as frames."""
+        return {
+            "sides": tuple(
+                (Ref("MARKER", at), None if against is None else Ref("MARKER", against))
+                for at, against in self.sides(model)
+            )
+        }
+
     def constraints(self, scope: Scope) -> list[Any]:
         """The row that vanishes."""
         return [self.function]
@@ -58,4 +109,10 @@ class Gcon(Statement):
 
     def outputs(self, model: Any) -> list[Node]:
         """Values of ``result_names``."""
-        return [Call("GCON", (Ref("GCON", self.key),))]
+        return [measure("GCON", Ref("GCON", self.key), 0)]
+
+
+def _ends(call: Call) -> tuple[Any, ...]:
+    """The markers i and j of a measure."""
+    taken = zip(call.args, FUNCTIONS[call.name].parameters, strict=False)
+    return tuple(each.id for each, parameter in taken if parameter.name in ("i", "j"))

@@ -27,13 +27,11 @@ NET: dict[str, int] = {}
 def measured(name: str, what: str, keyword: str = "") -> None:
     """Register the function that measures ``what`` of the statements ``keyword`` (or ``name``)."""
 
-    def component(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
-        vector = scope.load(name, id, jflag)[(comp - 1) // 4]
-        axis = (comp - 1) % 4
-        return dot(vector, scope.axes(rm)[axis - 1]) if axis else norm(vector)
+    def measuring(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
+        return component(scope, name, id, jflag, comp, rm)
 
     MEASURES[keyword or name] = name
-    component.__doc__ = f"""Component comp of {what} {name} id, on marker I (jflag 0) or J (1).
+    measuring.__doc__ = f"""Component comp of {what} {name} id, on marker I (jflag 0) or J (1).
 
     comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, along the axes of marker rm.
     Unit: force, or force times length.  Source: Adams/Solver function {name}.
@@ -41,7 +39,14 @@ def measured(name: str, what: str, keyword: str = "") -> None:
     function(
         name,
         f"id:{(keyword or name).lower()} jflag:constant{{0,1}} comp:constant{{1..8}} rm:marker=0",
-    )(component)
+    )(measuring)
+
+
+def component(scope: Scope, name: str, id: Any, jflag: int, comp: int, rm: Any) -> Any:
+    """One component of the force or torque of an element."""
+    vector = scope.load(name, id, jflag)[(comp - 1) // 4]
+    axis = (comp - 1) % 4
+    return dot(vector, scope.axes(rm)[axis - 1]) if axis else norm(vector)
 
 
 def net(name: str, comp: int) -> None:
@@ -49,17 +54,38 @@ def net(name: str, comp: int) -> None:
     what = ("force", "torque")[comp > 4]
     sized = comp in (1, 5)
 
-    def component(scope: Scope, i: Any, j: Any, k: Any = None) -> Any:
+    def unwritten(scope: Scope, i: Any, j: Any, k: Any = None) -> Any:
         raise LookupError(f"{name} is written out before it is evaluated")
 
     along = "its magnitude" if sized else f"its {name[1].lower()} component along the axes of k"
-    component.__doc__ = f"""Net {what} on marker i of all elements between i and j: {along}.
+    unwritten.__doc__ = f"""Net {what} on marker i of all elements between i and j: {along}.
 
     Without j: of every force and constraint that acts at i.
     Unit: {what if comp < 5 else "force times length"}.  Source: Adams/Solver C++ function {name}.
     """
     NET[name] = comp
-    function(name, "i:marker j:marker=0" + ("" if sized else " k:marker=0"))(component)
+    function(name, "i:marker j:marker=0" + ("" if sized else " k:marker=0"))(unwritten)
+
+
+MEASURES["GCON"] = "GCON"
+
+
+@function("GCON", "id:gcon jflag:constant{0,1}=0 comp:constant{0..8}=0 rm:marker=0")
+def gcon(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
+    """Component comp of the reaction of GCON id, on marker I (jflag 0) or J (1), or its strength L.
+
+    I is the first marker of FUNCTION, J the one it is measured against; L is meant without comp.
+
+    comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, along the axes of marker rm.
+
+    L pushes the coordinates q by L d(FUNCTION)/dq: with FUNCTION=DM(1,2)-1 it is the force that
+    drives the markers apart, minus the tension.  For a GCON in velocities u the derivative is
+    d(FUNCTION)/du.
+    Unit: force, or force times length; of L force length (power for velocities) over that of
+    FUNCTION.
+    Source: Adams/Solver C++ function GCON; the sign of L is that of this definition.
+    """
+    return component(scope, "GCON", id, jflag, comp, rm) if comp else -scope.multiplier(id)
 
 
 measured("JOINT", "the reaction of")

@@ -42,15 +42,3 @@ def ddt(scope: Scope, id: Any) -> Any:
     Unit: that of the variable, per time.  Source: an extension; the meaning of VARVAL(d(id)/dt).
     """
     return scope.derivative(scope.variable(id))
-
-
-@function("GCON", "id:gcon")
-def gcon(scope: Scope, id: Any) -> Any:
-    """Strength L of the constraint GCON id: it pushes the coordinates q by L d(FUNCTION)/dq.
-
-    With FUNCTION=DM(1,2)-1 it is the force that drives the markers apart, minus the tension. For
-    a GCON in velocities u the derivative is d(FUNCTION)/du.
-    Unit: force length (power for velocities) over that of FUNCTION.
-    Source: Adams/Solver C++ function GCON; the sign is that of this definition.
-    """
-    return -scope.multiplier(id)
