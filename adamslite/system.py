@@ -15,10 +15,12 @@ from adamslite.elimination import Elimination
 from adamslite.engine import INTEGRATORS, address_table, engine, ints, reals
 from adamslite.faults import UsageError
 from adamslite.integrators import base
-from adamslite.model import PART
+from adamslite.model import PART, Model
 
 # Moves of the assembly below this are round-off.
 MOVED = 1e-9
+# Share of a lever that a radius of gyration counts at least.
+LEVER = 0.1
 
 
 class System(Elimination):
@@ -71,7 +73,7 @@ class System(Elimination):
         inertia = reals([b.inertia for b in bodies]).reshape(-1, 3, 3)
         self.inertia = inertia.ravel()
         self.base = reals([b.attitude for b in bodies]).ravel()
-        self.weight = _rotation_weights(self.mass, inertia)
+        self.weight = _rotation_weights(self.model, self.mass, inertia)
         if bodies:
             at = self.places
             self.q[at], self.u[at] = [b.x for b in bodies], [b.v for b in bodies]
@@ -269,10 +271,19 @@ def _turns_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.arctan2(np.linalg.norm(axis, axis=0), np.trace(spin, axis1=1, axis2=2) - 1.0)
 
 
-def _rotation_weights(mass: np.ndarray, inertia: np.ndarray) -> np.ndarray:
+def _rotation_weights(model: Model, mass: np.ndarray, inertia: np.ndarray) -> np.ndarray:
     """1/(radius of gyration)^2 of each body: puts rotations on the scale of translations in
     W G^T mu; 1 for a body without mass or inertia.
+
+    At least ``LEVER`` of the way from the mass centre to a marker that is held: a part whose mass
+    is all but a point turns about such a marker, and a weight of its inertia alone would make
+    G W G^T, and what round-off does to mu, as large as the ratio of the two is small.
     """
     trace = np.trace(inertia, axis1=1, axis2=2)
     known = (trace > 0.0) & (mass > 0.0)
-    return np.divide(mass, trace, out=np.ones(mass.size), where=known)
+    square = np.divide(trace, mass, out=np.ones(mass.size), where=known)
+    ends = [getattr(each, name, None) for each in model.constraints for name in ("i", "j")]
+    for place in (model.marker(end) for end in ends if end is not None):
+        if place is not None and place.body >= 0 and known[place.body]:
+            square[place.body] = max(square[place.body], LEVER**2 * float(place.p @ place.p))
+    return 1.0 / square

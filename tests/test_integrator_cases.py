@@ -1,0 +1,90 @@
+"""Cases that one integrator ran and another did not: the same answer from every one of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scenes import GROUND, done
+from scipy.integrate import solve_ivp
+
+METHODS = ("GSTIFF", "HHT", "RADAU", "ABAM", "AUTO")
+GRAVITY = 9.81
+
+
+def arm(mass: float, length: float, inertia: float, more: str = "") -> str:
+    """A part on a pin at the origin, its mass centre ``length`` away, level at the start."""
+    return (
+        GROUND + f"ACCGRAV/JGRAV=-{GRAVITY}\nPART/2, MASS={mass}, CM=2, QG={length},0,0\n"
+        f", IP={inertia},{inertia},{inertia}\nMARKER/2, PART=2\n"
+        f"MARKER/3, PART=2, QP=-{length},0,0\nJOINT/1, REVOLUTE, I=3, J=1\n{more}END\n"
+    )
+
+
+def swung(rate: float, end: float, times: np.ndarray) -> np.ndarray:
+    """Angle (nt,) of theta" = -rate cos(theta) from rest at 0."""
+    run = solve_ivp(
+        lambda t, y: (y[1], -rate * np.cos(y[0])), (0.0, end), (0.0, 0.0), t_eval=times,
+        method="DOP853", rtol=1e-12, atol=1e-12,
+    )  # fmt: skip
+    return run.y[0]
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    ("mass", "length", "inertia"), [(1.0, 1.0, 1e-9), (1.0, 1.0, 1e-12), (20.0, 0.3, 1e-8)]
+)
+def test_a_part_that_is_all_but_a_point_swings(method, mass, length, inertia):
+    """theta" = -m g l/(m l^2 + J) cos(theta) for 3 s: at ERROR 1e-6 within 1e-5, HHT 1e-3 of l.
+
+    RADAU took 113230 steps at 1e-4, and ended early at 1e-6, with mu weighted by the inertia alone.
+    """
+    results = done(arm(mass, length, inertia), 3.0, 30, integrator=method, error=1e-6)
+    rate = mass * GRAVITY * length / (mass * length**2 + inertia)
+    truth = length * np.cos(swung(rate, 3.0, results.time))
+    allowed = 2e-3 if method == "HHT" else 3e-5
+    assert np.abs(results["PART/2.x"] - truth).max() < allowed * length
+    assert results.summary["steps"] < 1500
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(("exponent", "height"), [(1.0, 0.5), (1.5, 0.5), (2.2, 0.0), (1.5, -2.0)])
+def test_a_ball_may_start_on_the_surface(method, exponent, height):
+    """Let go where IMPACT begins it sinks in, and rests at k d**e = m g.
+
+    x**e had the slope e x**e/x, which is 0/0 there: ABAM and GSTIFF could not start.
+    """
+    stiffness, weight = 1e4, 9.81
+    deck = (
+        GROUND + f"ACCGRAV/JGRAV=-9.81\nPOINT_MASS/2, MASS=1, CM=2, QG=0,{height},0\n"
+        "MARKER/2, POINT_MASS=2\n"
+        f"VFORCE/1, I=2, J_PART=1, FY=IMPACT(DY(2),VY(2),{height},{stiffness},{exponent},200,1E-4)"
+        "\nEND\n"
+    )
+    results = done(deck, 3.0, 30, integrator=method, error=1e-6)
+    depth = (weight / stiffness) ** (1.0 / exponent)
+    assert results["POINT_MASS/2.y"][-1] == pytest.approx(height - depth, abs=2e-4)
+
+
+@pytest.mark.parametrize("method", ("GSTIFF", "RADAU", "ABAM", "AUTO"))
+@pytest.mark.parametrize(("added", "wall"), [(0.4, 0.3), (1.5, 0.05)])
+def test_added_mass_on_a_slide_meets_a_wall(method, added, wall):
+    """(1 + dm) x" = 2 - k max(0, x - wall) on a slide: springs back to where it was let go.
+
+    From rest at 0 the energy 2 x - k d^2/2, d = x - wall, vanishes again at the deepest point;
+    until the wall x = t^2/(1 + dm).  Behind the crossing ABAM used a matrix that was overwritten.
+    """
+    stiffness = 500.0
+    deck = (
+        GROUND + "PART/2, MASS=1, CM=2, IP=0.1,0.1,0.1\nMARKER/2, PART=2, REULER=90D,90D,0\n"
+        "MARKER/3, PART=1, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=2, J=3\n"
+        "MARKER/4, PART=2\n"
+        f"VFORCE/1, I=4, J_PART=1, FX=2-{added}*ACCX(4)\\FY=0\\FZ=0\n"
+        f"VFORCE/2, I=4, J_PART=1, FX=IF(DX(4)-{wall}:0,0,-{stiffness}*(DX(4)-{wall}))\\FY=0\\FZ=0\n"
+        "END\n"
+    )
+    results = done(deck, 2.0, 400, integrator=method, error=1e-7)
+    x, v = results["PART/2.x"], results["PART/2.vx"]
+    before = results.time < np.sqrt(wall * (1 + added))
+    np.testing.assert_allclose(x[before], results.time[before] ** 2 / (1 + added), atol=1e-5)
+    energy = 0.5 * (1 + added) * v**2 + 0.5 * stiffness * np.maximum(x - wall, 0) ** 2 - 2 * x
+    assert np.abs(energy).max() < 1e-3 * 2 * x.max()
