@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 # The highest order of the backward differences: 6 is unstable for all but strongly damped motion.
 HIGHEST = 5
+# The name of a file without a folder; one with a dot in front is for the system or hidden.
+FILE_NAME = re.compile(r"[^./\\:][^/\\:]*")
 TIMES = ("end", "duration", "dtout", "steps")
 
 
@@ -152,6 +155,20 @@ def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
                 yield _idle(each, field, field.upper(), "EIGENSOL has neither input nor output")
 
 
+def file_names(deck: Deck) -> Iterator[Diagnostic]:
+    """Files that commands name lie beside the results, each written once."""
+    known: set[str] = set()
+    for each in deck.of("LINEAR"):
+        if each.file is None or each.kind == "EIGENSOL":
+            continue
+        if not FILE_NAME.fullmatch(each.file) or not each.file.isprintable():
+            yield say(each, "not-a-file-name", "file", word=each.file or '""')
+        elif each.file.casefold() in known:
+            what = "that of an earlier LINEAR"
+            yield say(each, "file-taken", "file", word=each.file, what=what)
+        known.add(each.file.casefold())
+
+
 RUN_RULES: list[Rule] = [
     integrator_values,
     idle_integrator_arguments,
@@ -160,4 +177,5 @@ RUN_RULES: list[Rule] = [
     ends_in_order,
     switched_elements,
     linear_arguments,
+    file_names,
 ]

@@ -76,26 +76,6 @@ def save(linearization: Any, path: str | Path) -> None:
         stream.write(write(linearization))
 
 
-def save_beside(results: Any, output: str | Path) -> list[Path]:
-    """Write what the LINEAR commands of a run found, beside the file ``output``.
-
-    EIGENSOL goes to ``<output>.modes.csv``, STATEMAT to its FILE or ``<output>.states.json``; a
-    second one of a kind is numbered.
-    """
-    output, made = Path(output), []
-    for each in results.linearizations:
-        kind = "modes.csv" if each.kind == "EIGENSOL" else "states.json"
-        stem = output.with_suffix("").name
-        path = output.parent / (each.file or f"{stem}.{kind}")
-        number = 2
-        while path in made:
-            path = output.with_name(f"{stem}.{number}.{kind}")
-            number += 1
-        save(each.model, path)
-        made.append(path)
-    return made
-
-
 def need_suffix(path: str | Path) -> None:
     """Raise UsageError for a file name that does not say how to write."""
     if Path(path).suffix.lower() not in (".csv", ".json"):

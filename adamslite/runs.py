@@ -26,11 +26,31 @@ class Scene:
         What the command file says; empty when there is none.
     warnings : tuple of Diagnostic
         What `check` has to say about deck and commands.
+    deck_path : Path
+    commands_path : Path or None
+        The command file, and
+    beside : bool
+        whether it was taken because it lies beside the deck.
     """
 
     deck: Any
     commands: tuple[Any, ...]
     warnings: tuple[Diagnostic, ...]
+    deck_path: Path
+    commands_path: Path | None
+    beside: bool
+
+    @property
+    def read(self) -> tuple[Path, ...]:
+        """The files that were read."""
+        return (self.deck_path, *([self.commands_path] if self.commands_path else []))
+
+    @property
+    def title(self) -> str:
+        """The deck, with the command file that nobody asked for."""
+        if self.beside:
+            return f"{self.deck_path} with {self.commands_path} beside it"
+        return str(self.deck_path)
 
 
 def load_scene(deck_path: Path, commands_path: Path | None = None) -> Scene:
@@ -48,15 +68,18 @@ def load_scene(deck_path: Path, commands_path: Path | None = None) -> Scene:
         deck = adamslite.read(deck_path)
     except DeckError as fault:
         deck, wrong = fault.deck, [*fault.diagnostics]
-    beside = commands_path or command_file_beside(deck_path)
+    chosen = commands_path or command_file_beside(deck_path)
     try:
-        commands = read_commands(beside, deck) if beside and deck else Commands()
+        commands = read_commands(chosen, deck) if chosen and deck else Commands()
     except DeckError as fault:
         raise DeckError([*wrong, *fault.diagnostics], deck) from None
     diagnostics = (*(wrong or adamslite.check(deck)), *commands.warnings)
     if any(diagnostic.is_error for diagnostic in diagnostics):
         raise DeckError(diagnostics, deck)
-    return Scene(deck=deck, commands=commands, warnings=diagnostics)
+    return Scene(
+        deck=deck, commands=commands, warnings=diagnostics, deck_path=deck_path,
+        commands_path=chosen, beside=commands_path is None and chosen is not None,
+    )  # fmt: skip
 
 
 def command_file_beside(deck_path: Path) -> Path | None:

@@ -170,7 +170,7 @@ def test_the_summary_as_json(pipeline, capsys) -> None:
     out, err = capsys.readouterr()
     summary = json.loads(out)
     assert err == ""
-    assert list(summary) == [*fall().summary, "output"]
+    assert list(summary) == [*fall().summary, "deck", "commands", "output"]
     assert summary["output"] == "cable.csv" and summary["max_violation"] is None
 
 

@@ -28,7 +28,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.outputs.whole import need_writable, whole_file
 
     if args.output:
-        need_writable(args.output, args.spec)
+        need_writable(args.output, [args.spec])
     try:
         text = args.spec.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as fault:

@@ -16,8 +16,10 @@ from adamslite.commands.codes import DONE, OUTSIDE_TOLERANCE
 from adamslite.flags import count, positive
 
 if TYPE_CHECKING:
+    from adamslite.runs import Scene
     from adamslite.work_precision import Chart, Point, Variant
 
+PICTURES = ("png", "svg")
 COLUMNS = (
     "program", "setting", "error", "digits", "cpu_median_s", "cpu_least_s", "runs", "steps",
     "reason",
@@ -48,11 +50,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Measure, write, print; return the exit code."""
     from adamslite.outputs.whole import need_writable
+    from adamslite.runs import load_scene
     from adamslite.work_precision import ERRORS, measure
 
     name = args.output or f"{args.deck.stem}-chart"
-    need_writable(f"{name}.csv", args.deck, args.commands)
-    tried, runs = _runs(args)
+    scene = load_scene(args.deck, args.commands)
+    for suffix in ("csv", *PICTURES):
+        need_writable(f"{name}.{suffix}", scene.read, bool(args.output))
+    tried, runs = _runs(args, scene)
     errors = sorted(args.error or ERRORS, reverse=True)
     chart = measure(runs, tried, errors, args.repeats, args.channel)
     _write(chart, Path(f"{name}.csv"))
@@ -62,7 +67,7 @@ def run(args: argparse.Namespace) -> int:
     return OUTSIDE_TOLERANCE if chart.useless else DONE
 
 
-def _runs(args: argparse.Namespace) -> tuple[list["Variant"], Any]:
+def _runs(args: argparse.Namespace, scene: "Scene") -> tuple[list["Variant"], Any]:
     """The integrators to try, and what runs the deck with one of them."""
     from functools import partial
 
@@ -70,10 +75,10 @@ def _runs(args: argparse.Namespace) -> tuple[list["Variant"], Any]:
     from adamslite.diagnostics import render
     from adamslite.faults import UsageError
     from adamslite.progress import TalkingProgress
-    from adamslite.runs import load_scene
     from adamslite.work_precision import patient, variants
 
-    scene = load_scene(args.deck, args.commands)
+    if scene.beside:
+        sys.stderr.write(f"{scene.title}\n")
     if scene.warnings:
         sys.stderr.write(render(scene.warnings) + "\n\n")
     model = adamslite.assemble(scene.deck)
@@ -119,7 +124,7 @@ def _draw(chart: "Chart", name: str, title: str) -> None:
     ]
     axes = Axes(f"{title}: what accuracy costs", "error", "CPU [ms]", towards_less=True)
     try:
-        draw(lines, axes, [Path(f"{name}.png"), Path(f"{name}.svg")])
+        draw(lines, axes, [Path(f"{name}.{kind}") for kind in PICTURES])
     except UsageError as absent:
         sys.stderr.write(f"adamslite: {absent}\n")
 

@@ -37,7 +37,7 @@ def run(args: argparse.Namespace) -> int:
         return DECK_ERRORS
     if scene.warnings:
         sys.stdout.write(render(scene.warnings) + "\n\n")
-    sys.stdout.write(_contents(args.deck, scene))
+    sys.stdout.write(_contents(scene))
     return DONE
 
 
@@ -47,14 +47,14 @@ def _tally(fault: "DeckError") -> str:
     return f"{_many(errors, 'error')}, {_many(warnings, 'warning')}"
 
 
-def _contents(deck_path: Path, scene: "Scene") -> str:
+def _contents(scene: "Scene") -> str:
     counted = Counter(statement.keyword for statement in scene.deck.statements)
     listed = ", ".join(f"{number} {keyword}" for keyword, number in counted.items())
     warnings = _many(len(scene.warnings), "warning") if scene.warnings else "no mistakes found"
     return "".join(
         f"{line}\n"
         for line in (
-            f"{deck_path.name}: {warnings}",
+            f"{scene.title}: {warnings}",
             f"  {_many(counted.total(), 'statement')}: {listed}",
             f"  {_freedom(scene.deck)}",
             *_cables(scene),

@@ -32,8 +32,11 @@ def run(args: argparse.Namespace) -> int:
 
     if args.output:
         need_suffix(args.output)
-        need_writable(args.output, args.deck, args.commands)
     scene = load_scene(args.deck, args.commands)
+    if args.output:
+        need_writable(args.output, scene.read)
+    if scene.beside:
+        sys.stderr.write(f"{scene.title}\n")
     if scene.warnings:
         sys.stderr.write(render(scene.warnings) + "\n\n")
     found = adamslite.linearize(scene.deck, commands=scene.commands, time=args.time)

@@ -9,6 +9,7 @@ standard error.
 
 import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -61,9 +62,9 @@ def run(args: argparse.Namespace) -> int:
     """Solve and write; return the exit code."""
     from adamslite.faults import UsageError
     from adamslite.outcomes import Outcome
-    from adamslite.outputs.whole import need_writable
+    from adamslite.outputs.plan import plan
     from adamslite.progress import Progress, TalkingProgress
-    from adamslite.runs import command_file_beside, load_scene, run_scene
+    from adamslite.runs import load_scene, run_scene
 
     output = args.output or f"{args.deck.stem}.csv"
     if output == STDOUT and args.summary == "json":
@@ -71,8 +72,7 @@ def run(args: argparse.Namespace) -> int:
             "'-o -' and '--summary json' both want standard output; give -o a file name"
         )
     scene = load_scene(args.deck, args.commands)
-    if output != STDOUT:
-        need_writable(output, args.deck, args.commands or command_file_beside(args.deck))
+    files = plan(scene, output, bool(args.output)) if output != STDOUT else []
     if not args.quiet:
         _tell_warnings(scene)
     progress = Progress() if args.quiet else TalkingProgress()
@@ -80,11 +80,12 @@ def run(args: argparse.Namespace) -> int:
         results = run_scene(scene, run_options(args), progress)
     finally:
         progress.close()
-    _summarize(args, results, output, _write(results, output))
+    written = _write(results, output, files)
+    _summarize(scene, args, results, output, written)
     return DONE if results.outcome is Outcome.DONE else STOPPED_EARLY
 
 
-def _write(results: "Results", output: str) -> list[Path]:
+def _write(results: "Results", output: str, files: Sequence[Path]) -> list[Path]:
     """Write the time histories, and the files of LINEAR commands, whose names are returned."""
     if output == STDOUT:
         from adamslite.outputs.csv import write_to
@@ -94,9 +95,12 @@ def _write(results: "Results", output: str) -> list[Path]:
     results.save(output)
     if not results.linearizations:
         return []
-    from adamslite.mode_table import save_beside
+    from adamslite.mode_table import save
 
-    return save_beside(results, output)
+    found = list(zip(results.linearizations, files, strict=False))  # a run may stop before all
+    for each, path in found:
+        save(each.model, path)
+    return [path for _, path in found]
 
 
 def _tell_warnings(scene: "Scene") -> None:
@@ -107,12 +111,12 @@ def _tell_warnings(scene: "Scene") -> None:
 
 
 def _summarize(
-    args: argparse.Namespace, results: "Results", output: str, files: list[Path]
+    scene: "Scene", args: argparse.Namespace, results: "Results", output: str, files: list[Path]
 ) -> None:
     from adamslite.outcomes import Outcome
 
     if args.summary == "json":
-        sys.stdout.write(_as_json({**results.summary, "output": output}) + "\n")
+        sys.stdout.write(_as_json({**results.summary, **_files(scene, output)}) + "\n")
     elif not args.quiet:
         shown = "standard output" if output == STDOUT else output
         sentence = (
@@ -121,7 +125,7 @@ def _summarize(
             else f"stopped early ({results.outcome.name})"
         )
         sys.stderr.write(
-            SUMMARY.format(deck=args.deck, sentence=sentence, **results.summary, output=shown)
+            SUMMARY.format(deck=scene.title, sentence=sentence, **results.summary, output=shown)
         )
         for file in files:
             sys.stderr.write(f"  linearised model     {file}\n")
@@ -130,6 +134,12 @@ def _summarize(
                 sys.stderr.write(f"  {note:<20} {results.meta[note]}\n")
     if results.outcome is not Outcome.DONE:
         sys.stderr.write(f"adamslite: {results.message or results.outcome.value}\n")
+
+
+def _files(scene: "Scene", output: str) -> dict[str, Any]:
+    """The files of a run: the deck, the commands it took from a file, the results."""
+    commands = scene.commands_path and str(scene.commands_path)
+    return {"deck": str(scene.deck_path), "commands": commands, "output": output}
 
 
 def _as_json(summary: dict[str, Any]) -> str:

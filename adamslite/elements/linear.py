@@ -28,6 +28,8 @@ class Linear(Statement):
     rm: int | str | None = reference(
         "RM", to="MARKER", help="marker relative to whose body the motion is described"
     )
-    file: str | None = text("FILE", help="name of the file the matrices are written to")
+    file: str | None = text(
+        "FILE", help="plain name of the file the matrices are written to, beside the results"
+    )
     pinput: int | str | None = reference("PINPUT", to="PINPUT", help="the inputs u")
     poutput: int | str | None = reference("POUTPUT", to="POUTPUT", help="the outputs y")

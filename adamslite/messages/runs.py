@@ -55,6 +55,18 @@ RUNS: dict[str, Message] = {
         severity=WARNING,
     ),
     "negative": Message("{word} of {label} must not be negative", "", ("EQUILIBRIUM/STAB=-1",)),
+    "not-a-file-name": Message(
+        "{word} is not the plain name of a file",
+        "a file named here lies beside the results: no folder, no drive, no dot in front",
+        commands=("LINEAR/STATEMAT, FILE=../x.json", "LINEAR/STATEMAT, FILE=\"/tmp/x.json\"",
+                  "LINEAR/STATEMAT, FILE=C:\\x.json", "LINEAR/STATEMAT, FILE=.profile",
+                  "LINEAR/STATEMAT, FILE=\"\""),
+    ),
+    "file-taken": Message(
+        "the file {word} is {what}",
+        "give FILE= another name",
+        commands=("LINEAR/STATEMAT, FILE=a.json\nLINEAR/STATEMAT, FILE=A.json",),
+    ),
     "empty-range": Message(
         "no {kind} has an id from {low} to {high}",
         "",
