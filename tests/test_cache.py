@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
 import errno
-import json
 import os
-import resource
-import signal
 import subprocess
 import sys
 import time
@@ -15,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from adamslite import parse
+from adamslite import native, parse
 from adamslite.caching import entries, folder
 from adamslite.caching.entries import Damaged, recall, sealed, unsealed
 from adamslite.cli import main
@@ -70,17 +68,51 @@ DAMAGE: dict[str, Callable[[bytes], bytes]] = {
 CONTENT = bytes(range(256)) * 4
 
 
+TWICE = """
+define double @twice(double %x) {
+  %y = fadd double %x, %x
+  ret double %y
+}
+"""
+
+
+def tables() -> object:
+    """Tables of the parser, unpickled; the tokens of ``A/1`` are parsed with them."""
+    parse._parser.cache_clear()
+    kinds = ("NAME", "SLASH", "NUMBER")
+    return parse._form(parse._parser("deck", "statement"), kinds)
+
+
+def facts() -> object:
+    """Facts of a kernel, from JSON."""
+    return entries.recall_json("k" + "0" * 32 + ".json", lambda: {"angles": 2, "guards": {}})
+
+
+def code() -> object:
+    """Object code, linked and called."""
+    kept = recall(NAME, lambda: native.object_code(TWICE))
+    address = native._link(kept, ["twice"])["twice"]
+    return ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(address)(21.0)
+
+
+USES = {"parser": tables, "json": facts, "o": code}
+
+
+@pytest.mark.parametrize("kind", USES)
 @pytest.mark.parametrize("damage", DAMAGE)
-def test_a_damaged_entry_is_made_again_and_said_in_one_line(damage, cache, caplog) -> None:
-    assert recall(NAME, lambda: CONTENT) == CONTENT
-    kept = (cache / NAME).read_bytes()
-    (cache / NAME).write_bytes(DAMAGE[damage](kept))
-    assert recall(NAME, lambda: CONTENT) == CONTENT
+def test_a_damaged_entry_is_made_again_and_said_in_one_line(damage, kind, cache, caplog) -> None:
+    """Of every kind: what is made of it is the same, and the next use says nothing."""
+    use = USES[kind]
+    right = use()
+    (file,) = cache.glob(f"*.{kind}")
+    kept = file.read_bytes()
+    file.write_bytes(DAMAGE[damage](kept))
+    assert file.read_bytes() != kept
+    assert use() == right
     (line,) = caplog.messages
-    assert str(cache / NAME) in line and "made again" in line and "\n" not in line
-    assert (cache / NAME).read_bytes() == kept
-    recall(NAME, pytest.fail)
-    assert len(caplog.messages) == 1
+    assert str(file) in line and "made again" in line and "\n" not in line
+    assert unsealed(file.name, file.read_bytes())
+    assert use() == right and len(caplog.messages) == 1
 
 
 def test_an_entry_under_the_name_of_another_is_damaged() -> None:
@@ -128,27 +160,15 @@ def test_each_kind_of_entry_survives_damage_in_a_real_run(cache, tmp_path) -> No
 def test_tables_of_the_parser_are_not_unpickled_before_they_are_verified(
     damage, cache, monkeypatch, caplog
 ) -> None:
-    def parser() -> object:
-        parse._parser.cache_clear()
-        return parse._parser("deck", "statement")
-
-    parser()
+    tables()
     (file,) = cache.glob("deck*.parser")
     file.write_bytes(DAMAGE[damage](file.read_bytes()))
     seen = []
     loads = parse.pickle.loads
     monkeypatch.setattr(parse.pickle, "loads", lambda data: (seen.append(data), loads(data))[1])
-    parser()
+    tables()
     assert len(caplog.messages) == 1
     assert seen == [unsealed(file.name, file.read_bytes())]
-
-
-def test_json_and_code_of_a_kernel_are_verified(cache, caplog) -> None:
-    facts = name(7).replace(".o", ".json")
-    assert entries.recall_json(facts, lambda: {"angles": 0}) == {"angles": 0}
-    (cache / facts).write_bytes(json.dumps({"angles": 1}).encode())
-    assert entries.recall_json(facts, lambda: {"angles": 0}) == {"angles": 0}
-    assert len(caplog.messages) == 1
 
 
 def test_an_entry_that_cannot_be_read_is_made_each_time(cache, caplog) -> None:
@@ -182,6 +202,9 @@ def test_a_full_disk_leaves_nothing_behind(call, cache, monkeypatch) -> None:
 @UNIX
 def test_a_disk_that_fills_while_an_entry_is_written_leaves_nothing_behind(cache) -> None:
     """The system takes 100 bytes of a file and no more."""
+    import resource
+    import signal
+
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     heard = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (100, hard))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -137,3 +138,26 @@ def test_the_private_folder_goes_with_its_process(tmp_path) -> None:
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True
     )
     assert ran.stdout.startswith(str(tmp_path.resolve())) and os.listdir(tmp_path) == []
+
+
+@UNIX
+def test_a_folder_that_goes_while_the_process_runs_is_made_again(cache, caplog) -> None:
+    recall(NAME, lambda: CONTENT)
+    shutil.rmtree(cache)
+    assert recall(NAME, lambda: CONTENT) == CONTENT
+    assert (cache / NAME).exists() and not caplog.messages
+
+
+@UNIX
+def test_a_folder_put_in_the_place_of_a_trusted_one_is_looked_at(
+    cache, tmp_path, monkeypatch, caplog
+) -> None:
+    """As in the folder for temporary files, where what is old is removed."""
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    assert folder.cache_folder() == cache
+    cache.rename(tmp_path / "gone")
+    cache.mkdir()
+    cache.chmod(0o777)
+    (cache / NAME).write_bytes(sealed(NAME, b"forged"))
+    assert recall(NAME, lambda: CONTENT) == CONTENT
+    assert "is used instead" in caplog.text

@@ -56,12 +56,13 @@ def test_swapped_numbers_of_two_operations_give_a_new_key(copy: Path) -> None:
     file.write_bytes(content)
 
 
-def test_a_file_replaced_while_the_process_runs_gives_a_key_of_its_own(copy: Path) -> None:
+def test_a_file_replaced_while_the_process_runs_gives_a_key_of_its_own(copy, caplog) -> None:
     """What runs may be the old file: neither its code nor the new one's is found under that key."""
     before = digest_of(str(copy), "engine")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(adamslite, "STARTED", (copy / "engine.py").stat().st_ctime - 1.0)
         assert digest_of(str(copy), "engine") != before
+    assert len(caplog.messages) == 1 and "is newer than this process" in caplog.text
 
 
 def imports(file: Path) -> set[str]:

@@ -23,9 +23,19 @@ HAS_OWNERS = hasattr(os, "geteuid")
 
 
 def cache_folder() -> Path:
-    """The folder that holds what is kept; made when missing."""
+    """The folder that holds what is kept; made when missing.
+
+    One that was settled earlier is looked at again: it may have been removed, and another put in
+    its place.
+    """
     chosen = os.environ.get("ADAMSLITE_CACHE")
-    return _settled(Path(chosen) if chosen else usual_folder(), bool(chosen))
+    wanted = Path(chosen) if chosen else usual_folder(), bool(chosen)
+    folder, facts = _settled(*wanted)
+    if _identity(folder) != facts:
+        _settled.cache_clear()
+        _private.cache_clear()
+        folder, _ = _settled(*wanted)
+    return folder
 
 
 def usual_folder() -> Path:
@@ -38,21 +48,36 @@ def usual_folder() -> Path:
 
 
 @cache
-def _settled(folder: Path, chosen: bool) -> Path:
+def _settled(folder: Path, chosen: bool) -> tuple[Path, tuple[int, ...]]:
+    """A folder that can be had and trusted, ``folder`` if possible, and what it is told from."""
+    found = _found(folder, chosen)
+    return found, _identity(found)
+
+
+def _identity(folder: Path) -> tuple[int, ...]:
+    """Device, number, owner and mode of a folder; nothing when it is not there."""
+    try:
+        facts = folder.lstat()
+    except OSError:
+        return ()
+    return facts.st_dev, facts.st_ino, facts.st_uid, facts.st_mode
+
+
+def _found(folder: Path, chosen: bool) -> Path:
     """``folder`` if it can be had and trusted, else another, which is said."""
     try:
         made = _made(folder)
     except OSError:
         return _temporary()
     doubt = _doubt(made)
-    if doubt and not chosen and _taken_back(made):
+    if not doubt:
+        return made
+    if not chosen and _taken_back(made):
         say(f"the cache folder {made} could be written to by others: it was emptied and closed")
         return made
-    if doubt:
-        other = _temporary()
-        say(f"the cache folder {made} {doubt}: {other} is used instead")
-        return other
-    return made
+    other = _temporary()
+    say(f"the cache folder {made} {doubt}: {other} is used instead")
+    return other
 
 
 def _made(folder: Path) -> Path:

@@ -16,6 +16,7 @@ import sys
 from functools import cache
 
 import adamslite
+from adamslite.caching.folder import say
 
 PACKAGE = os.path.dirname(adamslite.__file__)
 #: An import from this package, as ruff formats it: its module, and the names taken from there.
@@ -35,11 +36,14 @@ def digest_of(package: str, *modules: str) -> str:
     A file replaced since this process began may not be what the process runs: the digest is then
     one that no other process has.
     """
-    stamps = [sys.implementation.cache_tag]
+    stamps, replaced = [sys.implementation.cache_tag], []
     for path, content in sorted(covered(package, *modules).items()):
         stamps.append(f"{path[len(package) :]} {hashlib.sha256(content).hexdigest()}")
         if os.stat(path).st_ctime > adamslite.STARTED:
             stamps.append(f"{os.getpid()} {adamslite.STARTED}")
+            replaced.append(path)
+    if replaced:
+        say(f"{replaced[0]} is newer than this process: what is compiled is not found again")
     return hashlib.sha256("\n".join(stamps).encode()).hexdigest()
 
 
