@@ -88,8 +88,8 @@ def spring(f: Flight, turning: bool) -> tuple[list[str], list]:
 
 def six(mi: Marker, mj: Marker) -> tuple[Array, Array]:
     """Displacements and velocities of I along and about the axes of J, seen from J."""
-    x = np.concatenate([seen(mi, mj, J), projected_angles(mi, mj)])
-    v = np.concatenate([velocity(mi, mj, J, J), mj.A.T @ (mi.w - mj.w)])
+    x = np.concatenate([seen(mi, mj, mj), projected_angles(mi, mj)])
+    v = np.concatenate([velocity(mi, mj, mj, mj), mj.A.T @ (mi.w - mj.w)])
     return x, v
 
 
