@@ -79,8 +79,8 @@ def test_added_mass_on_a_slide_meets_a_wall(method, added, wall):
         "MARKER/3, PART=1, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=2, J=3\n"
         "MARKER/4, PART=2\n"
         f"VFORCE/1, I=4, J_PART=1, FX=2-{added}*ACCX(4)\\FY=0\\FZ=0\n"
-        f"VFORCE/2, I=4, J_PART=1, FX=IF(DX(4)-{wall}:0,0,-{stiffness}*(DX(4)-{wall}))"
-        "\\FY=0\\FZ=0\n"
+        f"VFORCE/2, I=4, J_PART=1, FX=IF(DX(4)-{wall}:0,0,-{stiffness}*(DX(4)-{wall}))\\FY=0"
+        "\\FZ=0\n"
         "END\n"
     )
     results = done(deck, 2.0, 400, integrator=method, error=1e-7)
