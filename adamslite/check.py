@@ -14,7 +14,8 @@ from adamslite.check_constraints import CONSTRAINT_RULES
 from adamslite.check_runs import RUN_RULES
 from adamslite.diagnostics import Diagnostic, sort_by_place
 from adamslite.effective_mass import effective_masses
-from adamslite.expression import Ref, walk
+from adamslite.expression import Ref, calls, expressions, walk
+from adamslite.functions.forces import MEASURES, NET
 from adamslite.messages import compose
 from adamslite.resolve import RESERVED
 from adamslite.rule import Rule, apply, needs, positive, say
@@ -29,6 +30,10 @@ Body = tuple[str, Key]
 POINT = "POINT_MASS"
 # Forces whose reaction follows I, and all elements between two markers.
 FOLLOWING = ("VFORCE", "VTORQUE", "GFORCE")
+# Functions without a rate, or with one that depends on what they measure.
+RATELESS = (
+    "VARVAL", "DIF", "DIF1", "ACCM", "ACCX", "ACCY", "ACCZ", "WDTM", "WDTX", "WDTY", "WDTZ",
+)  # fmt: skip
 COMPLIANT = ("BUSHING", "FIELD", "BEAM")
 BETWEEN = ("SFORCE", "SPRINGDAMPER", "JOINT", *COMPLIANT, *FOLLOWING)
 
@@ -326,6 +331,26 @@ def requests(deck: Deck) -> Iterator[Diagnostic]:
             yield say(request, "empty-request")
 
 
+def unformed_equations(deck: Deck) -> Iterator[Diagnostic]:
+    """Forces that depend on themselves, rates of what has none."""
+    suspects = [each for each in deck.statements if _is_suspect(each)]
+    if suspects:
+        from adamslite.compiled import unformed
+        from adamslite.model import Model
+
+        yield from unformed(Model(deck), suspects)
+
+
+def _is_suspect(statement: Statement) -> bool:
+    """Whether it takes rates of more than places and TIME, or measures forces with forces."""
+    asked = ("DDT",)
+    if hasattr(statement, "constraints"):
+        asked += RATELESS
+    if hasattr(statement, "loads") or statement.keyword == "GCON":
+        asked += (*MEASURES.values(), *NET)
+    return any(next(calls(node, *asked), None) for node in expressions(statement))
+
+
 # ---- units and runs ---------------------------------------------------------------------------
 
 
@@ -365,4 +390,4 @@ RULES: list[Rule] = [
     *CONSTRAINT_RULES,
     *RUN_RULES,
 ]
-ADVICE: list[Rule] = [effective_masses]
+ADVICE: list[Rule] = [effective_masses, unformed_equations]

@@ -157,13 +157,16 @@ def _form(deck: Deck, motion: Statement) -> Iterator[Diagnostic]:
 @needs("VARIABLE")
 def functions_of_time(deck: Deck) -> Iterator[Diagnostic]:
     for motion in deck.of("MOTION"):
-        culprit = _not_of_time(deck, motion.function, set())
+        culprit = _not_of_time(deck, motion.function, ())
         if culprit:
             yield say(motion, "motion-not-of-time", "function", word=culprit)
 
 
-def _not_of_time(deck: Deck, node: Node, seen: set[int | str]) -> str | None:
-    """What in an expression depends on more than TIME, itself or through variables."""
+def _not_of_time(deck: Deck, node: Node, inside: tuple[int | str, ...]) -> str | None:
+    """What in an expression depends on more than TIME, itself or through variables.
+
+    ``inside``: the variables whose expressions it is part of.
+    """
     for each in walk(node):
         if isinstance(each, Mode):
             return "MODE"
@@ -175,11 +178,9 @@ def _not_of_time(deck: Deck, node: Node, seen: set[int | str]) -> str | None:
             if ref.kind != "VARIABLE":
                 return each.name
             variable = deck.find("VARIABLE", ref.id)
-            if variable is not None and ref.id not in seen:
-                seen.add(ref.id)
-                if _not_of_time(deck, variable.function, seen):
-                    return variable.label
-            elif variable is not None:
+            if variable is None:
+                continue
+            if ref.id in inside or _not_of_time(deck, variable.function, (*inside, ref.id)):
                 return variable.label
     return None
 

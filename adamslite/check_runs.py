@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from adamslite.diagnostics import Diagnostic
 from adamslite.elements.simulate import MOST_STEPS, output_steps
+from adamslite.expression import Node, Ref, calls, expressions, walk
 from adamslite.integrator_arguments import BACKWARD, FIXED, RUNGE_KUTTA, without_effect
 from adamslite.messages import did_you_mean
 from adamslite.rule import Rule, positive, say
@@ -167,6 +168,45 @@ def file_names(deck: Deck) -> Iterator[Diagnostic]:
             what = "that of an earlier LINEAR"
             yield say(each, "file-taken", "file", word=each.file, what=what)
         known.add(each.file.casefold())
+
+
+def inputs_with_rates(deck: Deck, commands: Iterable[Statement]) -> Iterator[Diagnostic]:
+    """Inputs of a linear model whose rates count as well: it would have no columns for these."""
+    for command in commands:
+        port = None
+        if command.keyword == "LINEAR" and command.pinput is not None:
+            port = deck.find("PINPUT", command.pinput)
+        for key in port.variables if port else ():
+            user = _taker_of_rate(deck, key)
+            if user is not None:
+                word = f"VARIABLE/{key}"
+                yield say(command, "input-rate", "pinput", word=word, user=user.label)
+
+
+def _taker_of_rate(deck: Deck, key: int | str) -> Statement | None:
+    """A MOTION, GCON or d( )/dt of an equation that depends on a VARIABLE."""
+    for each in deck.statements:
+        found = expressions(each)
+        if each.keyword == "REQUEST":
+            continue
+        if each.keyword not in ("MOTION", "GCON"):
+            found = [call for node in found for call in calls(node, "DDT")]
+        if any(key in _variables(deck, node) for node in found):
+            return each
+    return None
+
+
+def _variables(deck: Deck, node: Node) -> set[int | str]:
+    """VARIABLEs that an expression depends on, itself or through others."""
+    found: set[int | str] = set()
+    pending = [node]
+    while pending:
+        for each in walk(pending.pop()):
+            if isinstance(each, Ref) and each.kind == "VARIABLE" and each.id not in found:
+                found.add(each.id)
+                variable = deck.find("VARIABLE", each.id)
+                pending += [variable.function] if variable else []
+    return found
 
 
 RUN_RULES: list[Rule] = [

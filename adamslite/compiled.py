@@ -7,7 +7,7 @@ instances of one face with one shape form a :class:`Group`, run by one kernel in
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.util import find_spec
@@ -17,10 +17,12 @@ from typing import Any
 from adamslite import native
 from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
+from adamslite.diagnostics import DeckError, Diagnostic
 from adamslite.model import Model
-from adamslite.shape import Binder, Binding, Tree
+from adamslite.rule import say
+from adamslite.shape import Binder, Binding, ForceLoop, Tree
 from adamslite.statement import Statement
-from adamslite.symbolic import Scope
+from adamslite.symbolic import Scope, UndefinedRate
 from adamslite.uncollected import uncollected
 from adamslite.view import Reader, reactions, symbolic_view
 
@@ -31,7 +33,7 @@ class Group:
 
     face: str
     name: str
-    make: Callable[[], tuple[str, dict]]
+    write: FaceWriter
     instances: list[tuple[Statement, Binding]] = field(default_factory=list)
     code: bytes = b""
     meta: dict[str, Any] = field(default_factory=dict)
@@ -63,9 +65,9 @@ def compile_model(model: Model, progress: Any = None) -> Kernels:
         for statement in model.deck.statements:
             for face in faces(statement, model):
                 _add(groups, model, statement, face)
-            if getattr(statement, "result_names", ()):
+            for face in _output(statement):
                 outputs.append((statement, statement.result_names))
-                _add(groups, model, statement, "output")
+                _add(groups, model, statement, face)
     fresh = sum(_compile(group, progress) for group in groups.values())
     addresses = native.addresses((group.code, _entry_points(group)) for group in groups.values())
     return Kernels(model, list(groups.values()), outputs, addresses, fresh)
@@ -86,62 +88,67 @@ def faces(statement: Statement, model: Model) -> Iterator[str]:
             yield "equation" if kind == "loop" else "signal"
 
 
+def _output(statement: Statement) -> Iterator[str]:
+    if getattr(statement, "result_names", ()):
+        yield "output"
+
+
 def _add(groups: dict[tuple, Group], model: Model, statement: Statement, face: str) -> None:
     binder = Binder(model, inline_signals=face == "signal")
-    if face == "output":
-        fields: Tree = tuple(binder.output(node, statement) for node in statement.outputs(model))
-        own = binder.node_slot(("OUTPUT", statement))
-    else:
-        fields = binder.statement(statement)
-        own = binder.unknowns(statement)
-        if face == "signal":
-            own = binder.node_slot(("SIGNAL", statement.key))
+    try:
+        fields, own = _bound(binder, statement, face)
+    except ForceLoop as loop:
+        raise DeckError([say(statement, "force-loop", other=str(loop))], model.deck) from None
     rate = (statement.keyword, statement.key) in model.held and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
     if key not in groups:
         name = "k" + native.digest(repr(key), version_of("compiled"), algebra())
-        groups[key] = Group(face, name, _maker(binder, statement, face, fields, own, name, model))
+        level = LEVELS.index(face) - 1 if face in LEVELS else 0
+        level -= level > 0 and rate
+        write = FaceWriter(binder, statement.keyword, face, fields, own, level)
+        groups[key] = Group(face, name, write)
     groups[key].instances.append((statement, binder.instance))
 
 
-def _maker(
-    binder: Binder,
-    statement: Statement,
-    face: str,
-    fields: Tree,
-    own: int,
-    name: str,
-    model: Model,
-) -> Callable[[], tuple[str, dict]]:
-    """A function that writes the kernels of this shape."""
-
-    def make() -> tuple[str, dict]:
-        from adamslite.kernel import Shape, write_kernels
-
-        at = binder.instance
-        n_bodies = len(at.bodies)
-        widths = [model.body_width(b) for b in at.bodies]
-        widths += [model.node_width(n) for n in at.nodes]
-        level = LEVELS.index(face) - 1 if face in LEVELS else 0
-        level -= level > 0 and statement.is_rate(model)
-        outputs = _Writer(binder, statement.keyword, face, fields, own, n_bodies, level)
-        shape = Shape(binder.slots, widths, n_bodies, len(at.params), 0, len(at.signals), outputs)
-        return write_kernels(shape, name, face in WITH_JACOBIAN, face != "output")
-
-    return make
+def _bound(binder: Binder, statement: Statement, face: str) -> tuple[Tree, int]:
+    """What a face is made of, and the slot of its own unknowns."""
+    if face == "output":
+        values = tuple(binder.output(node, statement) for node in statement.outputs(binder.model))
+        return values, binder.node_slot(("OUTPUT", statement))
+    fields = binder.statement(statement)
+    if face == "signal":
+        return fields, binder.node_slot(("SIGNAL", statement.key))
+    return fields, binder.unknowns(statement)
 
 
 @dataclass
-class _Writer:
-    """Writes loads and rows of one face with a scope."""
+class FaceWriter:
+    """Writes loads and rows of one face with a scope; ``level``: how often they are differentiated
+    by time.
+    """
 
     binder: Binder
     keyword: str
     face: str
     fields: Tree
     own: int
-    n_bodies: int
     level: int
+
+    @property
+    def n_bodies(self) -> int:
+        """Bodies among the nodes."""
+        return len(self.binder.instance.bodies)
+
+    def kernels(self, name: str) -> tuple[str, dict]:
+        """LLVM text of all kernels of the shape, and what an instance must provide."""
+        from adamslite.kernel import Shape, write_kernels
+
+        at, model = self.binder.instance, self.binder.model
+        widths = [model.body_width(b) for b in at.bodies]
+        widths += [model.node_width(n) for n in at.nodes]
+        counts = (len(at.params), 0, len(at.signals))
+        shape = Shape(self.binder.slots, widths, self.n_bodies, *counts, self)
+        return write_kernels(shape, name, self.face in WITH_JACOBIAN, self.face != "output")
 
     def __call__(self, scope: Scope) -> Any:
         from adamslite.kernel import Outputs
@@ -190,12 +197,48 @@ def _compile(group: Group, progress: Any) -> bool:
                 progress.say(
                     f"compiling the expressions of {group.instances[0][0].label} (kept for later)"
                 )
-            made.append(group.make())
+            made.append(_kernels(group))
         return made[0]
 
     group.meta = recall_json(f"{group.name}.json", lambda: text_and_meta()[1])
     group.code = recall(f"{group.name}.o", lambda: native.object_code(text_and_meta()[0]))
     return bool(made)
+
+
+def _kernels(group: Group) -> tuple[str, dict]:
+    try:
+        return group.write.kernels(group.name)
+    except UndefinedRate as fault:
+        raise DeckError([_no_rate(group, fault)], group.write.binder.model.deck) from None
+
+
+def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnostic]:
+    """What there is to say of statements whose equations cannot be formed; nothing is compiled."""
+    groups: dict[tuple, Group] = {}
+    for statement in statements:
+        try:
+            for face in (*faces(statement, model), *_output(statement)):
+                _add(groups, model, statement, face)
+        except DeckError as fault:
+            yield from fault.diagnostics
+    for group in groups.values():
+        try:
+            group.write(Scope(group.write.binder.slots))
+        except UndefinedRate as fault:
+            yield _no_rate(group, fault)
+
+
+def _no_rate(group: Group, fault: UndefinedRate) -> Diagnostic:
+    """What the equations would need the rate of."""
+    kind, at, *_ = fault.leaf
+    what = {"a": "an acceleration", "al": "an angular acceleration"}.get(kind, "a second rate")
+    if kind in ("z", "dif1"):
+        binder = group.write.binder
+        label = binder.model.element(*binder.instance.nodes[at - group.write.n_bodies]).label
+        circular = label.startswith("VARIABLE")
+        what = f"{label}, which depends on itself" if circular else f"a reaction of {label}"
+        what = f"the rate of {label}" if kind == "dif1" else what
+    return say(group.instances[0][0], "no-rate", what=what)
 
 
 def _entry_points(group: Group) -> list[str]:

@@ -227,14 +227,14 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
 
     The deck is checked as the commands leave it before each analysis and at the end.
     """
-    from adamslite.check_runs import RUN_RULES
+    from adamslite.check_runs import RUN_RULES, inputs_with_rates
 
     text, path = _load(source)
     reading = Reading(Source(text, str(path or "<commands>")), deck.names, "command", deck)
     commands = Commands(reading.statements(0))
     plain = tuple(each for each in commands if isinstance(each, Statement))
     run = Deck(reading.log.source, "", plain, deck.names, path)
-    reading.log.diagnostics += _caused(deck, commands)
+    reading.log.diagnostics += [*_caused(deck, commands), *inputs_with_rates(deck, plain)]
     commands.warnings = _judged(run, reading, RUN_RULES)
     return commands
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 NEGATE = "neg"
 _LEVEL = {"+": 1, "-": 1, NEGATE: 1, "*": 2, "/": 2, "**": 3}
@@ -84,6 +85,16 @@ def walk(node: Node) -> Iterator[Node]:
         yield top
         if type(top) is Call or type(top) is Op:
             pending.extend(reversed(top.args))
+
+
+def expressions(statement: Any) -> list[Node]:
+    """The expressions among a statement's arguments."""
+    values = (
+        getattr(statement, name)
+        for name, argument in statement.arguments.items()
+        if argument.kind == "expression"
+    )
+    return [value for value in values if value is not None]
 
 
 def calls(node: Node, *names: str) -> Iterator[Call]:

@@ -147,7 +147,7 @@ def message(code: str, each: Message) -> str:
     said = f"{each.severity}: {each.sentence}"
     if each.hint:
         said += f"  \nhint: {each.hint}"
-    example = (each.broken or each.commands)[0].rstrip("\n")
+    example = each.deck + (each.broken or each.commands)[0].rstrip("\n")
     return f"## `{code}`\n\n{said}\n\n```\n{example}\n```\n"
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from adamslite import elements  # noqa: F401  registers the statements
 from adamslite.between import written_out
-from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time, calls, walk
+from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time, expressions, walk
 from adamslite.functions.forces import NET
 from adamslite.statement import Statement
 
@@ -261,34 +261,21 @@ class Model:
         return {key for port in ports for key in port.variables}
 
     @cached_property
+    def circular(self) -> set[Any]:
+        """VARIABLEs that depend on themselves."""
+        return _in_loops({v.key: set(self._uses(v.function)) for v in self.deck.of("VARIABLE")})
+
+    @cached_property
     def _kinds(self) -> dict[Any, str]:
-        loops = self._plant | _in_loops(
-            {v.key: set(self._uses(v.function)) for v in self.deck.of("VARIABLE")}
-        )
+        loops = self._plant | self.circular
         if "variables" in self.without:
-            loops |= {v.key for v in self.deck.of("VARIABLE")} - self._differentiated()
+            loops |= {v.key for v in self.deck.of("VARIABLE")}
         return {
             v.key: "loop"
             if v.key in loops
             else ("signal" if self._time_only(v.function, loops) else "inline")
             for v in self.deck.of("VARIABLE")
         }
-
-    def _differentiated(self) -> set[Any]:
-        """VARIABLEs whose rates are taken: their expressions must be at hand."""
-        pending = [
-            call.args[0].id
-            for statement in self.deck.statements
-            for node in expressions(statement)
-            for call in calls(node, "DDT")
-        ]
-        found: set[Any] = set()
-        while pending:
-            key = pending.pop()
-            if key not in found:
-                found.add(key)
-                pending += self._uses(self.variable(key).function)
-        return found
 
     def _uses(self, node: Node) -> Iterator[Any]:
         """Variables an expression depends on, through the elements it measures too."""
@@ -322,16 +309,6 @@ class Model:
     def dof(self) -> int:
         """Unknowns of the bodies less constraint rows."""
         return sum(b.width for b in self.bodies) - sum(c.n_rows for c in self.constraints)
-
-
-def expressions(statement: Statement) -> list[Node]:
-    """The expressions among a statement's arguments."""
-    values = (
-        getattr(statement, name)
-        for name, argument in statement.arguments.items()
-        if argument.kind == "expression"
-    )
-    return [value for value in values if value is not None]
 
 
 def _turned(base: np.ndarray, array: np.ndarray) -> np.ndarray:

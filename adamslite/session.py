@@ -22,7 +22,7 @@ import numpy as np
 
 from adamslite.analyses.choose import METHODS, Choice, choose
 from adamslite.analyses.dynamic import Settings, run_dynamic
-from adamslite.analyses.initial import Unclosed, initial_conditions
+from adamslite.analyses.initial import Unclosed, initial_conditions, settle_variables
 from adamslite.analyses.joint_start import start_of_joints
 from adamslite.analyses.kinematic import run_kinematic
 from adamslite.analyses.linear import linear
@@ -264,6 +264,7 @@ class Session:
         if self.time == 0.0 and not self.pieces:
             self.assembled = system.largest_changes()
             self.speeds = system.changed_speeds()
+        settle_variables(system)
         leave_out_redundant(system)
         system.settings[base.T] = self.time
         small = system.nz <= PIVOTING and not system.pivoting

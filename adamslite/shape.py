@@ -52,12 +52,14 @@ class Binder:
     """Binds statements of one model; ``model`` answers what a marker or a variable is.
 
     Time-only variables are read from the workspace, except among themselves (``inline_signals``),
-    so that they need no order.
+    so that they need no order.  What a constraint or d( )/dt takes the rate of is written out:
+    variables that are solved for too, unless they depend on themselves.
     """
 
     def __init__(self, model: Any, inline_signals: bool = False) -> None:
         self.model = model
         self.inline_signals = inline_signals
+        self.takes_rates = False
         self.instance = Binding()
         self.frames: dict[Any, Tree] = {0: ("m", ORIGIN)}
         self.slots: list[Slot] = []
@@ -98,6 +100,8 @@ class Binder:
 
     def statement(self, statement: Statement) -> Tree:
         """All arguments of a statement: (("field", tree), ...)."""
+        before = self.takes_rates
+        self.takes_rates = before or hasattr(statement, "constraints")
         fields = []
         for name, argument in statement.arguments.items():
             if argument.kind in IGNORED:
@@ -105,6 +109,7 @@ class Binder:
             fields.append((name, self._argument(argument, getattr(statement, name))))
         for name, value in statement.derived(self.model).items():
             fields.append((name, self._derived(value)))
+        self.takes_rates = before
         return tuple(fields)
 
     def _derived(self, value: Any) -> Tree:
@@ -189,11 +194,11 @@ class Binder:
         ):  # its multiplier, and nothing of its kind
             strength = ("z", self.node_slot(("GCON", node.args[0].id)), 0)
             return ("f", "GCON", (strength, ("c", 0), ("c", 0), self.marker(0)))
-        return (
-            "f",
-            node.name,
-            tuple([self._taken(function, n, a) for n, a in enumerate(node.args)]),
-        )
+        before = self.takes_rates
+        self.takes_rates = before or node.name == "DDT"
+        taken = tuple([self._taken(function, n, a) for n, a in enumerate(node.args)])
+        self.takes_rates = before
+        return ("f", node.name, taken)
 
     def _is_off(self, ref: Ref) -> bool:
         """A reference to an element that is switched off: whatever it measures is zero."""
@@ -218,7 +223,8 @@ class Binder:
 
     def variable(self, variable_id: Any) -> Tree:
         kind = self.model.variable_kind(variable_id)
-        if kind == "loop":
+        written_out = self.takes_rates and variable_id not in self.model.circular
+        if kind == "loop" and not written_out:
             return ("z", self.node_slot(("VARIABLE", variable_id)), 0)
         if kind == "signal" and not self.inline_signals:
             signals = self.instance.signals

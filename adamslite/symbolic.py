@@ -259,8 +259,15 @@ class Scope:
             return self.symbol("dif1", leaf[1])
         if kind in ("p", "turn", "mode", "nan"):
             return 0
-        raise UndefinedRate(kind)
+        raise UndefinedRate(leaf)
 
 
 class UndefinedRate(Exception):
-    """A total time derivative was asked of something whose rate is not a known quantity."""
+    """A total time derivative was asked of something whose rate is not a known quantity.
+
+    ``leaf``: that something.
+    """
+
+    def __init__(self, leaf: tuple) -> None:
+        super().__init__(leaf)
+        self.leaf = leaf

@@ -34,7 +34,7 @@ def test_a_broken_deck_yields_its_message_only(code: str, broken: str) -> None:
 @pytest.mark.parametrize(("code", "broken"), COMMANDS)
 def test_a_broken_command_file_yields_its_message_only(code: str, broken: str) -> None:
     try:
-        found = read_commands(broken + "\n", read(START)).warnings
+        found = read_commands(broken + "\n", read(START + MESSAGES[code].deck)).warnings
     except DeckError as error:
         found = error.diagnostics
     assert {diagnostic.code for diagnostic in found} == {code}

@@ -90,3 +90,37 @@ def test_a_deck_in_which_nothing_moves_tabulates_its_expressions(integrator):
     results = run(deck, 2.0, 4, integrator=integrator)
     assert results.outcome is Outcome.DONE
     assert results["REQUEST/1.F1"] == pytest.approx(3 * results.time**2, abs=1e-12)
+
+
+DRIVEN = SLIDER.replace("{joint}", SLIDES).format(speeds="", motion="VARIABLE/1, {law}\n{rule}")
+
+
+@pytest.mark.parametrize("integrator", ("GSTIFF", "RADAU"))
+@pytest.mark.parametrize("left_off", ((), ("variables",)))
+@pytest.mark.parametrize(
+    ("law", "rule", "speed"),
+    [
+        ("FUNCTION=3*TIME**2", "MOTION/1, JOINT=1, FUNCTION=VARVAL(1)", 3.0),
+        ("FUNCTION=3*TIME**2", "MOTION/1, JOINT=1, FUNCTION=VARVAL(1)+VARVAL(1)", 6.0),
+        ("FUNCTION=3*TIME", "MOTION/1, JOINT=1, VELOCITY, FUNCTION=2*VARVAL(1)", 3.0),
+        ("FUNCTION=0.5*TIME**2", "GCON/1, FUNCTION=DZ(2,1)-VARVAL(1)", 0.5),
+        ("FUNCTION=TIME**3", "MOTION/1, JOINT=1, FUNCTION=VARVAL(d(1)/dt)", 3.0),
+    ],
+)
+def test_an_input_may_drive_a_motion(law, rule, speed, left_off, integrator):
+    """A VARIABLE that PINPUT names is solved for; its rates are those of its FUNCTION."""
+    deck = GROUND + DRIVEN.format(law=law, rule=rule) + "PINPUT/1, VARIABLES=1\nEND\n"
+    deck = deck.replace("END\nPINPUT", "PINPUT")
+    results = run(deck, 0.5, 2, integrator=integrator, no_reduction=left_off, error=1e-9)
+    assert results.outcome is Outcome.DONE
+    assert results["REQUEST/1.F2"][-1] == pytest.approx(speed, abs=1e-6)
+
+
+def test_a_variable_solved_for_starts_at_its_function():
+    """L_0 in a denominator: with IC = 0 there would be no first acceleration."""
+    deck = GROUND + (
+        "POINT_MASS/2, MASS=2, CM=2, QG=3,0,0\nMARKER/2, POINT_MASS=2\n"
+        "VARIABLE/L_0, FUNCTION=2\nVARIABLE/K, FUNCTION=8/VARVAL(L_0)\nPINPUT/1, VARIABLES=L_0,K\n"
+        "SFORCE/1, I=2, J=1, FUNCTION=-K/L_0*(DM(2,1)-L_0)\nEND\n"
+    )
+    assert run(deck, 0.1, 1)["POINT_MASS/2.ax"][0] == pytest.approx(-4 / 2 / 2, rel=1e-12)

@@ -127,6 +127,22 @@ def _velocities(system: System, free: Iterable[Any]) -> Unclosed | None:
     return _unclosed(system, defect, kept, 1e-8 * size, "velocity")
 
 
+def settle_variables(system: System) -> None:
+    """Start VARIABLEs that are solved for, but do not depend on themselves, at their FUNCTION.
+
+    The rows are V - FUNCTION; each pass settles those whose FUNCTION needs settled ones only.
+    """
+    circular = system.model.circular
+    nodes = [k for k in system.nodes if k[0] == "VARIABLE" and k[1] not in circular]
+    rows = np.array([system.starts[system.node_at[node]] for node in nodes], dtype=int)
+    for _ in nodes:
+        defect = _residual(system, base.ROWS)[rows]
+        known = np.isfinite(defect)
+        if not defect[known].any():
+            return
+        system.z[rows[known] - system.n] -= defect[known]
+
+
 def speed_defects(system: System, constraints: Iterable[Any]) -> list[np.ndarray]:
     """What the velocity rows of each constraint are off by."""
     defect = _residual(system, SPEEDS)[velocity_rows(system)]

@@ -20,6 +20,8 @@ class Message:
         :data:`adamslite.messages.START`, or a whole deck when it begins with ``title``.
     commands : tuple of str
         The same, as command files for that deck.
+    deck : str
+        What these command files need in the deck.
     severity : str
         ``"error"`` or ``"warning"``.
     """
@@ -28,4 +30,5 @@ class Message:
     hint: str = ""
     broken: tuple[str, ...] = ()
     commands: tuple[str, ...] = ()
+    deck: str = ""
     severity: str = ERROR

@@ -54,6 +54,13 @@ RUNS: dict[str, Message] = {
         ("INTEGRATOR/ABAM, SCALE=1,0.1",),
         severity=WARNING,
     ),
+    "input-rate": Message(
+        "{word} is an input whose rates {user} takes: a linear model has no columns for them",
+        "drive it by a force, or make the rate the input: MOTION with ACCELERATION and a DIFF",
+        commands=("LINEAR/STATEMAT, PINPUT=1",),
+        deck="VARIABLE/1, FUNCTION=TIME\nGCON/1, FUNCTION=DX(2)-VARVAL(1)\n"
+        "PINPUT/1, VARIABLES=1\n",
+    ),
     "negative": Message("{word} of {label} must not be negative", "", ("EQUILIBRIUM/STAB=-1",)),
     "not-a-file-name": Message(
         "{word} is not the plain name of a file",
