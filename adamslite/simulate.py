@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.buckling import buckled
 from adamslite.analyses.doubts import doubts, longest_way
 from adamslite.analyses.linear import Linearization, linear
 from adamslite.analyses.redundancy import row_name
@@ -194,9 +195,12 @@ def _meta(session: Session) -> Mapping[str, str]:
 
 
 def _doubt(session: Session, steps: int) -> str:
-    values = np.concatenate([v for _, v in session.pieces])
-    way, reach = longest_way(session.names, values)
-    return doubts(session.chosen.settings, steps, session.system.report, way, reach)
+    names, values = session.names, np.concatenate([v for _, v in session.pieces])
+    time = np.concatenate([t for t, _ in session.pieces])
+    way, reach = longest_way(names, values)
+    said = doubts(session.chosen.settings, steps, session.system.report, way, reach)
+    grown = buckled(session.kernels.model, names, time, values)
+    return "; ".join(sentence for sentence in (grown, said) if sentence)
 
 
 def _notes(session: Session) -> dict[str, str]:

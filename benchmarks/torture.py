@@ -63,6 +63,7 @@ CASES = [
     *_in("torture/falling-chain", "51 rods, crack of a whip"),
     *_in("torture/payout", "growing masses, transport", "level-fixed", "level-flowing",
          "lowering-fixed", "lowering-flowing"),
+    *_in("torture/folding", "pushed along itself: grown round-off", "folding"),
     *_in("torture/supercritical", "transport near wave speed", "below", "above"),
     *_in("pulley-one-sided", "rigid wind-up", "free", "windup-coupler", "windup-rackpin"),
     *_in("torture/inconsistent-start", "velocity along a rod"),

@@ -82,3 +82,21 @@ def test_a_step_near_the_bound_of_stability_is_told(mass: float, stiffness: floa
     note = done(deck, 10 * share * bound, 1).meta.get("accuracy", "")
     assert ("longest stable step" in note) == (share > 0.93)
     assert f"{bound:.3g}" in note or share < 0.93
+
+
+@pytest.mark.parametrize("method", ("GSTIFF", "RADAU", "ABAM"))
+@pytest.mark.parametrize(("push", "mass", "told"), [(400.0, 0.1, True), (400.0, 10.0, False)])
+def test_round_off_that_a_push_lifts_is_told(method: str, push: float, mass: float, told: bool):
+    """A mass between two walls 1 m away, pushed by both: y" = 2 P/(m l) y, 89 1/s and 9 1/s.
+
+    From y = 1e-12 it leaves the line in 0.31 s or stays; a bound takes sqrt(2) of the rate of each.
+    """
+    deck = (
+        GROUND + f"POINT_MASS/2, MASS={mass}, CM=2, QG=0,1E-12,0\nMARKER/2, POINT_MASS=2\n"
+        "MARKER/3, PART=1, QP=-1,0,0\nMARKER/4, PART=1, QP=1,0,0\n"
+        f"SFORCE/1, TRANSLATIONAL, I=2, J=3, FUNCTION={push}\n"
+        f"SFORCE/2, TRANSLATIONAL, I=2, J=4, FUNCTION={push}\nEND\n"
+    )
+    results = done(deck, 0.4, 40, integrator=method, error=1e-8)
+    left = np.abs(results["POINT_MASS/2.y"]).max() > 0.1
+    assert left == told == ("pushed masses apart" in results.meta.get("accuracy", ""))
