@@ -13,7 +13,9 @@ from pathlib import Path
 import pytest
 
 import adamslite
+from adamslite import places
 from adamslite.caching.sources import PACKAGE, covered, digest_of, version_of
+from adamslite.parse import _grammars
 
 # Modules from whose import graph the digests of kernels and of the engine are worked out.
 ROOTS = ("compiled", "engine")
@@ -123,6 +125,18 @@ def test_all_that_is_loaded_while_code_is_shaped_is_covered(root: str, tmp_path:
     loaded = {*ran.stdout.decode().split()}
     assert loaded, ran.stderr.decode()
     assert loaded <= {*covered(PACKAGE, root)}
+
+
+def test_a_change_of_any_grammar_gives_parser_tables_a_new_name(tmp_path: Path) -> None:
+    """The grammars import each other."""
+    shutil.copytree(places.find("grammar"), tmp_path, dirs_exist_ok=True)
+    seen = {_grammars(tmp_path)}
+    for number, file in enumerate(sorted(tmp_path.glob("*.lark"))):
+        file.write_bytes(file.read_bytes() + b"\n")
+        _grammars.cache_clear()
+        seen.add(_grammars(tmp_path))
+        assert len(seen) == number + 2
+    assert len(seen) > 2
 
 
 def test_a_key_is_the_same_in_every_process() -> None:

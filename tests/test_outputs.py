@@ -155,6 +155,13 @@ def test_all_outputs_are_looked_at_before_the_run(folder, capsys, monkeypatch, f
     assert said in refused(capsys, ["solve", "o.adm"], IO_FAILED)
 
 
+def test_modes_without_a_file_to_lie_beside_are_told_of(folder, capsys) -> None:
+    commands(RUN, "LINEAR/EIGENSOL")
+    assert main(["solve", "o.adm", "-o", "-"]) == 0
+    assert "linearised model     not written" in capsys.readouterr().err
+    assert sorted(os.listdir()) == ["o.acf", "o.adm"]
+
+
 def test_the_first_line_of_the_summary_names_commands_nobody_asked_for(folder, capsys) -> None:
     commands(RUN)
     for argv, first in (

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 #: OUT that means standard output.
 STDOUT = "-"
 
+#: What becomes of LINEAR commands then.
+UNWRITTEN = "not written: it goes beside the results, and they went to no file"
+
 SUMMARY = """\
 {deck}: {sentence}
   reached              t = {t_end:g}
@@ -127,7 +130,8 @@ def _summarize(
         sys.stderr.write(
             SUMMARY.format(deck=scene.title, sentence=sentence, **results.summary, output=shown)
         )
-        for file in files:
+        unwritten = [UNWRITTEN] if results.linearizations and output == STDOUT else []
+        for file in (*files, *unwritten):
             sys.stderr.write(f"  linearised model     {file}\n")
         for note in NOTES:
             if note in results.meta:
