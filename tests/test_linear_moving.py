@@ -11,8 +11,6 @@ import adamslite
 from adamslite.cli import main
 from adamslite.deck import read_commands
 
-TURNS = np.array([60.0, -35.0])
-
 
 def linearized(text: str, *arguments: str) -> list:
     """What LINEAR commands with these arguments find at the start of a deck."""
@@ -127,3 +125,84 @@ def test_a_pendulum_on_a_driven_shaft(length, spin, gravity, level, tmp_path, ca
     deck.write_text(text)
     assert main(["linear", str(deck)]) == 0
     assert "the linear system varies with time" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("turn", [0.0, 30.0])
+def test_modes_seen_from_a_body_that_sways(turn: float) -> None:
+    """A table sways by p about z of the ground; a mass 2 m out along x and a block stand still.
+    From the table the mass moves by -p z x (2, 0, 0) and the block turns by -p, along the axes of
+    the marker, which are turned by 30 degrees; the table itself does not move.
+    """
+    text = f"""\
+a swaying table, other things at rest
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/3, PART=1, QP=2,0,0
+MARKER/4, PART=1, QP=0,1,0
+PART/2, MASS=1, CM=20, IP=1,1,2
+MARKER/20, PART=2
+MARKER/21, PART=2, REULER={turn}D,0,0
+JOINT/1, REVOLUTE, I=20, J=1
+SPRINGDAMPER/1, ROTATION, I=20, J=1, KT=18
+POINT_MASS/3, MASS=1, CM=30, QG=2,0,0
+MARKER/30, POINT_MASS=3
+MARKER/11, FLOATING, PART=1
+VFORCE/3, I=30, JFLOAT=11, RM=1, FX=-100*DX(30,3)\\ FY=-100*DY(30,3)\\ FZ=-100*DZ(30,3)
+PART/4, MASS=1, CM=40, IP=1,1,1, QG=0,1,0
+MARKER/40, PART=4
+JOINT/4, REVOLUTE, I=40, J=4
+SPRINGDAMPER/4, ROTATION, I=40, J=4, KT=50
+END
+"""
+    (model,) = linearized(text, "EIGENSOL, RM=21")
+    (k,) = np.flatnonzero(np.abs(model.eigenvalues - 3j) < 1e-9)
+    mode = dict(zip(model.coordinates, model.modes[:, k], strict=True))
+    assert all(abs(value) < 1e-12 for name, value in mode.items() if name.startswith("PART/2."))
+    p = -mode["PART/4.rz"]
+    assert abs(p) > 0.1 and abs(mode["PART/4.rx"]) < 1e-12
+    angle = np.radians(turn)
+    seen = -2 * p * np.array([np.sin(angle), np.cos(angle), 0.0])
+    found = [mode[f"POINT_MASS/3.{axis}"] for axis in "xyz"]
+    assert found == pytest.approx(seen, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("spin", [3.0, -1.5])
+def test_modes_seen_from_a_turning_table(spin: float) -> None:
+    """A mass on radial and tangential springs at the middle of a driven table, K = m k for both:
+    x'' - 2 W y' + (k - W^2) x = 0 and so on.  On the table it circles at sqrt(k) -+ W.
+    """
+    text = f"""\
+a mass on a table
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=1, CM=20, IP=1,1,2, WZ={spin}
+MARKER/20, PART=2
+JOINT/1, REVOLUTE, I=20, J=1
+MOTION/1, JOINT=1, FUNCTION={spin}*TIME
+POINT_MASS/3, MASS=2, CM=30
+MARKER/30, POINT_MASS=3
+MARKER/22, FLOATING, PART=2
+VFORCE/3, I=30, JFLOAT=22, RM=20
+, FX=VARVAL(1)-50*DX(30,20,20)\\ FY=-50*DY(30,20,20)\\ FZ=-50*DZ(30,20,20)
+VARIABLE/1, FUNCTION=0
+VARIABLE/2, FUNCTION=DX(30,20,20)
+PINPUT/1, VARIABLES=1
+POUTPUT/1, VARIABLES=2
+END
+"""
+    modes, states = linearized(text, "EIGENSOL, RM=20", "STATEMAT, RM=20, PINPUT=1, POUTPUT=1")
+    rates = sorted(sign * abs(5 + turn) for sign in (1, -1) for turn in (spin, -spin))
+    assert spectrum(modes) == pytest.approx(sorted([*rates, 5.0, -5.0]), rel=1e-9)
+    for rate, mode in zip(modes.eigenvalues, modes.modes.T, strict=True):
+        if abs(abs(rate) - 5.0) > 1e-6:
+            circles = -1j if abs(rate.imag) > 5.0 else 1j
+            factor = circles * np.sign(rate.imag) * np.sign(spin)
+            assert mode[6:8] == pytest.approx(mode[6] * np.array([1.0, -factor]), rel=1e-9)
+    s = 1.3j
+    inertia = s**2 + 25 - spin**2
+    exact = 0.5 * inertia / (inertia**2 + (2 * spin * s) ** 2)
+    inside = np.linalg.solve(
+        s * np.eye(len(states.state_matrix)) - states.state_matrix, states.input_matrix
+    )
+    answer = states.output_matrix @ inside + states.feedthrough
+    assert answer[0, 0] == pytest.approx(exact, rel=1e-9)
