@@ -17,6 +17,7 @@ from adamslite.explain import explain
 from adamslite.faults import RunFailed, UsageError
 from adamslite.integrator_arguments import without_effect
 from adamslite.integrators import base
+from adamslite.messages import did_you_mean
 from adamslite.model import Model
 from adamslite.outcomes import Outcome
 from adamslite.reduction import left_off
@@ -86,26 +87,41 @@ def simulate(
     return _results(session, cpu)
 
 
-def linearize(scene: Any, commands: Iterable[Any] = (), time: float | None = None) -> Linearization:
+def linearize(
+    scene: Any, commands: Iterable[Any] = (), time: float | None = None, rm: Any = None
+) -> Linearization:
     """The model about one state: at the end of the commands, or integrated to ``time``.
 
     Without commands, and without SIMULATE in the deck, the assembled start is taken as it is.  A
-    LINEAR command decides the state; otherwise it is the last one.
+    LINEAR command decides state and observer; otherwise, and with ``rm``, a MARKER on whose body
+    the observer stands, it is the last state.
 
     Raises
     ------
+    UsageError
+        When there is no such MARKER.
     RunFailed
         When the state could not be reached.
     """
-    session = Session(scene, None, {})
     deck = _deck(scene)
+    marker = None if rm is None else _marker(deck, str(rm))
+    session = Session(scene, None, {})
     plan = [s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM")]
     session.execute([*plan, *commands, *([_Simulation(time, None, None)] if time else [])])
     system = session.system
     if session.outcome is not Outcome.DONE:
         raise RunFailed(explain(system, session.outcome, session.unclosed))
     made = session.linearizations
-    return made[-1].model if made else linear(system)
+    return made[-1].model if made and rm is None else linear(system, relative_to=marker)
+
+
+def _marker(deck: Any, word: str) -> Any:
+    """The id of a MARKER that a flag names."""
+    found = deck.find("MARKER", int(word) if word.isdigit() else word)
+    if found is None:
+        hint = did_you_mean(word, deck.names.known("MARKER"))
+        raise UsageError(f"--rm: there is no MARKER/{word}" + (f"; {hint}" if hint else ""))
+    return found.key
 
 
 class _Simulation:

@@ -125,6 +125,10 @@ def test_a_pendulum_on_a_driven_shaft(length, spin, gravity, level, tmp_path, ca
     deck.write_text(text)
     assert main(["linear", str(deck)]) == 0
     assert "the linear system varies with time" in capsys.readouterr().out
+    assert main(["linear", str(deck), "--rm", "21"]) == 0
+    assert "varies" not in capsys.readouterr().out
+    assert main(["linear", str(deck), "--rm", "24"]) == 2
+    assert "there is no MARKER/24" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("turn", [0.0, 30.0])
@@ -206,3 +210,66 @@ END
     )
     answer = states.output_matrix @ inside + states.feedthrough
     assert answer[0, 0] == pytest.approx(exact, rel=1e-9)
+
+
+@pytest.mark.parametrize(("radius", "gravity"), [(0.3, 9.81), (200.0, 9810.0)])
+@pytest.mark.parametrize("share", [0.7, 1.5, -1.5])
+def test_a_rolling_disc(radius: float, gravity: float, share: float) -> None:
+    """A thin disc that rolls upright at W leans as s^2 = (4 g/r - 12 W^2)/5: upright only above
+    W^2 = g/(3 r).  What else may change (place, heading, speed, yaw) stays or drifts.
+
+    e the axis, c = -r (k - e_z e)/n with n^2 = 1 - e_z^2 the lever of the lowest point: it does not
+    slide, v + w x c = 0 in the plane, and the centre is r n above it.
+    Reference: J. I. Neimark, N. A. Fufaev, Dynamics of Nonholonomic Systems, 1972.
+    """
+    w = share * sqrt(gravity / (3 * radius))
+    mass, inertia = 2.0, 2.0 * radius**2 / 4
+    text = f"""\
+a rolling disc
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS={mass}, CM=20, IP={inertia},{2 * inertia},{inertia}, QG=0,0,{radius}
+, VX={w * radius}, WY={w}
+MARKER/20, PART=2
+MARKER/21, PART=2, QP=0,1,0
+VARIABLE/n, FUNCTION=SQRT(1-DZ(21,20)**2)
+GCON/1, FUNCTION=DZ(20)-{radius}*VARVAL(n)
+GCON/2, FUNCTION=VX(20)-{radius}*(WY(20)*VARVAL(n)+WZ(20)*DZ(21,20)*DY(21,20)/VARVAL(n))
+GCON/3, FUNCTION=VY(20)+{radius}*(WX(20)*VARVAL(n)+WZ(20)*DZ(21,20)*DX(21,20)/VARVAL(n))
+ACCGRAV/KGRAV={-gravity}
+END
+"""
+    (model,) = linearized(text)
+    squared = (4 * gravity / radius - 12 * w**2) / 5
+    assert model.steady and len(model.eigenvalues) == 8
+    assert np.abs(model.eigenvalues[:6]).max() < 1e-9 * sqrt(abs(squared))
+    assert model.eigenvalues[6:] ** 2 == pytest.approx([squared, squared], rel=1e-9)
+
+
+@pytest.mark.parametrize(("k", "c", "length"), [(3.0, 2.0, 0.5), (7.0, -4.0, 1.5)])
+def test_a_cart_whose_speed_is_a_state(k: float, c: float, length: float) -> None:
+    """x' = s by a constraint, s' = -k x - c l z of a regulator, z the angle of a pendulum below the
+    cart: z'' = -g z/l - s'/l.  The cart's acceleration is the state's rate.
+    """
+    text = f"""\
+a pendulum below a cart with a given speed
+PART/1, GROUND
+MARKER/1, PART=1, REULER=90D,90D,0
+MARKER/2, PART=1, REULER=0,90D,0
+POINT_MASS/2, MASS=4, CM=20
+MARKER/20, POINT_MASS=2
+JPRIM/2, INLINE, I=20, J=1
+POINT_MASS/3, MASS=1, CM=30, QG=0,0,{-length}
+MARKER/30, POINT_MASS=3
+JPRIM/3, INPLANE, I=30, J=2
+GCON/1, FUNCTION=DM(30,20)-{length}
+GCON/2, FUNCTION=VX(20)-DIF(1)
+DIFF/1, IC=0, FUNCTION=-{k}*DX(20)-{c}*(DX(30)-DX(20))
+ACCGRAV/KGRAV=-9.81
+END
+"""
+    (model,) = linearized(text)
+    stiffness = [[k, c * length], [-k / length, (9.81 - c * length) / length]]
+    exact = -np.linalg.eigvals(stiffness)
+    found = sorted(model.eigenvalues**2, key=lambda s: s.real)
+    assert found == pytest.approx(sorted(np.repeat(exact, 2), key=lambda s: s.real), rel=1e-9)

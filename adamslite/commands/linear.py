@@ -3,7 +3,10 @@
 Prints number, undamped frequency, damping ratio and eigenvalue of every mode about the state the
 commands lead to: COMMANDS.acf, else the .acf of the deck's name beside the deck, else the deck's
 own SIMULATE. Without any of them it is the initial state. With --time the motion is followed up
-to T. FILE.csv takes the table, FILE.json everything: mode shapes and state matrix too.
+to T. With --rm
+MARKER motions are those that an observer on its body sees; without, what the last LINEAR command
+asks for, else those seen from the ground. A line below the table says where the linear system
+varies with time. FILE.csv takes the table, FILE.json everything: mode shapes and state matrix too.
 """
 
 import argparse
@@ -19,6 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
     parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
     parser.add_argument("--time", type=instant, metavar="T", help="linearise at this time")
+    parser.add_argument("--rm", metavar="MARKER", help="marker on whose body the observer stands")
     parser.add_argument("-o", "--output", metavar="FILE", help="result file, .csv or .json")
 
 
@@ -39,7 +43,8 @@ def run(args: argparse.Namespace) -> int:
         sys.stderr.write(f"{scene.title}\n")
     if scene.warnings:
         sys.stderr.write(render(scene.warnings) + "\n\n")
-    found = adamslite.linearize(scene.deck, commands=scene.commands, time=args.time)
+    seen = {} if args.rm is None else {"rm": args.rm}
+    found = adamslite.linearize(scene.deck, commands=scene.commands, time=args.time, **seen)
     sys.stdout.write(mode_table(found))
     if args.output:
         save(found, args.output)
