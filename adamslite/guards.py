@@ -7,10 +7,13 @@ equations are smooth; see :mod:`adamslite.integrators.events`.
 ==========  =====================================================================================
 clock       depends on nothing but time: its changes are known before the run
 watch       depends on the state, and the value or the slope of the choice breaks there
+zone        no guard but the place D = (x - x0)/(x1 - x0) of the state within the zone of a smooth
+            step (STEP, STEP5, HAVSIN, the damping of IMPACT), of which a step of the integrator
+            crosses a share at most
 ==========  =====================================================================================
 
 Other guards are evaluated afresh every time: they depend on the state, but the choice is smooth
-enough (STEP of a distance), or they only keep a formula from 0/0.
+enough (the borders of a zone), or they only keep a formula from 0/0.
 """
 
 from __future__ import annotations
@@ -19,8 +22,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-# How a guard is read: a relation > 0, a relation >= 0, a floor.
-STRICT, WEAK, FLOOR = range(3)
+# How a guard is read: a relation > 0, a relation >= 0, a floor; a place within a zone.
+STRICT, WEAK, FLOOR, ZONE = range(4)
 CLOCK_LEAVES = ("t", "sig")
 FIXED_LEAVES = ("p", "mode", "nan")
 RELATIONS = ("<", ">", "<=", ">=")
@@ -28,28 +31,35 @@ RELATIONS = ("<", ">", "<=", ">=")
 
 @dataclass
 class Guards:
-    """The guards of one shape, in the order of their branches."""
+    """The guards of one shape, in the order of their branches, and its zones."""
 
     clock: list[Any] = field(default_factory=list)
     watch: list[Any] = field(default_factory=list)
+    zone: list[Any] = field(default_factory=list)
 
     def __bool__(self) -> bool:
-        return bool(self.clock or self.watch)
+        return bool(self.clock or self.watch or self.zone)
 
     @property
     def kinds(self) -> dict[str, list[int]]:
         """How each guard is read."""
-        return {name: [_kind(g) for g in getattr(self, name)] for name in ("clock", "watch")}
+        found = {name: [_kind(g) for g in getattr(self, name)] for name in ("clock", "watch")}
+        return found | {"zone": [ZONE for _ in self.zone]}
 
 
 def guards(expressions: Iterable[Any], leaves: dict[Any, tuple]) -> Guards:
     """The guards in expressions; ``leaves``: what their symbols stand for."""
     found: dict[Any, int] = {}
+    zones: dict[Any, None] = {}
     for expression in expressions:
-        _collect(expression, found)
+        _collect(expression, found, zones)
     result = Guards()
+    for place in zones:
+        kinds = _changing(place, leaves)
+        if kinds and not kinds <= set(CLOCK_LEAVES):
+            result.zone.append(place)
     for guard, order in found.items():
-        kinds = {leaves[symbol][0] for symbol in guard.free_symbols} - set(FIXED_LEAVES)
+        kinds = _changing(guard, leaves)
         if kinds and kinds <= set(CLOCK_LEAVES):
             result.clock.append(guard)
         elif kinds and order < 1:
@@ -57,8 +67,13 @@ def guards(expressions: Iterable[Any], leaves: dict[Any, tuple]) -> Guards:
     return result
 
 
-def _collect(expression: Any, found: dict[Any, int]) -> None:
-    """Guards below ``expression`` with the least order of the choices they decide."""
+def _changing(expression: Any, leaves: dict[Any, tuple]) -> set[str]:
+    """Kinds of what an expression depends on and what is not fixed for a run."""
+    return {leaves[symbol][0] for symbol in expression.free_symbols} - set(FIXED_LEAVES)
+
+
+def _collect(expression: Any, found: dict[Any, int], zones: dict[Any, None]) -> None:
+    """Guards below ``expression`` with the least order of the choices they decide; its zones."""
     pending, seen = [expression], set()
     while pending:
         node = pending.pop()
@@ -71,7 +86,21 @@ def _collect(expression: Any, found: dict[Any, int]) -> None:
         elif order is not None and type(node).__name__ == "Piecewise":
             for relation in _relations(node):
                 found[relation] = min(order, found.get(relation, order))
+            place = _zone(node) if order >= 1 else None
+            if place is not None:
+                zones[place] = None
         pending.extend(reversed(node.args))
+
+
+def _zone(piecewise: Any) -> Any:
+    """The place within the zone between ``(x - x0) w <= 0`` and ``(x - x1) w >= 0``, w = x1 - x0:
+    0 at x0 and 1 at x1; None where a choice is none between two borders.
+    """
+    borders = [piece.cond for piece in piecewise.args[:-1]]
+    if [getattr(border, "rel_op", None) for border in borders] != ["<=", ">="]:
+        return None
+    before, behind = (border.lhs - border.rhs for border in borders)
+    return before / (before - behind)
 
 
 def _relations(piecewise: Any) -> list[Any]:

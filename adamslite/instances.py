@@ -66,14 +66,17 @@ class Instances(Numbering):
         ints = np.ascontiguousarray(ints.ravel())
         self.keep += [ints, reals]
         at = self.kernels.addresses
-        kinds = ("residual", "jacobian", "track", "clock", "watch")
+        kinds = ("residual", "jacobian", "track", "clock", "watch", "zone")
         entry = [at.get(f"{group.name}_{kind}", 0) for kind in kinds]
         data = [len(group.instances), ints.ctypes.data, reals.ctypes.data]
         return [phase, *entry[:3], *data, *entry[3:]]
 
     def one_instance(self, groups: np.ndarray, k: int, instance: int) -> np.ndarray:
         """The row of ``groups`` of group ``k``, with one of its instances only."""
-        row, count = groups[9 * k : 9 * k + 9].copy(), groups[9 * k + 4]
+        row, count = (
+            groups[base.GROUP * k : base.GROUP * (k + 1)].copy(),
+            groups[base.GROUP * k + 4],
+        )
         of_ints, of_reals = self.keep[2 * k].size, self.keep[2 * k + 1].size - 1
         row[4] = 1
         row[5] += 8 * instance * (of_ints // count)

@@ -71,8 +71,8 @@ class Numbering:
         self._branches()
 
     def _branches(self) -> None:
-        """Guards of all instances; their branches stand behind the workspace."""
-        self.guarded: dict[str, list[tuple[Any, int]]] = {"clock": [], "watch": []}
+        """Guards and zones of all instances; branches stand behind the workspace."""
+        self.guarded: dict[str, list[tuple[Any, int]]] = {"clock": [], "watch": [], "zone": []}
         self.first_branch: dict[tuple[str, str], int] = {}
         at = self.nw
         for place, found in self.guarded.items():

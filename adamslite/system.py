@@ -15,6 +15,7 @@ from adamslite.elimination import Elimination
 from adamslite.engine import INTEGRATORS, address_table, engine, ints, reals
 from adamslite.faults import UsageError
 from adamslite.integrators import base
+from adamslite.integrators.event_places import PLACES
 from adamslite.model import PART, Model
 
 # Moves of the assembly below this are round-off.
@@ -56,8 +57,9 @@ class System(Elimination):
         if self.kind.size:
             self.W = np.zeros(self.nw + self.kind.size)
         self.guard = np.zeros(self.W.size)
-        self.margin = np.zeros(9 * len(self.guarded["watch"]))
-        self.stops, self.search, self.pattern = np.zeros(1), np.zeros(19), ints([])
+        self.margin = np.zeros(11 * len(self.guarded["watch"]))
+        self.zone = np.zeros(5 * len(self.guarded["zone"]))
+        self.stops, self.search, self.pattern = np.zeros(1), np.zeros(PLACES), ints([])
         self.pivot0 = np.zeros(nz + 1)
         self.history, self.trial = np.zeros(9 * w + 160), np.zeros(3 * w + 3)
         self.control, self.tableau = np.zeros(48), np.zeros(1)
@@ -104,10 +106,11 @@ class System(Elimination):
         mass = any(g.meta["mass"] for g in self.kernels.groups if g.face in ("loads", "equation"))
         facts = {
             "nb": len(self.model.bodies), "n": self.n, "m": self.m, "nv": self.nv, "ns": self.ns,
-            "nw": self.nw, "ng": self.group.size // 9, "si2": int(self.stabilised),
+            "nw": self.nw, "ng": self.group.size // base.GROUP, "si2": int(self.stabilised),
             "implicit_mass": int(mass), "n_out": getattr(self, "n_out", 0), "nz": self.nz,
             "holonomic": self.holonomic, "n_head": self.n_head,
             "clocks": len(self.guarded["clock"]), "watched": len(self.guarded["watch"]),
+            "zones": len(self.guarded["zone"]),
         }  # fmt: skip
         self.sizes = ints([facts[name] for name in base.SIZES])
 

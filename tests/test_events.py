@@ -265,6 +265,7 @@ def test_dry_friction_written_with_sign_is_never_wrong_in_silence(formula):
     assert last["POINT_MASS/2.x"][-1] == approx(0.25, abs=0.02)
 
 
-def test_a_smooth_scene_has_no_guards():
+def test_a_smooth_scene_has_no_guards_but_a_zone():
     scene = system(moved_by("-STEP(DX(2),0,0,1,1)"))
-    assert scene.kind.size == 0
+    assert [len(found) for found in scene.guarded.values()] == [0, 0, 1]
+    assert system(moved_by("-SIN(DX(2))")).kind.size == 0

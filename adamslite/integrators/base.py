@@ -27,7 +27,7 @@ gravity         (3,) in ground axes
 base            (9 nb,) attitude from which the rotation vector is counted
 scalar          workspace offset of each multiplier, variable and DIFF state
 group           per group: phase, addresses of residual, Jacobian and track, number of instances,
-                addresses of their integers and reals, addresses of clock and watch
+                addresses of their integers and reals, addresses of clock, watch and zone
 copies          per block: Jacobian offset, rows, columns, factor offset, leading dimension
 product         per block between bodies: Jacobian offset, rows, columns, first row, first column
 turning         per block with a rotating column: Jacobian offset, rows, body
@@ -52,7 +52,8 @@ control         the integrator's own numbers
 undo            the state before the last accepted one; empty without constraints
 record          (nt, nw + n_out) workspace and outputs at the asked times
 kind guard      of guards: how they are read; their values, numbered as the workspace
-margin stops    how far guards are from changing; times at which guards of the clock do
+margin zone     how far guards are from changing; where the state is within zones
+stops           times at which guards of the clock change
 search          the location of events (:mod:`adamslite.integrators.events`)
 pattern         per iteration whether it renews the Newton matrix, repeated; empty: as needed
 ==============  =================================================================================
@@ -76,9 +77,11 @@ SIZES = (
     "n_head",
     "clocks",
     "watched",
+    "zones",
 )
 (
     NB, N, M, NV, NS, NW, NG, SI2, IMPLICIT_MASS, N_OUT, NZ, HOLONOMIC, N_HEAD, CLOCKS, WATCHED,
+    ZONES,
 ) = range(len(SIZES))  # fmt: skip
 
 SETTINGS = (
@@ -151,6 +154,9 @@ MODE_STATICS = 5.0
     CHATTERING,
 ) = range(10)
 
+# Columns of P.group.
+GROUP = 10
+
 INT_FIELDS = set(
     "sizes body scalar group copies product turning mixed unit dead held count pivots "
     "pivots_a pivots_c kind pattern".split()
@@ -159,7 +165,7 @@ FIELDS = (
     "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
     "dead held loose settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
     "pivots pivots_a pivot0 history trial tableau control pz undo record parts LC pivots_c kind "
-    "guard margin stops search pattern"
+    "guard margin zone stops search pattern"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

@@ -44,6 +44,7 @@ from adamslite.integrators.base import (
     STOP,
     T_END,
     WATCHED,
+    ZONES,
     N,
     Plan,
     Problem,
@@ -80,6 +81,7 @@ from adamslite.integrators.bdf_state import (
     resize,
     restore_state,
     start_values,
+    tests_velocities,
     too_small,
 )
 from adamslite.integrators.equations import track
@@ -118,7 +120,7 @@ def begin(P: Problem, L: Plan) -> int:
     C[NOW], C[RATE], C[K], C[K_TOP] = t, 1.0, 1.0, most_order(P)
     start_watch(C)
     P.report[ORDER_CAPPED] = 0.0
-    start_events(P, True)
+    start_events(P, True, tests_velocities(P))
     started = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
     h = first_step(P, w)
@@ -172,7 +174,7 @@ def advance(P: Problem, L: Plan) -> int:
 def finish(P: Problem, L: Plan, w: int, cu: float, norm: float) -> int:
     """The step has passed its tests: accept it, or take it again to end at the first crossing."""
     C = P.control
-    if P.sizes[WATCHED] > 0:
+    if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
         locate(P, L, cu)
         if not ends_there(P):
             if starts_there(P):

@@ -21,13 +21,22 @@ from adamslite.integrators.base import (
     NS,
     NV,
     NZ,
-    SI2,
     M,
     N,
     Plan,
     Problem,
 )
-from adamslite.integrators.bdf_state import AGE, FACTORED, FRESH, H_LAST, NOW, RATE, H, K
+from adamslite.integrators.bdf_state import (
+    AGE,
+    FACTORED,
+    FRESH,
+    H_LAST,
+    NOW,
+    RATE,
+    H,
+    K,
+    tests_velocities,
+)
 from adamslite.integrators.equations import (
     project_on_constraints,
     put_motion,
@@ -101,7 +110,7 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     yp, psi, v, e = P.trial[0:], P.trial[w:], P.trial[2 * w :], P.trial[2 * w + n :]
     error = asked(P, P.settings[FIXED_STEP])
     tolerance = CORRECTOR_SHARE * error + P.settings[ADAPTIVITY] / C[H]
-    tested = cu if P.sizes[SI2] == 1 else 0.0
+    tested = cu if tests_velocities(P) else 0.0
     last = 0.0
     motion_from_increments(P, cu, yp, psi, si2)
     for iteration in range(int(P.settings[MAX_IT])):

@@ -132,8 +132,7 @@ def locate(P: Problem, L: Plan, cu: float) -> None:
     t, h = C[NOW], C[H]
     stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
     open_search(P, t, h)
-    if is_harmless(P, L, STABILISED if stabilised else INDEX3, cu):
-        return
+    is_harmless(P, L, STABILISED if stabilised else INDEX3, cu)
     while P.search[OPEN] != 0.0:
         put_between(P, int(C[K]), t, h, P.search[SHARE])
         judge(P)

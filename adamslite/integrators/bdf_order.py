@@ -14,13 +14,12 @@ from adamslite.integrators.base import (
     K_MAX,
     NS,
     NV,
-    SI2,
     WHERE,
     M,
     N,
     Problem,
 )
-from adamslite.integrators.bdf_state import EQUAL, K_TOP, H, K, cut, resize
+from adamslite.integrators.bdf_state import EQUAL, K_TOP, H, K, cut, resize, tests_velocities
 from adamslite.integrators.history import MAX_ORDER
 from adamslite.integrators.norms import exceeds
 from adamslite.integrators.order_cap import TRIES, suspect
@@ -68,7 +67,7 @@ def local_error(P: Problem, w: int) -> float:
         d[i] = P.z[first + i - 2 * n] - y[i]
         y[i] = P.z[first + i - 2 * n]
     C[TRIES] += 1.0
-    size = weighted(d, 0, 0, n, ns, y, P.sizes[SI2] == 1, P.report)
+    size = weighted(d, 0, 0, n, ns, y, tests_velocities(P), P.report)
     return size / ((C[K] + 1.0) * P.settings[ERROR])
 
 
@@ -93,7 +92,7 @@ def most_order(P: Problem) -> float:
 @native
 def drop_order(P: Problem, w: int) -> None:
     """Down to the highest order allowed, with the step that suits it."""
-    C, D, si2 = P.control, P.history, P.sizes[SI2] == 1
+    C, D, si2 = P.control, P.history, tests_velocities(P)
     k = int(C[K_TOP])
     size = weighted(D, k + 1, w, P.sizes[N], P.sizes[NS], D, si2, P.coef)
     C[K] = C[K_TOP]
@@ -125,7 +124,7 @@ def choose_order(P: Problem, w: int, norm: float) -> None:
     "largest step" would always pick the lowest.
     """
     C, D, n, ns = P.control, P.history, P.sizes[N], P.sizes[NS]
-    k, si2, tol, room = int(C[K]), P.sizes[SI2] == 1, P.settings[ERROR], P.settings[H_MAX] / C[H]
+    k, si2, tol, room = int(C[K]), tests_velocities(P), P.settings[ERROR], P.settings[H_MAX] / C[H]
     same = max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))
     best, factor = k, same
     if k > 1:

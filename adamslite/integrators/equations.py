@@ -14,6 +14,7 @@ Reference: O. A. Bauchau, Flexible Multibody Dynamics, 2011, section 13.6.
 from __future__ import annotations
 
 from adamslite.integrators.base import (
+    GROUP,
     HOLONOMIC,
     JACOBIANS,
     LEFT_PLANE,
@@ -35,7 +36,6 @@ from adamslite.integrators.base import (
 from adamslite.translate import Reals, call_address, native
 
 POINT, PART = 3, 6
-GROUP = 9
 BODY = 5
 
 

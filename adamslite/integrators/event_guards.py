@@ -9,24 +9,32 @@ from __future__ import annotations
 
 from math import floor
 
-from adamslite.integrators.base import CLOCKS, H_MAX, NW, WATCHED, Problem
+from adamslite.integrators.base import CLOCKS, H_MAX, NW, WATCHED, ZONES, Problem
 from adamslite.integrators.equations import guard_values
 from adamslite.integrators.event_places import (
     BEFORE,
     CHANGES,
     CRAWL,
     CULPRIT,
+    EARLY,
     END,
     FREED,
     HELD,
     HUGE,
+    KNOWN,
+    LATE,
     LET_GO,
     LOOSE,
+    RATED,
     SINCE,
     START,
     STRICT,
+    TAKEN,
     WATCH,
     WEAK,
+    ZONE,
+    ZONE_EARLY,
+    ZONE_LATE,
 )
 from adamslite.translate import native
 
@@ -70,7 +78,7 @@ def release_watch(P: Problem) -> None:
 def hold_watch(P: Problem) -> None:
     """Hold the branches of the workspace's state from now on."""
     clocks, count = P.sizes[CLOCKS], P.sizes[WATCHED]
-    if count == 0 or P.search[LOOSE] != 0.0:
+    if count + P.sizes[ZONES] == 0 or P.search[LOOSE] != 0.0:
         return
     first = P.sizes[NW] + clocks
     release_watch(P)
@@ -78,7 +86,7 @@ def hold_watch(P: Problem) -> None:
     for k in range(count):
         if P.margin[CHANGES * count + k] >= 0.0:
             P.W[first + k] = branch_of(P.kind[clocks + k], P.guard[first + k])
-    margins(P, START)
+    look_at_start(P)
 
 
 @native
@@ -116,9 +124,37 @@ def margins(P: Problem, row: int) -> int:
     for k in range(count):
         margin = margin_of(P.kind[clocks + k], P.W[first + k], P.guard[first + k])
         P.margin[row * count + k] = margin
-        if margin < 0.0:
+        if margin < 0.0 and not is_taken(P, k):
             found += 1
     return found
+
+
+@native
+def is_taken(P: Problem, k: int) -> bool:
+    """Whether a guard was turned over in this step because that makes no difference."""
+    branch = P.W[P.sizes[NW] + P.sizes[CLOCKS] + k]
+    return P.search[TAKEN] != 0.0 and branch != P.margin[BEFORE * P.sizes[WATCHED] + k]
+
+
+@native
+def look(P: Problem, row: int) -> int:
+    """Margins and places within zones at the workspace's state into a row; how many are
+    negative.
+    """
+    count = P.sizes[ZONES]
+    if count > 0:
+        first = P.sizes[NW] + P.sizes[CLOCKS] + P.sizes[WATCHED]
+        guard_values(P, ZONE)
+        for k in range(count):
+            P.zone[row * count + k] = P.guard[first + k]
+    return margins(P, row) if P.sizes[WATCHED] > 0 else 0
+
+
+@native
+def look_at_start(P: Problem) -> None:
+    """The workspace's state is the start of the next step, with rates that are not known."""
+    P.search[TAKEN], P.search[KNOWN] = 0.0, 0.0
+    look(P, START)
 
 
 @native
@@ -130,7 +166,15 @@ def copy_margins(P: Problem, source: int, target: int) -> None:
 @native
 def keep_margins(P: Problem) -> None:
     """The step is accepted: its end is the next start."""
+    S, zones = P.search, P.sizes[ZONES]
+    if P.sizes[WATCHED] + zones == 0:
+        return
     copy_margins(P, END, START)
+    copy_margins(P, LATE, EARLY)
+    for k in range(zones):
+        P.zone[START * zones + k] = P.zone[END * zones + k]
+        P.zone[ZONE_EARLY * zones + k] = P.zone[ZONE_LATE * zones + k]
+    S[KNOWN], S[RATED] = S[RATED], 0.0
 
 
 @native

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.base import ERROR, NZ, WATCHED, N, Plan, Problem
+from adamslite.integrators.base import CLOCKS, ERROR, NW, NZ, WATCHED, N, Plan, Problem
 from adamslite.integrators.equations import residual
 from adamslite.integrators.event_guards import (
     SAME_TIME,
@@ -13,7 +13,7 @@ from adamslite.integrators.event_guards import (
     turn_back,
     turn_over,
 )
-from adamslite.integrators.event_places import END, FOUND, HUNT, NONE, OPEN
+from adamslite.integrators.event_places import BEFORE, END, HIGH, HUNT, INSIDE, NONE, TAKEN
 from adamslite.integrators.event_search import ends_beyond
 from adamslite.integrators.linalg import solve
 from adamslite.translate import native
@@ -43,6 +43,7 @@ def is_harmless(P: Problem, L: Plan, phases: int, cu: float) -> bool:
         turn_back(P)
         turn_over(P, END, share)
         harmless = small_change(P, L, phases, cu)
+    harmless = harmless and not exposes(P)
     if harmless:
         forget(P)
     else:
@@ -79,8 +80,22 @@ def small_change(P: Problem, L: Plan, phases: int, cu: float) -> bool:
 
 
 @native
+def exposes(P: Problem) -> bool:
+    """Whether the branches that were turned over move the margin of another guard: what that one
+    decides may have changed on the way (MAX(ABS(x) - a, 0): with the branch of ABS that of MAX).
+    """
+    count, first = P.sizes[WATCHED], P.sizes[NW] + P.sizes[CLOCKS]
+    margins(P, INSIDE)
+    for k in range(count):
+        same = P.W[first + k] == P.margin[BEFORE * count + k]
+        if same and P.margin[INSIDE * count + k] != P.margin[END * count + k]:
+            return True
+    return False
+
+
+@native
 def forget(P: Problem) -> None:
-    """Close the search: the branches that were turned over are those of the end."""
+    """The branches that were turned over are those of the end; others are still looked at."""
     note_changes(P, P.W[0], END)
-    P.search[OPEN], P.search[FOUND] = 0.0, NONE
+    P.search[TAKEN], P.search[HIGH] = 1.0, NONE
     margins(P, END)

@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 # Columns of P.group.
-CLOCK, WATCH = 7, 8
+CLOCK, WATCH, ZONE = 7, 8, 9
 STRICT, WEAK = 0, 1
 # What a branch adds to the gap of its relation.
 HUGE = 1e200
 # Rows of P.margin: at the start, at the end and inside of the step; the bracket; how often a guard
 # has changed lately, and since when; branches before they were turned over, and before they were
-# let go for a try.
-START, END, INSIDE, LOW_ROW, HIGH_ROW, CHANGES, SINCE, BEFORE, HELD = range(9)
+# let go for a try; rates at the start and the end.
+START, END, INSIDE, LOW_ROW, HIGH_ROW, CHANGES, SINCE, BEFORE, HELD, EARLY, LATE = range(11)
+# Rows of P.zone: the first three as above, and rates at the start and the end.
+ZONE_EARLY, ZONE_LATE = 3, 4
 # A share of the step that says that there is none.
 NONE = 2.0
 # Places in P.search.
 (
     STOP_AT, OPEN, LOW, HIGH, SHARE, FOUND, SIZE, TOLERANCE, BUDGET, JUMP, FREED, CULPRIT, HUNT,
-    LOOSE, LET_GO, AGAIN, CRAWL, HUNT_END, WHOLE,
-) = range(19)  # fmt: skip
+    LOOSE, LET_GO, AGAIN, CRAWL, HUNT_END, WHOLE, LOOKS, LOOKED, KNOWN, RATED, CUT, TAKEN, STAGE,
+    SPAN,
+) = range(27)  # fmt: skip
+PLACES = 27
+# What the look at the present share is for, in S[STAGE]: the rates at the end and the start, a dip
+# between them, the bracket of a crossing.
+RATE_BEHIND, RATE_BEFORE, DIP, BRACKET = range(4)

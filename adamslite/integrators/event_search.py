@@ -1,4 +1,7 @@
-"""The first crossing within a tried step: found at its ends and middle, bracketed and located.
+"""The first crossing within a tried step: seen from its ends, bracketed and located.
+
+Guards and their rates are taken at both ends; where the cubic through them
+(:mod:`adamslite.integrators.event_dips`) comes near zero in between, the dense output is looked at.
 
 Reference: Oliveira, Takahashi, ACM Trans. Math. Softw. 47 (2021) 5 (ITP, the bracketing).
 """
@@ -6,10 +9,15 @@ Reference: Oliveira, Takahashi, ACM Trans. Math. Softw. 47 (2021) 5 (ITP, the br
 from __future__ import annotations
 
 from adamslite.integrators.base import ERROR, WATCHED, Problem
-from adamslite.integrators.event_guards import copy_margins, let_go, margins, take_up
+from adamslite.integrators.event_dips import LITTLE, next_dip, rates, share_into_zones
+from adamslite.integrators.event_guards import copy_margins, let_go, look, take_up, turn_back
 from adamslite.integrators.event_places import (
     AGAIN,
+    BRACKET,
     BUDGET,
+    CUT,
+    DIP,
+    EARLY,
     END,
     FOUND,
     HIGH,
@@ -17,16 +25,27 @@ from adamslite.integrators.event_places import (
     HUNT,
     HUNT_END,
     INSIDE,
+    KNOWN,
+    LATE,
     LET_GO,
+    LOOKED,
+    LOOKS,
     LOW,
     LOW_ROW,
     NONE,
     OPEN,
+    RATE_BEFORE,
+    RATE_BEHIND,
+    RATED,
     SHARE,
     SIZE,
+    STAGE,
     START,
+    TAKEN,
     TOLERANCE,
     WHOLE,
+    ZONE_EARLY,
+    ZONE_LATE,
 )
 from adamslite.integrators.event_stops import least_step
 from adamslite.translate import native
@@ -35,15 +54,17 @@ from adamslite.translate import native
 # seen, or this multiple of ERROR.
 CLOSE, CLOSE_ERROR = 1e-6, 0.01
 TIME_ROUND_OFF = 4e-15
-# Steps below this over ERROR give velocities that are round-off of positions.
-NOISE = 1e-15
+# Looks at dips of guards in one step.
+MOST_LOOKS = 6.0
 
 
 @native
 def open_search(P: Problem, t: float, h: float) -> None:
     """Look at the end of the step from ``t``, which stands in the workspace."""
     S = P.search
-    S[OPEN], S[SHARE], S[FOUND], S[SIZE], S[LOW], S[HIGH] = 1.0, 0.5, NONE, h, 0.0, NONE
+    S[OPEN], S[SHARE], S[STAGE], S[TAKEN] = 1.0, 1.0 - LITTLE, RATE_BEHIND, 0.0
+    S[FOUND], S[CUT], S[SIZE], S[LOW], S[HIGH] = NONE, NONE, h, 0.0, NONE
+    S[LOOKS], S[LOOKED] = 0.0, 0.0
     S[AGAIN] = S[LET_GO]
     take_up(P)
     if S[HUNT] != 0.0 and t >= S[HUNT_END]:
@@ -52,15 +73,15 @@ def open_search(P: Problem, t: float, h: float) -> None:
         S[HUNT_END], S[WHOLE] = t + h, h
         share = min(CLOSE, CLOSE_ERROR * P.settings[ERROR])
         S[TOLERANCE] = max(share * h + TIME_ROUND_OFF * abs(t), least_step(P))
-    if margins(P, END) > 0:
-        open_bracket(P, 1.0, END)
+    if look(P, END) > 0:
+        S[HIGH] = 1.0
 
 
 @native
 def open_bracket(P: Problem, share: float, row: int) -> None:
     """A branch has changed somewhere before ``share``, where margins stand in a row."""
     S = P.search
-    S[HIGH], S[FOUND], S[BUDGET] = share, share, share
+    S[HIGH], S[FOUND], S[BUDGET], S[STAGE] = share, share, share, BRACKET
     copy_margins(P, START, LOW_ROW)
     copy_margins(P, row, HIGH_ROW)
     S[SHARE] = next_share(P)
@@ -76,14 +97,49 @@ def ends_beyond(P: Problem) -> bool:
 def judge(P: Problem) -> None:
     """Look at the guards at the workspace's state, and choose another share or close the search."""
     S = P.search
-    found = margins(P, INSIDE) > 0
-    if S[HIGH] > 1.0:
-        if found:
-            open_bracket(P, S[SHARE], INSIDE)
-        else:
-            S[SHARE] = lowest(P) if S[SHARE] == 0.5 else NONE
-            S[OPEN] = 1.0 if S[SHARE] < 1.0 else 0.0
-        return
+    found = look(P, INSIDE) > 0
+    if S[STAGE] == RATE_BEHIND:
+        rates(P, END, LATE, ZONE_LATE)
+        S[RATED], S[STAGE], S[SHARE] = 1.0, RATE_BEFORE, LITTLE
+        if S[KNOWN] != 0.0:
+            choose(P)
+    elif S[STAGE] == RATE_BEFORE:
+        rates(P, START, EARLY, ZONE_EARLY)
+        S[KNOWN] = 1.0
+        choose(P)
+    elif S[STAGE] == BRACKET:
+        narrow(P, found)
+    elif found:
+        open_bracket(P, S[SHARE], INSIDE)
+    else:
+        S[LOOKED] = S[SHARE]
+        choose(P)
+    if S[OPEN] == 0.0 and S[TAKEN] != 0.0 and min(S[FOUND], S[CUT]) <= 1.0:
+        turn_back(P)
+
+
+@native
+def choose(P: Problem) -> None:
+    """Rates are known: a shorter step where a zone asks for it, the next dip, the bracket of what
+    has changed at the end, or the end of the search.
+    """
+    S = P.search
+    if S[LOOKS] == 0.0:
+        S[CUT] = share_into_zones(P)
+    share = next_dip(P) if S[LOOKS] < MOST_LOOKS and S[CUT] > 1.0 else NONE
+    S[LOOKS] += 1.0
+    if share < 1.0:
+        S[SHARE], S[STAGE] = share, DIP
+    elif S[HIGH] == 1.0 and S[CUT] > 1.0:
+        open_bracket(P, 1.0, END)
+    else:
+        S[OPEN] = 0.0
+
+
+@native
+def narrow(P: Problem, found: bool) -> None:
+    """Move one end of the bracket to the present share."""
+    S = P.search
     if found:
         S[HIGH], S[FOUND] = S[SHARE], S[SHARE]
         copy_margins(P, INSIDE, HIGH_ROW)
@@ -116,41 +172,30 @@ def next_share(P: Problem) -> float:
 
 
 @native
-def lowest(P: Problem) -> float:
-    """Where a parabola through the margins of a guard at start, middle and end dips below zero;
-    ``NONE`` where all stay above.
-    """
-    count, share, least = P.sizes[WATCHED], NONE, 0.0
-    for k in range(count):
-        a, b = P.margin[START * count + k], P.margin[INSIDE * count + k]
-        c = P.margin[END * count + k]
-        bend = 2.0 * (a - 2.0 * b + c)
-        slope = 4.0 * b - 3.0 * a - c
-        if bend > 0.0 and slope < 0.0 and slope + 2.0 * bend > 0.0:
-            dip = a - 0.25 * slope * slope / bend
-            if dip < least:
-                least, share = dip, 0.0 - 0.5 * slope / bend
-    return share
-
-
-@native
 def ends_there(P: Problem) -> bool:
     """Whether the step can stay: no crossing, or one just before its end."""
     S = P.search
+    if S[CUT] < 1.0:
+        return False
     return S[FOUND] > 1.0 or (1.0 - S[FOUND]) * S[SIZE] <= S[TOLERANCE]
 
 
 @native
 def starts_there(P: Problem) -> bool:
     """Whether the crossing is so near to the start of the step that branches change there."""
-    least = max(P.search[TOLERANCE], NOISE / P.settings[ERROR])
-    return P.search[FOUND] * P.search[SIZE] <= least
+    S = P.search
+    return S[CUT] > 1.0 and S[FOUND] * S[SIZE] <= S[TOLERANCE]
 
 
 @native
 def shorter(P: Problem) -> float:
-    """Size of the step that ends just behind the crossing."""
-    P.search[HUNT] = 1.0
-    if P.search[AGAIN] != 0.0:
+    """Size of the step that ends just behind the crossing, or before more of a zone is crossed than
+    a share of it.
+    """
+    S = P.search
+    if S[AGAIN] != 0.0:
         let_go(P)
-    return P.search[FOUND] * P.search[SIZE] + 0.5 * P.search[TOLERANCE]
+    if S[CUT] < 1.0:
+        return S[CUT] * S[SIZE]
+    S[HUNT] = 1.0
+    return S[FOUND] * S[SIZE] + 0.5 * S[TOLERANCE]

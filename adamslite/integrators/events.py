@@ -45,9 +45,10 @@ from __future__ import annotations
 
 from adamslite.integrators.acceleration import accelerations
 from adamslite.integrators.base import EVENTS, NS, N, Plan, Problem, T
+from adamslite.integrators.event_dips import share_of_zone
 from adamslite.integrators.event_guards import (
     hold_watch,
-    margins,
+    look_at_start,
     note_changes,
     release_watch,
     remember_branches,
@@ -62,21 +63,23 @@ from adamslite.integrators.event_places import (
     JUMP,
     LOOSE,
     NONE,
-    START,
+    SPAN,
 )
 from adamslite.integrators.event_stops import is_stop, next_stop, set_clock
 from adamslite.translate import native
 
 
 @native
-def start_events(P: Problem, located: bool) -> None:
+def start_events(P: Problem, located: bool, tested: bool) -> None:
     """Nothing has happened yet; branches of the clock for the time until the first stop.
 
     ``located``: crossings are looked for; else watched guards are evaluated as they are.
+    ``tested``: so are errors of velocities.
     """
     for k in range(P.search.size):
         P.search[k] = 0.0
     P.search[FOUND], P.search[LOOSE] = NONE, 0.0 if located else 1.0
+    P.search[SPAN] = share_of_zone(P, tested)
     for k in range(P.margin.size):
         P.margin[k] = 0.0
     release_watch(P)
@@ -107,7 +110,7 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
     P.search[HUNT] = 0.0
     if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return False
-    margins(P, START)
+    look_at_start(P)
     return True
 
 

@@ -38,6 +38,7 @@ from adamslite.integrators.base import (
     STOP,
     T_END,
     WATCHED,
+    ZONES,
     M,
     N,
     Plan,
@@ -111,7 +112,7 @@ def begin_explicit(P: Problem, L: Plan) -> int:
     for i in range(ns):
         y[2 * n + i] = P.z[first + i]
     C[WIDTH] = float(w)
-    start_events(P, True)
+    start_events(P, True, True)
     inverse = P.history[INVERSE * w :]
     if is_free(P) and mass_tables(P, inverse, inverse[n:]):
         C[FREE], C[WIDTH] = MASSES, float(n)
@@ -179,7 +180,7 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
         return shorten(P, w, 0.25)
     if not exact_rates(P, L, t, new, K[K_NEW * width :]):
         return shorten(P, w, 0.25)
-    if P.sizes[WATCHED] > 0:
+    if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
         locate_between(P, C[CLOCK], h, width, OLD * w, K_NEW)
         if not ends_there(P):
             if starts_there(P):

@@ -67,6 +67,7 @@ from adamslite.integrators.base import (
     T_END,
     WATCHED,
     WHERE,
+    ZONES,
     M,
     N,
     Plan,
@@ -162,7 +163,7 @@ def start_hht(P: Problem, L: Plan) -> int:
     C[NOW] = s[T]
     if s[H_INIT] > 0.0 and s[H_INIT] == s[H_MAX] and s[H_INIT] == s[H_MIN]:
         C[FIXED] = s[H_INIT]
-    start_events(P, C[FIXED] == 0.0)
+    start_events(P, C[FIXED] == 0.0, first_order_share(P) > 0.0)
     good = accelerations(P, L, s[T], P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
     C[H] = first_step(P, 0)
@@ -218,7 +219,7 @@ def attempt(P: Problem, L: Plan) -> int:
 def finish_attempt(P: Problem, L: Plan, norm: float) -> int:
     """The step has passed its tests: accept it, or take it again to end at the first crossing."""
     C = P.control
-    if P.sizes[WATCHED] > 0 and C[FIXED] == 0.0:
+    if P.sizes[WATCHED] + P.sizes[ZONES] > 0 and C[FIXED] == 0.0:
         locate_in_step(P, L)
         if not ends_there(P):
             if starts_there(P):

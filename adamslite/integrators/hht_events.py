@@ -48,8 +48,7 @@ def locate_in_step(P: Problem, L: Plan) -> None:
     C, n = P.control, P.sizes[N]
     t, h, end = C[NOW], C[H], P.trial[0:]
     open_search(P, t, h)
-    if is_harmless(P, L, INDEX3, C[CU]):
-        return
+    is_harmless(P, L, INDEX3, C[CU])
     vector_rates(P, P.q, P.u, end[n:])
     while P.search[OPEN] != 0.0:
         put_share(P, t, h, P.search[SHARE])

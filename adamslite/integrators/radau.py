@@ -51,6 +51,7 @@ from adamslite.integrators.base import (
     T_END,
     WATCHED,
     WHERE,
+    ZONES,
     M,
     N,
     Plan,
@@ -135,7 +136,7 @@ def start_radau(P: Problem, L: Plan) -> int:
     for i in range(P.history.size):
         Y[i] = 0.0
     C[NOW], C[RATE], C[CAUTIOUS] = t, 1.0, 1.0
-    start_events(P, True)
+    start_events(P, True, True)
     good = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
     C[H] = first_step(P, 0)
@@ -194,7 +195,7 @@ def try_radau(P: Problem, L: Plan) -> int:
 @native
 def finish_stages(P: Problem, L: Plan, norm: float) -> int:
     """The step has passed its tests: accept it, or take it again to end at the first crossing."""
-    if P.sizes[WATCHED] > 0:
+    if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
         locate_in_stages(P, L)
         if not ends_there(P):
             if starts_there(P):

@@ -61,8 +61,7 @@ def locate_in_stages(P: Problem, L: Plan) -> None:
     t, h = P.control[NOW], P.control[H]
     put_end(P)
     open_search(P, t, h)
-    if is_harmless(P, L, equations_kept(P), P.tableau[REAL] / h):
-        return
+    is_harmless(P, L, equations_kept(P), P.tableau[REAL] / h)
     while P.search[OPEN] != 0.0:
         put_inside(P, t, h, P.search[SHARE])
         judge(P)

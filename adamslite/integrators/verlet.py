@@ -78,7 +78,7 @@ def verlet(P: Problem, L: Plan) -> int:
     for i in range(P.control.size):
         C[i] = 0.0
     P.report[ORDER] = 2.0
-    start_events(P, False)
+    start_events(P, False, False)
     P.report[STABLE_STEP] = 1e300
     synchronise(P, P.times[0], 0)
     P.report[AT] = P.times[0]

@@ -10,13 +10,14 @@ and written as one loop over all instances:
     track   (n, ints, reals, W)              remembers angles at an accepted step
     clock   (n, ints, reals, W, F)           guards of time (adamslite.guards), F = their values
     watch   (n, ints, reals, W, F)           guards of the state
+    zone    (n, ints, reals, W, F)           places within the zones of smooth steps
 
 q holds positions and rotations of bodies (and states s of DIFF), z multipliers and variables.
 W is the workspace (:mod:`adamslite.kinematics`), ``c`` five coefficients.  The integers of an
 instance are
 
     W offset of each node | W offset of each signal | row of each node | W offset of the branches of
-    clock and watch, if there are guards | block offset of each pair
+    clock, watch and zones, if there are guards | block offset of each pair
 
 and its reals: parameters, remembered angles, marker levers and axes.
 """

@@ -48,12 +48,14 @@ class Shape:
 
     @property
     def branches_at(self) -> int:
-        """The integer that holds where the branches of the clock begin; the next: of the watch."""
+        """The integer that holds where the branches of the clock begin; the next two: of the watch,
+        the zones.
+        """
         return 2 * len(self.widths) + self.n_signals
 
     @property
     def blocks_at(self) -> int:
-        return self.branches_at + 2 * bool(self.guards)
+        return self.branches_at + 3 * bool(self.guards)
 
 
 @dataclass

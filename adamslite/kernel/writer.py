@@ -107,15 +107,18 @@ class Writer:
 
     def guard_values(self, place: int) -> None:
         """The guards of the clock (``place`` 0) or the watch (1): gaps of relations, arguments of
-        floors.
+        floors; places within zones (2).
         """
-        base = self.b.int_at(self.shape.branches_at + place)
-        for n, guard in enumerate((self.shape.guards.clock, self.shape.guards.watch)[place]):
-            for side in guard.args:
-                self.value(side)
-            is_floor = not hasattr(guard, "rel_op")
-            value = self.value(guard.args[0]) if is_floor else self.lower.gap(guard)
-            self.b.accumulate("F", base, n, value)
+        base, guards = self.b.int_at(self.shape.branches_at + place), self.shape.guards
+        for n, guard in enumerate((guards.clock, guards.watch, guards.zone)[place]):
+            self.b.accumulate("F", base, n, self._guard_value(guard, place == 2))
+
+    def _guard_value(self, guard: Any, is_zone: bool) -> Value:
+        if is_zone:
+            return self.value(guard)
+        for side in guard.args:
+            self.value(side)
+        return self.lower.gap(guard) if hasattr(guard, "rel_op") else self.value(guard.args[0])
 
     def track(self) -> None:
         for n, wrapped in enumerate(self.scope.angles):
