@@ -48,7 +48,7 @@ DEEPEST = 4.0 / 27.0
 # Share of a zone that a step may cross, and this multiple of ERROR^(1/3) where a method of order 2
 # does not test velocities; what it aims at when it may not, as a part of that; how far before the
 # zone it stops when it comes from outside.
-SHARE_OF_ZONE, UNTESTED, AIM, BEFORE_ZONE = 0.25, 3.0, 0.7, 0.02
+SHARE_OF_ZONE, UNTESTED, AIM, BEFORE_ZONE = 0.34, 3.0, 0.7, 0.02
 # Shorter steps are not made for the sake of a zone, as a share of HMAX.
 LEAST_CUT = 1e-10
 # Halvings in the solution of a cubic.

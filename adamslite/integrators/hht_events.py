@@ -60,19 +60,23 @@ def locate_in_step(P: Problem, L: Plan) -> None:
 def put_share(P: Problem, t: float, h: float, x: float) -> None:
     """The tried step from ``t`` at the share ``x`` into the workspace: cubics, and straight lines
     for accelerations, multipliers and variables.
+
+    Velocities have a cubic of their own: in steps that end at an event the derivative of that of
+    positions is round-off over the step.
     """
     n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
     D, y, a, z = P.history, P.trial[2 * n + ns :], P.x, P.F
     bodies_between(P, h, x, P.trial[0:], y)
+    along, w0, w1 = x * x * (3.0 - 2.0 * x), h * x * (1.0 - x) * (1.0 - x), h * x * x * (x - 1.0)
     for i in range(n):
         a[i] = P.ra[i] + x * (P.a[i] - P.ra[i])
+        y[n + i] = D[n + i] + along * (P.u[i] - D[n + i]) + w0 * P.ra[i] + w1 * P.a[i]
     for k in range(first):
         z[k] = P.rz[k] + x * (P.z[k] - P.rz[k])
-    w0, w1 = h * x * (1.0 - x) * (1.0 - x), h * x * x * (x - 1.0)
     for k in range(ns):
         o = 4 * n + k
         step = P.z[first + k] - D[o]
-        z[first + k] = D[o] + x * x * (3.0 - 2.0 * x) * step + w0 * D[o + ns] + w1 * P.rd[k]
+        z[first + k] = D[o] + along * step + w0 * D[o + ns] + w1 * P.rd[k]
     put_state(P, t + x * h, y, y[n:], a, z, P.rd)
 
 

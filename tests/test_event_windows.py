@@ -1,0 +1,177 @@
+"""Events between the ends of a step: windows, thin layers, dead zones, zones of smooth steps.
+
+Closed forms: a force F over the length d changes the energy by F d; a mass between contacts keeps
+it.  Where there is none, RK4 with steps of 2e-6 (contacts) or DOP853 over the branches one by one.
+"""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+from pytest import approx
+from scenes import GROUND, done, system
+
+from adamslite.results import Results
+
+FORMULAS = ("GSTIFF", "GSTIFF I3", "HHT", "NEWMARK", "RADAU", "ABAM", "RKF45")
+# What a test of velocities holds to ERROR per step.
+ACCURATE = ("GSTIFF", "GSTIFF I3", "RADAU", "ABAM", "RKF45")
+DECK = (
+    GROUND
+    + "{gravity}POINT_MASS/2, MASS=1, CM=2, QG={x},{y},0, VX={v}\nMARKER/2, POINT_MASS=2\n"
+    + "VFORCE/1, I=2, J_PART=1, {force}\nEND\n"
+)
+
+
+def ended(
+    formula: str, force: str, end: float, steps: int, error: float, **start: float
+) -> Results:
+    """The results of a point mass of 1 kg on which a force acts."""
+    method, _, form = formula.partition(" ")
+    options = {"formulation": form} if form else {}
+    gravity = "ACCGRAV/JGRAV=-9.81\n" if "FY" in force else ""
+    deck = DECK.format(**{"x": 0, "y": 0, "v": 0} | start, force=force, gravity=gravity)
+    return done(deck, end, steps, integrator=method, error=error, **options)
+
+
+# ---- windows: v^2 = v0^2 - 2 F d -----------------------------------------------------------------
+
+JUMPS = [
+    ("FX=IF(ABS(DX(2)-5)-.01:-1000,0,0)", 10.0, sqrt(100.0 - 2 * 1000 * 0.02)),
+    ("FX=IF(ABS(DX(2)+3)-.02:400,0,0)", -7.0, -sqrt(49.0 - 2 * 400 * 0.04)),
+]
+SMOOTH = [
+    ("FX=-1000*(STEP(DX(2),4.99,0,4.995,1)-STEP(DX(2),5.005,0,5.01,1))", 10.0, sqrt(70.0)),
+    ("FX=400*(STEP(DX(2),-3.02,0,-3.01,1)-STEP5(DX(2),-2.99,0,-2.98,1))", -7.0, -5.0),
+    ("FX=-1000*(HAVSIN(DX(2),4.99,0,4.995,1)-HAVSIN(DX(2),5.005,0,5.01,1))", 10.0, sqrt(70.0)),
+]
+
+
+@pytest.mark.parametrize("steps", [10, 100, 1000])
+@pytest.mark.parametrize("formula", FORMULAS)
+@pytest.mark.parametrize(("force", "v", "exact"), JUMPS)
+def test_a_force_window_narrower_than_a_step(formula, steps, force, v, exact):
+    """|x - 5| < 0.01 is passed at 10 m/s; steps are up to 1 s long."""
+    last = ended(formula, force, 10.0, steps, 1e-6, v=v)
+    assert last["POINT_MASS/2.vx"][-1] == approx(exact, abs=1e-4)
+    assert last.summary["events"] == 3
+
+
+@pytest.mark.parametrize("steps", [10, 100, 1000])
+@pytest.mark.parametrize("formula", FORMULAS)
+@pytest.mark.parametrize(("force", "v", "exact"), SMOOTH)
+def test_a_smooth_window_narrower_than_a_step(formula, steps, force, v, exact):
+    """Zones of 5 mm passed at 10 m/s.  NEWMARK with its usual GAMMA is of order 1: some 500
+    steps of ERROR, all of one sign; the summary says so.
+    """
+    last = ended(formula, force, 10.0, steps, 1e-6, v=v)
+    assert last["POINT_MASS/2.vx"][-1] == approx(exact, abs=5e-4 if formula == "NEWMARK" else 1e-4)
+
+
+@pytest.mark.parametrize("formula", ("GSTIFF", "HHT", "RADAU", "ABAM"))
+def test_a_window_that_is_entered_and_left_on_the_same_side(formula):
+    """Thrown up at 10 m/s, the mass reaches 5.09684 m; above 5 m another 20 m/s^2 pull it down.
+
+    The time above is 2 u/(g + 20) in place of 2 u/g, u^2 = 100 - 2 g 5.
+    """
+    u = sqrt(100.0 - 2 * 9.81 * 5.0)
+    landed = 2 * (10.0 - u) / 9.81 + 2 * u / 29.81
+    deck = DECK.format(
+        x=0, y=0, v="0, VY=10", force="FY=IF(DY(2)-5:0,0,-20)", gravity="ACCGRAV/JGRAV=-9.81\n"
+    )
+    last = done(deck, landed, 2, integrator=formula, error=1e-6)
+    assert last["POINT_MASS/2.y"][-1] == approx(0.0, abs=1e-4)
+    assert last.summary["events"] == 2
+
+
+# ---- contacts ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("error", [1e-8, 1e-10])
+@pytest.mark.parametrize("formula", ("GSTIFF", "GSTIFF I3", "HHT", "RADAU", "ABAM"))
+@pytest.mark.parametrize(
+    ("contact", "y", "exact"),
+    [("0,1E5,1,100,1E-3", 0.5, 0.0160004), ("0,4E4,1.5,60,2E-3", 0.3, -0.003918074)],
+)
+def test_a_damped_contact_pushes_again_before_release(formula, error, contact, y, exact):
+    """While the damping goes to zero towards the surface the force comes back in a layer of 0.1 mm,
+    after a time in which it was clipped: y at t = 1, by RK4 with steps of 2e-6.  HHT, of order 2,
+    adds up 11 000 steps of ERROR.
+    """
+    force = f"FY=IMPACT(DY(2),VY(2),{contact})"
+    last = ended(formula, force, 1.0, 10, error, y=y)
+    allowed = 1e-4 if error == 1e-8 and formula == "HHT" else 1e-5
+    assert last["POINT_MASS/2.y"][-1] == approx(exact, abs=allowed)
+
+
+@pytest.mark.parametrize("formula", ACCURATE)
+def test_a_dead_zone_turned_over_while_it_holds_the_force_at_zero(formula):
+    """Springs of 7000 N/m behind a gap of 0.07 m on both sides, let go at 0.4 m; x at t = 2."""
+    gap, reach, w = 0.07, 0.33, sqrt(7000.0)
+    half = pi / w + 2 * gap / (w * reach)
+    left = 2.0 % (2 * half)
+    assert abs(left - half) < 0.5 * pi / w
+    exact = -(gap + reach * np.cos(w * (left - half)))
+    assert exact == approx(-0.388718, abs=1e-6)
+    force = "FX=-7000*MAX(ABS(DX(2))-0.07,0)*SIGN(1,DX(2))"
+    error = 1e-8 if formula.startswith("GSTIFF") else 1e-6
+    last = ended(formula, force, 2.0, 10, error, x=0.4)
+    assert last["POINT_MASS/2.x"][-1] == approx(exact, abs=1e-4)
+    depth = np.maximum(np.abs(last["POINT_MASS/2.x"]) - gap, 0.0)
+    energy = last["POINT_MASS/2.vx"] ** 2 / 2 + 3500 * depth**2
+    assert energy == approx(3500 * reach**2, rel=5e-5 if error == 1e-8 else 1e-5)
+
+
+@pytest.mark.parametrize("formula", ("GSTIFF", "RADAU", "ABAM"))
+def test_events_at_tight_error_converge(formula):
+    """Eight bounces with damping of a ball that falls 0.5 m; y at t = 3 by its closed branches."""
+    force = "FY=IF(DY(2):-1E5*DY(2)-30*VY(2),0,0)"
+    off = []
+    for error in (1e-6, 1e-8, 1e-10, 1e-12):
+        last = ended(formula, force, 3.0, 10, error, y=0.5)
+        off.append(abs(last["POINT_MASS/2.y"][-1] - bounced(3.0)))
+        assert last.summary["events"] == 16
+    assert off[0] < 1e-4 and off[1] < 1e-5 and max(off[2:]) < 1e-7
+    assert off[2] <= max(off[0], 1e-9) and off[3] <= max(off[1], 1e-9)
+
+
+def bounced(end: float, k: float = 1e5, c: float = 30.0, g: float = 9.81) -> float:
+    """Height of a ball of 1 kg dropped from 0.5 m onto k, c, which may pull while it is below 0."""
+    from scipy.integrate import solve_ivp
+
+    def below(t, y):
+        return [y[1], -g - k * y[0] - c * y[1]]
+
+    def surface(t, y):
+        return y[0]
+
+    t, state = sqrt(2 * 0.5 / g), [0.0, -sqrt(2 * 0.5 * g)]
+    surface.terminal, surface.direction = True, 1
+    while True:
+        path = solve_ivp(below, (t, t + 1), state, "DOP853", events=surface, rtol=1e-13, atol=1e-15)
+        t, u = path.t_events[0][0], path.y_events[0][0][1]
+        if t + 2 * u / g > end:
+            return u * (end - t) - g * (end - t) ** 2 / 2
+        t, state = t + 2 * u / g, [0.0, -u]
+
+
+@pytest.mark.parametrize("formula", ACCURATE)
+@pytest.mark.parametrize(("stiffness", "v"), [("1E8,1.1", 33.3), ("2E7,1.5", -12.0)])
+def test_elastic_stops_keep_the_speed(formula, stiffness, v):
+    """330 contacts of 0.5 ms between stops two metres apart."""
+    last = ended(formula, f"FX=BISTOP(DX(2),VX(2),-1,1,{stiffness},0,1E-3)", 10.0, 10, 1e-6, v=v)
+    assert abs(last["POINT_MASS/2.vx"][-1]) == approx(abs(v), rel=0.01)
+
+
+# ---- what is watched -----------------------------------------------------------------------------
+
+
+def test_zones_are_those_of_smooth_steps_of_the_state():
+    deck = DECK.format(x=0, y=0, v=0, gravity="", force="FX={}")
+    found = {
+        force: [len(each) for each in system(deck.format(force)).guarded.values()]
+        for force in ("STEP(DX(2),0,0,1,1)", "STEP(TIME,0,0,1,1)", "IMPACT(DX(2),VX(2),0,1,1,1,1)")
+    }
+    assert list(found.values()) == [[0, 0, 1], [2, 0, 0], [0, 2, 1]]
