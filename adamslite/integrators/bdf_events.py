@@ -42,7 +42,7 @@ from adamslite.integrators.bdf_state import (
     start_values,
 )
 from adamslite.integrators.equations import vector_rates
-from adamslite.integrators.event_harmless import is_harmless
+from adamslite.integrators.event_harmless import take_harmless
 from adamslite.integrators.event_places import JUMP, OPEN, SHARE
 from adamslite.integrators.event_search import judge, open_search
 from adamslite.integrators.events import change_here, pass_event
@@ -132,7 +132,7 @@ def locate(P: Problem, L: Plan, cu: float) -> None:
     t, h = C[NOW], C[H]
     stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
     open_search(P, t, h)
-    is_harmless(P, L, STABILISED if stabilised else INDEX3, cu)
+    take_harmless(P, L, STABILISED if stabilised else INDEX3, cu)
     while P.search[OPEN] != 0.0:
         put_between(P, int(C[K]), t, h, P.search[SHARE])
         judge(P)

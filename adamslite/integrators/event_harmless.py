@@ -25,16 +25,16 @@ MOST_GROUPS = 5
 
 
 @native
-def is_harmless(P: Problem, L: Plan, phases: int, cu: float) -> bool:
-    """Whether the step ends beyond changes that do not matter, and none is being hunted: Newton's
-    next increment on the other branches, dq with du = cu dq, is too small; then they are taken.
-    The converged end of the step stands in the workspace.
+def take_harmless(P: Problem, L: Plan, phases: int, cu: float) -> None:
+    """Where the step ends beyond changes that do not matter, and none is being hunted, take them:
+    Newton's next increment on the other branches, dq with du = cu dq, is too small.  The converged
+    end of the step stands in the workspace.
 
     Branches are changed one after another as they were met: two that cancel at the end (a force
     that acts only in a thin layer) need not have cancelled on the way.
     """
     if not ends_beyond(P) or P.search[HUNT] != 0.0:
-        return False
+        return
     share, groups, harmless = -1.0, 0, True
     remember_branches(P)
     while harmless and share < 1.0:
@@ -43,12 +43,10 @@ def is_harmless(P: Problem, L: Plan, phases: int, cu: float) -> bool:
         turn_back(P)
         turn_over(P, END, share)
         harmless = small_change(P, L, phases, cu)
-    harmless = harmless and not exposes(P)
-    if harmless:
+    if harmless and not exposes(P):
         forget(P)
     else:
         turn_back(P)
-    return harmless
 
 
 @native

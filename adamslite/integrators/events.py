@@ -6,10 +6,13 @@ of the watch; 0 stands for a guard that is evaluated as it is.
 
 *Stops* are the times at which a branch of the clock changes.  They are known before the run and
 stand in ``P.stops``, the end of the run last.  *Crossings* are sign changes of watched guards; they
-are found between the two ends of a step and at its middle, and located on the dense output.
+are seen from the values and rates of every guard at the two ends of a step, and located on the
+dense output.  *Zones* are where smooth steps of the state rise: they are no events, but a step that
+would cross more than a share of one is taken again, shorter.
 
 Guards and branches are in :mod:`adamslite.integrators.event_guards`, stops in ``event_stops``, the
-location of crossings in ``event_search``, changes that need none in ``event_harmless``.
+location of crossings in ``event_search``, what lies between the ends of a step in ``event_dips``,
+changes that need no location in ``event_harmless``.
 
 An integrator
 
@@ -26,7 +29,7 @@ An integrator
 
    and afterwards puts the end back.  Above 1, ``P.search[FOUND]`` says that there was none.  Where
    ``ends_beyond(P)`` right after ``open_search``, branches differ at the end; when they make no
-   difference there (:func:`is_harmless`) they are changed without a search;
+   difference there (:func:`take_harmless`) they are changed without a search;
    A try that fails because nothing is defined behind a branch is done again after
    :func:`let_go`;
    A try after which it :func:`crawls` ends the run as CHATTERING;

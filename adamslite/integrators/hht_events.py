@@ -31,7 +31,7 @@ from adamslite.integrators.bdf_state import (
     keep_algebraic,
 )
 from adamslite.integrators.equations import vector_rates
-from adamslite.integrators.event_harmless import is_harmless
+from adamslite.integrators.event_harmless import take_harmless
 from adamslite.integrators.event_places import JUMP, OPEN, SHARE
 from adamslite.integrators.event_search import judge, open_search
 from adamslite.integrators.events import change_here, pass_event
@@ -48,7 +48,7 @@ def locate_in_step(P: Problem, L: Plan) -> None:
     C, n = P.control, P.sizes[N]
     t, h, end = C[NOW], C[H], P.trial[0:]
     open_search(P, t, h)
-    is_harmless(P, L, INDEX3, C[CU])
+    take_harmless(P, L, INDEX3, C[CU])
     vector_rates(P, P.q, P.u, end[n:])
     while P.search[OPEN] != 0.0:
         put_share(P, t, h, P.search[SHARE])

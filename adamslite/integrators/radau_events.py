@@ -38,7 +38,7 @@ from adamslite.integrators.bdf_state import (
     first_step,
     keep_algebraic,
 )
-from adamslite.integrators.event_harmless import is_harmless
+from adamslite.integrators.event_harmless import take_harmless
 from adamslite.integrators.event_places import JUMP, OPEN, SHARE
 from adamslite.integrators.event_search import judge, open_search
 from adamslite.integrators.events import change_here, pass_event
@@ -61,7 +61,7 @@ def locate_in_stages(P: Problem, L: Plan) -> None:
     t, h = P.control[NOW], P.control[H]
     put_end(P)
     open_search(P, t, h)
-    is_harmless(P, L, equations_kept(P), P.tableau[REAL] / h)
+    take_harmless(P, L, equations_kept(P), P.tableau[REAL] / h)
     while P.search[OPEN] != 0.0:
         put_inside(P, t, h, P.search[SHARE])
         judge(P)
