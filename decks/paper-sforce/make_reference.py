@@ -15,9 +15,9 @@ from scipy.special import jv, yv
 M, EA, L0, U, STRETCH0 = 0.5, 50.0, 1.0, 0.5, 0.01
 HEADER = """# The paper's SFORCE with a growing free length, Bessel functions: see README.md
 # written by make_reference.py
-# tolerance: abs 5e-7
-# tolerance POINT_MASS/2.vx: abs 5e-6
-# tolerance SFORCE/102.f: abs 2.5e-5
+# tolerance: abs 1e-7
+# tolerance POINT_MASS/2.vx: abs 1e-6
+# tolerance SFORCE/102.f: abs 5e-6
 time,POINT_MASS/2.x,POINT_MASS/2.y,POINT_MASS/2.z,POINT_MASS/2.vx,SFORCE/102.f"""
 
 

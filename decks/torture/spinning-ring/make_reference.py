@@ -31,7 +31,7 @@ SFORCE/{k}, TRANSLATION, I={k}, J={next}
 , FUNCTION=-VARVAL(EA)/VARVAL(free_length)*(DM({k},{next})-VARVAL(free_length))
 """
 TAIL = """
-INTEGRATOR/HHT, ERROR=1.0E-9
+INTEGRATOR/HHT, ERROR=2.0E-10
 SIMULATE/DYNAMIC, END=0.1, STEPS=100
 END
 """
@@ -66,7 +66,7 @@ def main():
         "SFORCE/2.f": -TENSION, "SFORCE/15.f": -TENSION, "SFORCE/30.f": -TENSION,
     }  # fmt: skip
     runs = {
-        "reference": ("1e-6", "5e-6", ""),
+        "reference": ("1e-6", "2e-6", ""),
         "reference-abam": ("1e-8", "1e-9", "solve: --integrator ABAM"),
         "reference-gstiff": ("2e-5", "1e-7", "solve: --integrator GSTIFF"),
     }
