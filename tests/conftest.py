@@ -1,5 +1,8 @@
 """What all tests share: one folder of compiled code, so that a shape is compiled only once, and the
 closed forms and decks of cables, which are modules in decks/cables.
+
+Tests are in two tiers: those marked `numerical` may depend on how a processor rounds, and are run
+for several; the others read, check and write texts.
 """
 
 import os
@@ -14,16 +17,41 @@ from adamslite.places import find
 
 sys.path.append(str(find("decks") / "cables"))
 
+#: Modules of tests in which no number is computed that a processor could round otherwise.
+TEXTUAL = {
+    "test_cable_messages", "test_chart", "test_commands", "test_compare", "test_deck",
+    "test_doubts", "test_lexical", "test_lowering", "test_manual", "test_messages",
+    "test_reference", "test_results", "test_statement", "test_style",
+}  # fmt: skip
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests that are run for several processors."""
+    for item in items:
+        if item.path.stem not in TEXTUAL:
+            item.add_marker("numerical")
+
 
 @pytest.fixture(scope="session", autouse=True)
 def compiled_code(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """The cache folder of this session; the user's own is neither read nor written."""
+    """The cache folder of this session; the user's own is neither read nor written.
+
+    Workers of one session share it: an entry is written whole and then renamed.
+    """
     given = os.environ.get("ADAMSLITE_CACHE")
-    folder = Path(given) if given else tmp_path_factory.mktemp("compiled")
+    folder = Path(given) if given else _own_folder(tmp_path_factory)
     os.environ["ADAMSLITE_CACHE"] = str(folder)
     yield folder
     if given is None:
         del os.environ["ADAMSLITE_CACHE"]
+
+
+def _own_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    base = tmp_path_factory.getbasetemp()
+    session = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    folder = session / "compiled"
+    folder.mkdir(mode=0o700, exist_ok=True)
+    return folder
 
 
 @pytest.fixture
