@@ -11,11 +11,18 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from adamslite.check_constraints import CONSTRAINT_RULES
+from adamslite.check_posture import (
+    facing_markers,
+    inertia_at_mass_centre,
+    is_plain,
+    no_body,
+    orientations,
+)
+from adamslite.check_rates import unformed_equations
 from adamslite.check_runs import RUN_RULES
 from adamslite.diagnostics import Diagnostic, sort_by_place
 from adamslite.effective_mass import effective_masses
-from adamslite.expression import Ref, calls, expressions, walk
-from adamslite.functions.forces import MEASURES, NET
+from adamslite.expression import Ref, walk
 from adamslite.messages import compose
 from adamslite.resolve import RESERVED
 from adamslite.rule import Rule, apply, needs, positive, say
@@ -30,10 +37,6 @@ Body = tuple[str, Key]
 POINT = "POINT_MASS"
 # Forces whose reaction follows I, and all elements between two markers.
 FOLLOWING = ("VFORCE", "VTORQUE", "GFORCE")
-# Functions without a rate, or with one that depends on what they measure.
-RATELESS = (
-    "VARVAL", "DIF", "DIF1", "ACCM", "ACCX", "ACCY", "ACCZ", "WDTM", "WDTX", "WDTY", "WDTZ",
-)  # fmt: skip
 COMPLIANT = ("BUSHING", "FIELD", "BEAM")
 BETWEEN = ("SFORCE", "SPRINGDAMPER", "JOINT", *COMPLIANT, *FOLLOWING)
 
@@ -112,9 +115,9 @@ def inertia(deck: Deck) -> Iterator[Diagnostic]:
         if part.ip is None:
             yield say(part, "no-inertia")
             continue
-        smallest, middle, largest = sorted(part.ip[:3])
-        if smallest < 0 or largest > (smallest + middle) * (1 + 1e-6):
-            yield say(part, "bad-inertia", "ip")
+        reason = no_body(part.ip[:3]) if is_plain(part) else ""
+        if reason:
+            yield say(part, "bad-inertia", "ip", reason=reason)
 
 
 def markers_of_bodies(deck: Deck) -> Iterator[Diagnostic]:
@@ -137,23 +140,6 @@ def owners(deck: Deck) -> Iterator[Diagnostic]:
             yield say(marker, "two-owners", "point_mass")
         elif marker.owner is None and not deck.incomplete & {"PART", POINT, "FLEX_BODY"}:
             yield say(marker, "no-owner")
-
-
-def orientations(deck: Deck) -> Iterator[Diagnostic]:
-    pairs = {"MARKER": ("zp", "xp"), "PART": ("zg", "xg"), POINT: ("zg", "xg")}
-    for keyword, (along, plane) in pairs.items():
-        for each in deck.of(keyword):
-            points = [field for field in (along, plane) if each.given(field)]
-            if points and each.given("reuler"):
-                yield say(each, "orientation-twice", points[0])
-                continue
-            first = plane if getattr(each, "usexp", False) else along
-            if (points or first == "xp") and not each.given(first):
-                yield say(each, "orientation-incomplete", word=f"add {first.upper()}=")
-            origin = (each.qp if keyword == "MARKER" else each.qg) or (0.0, 0.0, 0.0)
-            for field in points:
-                if tuple(getattr(each, field)) == tuple(origin):
-                    yield say(each, "orientation-nowhere", field, word=field.upper())
 
 
 def floating_alone(deck: Deck) -> Iterator[Diagnostic]:
@@ -331,26 +317,6 @@ def requests(deck: Deck) -> Iterator[Diagnostic]:
             yield say(request, "empty-request")
 
 
-def unformed_equations(deck: Deck) -> Iterator[Diagnostic]:
-    """Forces that depend on themselves, rates of what has none."""
-    suspects = [each for each in deck.statements if _is_suspect(each)]
-    if suspects:
-        from adamslite.compiled import unformed
-        from adamslite.model import Model
-
-        yield from unformed(Model(deck), suspects)
-
-
-def _is_suspect(statement: Statement) -> bool:
-    """Whether it takes rates of more than places and TIME, or measures forces with forces."""
-    asked = ("DDT",)
-    if hasattr(statement, "constraints"):
-        asked += RATELESS
-    if hasattr(statement, "loads") or statement.keyword == "GCON":
-        asked += (*MEASURES.values(), *NET)
-    return any(next(calls(node, *asked), None) for node in expressions(statement))
-
-
 # ---- units and runs ---------------------------------------------------------------------------
 
 
@@ -390,4 +356,9 @@ RULES: list[Rule] = [
     *CONSTRAINT_RULES,
     *RUN_RULES,
 ]
-ADVICE: list[Rule] = [effective_masses, unformed_equations]
+ADVICE: list[Rule] = [
+    inertia_at_mass_centre,
+    facing_markers,
+    effective_masses,
+    unformed_equations,
+]

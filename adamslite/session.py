@@ -259,7 +259,7 @@ class Session:
         system = self._system
         self.unclosed = self.unclosed or initial_conditions(system)
         if self.unclosed:
-            self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
+            self.outcome = self.unclosed.outcome
             return
         if self.time == 0.0 and not self.pieces:
             self.assembled = system.largest_changes()

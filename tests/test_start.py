@@ -124,3 +124,16 @@ def test_a_variable_solved_for_starts_at_its_function():
         "SFORCE/1, I=2, J=1, FUNCTION=-K/L_0*(DM(2,1)-L_0)\nEND\n"
     )
     assert run(deck, 0.1, 1)["POINT_MASS/2.ax"][0] == pytest.approx(-4 / 2 / 2, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "rule", ("SQRT(DX(2)-5)", "LOG(DX(2)-1)", "DX(2)/(DY(2)*TIME)", "SQRT(VX(2)-1)")
+)
+def test_a_constraint_without_a_value_at_the_start_is_named(rule):
+    deck = GROUND + (
+        "PART/2, MASS=2, CM=2, IP=1,1,1\nMARKER/2, PART=2\n"
+        f"JOINT/1, PLANAR, I=2, J=1\nGCON/1, FUNCTION={rule}\nEND\n"
+    )
+    results = run(deck, 0.1, 1)
+    assert results.outcome is Outcome.NOT_FINITE
+    assert results.message.startswith("GCON/1 (<text>:7:1), FUNCTION, has no value at the start.")

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from math import isnan
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ import numpy as np
 from adamslite.engine import JACOBIAN, RESIDUAL
 from adamslite.integrators import base
 from adamslite.model import PART
+from adamslite.outcomes import Outcome
 from adamslite.system import System
 
 EXACT = 1e4
@@ -51,6 +53,11 @@ class Unclosed:
     level: str
     equation: str
     others: list[Any] = field(default_factory=list)
+
+    @property
+    def outcome(self) -> Outcome:
+        """How the analysis ends."""
+        return Outcome.NOT_FINITE if isnan(self.size) else Outcome.INITIAL_CONDITIONS_FAILED
 
 
 def initial_conditions(system: System, free: Iterable[Any] = ()) -> Unclosed | None:

@@ -26,7 +26,7 @@ def run_kinematic(system: System, times: np.ndarray) -> tuple[Outcome, Unclosed 
         system.report[base.AT] = time
         unclosed = initial_conditions(system)
         if unclosed:
-            return Outcome.INITIAL_CONDITIONS_FAILED, unclosed
+            return unclosed.outcome, unclosed
         if system.run(ACCELERATIONS) != base.DONE:
             return Outcome.UNDETERMINED, None
         system.run(RECORD, row)

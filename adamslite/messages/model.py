@@ -50,10 +50,12 @@ MODEL: dict[str, Message] = {
         severity=WARNING,
     ),
     "bad-inertia": Message(
-        "the inertia of {label} belongs to no body",
+        "the inertia of {label} belongs to no body: {reason}",
         "moments are not negative and none exceeds the sum of the other two",
         ("PART/4, MASS=1, CM=4, IP=1,1,3\nMARKER/4, PART=4",
-         "PART/4, MASS=1, CM=4, IP=-1,1,1\nMARKER/4, PART=4"),
+         "PART/4, MASS=1, CM=4, IP=-1,1,1\nMARKER/4, PART=4",
+         "PART/4, MASS=1, CM=4, IP=1,1,1,2,0,0\nMARKER/4, PART=4",
+         "PART/4, MASS=1, CM=4, IM=5, IP=1,1,1\nMARKER/4, PART=4\nMARKER/5, PART=4, QP=0,0,2"),
         severity=WARNING,
     ),
     "foreign-marker": Message(
@@ -86,6 +88,24 @@ MODEL: dict[str, Message] = {
         "{word} of {label} is its own origin and gives no direction",
         "{word} is a point on the axis, in the coordinates in which the origin is given",
         ("MARKER/4, PART=1, ZP=0,0,0", "MARKER/4, PART=1, QP=1,2,3, ZP=1,2,3"),
+    ),
+    "orientation-flat": Message(
+        "{word} of {label} lies on the {axis} axis that {other} gives",
+        "it is a point beside that axis and decides which way the other two point",
+        ("MARKER/4, PART=1, ZP=0,0,1, XP=0,0,2", "MARKER/4, PART=1, USEXP, XP=0,1,0, ZP=0,-2,0",
+         "MARKER/4, PART=1, QP=1,2,3, ZP=1,2,4, XP=1,2,0",
+         "PART/4, MASS=1, CM=4, IP=1,1,1, ZG=0,1,1, XG=0,3,3\nMARKER/4, PART=4",
+         "POINT_MASS/4, MASS=1, ZG=0,1,1, XG=0,-0.3,-0.3"),
+    ),
+    "markers-opposed": Message(
+        "MARKER/{i} and MARKER/{j} of {label} are half a turn apart: their {axes} axes point "
+        "opposite ways",
+        "the joint {kind} is meant for markers that face the same way; it keeps them as drawn",
+        ("MARKER/4, PART=1, REULER=0,180D,0\nJOINT/1, FIXED, I=2, J=4",
+         "MARKER/4, PART=1, REULER=180D,0,0\nJOINT/1, TRANSLATIONAL, I=2, J=4",
+         "MARKER/4, PART=1, ZP=0,0,-1\nJOINT/1, REVOLUTE, I=2, J=4",
+         "MARKER/4, PART=1, ZP=0,0,-1\nJPRIM/1, ORIENTATION, I=2, J=4"),
+        severity=WARNING,
     ),
     "floating-placed": Message(
         "{label} is FLOATING and has a place of its own",
