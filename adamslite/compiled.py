@@ -57,14 +57,19 @@ LEVELS = ("reactions", "position", "velocity", "acceleration")
 WITH_JACOBIAN = ("loads", "equation", *LEVELS)
 
 
-def compile_model(model: Model, progress: Any = None) -> Kernels:
-    """Bind every statement, compile the shapes not seen before, link all of them."""
+def compile_model(model: Model, progress: Any = None, audited: bool = False) -> Kernels:
+    """Bind every statement, compile the shapes not seen before, link all of them.
+
+    ``audited``: what elastic elements store too.
+    """
     groups: dict[tuple, Group] = {}
     outputs = []
     with uncollected():
         for statement in model.deck.statements:
             for face in faces(statement, model):
                 _add(groups, model, statement, face)
+            if audited and hasattr(statement, "stored") and model.acts(statement):
+                _add(groups, model, statement, "stored")
             for face in _output(statement):
                 outputs.append((statement, statement.result_names))
                 _add(groups, model, statement, face)
@@ -116,8 +121,8 @@ def _bound(binder: Binder, statement: Statement, face: str) -> tuple[Tree, int]:
         values = tuple(binder.output(node, statement) for node in statement.outputs(binder.model))
         return values, binder.node_slot(("OUTPUT", statement))
     fields = binder.statement(statement)
-    if face == "signal":
-        return fields, binder.node_slot(("SIGNAL", statement.key))
+    if face in ("signal", "stored"):
+        return fields, binder.node_slot((face.upper(), statement.key))
     return fields, binder.unknowns(statement)
 
 
@@ -168,6 +173,8 @@ class FaceWriter:
             return Outputs(loads=view.cls.loads(view, scope))
         if self.face == "reactions":
             return Outputs(loads=reactions(view, scope))
+        if self.face == "stored":
+            return Outputs(rows=[(row, 0, view.cls.stored(view, scope))])
         if self.face == "equation":
             return Outputs(rows=[(row, 0, view.cls.equation(view, scope))])
         if self.face == "signal":

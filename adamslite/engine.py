@@ -13,8 +13,8 @@ from adamslite.caching.sources import version_of
 
 (
     RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
-    SPECTRUM, CLOCK,
-) = range(12)  # fmt: skip
+    SPECTRUM, CLOCK, AUDIT,
+) = range(13)  # fmt: skip
 
 
 #: The integrators, each compiled by itself when a run first needs it; the rest is one piece.

@@ -55,11 +55,14 @@ def add_run_flags(parser: argparse.ArgumentParser) -> None:
         "--no-reduction", action="append", metavar="RULE",
         help="do without a reduction of the model: plane, points or variables; may be repeated",
     )  # fmt: skip
+    flags.add_argument(
+        "--audit", action="store_true", default=None, help="follow the balance of energy and say it"
+    )
 
 
 def run_options(args: argparse.Namespace) -> dict[str, Any]:
     """Return the run flags that were given, as keyword arguments of `simulate`."""
-    names = ("end", "steps", "integrator", "formulation", "error", "hmax", "no_reduction")
+    names = ("end", "steps", "integrator", "formulation", "error", "hmax", "no_reduction", "audit")
     return {name: getattr(args, name) for name in names if getattr(args, name) is not None}
 
 

@@ -21,6 +21,7 @@ PHASES = {
     "equation": base.ROWS,
     "signal": base.SIGNALS,
     "output": base.OUTPUTS,
+    "stored": base.STORED_ENERGY,
 }
 
 
@@ -57,6 +58,8 @@ class Instances(Numbering):
         phase = PHASES[group.face]
         if group.face == "velocity" and self._is_rate(group):
             phase = base.RATE_ROWS
+        if group.face == "loads" and hasattr(group.instances[0][0], "stored"):
+            phase |= base.ELASTIC
         ints = np.array(
             [self._integers(group, b, n) for n, (_, b) in enumerate(group.instances)],
             dtype=np.int64,
@@ -111,6 +114,8 @@ class Instances(Numbering):
             return self.out_at[node[1]]
         if node[0] == "SIGNAL":
             return self.w_at[node]
+        if node[0] == "STORED":
+            return 0  # all add up in one number
         return self.starts[self._row_node(group, node)]
 
     def _reals(self, group: Group, binding: Binding) -> list[float]:

@@ -53,6 +53,8 @@ class Results:
         factorizations, setup_cpu_s, solve_cpu_s, max_violation.
     linearizations : tuple of Linearized
         What the LINEAR commands found, in their order.
+    balances : tuple of Balance
+        With an audit, the balance of energy of every dynamic analysis.
     """
 
     time: np.ndarray
@@ -63,6 +65,7 @@ class Results:
     message: str = ""
     summary: Mapping[str, Any] = field(default_factory=dict)
     linearizations: tuple[Linearized, ...] = ()
+    balances: tuple[Any, ...] = ()
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return the (nt,) history called `name` (upper or lower case), or the times for "time"."""

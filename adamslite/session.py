@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.audit import Balance, balance
 from adamslite.analyses.choose import METHODS, Choice, choose
 from adamslite.analyses.dynamic import Settings, run_dynamic
 from adamslite.analyses.initial import Unclosed, initial_conditions, settle_variables
@@ -63,6 +64,8 @@ class Session:
     outcome, unclosed
         How the last analysis ended; the constraint that stayed open, if one did.
     linearizations : list of Linearized
+    balances : list of Balance
+        What the audits of dynamic analyses found.
     """
 
     def __init__(
@@ -71,10 +74,12 @@ class Session:
         progress: Any,
         flags: dict[str, Any],
         without: frozenset[str] = frozenset(),
+        audited: bool = False,
     ) -> None:
         self.progress = progress
         self.flags = flags
-        self.kernels = _compiled(scene, progress, without)
+        self.audited = audited
+        self.kernels = _compiled(scene, progress, without, audited)
         self.without = without | self.kernels.model.without
         engine(ACCELERATIONS, progress)
         self.settings = replace(Settings(), **flags)
@@ -86,6 +91,7 @@ class Session:
         self.outcome = Outcome.DONE
         self.unclosed: Unclosed | None = None
         self.linearizations: list[Linearized] = []
+        self.balances: list[Balance] = []
         self.counts = np.zeros(len(base.COUNTS), dtype=np.int64)
         self.ways_to_fall = 0
         self.assembled: list[str] = []
@@ -142,7 +148,7 @@ class Session:
     def _change(self, deck: Any) -> None:
         """Go on with another deck from the present state."""
         old = self._system
-        self.kernels = compile_model(assemble(deck, self.without), self.progress)
+        self.kernels = compile_model(assemble(deck, self.without), self.progress, self.audited)
         self._system = None
         if old is not None:
             self._system = self._numbered(False)
@@ -184,9 +190,15 @@ class Session:
         system, settings = self._system, self.chosen.settings
 
         def run() -> Outcome:
-            return run_dynamic(system, times, settings, self.progress)
+            return run_dynamic(system, times, settings, self.progress, self.audited)
 
-        return run() if "plane" in self.without else in_its_plane(system, run)
+        outcome = run() if "plane" in self.without else in_its_plane(system, run)
+        self._note_balance()
+        return outcome
+
+    def _note_balance(self) -> None:
+        if self.audited:
+            self.balances.append(balance(self._system))
 
     def _rank_changed(self) -> bool:
         """Look again for redundant rows; True when they are others than before."""
@@ -198,7 +210,10 @@ class Session:
         """Go on from where a run stalled to the rest of its output times."""
         self.outcome = Outcome.DONE
         rest = np.append(self.time, times[times > self.time])
-        self.outcome = run_dynamic(self._system, rest, self.chosen.settings, self.progress)
+        self.outcome = run_dynamic(
+            self._system, rest, self.chosen.settings, self.progress, self.audited
+        )
+        self._note_balance()
         self.time = float(self._system.report[base.AT])
         self._keep(rest, False, own_start=False)
 
@@ -332,8 +347,8 @@ def _updated(settings: Any, command: Any) -> Any:
     return replace(settings, **given)
 
 
-def _compiled(scene: Any, progress: Any, without: frozenset[str]) -> Kernels:
+def _compiled(scene: Any, progress: Any, without: frozenset[str], audited: bool) -> Kernels:
     if isinstance(scene, Kernels):
         return scene
     model = scene if isinstance(scene, Model) else assemble(scene, without)
-    return compile_model(model, progress)
+    return compile_model(model, progress, audited)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.audit import Balance
 from adamslite.analyses.buckling import buckled
 from adamslite.analyses.doubts import doubts, longest_way
 from adamslite.analyses.linear import Linearization, linear
@@ -48,6 +49,7 @@ def simulate(
     commands: Iterable[Any] = (),
     progress: Any = None,
     no_reduction: Iterable[str] = (),
+    audit: bool = False,
 ) -> Results:
     """Run a deck, a model or its kernels.
 
@@ -66,6 +68,8 @@ def simulate(
     no_reduction : iterable of str
         Rules of :mod:`adamslite.reduction` not to apply; ``points`` and ``variables`` of a model
         are settled when it is assembled.
+    audit : bool
+        Follow the balance of energy; elastic elements of ready kernels are not followed.
 
     Raises
     ------
@@ -76,7 +80,7 @@ def simulate(
     asked = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
     flags = {name: value for name, value in asked.items() if value is not None}
     plan = _plan(_deck(scene), tuple(commands), end, steps)
-    session = Session(scene, progress, flags, left_off(no_reduction))
+    session = Session(scene, progress, flags, left_off(no_reduction), audit)
     first = next((k for k, c in enumerate(plan) if c.keyword not in SETTINGS), len(plan))
     session.execute(plan[:first])
     session.prepare()
@@ -193,7 +197,7 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
     return Results(
         time=time, names=session.names, values=values, meta=meta, outcome=session.outcome,
         message="" if done else explain(system, session.outcome, session.unclosed), summary=summary,
-        linearizations=tuple(session.linearizations),
+        linearizations=tuple(session.linearizations), balances=tuple(session.balances),
     )  # fmt: skip
 
 
@@ -219,6 +223,11 @@ def _doubt(session: Session, steps: int) -> str:
     return "; ".join(sentence for sentence in (grown, said) if sentence)
 
 
+def _told(balances: list[Balance]) -> str:
+    """The worst of several balances."""
+    return str(max(balances, key=lambda b: (not b.closes, b.gap / max(b.explained, 1e-300))))
+
+
 def _notes(session: Session) -> dict[str, str]:
     """What the program did to the model on its own: moves of the assembly, rows left out."""
     found = {}
@@ -232,6 +241,8 @@ def _notes(session: Session) -> dict[str, str]:
         found["equilibrium"] = f"unstable in {ways}: the least disturbance makes it leave"
     if session.system.report[base.ORDER_CAPPED]:
         found["order"] = CAPPED
+    if session.balances:
+        found["energy"] = _told(session.balances)
     steps = int(session.counts[base.STEPS])
     if steps and (doubt := _doubt(session, steps)):
         found["accuracy"] = doubt

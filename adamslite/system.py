@@ -67,6 +67,7 @@ class System(Elimination):
         self.coef, self.report = np.zeros(16), np.zeros(len(base.REPORT))
         self.settings, self.count = np.zeros(len(base.SETTINGS)), ints([0] * len(base.COUNTS))
         self.times, self.record, self.undo = np.zeros(1), np.zeros(1), np.zeros(0)
+        self.audit = np.zeros(0)
         self.gravity = np.asarray(self.model.deck.gravity, dtype=float)
 
     def _bodies(self) -> None:
@@ -255,7 +256,7 @@ class System(Elimination):
                 "not there: fewer STEPS, a longer DTOUT."
             ) from None
         if self.m:
-            kept = (self.history, self.control, self.base, self.ra, self.rz, self.pz)
+            kept = (self.history, self.control, self.base, self.ra, self.rz, self.pz, self.audit)
             self.undo = np.zeros(sum(each.size for each in kept))
         self.count[:] = 0
 

@@ -49,12 +49,24 @@ class Compliance(Wrench):
 
     def loads(self, scope: Scope) -> list[Load]:
         """The wrench on I and what J gets."""
-        found = displacement(scope, self.i, self.j)
-        strained = [x - x0 for x, x0 in zip(found, self.rest, strict=True)]
+        strained = _strained(self, scope)
         total = list(self.preload)
         for matrix, values in ((self.stiffness, strained), (self.damping, rate(scope, self))):
             total = [t - _product(row, values) for t, row in zip(total, matrix, strict=True)]
         return between(scope, self.i, self.j, total)
+
+    def stored(self, scope: Scope) -> Any:
+        """(x - rest) . K (x - rest)/2 - preload . (x - rest), for a symmetric K."""
+        strained = _strained(self, scope)
+        pulls = zip(self.stiffness, self.preload, strict=True)
+        pulled = [_product(row, strained) / 2 - force for row, force in pulls]
+        return _product(pulled, strained)
+
+
+def _strained(element: Any, scope: Scope) -> list[Any]:
+    """x - rest"""
+    found = displacement(scope, element.i, element.j)
+    return [x - x0 for x, x0 in zip(found, element.rest, strict=True)]
 
 
 def _product(row: tuple[Any, ...], values: list[Any]) -> Any:

@@ -174,6 +174,19 @@ END
 """
 )
 
+# Every kind of work that an audit counts, and a branch that changes.
+WORKS = PENDULUM.replace(
+    "END",
+    """PART/3, MASS=1, CM=4, IP=1,1,1, QG=2,0,0, WX=1
+MARKER/4, PART=3
+BUSHING/1, I=4, J=2, K=9,9,9, KT=1,1,1
+MOTION/1, JOINT=1, ROTATION, FUNCTION=-TIME**2
+DIFF/1, FUNCTION=DX(4)-DIF(1), IC=0
+VFORCE/1, I=4, J_PART=1, FX=IF(DY(4)+.3:DIF(1),0,2)
+END""",
+)
+
+
 # One method for each native integrator, on every deck; and equilibria, far ones too.
 SUPPORTED = STATEMENTS["INTEGRATOR"].arguments["method"].supported
 INTEGRATORS = {METHODS.get(method, method): method for method in SUPPORTED}.values()
@@ -189,6 +202,8 @@ RUNS |= {
     ),
     "hangs": (PENDULUM.replace("END", "SIMULATE/STATICS\nEND"), None),
     "leans": (UPRIGHT.replace("END", "SIMULATE/STATICS\nEND"), None),
+    "audited work": (WORKS, "GSTIFF"),
+    "audited leaps": (DECKS["jumps"], "VERLET"),
     "falls": (PENDULUM.replace("END", "EQUILIBRIUM/MAXIT=1\nSIMULATE/STATICS\nEND"), None),
 }
 
@@ -199,7 +214,8 @@ def run_of(name: str):
     if method is None:
         return al.simulate(al.read(deck))
     try:
-        return run(deck, 0.4, 4, error=1e-4, integrator=method)
+        audit = name.startswith("audited")
+        return run(deck, 0.4, 4, error=1e-4, integrator=method, audit=audit)
     except UsageError:
         return None
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from adamslite.analyses.audit import start_audit
 from adamslite.analyses.choose import CONSTANT, METHODS
 from adamslite.analyses.edges import stops
 from adamslite.engine import BDF, EXPLICIT, RADAU, ints
@@ -107,8 +108,12 @@ def run_dynamic(
     times: np.ndarray,
     settings: Settings,
     watch: Callable[[float, float], None] | None,
+    audited: bool = False,
 ) -> Outcome:
-    """Integrate over ``times`` (nt,) and fill ``system.record``."""
+    """Integrate over ``times`` (nt,) and fill ``system.record``.
+
+    ``audited``: with a balance of energy in ``system.audit``.
+    """
     start, end = float(times[0]), float(times[-1])
     output_step = float(np.diff(times).max()) if len(times) > 1 else end - start
     fixed = settings.fixed_step(output_step)
@@ -130,6 +135,7 @@ def run_dynamic(
         system.prepare_explicit(settings.scale)
     if method == RADAU:
         system.prepare_radau()
+    system.audit = start_audit(system) if audited else np.zeros(0)
     system.start_record(times)
     code = _watched(system, method, watch, end)
     system.release_guards()

@@ -40,8 +40,8 @@ SUMMARY = """\
 
 #: Comments of the results that the summary repeats: what was done to the model and the method.
 NOTES = (
-    "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "linear",
-    "no number",
+    "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "energy",
+    "linear", "no number",
 )  # fmt: skip
 
 

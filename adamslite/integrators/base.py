@@ -55,6 +55,7 @@ kind guard      of guards: how they are read; their values, numbered as the work
 margin zone     how far guards are from changing; where the state is within zones
 stops           times at which guards of the clock change
 search          the location of events (:mod:`adamslite.integrators.events`)
+audit           balance of energy (:mod:`adamslite.integrators.audit`); empty without
 pattern         per iteration whether it renews the Newton matrix, repeated; empty: as needed
 ==============  =================================================================================
 """
@@ -132,7 +133,9 @@ COUNTS = (
     ROWS,
     SIGNALS,
     OUTPUTS,
-) = (1 << k for k in range(9))
+    STORED_ENERGY,
+    ELASTIC,
+) = (1 << k for k in range(11))
 INDEX3 = LOADS | REACTIONS | POSITION_ROWS | RATE_ROWS | ROWS
 STABILISED = INDEX3 | VELOCITY_ROWS
 STATIC = LOADS | REACTIONS | POSITION_ROWS | ROWS
@@ -165,7 +168,7 @@ FIELDS = (
     "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
     "dead held loose settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
     "pivots pivots_a pivot0 history trial tableau control pz undo record parts LC pivots_c kind "
-    "guard margin zone stops search pattern"
+    "guard margin zone stops search pattern audit"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

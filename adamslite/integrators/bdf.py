@@ -20,6 +20,7 @@ IVP in DAE, 1996, section 5.2 (tests of the corrector).
 from __future__ import annotations
 
 from adamslite.integrators.acceleration import accelerations, mass_signature
+from adamslite.integrators.audit import audit
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
@@ -224,6 +225,7 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     for i in range(P.sizes[N]):
         P.ra[i] = P.a[i]
     note_violation(P, t)
+    audit(P, L, t)
     following = record_at(P, L, D, w, k, t, h, int(C[NEXT]))
     if following < 0:
         return SINGULAR_MASS

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from adamslite.engine import ACCELERATIONS, CLOCK, EQUILIBRIUM, RECORD, RESIDUAL, SPECTRUM
+from adamslite.engine import ACCELERATIONS, AUDIT, CLOCK, EQUILIBRIUM, RECORD, RESIDUAL, SPECTRUM
 from adamslite.integrators.acceleration import accelerations, put_state
+from adamslite.integrators.audit import start_balance
 from adamslite.integrators.base import BROKEN_START, DONE, Plan, Problem, T
 from adamslite.integrators.bdf import bdf
 from adamslite.integrators.equations import jacobian, residual, track
@@ -23,7 +24,7 @@ __all__ = ["bdf", "engine_text", "explicit", "hht", "radau", "run", "verlet"]
 @native
 def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
-    row ``phases``; CLOCK writes the guards of the clock at the asked times.
+    row ``phases``; CLOCK writes the guards of the clock at the asked times; AUDIT starts a balance.
     """
     if operation == CLOCK:
         return sample_clock(P)
@@ -38,6 +39,8 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     if operation == RECORD:
         write_record(P, phases)
         track(P)
+    elif operation == AUDIT:
+        start_balance(P)
     elif operation == RESIDUAL:
         residual(P, phases, P.F)
     else:

@@ -47,6 +47,7 @@ Takahashi, ACM Trans. Math. Softw. 47 (2021) 5 (ITP, the bracketing).
 from __future__ import annotations
 
 from adamslite.integrators.acceleration import accelerations
+from adamslite.integrators.audit import audit_from
 from adamslite.integrators.base import EVENTS, NS, N, Plan, Problem, T
 from adamslite.integrators.event_dips import share_of_zone
 from adamslite.integrators.event_guards import (
@@ -114,6 +115,7 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
     if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return False
     look_at_start(P)
+    audit_from(P, t)
     return True
 
 
@@ -148,4 +150,5 @@ def pass_event(P: Problem, L: Plan, t: float) -> bool:
     for k in range(ns):
         size = max(1.0, abs(P.z[P.z.size - 1 - ns + k]))
         S[JUMP] = max(S[JUMP], abs(P.rd[k] - old[n + k]) / size)
+    audit_from(P, t)
     return True

@@ -18,6 +18,7 @@ II.10 (error); Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006, se
 from __future__ import annotations
 
 from adamslite.integrators.acceleration import accelerations, mass_signature, put_state
+from adamslite.integrators.audit import audit
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
@@ -200,6 +201,7 @@ def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
     make_undoable(P, C[CLOCK], C[H], C[TRIES] == 0.0)
     C[FAILED], C[TRIES] = 0.0, 0.0
     note_violation(P, t)
+    audit(P, L, t)
     keep_solution(P)
     if not write_dense(P, L, w, t):
         return SINGULAR_MASS

@@ -34,6 +34,7 @@ from adamslite.integrators.acceleration import (
     mass_vanishes,
     put_state,
 )
+from adamslite.integrators.audit import audit
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
@@ -308,6 +309,7 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
     keep_second_order(P)
     P.report[ROUGH_STEPS] += C[ROUGH]
     note_violation(P, t)
+    audit(P, L, t)
     C[NOW], C[H_LAST], C[RETRIES], C[NORM] = t, h, 0.0, 0.0
     C[AGE] += 1.0
     good = record_between(P, L, t, h)

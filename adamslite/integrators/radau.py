@@ -25,6 +25,7 @@ from adamslite.integrators.acceleration import (
     mass_vanishes,
     put_state,
 )
+from adamslite.integrators.audit import audit
 from adamslite.integrators.base import (
     AT,
     BROKEN_START,
@@ -247,6 +248,7 @@ def accept_stages(P: Problem, L: Plan, norm: float) -> int:
     for i in range(P.sizes[N]):
         P.ra[i] = P.a[i]
     note_violation(P, t)
+    audit(P, L, t)
     C[NOW] = t
     good = record_within(P, L, t, h)
     put_end(P)

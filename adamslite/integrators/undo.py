@@ -81,6 +81,7 @@ def remember(P: Problem) -> None:
     at = copied(P.ra.size, P.ra, P.undo, at)
     at = copied(P.rz.size, P.rz, P.undo, at)
     at = copied(P.pz.size, P.pz, P.undo, at)
+    at = copied(P.audit.size, P.audit, P.undo, at)
 
 
 @native
@@ -92,6 +93,7 @@ def bring_back(P: Problem) -> None:
     at = taken(P.ra.size, P.ra, P.undo, at)
     at = taken(P.rz.size, P.rz, P.undo, at)
     at = taken(P.pz.size, P.pz, P.undo, at)
+    at = taken(P.audit.size, P.audit, P.undo, at)
 
 
 @native

@@ -17,6 +17,7 @@ from __future__ import annotations
 from math import floor
 
 from adamslite.integrators.acceleration import put_state
+from adamslite.integrators.audit import audit_leap, bring_audit_back, keep_audit
 from adamslite.integrators.base import (
     AT,
     DONE,
@@ -88,7 +89,7 @@ def verlet(P: Problem, L: Plan) -> int:
         if P.settings[STOP] != 0.0:
             return INTERRUPTED
         look_at_stability(P)
-        outcome = reach(P, P.times[row - 1], P.times[row], fixed)
+        outcome = reach(P, L, P.times[row - 1], P.times[row], fixed)
         if outcome != DONE:
             stand(P, P.report[AT])
             return outcome
@@ -98,12 +99,12 @@ def verlet(P: Problem, L: Plan) -> int:
 
 
 @native
-def reach(P: Problem, t: float, end: float, fixed: bool) -> int:
+def reach(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
     """From one output time to the next over all stops between; returns an outcome."""
     at, outcome = t, DONE
     while at < end and outcome == DONE:
         to = min(end, horizon(P))
-        outcome = cross(P, at, to, fixed)
+        outcome = cross(P, L, at, to, fixed)
         if outcome == DONE:
             P.report[AT], at = to, to
             if is_stop(P, to):
@@ -142,12 +143,13 @@ def look_at_stability(P: Problem) -> None:
 
 
 @native
-def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
+def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
     """From one output time or stop to the next; returns an outcome."""
     C, n = P.control, P.sizes[N]
     old = P.trial[0:]
     for i in range(n):
         old[i], old[n + i] = P.q[i], P.u[i]
+    keep_audit(P)
     wanted, blown = min(C[WANTED], P.settings[H_MAX]), 0
     while P.settings[STOP] == 0.0:
         if not fixed:
@@ -158,7 +160,7 @@ def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
             return STEP_TOO_SMALL
         if fixed and STABLE * h > C[LIMIT]:
             return UNSTABLE
-        error = march(P, t, h, int((end - t) / h + 0.5), fixed)
+        error = march(P, L, t, h, int((end - t) / h + 0.5), fixed)
         P.report[HOW_MUCH] = error
         if error <= 1.0:
             P.report[SPENT] += C[SUM]
@@ -174,11 +176,12 @@ def cross(P: Problem, t: float, end: float, fixed: bool) -> int:
         wanted = h * (max(SHRINK, 0.8 * error ** (-1.0 / 3.0)) if error < 1e12 else SHRINK)
         for i in range(n):
             P.q[i], P.u[i] = old[i], old[n + i]
+        bring_audit_back(P)
     return INTERRUPTED
 
 
 @native
-def march(P: Problem, t: float, h: float, count: int, fixed: bool) -> float:
+def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> float:
     """``count`` steps; returns the largest local error seen against ERROR, 1e300 for a blow-up."""
     top, every, P.control[SUM] = 0.0, FIXED_SAMPLE if fixed else 1, 0.0
     if not fixed and P.sizes[WATCHED] == 0 and 2.0 * h > P.control[LIMIT]:
@@ -188,6 +191,7 @@ def march(P: Problem, t: float, h: float, count: int, fixed: bool) -> float:
         if s > 0:
             put_time(P, t + s * h)
         run_groups(P, LOADS, P.F)
+        audit_leap(P, L, t + s * h, h if s > 0 else 0.0)
         if s > 0 and s % every == 1 % every:
             divide_by_mass(P, P.F, P.history, 0.0, P.a)
             error = sampled_error(P, h)

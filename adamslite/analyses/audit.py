@@ -1,0 +1,183 @@
+"""The balance of energy of a run: made ready before it, read behind it.
+
+A step whose error is ERROR max(1, |y|) in every component, positions and velocities alike, moves
+the energy by the root of
+
+    s^2 = sum (M u max(1, |u|))^2 + sum (f max(1, |x|))^2        times ERROR,
+
+if errors of components do not know of each other; nor do those of steps, so that ERROR explains
+
+    gap <= CONFIDENCE ERROR (sum over steps of s^2)^(1/2) + error of the audit's own integrals.
+
+What goes beyond adds up one-sidedly, or is a force that a step did not see.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from adamslite.engine import ACCELERATIONS, AUDIT
+from adamslite.integrators import audit_path as at
+from adamslite.integrators import base
+from adamslite.integrators.audit_work import POINTS, ROWS_OF_GUARDS
+from adamslite.system import System
+
+# Standard deviations within which a sum of independent errors stays.
+CONFIDENCE = 3.0
+# Share of the largest energy that an elastic law may create before it is told: such laws hold for
+# small angles, and are off by the square of the angle.
+CREATION = 0.01
+# Round-off of a balance: this share of the largest energy, per step.
+ROUND_OFF = 1e-15
+# Net share of the loads below which they are taken for pairs.
+INTERNAL = 1e-9
+# Constraints that may drive the model.
+DRIVING = ("MOTION", "GCON", "COUPLER")
+
+
+@dataclass(frozen=True)
+class Balance:
+    """What the audit of a run found.
+
+    Parameters
+    ----------
+    gap, time, explained : float
+        The largest difference between the change of energy and the work done, the time of it, and
+        how much of that ERROR explains.
+    energy : float
+        The largest kinetic or stored energy.
+    created, created_at : float
+        Energy that elastic elements gave without having taken it, and until when.
+    momenta : tuple of (drift, explained)
+        Largest changes of momentum and angular momentum about the origin; empty where something
+        external acts.
+    missed : int
+        Panels of the audit's own integrals that it could not resolve.
+    """
+
+    gap: float
+    time: float
+    explained: float
+    energy: float
+    created: float
+    created_at: float
+    momenta: tuple[tuple[float, float], ...]
+    missed: int
+
+    @property
+    def closes(self) -> bool:
+        """Whether nothing is worse than ERROR explains."""
+        return not self.warnings()
+
+    def warnings(self) -> list[str]:
+        """What is wrong, as sentences."""
+        found = []
+        if not self.gap <= self.explained:
+            found.append(
+                f"the balance of energy is off by {self.gap:.3g} at t = {self.time:.6g}, of which "
+                f"ERROR explains {self.explained:.3g}: errors of steps add up, or steps passed "
+                "over a force; a run with a smaller ERROR and HMAX tells"
+            )
+        for name, (drift, explained) in zip(("", "angular "), self.momenta, strict=False):
+            if not drift <= explained:
+                found.append(
+                    f"nothing external acts, and the {name}momentum changes by {drift:.3g}, of "
+                    f"which ERROR explains {explained:.3g}"
+                )
+        if self.created > CREATION * self.energy:
+            found.append(
+                f"BUSHING, FIELD or BEAM gave {self.created:.3g} more than they had taken until "
+                f"t = {self.created_at:.6g}: their laws hold for small angles about two axes"
+            )
+        return found
+
+    def __str__(self) -> str:
+        """One line for a summary."""
+        wrong = "; ".join(self.warnings())
+        if wrong:
+            return f"WARNING: {wrong}"
+        told = f"balance closes to {self.gap:.1e} of {self.energy:.3g}"
+        if self.momenta:
+            told += ", momenta are kept to {:.1e} and {:.1e}".format(*(d for d, _ in self.momenta))
+        return told
+
+
+def start_audit(system: System) -> np.ndarray:
+    """The memory of an audit, with the state at the start in it."""
+    kept = [(name, getattr(system, name).copy()) for name in ("a", "z", "rd", "count", "report")]
+    system.audit = np.zeros(0)
+    system.run(ACCELERATIONS)
+    system.audit = _memory(system)
+    system.run(AUDIT)
+    for name, values in kept:
+        getattr(system, name)[:] = values
+    return system.audit
+
+
+def _memory(system: System) -> np.ndarray:
+    n, m = system.n, system.m
+    rest, guards = m + system.nv + system.ns, system.guard.size - system.nw
+    sizes = {
+        at.AT_PREVIOUS: system.W.size, at.AT_PRESENT: system.W.size, at.AT_CURVE: 6 * n,
+        at.AT_VECTORS: 2 * n + rest + system.ns,
+        at.AT_POINTS: POINTS + (ROWS_OF_GUARDS + 1) * guards, at.AT_MOVING: m,
+        at.AT_SPARE: at.HEAD + system.W.size,
+        at.AT_KEPT: system.LA.size + system.pivots_a.size + system.count.size,
+    }  # fmt: skip
+    memory = np.zeros(at.HEAD + sum(sizes.values()) + 1)
+    first = at.HEAD
+    for place, size in sizes.items():
+        memory[place], first = first, first + size
+    for node, start, width in zip(system.nodes, system.starts, system.widths, strict=True):
+        if node[0] in DRIVING:
+            row = int(memory[at.AT_MOVING]) + start - n
+            memory[row : row + width] = 1.0
+    memory[at.SOLVED] = _needs_solving(system)
+    memory[at.ELASTIC_THERE] = any(g.face == "stored" for g in system.kernels.groups)
+    return memory
+
+
+def _needs_solving(system: System) -> bool:
+    """Whether a load depends on multipliers, variables or accelerations, or a constraint drives."""
+    if any(node[0] in DRIVING for node in system.nodes) or system.sizes[base.IMPLICIT_MASS]:
+        return True
+    loads = [g for g in system.kernels.groups if g.face == "loads"]
+    return any(
+        node[0] != "DIFF" for g in loads for _, binding in g.instances for node in binding.nodes
+    )
+
+
+def balance(system: System) -> Balance:
+    """What the audit of the last run found."""
+    A, steps = system.audit, int(system.count[base.STEPS])
+    explained = CONFIDENCE * float(np.sqrt(A[at.SQUARES])) + float(A[at.QUADRATURE])
+    explained += ROUND_OFF * (steps + 1) * float(A[at.LARGEST])
+    return Balance(
+        gap=float(A[at.WORST]), time=float(A[at.WORST_AT]), explained=explained,
+        energy=float(A[at.LARGEST]), created=float(A[at.MOST_CREATED]),
+        created_at=float(A[at.CREATED_AT]), momenta=_momenta(system), missed=int(A[at.MISSED]),
+    )  # fmt: skip
+
+
+def _momenta(system: System) -> tuple[tuple[float, float], ...]:
+    """Drift and explained drift of both momenta; empty when something external acts."""
+    A = system.audit
+    if system.gravity.any() or _is_held(system) or A[at.EXTERNAL] > INTERNAL:
+        return ()
+    pairs = ((at.DRIFT, at.PUSHES), (at.SPIN_DRIFT, at.TURNS))
+    return tuple((float(A[d]), CONFIDENCE * float(np.sqrt(A[s]))) for d, s in pairs)
+
+
+def _is_held(system: System) -> bool:
+    """Whether a constraint refers to ground."""
+    for group in system.kernels.groups:
+        if group.face == "reactions":
+            for statement, binding in group.instances:
+                places = [system.model.marker(marker) for marker in binding.markers]
+                if statement.keyword == "GCON" or len(binding.bodies) < 2:
+                    return True
+                if any(place is None or place.kind == "ground" for place in places):
+                    return True
+    return False
