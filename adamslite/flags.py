@@ -58,11 +58,25 @@ def add_run_flags(parser: argparse.ArgumentParser) -> None:
     flags.add_argument(
         "--audit", action="store_true", default=None, help="follow the balance of energy and say it"
     )
+    flags.add_argument(
+        "--confirm", action="store_true", default=None,
+        help="run again, more tightly and by another method, and say how many digits agree",
+    )  # fmt: skip
 
 
 def run_options(args: argparse.Namespace) -> dict[str, Any]:
     """Return the run flags that were given, as keyword arguments of `simulate`."""
-    names = ("end", "steps", "integrator", "formulation", "error", "hmax", "no_reduction", "audit")
+    names = (
+        "end",
+        "steps",
+        "integrator",
+        "formulation",
+        "error",
+        "hmax",
+        "no_reduction",
+        "audit",
+        "confirm",
+    )
     return {name: getattr(args, name) for name in names if getattr(args, name) is not None}
 
 

@@ -55,6 +55,8 @@ class Results:
         What the LINEAR commands found, in their order.
     balances : tuple of Balance
         With an audit, the balance of energy of every dynamic analysis.
+    confirmation : Confirmation
+        What the witnesses of the run say, when they were asked (:mod:`adamslite.confirm`).
     """
 
     time: np.ndarray
@@ -66,6 +68,7 @@ class Results:
     summary: Mapping[str, Any] = field(default_factory=dict)
     linearizations: tuple[Linearized, ...] = ()
     balances: tuple[Any, ...] = ()
+    confirmation: Any = None
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return the (nt,) history called `name` (upper or lower case), or the times for "time"."""

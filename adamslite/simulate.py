@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -50,6 +52,7 @@ def simulate(
     progress: Any = None,
     no_reduction: Iterable[str] = (),
     audit: bool = False,
+    confirm: bool = False,
 ) -> Results:
     """Run a deck, a model or its kernels.
 
@@ -70,16 +73,18 @@ def simulate(
         are settled when it is assembled.
     audit : bool
         Follow the balance of energy; elastic elements of ready kernels are not followed.
+    confirm : bool
+        Run again, more tightly and by another method, and say how far the results agree.
 
     Raises
     ------
     UsageError
         When nothing says how long to run, or there is no such rule.
     """
-    began = clock.process_time()
+    began, commands = clock.process_time(), tuple(commands)
     asked = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
     flags = {name: value for name, value in asked.items() if value is not None}
-    plan = _plan(_deck(scene), tuple(commands), end, steps)
+    plan = _plan(_deck(scene), commands, end, steps)
     session = Session(scene, progress, flags, left_off(no_reduction), audit)
     first = next((k for k, c in enumerate(plan) if c.keyword not in SETTINGS), len(plan))
     session.execute(plan[:first])
@@ -88,7 +93,20 @@ def simulate(
     session.execute(plan[first:])
     late, now = session.late_setup, clock.process_time()
     cpu = (ready - began + late, now - ready - late)
-    return _results(session, cpu)
+    results = _results(session, cpu)
+    if not confirm:
+        return results
+    more = {"commands": commands, "progress": progress, "no_reduction": no_reduction}
+    return _confirmed(results, session, partial(simulate, scene, end, steps, **more))
+
+
+def _confirmed(results: Results, session: Session, again: Callable[..., Results]) -> Results:
+    """The results with what their witnesses say."""
+    from adamslite.confirm import confirmation
+
+    found = confirmation(results, session.chosen.settings, again)
+    summary = {**results.summary, "confirmed": found.confirmed, "verdict": found.verdict}
+    return replace(results, confirmation=found, summary=summary)
 
 
 def linearize(

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from adamslite.commands.codes import DONE, STOPPED_EARLY
+from adamslite.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
 from adamslite.flags import add_run_flags, run_options
 
 if TYPE_CHECKING:
@@ -85,7 +85,10 @@ def run(args: argparse.Namespace) -> int:
         progress.close()
     written = _write(results, output, files)
     _summarize(scene, args, results, output, written)
-    return DONE if results.outcome is Outcome.DONE else STOPPED_EARLY
+    if results.outcome is not Outcome.DONE:
+        return STOPPED_EARLY
+    found = results.confirmation
+    return DONE if found is None or found.confirmed else OUTSIDE_TOLERANCE
 
 
 def _write(results: "Results", output: str, files: Sequence[Path]) -> list[Path]:
@@ -136,6 +139,10 @@ def _summarize(
         for note in NOTES:
             if note in results.meta:
                 sys.stderr.write(f"  {note:<20} {results.meta[note]}\n")
+        if results.confirmation is not None:
+            sys.stderr.write(f"{results.confirmation.table()}\n")
+    if results.confirmation is not None and not (args.quiet and results.confirmation.confirmed):
+        sys.stderr.write(f"{scene.title}: {results.confirmation.verdict}\n")
     if results.outcome is not Outcome.DONE:
         sys.stderr.write(f"adamslite: {results.message or results.outcome.value}\n")
 
