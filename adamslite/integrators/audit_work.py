@@ -45,15 +45,18 @@ from adamslite.integrators.base import (
     Problem,
 )
 from adamslite.integrators.equations import BODY, PART, guard_values, run_groups
-from adamslite.integrators.event_places import CLOCK, STRICT, WATCH, WEAK
+from adamslite.integrators.event_places import CLOCK, STRICT, WATCH, WEAK, ZONE
 from adamslite.translate import Reals, native
 
 # Nodes and weights of Gauss's formula on (-1, 1), and weights of the formula on three of them.
 FAR, NEAR = 0.9061798459386640, 0.5384693101056831
 OUTER, INNER, MIDDLE = 0.2369268850561891, 0.4786286704993665, 0.5688888888888889
 ROUGH_OUTER, ROUGH_MIDDLE = 0.4059280294219, 1.1881439411562
+# How a place within a zone is read (:mod:`adamslite.guards`).
+ZONED = 3
 POINTS, ROWS_OF_GUARDS = 10, 7
-# A change nearer to the end of a panel than this share of the step is at that end.
+# A change nearer to the end of a panel than this share of the step is at that end; guards are
+# looked at within, where they have left it.
 SAME_PLACE = 1e-9
 # Panels of one step, their least size, and the share of what ERROR explains that is given to them.
 MOST_PANELS, LEAST_PANEL, SHARE_OF_ERROR = 400.0, 1e-7, 0.01
@@ -80,6 +83,7 @@ def work_on_panel(P: Problem, L: Plan, a: float, b: float) -> float:
     A[BUDGET] -= 1.0
     for i in range(ROWS_OF_GUARDS):
         s = a + half * (1.0 + gauss_place(i))
+        s = min(max(s, a + 2.0 * SAME_PLACE), b - 2.0 * SAME_PLACE)
         if i > 0 and i < 6:
             points[i + 4] = 0.0
             points[i - 1] = power_at(P, L, s, points[i + 4 :])
@@ -111,7 +115,7 @@ def work_on_panel(P: Problem, L: Plan, a: float, b: float) -> float:
 
 @native
 def look_at_guards(P: Problem, row: int) -> None:
-    """Values of all guards at the workspace's state into a row behind the points."""
+    """Guards and places in zones at the workspace's state, into a row behind the points."""
     first, count = P.sizes[NW], P.guard.size - P.sizes[NW]
     kept = P.audit[int(P.audit[AT_POINTS]) + POINTS + row * count :]
     guard_values(P, CLOCK)
@@ -120,13 +124,18 @@ def look_at_guards(P: Problem, row: int) -> None:
     guard_values(P, WATCH)
     for k in range(count):
         kept[k] += P.guard[first + k]
+    guard_values(P, ZONE)
+    for k in range(count):
+        kept[k] += P.guard[first + k]
 
 
 @native
 def branch_side(kind: int, value: float) -> float:
-    """The branch of a guard: a sign, or a whole number."""
+    """The branch of a guard: a sign, or a whole number; before, in or behind a zone."""
     if kind == STRICT or kind == WEAK:
         return 1.0 if value > 0.0 else -1.0
+    if kind == ZONED:
+        return max(-1.0, min(1.0, floor(value)))
     return floor(value)
 
 
