@@ -78,3 +78,28 @@ def test_verlet_gives_up_before_a_pole_of_a_force():
     results = run(scene.replace("END", "INTEGRATOR/VERLET, HMIN=1E-6\nEND"), "VERLET")
     assert results.outcome is Outcome.STEP_TOO_SMALL
     assert results.time[-1] == 0.5
+
+
+LAGGING_TOP = """A spinning top, pushed by a filter of its position that is faster than the steps
+UNITS/SYSTEM=MKS
+ACCGRAV/JGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=0.408, CM=22, IP=0.0013,0.0013,0.0009, REULER=0,0.8,0, WZ=14, WX=1.4
+MARKER/20, PART=2
+MARKER/22, PART=2, QP=0,0,0.067
+JOINT/1, SPHERICAL, I=20, J=1
+DIFF/1, FUNCTION={pace}*(DX(22)-DIF(1))
+VFORCE/1, I=22, J_PART=1, FX=-67*DX(22)-21*DIF(1)
+END
+"""
+
+
+@pytest.mark.parametrize("pace", [235, 180])
+def test_records_between_steps_at_the_bound_of_stability(pace: int) -> None:
+    """The polynomial between the ends was off by 2e-4 where the ends were right to 1e-6."""
+    kernels = al.compile_model(al.assemble(al.read(LAGGING_TOP.format(pace=pace))))
+    settings = {"end": 1.6, "steps": 30}
+    found = al.simulate(kernels, integrator="ABAM", error=1e-6, **settings)
+    known = al.simulate(kernels, integrator="RADAU", error=1e-9, **settings)
+    assert found["DIFF/1"] == pytest.approx(known["DIFF/1"], abs=1e-5)

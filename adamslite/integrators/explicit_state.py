@@ -7,10 +7,10 @@ from adamslite.integrators.base import NB, NS, NV, M, N, Problem
 from adamslite.integrators.equations import BODY, PART
 from adamslite.translate import native
 
-# Rows of the history: stages from 0, then the accepted state, the new one, one in between, and
-# the factors of ERROR (SCALE), and the inverse inertias.
-K_NEW, OLD, NEXT_STATE, BETWEEN, SCALES, INVERSE = 12, 16, 17, 18, 19, 20
-HISTORY_ROWS = 21
+# Rows of the history: stages from 0, then the accepted state, the new one, one in between, the
+# factors of ERROR (SCALE), the inverse inertias, and the slope of the interpolation.
+K_NEW, OLD, NEXT_STATE, BETWEEN, SCALES, INVERSE, SLOPE = 12, 16, 17, 18, 19, 20, 21
+HISTORY_ROWS = 22
 RUNNING = -1
 # Places in P.control.
 CLOCK, H, FOLLOWING, LAST_ERROR, FREE, CAUTIOUS, SIGNATURE, FAILED, WIDTH, STALE = range(10)
