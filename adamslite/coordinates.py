@@ -16,12 +16,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.algebra import sp
+from adamslite.algebra import choose, sp
 from adamslite.symbolic import Scope, cross, dot
 
 Turn = tuple[Any, Any]
 # Sines below this are the round-off of markers that are drawn aligned.
 ALIGNED = 1e-14
+# Minus the cosine of the bend from which a constant-velocity joint counts as folded.
+FOLDED = 0.5
 
 
 def slide(scope: Scope, i: int, j: int) -> Any:
@@ -101,6 +103,24 @@ def built_turn_on_rack(model: Any, i: Any, j: Any) -> tuple[float, float]:
 def faces_away(model: Any, i: Any, j: Any) -> bool:
     """Whether the z axes of I and J make more than a right angle as the deck draws them."""
     return float(pose(model, i)[1][:, 2] @ pose(model, j)[1][:, 2]) < -ALIGNED
+
+
+def equal_speed(scope: Any, i: Any, j: Any, opposed: bool) -> Any:
+    """Zero where I is turned against J about an axis across both shafts: q_z = 0 of its quaternion.
+
+    4 q_w q_z, 4 q_x q_z and 4 q_y q_z are sums of direction cosines; the first, x_I.y_J - y_I.x_J,
+    says nothing where the joint is folded (q_w = 0).  From a bend of 120 degrees on it is the one
+    whose factor is larger.  No single one will do: q and -q are one attitude, so that q_z has no
+    sign.  ``opposed``: the z axes face each other, and y_I, z_I are taken the other way round.
+    """
+    (xi, yi, zi), (xj, yj, zj) = scope.axes(i), scope.axes(j)
+    if opposed:
+        yi, zi = (tuple(-component for component in axis) for axis in (yi, zi))
+    return choose(
+        (dot(xi, yj) - dot(yi, xj), dot(zi, zj) > -FOLDED),
+        (dot(zi, xj) + dot(xi, zj), dot(xi, xj) > dot(yi, yj)),
+        otherwise=dot(zi, yj) + dot(yi, zj), order=-1,
+    )  # fmt: skip
 
 
 def _unit(sine: float, cosine: float) -> tuple[float, float]:

@@ -12,6 +12,7 @@ Equations (``d = r_I - r_J``, axes of the markers, theta the turn of I since the
     UNIVERSAL      d = 0,  z_I . z_J = 0              z along the arms of the cross
     CONVEL         d = 0,  x_I . y_J = y_I . x_J      z along the shafts, both the same way
                    d = 0,  x_I . y_J = -y_I . x_J     z along the shafts, both away from the joint
+                   bent by more than 120 degrees instead: see coordinates.equal_speed
     SCREW          d . z_J - d0 = PITCH theta / (2 pi)         theta about z of J
     RACKPIN        s - s0 = PD/2 theta,  s = -d . z_J          theta about z of I
 
@@ -40,6 +41,7 @@ from adamslite.coordinates import (
     built_slide,
     built_turn,
     built_turn_on_rack,
+    equal_speed,
     faces_away,
     slide,
     turn,
@@ -147,13 +149,12 @@ class Joint(Constraint, Statement):
             angle = angle_since(scope, turn_on_rack(scope, i, j), self.turned)
             return [self.slid - slide(scope, i, j) - self.pd / 2 * angle]
         together = list(scope.position(i, j))
-        (xi, yi, zi), (xj, yj, zj) = scope.axes(i), scope.axes(j)
+        (xi, _, zi), (xj, yj, zj) = scope.axes(i), scope.axes(j)
         on_line = [dot(together, xj), dot(together, yj)]
         parallel = [dot(zi, xj), dot(zi, yj)]
         same_turn = [dot(xi, yj)]
-        sense = -1 if self.opposed else 1
         return {
-            "CONVEL": [*together, dot(xi, yj) - sense * dot(yi, xj)],
+            "CONVEL": [*together, equal_speed(scope, i, j, bool(self.opposed))],
             "CYLINDRICAL": on_line + parallel,
             "FIXED": together + parallel + same_turn,
             "HOOKE": together + same_turn,

@@ -179,11 +179,7 @@ def try_radau(P: Problem, L: Plan) -> int:
     if not norm < 1e12:
         return NOT_FINITE
     if norm > 1.0:
-        P.count[REJECTED] += 1
-        C[CAUTIOUS], C[NORM] = 1.0, norm
-        C[H] *= cut(P, step_factor(C, norm))
-        if C[H] > 1e-9 * P.settings[H_MAX]:
-            C[BLAMED] = P.report[WHERE]
+        take_shorter(P, norm)
         return RUNNING
     if P.sizes[IMPLICIT_MASS]:
         put_end(P)
@@ -191,6 +187,21 @@ def try_radau(P: Problem, L: Plan) -> int:
             C[H] *= 0.25
             return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings[H_MAX] else SINGULAR_MASS
     return finish_stages(P, L, norm)
+
+
+@native
+def take_shorter(P: Problem, norm: float) -> None:
+    """The error was too large: a shorter step, with new derivatives where they were old, because
+    these may be all that is wrong with the estimate.
+    """
+    C = P.control
+    P.count[REJECTED] += 1
+    C[CAUTIOUS], C[NORM] = 1.0, norm
+    if C[FRESH] == 0.0:
+        C[KNOWN] = 0.0
+    C[H] *= cut(P, step_factor(C, norm))
+    if C[H] > 1e-9 * P.settings[H_MAX]:
+        C[BLAMED] = P.report[WHERE]
 
 
 @native
