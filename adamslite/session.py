@@ -23,7 +23,12 @@ import numpy as np
 from adamslite.analyses.audit import Balance, balance
 from adamslite.analyses.choose import METHODS, Choice, choose
 from adamslite.analyses.dynamic import Settings, run_dynamic
-from adamslite.analyses.initial import Unclosed, initial_conditions, settle_variables
+from adamslite.analyses.initial import (
+    Unclosed,
+    consistent_velocities,
+    initial_conditions,
+    settle_variables,
+)
 from adamslite.analyses.joint_start import start_of_joints
 from adamslite.analyses.kinematic import run_kinematic
 from adamslite.analyses.linear import linear
@@ -176,6 +181,11 @@ class Session:
         system = self.system
         if self.outcome is not Outcome.DONE:
             return
+        if self._began_static:
+            self.unclosed = consistent_velocities(system)
+            if self.unclosed:
+                self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
+                return
         self.chosen = choose(system, times, self.settings)
         began = clock.process_time()
         engine(METHODS[self.chosen.settings.method], self.progress)

@@ -6,6 +6,7 @@ in the stabilised form, multipliers of the velocity rows; every equation has the
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -183,15 +184,20 @@ class System(Elimination):
         """The Jacobian blocks as one sparse matrix (nz, nz)."""
         from scipy.sparse import coo_array
 
-        rows, columns, places = [], [], []
+        rows, columns, places = self._entries
+        values = self.J[places]
+        return coo_array((values, (rows, columns)), shape=(self.nz, self.nz)).tocsr()
+
+    @cached_property
+    def _entries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Row, column and place in ``J`` of every entry of every block."""
+        found = [(ints([]), ints([]), ints([]))]
         for (row, column), at in self.blocks.items():
             h, w = self.widths[row], self.widths[column]
-            rows.append(np.repeat(self.starts[row] + np.arange(h), w))
-            columns.append(np.tile(self.starts[column] + np.arange(w), h))
-            places.append(at + np.arange(h * w))
-        at = (np.concatenate(rows), np.concatenate(columns)) if rows else (ints([]), ints([]))
-        values = self.J[np.concatenate(places)] if places else reals([])
-        return coo_array((values, at), shape=(self.nz, self.nz)).tocsr()
+            rows, columns = np.divmod(np.arange(h * w), w)
+            places = at + np.arange(h * w)
+            found.append((self.starts[row] + rows, self.starts[column] + columns, places))
+        return tuple(np.concatenate(each) for each in zip(*found, strict=True))
 
     def release_guards(self) -> None:
         """Let every expression take the branch of the moment again."""

@@ -273,3 +273,26 @@ END
     exact = -np.linalg.eigvals(stiffness)
     found = sorted(model.eigenvalues**2, key=lambda s: s.real)
     assert found == pytest.approx(sorted(np.repeat(exact, 2), key=lambda s: s.real), rel=1e-9)
+
+
+@pytest.mark.parametrize("spin", [2.0, -1.2])
+def test_a_driven_shaft_turns_again_after_statics(spin: float) -> None:
+    """Statics bring everything to rest; what follows moves as the MOTION asks."""
+    deck = adamslite.read(turntable(1.0, spin, 9.81, f"MOTION/1, JOINT=1, FUNCTION={spin}*TIME"))
+    lines = "SIMULATE/STATICS\nLINEAR/EIGENSOL, RM=20\nSIMULATE/DYNAMICS, END=1, STEPS=2\nSTOP\n"
+    results = adamslite.simulate(deck, commands=read_commands(lines, deck))
+    (found,) = results.linearizations
+    exact = sqrt(9.81 - spin**2) / (2 * pi)
+    assert found.model.frequencies == pytest.approx([exact, exact], rel=1e-6)
+    assert results["PART/2.wz"] == pytest.approx(np.full(3, spin), rel=1e-6)
+
+
+def test_where_a_run_says_that_a_linear_system_varies(tmp_path, monkeypatch, capsys) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = turntable(1.0, 2.0, 9.81, "MOTION/1, JOINT=1, FUNCTION=2*TIME")
+    (tmp_path / "s.adm").write_text(text)
+    (tmp_path / "s.acf").write_text("SIMULATE/INITIAL\nLINEAR/EIGENSOL\nSTOP\n")
+    assert main(["solve", "s.adm"]) == 0
+    told = capsys.readouterr().err
+    assert "linear               t = 0: the linear system varies with time" in told
+    assert "it is steady with RM=20" in told

@@ -22,7 +22,7 @@ from adamslite.system import System
 SHARE = 1e-3
 # First and second change in that time which are no change, as shares of the largest entry of a row;
 # rows below the second share of the largest row are measured by that.
-FIRST, SECOND = (1e-5, 1e-6), (1e-4, 1e-3)
+FIRST, SECOND = (1e-5, 1e-2), (1e-4, 1e-2)
 # Of the largest eigenvalue, or the rate of the motion: smaller ones are zero.
 ZERO = 1e-6
 # Bodies of different motion that are tried as observers.
@@ -39,25 +39,19 @@ class Course:
         self.rate = max(self._rate_of_motion(), self._slowest()) or 1.0
         self.h = SHARE / self.rate
         self.around = neighbours(system, self.h)
-        self._known: dict[int, bool] = {}
 
-    def seen(self, observer: Observer) -> FirstOrder:
-        """The first-order system of this moment."""
-        if self.is_steady(observer):
-            return self._resting(observer)
-        basis = moving(*self._three(observer), self.h)
-        return FirstOrder(self.system, self.now, observer.view(self.now), basis, self.ports)
+    def seen(self, observer: Observer) -> tuple[FirstOrder, bool]:
+        """The first-order system of this moment, and whether it stays."""
+        three = self._three(observer)
+        if self._are_alike(three):
+            return three[1], True
+        basis = moving(*three, self.h)
+        return FirstOrder(self.system, self.now, observer.view(self.now), basis, self.ports), False
 
-    def is_steady(self, observer: Observer) -> bool:
-        """Whether an observer sees neither basis nor matrices change."""
-        if id(observer) not in self._known:
-            self._known[id(observer)] = self._is_steady(observer)
-        return self._known[id(observer)]
-
-    def steady_observer(self) -> str:
+    def steady_observer(self, other_than: Observer) -> str:
         """For whom everything is steady, in words of the deck; empty when for none."""
         for words, observer in self._others():
-            if self._is_steady(observer):
+            if observer.body != other_than.body and self._are_alike(self._three(observer)):
                 return words
         return ""
 
@@ -66,20 +60,20 @@ class Course:
         basis = still(self.system, self.now, view, self.unit)
         return FirstOrder(self.system, self.now, view, basis, self.ports)
 
-    def _three(self, observer: Observer) -> tuple[FirstOrder, ...]:
+    def _three(self, observer: Observer) -> tuple[FirstOrder, FirstOrder, FirstOrder]:
         """Before, now and after, each as if its basis stood still."""
         now = self._resting(observer)
-        found = [now]
+        if self.around is None:
+            return now, now, now
+        found = []
         for moment in self.around:
             view = observer.view(moment)
             basis = still(self.system, moment, view, self.unit, now.basis)
             found.append(FirstOrder(self.system, moment, view, basis, self.ports))
-        return found[1], now, found[2]
+        return found[0], now, found[1]
 
-    def _is_steady(self, observer: Observer) -> bool:
-        if self.around is None:
-            return True
-        three = self._three(observer)
+    def _are_alike(self, three: tuple[FirstOrder, FirstOrder, FirstOrder]) -> bool:
+        """Whether neither basis nor matrices change."""
         f, g = three[1].basis.speeds[0].shape
         rest, rate = np.ones(self.system.ns), self.rate
         columns = [np.ones(f), np.full(g, rate), rest, np.ones(len(self.ports.inputs))]
@@ -131,12 +125,9 @@ class Course:
         return unit
 
     def _slowest(self) -> float:
-        """The smallest eigenvalue of this moment that is not zero [1/time]."""
-        system = self.system
-        found = self._resting(Observer(system)).whole
-        nx = len(found[0]) - len(self.ports.inputs)
-        sizes = np.abs(np.linalg.eigvals(found[:nx, :nx]))
-        return float(min(sizes[sizes > ZERO * sizes.max(initial=0.0)], default=0.0))
+        """The smallest undamped frequency of this moment that is not zero [1/time]."""
+        squares = np.abs(np.linalg.eigvals(self._resting(Observer(self.system)).minus_stiffness))
+        return float(min(squares[squares > ZERO**2 * squares.max(initial=0.0)], default=0.0)) ** 0.5
 
     def _others(self) -> Iterator[tuple[str, Observer]]:
         """The ground, and the bodies that turn, one of each rigid motion, prescribed ones first."""
@@ -155,7 +146,8 @@ class Course:
 
     def _turning_bodies(self) -> list[tuple[int, Any]]:
         """Parts that turn, the least free ones first, each with a marker of its own."""
-        model, free = self.system.model, self._resting(Observer(self.system)).q
+        model = self.system.model
+        free = still(self.system, self.now, Observer(self.system).view(self.now), self.unit)
         found = []
         for marker in model.deck.of("MARKER"):
             place = None if marker.floating else model.marker(marker.key)
@@ -163,7 +155,9 @@ class Course:
                 continue
             i = self.system.starts[place.body]
             if np.abs(self.now.u[i + 3 : i + 6]).max() > ZERO * self.rate:
-                found.append((float(np.linalg.norm(free[i : i + 6])), place.body, marker.key))
+                found.append(
+                    (float(np.linalg.norm(free.positions[0][i : i + 6])), place.body, marker.key)
+                )
         return [(b, key) for _, b, key in sorted(found, key=lambda each: each[:2])]
 
 

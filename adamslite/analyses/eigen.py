@@ -43,12 +43,14 @@ def _eigen(a: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _staircase(a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    _, size, vt = np.linalg.svd(a)
-    free = len(a) - int((size > ROUND_OFF * max(size, default=0.0)).sum()) if size.any() else len(a)
-    if free == 0 or free == len(a):
-        if free:
-            return np.zeros(len(a), complex), np.eye(len(a), dtype=complex)
+    if _is_regular(a):
         return np.linalg.eig(a)
+    _, size, vt = np.linalg.svd(a)
+    free = int((size <= ROUND_OFF * size[0]).sum())
+    if free == 0:
+        return np.linalg.eig(a)
+    if free == len(a):
+        return np.zeros(free, complex), np.eye(free, dtype=complex)
     kernel, rest = vt[len(a) - free :].T, vt[: len(a) - free].T
     values, within = _staircase(rest.T @ a @ rest)
     down = kernel.T @ a @ rest @ within
@@ -59,3 +61,17 @@ def _staircase(a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         np.concatenate([np.zeros(free, complex), values]),
         np.hstack([kernel.astype(complex), vectors]),
     )
+
+
+def _is_regular(a: np.ndarray) -> bool:
+    """Whether an estimate of the condition shows, for little, that no singular value vanishes."""
+    from scipy.linalg import get_lapack_funcs
+
+    if not len(a):
+        return True
+    getrf, gecon = get_lapack_funcs(("getrf", "gecon"), (a,))
+    factors, _, singular = getrf(a)
+    if singular:
+        return False
+    share, _ = gecon(factors, np.abs(a).sum(axis=0).max())
+    return bool(share > len(a) * ROUND_OFF)

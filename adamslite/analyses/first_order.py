@@ -112,6 +112,12 @@ class FirstOrder:
         self.held = rates.held
         self.whole = self._whole(rates, ports)
 
+    @property
+    def minus_stiffness(self) -> np.ndarray:
+        """-M^-1 K (g, g), of p' by the motion that is free."""
+        f, g = self.basis.speeds[0].shape
+        return self.whole[f : f + g, :f] @ self.basis.speeds[0]
+
     def _cross(self, spin: np.ndarray, columns: np.ndarray) -> np.ndarray:
         """W times columns."""
         found = np.zeros_like(columns)

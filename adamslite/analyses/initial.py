@@ -150,6 +150,15 @@ def settle_variables(system: System) -> None:
         system.z[rows[known] - system.n] -= defect[known]
 
 
+def consistent_velocities(system: System) -> Unclosed | None:
+    """Let a state that statics brought to rest move as its constraints ask, a MOTION above all."""
+    if system.m == 0:
+        return None
+    defect = _residual(system, SPEEDS)[velocity_rows(system)]
+    size = max(1.0, float(np.abs(system.u).max()))
+    return _velocities(system, ()) if np.abs(defect).max() > OPEN * size else None
+
+
 def speed_defects(system: System, constraints: Iterable[Any]) -> list[np.ndarray]:
     """What the velocity rows of each constraint are off by."""
     defect = _residual(system, SPEEDS)[velocity_rows(system)]

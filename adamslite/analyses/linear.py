@@ -19,6 +19,7 @@ import numpy as np
 from adamslite.analyses.course import Course
 from adamslite.analyses.eigen import eigen
 from adamslite.analyses.first_order import Ports
+from adamslite.analyses.initial import consistent_velocities
 from adamslite.analyses.observer import Observer
 from adamslite.system import System
 
@@ -107,11 +108,11 @@ def linear(
         for keys in (inputs, outputs)
     ]
     system.unfold()
+    consistent_velocities(system)
     observer = Observer(system, relative_to)
     course = Course(system, Ports(*places, damping))
-    found = course.seen(observer)
-    steady = course.is_steady(observer)
-    steady_for = "" if steady else course.steady_observer()
+    found, steady = course.seen(observer)
+    steady_for = "" if steady else course.steady_observer(observer)
     nx = len(found.whole[0]) - len(inputs)
     a, b, c, d = (
         found.whole[rows, columns]
@@ -126,7 +127,7 @@ def linear(
     modes = (n @ vectors[:f] * _factors(moved, speed))[:, order]
     modes[observer.own] = 0.0
     return Linearization(
-        values[order], _undamped(a[f : f + g, :f] @ speeds), modes, a, _names(system), b, c, d,
+        values[order], _undamped(found.minus_stiffness), modes, a, _names(system), b, c, d,
         *(tuple(f"VARIABLE/{key}" for key in keys) for keys in (inputs, outputs)),
         steady, steady_for,
     )  # fmt: skip
