@@ -151,7 +151,7 @@ class FaceWriter:
         at, model = self.binder.instance, self.binder.model
         widths = [model.body_width(b) for b in at.bodies]
         widths += [model.node_width(n) for n in at.nodes]
-        counts = (len(at.params), 0, len(at.signals))
+        counts = (len(at.params), 0, 0, len(at.signals))
         shape = Shape(self.binder.slots, widths, self.n_bodies, *counts, self)
         return write_kernels(shape, name, self.face in WITH_JACOBIAN, self.face != "output")
 
@@ -252,7 +252,7 @@ def _entry_points(group: Group) -> list[str]:
     names = [f"{group.name}_residual"]
     if group.face in WITH_JACOBIAN:
         names.append(f"{group.name}_jacobian")
-    if group.meta["angles"]:
+    if group.meta["angles"] or group.meta["limits"]:
         names.append(f"{group.name}_track")
     names += [f"{group.name}_{kind}" for kind, found in group.meta["guards"].items() if found]
     return names

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -86,6 +88,33 @@ class Instances(Numbering):
         row[6] += 8 * instance * (of_reals // count)
         return row
 
+    def memories(self) -> Iterator[tuple[tuple[Any, ...], np.ndarray]]:
+        """Whose it is and what it remembers: angles, then times of leaving its law."""
+        for group, reals in zip(self.kernels.groups, self.keep[1::2], strict=True):
+            count = group.meta["angles"] + group.meta["limits"]
+            rows = reals[:-1].reshape(len(group.instances), -1) if count else ()
+            for (statement, binding), row in zip(group.instances, rows, strict=False):
+                first = len(binding.params)
+                yield (group.name, statement.keyword, statement.key), row[first : first + count]
+
+    def remember(self, known: Iterable[tuple[tuple[Any, ...], np.ndarray]]) -> None:
+        """Take memories over, of instances that are known."""
+        found = dict(known)
+        for whose, values in self.memories():
+            values[:] = found.get(whose, values)
+
+    def out_of_law(self) -> dict[str, str]:
+        """Elements that were beyond what their law is meant for: how, and when first."""
+        limited = {g.name: g.meta["limits"] for g in self.kernels.groups if g.face == "loads"}
+        found = {}
+        for (name, *node), values in self.memories():
+            statement = self.model.element(*node)
+            limits = limited.get(name, 0)
+            time = min(values[len(values) - limits :], default=inf)
+            if hasattr(statement, "beyond") and time < inf:
+                found[statement.label] = f"{statement.beyond}, first at t = {time:.6g}"
+        return found
+
     def _integers(self, group: Group, binding: Binding, instance: int) -> list[int]:
         nodes = [("BODY", b) for b in binding.bodies] + binding.nodes
         found = [self.w_at.get(node, 0) for node in nodes]
@@ -120,6 +149,7 @@ class Instances(Numbering):
 
     def _reals(self, group: Group, binding: Binding) -> list[float]:
         values = list(binding.params) + [0.0] * group.meta["angles"]
+        values += [inf] * group.meta["limits"]
         for marker_id in binding.markers:
             place = self.model.marker(marker_id)
             if place.offset:

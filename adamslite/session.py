@@ -99,6 +99,7 @@ class Session:
         self.balances: list[Balance] = []
         self.counts = np.zeros(len(base.COUNTS), dtype=np.int64)
         self.ways_to_fall = 0
+        self.out_of_law: dict[str, str] = {}
         self.assembled: list[str] = []
         self.speeds: list[str] = []
         self._system: System | None = None
@@ -329,6 +330,7 @@ class Session:
         ``own_start``: the first time was asked for.
         """
         system = self._system
+        self.out_of_law = system.out_of_law() | self.out_of_law
         made = int(system.count[base.RECORDS])
         row = system.nw + int(system.sizes[base.N_OUT])
         self.names, values = columns(system, system.record[: made * row].reshape(made, row))

@@ -229,6 +229,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         "integrator": f"{settings.method} {settings.form} ERROR={settings.error:g}",
         **({"integrator chosen": session.chosen.reason} if session.chosen.reason else {}),
         **_notes(session),
+        **_beyond(session),
     }
 
 
@@ -244,6 +245,12 @@ def _doubt(session: Session, steps: int) -> str:
 def _told(balances: list[Balance]) -> str:
     """The worst of several balances."""
     return str(max(balances, key=lambda b: (not b.closes, b.gap / max(b.explained, 1e-300))))
+
+
+def _beyond(session: Session) -> dict[str, str]:
+    """Elements that the motion carried beyond what their law is meant for."""
+    told = (f"{label} {how}" for label, how in session.out_of_law.items())
+    return {"out of its law": "; ".join(told)} if session.out_of_law else {}
 
 
 def _notes(session: Session) -> dict[str, str]:

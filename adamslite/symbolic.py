@@ -102,6 +102,7 @@ class Scope:
         self.leaves: dict[Any, tuple] = {}
         self.symbols: dict[tuple, Any] = {}
         self.angles: list[Any] = []
+        self.limits: list[Any] = []
         self.elements: list[Any] = []
         self._everything_moves = False
         self.read: Callable[[Any], Any] = _unbound
@@ -196,6 +197,13 @@ class Scope:
         if wrapped not in self.angles:
             self.angles.append(wrapped)
         return wrapped + self.symbol("turn", self.angles.index(wrapped))
+
+    def limit(self, expr: Any) -> None:
+        """The law that is being written means nothing once ``expr`` is below zero; the time of the
+        first accepted state where it is will be remembered.
+        """
+        if expr not in self.limits:
+            self.limits.append(expr)
 
     def variable(self, tree: Any) -> Any:
         """Value of a VARIABLE, given as its bound tree."""

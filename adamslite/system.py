@@ -118,6 +118,7 @@ class System(Elimination):
 
     def adopt(self, other: System) -> None:
         """Take over the state of another system of (almost) the same model."""
+        self.remember(other.memories())
         for node, k in self.node_at.items():
             at = other.node_at.get(self._named(node, other))
             if at is None or other.widths[at] != self.widths[k]:

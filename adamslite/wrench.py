@@ -47,8 +47,13 @@ class Compliance(Wrench):
     ``preload`` (6 values); an entry of zero is left out of the equations.
     """
 
+    beyond = "turned past 90 degrees about x or y of J, where AX and AY are no angles any more"
+    """What it means that z_I . z_J is below zero."""
+
     def loads(self, scope: Scope) -> list[Load]:
         """The wrench on I and what J gets."""
+        if any(row[3] != 0 or row[4] != 0 for row in self.stiffness):
+            scope.limit(dot(scope.axes(self.i)[2], scope.axes(self.j)[2]))
         strained = _strained(self, scope)
         total = list(self.preload)
         for matrix, values in ((self.stiffness, strained), (self.damping, rate(scope, self))):

@@ -33,11 +33,13 @@ def in_its_plane(system: System, run: Callable[[], Outcome]) -> Outcome:
     if not fold(system):
         return run()
     before = {name: getattr(system, name).copy() for name in STATE}
+    memories = [(whose, values.copy()) for whose, values in system.memories()]
     outcome = run()
     if not system.report[base.LEFT_PLANE]:
         return outcome
     for name, values in before.items():
         getattr(system, name)[:] = values
+    system.remember(memories)
     system.unfold()
     return run()
 

@@ -41,7 +41,7 @@ SUMMARY = """\
 #: Comments of the results that the summary repeats: what was done to the model and the method.
 NOTES = (
     "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "energy",
-    "linear", "no number",
+    "linear", "no number", "out of its law",
 )  # fmt: skip
 
 

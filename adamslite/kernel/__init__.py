@@ -19,7 +19,7 @@ instance are
     W offset of each node | W offset of each signal | row of each node | W offset of the branches of
     clock, watch and zones, if there are guards | block offset of each pair
 
-and its reals: parameters, remembered angles, marker levers and axes.
+and its reals: parameters, remembered angles, times of leaving its law, marker levers and axes.
 """
 
 from __future__ import annotations

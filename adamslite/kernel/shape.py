@@ -17,8 +17,8 @@ class Shape:
 
     ``slots``: markers.  ``widths``: unknowns of each node, bodies first (3 point, 6 part), then
     scalar nodes.  ``n_bodies``: how many nodes are bodies.  ``n_params``, ``n_angles``,
-    ``n_signals``: counts.  ``outputs``: writes loads and rows with a scope.  ``guards``: found when
-    they are written.
+    ``n_limits``, ``n_signals``: counts.  ``outputs``: writes loads and rows with a scope.
+    ``guards``: found when they are written.
     """
 
     slots: list[Slot]
@@ -26,13 +26,14 @@ class Shape:
     n_bodies: int
     n_params: int
     n_angles: int
+    n_limits: int
     n_signals: int
     outputs: Callable[[Scope], Outputs]
     guards: Guards = field(default_factory=Guards)
 
     def marker_reals(self) -> list[int]:
         """First real of each marker."""
-        first, at = [], self.n_params + self.n_angles
+        first, at = [], self.n_params + self.n_angles + self.n_limits
         for slot in self.slots:
             first.append(at)
             at += 3 * slot.offset + 9 * slot.turned

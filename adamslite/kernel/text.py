@@ -46,12 +46,13 @@ def write_kernels(shape: Shape, name: str, with_jacobian: bool, guarded: bool) -
     text, meta
         ``meta["blocks"]``: pairs (row node, column node) of Jacobian blocks in the order of the
         integers; ``meta["n_ints"]``: integers of an instance; ``meta["angles"]``: how many angles
-        it remembers; ``meta["mass"]``: a force depends on accelerations; ``meta["guards"]``: kinds
-        of the guards of the clock and of the watch.
+        it remembers, ``meta["limits"]``: how many times of leaving its law; ``meta["mass"]``: a
+        force depends on accelerations; ``meta["guards"]``: kinds of the guards of the clock and of
+        the watch.
     """
     scope = Scope(shape.slots)
     out = shape.outputs(scope)
-    shape.n_angles = len(scope.angles)
+    shape.n_angles, shape.n_limits = len(scope.angles), len(scope.limits)
     if guarded:
         shape.guards = guards(out.expressions, scope.leaves)
     blocks: list[tuple[int, int]] = []
@@ -64,7 +65,7 @@ def write_kernels(shape: Shape, name: str, with_jacobian: bool, guarded: bool) -
     writer = Writer(shape, scope)
     writer.residual(out)
     bodies.append((f"{name}_residual", RESIDUAL_HEAD, writer))
-    if scope.angles:
+    if scope.angles or scope.limits:
         writer = Writer(shape, scope)
         writer.track()
         bodies.append((f"{name}_track", RESIDUAL_HEAD, writer))
@@ -78,6 +79,7 @@ def write_kernels(shape: Shape, name: str, with_jacobian: bool, guarded: bool) -
         "n_ints": n_ints,
         "blocks": blocks,
         "angles": len(scope.angles),
+        "limits": len(scope.limits),
         "guards": shape.guards.kinds,
         "mass": any(leaf[0] in ("a", "al") for leaf in scope.symbols),
     }

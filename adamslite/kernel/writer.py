@@ -124,3 +124,12 @@ class Writer:
         for n, wrapped in enumerate(self.scope.angles):
             angle = self.b.add(self.value(wrapped), self._turns(n))
             self.b.store_real(self.shape.n_params + n, angle)
+        for n, limit in enumerate(self.scope.limits):
+            at = self.shape.n_params + self.shape.n_angles + n
+            first, now = self.b.real_at(at), self.leaf(("t",))
+            left = self.b.logic(
+                "and",
+                self.b.compare("<", self.value(limit), 0.0),
+                self.b.compare("<", now, first),
+            )
+            self.b.store_real(at, self.b.select(left, now, first))
