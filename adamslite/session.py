@@ -188,6 +188,8 @@ class Session:
                 self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
                 return
         self.chosen = choose(system, times, self.settings)
+        if system.sizes[base.SI2] and system.holonomic and self.chosen.settings.form != "SI2":
+            system = self._system = self._renumbered(system, system.pivoting)
         began = clock.process_time()
         engine(METHODS[self.chosen.settings.method], self.progress)
         self.late_setup += clock.process_time() - began
@@ -274,9 +276,10 @@ class Session:
 
     # helpers
 
-    def _numbered(self, pivoting: bool) -> System:
+    def _numbered(self, pivoting: bool, form: str = "") -> System:
         with uncollected():
-            system = System(self.kernels, self.settings.form == "SI2", pivoting)
+            stabilised = (form or self.settings.form) == "SI2"
+            system = System(self.kernels, stabilised, pivoting)
         system.settings[base.T] = self.time
         return system
 
@@ -295,14 +298,16 @@ class Session:
         system.settings[base.T] = self.time
         small = system.nz <= PIVOTING and not system.pivoting
         if small and system.run(ACCELERATIONS) != base.DONE and np.isfinite(system.F).all():
-            self._system = self._pivoting(system)
+            self._system = self._renumbered(system, True)
 
-    def _pivoting(self, system: System) -> System:
-        """``system`` in its present state, eliminated with row pivoting."""
-        pivoting = self._numbered(True)
-        pivoting.adopt(system)
-        pivoting.drop(system.dropped)
-        return pivoting
+    def _renumbered(self, system: System, pivoting: bool) -> System:
+        """``system`` in its present state, in the formulation of the method that AUTO picked, or
+        eliminated with row pivoting.
+        """
+        other = self._numbered(pivoting, self.chosen.settings.form)
+        other.adopt(system)
+        other.drop(system.dropped)
+        return other
 
     def _at_rest(self, system: System) -> Outcome:
         """Equilibrium.
@@ -317,7 +322,7 @@ class Session:
             return outcome
         for array, before in start:
             array[:] = before
-        spare = self._pivoting(system)
+        spare = self._renumbered(system, True)
         outcome = run_static(spare, self.statics)
         self.ways_to_fall = int(spare.report[base.WAYS_TO_FALL])
         system.adopt(spare)

@@ -2,11 +2,12 @@
 
 AUTO, with rho the largest circular frequency of the linearised scene and dt the output step:
 
-1. constraints, variables that are solved for, DIFF states and forces of accelerations need a
-   factored matrix at every stage: implicit;
-2. otherwise explicit while rho dt stays below ``STEPS_WORTH`` radians, VERLET for point masses with
-   ERROR of ``COARSE`` and above, RKF45 for the rest;
-3. implicit: HHT with ERROR of ``COARSE`` and above for scenes that are stiff, else GSTIFF.
+1. variables that are solved for, DIFF states, forces of accelerations and bodies without inertia
+   may be as fast as they like: implicit;
+2. otherwise, tied by constraints or not, explicit while rho dt stays below ``STEPS_WORTH`` radians:
+   VERLET for free point masses with ERROR of ``COARSE`` and above, RKF45 for the rest;
+3. implicit: RADAU below ``COARSE``, GSTIFF for bodies without inertia; from ``COARSE`` on HHT for
+   free scenes that are stiff, else GSTIFF.
 """
 
 from __future__ import annotations
@@ -35,6 +36,8 @@ CONSTANT = "CONSTANT_BDF"
 STEPS_WORTH = 3000.0
 # Formulas of second order pay from here on.
 COARSE = 1e-4
+# Unknowns of their own, and what to say of them.
+SOLVED = {"VARIABLE": "is solved for", "DIFF": "is a state"}
 # Share of an error across a constraint that may be left after a step.  HHT: ALPHA of -0.016; with
 # -0.01 the ringing costs a pendulum twenty times the steps of -0.05.
 LOUDEST = 0.97
@@ -93,11 +96,23 @@ def echo(beta: float, gamma: float) -> float:
 def what_ties(system: System) -> str:
     """What keeps accelerations from following body by body, as words; empty when nothing does."""
     for node in system.nodes:
-        if node[0] not in ("BODY", "MU"):
-            kind = {"VARIABLE": "is solved for", "DIFF": "is a state"}
-            return f"{node[0]}/{node[1]} {kind.get(node[0], 'is a constraint')}"
+        if node[0] not in ("BODY", "MU", *SOLVED):
+            return f"{node[0]}/{node[1]} is a constraint"
+    return what_is_solved(system) or what_is_light(system)
+
+
+def what_is_solved(system: System) -> str:
+    """What has to be solved for beside motion and reactions, as words; empty when nothing has."""
+    for node in system.nodes:
+        if node[0] in SOLVED:
+            return f"{node[0]}/{node[1]} {SOLVED[node[0]]}"
     if system.sizes[base.IMPLICIT_MASS]:
         return "a force depends on accelerations"
+    return ""
+
+
+def what_is_light(system: System) -> str:
+    """A body without mass or inertia in some direction, as words; empty when there is none."""
     for body in system.model.bodies:
         if not body.mass > 0.0 or (body.width == PART and np.linalg.matrix_rank(body.inertia) < 3):
             return f"{body.statement.label} has no mass or inertia"
@@ -121,15 +136,17 @@ def fastest(system: System, time: float) -> float:
 
 def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, str]:
     """Method and reason."""
-    obstacle = what_ties(system)
-    coarse = "HHT" if error >= COARSE and "HHT" in METHODS else "GSTIFF"
-    if obstacle:
+    implicit = "GSTIFF" if error >= COARSE else "RADAU"
+    if obstacle := what_is_solved(system):
+        return implicit, f"implicit, because {obstacle}"
+    if obstacle := what_is_light(system):
         return "GSTIFF", f"implicit, because {obstacle}"
+    tied = what_ties(system)
     pace = float(np.diff(times).max()) if len(times) > 1 else 0.0
     radians = fastest(system, float(times[0])) * pace
     told = f"its fastest oscillation turns {radians:.3g} rad in an output step"
     if not radians <= STEPS_WORTH:
-        return coarse, f"implicit, because {told}"
-    if error >= COARSE and not what_turns(system):
+        return "HHT" if error >= COARSE and not tied else implicit, f"implicit, because {told}"
+    if error >= COARSE and not tied and not what_turns(system):
         return "VERLET", f"explicit, because nothing ties the masses together and {told}"
-    return "RKF45", f"explicit, because nothing ties the bodies together and {told}"
+    return "RKF45", f"explicit, because {told}"

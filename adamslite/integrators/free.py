@@ -157,8 +157,10 @@ def turn(P: Problem, b: int, F: Reals, inverse: Reals, turning: float, a: Reals)
 
 @native
 def spectrum(P: Problem) -> int:
-    """Spectral radii of M^-1 K and M^-1 C at the workspace's state, into P.control."""
-    if not is_free(P) or not invert_inertia(P, P.history):
+    """Spectral radii of M^-1 K and M^-1 C of the forces at the workspace's state, into P.control;
+    constraints only lower them.
+    """
+    if not invert_inertia(P, P.history):
         return BROKEN_START
     P.control[0], P.control[1] = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
     return DONE
