@@ -90,7 +90,7 @@ class System(Elimination):
     def places(self) -> np.ndarray:
         """Numbers of the unknowns of each body that are its place, (bodies, 3)."""
         starts = self.starts[: len(self.model.bodies)]
-        return np.array(starts)[:, None] + np.arange(3)
+        return np.array(starts, dtype=int)[:, None] + np.arange(3)
 
     def _scalars(self) -> None:
         """Start values of variables that are solved for and of DIFF states: their IC."""

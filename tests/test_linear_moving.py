@@ -296,3 +296,29 @@ def test_where_a_run_says_that_a_linear_system_varies(tmp_path, monkeypatch, cap
     told = capsys.readouterr().err
     assert "linear               t = 0: the linear system varies with time" in told
     assert "it is steady with RM=20" in told
+
+
+GROUND = "nothing or little moves\nPART/1, GROUND\n"
+WHEEL = """\
+MARKER/1, PART=1
+PART/2, MASS=1, CM=20, IP=1,1,1, WZ=2
+MARKER/20, PART=2
+JOINT/1, REVOLUTE, I=20, J=1
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "exact"),
+    [
+        ("DIFF/1, IC=1, FUNCTION=-3*DIF(1)\n", [-3.0]),
+        (WHEEL, [0.0, 0.0]),
+        (WHEEL + "MOTION/1, JOINT=1, FUNCTION=2*TIME\n", []),
+        (WHEEL + "MOTION/1, JOINT=1, VELOCITY, FUNCTION=2\n", [0.0]),
+        (WHEEL + "MOTION/1, JOINT=1, ACCELERATION, ICVEL=2, FUNCTION=0\n", [0.0, 0.0]),
+    ],
+)
+def test_little_that_is_free(text: str, exact: list[float]) -> None:
+    """A motion at a given speed may be shifted, one of a given acceleration has a speed as well."""
+    (model,) = linearized(f"{GROUND}{text}END\n")
+    assert model.steady
+    assert model.eigenvalues == pytest.approx(exact, abs=1e-12)

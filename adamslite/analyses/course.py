@@ -116,7 +116,8 @@ class Course:
                 )  # fmt: skip
         tensors = system.inertia.reshape(-1, 3, 3)
         radii = [w**-0.5 for w, tensor in zip(system.weight, tensors, strict=True) if tensor.any()]
-        return max(float(np.ptp(points, axis=0).max()), *radii, 0.0)
+        extent = float(np.ptp(points, axis=0).max()) if points else 0.0
+        return max(extent, *radii, 0.0)
 
     def _unit(self) -> np.ndarray:
         """(n,): 1 for translations, 1/(size of the model) for rotations."""

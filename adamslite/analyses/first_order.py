@@ -76,7 +76,7 @@ def null_space(rows: np.ndarray, unit: np.ndarray, like: np.ndarray | None = Non
     """Basis of what ``rows`` (m, n) allow, orthonormal when coordinates are counted in ``unit``
     (n,); the nearest one to the basis ``like``.
     """
-    if not len(rows):
+    if not rows.size:
         return np.eye(rows.shape[1])
     _, size, vt = np.linalg.svd(rows * unit)
     rank = int((size > RANK * max(size[0], 1e-300)).sum())
@@ -151,7 +151,7 @@ class FirstOrder:
         n, (f, g) = system.n, self.basis.speeds[0].shape
         s, z = self._states, slice(n, n + system.m + system.nv)
         rows = np.r_[0:n, n + system.m : s.stop]
-        of_y = np.zeros((n, len(rates.now[0])))
+        of_y = np.zeros((n, rates.now.shape[1]))
         place, speed, push = of_y.copy(), of_y.copy(), of_y
         place[:, :f], speed[:, :f], push[:, :f] = q, self.by_y, self._acceleration_by_y()
         speed += q @ rates.now

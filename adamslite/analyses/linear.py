@@ -113,7 +113,7 @@ def linear(
     course = Course(system, Ports(*places, damping))
     found, steady = course.seen(observer)
     steady_for = "" if steady else course.steady_observer(observer)
-    nx = len(found.whole[0]) - len(inputs)
+    nx = found.whole.shape[1] - len(inputs)
     a, b, c, d = (
         found.whole[rows, columns]
         for rows in (slice(0, nx), slice(nx, None))
