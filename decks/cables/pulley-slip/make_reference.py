@@ -16,7 +16,7 @@ CASES = {
     "holding-three-turns": Pulley(HOLD, (300, 0.5), 0.1, 0.05, 0.35, 6 * np.pi, 2, 1e6, creep=2e-4),
     "sliding": Pulley(SLIDE, (30, 8), 0.2, 0.05, 0.3, np.pi, 3, 1e6),
     "sliding-quarter": Pulley(SLIDE, (4, 3), 0.1, 0.05, 0.12, np.pi / 2, 2, 4e5),
-    "braked": Pulley(BRAKE, (12, 8), 0.2, 0.05, 0.3, np.pi, 5, 1e6, 3.0, 40.0, 25.0),
+    "braked": Pulley(BRAKE, (12, 8), 0.2, 0.05, 0.3, np.pi, 5, 2e6, 3.0, 40.0, 25.0),
     "braked-small": Pulley(BRAKE, (3, 2), 0.1, 0.004, 0.2, np.pi, 4, 4e5, 2.0, 6.0, 2.5, end=0.8),
     "heavy": Pulley(HEAVY, (30, 8), 0.2, 0.05, 0.3, np.pi, 3, 1e6, rho=1.0, sections=4),
     "heavy-finer": Pulley(HEAVY, (20, 5), 0.2, 0.05, 0.2, np.pi, 4, 5e5, rho=2.0, sections=8),
