@@ -31,7 +31,7 @@ from adamslite.cables.scene import deck  # noqa: E402
 
 def drum() -> str:
     """Way s (1 - 0.0542 (h/R)^2) - M s" L/EA of the weight, tension M (g - s")."""
-    weight, stiffness, radius, h = 200.0, 5.0e6, 0.5, 2 / 80
+    weight, stiffness, radius, h = 200.0, 5.0e6, 0.5, 2 / 100
     t = np.linspace(0, 3, 61)
     s, _, acceleration = Winch(1.0, 0.2, 5)(t)
     cable = 2 + s[-1] + np.pi * radius
