@@ -305,12 +305,19 @@ PART/2, MASS=1, CM=20, IP=1,1,1, WZ=2
 MARKER/20, PART=2
 JOINT/1, REVOLUTE, I=20, J=1
 """
+BEAD = """\
+MARKER/1, PART=1, REULER=90D,90D,0
+POINT_MASS/3, MASS=1, CM=30
+MARKER/30, POINT_MASS=3
+JPRIM/1, INLINE, I=30, J=1
+"""
 
 
 @pytest.mark.parametrize(
     ("text", "exact"),
     [
         ("DIFF/1, IC=1, FUNCTION=-3*DIF(1)\n", [-3.0]),
+        (BEAD + "GCON/1, FUNCTION=VX(30)+3*DX(30)\n", [-3.0]),
         (WHEEL, [0.0, 0.0]),
         (WHEEL + "MOTION/1, JOINT=1, FUNCTION=2*TIME\n", []),
         (WHEEL + "MOTION/1, JOINT=1, VELOCITY, FUNCTION=2\n", [0.0]),

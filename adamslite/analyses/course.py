@@ -43,6 +43,8 @@ class Course:
     def seen(self, observer: Observer) -> tuple[FirstOrder, bool]:
         """The first-order system of this moment, and whether it stays."""
         three = self._three(observer)
+        if self.around is None:
+            return three[1], not self.now.u.any()
         if self._are_alike(three):
             return three[1], True
         basis = moving(*three, self.h)
@@ -51,6 +53,8 @@ class Course:
     def steady_observer(self, other_than: Observer) -> str:
         """For whom everything is steady, in words of the deck; empty when for none."""
         for words, observer in self._others():
+            if self.around is None:
+                return ""
             if observer.body != other_than.body and self._are_alike(self._three(observer)):
                 return words
         return ""
@@ -171,6 +175,6 @@ def _change(before: np.ndarray, now: np.ndarray, after: np.ndarray) -> bool:
     size = np.abs(now).max(axis=1)
     first, second = (after - before) / (2.0 * SHARE), (after - 2.0 * now + before) / SHARE**2
     return any(
-        bool((np.abs(change).max(axis=1) > share * np.maximum(size, floor * size.max())).any())
+        not (np.abs(change).max(axis=1) <= share * np.maximum(size, floor * size.max())).all()
         for change, (share, floor) in ((first, FIRST), (second, SECOND))
     )
