@@ -1,8 +1,8 @@
 """Whether a run can be believed: the same deck again, more tightly and by an unrelated method.
 
 With r the run, s the same method at ERROR/100 and w a method of another family at ERROR/100, both
-with steps of a quarter of the output step at most and with a balance of energy, a channel c is
-within
+with a balance of energy, steps of a quarter of the output step at most and at least ``LEAST_STEPS``
+of them, a channel c is within
 
     bound_c = SAFETY max_t max(|r - s|, |r - w|, |s - w|) + ROUND_OFF max_t |c|
 
@@ -27,8 +27,10 @@ from adamslite.results import Results
 
 # Both witnesses are taken at ERROR over this, but not below what round-off leaves of a test.
 TIGHTER, TIGHTEST = 100.0, 1e-12
-# Steps of the witnesses in output steps.
-LARGEST_STEP = 0.25
+# Steps of the witnesses: their length in output steps, and how many at least, a number that no
+# multiple of usual output steps meets: what is shorter than a thousandth of a run and has no guard
+# that leads to it (a narrow Gaussian) may be missed by all.
+LARGEST_STEP, LEAST_STEPS = 0.25, 1013
 SAFETY, ROUND_OFF = 2.0, 1e-13
 # Largest bound of a confirmed channel, against its quantity.
 AGREED = 1e-2
@@ -130,6 +132,7 @@ def confirmation(results: Results, settings: Any, again: Callable[..., Results])
     options: dict[str, Any] = {"error": max(settings.error / TIGHTER, TIGHTEST), "audit": True}
     if len(results.time) > 1:
         longest = LARGEST_STEP * float(np.diff(results.time).max())
+        longest = min(longest, float(np.ptp(results.time)) / LEAST_STEPS)
         options["hmax"] = min(longest, settings.hmax or longest)
     # Equal steps know no ERROR: their own formula with variable steps is the witness.
     method = "GSTIFF" if settings.method == "CONSTANT_BDF" else settings.method
@@ -185,15 +188,14 @@ def _unbalanced(witnesses: list[Results]) -> str:
 
 
 def _channels(results: Results, witnesses: list[Results]) -> Iterable[Channel]:
-    """Bounds and sizes of every column."""
-    runs = [results, *witnesses]
-    rows = min(len(run.time) for run in runs)
-    values = [run.values[:rows] for run in runs]
+    """Bounds and sizes of every column; a witness that ends earlier says nothing of the rest."""
+    whole = [each for each in witnesses if len(each.time) == len(results.time)]
+    values = [each.values for each in (results, *whole)]
     apart = np.zeros(len(results.names))
     for k, one in enumerate(values):
         for other in values[:k]:
             apart = np.maximum(apart, _largest(_difference(results.names, one, other)))
-    if not witnesses:
+    if not whole:
         apart[:] = inf
     largest = _largest(np.abs(results.values))
     sizes: dict[str, float] = {}
