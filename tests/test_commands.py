@@ -306,6 +306,15 @@ def test_switching_elements_off_and_on() -> None:
     assert deck.with_active("JOINT", [10, 12, 15], True).inactive == {("MOTION", 11)}
 
 
+@pytest.mark.parametrize(
+    ("ends", "joints"),
+    [("10,15", {10, 12, 15}), ("12,15", {12, 15}), ("10,12", {10, 12}), ("11,14", {12})],
+)
+def test_a_range_counts_with_its_first_and_its_last(ends: str, joints: set[int]) -> None:
+    deck = changed(f"DEACTIVATE/JOINT, RANGE={ends}")
+    assert deck.inactive == {("JOINT", key) for key in joints}
+
+
 def test_switches_survive_other_changes() -> None:
     deck = changed("DEACTIVATE/SFORCE, ID=7\nVARIABLE/5, FUNCTION=3\nSIM/STATICS")
     assert deck.inactive == {("SFORCE", 7)}

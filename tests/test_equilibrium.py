@@ -64,3 +64,18 @@ def test_a_slack_line_hangs_down_though_newton_ends_in_a_folded_one():
     assert np.all(np.diff(heights[:5]) < 0)
     pulls = [results[f"SFORCE/{k}.f"][-1] for k in range(1, n + 1)]
     assert max(pulls) < 0
+
+
+@pytest.mark.parametrize("stiffness", (1e9, 1e11))
+def test_forces_balance_though_places_hardly_move(stiffness):
+    """100 N on a spring of force k x^3: x = (100/k)^(1/3), and the forces balance to IMBALANCE."""
+    deck = (
+        "a hardening spring\nPART/1, GROUND\nMARKER/1, PART=1\n"
+        "POINT_MASS/2, MASS=1, CM=2, QG=0.02,0,0\nMARKER/2, POINT_MASS=2\n"
+        f"VFORCE/1, I=2, J_PART=1, FX=100-{stiffness}*DX(2)**3\\FY=-DY(2)\\FZ=-DZ(2)\n"
+        "EQUILIBRIUM/IMBALANCE=1E-4\nSIMULATE/STATICS\nEND\n"
+    )
+    results = al.simulate(al.read(deck))
+    assert results.outcome is al.Outcome.DONE
+    x = results["POINT_MASS/2.x"][-1]
+    assert abs(100 - stiffness * x**3) < 1e-4

@@ -40,6 +40,34 @@ def test_a_speed_that_is_held() -> None:
     assert results["POINT_MASS/2.vy"] == pytest.approx(-2.0)
 
 
+def test_a_distance_that_grows_at_a_held_rate() -> None:
+    """VR = 3 and nothing across: r = 5 + 3 t along the line drawn, however the mass starts."""
+    text = HEAD.replace("-9.81", "0") + (
+        "POINT_MASS/2, MASS=2, CM=2, QG=3,4,0, VX=1\nMARKER/2, POINT_MASS=2\n"
+        "JPRIM/1, INLINE, I=2, J=3\nMARKER/3, PART=1, ZP=3,4,0\n"
+        "GCON/1, FUNCTION=VR(2,1)-3\nREQUEST/1, F1=DM(2,1)\nEND\n"
+    )
+    results = adamslite.simulate(adamslite.read(text), end=1, steps=4, error=1e-8)
+    assert results["REQUEST/1.F1"] == pytest.approx(5 + 3 * results.time, abs=1e-6)
+
+
+@pytest.mark.parametrize("integrator", ["GSTIFF", "RADAU", "HHT", "ABAM"])
+def test_a_rule_of_speeds_may_stand_before_the_joints(integrator: str) -> None:
+    """A slider along x at speed 2 - t: m a = -m, the rule pushes with -m, the guide bears m g."""
+    text = HEAD + (
+        "GCON/1, FUNCTION=VX(2)-2+TIME\n"
+        "PART/2, MASS=3, CM=2, IP=1,1,1, VX=2\nMARKER/2, PART=2\n"
+        "MARKER/3, PART=1, ZP=1,0,0\nMARKER/4, PART=2, ZP=1,0,0\n"
+        "JOINT/1, TRANSLATIONAL, I=4, J=3\nREQUEST/1, F1=JOINT(1,0,3,0)\nEND\n"
+    )
+    deck = adamslite.read(text)
+    results = adamslite.simulate(deck, end=1, steps=4, error=1e-8, integrator=integrator)
+    t = results.time
+    assert results["PART/2.x"] == pytest.approx(2 * t - t**2 / 2, abs=1e-6)
+    assert results["GCON/1.f"] == pytest.approx(-3.0, abs=1e-4)
+    assert results["REQUEST/1.F1"] == pytest.approx(3 * 9.81, abs=1e-4)
+
+
 def test_a_force_that_depends_on_it() -> None:
     """Friction on a wire: a mass pushed along y = 0 by F slides against mu |L|, L = m g."""
     text = HEAD + (

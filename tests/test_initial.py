@@ -59,6 +59,13 @@ def test_a_speed_of_one_coordinate_is_shared_fairly():
     assert results["PART/2.vy"][0] == pytest.approx(1.0, abs=1e-9)
 
 
+@pytest.mark.parametrize(("moments", "square"), [("0.4,0.4,1.2", 2.0), ("0.05,0.05,0.1", 0.2)])
+def test_a_turn_weighs_as_the_radius_of_gyration(moments, square):
+    """min (v - 2)^2 + k^2 w^2 with v = w L, L = 1 and k^2 = (Ixx + Iyy + Izz)/m."""
+    deck = GROUND + f"PART/2, MASS=1, CM=2, IP={moments}, QG=1,0,0, VY=2\n" + HINGE
+    assert first(deck, "PART/2.vy") == pytest.approx(2.0 / (1.0 + square), rel=1e-9)
+
+
 def test_a_nonholonomic_constraint_sets_the_speed():
     deck = (
         GROUND

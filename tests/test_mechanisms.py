@@ -124,6 +124,38 @@ REQUEST/1, F1=AZ(31,3)"""
     assert turned == pytest.approx(-6.0 * results.time, abs=1e-6)
 
 
+@pytest.mark.parametrize(("place", "sense"), [(0.1, 1), (-0.1, -1)])
+def test_a_gear_may_drive_a_rack(place: float, sense: int) -> None:
+    """A turn by w about z moves what lies at (x, 0) along y by w x."""
+    results = run(
+        f"""MARKER/3, PART=1, QP=0.5,0,0, REULER=180D,90D,0
+MARKER/31, PART=3, QP=0.5,0.3,0, REULER=180D,90D,0
+MARKER/4, PART=1, QP={place},0,0, REULER=180D,90D,0
+JOINT/1, REVOLUTE, I=20, J=1
+JOINT/2, TRANSLATIONAL, I=31, J=3
+GEAR/1, JOINTS=1,2, CV=4
+MOTION/1, JOINT=1, FUNCTION=20*TIME
+REQUEST/1, F1=DY(31,3)"""
+    )
+    moved = results["REQUEST/1.F1"] - results["REQUEST/1.F1"][0]
+    assert moved == pytest.approx(sense * 0.1 * 20 * results.time, abs=1e-6)
+
+
+def test_a_coupler_counts_from_where_it_is_drawn() -> None:
+    """A slider drawn at 0.7 that goes three quarters of the way of one drawn at -0.2."""
+    results = run(
+        """MARKER/21, PART=2, QP=0,0,-0.2
+MARKER/31, PART=3, QP=0,0,0.7
+JOINT/1, TRANSLATIONAL, I=21, J=1
+JOINT/2, TRANSLATIONAL, I=31, J=1
+COUPLER/1, JOINTS=1,2, SCALES=3,-4
+MOTION/1, JOINT=1, FUNCTION=TIME-0.2
+REQUEST/1, F1=DZ(21,1)\\F2=DZ(31,1)"""
+    )
+    assert results["REQUEST/1.F1"] == pytest.approx(results.time - 0.2, abs=1e-6)
+    assert results["REQUEST/1.F2"] == pytest.approx(0.75 * results.time + 0.7, abs=1e-6)
+
+
 @pytest.mark.parametrize(
     ("how", "distance"),
     [
@@ -199,6 +231,22 @@ REQUEST/1, F1=DM(40)\\F2=VM(40)\\F3=PTCV(1,0,1,0)\\F4=PTCV(1,1,1,0)""",
     assert results["REQUEST/1.F2"] == pytest.approx(3.0, abs=1e-5)
     assert results["REQUEST/1.F3"] == pytest.approx(2 * 3.0**2, rel=1e-2)
     assert results["REQUEST/1.F4"] == pytest.approx(results["REQUEST/1.F3"], abs=1e-9)
+
+
+def test_a_bead_starts_where_it_is_drawn_on_a_curve_that_lies_askew() -> None:
+    """At speed 3 along the straight y = -1, z = 2 of a marker that is turned and moved."""
+    results = run(
+        """MARKER/3, PART=1, QP=1,2,3, REULER=90D,90D,0
+MATRIX/1, ROWS=5, COLUMNS=3, VALUES=0,-1,2, 1,-1,2, 2,-1,2, 3,-1,2, 4,-1,2
+CURVE/1, OPEN, MATRIX=1, CURVE_POINTS
+POINT_MASS/4, MASS=2, CM=40, QG=3,2.5,2, VY=3
+MARKER/40, POINT_MASS=4
+PTCV/1, I=40, CURVE=1, RM=3
+REQUEST/1, F1=DX(40,1)\\F2=DY(40,1)\\F3=DZ(40,1)"""
+    )
+    x, y, z = (results[f"REQUEST/1.F{n}"] for n in (1, 2, 3))
+    assert x == pytest.approx(3.0, abs=1e-6) and z == pytest.approx(2.0, abs=1e-6)
+    assert y == pytest.approx(2.5 + 3 * results.time, abs=1e-6)
 
 
 def test_joints_tell_what_they_ask_for_at_the_start() -> None:
