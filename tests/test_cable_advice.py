@@ -8,6 +8,7 @@ from cable_scenes import SCENES, CableScene
 
 import adamslite
 from adamslite.cables.advise import Advice, advise
+from adamslite.cables.demand import Demand, elements, level, rigid_fails
 from adamslite.cables.told import about_cables, cables
 from adamslite.cli import main
 
@@ -130,6 +131,49 @@ def test_a_light_rope_may_be_rigid(rope: float, level: int) -> None:
     """rho l < p M: 2 kg of rope are 0.4 % of the weight, 50 kg are 10 %. It hangs in balance."""
     (cable,) = cables(adamslite.read(pendulum(rope, SPRINGS["SFORCE"])))
     assert advise(replace(cable.demand, bounces=False), 0.01).level == level
+
+
+CALM = Demand(stiffness=1e7, density=1e-3, length=8.0, tension=2e4, moved=2e3)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({}, []),
+        ({"stiffness": 1e6}, ["T/EA = 0.02"]),
+        ({"density": 5.0}, ["rho l/M = 0.02"]),
+        (
+            {"speed": 2.0, "acceleration": 0.5},
+            # (M + rho l/3) l/EA = 1.6e-3 s^2, tau = 4 s
+            ["sqrt((M + rho l/3) l/EA)/tau = 0.01"],
+        ),
+    ],
+)
+def test_what_speaks_against_a_rigid_cable(change: dict[str, float], told: list[str]) -> None:
+    """rho l < p M, T < p EA and sqrt((M + rho l/3) l/EA) < p tau, each by itself, at p = 1 %."""
+    of = replace(CALM, **change)
+    assert rigid_fails(of, 0.01) == told
+    assert level(of, 0.01) == (1 if not told else 2)
+
+
+@pytest.mark.parametrize(("speed", "acceleration"), [(3.0, 0.0), (0.0, 5.0), (4.0, 2.0)])
+def test_what_the_element_of_the_paper_leaves_out(speed: float, acceleration: float) -> None:
+    """s'/(2 c_t), rho (l s" + s'^2)/(2 T) with the longest l, and (l/c) s"/s'."""
+    of = replace(CALM, density=2.0, most=12.0, speed=speed, acceleration=acceleration)
+    found = list(of.validity.values())
+    late = 8 / (1e7 / 2) ** 0.5 * acceleration / speed if speed else 0.0
+    pulled = 2 * (20 * acceleration + speed**2) / (2 * 2e4)
+    assert found == pytest.approx([speed / (2 * (2e4 / 2) ** 0.5), pulled, late])
+
+
+def test_error_is_the_length_that_a_tension_makes() -> None:
+    """ERROR = p T H/EA, the next lower of 1, 2, 5: 0.01 2e4 2/1e7 = 4e-5 and half of it."""
+    of = replace(CALM, density=5.0, straight=True)
+    assert [elements(of, p) for p in (0.01, 0.001)] == [4, 4]
+    assert advise(of, 0.01).error == pytest.approx(2e-5)
+    assert advise(of, 0.02).error == pytest.approx(5e-5)
+    assert advise(replace(of, tension=1e4), 0.01).error == pytest.approx(2e-5)
+    assert advise(replace(of, tension=5e4), 0.01).error == pytest.approx(1e-4)
 
 
 def test_a_contact_is_no_spring() -> None:

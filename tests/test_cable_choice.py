@@ -1,12 +1,14 @@
 """What `auto` picks for a cable scene, and the reasons it writes into the head of the deck."""
 
 import re
-from math import ceil, sqrt
+from math import ceil, cos, pi, sqrt, tanh
 
 import pytest
 from descriptions import BELT, HOIST, PAYOUT
 from scipy.optimize import brentq
 
+from adamslite.cables.law import parse, value
+from adamslite.cables.messages import Faults
 from adamslite.cables.scene import deck
 
 LIGHT = """
@@ -117,6 +119,46 @@ def test_the_head_says_why(spec: str, method: str, says: list[str]) -> None:
 def test_a_winch_with_an_engine_is_estimated_too() -> None:
     """The rigid cable is run, S and SD known to the force: its travel is among the figures."""
     assert re.search(r"travel 0 to [\d.]+ m, up to [\d.]+ m/s", head(ENGINE))
+
+
+def hoist(law: str, reverse: bool) -> str:
+    """The winch and its weight, told from the winch on or from the weight on."""
+    start, *stations = HOIST.replace(PAYOUT, law).split("[[route]]\n")
+    if reverse:
+        stations = [each.replace("turn = -1", "turn = 1") for each in reversed(stations)]
+    return "[[route]]\n".join([start, *stations])
+
+
+@pytest.mark.parametrize("reverse", [False, True])
+@pytest.mark.parametrize("force", [5000, 12000])
+def test_a_winch_lets_out_what_its_weight_pulls(reverse: bool, force: float) -> None:
+    """(m + J/R^2 + rho L) s" = m g - F, up or down, at either end of the route; 400 steps of the
+    estimate make s off by a 400th.
+    """
+    told = head(hoist(f'force = "{force}"', reverse))
+    way = re.search(r"travel ([-\d.]+) to ([-\d.]+) m, up to ([\d.]+) m/s", told)
+    least, most, speed = map(float, way.groups())
+    rate = (1000 * 9.81 - force) / (1000 + 25 / 0.5**2 + 4 * 20)
+    assert speed == pytest.approx(abs(rate) * 2, rel=1e-3)
+    ends = sorted((0.0, rate * 2**2 / 2))
+    assert [least, most] == pytest.approx(ends, rel=4e-3)
+
+
+LAWS = {
+    "IF(TIME-1:2,3,5)": lambda t: 2 if t < 1 else 3 if t == 1 else 5,
+    "STEP(TIME,0,1,2,4)": lambda t: 1 + 3 * (t / 2) ** 2 * (3 - t),
+    "STEP5(TIME,0,1,2,4)": lambda t: 1 + 3 * (t / 2) ** 3 * (10 - 15 * t / 2 + 6 * (t / 2) ** 2),
+    "HAVSIN(TIME,0,1,2,4)": lambda t: 1 + 3 * (1 - cos(pi * t / 2)) / 2,
+    "MAX(1,TIME)-MIN(1,TIME)": lambda t: abs(1 - t),
+    "2**TIME/(1+TIME)-TANH(TIME)": lambda t: 2**t / (1 + t) - tanh(t),
+}
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_law_is_worked_out_as_the_deck_does(law: str) -> None:
+    node = parse(law, ("route", 0, "payout"), Faults("<text>"))
+    for t in (0.0, 0.3, 1.0, 1.7):
+        assert value(node, t, {}) == pytest.approx(LAWS[law](t), abs=1e-12)
 
 
 def test_accuracy_asks_for_more() -> None:

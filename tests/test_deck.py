@@ -210,6 +210,31 @@ def test_a_healthy_deck_has_nothing_to_be_told() -> None:
     assert {each.code for each in check(read(PAPER))} == {"effective-mass"}
 
 
+PUSHED = """A mass that its own acceleration pushes
+UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH={length}, TIME=SECOND
+PART/1, GROUND
+POINT_MASS/2, MASS=4, CM=2
+MARKER/2, POINT_MASS=2
+VARIABLE/DM, FUNCTION=0.5+TIME
+VFORCE/1, I=2, J_PART=1, FY={force}
+END
+"""
+
+
+@pytest.mark.parametrize(("length", "mass"), [("METER", "4"), ("MILLIMETER", "0.004")])
+def test_the_effective_mass_is_that_of_forces(length: str, mass: str) -> None:
+    """F = DM a takes DM from m/UCF, the force that an acceleration of one unit takes."""
+    for force, left in (
+        ("VARVAL(DM)*ACCY(2)", "VARVAL(DM)"),
+        ("7+0.5*ACCY(2)", "0.5"),
+        ("ACCY(2)*(3-TIME)", "(3 - TIME)"),
+    ):
+        (told,) = check(read(PUSHED.format(length=length, force=force)))
+        assert told.message.endswith(f"effective mass along y is {mass} - {left}")
+    for force in ("-VARVAL(DM)*ACCY(2)", "1-0.5*ACCY(2)", "-(ACCY(2)/4)"):
+        assert not check(read(PUSHED.format(length=length, force=force)))
+
+
 def test_a_mistake_does_not_make_others() -> None:
     """What refers to a statement with a mistake is not blamed for it."""
     assert codes("MARKER/4, PART=1, QP=1,2\nSFORCE/1, I=3, J=4, FUNCTION=1") == ["value-count"]

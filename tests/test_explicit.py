@@ -56,6 +56,16 @@ def test_projection_keeps_the_joint_closed():
     np.testing.assert_allclose(length, 1.0, atol=1e-9)
 
 
+@pytest.mark.parametrize("error", [1e-5, 1e-7])
+def test_projection_leaves_nothing_but_round_off(error: float):
+    """Whatever a step is off by, the place stays on the circle, the velocity along it."""
+    results = al.simulate(al.read(PENDULUM), end=10.0, steps=10, integrator="ABAM", error=error)
+    x, y, vx, vy, w = (results[f"PART/2.{name}"] for name in ("x", "y", "vx", "vy", "wz"))
+    np.testing.assert_allclose(np.hypot(x, y), 1.0, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(vx, -w * y, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(vy, w * x, rtol=0, atol=1e-11)
+
+
 def test_verlet_is_of_order_two():
     """Half the step, a quarter of the error."""
     known = run(SPRING, "ABAM", error=1e-10)["POINT_MASS/3.x"][-1]

@@ -174,6 +174,18 @@ def test_hht_and_newmark_step_by_step(method, alpha, beta, gamma):
     assert v[-1] == pytest.approx(speed, abs=1e-3)  # written from the cubic between two steps
 
 
+@pytest.mark.parametrize("method", ["HHT", "HHT, ALPHA=-0.05", "NEWMARK"])
+def test_hht_turns_about_one_axis_as_it_slides(method: str):
+    """J z" = -k z of the angle z about one axis is m x" = -k x, and both have one rule."""
+    deck = SPRING.format(f"{method}, HINIT={STEP}, HMIN={STEP}, HMAX={STEP}").replace(
+        "END\n",
+        "PART/3, MASS=1, CM=3, IP=1,1,1, REULER=1,0,0, WZ=2\nMARKER/3, PART=3\n"
+        f"VTORQUE/1, I=3, J_PART=1, TZ=-{STIFFNESS}*AZ(3)\nREQUEST/1, F1=AZ(3)\nEND\n",
+    )
+    results = done(deck, 60 * STEP, 60, error=1e-9)
+    np.testing.assert_allclose(results["REQUEST/1.F1"], results["POINT_MASS/2.x"], atol=1e-9)
+
+
 def test_verlet_step_by_step():
     """Stoermer: x+ - 2 x + x- = -h^2 k x."""
     x, _, _ = steps(f"VERLET, HINIT={STEP}")
@@ -220,3 +232,41 @@ def test_dop853_step_by_step(method: str):
         truth = math.cos(1.2 * w) + 2.0 / w * math.sin(1.2 * w)
         errors.append(abs(results["POINT_MASS/2.x"][-1] - truth))
     assert math.log2(errors[0] / errors[1]) > 7.5
+
+
+@pytest.mark.parametrize(
+    ("method", "h", "off"),
+    [
+        ("ABAM, HINIT=0.1, HMAX=0.1", 0.1, 1e-6),
+        ("RADAU, HINIT=0.02, HMAX=0.02, INTERPOLATE=ON", 0.02, 1e-6),
+        ("HHT, ALPHA=0, HINIT=0.001, HMAX=0.001, HMIN=0.001", 0.001, 1e-4),
+    ],
+)
+def test_what_is_written_within_a_step(method: str, h: float, off: float):
+    """Five times in every step, with z = w h: z^8/8! of a polynomial of order 7, 6e-7; z^4/4!/32 of
+    a cubic, 3e-7; z^2/24 w t of HHT's own phase, 1e-5 and the amplitude 1.05.
+    """
+    count = round(0.8 / h)
+    results = done(SPRING.format(method), count * h, 5 * count, error=1e-2)
+    assert results.summary["steps"] <= count + 2
+    w, t = math.sqrt(STIFFNESS), results.time
+    truth = np.cos(w * t) + 2.0 / w * np.sin(w * t)
+    np.testing.assert_allclose(results["POINT_MASS/2.x"], truth, atol=off)
+    rate = 2.0 * np.cos(w * t) - w * np.sin(w * t)
+    np.testing.assert_allclose(results["POINT_MASS/2.vx"], rate, atol=20 * w * off)
+
+
+@pytest.mark.parametrize("fast", [1.0, 1e4])
+@pytest.mark.parametrize("method", ["RKF45", "ABAM", "RADAU", "GSTIFF"])
+def test_error_is_kept_whatever_the_unit_of_time(method: str, fast: float):
+    """Five periods of x = cos(w t), x' of size 1 to w, by steps that ERROR alone decides."""
+    w, tolerance = 1.0 * fast, 1e-7
+    deck = (
+        GROUND
+        + "POINT_MASS/2, MASS=1, CM=2, QG=1,0,0\nMARKER/2, POINT_MASS=2\n"
+        + f"VFORCE/1, I=2, J_PART=1, FX=-{w * w}*DX(2)\nEND\n"
+    )
+    end = 10 * math.pi / w
+    results = done(deck, end, 10, integrator=method, error=tolerance, hmax=end)
+    off = np.abs(results["POINT_MASS/2.x"] - np.cos(w * results.time)).max()
+    assert off < 1e3 * tolerance
