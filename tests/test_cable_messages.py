@@ -13,6 +13,7 @@ from adamslite.diagnostics import WARNING, Diagnostic
 
 #: With the form they are written in, on the last line.
 LOWERS = HOIST + "[model]\nlevel = 3\n"
+LOWERS_ROPE = LOWERS.replace("rho = 4", "rho = 4\npulls_only = true")
 DRIVES = BELT + "[model]\nelements = 6\n"
 CHAIN = DRIVES.replace(
     'kind = "pulley"\nat = [0.3, 0, 0]\nradius = 0.1',
@@ -115,7 +116,9 @@ WRONG = {
     "rigid-has-waves": (ATWOOD, "mass = 3", "mass = 3\nvelocity = [10, 0, 0]", (25, 1)),
     "breaking": (ATWOOD, "rho = 0.01", "rho = 0.01\nbreaking_load = 40", (5, 1)),
     "paper-not-valid": (LOWERS, "level = 3", 'level = 3\nform = "paper"\naccuracy = 1e-4', (18, 1)),
-    "faster-than-waves": (LOWERS, "0.5*TIME**2", "60*TIME**2", (17, 1)),
+    "faster-than-waves": (LOWERS_ROPE, "0.5*TIME**2", "60*TIME**2", (18, 1)),
+    "pushed": (LOWERS, "0.5*TIME**2", "6*TIME**2", (11, 1)),
+    "pushed-at-once": (LOWERS, "0.5*TIME**2", "2*TIME", (11, 1)),
 }  # fmt: skip
 BRUTE = {"stored-too-little", "brute-plane", "brute-cannot"}
 
@@ -202,3 +205,22 @@ def test_the_command_prints_places_and_ends_with_3(tmp_path: Path, capsys) -> No
         "     | ^^^^^^^^^^^^^^^^\n"
         "    = smaller radii, or stations further apart\n"
     )
+
+
+@pytest.mark.parametrize(
+    ("payout", "cable", "load", "told"),
+    [
+        ("4*TIME**2", "", "", set()),
+        ("6*TIME**2", "", "", {"pushed"}),
+        ("6*TIME**2", "pulls_only = true\n", "", set()),
+        ("2*TIME+4*TIME**2", "", "", {"pushed-at-once"}),
+        ("2*TIME+4*TIME**2", "", "velocity = [0, -2, 0]\n", set()),
+        ("-6*TIME**2", "", "", set()),
+    ],
+)
+def test_a_winch_that_outruns_its_load_pushes(payout, cable, load, told) -> None:
+    """A load falls by g t^2/2 = 4.9 t^2; payout beyond that is slack."""
+    text = HOIST.replace("0.5*TIME**2", payout).replace("end = 2", "end = 1")
+    text = text.replace("rho = 4\n", "rho = 4\n" + cable) + load + "[model]\nlevel = 3\n"
+    found = {each.code for each in deck(text)[1]}
+    assert found & {"pushed", "pushed-at-once"} == told

@@ -25,8 +25,9 @@ INSTANTS = 400
 class Travel:
     """Least and greatest way [m] and when the least is reached; greatest speed, acceleration.
 
-    `start` and `jump` are the speeds it starts with, and those that are there at once; `known` is
-    false where it depends on what only the run knows.
+    `start` and `jump` are the speeds it starts with, and those that are there at once, `gain` the
+    greatest acceleration forwards [m/s^2], at `gain_at` [s]; `known` is false where it depends on
+    what only the run knows.
     """
 
     least: float = 0.0
@@ -38,6 +39,8 @@ class Travel:
     across: float = 0.0
     known: bool = True
     start: float = 0.0
+    gain: float = 0.0
+    gain_at: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -220,11 +223,12 @@ def from_ways(ways: list[float], h: float, across: float = 0.0) -> Travel:
         return [(b - a) / h for a, b in zip(x, x[1:], strict=False)]
 
     speeds, changes = rates(ways), rates(rates(ways))
-    least, fastest = min(ways), max(map(abs, speeds))
+    least, fastest, gain = min(ways), max(map(abs, speeds)), max(changes)
+    first = next(k for k, change in enumerate(changes) if change >= gain - 1e-6 * abs(gain))
     start = speeds[0] - changes[0] * h / 2
     # A speed that is there from the first instant on, and not by the acceleration that follows.
     jump = abs(start) if abs(start) > 0.05 * fastest else 0.0
     return Travel(
         least, max(ways), ways.index(least) * h, fastest, max(map(abs, changes)), jump, across,
-        start=start,
+        start=start, gain=gain, gain_at=(first + 1) * h,
     )  # fmt: skip

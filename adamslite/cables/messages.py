@@ -140,6 +140,18 @@ MESSAGES: dict[str, Message] = {
         'form = "ale"',
         severity=WARNING,
     ),
+    "pushed": Message(
+        "the winch pays out with {gain:.4g} m/s^2 at TIME = {time:.4g}, and the load comes after"
+        " with {fall:.4g} m/s^2: the cable goes slack, and a slack section pushes",
+        "pulls_only = true in [cable], at level 2 or 3: a slack section then carries nothing",
+        severity=WARNING,
+    ),
+    "pushed-at-once": Message(
+        "the winch pays out with {speed:.4g} m/s from the start, and the load moves with {own:.4g}"
+        " m/s: the cable goes slack, and a slack section pushes",
+        "pulls_only = true in [cable], at level 2 or 3, or give the load that velocity",
+        severity=WARNING,
+    ),
     "faster-than-waves": Message(
         "the cable runs at {speed:.4g} m/s, faster than its transverse waves: {wave:.4g} m/s at"
         " {tension:.4g} N; displacements across it grow without bound",

@@ -3,7 +3,7 @@
 from adamslite.cables.choose import Choice, choose, needs_brute, tensions
 from adamslite.cables.demand import MOST
 from adamslite.cables.estimate import Moves, laws, travel
-from adamslite.cables.geometry import Span, reaches, spans, turned
+from adamslite.cables.geometry import Span, dot, reaches, spans, turned
 from adamslite.cables.lay import length, stretches, way
 from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
@@ -13,6 +13,9 @@ from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import in_plane, slipping
 from adamslite.cables.write import write
 from adamslite.diagnostics import DeckError, Diagnostic, sort_by_place
+
+# Shares by which payout may outrun a load before it is told.
+FASTER = 0.01
 
 
 def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
@@ -143,11 +146,35 @@ def _check(spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults:
                        length=length)  # fmt: skip
         if i in held and paid.most > held[i]:
             faults.add("stored-too-little", ("route", i, "stored"), value=paid.most, held=held[i])
+    _check_slack(spec, pieces, moves, choice, faults)
     section = longest / choice.elements
     _check_fixed(spec, choice, moves, section, faults)
     most = max(tensions(spec, pieces))
     if 0 < spec.cable.breaking < most:
         faults.add("breaking", ("cable", "breaking_load"), tension=most, limit=spec.cable.breaking)
+
+
+def _check_slack(
+    spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults: Faults
+) -> None:
+    """Whether a winch pays out faster than a load at the other end comes after by itself."""
+    if spec.cable.pulls_only and choice.level > 1:
+        return
+    last = len(spec.route) - 1
+    for i, paid in moves.paid.items():
+        load, span, sense = (
+            (spec.route[last], pieces[-1], 1) if i == 0 else (spec.route[0], pieces[0], -1)
+        )
+        if i not in (0, last) or load.kind not in ("mass", "free"):
+            continue
+        fall, own = (
+            sense * dot(way, span.along) for way in (spec.gravity, load.velocity or (0, 0, 0))
+        )
+        path = ("route", i, "payout")
+        if paid.start > own + FASTER * paid.speed:
+            faults.add("pushed-at-once", path, speed=paid.start, own=own)
+        elif paid.gain > max(fall, 0.0) + FASTER * max(abs(fall), paid.gain):
+            faults.add("pushed", path, gain=paid.gain, time=paid.gain_at, fall=max(fall, 0.0))
 
 
 def _check_fixed(spec: Spec, choice: Choice, moves: Moves, section: float, faults: Faults) -> None:
