@@ -22,8 +22,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-# How a guard is read: a relation > 0, a relation >= 0, a floor; a place within a zone.
+# How a guard is read: a relation > 0, a relation >= 0, a floor; a place within a zone.  Added to
+# that of a relation of the state where the value itself jumps, not only its slope.
 STRICT, WEAK, FLOOR, ZONE = range(4)
+JUMPS = 4
 CLOCK_LEAVES = ("t", "sig")
 FIXED_LEAVES = ("p", "mode", "nan")
 RELATIONS = ("<", ">", "<=", ">=")
@@ -36,6 +38,7 @@ class Guards:
     clock: list[Any] = field(default_factory=list)
     watch: list[Any] = field(default_factory=list)
     zone: list[Any] = field(default_factory=list)
+    jumps: set[Any] = field(default_factory=set)
 
     def __bool__(self) -> bool:
         return bool(self.clock or self.watch or self.zone)
@@ -43,8 +46,11 @@ class Guards:
     @property
     def kinds(self) -> dict[str, list[int]]:
         """How each guard is read."""
-        found = {name: [_kind(g) for g in getattr(self, name)] for name in ("clock", "watch")}
-        return found | {"zone": [ZONE for _ in self.zone]}
+        return {
+            "clock": [_kind(g) for g in self.clock],
+            "watch": [_kind(g) + JUMPS * (g in self.jumps) for g in self.watch],
+            "zone": [ZONE for _ in self.zone],
+        }
 
 
 def guards(expressions: Iterable[Any], leaves: dict[Any, tuple]) -> Guards:
@@ -64,6 +70,8 @@ def guards(expressions: Iterable[Any], leaves: dict[Any, tuple]) -> Guards:
             result.clock.append(guard)
         elif kinds and order < 1:
             result.watch.append(guard)
+            if order < 0 and hasattr(guard, "rel_op"):
+                result.jumps.add(guard)
     return result
 
 

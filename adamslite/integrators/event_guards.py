@@ -21,6 +21,7 @@ from adamslite.integrators.event_places import (
     FREED,
     HELD,
     HUGE,
+    JUMPS,
     KNOWN,
     LATE,
     LET_GO,
@@ -40,6 +41,9 @@ from adamslite.translate import native
 
 # A guard that changes this often within this share of HMAX is chattering: it is no longer held.
 CHATTER, CHATTER_SPAN = 10.0, 1e-3
+# Where a value jumps and the changes come this close, both sides lead back to the jump: the motion
+# slides along it, and the equations as they are do not say how.
+SLIDING_SPAN = 1e-4
 # After that, this many steps below this share of HMAX show that nothing else helps.
 CRAWLING, MOST_CRAWLED = 1e-4, 500.0
 # Changes nearer than this share of a step are one.
@@ -49,11 +53,17 @@ SAME_TIME = 1e-6
 @native
 def branch_of(kind: int, value: float) -> float:
     """What stands for the branch of a guard with this value."""
-    if kind == STRICT:
+    if kind == STRICT or kind == STRICT + JUMPS:
         return HUGE if value > 0.0 else -HUGE
-    if kind == WEAK:
+    if kind == WEAK or kind == WEAK + JUMPS:
         return HUGE if value >= 0.0 else -HUGE
     return floor(value) + 0.5
+
+
+@native
+def is_relation(kind: int) -> bool:
+    """Whether a guard is a relation, and no floor."""
+    return kind == STRICT or kind == WEAK or kind >= JUMPS
 
 
 @native
@@ -61,7 +71,7 @@ def margin_of(kind: int, branch: float, value: float) -> float:
     """Negative when a guard has left its branch, else how far it is from that."""
     if branch == 0.0:
         return 1.0
-    if kind == STRICT or kind == WEAK:
+    if is_relation(kind):
         return value if branch > 0.0 else 0.0 - value
     return 0.5 - abs(value - branch)
 
@@ -198,7 +208,7 @@ def turn_over(P: Problem, row: int, share: float) -> None:
         if P.margin[row * count + k] < 0.0 and (
             share >= 1.0 or crossing_share(P, k) <= share + SAME_TIME
         ):
-            if P.kind[clocks + k] == STRICT or P.kind[clocks + k] == WEAK:
+            if is_relation(P.kind[clocks + k]):
                 P.W[first + k] = 0.0 - branch
             else:
                 P.W[first + k] = branch + (1.0 if P.guard[first + k] > branch else -1.0)
@@ -239,6 +249,9 @@ def note_changes(P: Problem, t: float, row: int) -> None:
                 P.margin[often], P.margin[since] = 0.0, t
             P.margin[often] += 1.0
             if P.margin[often] > CHATTER:
+                slides = t - P.margin[since] <= SLIDING_SPAN * P.settings[H_MAX]
+                if P.kind[P.sizes[CLOCKS] + k] >= JUMPS and slides:
+                    P.search[CRAWL] = MOST_CRAWLED + 1.0
                 P.margin[often], P.W[first + k] = -1.0, 0.0
                 P.search[FREED] += 1.0
                 P.search[CULPRIT] = float(k)

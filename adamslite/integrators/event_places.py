@@ -4,7 +4,8 @@ from __future__ import annotations
 
 # Columns of P.group.
 CLOCK, WATCH, ZONE = 7, 8, 9
-STRICT, WEAK = 0, 1
+# How guards are read, and the bit of those at which a value jumps.
+STRICT, WEAK, JUMPS = 0, 1, 4
 # What a branch adds to the gap of its relation.
 HUGE = 1e200
 # Rows of P.margin: at the start, at the end and inside of the step; the bracket; how often a guard
