@@ -254,15 +254,36 @@ def test_floors_of_the_state(formula):
     assert results.summary["events"] > 3
 
 
-@pytest.mark.parametrize("formula", ["GSTIFF", "HHT", "RADAU", "RKF45"])
-def test_dry_friction_written_with_sign_is_never_wrong_in_silence(formula):
-    """It comes to rest at x = 1/4; then both branches lead back to the change."""
-    deck = moved_by("-2*SIGN(1,VX(2))", v=1.0)
-    last = run(deck, 1.0, **options(formula, 1e-7))
-    assert last.outcome is Outcome.CHATTERING
-    assert "VFORCE/1 (" in last.message
-    assert last.summary["steps"] < 5000
-    assert last["POINT_MASS/2.x"][-1] == approx(0.25, abs=0.02)
+SLIDER = (
+    GROUND
+    + """PART/2, MASS=1, CM=2, IP=1,1,1, VX=1
+MARKER/2, PART=2, REULER=90D,90D,0
+MARKER/3, PART=1, REULER=90D,90D,0
+JOINT/1, TRANSLATIONAL, I=2, J=3
+SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=2, J=3, FUNCTION={push}
+END
+"""
+)
+
+
+@pytest.mark.parametrize("error", [1e-4, 1e-7])
+@pytest.mark.parametrize("formula", [*FORMULAS, "ABAM"])
+@pytest.mark.parametrize(
+    ("push", "rest"),
+    [("-2*SIGN(1,{v})", 1 / 4), ("8*SIN(2*TIME)-10*SIGN(1,{v})", 0.0522)],
+)
+def test_dry_friction_written_with_sign_is_never_wrong_in_silence(formula, error, push, rest):
+    """It comes to rest, at x = 1/4 where nothing else pushes; then both branches lead back to the
+    change.  Free and on a joint, by every method and formulation.
+    """
+    free = moved_by(push.format(v="VX(2)"), v=1.0)
+    guided = SLIDER.format(push=push.format(v="VZ(2,3,3)"))
+    for deck, guilty, x in ((free, "VFORCE/1", "POINT_MASS/2.x"), (guided, "SFORCE/1", "PART/2.x")):
+        last = run(deck, 1.0, 50, **options(formula, error))
+        assert last.outcome is Outcome.CHATTERING
+        assert f"{guilty} (" in last.message
+        assert last.summary["steps"] < 500 or formula == "NEWMARK"
+        assert last[x][-1] == approx(rest, abs=0.02)
 
 
 def test_a_smooth_scene_has_no_guards_but_a_zone():

@@ -125,6 +125,20 @@ def test_a_model_that_leaves_its_plane_is_solved_in_space() -> None:
     assert np.abs(flat["PART/2.z"]).max() == 0.0
 
 
+@pytest.mark.parametrize("spin", [30, -50])
+def test_angles_count_their_turns_again_after_a_plane_was_left(spin: float) -> None:
+    """Whirled round its pivot against a torsion spring; on leaving the plane at t = 0.2, one or two
+    turns on, the run begins again in space with the spring as it was at the start.
+    """
+    deck = KICKED.format(push=5).replace("QG=1,0,0", f"QG=1,0,0, WZ={spin}, VY={spin}")
+    spring = "SFORCE/1, ROTATIONAL, ACTIONONLY, I=2, J=1, FUNCTION=-20*AZ(2,1)\n"
+    deck = adamslite.read(deck.replace("SIMULATE", f"{spring}SIMULATE"))
+    tried = adamslite.simulate(deck, error=1e-8)
+    whole = adamslite.simulate(deck, error=1e-8, no_reduction=["plane"])
+    assert np.abs(tried["PART/2.z"]).max() > 1e-3
+    np.testing.assert_array_equal(tried.values, whole.values)
+
+
 def test_the_flag_of_solve(tmp_path, capsys) -> None:
     deck = str(DECKS / "four-bar" / "four-bar.adm")
     common = ["solve", deck, "--end", "0.01", "--steps", "1", "-o", str(tmp_path / "out.csv")]
