@@ -153,7 +153,7 @@ class FaceWriter:
         widths += [model.node_width(n) for n in at.nodes]
         counts = (len(at.params), 0, 0, len(at.signals))
         shape = Shape(self.binder.slots, widths, self.n_bodies, *counts, self)
-        return write_kernels(shape, name, self.face in WITH_JACOBIAN, self.face != "output")
+        return write_kernels(shape, name, self.face, self.face in WITH_JACOBIAN)
 
     def __call__(self, scope: Scope) -> Any:
         from adamslite.kernel import Outputs

@@ -219,6 +219,12 @@ def _torn(system: System) -> str:
     return f"{equation(system, int(system.report[base.TORN]))}: {_where(system)}, it opens"
 
 
+def _broken_motion(system: System) -> str:
+    """What drives a constraint and cannot be followed."""
+    found = system.broken
+    return f"{placed(found.statement)}: at t = {found.time:.9g}, the {found.quantity} {found.how}"
+
+
 def _unstable(system: System) -> str:
     return f"{_when(system)}; stable are steps up to {system.control[LIMIT]:.3g}"
 
@@ -237,6 +243,7 @@ REASONS = {
     Outcome.NO_EQUILIBRIUM: _static,
     Outcome.CHATTERING: _chattering,
     Outcome.UNSTABLE: _unstable,
+    Outcome.BROKEN_MOTION: _broken_motion,
     Outcome.TORN: _torn,
     Outcome.NOT_KINEMATIC: _not_kinematic,
     Outcome.INITIAL_CONDITIONS_FAILED: _where,

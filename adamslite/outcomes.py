@@ -47,6 +47,10 @@ class Outcome(Enum):
         "An expression gave infinity or not-a-number. Look for a division by zero, the root or the "
         "logarithm of a negative number, or DM of coinciding markers in the named statement."
     )
+    BROKEN_MOTION = (
+        "A motion that jumps asks for a force without bound. Let it rise within a time: STEP "
+        "instead of IF, powers of TIME from 2 on (of a velocity, from 1 on)."
+    )
     INTERRUPTED = "The run was interrupted; everything computed until then is kept."
     UNSTABLE = (
         "The steps asked for with HINIT are longer than an explicit integrator can take in this "

@@ -22,6 +22,8 @@ import numpy as np
 
 from adamslite.analyses.audit import Balance, balance
 from adamslite.analyses.choose import METHODS, Choice, choose
+from adamslite.analyses.clock import Clock
+from adamslite.analyses.drives import without_value
 from adamslite.analyses.dynamic import Settings, run_dynamic
 from adamslite.analyses.initial import (
     Unclosed,
@@ -114,8 +116,9 @@ class Session:
         """The equations, numbered and assembled when first needed."""
         if self._system is None:
             self._system = self._numbered(False)
-            self.unclosed = start_of_joints(self._system, self.progress)
-            self._assemble()
+            if self._is_driven():
+                self.unclosed = start_of_joints(self._system, self.progress)
+                self._assemble()
         return self._system
 
     def prepare(self) -> None:
@@ -159,7 +162,8 @@ class Session:
         if old is not None:
             self._system = self._numbered(False)
             self._system.adopt(old)
-            self._assemble()
+            if self._is_driven():
+                self._assemble()
 
     # analyses
 
@@ -282,6 +286,14 @@ class Session:
             system = System(self.kernels, stabilised, pivoting)
         system.settings[base.T] = self.time
         return system
+
+    def _is_driven(self) -> bool:
+        """Whether all that drives a constraint has a value at this time."""
+        self._system.broken = without_value(Clock(self.kernels), self.time)
+        if self._system.broken:
+            self.outcome = Outcome.BROKEN_MOTION
+            self._system.report[base.AT] = self.time
+        return self._system.broken is None
 
     def _assemble(self) -> None:
         """Consistent positions and velocities, redundant rows, a regular elimination order."""

@@ -27,11 +27,16 @@ from adamslite.reduction import left_off
 from adamslite.results import Results
 from adamslite.session import Session
 from adamslite.times import spread_times
+from adamslite.unknowns import placed
 
 SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
 CAPPED = (
     "held at 2: stiff vibrations without damping limited the steps of higher orders; HHT suits "
     "such a scene"
+)
+FASTER = (
+    "an expression of TIME changes faster or more often than the steps of this run can follow, and "
+    "what it does may be missed; a shorter HMAX shows it"
 )
 # Columns named that hold entries without a value.
 MOST_TOLD = 5
@@ -222,6 +227,7 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
 def _meta(session: Session) -> Mapping[str, str]:
     deck, settings = session.deck, session.chosen.settings
     units = deck.single("UNITS").names
+    hurried = ", ".join(dict.fromkeys(map(placed, session.system.hurried)))
     return {
         "deck": deck.title,
         "deck hash": deck.hash,
@@ -230,6 +236,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         **({"integrator chosen": session.chosen.reason} if session.chosen.reason else {}),
         **_notes(session),
         **_beyond(session),
+        **({"time": f"{hurried}: {FASTER}"} if hurried else {}),
     }
 
 

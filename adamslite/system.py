@@ -61,6 +61,8 @@ class System(Elimination):
         self.margin = np.zeros(11 * len(self.guarded["watch"]))
         self.zone = np.zeros(5 * len(self.guarded["zone"]))
         self.stops, self.search, self.pattern = np.zeros(1), np.zeros(PLACES), ints([])
+        self.broken, self.hurried = None, []
+        self.paces = np.array(base.NO_PACE)
         self.pivot0 = np.zeros(nz + 1)
         self.history, self.trial = np.zeros(9 * w + 160), np.zeros(3 * w + 3)
         self.control, self.tableau = np.zeros(48), np.zeros(1)

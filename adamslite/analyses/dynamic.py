@@ -10,12 +10,16 @@ import numpy as np
 
 from adamslite.analyses.audit import start_audit
 from adamslite.analyses.choose import CONSTANT, METHODS
-from adamslite.analyses.edges import stops
+from adamslite.analyses.clock import Clock
+from adamslite.analyses.drives import first_jump
+from adamslite.analyses.paces import timetable
 from adamslite.engine import BDF, EXPLICIT, RADAU, ints
 from adamslite.integrators import base
 from adamslite.outcomes import Outcome
 from adamslite.system import System
 
+# How a run may end before a motion that jumps, or gets ever faster.
+CLOSE = (Outcome.DONE, Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED)
 # Error estimates from here on stand for not-a-number.
 OVERFLOW = 1e300
 # CORRECTOR options that ask for convergence of multipliers too.
@@ -79,6 +83,16 @@ class Settings:
             return 0.0
         return self.hinit or self.hmax or output_step / 20.0
 
+    def tests_velocities(self, constrained: bool) -> bool:
+        """Whether the error test sees velocities; that of index 3 only where nothing is held."""
+        method = METHODS.get(self.method, BDF)
+        free = self.form == "SI2" or not constrained
+        return method in (RADAU, EXPLICIT) or (method == BDF and free)
+
+    def equal_steps(self, hmax: float) -> bool:
+        """Whether steps are asked for that nothing may make shorter."""
+        return self.method == CONSTANT or self.hinit == self.hmin == hmax
+
     @property
     def interpolates(self) -> bool:
         """Whether steps pass output times; without INTERPOLATE all but those of RADAU, whose
@@ -129,8 +143,9 @@ def run_dynamic(
     system.settings[base.ADAPTIVITY] = settings.adaptivity
     system.settings[base.ALL_CONVERGE] = settings.corrector in EVERYTHING
     system.pattern = ints([word == "T" for word in settings.pattern])
-    system.stops = stops(system, times)
     method = METHODS[settings.method]
+    times = _scheduled(system, times, settings, hmax)
+    system.settings[base.T_END] = end = float(system.stops[-1])
     if method == EXPLICIT:
         system.prepare_explicit(settings.scale)
     if method == RADAU:
@@ -139,7 +154,26 @@ def run_dynamic(
     system.start_record(times)
     code = _watched(system, method, watch, end)
     system.release_guards()
-    return _named(system, code)
+    outcome = _named(system, code)
+    if system.broken and outcome in CLOSE:
+        near = system.report[base.AT] >= system.broken.time - hmax
+        return Outcome.BROKEN_MOTION if near else outcome
+    return outcome
+
+
+def _scheduled(system: System, times: np.ndarray, settings: Settings, hmax: float) -> np.ndarray:
+    """Put stops and paces in place; the output times up to where a motion jumps."""
+    clock, fine = Clock(system.kernels), not settings.tests_velocities(system.holonomic > 0)
+    table = timetable(system, clock, times, hmax, fine)
+    equal = settings.equal_steps(hmax)
+    system.paces = np.array(base.NO_PACE) if equal else table.paces
+    system.hurried += table.overfull + (table.paced if equal else [])
+    system.stops = table.stops
+    system.broken = first_jump(clock, table.stops, float(times[0]), settings.error)
+    if system.broken is None:
+        return times
+    system.stops = table.stops[table.stops <= system.broken.time]
+    return times[times <= system.broken.time]
 
 
 def _named(system: System, code: int) -> Outcome:

@@ -1,31 +1,25 @@
 """Stops of a run: the times at which a guard of the clock changes its branch.
 
 Guards of the clock (:mod:`adamslite.guards`) are functions of time alone, so their changes are
-found before the run, by the native kernels that the run itself uses:
+found before the run:
 
-1. values at a grid of times, made finer until the number of changes stays the same; a value that
-   turns round just short of zero is looked at more closely;
-2. bisection of every change down to round-off.
-
-References: Shampine, Gladwell, Brankin, ACM Trans. Math. Softw. 17 (1991) 11 (events of one
-variable).
+1. bisection with enclosures separates the changes, however near to each other they are, and
+   proves that there is none elsewhere (:mod:`adamslite.analyses.changes`);
+2. bisection of every change down to round-off, by the native kernels that the run itself uses.
 """
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from adamslite.analyses.changes import around_changes
+from adamslite.analyses.clock import Clock
 from adamslite.engine import CLOCK
 from adamslite.guards import FLOOR, STRICT
 from adamslite.system import System
 
-# Points of the first grid for each output interval, and at least in all.
-DENSITY, LEAST = 4, 257
-# The grid is not made finer than this.
-MOST = 2**18
-# Points stand in their cells at multiples of this: no regular grid, which a periodic guard could
-# always meet at the same phase.
-GOLDEN = 0.6180339887498949
 # Changes nearer to each other, or to an output time, than this share of the run are one; they are
 # located to that of round-off.
 SAME, ROUND_OFF = 1e-13, 1e-16
@@ -33,41 +27,39 @@ SAME, ROUND_OFF = 1e-13, 1e-16
 
 def stops(system: System, times: np.ndarray) -> np.ndarray:
     """Times inside the run over ``times`` (nt,) at which it must stop, and its end; sorted."""
+    return edges(system, Clock(system.kernels), times)[0]
+
+
+def edges(system: System, clock: Clock, times: np.ndarray) -> tuple[np.ndarray, list[Any]]:
+    """The stops, and the statements whose changes are too many to find all of them."""
     start, end = float(times[0]), float(times[-1])
     if not system.guarded["clock"] or not end > start:
-        return np.array([end])
+        return np.array([end]), []
+    grid, overfull = _grid(clock, start, end)
+    return merged(_changes(system, grid), times), overfull
+
+
+def merged(found: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Times inside the run and its end, sorted, without those that differ by round-off."""
+    start, end = float(times[0]), float(times[-1])
     same = SAME * (end - start)
-    found = _changes(system, _grid(system, times))
     near = times[np.abs(times[:, None] - found).argmin(axis=0)]
     found = np.where(np.abs(near - found) <= same, near, found)
-    inside = found[(found > start + same) & (found < end - same)]
+    inside = np.sort(found[(found > start + same) & (found < end - same)])
     return np.append(inside[np.diff(inside, prepend=-np.inf) > same], end)
 
 
-def _grid(system: System, times: np.ndarray) -> np.ndarray:
-    """Times so dense that no change is missed between two of them."""
-    start, end = float(times[0]), float(times[-1])
-    count, before = max(LEAST, DENSITY * len(times)), -1
-    while True:
-        cell = np.arange(count)
-        inner = start + (cell + cell * GOLDEN % 1.0) * ((end - start) / count)
-        grid = _with_turns(system, np.concatenate([[start], inner, [end]]))
-        changes = int((np.diff(_branches(system, grid), axis=0) != 0).sum())
-        if changes == before or count >= MOST:
-            return grid
-        count, before = 3 * count + 1, changes
-
-
-def _with_turns(system: System, grid: np.ndarray) -> np.ndarray:
-    """The grid with more points where a value comes back before it reaches zero."""
-    values = sample(system, grid)
-    a, b, c = np.abs(values[:-2]), np.abs(values[1:-1]), np.abs(values[2:])
-    same = (values[:-2] > 0) == (values[2:] > 0)
-    relation = system.kind[: values.shape[1]] != FLOOR
-    near = same & relation & (b < a) & (b < c) & (b < np.minimum(a - b, c - b) * 2.0)
-    at = np.flatnonzero(near.any(axis=1)) + 1
-    more = [np.linspace(grid[k - 1], grid[k + 1], 33) for k in at[: MOST // 33]]
-    return np.unique(np.concatenate([grid, *more]))
+def _grid(clock: Clock, start: float, end: float) -> tuple[np.ndarray, list[Any]]:
+    """Times so dense that every guard changes once at most between two of them, and the
+    statements of which that could not be reached.
+    """
+    times, overfull = [np.array([start, end])], []
+    for floor in (False, True):
+        for program, statement in clock.programs("floors" if floor else "guards").items():
+            found = around_changes(program, start, end, floor)
+            times.append(found.times)
+            overfull += [] if found.whole else [statement]
+    return np.unique(np.concatenate(times)), overfull
 
 
 def _changes(system: System, grid: np.ndarray) -> np.ndarray:

@@ -40,7 +40,7 @@ SUMMARY = """\
 
 #: Comments of the results that the summary repeats: what was done to the model and the method.
 NOTES = (
-    "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "energy",
+    "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "energy", "time",
     "linear", "no number", "out of its law",
 )  # fmt: skip
 

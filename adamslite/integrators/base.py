@@ -54,6 +54,7 @@ record          (nt, nw + n_out) workspace and outputs at the asked times
 kind guard      of guards: how they are read; their values, numbered as the workspace
 margin zone     how far guards are from changing; where the state is within zones
 stops           times at which guards of the clock change
+paces           ``PACE``: how long steps may be from when on
 search          the location of events (:mod:`adamslite.integrators.events`)
 audit           balance of energy (:mod:`adamslite.integrators.audit`); empty without
 pattern         per iteration whether it renews the Newton matrix, repeated; empty: as needed
@@ -141,6 +142,11 @@ STABILISED = INDEX3 | VELOCITY_ROWS
 STATIC = LOADS | REACTIONS | POSITION_ROWS | ROWS
 ACCELERATION = LOADS | REACTIONS | ACCELERATION_ROWS | ROWS
 
+# A pace: from when on it holds, the longest step, and the time that no step of it may pass because
+# steps must be shorter behind it.
+SINCE_WHEN, LONGEST, FENCE, PACE = range(4)
+NO_PACE = (-1e300, 1e300, 1e300)
+
 MODE_DYNAMICS = 4.0
 MODE_STATICS = 5.0
 
@@ -168,7 +174,7 @@ FIELDS = (
     "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
     "dead held loose settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
     "pivots pivots_a pivot0 history trial tableau control pz undo record parts LC pivots_c kind "
-    "guard margin zone stops search pattern audit"
+    "guard margin zone stops paces search pattern audit"
 ).split()
 Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
 Plan = Table(

@@ -88,7 +88,7 @@ from adamslite.integrators.bdf_state import (
 from adamslite.integrators.equations import track
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
-from adamslite.integrators.event_stops import fitted, horizon, step_limit
+from adamslite.integrators.event_stops import fitted, horizon, longest_step, set_pace, step_limit
 from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.history import extend_history, gamma, rebase
 from adamslite.integrators.order_cap import CAP, CAPPED, TRAVELLED, highest_order, start_watch
@@ -187,10 +187,12 @@ def finish(P: Problem, L: Plan, w: int, cu: float, norm: float) -> int:
 
 @native
 def limit_step(P: Problem, w: int) -> None:
-    """Keep the step within HMAX, the horizon and, when they are stepped onto, the output times."""
+    """Keep the step within its pace, the horizon and, when stepped onto, the output times."""
     C = P.control
-    if C[H] > P.settings[H_MAX] * 1.0000001:
-        resize(P, w, P.settings[H_MAX] / C[H])
+    set_pace(P, C[NOW])
+    longest = longest_step(P)
+    if C[H] > longest * 1.0000001:
+        resize(P, w, longest / C[H])
     left = horizon(P) - C[NOW]
     if P.settings[INTERPOLATE] == 0.0 and P.settings[FIXED_STEP] == 0.0:
         fit = fitted(P, C[H], step_limit(P, int(C[NEXT])) - C[NOW]) / C[H]

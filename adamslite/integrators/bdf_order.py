@@ -10,7 +10,6 @@ from __future__ import annotations
 from adamslite.integrators.base import (
     ERROR,
     FIXED_STEP,
-    H_MAX,
     K_MAX,
     NS,
     NV,
@@ -20,6 +19,7 @@ from adamslite.integrators.base import (
     Problem,
 )
 from adamslite.integrators.bdf_state import EQUAL, K_TOP, H, K, cut, resize, tests_velocities
+from adamslite.integrators.event_stops import longest_step
 from adamslite.integrators.history import MAX_ORDER
 from adamslite.integrators.norms import exceeds
 from adamslite.integrators.order_cap import TRIES, suspect
@@ -124,7 +124,7 @@ def choose_order(P: Problem, w: int, norm: float) -> None:
     "largest step" would always pick the lowest.
     """
     C, D, n, ns = P.control, P.history, P.sizes[N], P.sizes[NS]
-    k, si2, tol, room = int(C[K]), tests_velocities(P), P.settings[ERROR], P.settings[H_MAX] / C[H]
+    k, si2, tol, room = int(C[K]), tests_velocities(P), P.settings[ERROR], longest_step(P) / C[H]
     same = max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))
     best, factor = k, same
     if k > 1:

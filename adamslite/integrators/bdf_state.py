@@ -10,7 +10,6 @@ from adamslite.integrators.base import (
     ERROR,
     FIXED_STEP,
     H_INIT,
-    H_MAX,
     H_MIN,
     HOLONOMIC,
     NS,
@@ -23,7 +22,7 @@ from adamslite.integrators.base import (
     T,
 )
 from adamslite.integrators.equations import vector_rates
-from adamslite.integrators.event_stops import least_step
+from adamslite.integrators.event_stops import least_step, longest_step
 from adamslite.integrators.history import change_step
 from adamslite.translate import Reals, native
 
@@ -69,7 +68,7 @@ def first_step(P: Problem, w: int) -> float:
     for k in range(P.sizes[NS]):
         fastest = max(fastest, abs(P.rd[k]))
     span = P.settings[T_END] - P.settings[T]
-    h = min(P.settings[H_MAX], span)
+    h = min(longest_step(P), span)
     if P.settings[FIXED_STEP] > 0.0:
         return P.settings[FIXED_STEP] / START_PARTS
     if P.settings[H_INIT] > 0.0:

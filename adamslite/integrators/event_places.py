@@ -20,9 +20,9 @@ NONE = 2.0
 (
     STOP_AT, OPEN, LOW, HIGH, SHARE, FOUND, SIZE, TOLERANCE, BUDGET, JUMP, FREED, CULPRIT, HUNT,
     LOOSE, LET_GO, AGAIN, CRAWL, HUNT_END, WHOLE, LOOKS, LOOKED, KNOWN, RATED, CUT, TAKEN, STAGE,
-    SPAN,
-) = range(27)  # fmt: skip
-PLACES = 27
+    SPAN, PACE_AT,
+) = range(28)  # fmt: skip
+PLACES = 28
 # What the look at the present share is for, in S[STAGE]: the rates at the end and the start, a dip
 # between them, the bracket of a crossing.
 RATE_BEHIND, RATE_BEFORE, DIP, BRACKET = range(4)

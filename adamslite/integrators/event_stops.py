@@ -2,16 +2,30 @@
 
 They stand in ``P.stops``, the end of the run last; between two of them every guard of the clock has
 the branch that it has in the middle.
+
+Where an expression of time changes within less than a step, ``P.paces`` says how long steps may be.
 """
 
 from __future__ import annotations
 
 from math import floor
 
-from adamslite.integrators.base import CLOCKS, H_MAX, H_MIN, INTERPOLATE, NW, T_END, Problem
+from adamslite.integrators.base import (
+    CLOCKS,
+    FENCE,
+    H_MAX,
+    H_MIN,
+    INTERPOLATE,
+    LONGEST,
+    NW,
+    PACE,
+    SINCE_WHEN,
+    T_END,
+    Problem,
+)
 from adamslite.integrators.equations import guard_values, put_time
 from adamslite.integrators.event_guards import branch_of
-from adamslite.integrators.event_places import CLOCK, STOP_AT
+from adamslite.integrators.event_places import CLOCK, PACE_AT, STOP_AT
 from adamslite.translate import native
 
 # Steps below this share of the run are round-off of the time.
@@ -21,9 +35,39 @@ MANY_STEPS = 100.0
 
 
 @native
+def set_pace(P: Problem, t: float) -> None:
+    """Look up how long steps may be from ``t`` on; a step that is undone leads back."""
+    at = int(P.search[PACE_AT])
+    while at > 0 and P.paces[PACE * at + SINCE_WHEN] > t:
+        at -= 1
+    while PACE * (at + 1) < P.paces.size and P.paces[PACE * (at + 1) + SINCE_WHEN] <= t:
+        at += 1
+    P.search[PACE_AT] = float(at)
+
+
+@native
+def longest_step(P: Problem) -> float:
+    """HMAX, or what the present pace leaves of it."""
+    return min(P.settings[H_MAX], P.paces[PACE * int(P.search[PACE_AT]) + LONGEST])
+
+
+@native
 def horizon(P: Problem) -> float:
     """The time that the present step must not pass."""
+    return min(present_stop(P), P.paces[PACE * int(P.search[PACE_AT]) + FENCE])
+
+
+@native
+def present_stop(P: Problem) -> float:
+    """The next time at which branches of the clock change, or the end."""
     return P.stops[int(P.search[STOP_AT])]
+
+
+@native
+def end_of_pace(P: Problem) -> float:
+    """When steps may get longer, or must get shorter."""
+    after = PACE * (int(P.search[PACE_AT]) + 1)
+    return P.paces[after + SINCE_WHEN] if after < P.paces.size else P.settings[T_END]
 
 
 @native
@@ -53,18 +97,18 @@ def least_step(P: Problem) -> float:
 @native
 def is_stop(P: Problem, t: float) -> bool:
     """Whether branches of the clock change at time ``t``, where a step has ended."""
-    return t >= horizon(P) and int(P.search[STOP_AT]) < P.stops.size - 1
+    return t >= present_stop(P) and int(P.search[STOP_AT]) < P.stops.size - 1
 
 
 @native
 def set_clock(P: Problem, t: float) -> None:
-    """Branches of the clock between ``t`` and the horizon: those in the middle."""
+    """Branches of the clock between ``t`` and the next stop: those in the middle."""
     W, first = P.W, P.sizes[NW]
     if P.sizes[CLOCKS] == 0:
         return
     for k in range(P.sizes[CLOCKS]):
         W[first + k] = 0.0
-    put_time(P, 0.5 * (t + horizon(P)))
+    put_time(P, 0.5 * (t + present_stop(P)))
     guard_values(P, CLOCK)
     for k in range(P.sizes[CLOCKS]):
         W[first + k] = branch_of(P.kind[k], P.guard[first + k])

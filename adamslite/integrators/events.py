@@ -69,7 +69,7 @@ from adamslite.integrators.event_places import (
     NONE,
     SPAN,
 )
-from adamslite.integrators.event_stops import is_stop, next_stop, set_clock
+from adamslite.integrators.event_stops import is_stop, next_stop, set_clock, set_pace
 from adamslite.translate import native
 
 
@@ -88,6 +88,7 @@ def start_events(P: Problem, located: bool, tested: bool) -> None:
         P.margin[k] = 0.0
     release_watch(P)
     set_clock(P, P.settings[T])
+    set_pace(P, P.settings[T])
 
 
 @native

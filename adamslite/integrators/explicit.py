@@ -23,7 +23,6 @@ from adamslite.integrators.base import (
     AT,
     BROKEN_START,
     DONE,
-    H_MAX,
     H_MIN,
     HOW_MUCH,
     IMPLICIT_MASS,
@@ -49,7 +48,7 @@ from adamslite.integrators.base import (
 from adamslite.integrators.equations import track
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins, let_go
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
-from adamslite.integrators.event_stops import fitted, least_step, step_limit
+from adamslite.integrators.event_stops import fitted, least_step, longest_step, set_pace, step_limit
 from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.explicit_dense import write_dense
 from adamslite.integrators.explicit_error import (
@@ -147,7 +146,8 @@ def try_step(P: Problem, L: Plan) -> int:
         return DONE
     if P.settings[STOP] != 0.0:
         return INTERRUPTED
-    C[H] = min(C[H], P.settings[H_MAX])
+    set_pace(P, C[CLOCK])
+    C[H] = min(C[H], longest_step(P))
     left = step_limit(P, int(C[FOLLOWING])) - C[CLOCK]
     if P.settings[INTERPOLATE] == 0.0:
         C[H] = fitted(P, C[H], left)

@@ -7,8 +7,9 @@ Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, sections II.4 (start) a
 
 from __future__ import annotations
 
-from adamslite.integrators.base import ERROR, H_INIT, H_MAX, H_MIN, T_END, WHERE, N, Plan, Problem
+from adamslite.integrators.base import ERROR, H_INIT, H_MIN, T_END, WHERE, N, Plan, Problem
 from adamslite.integrators.dop853 import ERROR3, ERROR5
+from adamslite.integrators.event_stops import longest_step
 from adamslite.integrators.explicit_stages import combine, rates_at
 from adamslite.integrators.explicit_state import (
     BETWEEN,
@@ -50,7 +51,7 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
     II.4).
     """
     t = P.control[CLOCK]
-    room = min(P.settings[H_MAX], P.settings[T_END] - t)
+    room = min(longest_step(P), P.settings[T_END] - t)
     if P.settings[H_INIT] > 0.0:
         return min(room, P.settings[H_INIT])
     y, new, width = P.history[OLD * w :], P.history[NEXT_STATE * w :], int(P.control[WIDTH])
@@ -100,7 +101,7 @@ def estimate(P: Problem, w: int, h: float) -> float:
     fifth = distance(P, e, y, scales, w)
     if not third < 1e150 or not fifth < 1e150:
         return 1e300
-    if fifth == 0.0:
+    if fifth < 1e-100:  # whose square may be nothing
         return 0.0
     return fifth * fifth / (fifth * fifth + 0.01 * third * third) ** 0.5
 

@@ -104,7 +104,7 @@ from adamslite.integrators.equations import put_time, residual, track, vector_ra
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins, let_go
 from adamslite.integrators.event_places import FREED
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
-from adamslite.integrators.event_stops import horizon, step_limit
+from adamslite.integrators.event_stops import horizon, longest_step, step_limit
 from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.hht_events import change_at_start, locate_in_step, step_on
 from adamslite.integrators.linalg import solve
@@ -327,7 +327,7 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
     else:
         factor = max(SAFETY * norm, 1e-10) ** (-1.0 / 3.0)
         C[EQUAL] += 1.0
-        room = min(MOST_GROWTH, P.settings[H_MAX] / h)
+        room = min(MOST_GROWTH, longest_step(P) / h)
         if (C[EQUAL] > 1.0 and min(factor, room) > LEAST_GROWTH) or factor < 0.9:
             C[H] *= cut(P, min(factor, room))
             C[EQUAL] = 0.0

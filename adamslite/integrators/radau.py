@@ -82,7 +82,7 @@ from adamslite.integrators.equations import track
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.event_places import FREED, HUNT
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
-from adamslite.integrators.event_stops import horizon
+from adamslite.integrators.event_stops import horizon, longest_step, set_pace
 from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.radau_corrector import QUICK, after_failed_stages, solve_stages
 from adamslite.integrators.radau_error import filtered_error
@@ -219,13 +219,14 @@ def finish_stages(P: Problem, L: Plan, norm: float) -> int:
 
 @native
 def fit_step(P: Problem) -> None:
-    """Keep the step within HMAX; equal steps to the horizon or, unless they may be interpolated, to
-    the next output time.  A step to a crossing keeps its size.
+    """Keep the step within its pace; equal steps to the horizon or, unless they may be
+    interpolated, to the next output time.  A step to a crossing keeps its size.
     """
+    set_pace(P, P.control[NOW])
     C, target, row = P.control, horizon(P), int(P.control[NEXT])
     if P.settings[INTERPOLATE] == 0.0 and row < P.times.size:
         target = min(target, P.times[row])
-    C[H] = min(C[H], P.settings[H_MAX])
+    C[H] = min(C[H], longest_step(P))
     left = target - C[NOW]
     if P.search[HUNT] != 0.0:
         C[H] = min(C[H], left)
@@ -291,7 +292,7 @@ def choose_step(P: Problem, norm: float) -> None:
     C[AGE] += 1.0
     if C[THETA] > QUICK:
         C[KNOWN] = 0.0
-    if factor < 1.0 or min(factor * h, P.settings[H_MAX]) > KEEP_GROWTH * h:
+    if factor < 1.0 or min(factor * h, longest_step(P)) > KEEP_GROWTH * h:
         C[H] *= cut(P, factor)
 
 

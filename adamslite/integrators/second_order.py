@@ -14,7 +14,6 @@ from adamslite.integrators.base import (
     ERROR,
     FACTORIZATIONS,
     GAMMA,
-    H_MAX,
     INDEX3,
     INTERPOLATE,
     NB,
@@ -39,7 +38,7 @@ from adamslite.integrators.equations import (
     spread,
     velocities,
 )
-from adamslite.integrators.event_stops import fitted, horizon, step_limit
+from adamslite.integrators.event_stops import fitted, horizon, longest_step, set_pace, step_limit
 from adamslite.integrators.linalg import factor
 from adamslite.integrators.newton import ROUND_OFF, multiplier_change
 from adamslite.integrators.norms import exceeds
@@ -59,10 +58,11 @@ CU, CA, CS, FIXED, REACH, ROUGH = range(18, 24)
 
 @native
 def choose_coefficients(P: Problem) -> None:
-    """The step within HMAX and the end time, and how u, a and s' follow from q and s."""
+    """The step within its pace and the end time, and how u, a and s' follow from q and s."""
     C, s = P.control, P.settings
+    set_pace(P, C[NOW])
     left = horizon(P) - C[NOW]
-    C[H] = min(C[H], s[H_MAX])
+    C[H] = min(C[H], longest_step(P))
     if s[INTERPOLATE] == 0.0 and C[FIXED] == 0.0:
         C[H] = fitted(P, C[H], step_limit(P, int(C[NEXT])) - C[NOW])
     elif C[H] * 1.0000001 > left:

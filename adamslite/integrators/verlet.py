@@ -46,7 +46,14 @@ from adamslite.integrators.base import (
     Problem,
 )
 from adamslite.integrators.equations import BODY, put_time, run_groups, track
-from adamslite.integrators.event_stops import horizon, is_stop, next_stop
+from adamslite.integrators.event_stops import (
+    end_of_pace,
+    is_stop,
+    longest_step,
+    next_stop,
+    present_stop,
+    set_pace,
+)
 from adamslite.integrators.events import start_events
 from adamslite.integrators.free import divide_by_mass, put_free, radius
 from adamslite.integrators.norms import exceeds
@@ -103,7 +110,8 @@ def reach(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
     """From one output time to the next over all stops between; returns an outcome."""
     at, outcome = t, DONE
     while at < end and outcome == DONE:
-        to = min(end, horizon(P))
+        set_pace(P, at)
+        to = min(end, present_stop(P), end_of_pace(P))
         outcome = cross(P, L, at, to, fixed)
         if outcome == DONE:
             P.report[AT], at = to, to
@@ -150,7 +158,7 @@ def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
     for i in range(n):
         old[i], old[n + i] = P.q[i], P.u[i]
     keep_audit(P)
-    wanted, blown = min(C[WANTED], P.settings[H_MAX]), 0
+    wanted, blown = min(C[WANTED], longest_step(P)), 0
     while P.settings[STOP] == 0.0:
         if not fixed:
             wanted = min(wanted, C[LIMIT])
@@ -164,10 +172,7 @@ def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
         P.report[HOW_MUCH] = error
         if error <= 1.0:
             P.report[SPENT] += C[SUM]
-            if not fixed and error < 0.5:
-                C[WANTED] = min(GROW, 0.9 * max(error, 1e-3) ** (-1.0 / 3.0)) * h
-            else:
-                C[WANTED] = wanted
+            C[WANTED] = following(P, error, h, wanted, fixed)
             return DONE
         P.count[REJECTED] += 1
         if fixed:
@@ -178,6 +183,16 @@ def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
             P.q[i], P.u[i] = old[i], old[n + i]
         bring_audit_back(P)
     return INTERRUPTED
+
+
+@native
+def following(P: Problem, error: float, h: float, wanted: float, fixed: bool) -> float:
+    """The step to try next: what was before, when these were short for the sake of a pulse."""
+    if longest_step(P) < P.settings[H_MAX]:
+        return P.control[WANTED]
+    if fixed or error >= 0.5:
+        return wanted
+    return min(GROW, 0.9 * max(error, 1e-3) ** (-1.0 / 3.0)) * h
 
 
 @native

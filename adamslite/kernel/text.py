@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from adamslite.guards import guards
+from adamslite.kernel.clock import clock_programs
 from adamslite.kernel.jacobian import JacobianWriter
 from adamslite.kernel.shape import Shape
 from adamslite.kernel.writer import Writer
@@ -36,10 +37,10 @@ exit:
 """
 
 
-def write_kernels(shape: Shape, name: str, with_jacobian: bool, guarded: bool) -> tuple[str, dict]:
+def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tuple[str, dict]:
     """LLVM text of a shape's kernels and what an instance must provide.
 
-    ``guarded``: choices keep their branch within a step; for equations, not for what is written.
+    Choices keep their branch within a step, except in what is written: the ``face`` "output".
 
     Returns
     -------
@@ -48,13 +49,15 @@ def write_kernels(shape: Shape, name: str, with_jacobian: bool, guarded: bool) -
         integers; ``meta["n_ints"]``: integers of an instance; ``meta["angles"]``: how many angles
         it remembers, ``meta["limits"]``: how many times of leaving its law; ``meta["mass"]``: a
         force depends on accelerations; ``meta["guards"]``: kinds of the guards of the clock and of
-        the watch.
+        the watch; ``meta["clock"]``: what depends on time alone.
     """
     scope = Scope(shape.slots)
     out = shape.outputs(scope)
     shape.n_angles, shape.n_limits = len(scope.angles), len(scope.limits)
-    if guarded:
+    clock: dict = {}
+    if face != "output":
         shape.guards = guards(out.expressions, scope.leaves)
+        clock = clock_programs(face, out.expressions, shape.guards.clock, scope.leaves)
     blocks: list[tuple[int, int]] = []
     bodies: list[tuple[str, str, Writer]] = []
     if with_jacobian:
@@ -81,6 +84,7 @@ def write_kernels(shape: Shape, name: str, with_jacobian: bool, guarded: bool) -
         "angles": len(scope.angles),
         "limits": len(scope.limits),
         "guards": shape.guards.kinds,
+        "clock": clock,
         "mass": any(leaf[0] in ("a", "al") for leaf in scope.symbols),
     }
     return _module(bodies, n_ints, shape.n_reals), meta
