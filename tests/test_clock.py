@@ -58,11 +58,11 @@ def pulse(law: str, place: float, width: float, impulse: float) -> str:
 @pytest.mark.parametrize("law", PULSES)
 @pytest.mark.parametrize("formula", FORMULAS)
 def test_a_pulse_gives_its_impulse_wherever_and_however_brief_it_is(formula, law):
-    """1 kg gets 1.7 and then -0.6 N s in pulses of 3e-2 to 1e-6 of the run, outputs 0.1 of it
+    """1 kg gets 1.7 and then -0.6 N s in pulses of 1e-2 to 1e-6 of the run, outputs 0.1 of it
     apart.  Velocities are not tested by every method: to 2e-4 of the impulse.
     """
     rng = np.random.default_rng(7)
-    for width in (0.3, 1e-2, 1e-4, 1e-5):
+    for width in (0.1, 1e-2, 1e-4, 1e-5):
         first, second = rng.uniform(2.0, 4.0), rng.uniform(5.0, 8.0)
         force = f"{pulse(law, first, width, 1.7)}+{pulse(law, second, width * 0.7, -0.6)}"
         last = done(pushed(force), END, STEPS, **options(formula))
@@ -84,7 +84,7 @@ def test_a_parabola_of_two_milliseconds_in_ten_seconds(formula, steps):
 
 
 def test_pulses_in_a_variable_and_in_a_motion_are_found():
-    """A carriage is shifted by 0.1 in 1 ms, and drags a mass by a spring through its kick."""
+    """A carriage is shifted by 0.1 in 1 ms, a mass gets 1 N s in 0.2 ms at the same time."""
     deck = (
         (
             GROUND
@@ -108,7 +108,10 @@ END
     for formula in IMPLICIT:
         last = done(deck, 1.0, STEPS, **options(formula, 1e-6))
         assert last["PART/2.x"][-1] == approx(0.1, abs=1e-6), formula
-        assert last["POINT_MASS/4.vx"][-1] == approx(1.0, abs=2e-4), formula
+        # Index 3 tests positions alone where there are constraints: ERROR over a step of 1e-5 and
+        # less is 0.1 of a velocity, and what is found is far below.
+        allowed = 2e-3 if formula.endswith("I3") else 2e-4
+        assert last["POINT_MASS/4.vx"][-1] == approx(1.0, abs=allowed), formula
 
 
 def test_ordinary_expressions_leave_the_steps_alone():

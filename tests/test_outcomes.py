@@ -376,6 +376,17 @@ def test_a_branch_that_chatters_is_named_with_time_and_step():
     assert results.time[-1] == pytest.approx(0.5)
 
 
+def test_a_motion_that_jumps_is_named_with_time_and_quantity():
+    deck = GROUND + (
+        "PART/2, MASS=1, CM=2, IP=1,1,1\nMARKER/2, PART=2\nJOINT/1, TRANSLATIONAL, I=2, J=1\n"
+        "MOTION/1, JOINT=1, FUNCTION=IF(TIME-0.25: 0, 0, 0.5)\nPOINT_MASS/3, MASS=1, CM=3\n"
+        "MARKER/3, POINT_MASS=3\n"
+    )
+    results = said(deck + "END\n")
+    assert results.outcome is Outcome.BROKEN_MOTION
+    assert reason(results) == "MOTION/1 (<text>:7:1): at t = 0.25, the displacement jumps."
+
+
 def test_a_cancelled_mass_names_the_force_time_and_step():
     results = said(FALLING + PRINTED + "END\n", 2.0, 20, error=1e-8)
     inert = r"POINT_MASS/2 \(<text>:5:1\), [xyz], loses its inertia"

@@ -55,9 +55,9 @@ def _jump(program: Any, times: np.ndarray, e: float) -> np.ndarray:
 
 
 def without_value(clock: Clock, time: float) -> Break | None:
-    """What drives a constraint and has no finite value, or none of its rate, at a time."""
+    """A MOTION whose displacement or velocity has no finite value at a time."""
     at = np.array([time])
     for face, statement, program in clock.driven():
-        if not np.isfinite(enclose(program, at, at)[0]).all():
+        if statement.keyword == "MOTION" and not np.isfinite(enclose(program, at, at)[0]).all():
             return Break(statement, time, WORDS[face], "has no finite value")
     return None
