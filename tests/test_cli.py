@@ -302,6 +302,9 @@ def test_verify_shares_decks_among_processes(tmp_path: Path, capsys) -> None:
     assert main(["verify", str(tmp_path), "-j", "2"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line[:12] for line in lines[:2]] == 2 * ["ok    0.25  "]
+    assert main(["verify", str(tmp_path), "-j", "1", "--share", "0.3"]) == 0
+    assert main(["verify", str(tmp_path), "-j", "1", "--share", "0.2"]) == 1
+    assert capsys.readouterr().out.splitlines()[-1].startswith("0 of 2 references met")
     assert [line.split()[2].rpartition("/")[2] for line in lines[:2]] == ["a", "b"]
     assert lines[2].endswith(
         f"2 references met; the largest share of a tolerance is 0.25, in {tmp_path.name}/a"

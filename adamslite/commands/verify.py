@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from adamslite.commands.codes import DONE, OUTSIDE_TOLERANCE
-from adamslite.flags import count
+from adamslite.flags import count, positive
 
 if TYPE_CHECKING:
     from adamslite.results import Results
@@ -29,6 +29,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-j", "--jobs", metavar="N", type=count, default=_processors(),
         help="processes that share the decks (default: as many as there are processors)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--share", metavar="S", type=positive, default=1.0,
+        help="largest share of a tolerance that may be used (default: 1, all of it)",
     )  # fmt: skip
 
 
@@ -46,12 +50,13 @@ def run(args: argparse.Namespace) -> int:
     verdicts = []
     for verdict in verify(cases, solve_tellingly, args.jobs):
         verdicts.append(verdict)
-        mark = "ok  " if verdict.passed else "FAIL"
+        mark = "ok  " if _meets(verdict, args.share) else "FAIL"
         share = f"{'':5}" if verdict.share is None else f"{verdict.share:5.2f}"
         sys.stdout.write(f"{mark} {share}  {verdict.case.name:{width}}  {verdict.text}\n")
         sys.stdout.flush()
-    sys.stdout.write(_summary(verdicts))
-    return DONE if all(verdict.passed for verdict in verdicts) else OUTSIDE_TOLERANCE
+    sys.stdout.write(_summary(verdicts, args.share))
+    met = all(_meets(verdict, args.share) for verdict in verdicts)
+    return DONE if met else OUTSIDE_TOLERANCE
 
 
 def solve_tellingly(deck: Path, options: Mapping[str, Any]) -> Results:
@@ -66,9 +71,14 @@ def solve_tellingly(deck: Path, options: Mapping[str, Any]) -> Results:
         progress.close()
 
 
-def _summary(verdicts: Sequence[Verdict]) -> str:
+def _meets(verdict: Verdict, share: float) -> bool:
+    """Whether a reference is met with this share of its tolerance."""
+    return verdict.passed and (verdict.share or 0.0) <= share
+
+
+def _summary(verdicts: Sequence[Verdict], share: float) -> str:
     """How many references are met, and which is met most narrowly."""
-    met = sum(verdict.passed for verdict in verdicts)
+    met = sum(_meets(verdict, share) for verdict in verdicts)
     text = f"{met} of {len(verdicts)} references met"
     judged = [verdict for verdict in verdicts if verdict.share is not None]
     if judged:
