@@ -60,13 +60,15 @@ VARIABLE/stored{k}, FUNCTION={mass:.12g}/2*VM({k})**2
 BOTTOM = """
 DIFF/in, FUNCTION=-MOTION(1,1,8,0)*WZ(1001)+({pull:g}-500*VX(1002))*VX(1002)
 DIFF/out, FUNCTION={out}*WZ(1003)
+DIFF/rubbed, FUNCTION={friction}
 
 ! F2: energy that came in, less what went out, became heat or is stored.  F3, F4: mean powers.
+! F6: heat of friction so far.
 REQUEST/1, F2=DIF(in)-DIF(out)
 {heat}
 , -1.5*VX(1002)**2-{inertia:g}/2*WZ(1003)**2
 {stored}\\
-, F3=DIF1(in)\\F4=DIF1(out)\\F6={friction}
+, F3=DIF1(in)\\F4=DIF1(out)\\F6=DIF(rubbed)
 
 INTEGRATOR/GSTIFF, SI2, ERROR=1.0E-3
 END

@@ -38,13 +38,13 @@ def measure(kind, name, window, value, tolerance):
 
 def powers(b, window, torque, driven):
     """Lines on mount, torques, powers, heat."""
-    lost = torque * (b.turn - driven)
+    lost = torque * (b.turn - driven) * (window[1] - window[0])
     open_energy = f"abs {2e-4 * torque * b.turn * window[1]:.2g}"
     return [
         measure("mean", "JOINT/1.fx", window, -b.pull, "rel 1e-3"),
         measure("mean", "MOTION/1.tz", window, torque, "rel 3e-3"),
         measure("mean", "REQUEST/1.F4", window, torque * driven, "rel 2e-3"),
-        measure("mean", "REQUEST/1.F6", window, lost, "rel 2e-2"),
+        measure("range", "REQUEST/1.F6", window, lost, "rel 2e-2"),
         measure("range", "REQUEST/1.F2", (0, window[1]), 0, open_energy),
     ]
 
