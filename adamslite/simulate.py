@@ -214,6 +214,9 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
         **{name: counts[name] for name in COUNTED}, "setup_cpu_s": cpu[0], "solve_cpu_s": cpu[1],
         "max_violation": float(system.report[base.VIOLATION]),
     }  # fmt: skip
+    if session.balances:
+        worst = _worst(session.balances)
+        summary |= {"energy_gap": worst.gap, "energy_gap_explained": worst.explained}
     done = session.outcome is Outcome.DONE
     without = _without_value(time, session.names, values)
     meta = {**_meta(session), **({"no number": without} if without else {})}
@@ -249,9 +252,9 @@ def _doubt(session: Session, steps: int) -> str:
     return "; ".join(sentence for sentence in (grown, said) if sentence)
 
 
-def _told(balances: list[Balance]) -> str:
-    """The worst of several balances."""
-    return str(max(balances, key=lambda b: (not b.closes, b.gap / max(b.explained, 1e-300))))
+def _worst(balances: list[Balance]) -> Balance:
+    """Of several analyses."""
+    return max(balances, key=lambda b: (not b.closes, b.gap / max(b.explained, 1e-300)))
 
 
 def _beyond(session: Session) -> dict[str, str]:
@@ -274,7 +277,7 @@ def _notes(session: Session) -> dict[str, str]:
     if session.system.report[base.ORDER_CAPPED]:
         found["order"] = CAPPED
     if session.balances:
-        found["energy"] = _told(session.balances)
+        found["energy"] = str(_worst(session.balances))
     steps = int(session.counts[base.STEPS])
     if steps and (doubt := _doubt(session, steps)):
         found["accuracy"] = doubt

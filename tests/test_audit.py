@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scenes import GROUND, PENDULUM, SPRING, chain, run
 
+from adamslite.cli import main
 from adamslite.integrators import base
 from adamslite.results import Results
 from adamslite.system import System
@@ -197,3 +200,16 @@ def test_an_audit_changes_no_number(deck, method):
     results = audited(deck, 2.0, 20, method, 1e-5)
     assert np.array_equal(plain.values, results.values)
     assert plain.balances == () and "energy" not in plain.meta
+
+
+@pytest.mark.parametrize("flags", (["--quiet"], ["--summary", "json"], []))
+def test_the_command_tells_what_is_wrong_even_when_it_is_quiet(
+    flags, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    Path("a.adm").write_text(TUMBLING.format(x=30, y=1, stiffness="100,100,100", damping=0))
+    assert main(["solve", "a.adm", "--end", "3", "--steps", "30", "--audit", *flags]) == 0
+    told = capsys.readouterr()
+    assert "WARNING: BUSHING" in told.err
+    if "json" in flags:
+        assert json.loads(told.out)["energy_gap"] > 0.0

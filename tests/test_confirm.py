@@ -10,6 +10,8 @@ from scenes import GROUND, PENDULUM, SPRING, run
 
 from adamslite.cli import main
 from adamslite.confirm import confirmation
+from adamslite.places import find
+from adamslite.runs import load_scene, run_scene
 from benchmarks.bounds import judge, known
 from benchmarks.closed_forms import FAMILIES
 
@@ -103,3 +105,11 @@ def test_the_exit_code_is_that_of_the_verdict(shown, code, tmp_path, monkeypatch
     assert main(["solve", "a.adm", "--end", "5", "--steps", "10", "--confirm"]) == code
     told = capsys.readouterr().err
     assert "digits  +-" in told and ("NOT CONFIRMED" in told) == bool(code)
+
+
+@pytest.mark.parametrize("name", ("screw-jack/screw-jack", "atwood/atwood-coupler"))
+def test_round_off_and_angles_that_mean_nothing_are_no_objections(name):
+    """theta = 0; places of 1e-28."""
+    deck = find("decks") / name.split("/")[0] / f"{name.split('/')[-1]}.adm"
+    found = run_scene(load_scene(deck), {"error": 1e-8, "confirm": True}).confirmation
+    assert found.confirmed, found.verdict

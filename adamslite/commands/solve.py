@@ -139,12 +139,19 @@ def _summarize(
         for note in NOTES:
             if note in results.meta:
                 sys.stderr.write(f"  {note:<20} {results.meta[note]}\n")
-        if results.confirmation is not None:
-            sys.stderr.write(f"{results.confirmation.table()}\n")
-    if results.confirmation is not None and not (args.quiet and results.confirmation.confirmed):
-        sys.stderr.write(f"{scene.title}: {results.confirmation.verdict}\n")
+    _tell_trust(scene, args, results)
     if results.outcome is not Outcome.DONE:
         sys.stderr.write(f"adamslite: {results.message or results.outcome.value}\n")
+
+
+def _tell_trust(scene: "Scene", args: argparse.Namespace, results: "Results") -> None:
+    """What the run knows of its own errors; only what is wrong where nothing else is told."""
+    silent, found = args.quiet or args.summary == "json", results.confirmation
+    if silent and any(not each.closes for each in results.balances):
+        sys.stderr.write(f"{scene.title}: {results.meta['energy']}\n")
+    if found is not None and not (silent and found.confirmed):
+        sys.stderr.write("" if silent else f"{found.table()}\n")
+        sys.stderr.write(f"{scene.title}: {found.verdict}\n")
 
 
 def _files(scene: "Scene", output: str) -> dict[str, Any]:
