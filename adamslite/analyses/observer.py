@@ -70,8 +70,6 @@ class Observer:
         o = self.starts[self.body]
         states = (moment.q, moment.u, moment.a)
         for i, turning in zip(self.starts, self.turning, strict=True):
-            if i == o:
-                continue
             whole[i : i + 3, o : o + 3] = axes[k]
             if self.turning[self.body]:
                 arms = [skew(each[i : i + 3] - each[o : o + 3]) for each in states]
