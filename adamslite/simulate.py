@@ -15,6 +15,7 @@ from adamslite.analyses.buckling import buckled
 from adamslite.analyses.doubts import doubts, longest_way
 from adamslite.analyses.linear import Linearization, linear
 from adamslite.analyses.redundancy import row_name
+from adamslite.analyses.slack import compressed
 from adamslite.compiled import Kernels
 from adamslite.explain import explain
 from adamslite.faults import RunFailed, UsageError
@@ -259,8 +260,13 @@ def _worst(balances: list[Balance]) -> Balance:
 
 def _beyond(session: Session) -> dict[str, str]:
     """Elements that the motion carried beyond what their law is meant for."""
-    told = (f"{label} {how}" for label, how in session.out_of_law.items())
-    return {"out of its law": "; ".join(told)} if session.out_of_law else {}
+    told = [f"{label} {how}" for label, how in session.out_of_law.items()]
+    if session.pieces:
+        values = np.concatenate([v for _, v in session.pieces])
+        time = np.concatenate([t for t, _ in session.pieces])
+        slack = compressed(session.deck, session.names, time, values) if len(time) else ""
+        told += [slack] if slack else []
+    return {"out of its law": "; ".join(told)} if told else {}
 
 
 def _notes(session: Session) -> dict[str, str]:

@@ -83,3 +83,28 @@ def test_turns_are_kept_when_an_element_is_switched(element):
     results = simulate(deck, commands=read_commands(commands, deck), error=1e-8)
     assert results["REQUEST/1.F1"][-1] == pytest.approx(12.0, abs=1e-3)
     assert results["REQUEST/1.F2"][-1] == pytest.approx(-12.0, abs=1e-3)
+
+
+WINCH = (
+    "title\nPART/1, GROUND\nMARKER/1, PART=1\nACCGRAV/JGRAV=-9.81\n"
+    "VARIABLE/L, FUNCTION=(1+{a}*TIME**2/2)/4\n"
+    + "".join(
+        f"POINT_MASS/{k}, MASS={5 if k == 5 else 0.5}, CM={k}, QG=0,{-(k - 1) / 4},0\n"
+        f"MARKER/{k}, POINT_MASS={k}\n"
+        f"SFORCE/{k}, I={k}, J={k - 1}, FUNCTION=-{{only}}1E5*(DM({k},{k - 1})/L-1)"
+        f"+20*VR({k},{k - 1}))\n"
+        for k in range(2, 6)
+    )
+    + "END\n"
+)
+
+
+@pytest.mark.parametrize("integrator", ("GSTIFF", "RADAU", "HHT", "ABAM", "VERLET"))
+@pytest.mark.parametrize(("a", "pulls_only"), ((15.0, False), (15.0, True), (3.0, False)))
+def test_a_cable_paid_out_faster_than_free_fall_is_told_to_push(a, pulls_only, integrator):
+    """Four sections of a hanging cable grow with a: above g the masses are pushed down."""
+    deck = WINCH.format(a=a, only="MAX(0," if pulls_only else "(")
+    results = run(deck, 0.3, 60, integrator=integrator, error=1e-5)
+    told = results.meta.get("out of its law", "")
+    assert ("sections of a cable pushed" in told) == (a > 9.81 and not pulls_only)
+    assert ("MAX(0, pull)" in told) == bool(told)

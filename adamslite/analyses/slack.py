@@ -1,0 +1,55 @@
+"""Whether the sections of a cable pushed, which a cable that goes slack does not do."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+FORCES = ("SFORCE", "SPRINGDAMPER")
+# Pushes below this share of the largest pull are those of waves that sections cannot follow.
+FELT = 0.02
+REMEDY = "a slack cable carries nothing: write its pull as MAX(0, pull); described: pulls_only"
+
+
+def compressed(deck: Any, names: tuple[str, ...], time: np.ndarray, values: np.ndarray) -> str:
+    """The sections of cables that pushed, how hard and since when; empty when none did.
+
+    names, values : columns of the records, (nt, len(names));  time : (nt,)
+    """
+    column = {name: k for k, name in enumerate(names)}
+    places = {
+        each.label: column[f"{each.label}.f"]
+        for word in FORCES
+        for each in deck.of(word)
+        if f"{each.label}.f" in column
+    }
+    pushing = _pushing(places, values)
+    labels = _sections(deck) & pushing.keys() if pushing else set()
+    if not labels:
+        return ""
+    hardest = max(labels, key=lambda label: (pushing[label], label))
+    felt = values[:, [places[label] for label in labels]].max(axis=1) > FELT * pushing[hardest]
+    more = f" and {len(labels) - 1} more sections" if len(labels) > 1 else ""
+    return (
+        f"{hardest}{more} of a cable pushed, by up to {pushing[hardest]:.3g}, first at "
+        f"t = {time[np.argmax(felt)]:.6g}; {REMEDY}"
+    )
+
+
+def _pushing(places: dict[str, int], values: np.ndarray) -> dict[str, float]:
+    """The largest push of each force that pulls and pushes too."""
+    found = {}
+    for label, k in places.items():
+        most, least = np.nanmax(values[:, k], initial=0.0), np.nanmin(values[:, k], initial=0.0)
+        if most > -FELT * least and most > 0.0:
+            found[label] = float(most)
+    return found
+
+
+def _sections(deck: Any) -> set[str]:
+    """Labels of the forces that are sections of cables."""
+    from adamslite.cables.chains import chains
+    from adamslite.cables.posture import Posture
+
+    return {link.statement.label for chain in chains(deck, Posture(deck)) for link in chain.links}
