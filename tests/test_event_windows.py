@@ -13,6 +13,7 @@ import pytest
 from pytest import approx
 from scenes import GROUND, done, system
 
+from adamslite.faults import UsageError
 from adamslite.results import Results
 
 FORMULAS = ("GSTIFF", "GSTIFF I3", "HHT", "NEWMARK", "RADAU", "ABAM", "RKF45")
@@ -84,6 +85,12 @@ def test_a_window_that_is_entered_and_left_on_the_same_side(formula):
     last = done(deck, landed, 2, integrator=formula, error=1e-6)
     assert last["POINT_MASS/2.y"][-1] == approx(0.0, abs=1e-4)
     assert last.summary["events"] == 2
+
+
+@pytest.mark.parametrize(("force", "v", "_"), [*JUMPS, *SMOOTH])
+def test_equal_steps_refuse_windows_by_name(force, v, _):
+    with pytest.raises(UsageError, match=r"VERLET cannot run this scene: VFORCE/1 (jumps|rises)"):
+        ended("VERLET", force, 10.0, 10, 1e-6, v=v)
 
 
 # ---- contacts ------------------------------------------------------------------------------------

@@ -20,6 +20,7 @@ import numpy as np
 
 from adamslite.engine import BDF, EXPLICIT, HHT, RADAU, SPECTRUM, VERLET
 from adamslite.faults import UsageError
+from adamslite.guards import JUMPS
 from adamslite.integrators import base
 from adamslite.model import PART
 from adamslite.system import System
@@ -36,6 +37,8 @@ CONSTANT = "CONSTANT_BDF"
 STEPS_WORTH = 3000.0
 # Formulas of second order pay from here on.
 COARSE = 1e-4
+# A jump felt for a step too long is within ERROR from here on.
+ROUGH = 1e-3
 # Unknowns of their own, and what to say of them.
 SOLVED = {"VARIABLE": "is solved for", "DIFF": "is a state"}
 # Share of an error across a constraint that may be left after a step.  HHT: ALPHA of -0.016; with
@@ -72,7 +75,9 @@ def choose(system: System, times: np.ndarray, settings: Any) -> Choice:
 
 def what_is_unfit(system: System, settings: Any) -> str:
     """Why the method asked for cannot run a scene, and what can; empty when it can."""
-    if settings.method == "VERLET" and (obstacle := what_ties(system) or what_turns(system)):
+    if settings.method == "VERLET" and (
+        obstacle := what_ties(system) or what_turns(system) or what_changes(system, settings.error)
+    ):
         return f"{obstacle}. Use ABAM (explicit) or GSTIFF (implicit)."
     if METHODS.get(settings.method) == HHT and system.sizes[base.M]:
         _, beta, gamma = settings.second_order
@@ -125,6 +130,23 @@ def what_turns(system: System) -> str:
     return f"{part.statement.label} turns, and its gyroscopic torque lags" if part else ""
 
 
+def what_changes(system: System, error: float) -> str:
+    """A force that equal steps may pass without having felt it, or feel for a step too long: one
+    that jumps with the state, as far as ERROR asks for more than that, or rises within a zone.
+    """
+    jumping = [s for s, kind in system.guarded["watch"] if kind >= JUMPS and error < ROUGH]
+    rising = [statement for statement, _ in system.guarded["zone"]]
+    if jumping:
+        return (
+            f"{jumping[0].label} jumps with the state (IF, SIGN), and its equal steps look past it"
+        )
+    if rising:
+        return (
+            f"{rising[0].label} rises within a zone (STEP, IMPACT), and its equal steps may skip it"
+        )
+    return ""
+
+
 def fastest(system: System, time: float) -> float:
     """Largest circular frequency or rate [rad/time] of the linearised scene, damping included."""
     system.settings[base.T] = time
@@ -147,6 +169,6 @@ def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, str]:
     told = f"its fastest oscillation turns {radians:.3g} rad in an output step"
     if not radians <= STEPS_WORTH:
         return "HHT" if error >= COARSE and not tied else implicit, f"implicit, because {told}"
-    if error >= COARSE and not tied and not what_turns(system):
+    if error >= COARSE and not (tied or what_turns(system) or what_changes(system, 0.0)):
         return "VERLET", f"explicit, because nothing ties the masses together and {told}"
     return "RKF45", f"explicit, because {told}"
