@@ -53,19 +53,24 @@ def test_a_distance_that_grows_at_a_held_rate() -> None:
 
 @pytest.mark.parametrize("integrator", ["GSTIFF", "RADAU", "HHT", "ABAM"])
 def test_a_rule_of_speeds_may_stand_before_the_joints(integrator: str) -> None:
-    """A slider along x at speed 2 - t: m a = -m, the rule pushes with -m, the guide bears m g."""
+    """A crank of length 1, drawn at rest, is held at w = 2 + t: its hinge bears -m w^2 along it, m w'
+    across, and the weight.
+    """
     text = HEAD + (
-        "GCON/1, FUNCTION=VX(2)-2+TIME\n"
-        "PART/2, MASS=3, CM=2, IP=1,1,1, VX=2\nMARKER/2, PART=2\n"
-        "MARKER/3, PART=1, ZP=1,0,0\nMARKER/4, PART=2, ZP=1,0,0\n"
-        "JOINT/1, TRANSLATIONAL, I=4, J=3\nREQUEST/1, F1=JOINT(1,0,3,0)\nEND\n"
+        "GCON/1, FUNCTION=WZ(2)-2-TIME\n"
+        "PART/2, MASS=3, CM=2, IP=1,1,1, QG=1,0,0\nMARKER/2, PART=2\n"
+        "MARKER/3, PART=2, QP=-1,0,0\nJOINT/1, REVOLUTE, I=3, J=1\n"
+        "REQUEST/1, F1=FX(3,1)\\F2=FY(3,1)\nEND\n"
     )
     deck = adamslite.read(text)
     results = adamslite.simulate(deck, end=1, steps=4, error=1e-8, integrator=integrator)
     t = results.time
-    assert results["PART/2.x"] == pytest.approx(2 * t - t**2 / 2, abs=1e-6)
-    assert results["GCON/1.f"] == pytest.approx(-3.0, abs=1e-4)
-    assert results["REQUEST/1.F1"] == pytest.approx(3 * 9.81, abs=1e-4)
+    turn, w = 2 * t + t**2 / 2, 2 + t
+    x, y = np.cos(turn), np.sin(turn)
+    assert results["PART/2.x"] == pytest.approx(x, abs=1e-6)
+    assert results["PART/2.y"] == pytest.approx(y, abs=1e-6)
+    assert results["REQUEST/1.F1"] == pytest.approx(-3 * w**2 * x - 3 * y, abs=1e-3)
+    assert results["REQUEST/1.F2"] == pytest.approx(-3 * w**2 * y + 3 * x + 3 * 9.81, abs=1e-3)
 
 
 def test_a_force_that_depends_on_it() -> None:

@@ -91,6 +91,9 @@ def test_a_wrong_instruction_is_explained(tmp_path: Path, line: str, message: st
         ("arrival PART/2.vx through 0.55 from 0.3 to 0.6", 0.55),
         ("max PART/2.vx smoothed 0.2 to 0.95", 0.9),
         ("value PART/2.vx smoothed 0.2 at 0.4", 0.4),
+        # Of t^2/2 over a width w, joined by straight lines over h: t^2/2 + w^2/24 + h^2/12.
+        ("value PART/2.x smoothed 0.2 at 0.4", 0.08 + 0.04 / 24 + 0.01 / 12),
+        ("max PART/2.x smoothed 0.4 from 0.3 to 0.5", 0.125 + 0.16 / 24 + 0.01 / 12),
     ],
 )
 def test_measures(tmp_path: Path, measure: str, value: float) -> None:
