@@ -53,8 +53,8 @@ def test_a_distance_that_grows_at_a_held_rate() -> None:
 
 @pytest.mark.parametrize("integrator", ["GSTIFF", "RADAU", "HHT", "ABAM"])
 def test_a_rule_of_speeds_may_stand_before_the_joints(integrator: str) -> None:
-    """A crank of length 1, drawn at rest, is held at w = 2 + t: its hinge bears -m w^2 along it, m w'
-    across, and the weight.
+    """A crank of length 1, drawn at rest, is held at w = 2 + t: its hinge bears -m w^2 along it,
+    m w' across, and the weight.
     """
     text = HEAD + (
         "GCON/1, FUNCTION=WZ(2)-2-TIME\n"

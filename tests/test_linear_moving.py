@@ -212,6 +212,34 @@ END
     assert answer[0, 0] == pytest.approx(exact, rel=1e-9)
 
 
+@pytest.mark.parametrize(("spin", "faster"), [(3.0, 2.0), (0.0, -6.0), (-1.5, 4.0)])
+def test_a_table_that_turns_faster_and_faster(spin: float, faster: float) -> None:
+    """z = x + i y of a mass on springs k, seen from a table of W and W' = A at this moment:
+    z" + 2 i W z' + (k - W^2 + i A) z = 0, so that s = -i W +- i sqrt(k + i A).
+    """
+    text = f"""\
+a mass above a table
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=1, CM=20, IP=1,1,2, WZ={spin}
+MARKER/20, PART=2
+JOINT/1, REVOLUTE, I=20, J=1
+MOTION/1, JOINT=1, FUNCTION={spin}*TIME+{faster / 2}*TIME**2
+POINT_MASS/3, MASS=2, CM=30
+MARKER/30, POINT_MASS=3
+VFORCE/3, I=30, J_PART=1, FX=-50*DX(30)\\ FY=-50*DY(30)\\ FZ=-50*DZ(30)
+END
+"""
+    ground, table = linearized(text, "EIGENSOL", "EIGENSOL, RM=20")
+    assert ground.steady and not table.steady
+    assert spectrum(ground) == pytest.approx([-5.0] * 3 + [5.0] * 3, rel=1e-9)
+    root = np.sqrt(25 + 1j * faster)
+    seen = [1j * (sign * root - spin) for sign in (1, -1)]
+    seen = np.sort_complex([5j, -5j, *seen, *np.conj(seen)])
+    found = np.sort_complex(np.round(table.eigenvalues, 9))
+    assert found == pytest.approx(np.sort_complex(np.round(seen, 9)), abs=1e-6)
+
+
 @pytest.mark.parametrize(("radius", "gravity"), [(0.3, 9.81), (200.0, 9810.0)])
 @pytest.mark.parametrize("share", [0.7, 1.5, -1.5])
 def test_a_rolling_disc(radius: float, gravity: float, share: float) -> None:
