@@ -127,7 +127,7 @@ def test_a_variable_solved_for_starts_at_its_function():
 
 
 @pytest.mark.parametrize(
-    "rule", ("SQRT(DX(2)-5)", "LOG(DX(2)-1)", "DX(2)/(DY(2)*TIME)", "SQRT(VX(2)-1)")
+    "rule", ("DM(2,1)-1", "SQRT(DX(2)-5)", "LOG(DX(2)-1)", "DX(2)/(DY(2)*TIME)", "SQRT(VX(2)-1)")
 )
 def test_a_constraint_without_a_value_at_the_start_is_named(rule):
     deck = GROUND + (

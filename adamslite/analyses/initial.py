@@ -81,7 +81,11 @@ def _positions(system: System) -> Unclosed | None:
     for _ in range(MAX_ITERATIONS):
         if not np.isfinite(g).all() or float(np.abs(g).max()) <= CLOSED * size:
             break
-        step = _least_change(system, _gradient(system, base.POSITION_ROWS, 0, rows), g)
+        gradient = _gradient(system, base.POSITION_ROWS, 0, rows)
+        if not np.isfinite(gradient).all():
+            g = g + 0.0 * gradient.sum(axis=1)
+            break
+        step = _least_change(system, gradient, g)
         g, moved = _damped(system, step, g, rows)
         if moved <= 1e-15 * size:
             break
