@@ -9,7 +9,7 @@ import pytest
 
 import adamslite
 from adamslite.outcomes import Outcome
-from benchmarks import decks
+from benchmarks import decks, mechanisms
 from benchmarks.peers.ours import four_bar_energy
 from benchmarks.reference import four_bar
 
@@ -54,3 +54,20 @@ def test_the_explicit_formula_keeps_the_energy_through_them(kernels, error: floa
     assert drift < 100.0 * error
     turned = four_bar(4)[0] - np.pi / 2
     assert results["REQUEST/1.F2"][-1] == pytest.approx(turned, abs=150.0 * max(drift, error))
+
+
+@pytest.mark.parametrize(("rate", "hmax"), [(-1.0, 0.003), (-1.0, 0.005), (0.7, 0.002)])
+def test_a_flattened_parallelogram_stays_one_or_stops(rate: float, hmax: float) -> None:
+    """ABAM at 1e-8: (2/3 + 1) a" = -2 g cos a, cranks parallel, or a named stop.
+
+    The projection moved further than a step may err, onto the other branch, and the run went on.
+    """
+    deck = (mechanisms.DECKS / "torture/flattened/parallelogram.adm").read_text()
+    for old, new in (("WZ=-1", rate), ("VX=0.5", -0.5 * rate), ("VX=1", -rate)):
+        deck = deck.replace(old, f"{old.partition('=')[0]}={new}")
+    results = adamslite.simulate(
+        adamslite.read(deck), end=5.0, steps=50, integrator="ABAM", error=1e-8, hmax=hmax
+    )
+    if results.outcome is Outcome.DONE:
+        assert np.abs(results["VARIABLE/skew"]).max() < 1e-4
+        assert np.ptp(results["VARIABLE/energy"]) < 1e-3

@@ -37,7 +37,7 @@ dead            unknowns left out of the matrix, whose equations are not solved
 held loose      those among them that hold a model in its plane, and what they may be off by
 settings        ``SETTINGS``;  count: ``COUNTS``;  report: ``REPORT``;  times (nt,) asked times
                 spent: sum of the estimated errors over ERROR; divided: fixed steps that were;
-                stable: the longest stable step anywhere, for equal steps
+                stable: the longest stable step anywhere, for equal steps; moved: by a projection
 q u a           (n,) positions and rotation vectors, velocities, accelerations
 z mu            (m + nv + ns,) multipliers, variables, states; multipliers of velocity rows
 ra rz rd pz     accepted accelerations and z, derivatives of the states, z one step earlier
@@ -98,12 +98,12 @@ SETTINGS = (
 REPORT = (
     "t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall", "rough",
     "iteration", "changed", "change", "open_row", "open_by", "left_plane", "torn",
-    "spent", "divided", "stable",
+    "spent", "divided", "stable", "moved",
 )  # fmt: skip
 (
     AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED, WAYS_TO_FALL, ROUGH_STEPS,
     ITERATION, CHANGED, CHANGE, OPEN_ROW, OPEN_BY, LEFT_PLANE, TORN,
-    SPENT, DIVIDED, STABLE_STEP,
+    SPENT, DIVIDED, STABLE_STEP, MOVED,
 ) = range(len(REPORT))  # fmt: skip
 
 COUNTS = (

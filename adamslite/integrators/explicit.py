@@ -23,11 +23,13 @@ from adamslite.integrators.base import (
     AT,
     BROKEN_START,
     DONE,
+    ERROR,
     H_MIN,
     HOW_MUCH,
     IMPLICIT_MASS,
     INTERPOLATE,
     INTERRUPTED,
+    MOVED,
     NS,
     NV,
     ORDER,
@@ -85,6 +87,10 @@ from adamslite.integrators.free import invert_inertia, is_free, mass_tables
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.undo import make_undoable
 from adamslite.translate import Reals, native
+
+# A projection that moves further than this times ERROR does not correct a step but leaves it, as
+# where constraints lose rank and another branch is near.
+FAR = 1.0
 
 
 @native
@@ -179,8 +185,11 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
     new, width = K[NEXT_STATE * w :], int(C[WIDTH])
     if P.sizes[IMPLICIT_MASS] and changed_signature(P, L, t, new):
         return shorten(P, w, 0.25)
+    P.report[MOVED] = 0.0
     if not exact_rates(P, L, t, new, K[K_NEW * width :]):
         return shorten(P, w, 0.25)
+    if P.report[MOVED] > FAR * P.settings[ERROR]:
+        return shorten(P, w, 0.5)
     if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
         locate_between(P, C[CLOCK], h, width, OLD * w, K_NEW)
         if not ends_there(P):

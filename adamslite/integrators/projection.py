@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from adamslite.integrators.base import (
     HOLONOMIC,
+    MOVED,
     NB,
     NZ,
     POSITION_ROWS,
@@ -43,9 +44,14 @@ RATES = VELOCITY_ROWS | RATE_ROWS
 
 @native
 def project(P: Problem, L: Plan, q: Reals, u: Reals) -> bool:
-    """Move q and u onto the constraints; False when positions do not come nearer."""
+    """Move q and u onto the constraints; False when positions do not come nearer.
+
+    ``P.report[MOVED]`` is the largest change of a position, rotation or velocity, against
+    max(1, |value|).
+    """
     last = 1e300
     reach = 1.0
+    P.report[MOVED] = 0.0
     for i in range(P.sizes[N]):
         reach = max(reach, abs(q[i]))
     for _sweep in range(SWEEPS):
@@ -55,6 +61,7 @@ def project(P: Problem, L: Plan, q: Reals, u: Reals) -> bool:
             put_motion(P, u, P.a)
             violation(P, RATES)
             solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
+            note_move(P, u)
             for i in range(P.sizes[N]):
                 u[i] -= P.F[i]
             return True
@@ -62,8 +69,19 @@ def project(P: Problem, L: Plan, q: Reals, u: Reals) -> bool:
             return False
         last = size
         solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
+        note_move(P, q)
         move(P, q)
     return last < 1e-10 * reach
+
+
+@native
+def note_move(P: Problem, value: Reals) -> None:
+    """The largest entry of the increment in F, against max(1, |value|), into the report."""
+    top = P.report[MOVED]
+    for i in range(P.sizes[N]):
+        if exceeds(abs(P.F[i]), top * max(1.0, abs(value[i]))):
+            top = abs(P.F[i]) / max(1.0, abs(value[i]))
+    P.report[MOVED] = top
 
 
 @native
