@@ -124,6 +124,23 @@ REQUEST/1, F1=AZ(31,3)"""
     assert turned == pytest.approx(-6.0 * results.time, abs=1e-6)
 
 
+@pytest.mark.parametrize("place", ["0.3,0,0", "0.1,-0.2,0.2"])
+def test_moments_of_inertia_may_be_about_any_marker(place: str) -> None:
+    """J = J_IM - m (d^2 1 - d d^T) about the mass centre; alpha = J^-1 T from rest."""
+    results = run(
+        f"""PART/4, MASS=2, CM=40, IM=41, IP=1,1.2,1.4,0.1,0.05,-0.1
+MARKER/40, PART=4
+MARKER/41, PART=4, QP={place}
+VTORQUE/1, I=40, J_PART=1, TX=3\\TY=-2\\TZ=4""",
+        end=0.01,
+    )
+    d = np.array([float(x) for x in place.split(",")])
+    given = np.array([[1, -0.1, -0.05], [-0.1, 1.2, 0.1], [-0.05, 0.1, 1.4]])
+    inertia = given - 2 * (d @ d * np.eye(3) - np.outer(d, d))
+    found = [results[f"PART/4.{name}"][0] for name in ("alx", "aly", "alz")]
+    assert found == pytest.approx(np.linalg.solve(inertia, [3, -2, 4]), rel=1e-9)
+
+
 @pytest.mark.parametrize(("place", "sense"), [(0.1, 1), (-0.1, -1)])
 def test_a_gear_may_drive_a_rack(place: float, sense: int) -> None:
     """A turn by w about z moves what lies at (x, 0) along y by w x."""
