@@ -206,6 +206,12 @@ def show(report: Report) -> None:
         print(f"  {judged.method:12} {judged.verdict:8} {judged.error:8.1e}  {judged.said}")
 
 
+def why_unknown(report: Report) -> str:
+    """Why a deck is not judged, without the numbers."""
+    words = report.unknown.split(" are ")[0]
+    return words.partition(": grows")[0]
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Judge what is asked for; 1 when a method is silently wrong."""
     parser = argparse.ArgumentParser(
@@ -225,7 +231,7 @@ def main(arguments: list[str] | None = None) -> int:
     if args.show:
         for report in reports:
             show(report)
-    unknown = Counter(report.unknown.partition(":")[0] for report in reports if report.unknown)
+    unknown = Counter(why_unknown(report) for report in reports if report.unknown)
     print(f"\n{len(reports)} decks; not judged: {sum(unknown.values())}")
     for why, count in unknown.most_common(12):
         print(f"  {count} {why}")
