@@ -244,11 +244,11 @@ def _meta(session: Session) -> Mapping[str, str]:
     }
 
 
-def _doubt(session: Session, steps: int) -> str:
+def _doubt(session: Session) -> str:
     names, values = session.names, np.concatenate([v for _, v in session.pieces])
     time = np.concatenate([t for t, _ in session.pieces])
     way, reach = longest_way(names, values)
-    said = doubts(session.chosen.settings, steps, session.system.report, way, reach)
+    said = doubts(session.system, session.chosen.settings, session.counts, way, reach)
     grown = buckled(session.kernels.model, names, time, values)
     return "; ".join(sentence for sentence in (grown, said) if sentence)
 
@@ -285,7 +285,7 @@ def _notes(session: Session) -> dict[str, str]:
     if session.balances:
         found["energy"] = str(_worst(session.balances))
     steps = int(session.counts[base.STEPS])
-    if steps and (doubt := _doubt(session, steps)):
+    if steps and (doubt := _doubt(session)):
         found["accuracy"] = doubt
     told = {each.model.note: each.time for each in reversed(session.linearizations)}
     if varying := [f"t = {t:g}: {note}" for note, t in reversed(told.items()) if note]:

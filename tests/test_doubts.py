@@ -100,3 +100,38 @@ def test_round_off_that_a_push_lifts_is_told(method: str, push: float, mass: flo
     results = done(deck, 0.4, 40, integrator=method, error=1e-8)
     left = np.abs(results["POINT_MASS/2.y"]).max() > 0.1
     assert left == told == ("pushed masses apart" in results.meta.get("accuracy", ""))
+
+
+@pytest.mark.parametrize(("start", "play", "stiffness"), [(0.4, 0.07, 7000.0), (0.3, 0.1, 12000.0)])
+def test_events_that_shift_one_another_are_told(start: float, play: float, stiffness: float):
+    """A spring with play, 2 s: arcs of a quarter period and free flights, as often as they fit.
+
+    In contact q = q0 cos(w t), q0 = start - play, for a half period pi/w; the gap of 2 play is
+    crossed with w q0.
+    """
+    law = f"-{stiffness}*MAX(ABS(DX(2))-{play},0)*SIGN(1,DX(2))"
+    deck = (
+        GROUND
+        + f"POINT_MASS/2, MASS=1, CM=2, QG={start},0,0\nMARKER/2, POINT_MASS=2\n"
+        + f"VFORCE/1, I=2, J_PART=1, FX={law}\nEND\n"
+    )
+    results = done(deck, 2.0, 200, integrator="GSTIFF", error=1e-6)
+    w, q0 = math.sqrt(stiffness), start - play
+    flight = 2 * play / (w * q0)
+    half = math.pi / w + flight
+
+    def place(t: float) -> float:
+        passed, t = divmod(t + math.pi / (2 * w), half)
+        inside = t < math.pi / w
+        x = play + q0 * math.sin(w * t) if inside else play - w * q0 * (t - math.pi / w)
+        return x if passed % 2 == 0 else -x
+
+    off = max(
+        abs(x - place(t)) for t, x in zip(results.time, results["POINT_MASS/2.x"], strict=True)
+    )
+    assert off > 2e-4
+    assert "add up to" in results.meta["accuracy"]
+    best = done(deck, 2.0, 200, integrator="ABAM", error=1e-9)
+    truth = [place(t) for t in best.time]
+    assert best["POINT_MASS/2.x"] == pytest.approx(truth, abs=1e-6)
+    assert "accuracy" not in best.meta
