@@ -124,21 +124,44 @@ REQUEST/1, F1=AZ(31,3)"""
     assert turned == pytest.approx(-6.0 * results.time, abs=1e-6)
 
 
+UNITS = "FORCE=NEWTON, MASS=KILOGRAM, LENGTH={}, TIME=SECOND"
+
+
+@pytest.mark.parametrize(("length", "ucf"), [("METER", 1.0), ("MILLIMETER", 1e3)])
 @pytest.mark.parametrize("place", ["0.3,0,0", "0.1,-0.2,0.2"])
-def test_moments_of_inertia_may_be_about_any_marker(place: str) -> None:
-    """J = J_IM - m (d^2 1 - d d^T) about the mass centre; alpha = J^-1 T from rest."""
-    results = run(
-        f"""PART/4, MASS=2, CM=40, IM=41, IP=1,1.2,1.4,0.1,0.05,-0.1
-MARKER/40, PART=4
-MARKER/41, PART=4, QP={place}
-VTORQUE/1, I=40, J_PART=1, TX=3\\TY=-2\\TZ=4""",
-        end=0.01,
+def test_moments_of_inertia_may_be_about_any_marker(place: str, length: str, ucf: float) -> None:
+    """J = J_IM - m (d^2 1 - d d^T) about the mass centre; alpha = UCF J^-1 T from rest."""
+    torque = np.array([3.0, -2.0, 4.0]) / ucf
+    deck = START.replace("SYSTEM=MKS", UNITS.format(length)) + (
+        "PART/4, MASS=2, CM=40, IM=41, IP=1,1.2,1.4,0.1,0.05,-0.1\nMARKER/40, PART=4\n"
+        f"MARKER/41, PART=4, QP={place}\n"
+        "VTORQUE/1, I=40, J_PART=1, TX={}\\TY={}\\TZ={}\nEND\n".format(*torque)
     )
+    results = adamslite.simulate(adamslite.read(deck), end=0.01, steps=1)
     d = np.array([float(x) for x in place.split(",")])
     given = np.array([[1, -0.1, -0.05], [-0.1, 1.2, 0.1], [-0.05, 0.1, 1.4]])
     inertia = given - 2 * (d @ d * np.eye(3) - np.outer(d, d))
     found = [results[f"PART/4.{name}"][0] for name in ("alx", "aly", "alz")]
-    assert found == pytest.approx(np.linalg.solve(inertia, [3, -2, 4]), rel=1e-9)
+    assert found == pytest.approx(ucf * np.linalg.solve(inertia, torque), rel=1e-9)
+
+
+def test_rates_and_angles_of_a_part_are_those_of_its_cm_marker() -> None:
+    """WX is about x of the marker, which lies along y of ground; psi is its turn about z."""
+    results = run(
+        """PART/4, MASS=2, CM=40, IP=1,2,3, REULER=20D,0,0, WX=0.3, WZ=-0.2
+MARKER/40, PART=4, QP=1,0,0, REULER=70D,30D,0""",
+        end=0.01,
+    )
+    tilt = np.radians(30)
+    first = {n: results[f"PART/4.{n}"][0] for n in ("psi", "theta", "phi", "wx", "wy", "wz")}
+    assert first == pytest.approx(
+        {
+            "psi": np.pi / 2, "theta": tilt, "phi": 0.0,
+            # z of the marker is (sin 30, 0, cos 30) in ground.
+            "wx": -0.2 * np.sin(tilt), "wy": 0.3, "wz": -0.2 * np.cos(tilt),
+        },
+        abs=1e-12,
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize(("place", "sense"), [(0.1, 1), (-0.1, -1)])
