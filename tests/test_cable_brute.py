@@ -2,8 +2,11 @@
 
 import numpy as np
 import pytest
-from descriptions import G, solve
+from descriptions import ATWOOD, G, solve
 from formulas import Winch, sliding_ratio
+
+import adamslite
+from adamslite.cables.scene import deck
 
 WINCH = Winch(1.0, 0.2, 5)
 
@@ -56,6 +59,22 @@ def test_a_drum_lets_a_weight_down() -> None:
     steady = np.mean(results["REQUEST/1.F3"][late] + relief[late])
     assert steady == pytest.approx(200 * G, abs=0.3)
     assert np.all(results["REQUEST/10.F6"][late] > 0)  # the winch holds back
+
+
+@pytest.mark.parametrize("elements", [40, 80])
+def test_lumps_and_ends_weigh_what_the_cable_does(elements: int) -> None:
+    """Two weights, two spans of 5 m, one of 1.6 m and two quarters of a wheel between; chords of h
+    on a rim are (h/R)^2/24 shorter than their arcs: 0.026 (h/R)^2 m, and as much again where
+    sections lie half on it.
+    """
+    spec = ATWOOD.replace("rho = 0.01", "rho = 2").replace(
+        "level = 1", f'form = "brute"\nelements = {elements}'
+    )
+    text, _ = deck(spec)
+    masses = [each.mass for each in adamslite.read(text).of("POINT_MASS")]
+    flat = 2 * 0.052 * (5 / elements / 0.2) ** 2
+    assert sum(masses) == pytest.approx(5 + 3 + 2 * (11.6 + np.pi * 0.2), abs=2 * flat)
+    assert len(masses) > 2 * elements
 
 
 def test_a_belt_slides_on_its_driven_pulley() -> None:

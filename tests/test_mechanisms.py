@@ -146,22 +146,20 @@ def test_moments_of_inertia_may_be_about_any_marker(place: str, length: str, ucf
 
 
 def test_rates_and_angles_of_a_part_are_those_of_its_cm_marker() -> None:
-    """WX is about x of the marker, which lies along y of ground; psi is its turn about z."""
+    """psi adds up about z; WX and WZ are about x and z of the marker."""
     results = run(
         """PART/4, MASS=2, CM=40, IP=1,2,3, REULER=20D,0,0, WX=0.3, WZ=-0.2
-MARKER/40, PART=4, QP=1,0,0, REULER=70D,30D,0""",
+MARKER/40, PART=4, QP=1,0,0, REULER=40D,30D,15D""",
         end=0.01,
     )
-    tilt = np.radians(30)
-    first = {n: results[f"PART/4.{n}"][0] for n in ("psi", "theta", "phi", "wx", "wy", "wz")}
-    assert first == pytest.approx(
-        {
-            "psi": np.pi / 2, "theta": tilt, "phi": 0.0,
-            # z of the marker is (sin 30, 0, cos 30) in ground.
-            "wx": -0.2 * np.sin(tilt), "wy": 0.3, "wz": -0.2 * np.cos(tilt),
-        },
-        abs=1e-12,
-    )  # fmt: skip
+    angles = [results[f"PART/4.{n}"][0] for n in ("psi", "theta", "phi")]
+    assert angles == pytest.approx(np.radians([60, 30, 15]), abs=1e-12)
+    psi, theta, phi = angles
+    level, up = np.array([np.cos(psi), np.sin(psi), 0]), np.array([-np.sin(psi), np.cos(psi), 0])
+    z = np.array([0, 0, np.cos(theta)]) - np.sin(theta) * up
+    x = np.cos(phi) * level + np.sin(phi) * np.cross(z, level)
+    rates = [results[f"PART/4.{n}"][0] for n in ("wx", "wy", "wz")]
+    assert rates == pytest.approx(0.3 * x - 0.2 * z, abs=1e-12)
 
 
 @pytest.mark.parametrize(("place", "sense"), [(0.1, 1), (-0.1, -1)])
