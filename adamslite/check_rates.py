@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from adamslite.diagnostics import Diagnostic
-from adamslite.expression import calls, expressions
+from adamslite.expression import Mode, Node, Ref, calls, expressions, walk
 from adamslite.functions.forces import MEASURES, NET
 from adamslite.statement import Statement
 
@@ -17,11 +17,14 @@ if TYPE_CHECKING:
 RATELESS = (
     "VARVAL", "DIF", "DIF1", "ACCM", "ACCX", "ACCY", "ACCZ", "WDTM", "WDTX", "WDTY", "WDTZ",
 )  # fmt: skip
+# What they name is solved for.
+PORTS = ("PINPUT", "POUTPUT")
 
 
 def unformed_equations(deck: Deck) -> Iterator[Diagnostic]:
     """Forces that depend on themselves, rates of what has none."""
-    suspects = [each for each in deck.statements if _is_suspect(each)]
+    known: dict[Any, bool] = {}
+    suspects = [each for each in deck.statements if _is_suspect(deck, each, known)]
     if suspects:
         from adamslite.compiled import unformed
         from adamslite.model import Model
@@ -29,11 +32,36 @@ def unformed_equations(deck: Deck) -> Iterator[Diagnostic]:
         yield from unformed(Model(deck), suspects)
 
 
-def _is_suspect(statement: Statement) -> bool:
+def _is_suspect(deck: Deck, statement: Statement, known: dict[Any, bool]) -> bool:
     """Whether it takes rates of more than places and TIME, or measures forces with forces."""
     asked = ("DDT",)
     if hasattr(statement, "constraints"):
         asked += RATELESS
     if hasattr(statement, "loads") or statement.keyword == "GCON":
         asked += (*MEASURES.values(), *NET)
-    return any(next(calls(node, *asked), None) for node in expressions(statement))
+    found = (call for node in expressions(statement) for call in calls(node, *asked))
+    return not all(call.name == "VARVAL" and _is_of_time(deck, call, known) for call in found)
+
+
+def _is_of_time(deck: Deck, node: Node, known: dict[Any, bool]) -> bool:
+    """Whether it depends on TIME alone, directly or by VARIABLEs that are not solved for;
+    ``known``: which of these do.
+    """
+    return not any(
+        isinstance(each, Mode)
+        or (
+            isinstance(each, Ref)
+            and not (each.kind == "VARIABLE" and _is_signal(deck, each.id, known))
+        )
+        for each in walk(node)
+    )
+
+
+def _is_signal(deck: Deck, key: Any, known: dict[Any, bool]) -> bool:
+    if key not in known:
+        known[key] = False  # what comes back to it depends on itself
+        variable = deck.find("VARIABLE", key)
+        solved = any(key in port.variables for w in PORTS for port in deck.of(w))
+        plain = variable is not None and not solved
+        known[key] = plain and _is_of_time(deck, variable.function, known)
+    return known[key]

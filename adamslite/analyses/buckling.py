@@ -23,6 +23,8 @@ ROUND_OFF = 2e-16
 # Share of the way that grown round-off may come to untold.
 FELT = 1e-3
 FORCES = ("SFORCE", "SPRINGDAMPER")
+# Numbers of records that are looked at together.
+BLOCK = 2**18
 
 
 def buckled(model: Model, names: tuple[str, ...], time: np.ndarray, values: np.ndarray) -> str:
@@ -31,13 +33,15 @@ def buckled(model: Model, names: tuple[str, ...], time: np.ndarray, values: np.n
     names, values : columns of the records, (nt, len(names));  time : (nt,)
     """
     column = {name: k for k, name in enumerate(names)}
-    worst, most = None, -np.log(ROUND_OFF / FELT)
-    for element in _struts(model, column):
-        grown = _exponent(model, element, column, time, values)
-        if grown > most:
-            worst, most = element, grown
-    if worst is None:
+    struts = _pushed(_struts(model, column), column, values)
+    size = max(1, BLOCK // max(1, len(time)))
+    blocks = (struts[k : k + size] for k in range(0, len(struts), size))
+    found = [_exponents(model, block, column, time, values) for block in blocks]
+    grown = np.concatenate([np.zeros(0), *found])
+    most = grown.max(initial=0.0)
+    if not most > -np.log(ROUND_OFF / FELT):
         return ""
+    worst = struts[int(grown.argmax())]
     return (
         f"{worst.label} pushed masses apart that nothing keeps in line: what they are off it, even"
         f" round-off, grew up to {np.exp(min(most, 700.0)):.0e} times, and behind that no ERROR"
@@ -59,23 +63,36 @@ def _struts(model: Model, column: dict[str, int]) -> list[Any]:
     return found
 
 
-def _exponent(
-    model: Model, element: Any, column: dict[str, int], time: np.ndarray, values: np.ndarray
-) -> float:
-    """Integral of the growth rate of one element over the records."""
-    push = np.maximum(values[:, column[f"{element.label}.f"]], 0.0)
-    if not push.any():
-        return 0.0
-    apart, compliance = np.zeros((len(time), 3)), 0.0
-    for sign, end in ((1.0, model.marker(element.i)), (-1.0, model.marker(element.j))):
-        if end.body < 0:
-            apart += sign * end.p
-        else:
-            body = model.bodies[end.body]
-            at = [column[f"{body.statement.label}.{axis}"] for axis in "xyz"]
-            apart += sign * values[:, at]
-            compliance += 1.0 / body.mass if body.mass > 0.0 else 0.0
-    length = np.linalg.norm(apart, axis=1)
-    rate = np.sqrt(2.0 * compliance * push / np.where(length > 0.0, length, np.inf))
+def _pushed(struts: list[Any], column: dict[str, int], values: np.ndarray) -> list[Any]:
+    """Those that push somewhere in the records."""
+    forces = values[:, [column[f"{each.label}.f"] for each in struts]]
+    pushed = (~(forces <= 0.0)).any(axis=0).tolist()
+    return [each for each, is_one in zip(struts, pushed, strict=True) if is_one]
+
+
+def _exponents(
+    model: Model, struts: list[Any], column: dict[str, int], time: np.ndarray, values: np.ndarray
+) -> np.ndarray:
+    """Integral of the growth rate of each element over the records, (len(struts),)."""
+    ends = [[model.marker(end) for end in (each.i, each.j)] for each in struts]
+    (x, a), (y, b) = (_ends(model, side, column, values) for side in zip(*ends, strict=True))
+    length = np.linalg.norm(x - y, axis=2)
+    push = np.maximum(values[:, [column[f"{each.label}.f"] for each in struts]], 0.0)
+    rate = np.sqrt(2.0 * (a + b) * push / np.where(length > 0.0, length, np.inf))
     rate = np.nan_to_num(rate)
-    return float(0.5 * (rate[1:] + rate[:-1]) @ np.diff(time))
+    return 0.5 * np.diff(time) @ (rate[1:] + rate[:-1])
+
+
+def _ends(
+    model: Model, places: Any, column: dict[str, int], values: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Where ends are, (nt, n, 3), and what a force of 1 does to them, (n,)."""
+    at, fixed, compliance = [], [], []
+    for place in places:
+        body = model.bodies[place.body] if place.body >= 0 else None
+        label = body and body.statement.label
+        at.append([column[f"{label}.{axis}"] for axis in "xyz"] if body else [0, 0, 0])
+        fixed.append([np.nan] * 3 if body else place.p)
+        compliance.append(1.0 / body.mass if body and body.mass > 0.0 else 0.0)
+    held = np.array(fixed)
+    return np.where(np.isnan(held), values[:, at], held), np.array(compliance)

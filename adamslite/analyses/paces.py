@@ -74,6 +74,8 @@ def timetable(
             paced += [statement] if len(curve.spans) else []
             spans.append(curve.spans)
     found = merged(np.concatenate(kinks), times)
+    if len(found) == 1 and not any(map(len, spans)):
+        return Timetable(found, np.array(base.NO_PACE), paced, overfull)
     between = _between(found, start)
     gaps = between[:, 1] - between[:, 0]
     spans.append(between[gaps < NEAR * longest])

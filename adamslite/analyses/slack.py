@@ -39,12 +39,11 @@ def compressed(deck: Any, names: tuple[str, ...], time: np.ndarray, values: np.n
 
 def _pushing(places: dict[str, int], values: np.ndarray) -> dict[str, float]:
     """The largest push of each force that pulls and pushes too."""
-    found = {}
-    for label, k in places.items():
-        most, least = np.nanmax(values[:, k], initial=0.0), np.nanmin(values[:, k], initial=0.0)
-        if most > -FELT * least and most > 0.0:
-            found[label] = float(most)
-    return found
+    forces = values[:, list(places.values())]
+    most, least = np.nanmax(forces, 0, initial=0.0), np.nanmin(forces, 0, initial=0.0)
+    pushing = ((most > -FELT * least) & (most > 0.0)).tolist()
+    told = zip(places, most.tolist(), pushing, strict=True)
+    return {label: push for label, push, is_one in told if is_one}
 
 
 def _sections(deck: Any) -> set[str]:
