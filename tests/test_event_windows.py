@@ -60,6 +60,21 @@ def test_a_force_window_narrower_than_a_step(formula, steps, force, v, exact):
     assert last.summary["events"] == 3
 
 
+@pytest.mark.parametrize("formula", ("GSTIFF", "GSTIFF I3", "HHT", "RADAU", "ABAM"))
+@pytest.mark.parametrize(("half", "v"), [(10.0, 10e3), (3.0, -10e3)])
+def test_a_window_in_millimetres(formula, half, v):
+    """20 J are taken away within 20 mm or 6 mm, 5 m from the origin; without constraints nothing
+    hands round-off of these 5000 on to the velocities, and first steps may be short.
+    """
+    force = f"FX=IF(ABS(ABS(DX(2))-5000)-{half}:{-np.sign(v) * 1e4 / half},0,0)"
+    units = "UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=MILLIMETER, TIME=SECOND\n"
+    deck = DECK.format(x=0, y=0, v=v, force=force, gravity=units)
+    method, _, form = formula.partition(" ")
+    options = {"formulation": form} if form else {}
+    last = done(deck, 1.0, 10, integrator=method, error=1e-6, **options)
+    assert last["POINT_MASS/2.vx"][-1] / 1000 == approx(np.sign(v) * sqrt(60.0), abs=1e-4)
+
+
 @pytest.mark.parametrize("steps", [10, 100, 1000])
 @pytest.mark.parametrize("formula", FORMULAS)
 @pytest.mark.parametrize(("force", "v", "exact"), SMOOTH)

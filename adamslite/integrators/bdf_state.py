@@ -75,8 +75,10 @@ def first_step(P: Problem, w: int) -> float:
         return min(h, P.settings[H_INIT])
     if P.settings[H_MIN] >= 0.05 * h:
         return min(h, P.settings[H_MIN])
-    # Below this step round-off of positions alone would exceed ERROR in the velocities.
-    noise = 1e-14 * reach / tol if P.sizes[SI2] == 1 else 0.0
+    # Below this step round-off of positions alone, which constraints hand on to the velocities,
+    # would exceed ERROR there.
+    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    noise = 1e-14 * reach / tol if stabilised else 0.0
     noise = max(noise, P.settings[H_MIN])
     return min(0.05 * h, max(noise, tol**0.5 / max(fastest, 1e-12) * 0.3))
 
