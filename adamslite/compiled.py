@@ -254,7 +254,9 @@ def _entry_points(group: Group) -> list[str]:
         names.append(f"{group.name}_jacobian")
     if group.meta["angles"] or group.meta["limits"]:
         names.append(f"{group.name}_track")
-    names += [f"{group.name}_{kind}" for kind, found in group.meta["guards"].items() if found]
+    kinds = group.meta["guards"]
+    names += [f"{group.name}_clock"] if kinds["clock"] else []
+    names += [f"{group.name}_watch"] if kinds["watch"] or kinds["zone"] else []
     return names
 
 

@@ -71,7 +71,7 @@ class Instances(Numbering):
         ints = np.ascontiguousarray(ints.ravel())
         self.keep += [ints, reals]
         at = self.kernels.addresses
-        kinds = ("residual", "jacobian", "track", "clock", "watch", "zone")
+        kinds = ("residual", "jacobian", "track", "clock", "watch")
         entry = [at.get(f"{group.name}_{kind}", 0) for kind in kinds]
         data = [len(group.instances), ints.ctypes.data, reals.ctypes.data]
         return [phase, *entry[:3], *data, *entry[3:]]

@@ -45,7 +45,7 @@ from adamslite.integrators.base import (
     Problem,
 )
 from adamslite.integrators.equations import BODY, PART, guard_values, run_groups
-from adamslite.integrators.event_places import CLOCK, STRICT, WATCH, WEAK, ZONE
+from adamslite.integrators.event_places import CLOCK, STRICT, WATCH, WEAK
 from adamslite.translate import Reals, native
 
 # Nodes and weights of Gauss's formula on (-1, 1), and weights of the formula on three of them.
@@ -122,9 +122,6 @@ def look_at_guards(P: Problem, row: int) -> None:
     for k in range(count):
         kept[k] = P.guard[first + k]
     guard_values(P, WATCH)
-    for k in range(count):
-        kept[k] += P.guard[first + k]
-    guard_values(P, ZONE)
     for k in range(count):
         kept[k] += P.guard[first + k]
 

@@ -27,7 +27,7 @@ gravity         (3,) in ground axes
 base            (9 nb,) attitude from which the rotation vector is counted
 scalar          workspace offset of each multiplier, variable and DIFF state
 group           per group: phase, addresses of residual, Jacobian and track, number of instances,
-                addresses of their integers and reals, addresses of clock, watch and zone
+                addresses of their integers and reals, addresses of clock and watch
 copies          per block: Jacobian offset, rows, columns, factor offset, leading dimension
 product         per block between bodies: Jacobian offset, rows, columns, first row, first column
 turning         per block with a rotating column: Jacobian offset, rows, body
@@ -164,7 +164,7 @@ MODE_STATICS = 5.0
 ) = range(10)
 
 # Columns of P.group.
-GROUP = 10
+GROUP = 9
 
 INT_FIELDS = set(
     "sizes body scalar group copies product turning mixed unit dead held count pivots "

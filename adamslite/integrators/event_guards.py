@@ -33,7 +33,6 @@ from adamslite.integrators.event_places import (
     TAKEN,
     WATCH,
     WEAK,
-    ZONE,
     ZONE_EARLY,
     ZONE_LATE,
 )
@@ -152,12 +151,13 @@ def look(P: Problem, row: int) -> int:
     negative.
     """
     count = P.sizes[ZONES]
-    if count > 0:
-        first = P.sizes[NW] + P.sizes[CLOCKS] + P.sizes[WATCHED]
-        guard_values(P, ZONE)
-        for k in range(count):
-            P.zone[row * count + k] = P.guard[first + k]
-    return margins(P, row) if P.sizes[WATCHED] > 0 else 0
+    if P.sizes[WATCHED] + count == 0:
+        return 0
+    first = P.sizes[NW] + P.sizes[CLOCKS] + P.sizes[WATCHED]
+    found = margins(P, row)
+    for k in range(count):
+        P.zone[row * count + k] = P.guard[first + k]
+    return found
 
 
 @native

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # Columns of P.group.
-CLOCK, WATCH, ZONE = 7, 8, 9
+CLOCK, WATCH = 7, 8
 # How guards are read, and the bit of those at which a value jumps.
 STRICT, WEAK, JUMPS = 0, 1, 4
 # What a branch adds to the gap of its relation.

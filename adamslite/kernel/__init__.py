@@ -10,7 +10,6 @@ and written as one loop over all instances:
     track   (n, ints, reals, W)              remembers angles at an accepted step
     clock   (n, ints, reals, W, F)           guards of time (adamslite.guards), F = their values
     watch   (n, ints, reals, W, F)           guards of the state
-    zone    (n, ints, reals, W, F)           places within the zones of smooth steps
 
 q holds positions and rotations of bodies (and states s of DIFF), z multipliers and variables.
 W is the workspace (:mod:`adamslite.kinematics`), ``c`` five coefficients.  The integers of an

@@ -72,7 +72,9 @@ def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tu
         writer = Writer(shape, scope)
         writer.track()
         bodies.append((f"{name}_track", RESIDUAL_HEAD, writer))
-    for place, (kind, found) in enumerate(shape.guards.kinds.items()):
+    kinds = shape.guards.kinds
+    evaluated = {"clock": kinds["clock"], "watch": kinds["watch"] + kinds["zone"]}
+    for place, (kind, found) in enumerate(evaluated.items()):
         if found:
             writer = Writer(shape, scope)
             writer.guard_values(place)
@@ -83,7 +85,7 @@ def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tu
         "blocks": blocks,
         "angles": len(scope.angles),
         "limits": len(scope.limits),
-        "guards": shape.guards.kinds,
+        "guards": kinds,
         "clock": clock,
         "mass": any(leaf[0] in ("a", "al") for leaf in scope.symbols),
     }

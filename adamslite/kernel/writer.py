@@ -106,16 +106,16 @@ class Writer:
             self.b.accumulate("F", row, c, self.b.mul(sign, value))
 
     def guard_values(self, place: int) -> None:
-        """The guards of the clock (``place`` 0) or the watch (1): gaps of relations, arguments of
-        floors; places within zones (2).
+        """The guards of the clock (``place`` 0), or those of the watch and places within zones (1),
+        which share much of what they are made of: gaps of relations, arguments of floors.
         """
-        base, guards = self.b.int_at(self.shape.branches_at + place), self.shape.guards
-        for n, guard in enumerate((guards.clock, guards.watch, guards.zone)[place]):
-            self.b.accumulate("F", base, n, self._guard_value(guard, place == 2))
+        guards, first = self.shape.guards, self.shape.branches_at
+        for n, guard in enumerate(guards.watch if place else guards.clock):
+            self.b.accumulate("F", self.b.int_at(first + place), n, self._guard_value(guard))
+        for n, zone in enumerate(guards.zone if place else ()):
+            self.b.accumulate("F", self.b.int_at(first + 2), n, self.value(zone))
 
-    def _guard_value(self, guard: Any, is_zone: bool) -> Value:
-        if is_zone:
-            return self.value(guard)
+    def _guard_value(self, guard: Any) -> Value:
         for side in guard.args:
             self.value(side)
         return self.lower.gap(guard) if hasattr(guard, "rel_op") else self.value(guard.args[0])
