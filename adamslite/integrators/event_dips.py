@@ -126,7 +126,10 @@ def share_into_zones(P: Problem) -> float:
     for k in range(count):
         a, b = P.zone[START * count + k], P.zone[END * count + k]
         r, s = h * P.zone[ZONE_EARLY * count + k], h * P.zone[ZONE_LATE * count + k]
-        if abs(a) + abs(b) + abs(r) + abs(s) < 1e300:
+        # The cubic stays between these: most steps are outside of most zones.
+        low = min(a, b) - DEEPEST * (abs(r) + abs(s))
+        high = max(a, b) + DEEPEST * (abs(r) + abs(s))
+        if low < 1.0 and high > 0.0 and high - low > span and high - low < 1e300:
             # Downwards is upwards in 1 - D.
             least = min(least, share_into(a, b, r, s, span))
             least = min(least, share_into(1.0 - a, 1.0 - b, 0.0 - r, 0.0 - s, span))
