@@ -40,11 +40,19 @@ def cache_folder() -> Path:
 
 def usual_folder() -> Path:
     """The folder of this program among the user's cache folders."""
-    if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA", Path.home())) / "adamslite" / "cache"
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches" / "adamslite"
-    return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "adamslite"
+    variable = "LOCALAPPDATA" if sys.platform == "win32" else "XDG_CACHE_HOME"
+    return _usual_folder(sys.platform, os.environ.get(variable), os.environ.get("HOME"))
+
+
+@cache
+def _usual_folder(platform: str, told: str | None, home: str | None) -> Path:
+    """The same from what it depends on: it is asked for with every entry."""
+    of_user = Path(home) if home else Path.home()
+    if platform == "win32":
+        return Path(of_user if told is None else told) / "adamslite" / "cache"
+    if platform == "darwin":
+        return of_user / "Library" / "Caches" / "adamslite"
+    return Path(of_user / ".cache" if told is None else told) / "adamslite"
 
 
 @cache
