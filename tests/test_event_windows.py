@@ -86,6 +86,24 @@ def test_a_smooth_window_narrower_than_a_step(formula, steps, force, v, exact):
     assert last["POINT_MASS/2.vx"][-1] == approx(exact, abs=5e-4 if formula == "NEWMARK" else 1e-4)
 
 
+@pytest.mark.parametrize("steps", [3, 10])
+@pytest.mark.parametrize("formula", FORMULAS)
+@pytest.mark.parametrize(("radius", "beside", "v"), [(0.01, 0.003, 9.0), (0.05, -0.02, -15.0)])
+def test_a_ball_that_is_passed_closely(formula, steps, radius, beside, v):
+    """A pull of 0.3 m v^2/2 over the chord of a ball 5 m away, which is met in long steps.
+
+    The distance falls and rises again with almost a kink, which no cubic through its ends has.
+    """
+    chord = 2.0 * sqrt(radius**2 - beside**2)
+    force = f"FX=IF(DM(2,9)-{radius}:{-0.15 * v * abs(v) / chord},0,0)"
+    marker = f"MARKER/9, PART=1, QP={np.sign(v) * 5.0},0,0\n"
+    deck = DECK.format(x=0, y=beside, v=v, force=force, gravity=marker)
+    method, _, form = formula.partition(" ")
+    options = {"formulation": form} if form else {}
+    last = done(deck, 1.3, steps, integrator=method, error=1e-6, **options)
+    assert last["POINT_MASS/2.vx"][-1] == approx(v * sqrt(0.7), abs=2e-4)
+
+
 @pytest.mark.parametrize("formula", ("GSTIFF", "HHT", "RADAU", "ABAM"))
 def test_a_window_that_is_entered_and_left_on_the_same_side(formula):
     """Thrown up at 10 m/s, the mass reaches 5.09684 m; above 5 m another 20 m/s^2 pull it down.

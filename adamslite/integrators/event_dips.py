@@ -5,9 +5,10 @@ At the share x of a step, with values a, b and rates r, s per step,
     p(x) = a + r x + c x^2 + d x^3,    c = 3 (b - a) - 2 r - s,    d = 2 (a - b) + r + s
 
 A margin that is positive at both ends was negative in between where p dips below zero; so near to
-zero that p cannot tell, the dense output is asked.  The place D within the zone of a smooth step
-follows the same cubic: a step that touches the zone 0 < D < 1 may change D by a share of it, or it
-would pass a force without having felt it.
+zero that p cannot tell, the dense output is asked, and also where the tangents at both ends meet
+below zero: a distance between markers that pass each other is no cubic but almost a kink there.
+The place D within the zone of a smooth step follows the same cubic: a step that touches the zone
+0 < D < 1 may change D by a share of it, or it would pass a force without having felt it.
 
 Reference: Shampine, Gladwell, Brankin, ACM Trans. Math. Softw. 17 (1991) 11, "Reliable solution of
 special event location problems for ODEs".
@@ -43,8 +44,9 @@ from adamslite.translate import native
 LITTLE = 1e-3
 # A dip is looked at when it comes nearer to zero than this share of the rates at both ends.
 NEAR = 0.05
-# The deepest dip of a cubic below its ends, as a share of the rates.
-DEEPEST = 4.0 / 27.0
+# No dip is looked for where the lower end is above this share of the rates: tangents do not meet
+# below zero, and no cubic dips that far (4/27).
+DEEPEST = 0.25
 # Share of a zone that a step may cross, and this multiple of ERROR^(1/3) where a method of order 2
 # does not test velocities; what it aims at when it may not, as a part of that; how far before the
 # zone it stops when it comes from outside.
@@ -78,12 +80,30 @@ def next_dip(P: Problem) -> float:
         a, b = P.margin[START * count + k], P.margin[END * count + k]
         r, s = h * P.margin[EARLY * count + k], h * P.margin[LATE * count + k]
         swing = abs(r) + abs(s)
-        if min(a, b) < (DEEPEST + NEAR) * swing and (b >= 0.0 or s < 0.0) and not is_taken(P, k):
-            share = lowest(a, b, r, s)
-            if P.search[LOOKED] < share and share < first:
-                if cubic(a, b, r, s, share) < NEAR * swing:
-                    first = share
+        if min(a, b) < DEEPEST * swing and (b >= 0.0 or s < 0.0) and not is_taken(P, k):
+            first = min(first, dip(a, b, r, s, P.search[LOOKED]))
     return first
+
+
+@native
+def dip(a: float, b: float, r: float, s: float, behind: float) -> float:
+    """The first share behind another at which a guard may be below zero, else ``NONE``."""
+    low, bend = lowest(a, b, r, s), meeting(a, b, r, s)
+    if not (behind < low and cubic(a, b, r, s, low) < NEAR * (abs(r) + abs(s))):
+        low = NONE
+    return min(low, bend) if behind < bend else low
+
+
+@native
+def meeting(a: float, b: float, r: float, s: float) -> float:
+    """The share at which the tangents at both ends meet below zero, else ``NONE``.
+
+    A distance that is passed bends where they meet, more sharply than a cubic may.
+    """
+    if not (a >= 0.0 and b >= 0.0 and r < 0.0 and s > 0.0):
+        return NONE
+    share = (a - b + s) / (s - r)
+    return share if a + r * share < 0.0 else NONE
 
 
 @native
