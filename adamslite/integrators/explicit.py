@@ -24,6 +24,7 @@ from adamslite.integrators.base import (
     BROKEN_START,
     DONE,
     ERROR,
+    H_MAX,
     H_MIN,
     HOW_MUCH,
     IMPLICIT_MASS,
@@ -74,6 +75,7 @@ from adamslite.integrators.explicit_state import (
     MASSES,
     NEXT_STATE,
     OLD,
+    PULLED,
     RUNNING,
     SIGNATURE,
     TRIES,
@@ -91,6 +93,8 @@ from adamslite.translate import Reals, native
 # A projection that moves further than this times ERROR does not correct a step but leaves it, as
 # where constraints lose rank and another branch is near.
 FAR = 1.0
+# Where steps below this share of HMAX are pulled so far this often, shorter ones will not help.
+TINY, MOST_PULLED = 1e-6, 20.0
 
 
 @native
@@ -189,7 +193,9 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
     if not exact_rates(P, L, t, new, K[K_NEW * width :]):
         return shorten(P, w, 0.25)
     if P.report[MOVED] > FAR * P.settings[ERROR]:
-        return shorten(P, w, 0.5)
+        if h < TINY * P.settings[H_MAX]:
+            C[PULLED] += 1.0
+        return why_stuck(P, L, w) if C[PULLED] > MOST_PULLED else shorten(P, w, 0.5)
     if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
         locate_between(P, C[CLOCK], h, width, OLD * w, K_NEW)
         if not ends_there(P):
