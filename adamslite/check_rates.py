@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from adamslite.diagnostics import Diagnostic
-from adamslite.expression import Mode, Node, Ref, calls, expressions, walk
+from adamslite.expression import Call, Mode, Node, Ref, calls, expressions, walk
 from adamslite.functions.forces import MEASURES, NET
 from adamslite.statement import Statement
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 RATELESS = (
     "VARVAL", "DIF", "DIF1", "ACCM", "ACCX", "ACCY", "ACCZ", "WDTM", "WDTX", "WDTY", "WDTZ",
 )  # fmt: skip
+PLACES = ("DM", "DX", "DY", "DZ", "AX", "AY", "AZ")
 # What they name is solved for.
 PORTS = ("PINPUT", "POUTPUT")
 
@@ -40,28 +41,33 @@ def _is_suspect(deck: Deck, statement: Statement, known: dict[Any, bool]) -> boo
     if hasattr(statement, "loads") or statement.keyword == "GCON":
         asked += (*MEASURES.values(), *NET)
     found = (call for node in expressions(statement) for call in calls(node, *asked))
-    return not all(call.name == "VARVAL" and _is_of_time(deck, call, known) for call in found)
+    return not all(call.name == "VARVAL" and _has_rates(deck, call, known) for call in found)
 
 
-def _is_of_time(deck: Deck, node: Node, known: dict[Any, bool]) -> bool:
-    """Whether it depends on TIME alone, directly or by VARIABLEs that are not solved for;
-    ``known``: which of these do.
+def _has_rates(deck: Deck, node: Node, known: dict[Any, bool]) -> bool:
+    """Whether it depends on places and TIME alone, directly or by VARIABLEs that are not solved
+    for; ``known``: which of these do.
     """
     return not any(
         isinstance(each, Mode)
-        or (
-            isinstance(each, Ref)
-            and not (each.kind == "VARIABLE" and _is_signal(deck, each.id, known))
-        )
+        or (isinstance(each, Ref) and each.kind not in ("MARKER", "VARIABLE"))
+        or (isinstance(each, Ref) and each.kind == "VARIABLE" and not _is_plain(deck, each, known))
+        or (isinstance(each, Call) and each.name not in PLACES and _asks_markers(each))
         for each in walk(node)
     )
 
 
-def _is_signal(deck: Deck, key: Any, known: dict[Any, bool]) -> bool:
+def _asks_markers(call: Call) -> bool:
+    return any(isinstance(each, Ref) and each.kind == "MARKER" for each in call.args)
+
+
+def _is_plain(deck: Deck, ref: Ref, known: dict[Any, bool]) -> bool:
+    """Whether a VARIABLE is put in where it is used, and has rates."""
+    key = ref.id
     if key not in known:
         known[key] = False  # what comes back to it depends on itself
         variable = deck.find("VARIABLE", key)
         solved = any(key in port.variables for w in PORTS for port in deck.of(w))
         plain = variable is not None and not solved
-        known[key] = plain and _is_of_time(deck, variable.function, known)
+        known[key] = plain and _has_rates(deck, variable.function, known)
     return known[key]
