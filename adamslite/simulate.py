@@ -12,7 +12,7 @@ import numpy as np
 
 from adamslite.analyses.audit import Balance
 from adamslite.analyses.buckling import buckled
-from adamslite.analyses.doubts import doubts, longest_way
+from adamslite.analyses.doubts import doubts
 from adamslite.analyses.linear import Linearization, linear
 from adamslite.analyses.redundancy import row_name
 from adamslite.analyses.slack import compressed
@@ -247,8 +247,7 @@ def _meta(session: Session) -> Mapping[str, str]:
 def _doubt(session: Session) -> str:
     names, values = session.names, np.concatenate([v for _, v in session.pieces])
     time = np.concatenate([t for t, _ in session.pieces])
-    way, reach = longest_way(names, values)
-    said = doubts(session.system, session.chosen.settings, session.counts, way, reach)
+    said = doubts(session.system, session.chosen.settings, session.counts, names, values)
     grown = buckled(session.kernels.model, names, time, values)
     return "; ".join(sentence for sentence in (grown, said) if sentence)
 

@@ -135,3 +135,14 @@ def test_events_that_shift_one_another_are_told(start: float, play: float, stiff
     truth = [place(t) for t in best.time]
     assert best["POINT_MASS/2.x"] == pytest.approx(truth, abs=1e-6)
     assert "accuracy" not in best.meta
+
+
+@pytest.mark.parametrize(("size", "told"), [(0.02, True), (3.0, False)])
+def test_a_state_that_is_small_against_error_is_told(size: float, told: bool):
+    """ERROR of 1e-5 is absolute below 1: a share of a small state, not of one of the order of 1."""
+    filtered = GROUND + (
+        "POINT_MASS/2, MASS=1, CM=2, VX=1\nMARKER/2, POINT_MASS=2\n"
+        f"DIFF/1, FUNCTION=20*({size}*SIN(14*TIME)-DIF(1))\nEND\n"
+    )
+    results = done(filtered, 2.0, 40, integrator="ABAM", error=1e-5)
+    assert ("largest DIFF/1" in results.meta.get("accuracy", "")) is told

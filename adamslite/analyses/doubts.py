@@ -36,7 +36,9 @@ SHIFTED = 30.0
 MOVING = 0.1
 
 
-def doubts(system: Any, settings: Any, counts: np.ndarray, way: float, reach: float) -> str:
+def doubts(
+    system: Any, settings: Any, counts: np.ndarray, names: tuple[str, ...], values: np.ndarray
+) -> str:
     """What ERROR does not say about the accuracy of a run, in sentences; empty when it does.
 
     Parameters
@@ -45,15 +47,18 @@ def doubts(system: Any, settings: Any, counts: np.ndarray, way: float, reach: fl
         Behind the run.
     counts : (len(base.COUNTS),)
         Steps, restarts and the like of all of it.
-    way, reach : float
-        The longest way of a body along an axis, the largest coordinate of those that move [length].
+    names, values
+        Columns of the results.
     """
     if settings.method == CONSTANT:
         return "equal steps without error test: a run with half of HINIT tells how far off they are"
     report, steps = system.report, int(counts[base.STEPS])
     shifted = 1.0 + float(counts[base.RESTARTS]) / SHIFTED
-    off = float(report[base.SPENT]) * settings.error * max(1.0, reach) * shifted
+    way, reach = longest_way(names, values)
+    spent = float(report[base.SPENT]) * settings.error * shifted
+    off = spent * max(1.0, reach)
     found = [*_of_method(settings, steps, report, off), *_added_up(settings, steps, off, way)]
+    found += _of_small_states(settings, spent, names, values)
     if METHODS[settings.method] == BDF and settings.form == "I3" and system.sizes[base.HOLONOMIC]:
         found.append("I3 does not test velocities, so that their errors add up; SI2 does")
     return "; ".join(found)
@@ -112,3 +117,18 @@ def _added_up(settings: Any, steps: int, off: float, way: float) -> Iterator[str
             f"the estimated errors of {steps} steps add up to {off:.1e}, {off / way:.1%} of the "
             f"longest way of a body: {remedy} keeps more digits"
         )
+
+
+def _of_small_states(
+    settings: Any, spent: float, names: tuple[str, ...], values: np.ndarray
+) -> Iterator[str]:
+    """DIFF states so small that ERROR, which is absolute below 1, is a share of them."""
+    for k, name in enumerate(names):
+        if name.startswith("DIFF/") and np.isfinite(values[:, k]).all():
+            size = float(np.abs(values[:, k]).max())
+            off = spent * max(1.0, size)
+            if off > FELT * size > 0.0:
+                yield (
+                    f"the estimated errors add up to {off:.1e}, {off / size:.1%} of the largest "
+                    f"{name}: a smaller ERROR than {settings.error:g}, or another unit of the state"
+                )
