@@ -293,7 +293,8 @@ def test_the_largest_step_is_the_output_step():
     results = done(deck, 1.0, 200)
     assert results["POINT_MASS/2.vx"][-1] == pytest.approx(0.8, rel=0.02)
     assert results.summary["steps"] >= 200
-    assert done(deck, 1.0, 200, hmax=0.5).summary["steps"] < 100
+    # Left to itself the method takes some 25 steps a ramp, which is paced, and few between them.
+    assert done(deck, 1.0, 200, hmax=0.5).summary["steps"] < 130
 
 
 def test_a_run_repeated_gives_the_same_bytes():
