@@ -20,7 +20,6 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.audit import Balance, balance
 from adamslite.analyses.choose import METHODS, Choice, choose
 from adamslite.analyses.clock import Clock
 from adamslite.analyses.drives import without_value
@@ -33,7 +32,6 @@ from adamslite.analyses.initial import (
 )
 from adamslite.analyses.joint_start import start_of_joints
 from adamslite.analyses.kinematic import run_kinematic
-from adamslite.analyses.linear import linear
 from adamslite.analyses.plane import in_its_plane
 from adamslite.analyses.redundancy import leave_out_redundant
 from adamslite.analyses.static import StaticSettings, run_static
@@ -98,7 +96,7 @@ class Session:
         self.outcome = Outcome.DONE
         self.unclosed: Unclosed | None = None
         self.linearizations: list[Linearized] = []
-        self.balances: list[Balance] = []
+        self.balances: list[Any] = []
         self.counts = np.zeros(len(base.COUNTS), dtype=np.int64)
         self.ways_to_fall = 0
         self.out_of_law: dict[str, str] = {}
@@ -215,6 +213,9 @@ class Session:
 
     def _note_balance(self) -> None:
         if self.audited:
+            # Few runs are audited, and what an audit needs takes a while to load.
+            from adamslite.analyses.audit import balance
+
             self.balances.append(balance(self._system))
 
     def _rank_changed(self) -> bool:
@@ -275,6 +276,8 @@ class Session:
         inputs, outputs = (
             self.deck.find(kind, key).variables if key is not None else () for kind, key in ports
         )
+        from adamslite.analyses.linear import linear
+
         found = linear(self.system, inputs, outputs, not command.nodamping, command.rm)
         self.linearizations.append(Linearized(command.kind, command.file, self.time, found))
 

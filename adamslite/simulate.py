@@ -6,14 +6,12 @@ import time as clock
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.audit import Balance
 from adamslite.analyses.buckling import buckled
 from adamslite.analyses.doubts import doubts
-from adamslite.analyses.linear import Linearization, linear
 from adamslite.analyses.redundancy import row_name
 from adamslite.analyses.slack import compressed
 from adamslite.compiled import Kernels
@@ -29,6 +27,11 @@ from adamslite.results import Results
 from adamslite.session import Session
 from adamslite.times import spread_times
 from adamslite.unknowns import placed
+
+# Few runs need them, and they take a while to load.
+if TYPE_CHECKING:
+    from adamslite.analyses.audit import Balance
+    from adamslite.analyses.linear import Linearization
 
 SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
 CAPPED = (
@@ -131,6 +134,8 @@ def linearize(
     RunFailed
         When the state could not be reached.
     """
+    from adamslite.analyses.linear import linear
+
     deck = _deck(scene)
     marker = None if rm is None else _marker(deck, str(rm))
     session = Session(scene, None, {})

@@ -18,7 +18,6 @@ import numpy as np
 from adamslite.analyses.choose import CONSTANT, METHODS
 from adamslite.engine import BDF, HHT, VERLET
 from adamslite.integrators import base
-from adamslite.integrators.verlet import STABLE
 
 # ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do
 # not have to offer.
@@ -97,11 +96,12 @@ def _of_method(settings: Any, steps: int, report: np.ndarray, off: float) -> Ite
             f"steps were divided {divided} times, because the corrector did not converge with the "
             f"{settings.hinit:g} asked for: a shorter HINIT, or none, for an error test"
         )
-    if kind == VERLET and settings.hinit and settings.hinit > STABLE * report[base.STABLE_STEP]:
-        longest = report[base.STABLE_STEP]
+    most = base.STABLE * report[base.STABLE_STEP]
+    if kind == VERLET and settings.hinit and settings.hinit > most:
         yield (
-            f"HINIT={settings.hinit:g} is close to the longest stable step, {longest:.3g} by "
-            f"estimate: above it vibrations grow without bound; stay below {STABLE * longest:.3g}"
+            f"HINIT={settings.hinit:g} is close to the longest stable step, "
+            f"{report[base.STABLE_STEP]:.3g} by estimate: above it vibrations grow without bound; "
+            f"stay below {most:.3g}"
         )
     if kind in (HHT, VERLET) and settings.error <= FINE:
         yield (

@@ -147,6 +147,9 @@ ACCELERATION = LOADS | REACTIONS | ACCELERATION_ROWS | ROWS
 SINCE_WHEN, LONGEST, FENCE, PACE = range(4)
 NO_PACE = (-1e300, 1e300, 1e300)
 
+# Share of the limit of stability that equal steps of VERLET may take: the power iteration comes to
+# the eigenvalue from below.
+STABLE = 0.93
 MODE_DYNAMICS = 4.0
 MODE_STATICS = 5.0
 

@@ -34,6 +34,7 @@ from adamslite.integrators.base import (
     REJECTED,
     RESIDUALS,
     SPENT,
+    STABLE,
     STABLE_STEP,
     STEP,
     STEP_TOO_SMALL,
@@ -60,8 +61,6 @@ from adamslite.integrators.norms import exceeds
 from adamslite.integrators.records import write_record
 from adamslite.translate import native
 
-# Share of the limit of stability; the power iteration comes to the eigenvalue from below.
-STABLE = 0.93
 # Steps from one look at the local error to the next, where no force changes its law (a contact may
 # begin and end between two looks) and stability decides how long they are: eight of these are one
 # or two periods of the fastest vibration.
