@@ -75,6 +75,30 @@ def test_a_window_in_millimetres(formula, half, v):
     assert last["POINT_MASS/2.vx"][-1] / 1000 == approx(np.sign(v) * sqrt(60.0), abs=1e-4)
 
 
+@pytest.mark.parametrize("aside", [0.0, 40.0])
+@pytest.mark.parametrize(("unit", "length"), [(1.0, "METER"), (1000.0, "MILLIMETER")])
+@pytest.mark.parametrize("formula", ("GSTIFF", "HHT", "RADAU", "ABAM"))
+@pytest.mark.parametrize(("half", "v"), [(0.01, 10.0), (0.003, -10.0)])
+def test_a_window_on_a_rail(formula, half, v, unit, length, aside):
+    """The same on a rail, whose constraint hands round-off of places on to velocities: 5 m along it
+    and up to 40 m beside it, in metres and in millimetres.
+    """
+    deck = f"""Rail
+UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH={length}, TIME=SECOND
+PART/1, GROUND
+MARKER/1, PART=1, QP=0,{aside * unit},0, REULER=90D,90D,0
+MARKER/4, PART=1
+PART/2, MASS=1, CM=2, IP=1,1,1, QG=0,{aside * unit},0, VX={v * unit}
+MARKER/2, PART=2, REULER=90D,90D,0
+JOINT/1, TRANSLATIONAL, I=2, J=1
+VFORCE/1, I=2, J_PART=1, RM=4
+, FX=IF(ABS(ABS(DX(2,4,4))-{5 * unit})-{half * unit}:{-np.sign(v) * 10 / half},0,0)
+END
+"""
+    last = done(deck, 1.0, 10, integrator=formula, error=1e-6)
+    assert last["PART/2.vx"][-1] / unit == approx(np.sign(v) * sqrt(60.0), abs=1e-4)
+
+
 @pytest.mark.parametrize("steps", [10, 100, 1000])
 @pytest.mark.parametrize("formula", FORMULAS)
 @pytest.mark.parametrize(("force", "v", "exact"), SMOOTH)

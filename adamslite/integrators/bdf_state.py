@@ -59,9 +59,9 @@ def first_step(P: Problem, w: int) -> float:
     """A step whose first-order error is a tenth of ERROR, judged by the accelerations."""
     n = P.sizes[N]
     tol = P.settings[ERROR]
-    fastest, reach = 0.0, 1.0
+    fastest, reach, speed = 0.0, 1.0, 1.0
     for i in range(n):
-        reach = max(reach, abs(P.q[i]))
+        reach, speed = max(reach, abs(P.q[i])), max(speed, abs(P.u[i]))
         fastest = max(
             fastest, abs(P.a[i]) / max(1.0, abs(P.u[i])), abs(P.u[i]) / max(1.0, abs(P.q[i]))
         )
@@ -75,10 +75,11 @@ def first_step(P: Problem, w: int) -> float:
         return min(h, P.settings[H_INIT])
     if P.settings[H_MIN] >= 0.05 * h:
         return min(h, P.settings[H_MIN])
-    # Below this step round-off of positions alone, which constraints hand on to the velocities,
-    # would exceed ERROR there.
+    # Constraints hand round-off of positions, 1e-14 of the longest, on to the velocities: reach/h
+    # times as much, which is below ERROR of the fastest for steps above this.  In other units of
+    # length both, reach and speed, are others: the step is the same.
     stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
-    noise = 1e-14 * reach / tol if stabilised else 0.0
+    noise = 1e-14 * reach / (tol * speed) if stabilised else 0.0
     noise = max(noise, P.settings[H_MIN])
     return min(0.05 * h, max(noise, tol**0.5 / max(fastest, 1e-12) * 0.3))
 
@@ -101,7 +102,8 @@ def too_small(P: Problem) -> bool:
     """
     C = P.control
     failed = C[RETRIES] > 0.0 or C[NORM] > 0.0
-    return C[H] < (P.settings[H_MIN] if failed else least_step(P))
+    # A step cut to HMIN is HMIN but for its last digit.
+    return C[H] < (1.0 - 1e-12) * (P.settings[H_MIN] if failed else least_step(P))
 
 
 @native
