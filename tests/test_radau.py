@@ -25,6 +25,7 @@ from scipy.special import ellipk
 import adamslite as al
 from adamslite.integrators import linalg_complex, radau_coefficients
 from adamslite.ordering import analyse
+from adamslite.outcomes import Outcome
 
 # theta'' = -m g L/(m L^2 + J) cos(theta), J about z.
 RATE = MASS * GRAVITY * LENGTH / (MASS * LENGTH**2 + INERTIA)
@@ -199,3 +200,62 @@ def test_redundant_rows_are_left_out():
     twice = PENDULUM.replace("END", "JOINT/2, REVOLUTE, I=3, J=1\nEND")
     one, two = (radau(deck, 1.0, 10, error=1e-8) for deck in (PENDULUM, twice))
     np.testing.assert_allclose(two["PART/2.y"], one["PART/2.y"], atol=1e-8)
+
+
+# ---- crossings that lie just behind the end of a step --------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def swing_with_stops():
+    """A pendulum with added mass between a spring that pushes and one that holds from below."""
+    deck = """Swing with stops
+UNITS/SYSTEM=MKS
+ACCGRAV/JGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/4, PART=1
+PART/2, MASS=1, CM=2, IP=.1,.1,.1, QG=1,0,0
+MARKER/2, PART=2
+MARKER/3, PART=2, QP=-1,0,0
+JOINT/1, REVOLUTE, I=3, J=1
+VFORCE/1, I=2, J_PART=1, RM=4, FX=0.3*ACCX(2)-MAX(0,DX(2)-.3)*500
+, FY=0.3*ACCY(2)+IF(DY(2)+.5:-2000*(DY(2)+.5),0,0)
+END
+"""
+    return al.compile_model(al.assemble(al.read(deck)))
+
+
+@pytest.mark.parametrize("error", [k * 1e-10 for k in range(100, 140, 3)])
+def test_no_step_to_a_crossing_is_lost_in_round_off(swing_with_stops, error):
+    """Steps to a crossing end 1e-9 of their size before it, rarely or often, as ERROR has it."""
+    exact = al.simulate(swing_with_stops, integrator="ABAM", error=1e-12, end=1.5, steps=5)
+    last = al.simulate(swing_with_stops, integrator="RADAU", error=error, end=1.5, steps=5)
+    assert last.outcome is Outcome.DONE, last.message
+    for name in ("PART/2.x", "PART/2.vx"):
+        assert last[name][-1] == pytest.approx(exact[name][-1], abs=1e-5)
+
+
+@pytest.mark.parametrize(("unit", "length"), [(1.0, "METER"), (1000.0, "MILLIMETER")])
+@pytest.mark.parametrize("far", [10.0, 1e3, 1e5])
+def test_crossings_far_from_the_origin(far, unit, length):
+    """A push that begins at a place: round-off of places as long as ``far``, over a step as short
+    as what is lacking to the crossing, must not show in the velocities.
+    """
+    deck = f"""Two arms
+UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH={length}, TIME=SECOND
+ACCGRAV/JGRAV={-9.81 * unit}
+PART/1, GROUND
+MARKER/1, PART=1, QP={far * unit},{far * unit},0
+MARKER/9, PART=1
+PART/2, MASS=1, CM=2, IP={3 * (f"{0.1 * unit**2},")} QG={(far + 0.5) * unit},{far * unit},0
+MARKER/2, PART=2
+MARKER/3, PART=2, QP={-0.5 * unit},0,0
+JOINT/1, REVOLUTE, I=3, J=1
+VFORCE/1, I=2, J_PART=1, RM=9, FY=IF(DX(2)-{(far + 0.3) * unit}:20,0,0)
+END
+"""
+    compiled = al.compile_model(al.assemble(al.read(deck)))
+    exact = al.simulate(compiled, integrator="ABAM", error=1e-10, end=1.0, steps=10)
+    last = al.simulate(compiled, integrator="RADAU", error=1e-6, end=1.0, steps=10)
+    assert last.outcome is Outcome.DONE, last.message
+    assert last["PART/2.vx"][-1] / unit == pytest.approx(exact["PART/2.vx"][-1] / unit, abs=1e-6)

@@ -80,13 +80,19 @@ from adamslite.integrators.bdf_state import (
 )
 from adamslite.integrators.equations import track
 from adamslite.integrators.event_guards import crawls, hold_watch, keep_margins
-from adamslite.integrators.event_places import FREED, HUNT
+from adamslite.integrators.event_places import CUT, FREED, HUNT
 from adamslite.integrators.event_search import ends_there, shorter, starts_there
 from adamslite.integrators.event_stops import horizon, longest_step, set_pace
 from adamslite.integrators.events import happened, start_events
 from adamslite.integrators.radau_corrector import QUICK, after_failed_stages, solve_stages
 from adamslite.integrators.radau_error import filtered_error
-from adamslite.integrators.radau_events import locate_in_stages, move_past, switch_behind
+from adamslite.integrators.radau_events import (
+    falls_short,
+    is_at_crossing,
+    locate_in_stages,
+    move_past,
+    switch_behind,
+)
 from adamslite.integrators.radau_stages import (
     ORIGIN,
     collocated,
@@ -99,6 +105,8 @@ from adamslite.integrators.radau_state import (
     KNOWN,
     LAST_NORM,
     LAST_SIZE,
+    LENGTHENED,
+    PASSED,
     THETA,
     TO_TARGET,
     TURNS,
@@ -179,6 +187,8 @@ def try_radau(P: Problem, L: Plan) -> int:
     if not norm < 1e12:
         return NOT_FINITE
     if norm > 1.0:
+        if is_at_crossing(P, norm):
+            return switch_behind(P, L)
         take_shorter(P, norm)
         return RUNNING
     if P.sizes[IMPLICIT_MASS]:
@@ -212,7 +222,11 @@ def finish_stages(P: Problem, L: Plan, norm: float) -> int:
         if not ends_there(P):
             if starts_there(P):
                 return switch_behind(P, L)
+            if P.search[CUT] > 1.0:
+                P.control[PASSED] = max(P.control[PASSED], P.control[H])
             P.control[H] = shorter(P)
+            return RUNNING
+        if falls_short(P):
             return RUNNING
     return accept_stages(P, L, norm)
 
@@ -292,8 +306,21 @@ def choose_step(P: Problem, norm: float) -> None:
     C[AGE] += 1.0
     if C[THETA] > QUICK:
         C[KNOWN] = 0.0
-    if factor < 1.0 or min(factor * h, longest_step(P)) > KEEP_GROWTH * h:
+    if C[PASSED] > h:
+        resume(P)
+    elif factor < 1.0 or min(factor * h, longest_step(P)) > KEEP_GROWTH * h:
         C[H] *= cut(P, factor)
+    C[PASSED], C[LENGTHENED] = 0.0, 0.0
+
+
+@native
+def resume(P: Problem) -> None:
+    """A step shortened to a crossing ends, maybe, just before it: the next is the rest of the one
+    that has passed its test.  Derivatives of a step this short, and its error, are round-off.
+    """
+    C = P.control
+    C[H] = max(C[PASSED] - C[H], C[H])
+    C[H_LAST], C[LAST_SIZE] = 0.0, 0.0
 
 
 @native

@@ -23,6 +23,7 @@ from adamslite.integrators.base import (
     NS,
     NV,
     RESTARTS,
+    WATCHED,
     M,
     N,
     Plan,
@@ -38,11 +39,25 @@ from adamslite.integrators.bdf_state import (
     first_step,
     keep_algebraic,
 )
+from adamslite.integrators.event_guards import look
 from adamslite.integrators.event_harmless import take_harmless
-from adamslite.integrators.event_places import JUMP, OPEN, SHARE
-from adamslite.integrators.event_search import judge, open_search
+from adamslite.integrators.event_places import (
+    CUT,
+    END,
+    FOUND,
+    HUNT,
+    INSIDE,
+    JUMP,
+    NONE,
+    OPEN,
+    SHARE,
+    SIZE,
+    TOLERANCE,
+)
+from adamslite.integrators.event_search import CLOSE, judge, open_search
 from adamslite.integrators.events import change_here, pass_event
 from adamslite.integrators.radau_coefficients import REAL
+from adamslite.integrators.radau_corrector import round_off
 from adamslite.integrators.radau_stages import (
     ORIGIN,
     RATES,
@@ -51,8 +66,20 @@ from adamslite.integrators.radau_stages import (
     quadratic,
     stage_z,
 )
-from adamslite.integrators.radau_state import CAUTIOUS, KNOWN, LAST_SIZE, put_end, stand_at_start
+from adamslite.integrators.radau_state import (
+    CAUTIOUS,
+    KNOWN,
+    LAST_SIZE,
+    LENGTHENED,
+    PASSED,
+    put_end,
+    stand_at_start,
+)
 from adamslite.translate import native
+
+# A step to a crossing that ends before it by less than this share is taken again, longer, but not
+# more often than MOST_LENGTHENED.
+BEYOND, MOST_LENGTHENED = 1e-4, 3.0
 
 
 @native
@@ -84,8 +111,46 @@ def put_inside(P: Problem, t: float, h: float, x: float) -> None:
 
 
 @native
+def falls_short(P: Problem) -> bool:
+    """Whether a step to a crossing ends just before it: then it is taken again, longer by what it
+    lacks.
+
+    A step to the crossing from there would be so short that round-off of positions, over its size,
+    spoils velocities.  What is lacking is read from the guards at the end and a little beyond,
+    where the polynomial of the step goes on.
+    """
+    S, C, count, share = P.search, P.control, P.sizes[WATCHED], NONE
+    if S[HUNT] == 0.0 or min(S[FOUND], S[CUT]) <= 1.0 or C[LENGTHENED] >= MOST_LENGTHENED:
+        return False
+    put_inside(P, C[NOW], C[H], 1.0 + BEYOND)
+    look(P, INSIDE)
+    put_end(P)
+    for k in range(count):
+        before, after = P.margin[END * count + k], P.margin[INSIDE * count + k]
+        if before >= 0.0 and after < 0.0:
+            share = min(share, before / (before - after))
+    if share > 1.0:
+        return False
+    C[H] += BEYOND * share * C[H] + 0.5 * S[TOLERANCE]
+    C[LENGTHENED] += 1.0
+    return True
+
+
+@native
+def is_at_crossing(P: Problem, norm: float) -> bool:
+    """Whether the step to a crossing is so short that the last digits of positions make up its
+    error, though a longer one from the same start has passed the test: the crossing is here.
+    """
+    S, C = P.search, P.control
+    if C[H] > CLOSE * C[PASSED] or S[FOUND] > 1.0 or S[FOUND] * S[SIZE] > C[H]:
+        return False
+    return norm * P.settings[ERROR] <= round_off(P)
+
+
+@native
 def switch_behind(P: Problem, L: Plan) -> int:
     """A branch changes just behind the start of the step: change it there and begin anew."""
+    P.control[PASSED], P.control[LENGTHENED] = 0.0, 0.0
     stand_at_start(P)
     if not change_here(P, L, P.control[NOW]):
         return NEWTON_FAILED

@@ -9,8 +9,10 @@ from adamslite.integrators.equations import BODY, PART
 from adamslite.integrators.radau_stages import ORIGIN, stage_z
 from adamslite.translate import native
 
-# Places in P.control after those of the BDF.
-THETA, TURNS, LAST_NORM, LAST_SIZE, CAUTIOUS, KNOWN, TO_TARGET = range(18, 25)
+# Places in P.control after those of the BDF.  PASSED: the step that has passed its error test from
+# where the run stands, and was taken again, shorter, to end at a crossing; LENGTHENED: how often
+# that one then was taken again, longer, because it ended before the crossing.
+THETA, TURNS, LAST_NORM, LAST_SIZE, CAUTIOUS, KNOWN, TO_TARGET, PASSED, LENGTHENED = range(18, 27)
 
 
 @native
