@@ -16,7 +16,7 @@ from adamslite.elimination import Elimination
 from adamslite.engine import INTEGRATORS, address_table, engine, ints, reals
 from adamslite.faults import UsageError
 from adamslite.integrators import base
-from adamslite.integrators.event_places import PLACES
+from adamslite.integrators.event_places import MARGIN_ROWS, PLACES
 from adamslite.model import PART, Model
 
 # Moves of the assembly below this are round-off.
@@ -58,7 +58,7 @@ class System(Elimination):
         if self.kind.size:
             self.W = np.zeros(self.nw + self.kind.size)
         self.guard = np.zeros(self.W.size)
-        self.margin = np.zeros(11 * len(self.guarded["watch"]))
+        self.margin = np.zeros(MARGIN_ROWS * len(self.guarded["watch"]))
         self.zone = np.zeros(5 * len(self.guarded["zone"]))
         self.stops, self.search, self.pattern = np.zeros(1), np.zeros(PLACES), ints([])
         self.broken, self.hurried = None, []

@@ -7,6 +7,8 @@ At the share x of a step, with values a, b and rates r, s per step,
 A margin that is positive at both ends was negative in between where p dips below zero; so near to
 zero that p cannot tell, the dense output is asked, and also where the tangents at both ends meet
 below zero: a distance between markers that pass each other is no cubic but almost a kink there.
+Where p fails to predict what is found inside, the step is looked at window by window
+(:mod:`adamslite.integrators.event_windows`).
 The place D within the zone of a smooth step follows the same cubic: a step that touches the zone
 0 < D < 1 may change D by a share of it, or it would pass a force without having felt it.
 
@@ -24,13 +26,9 @@ from adamslite.integrators.base import (
     ZONES,
     Problem,
 )
-from adamslite.integrators.event_guards import is_taken
 from adamslite.integrators.event_places import (
-    EARLY,
     END,
     INSIDE,
-    LATE,
-    LOOKED,
     NONE,
     SIZE,
     SPAN,
@@ -70,19 +68,6 @@ def rates(P: Problem, row: int, target: int, zone_target: int) -> None:
         )
     for k in range(zones):
         P.zone[zone_target * zones + k] = w * (P.zone[row * zones + k] - P.zone[INSIDE * zones + k])
-
-
-@native
-def next_dip(P: Problem) -> float:
-    """Share of the step of the first dip behind those looked at; ``NONE`` where there is none."""
-    count, h, first = P.sizes[WATCHED], P.search[SIZE], NONE
-    for k in range(count):
-        a, b = P.margin[START * count + k], P.margin[END * count + k]
-        r, s = h * P.margin[EARLY * count + k], h * P.margin[LATE * count + k]
-        swing = abs(r) + abs(s)
-        if min(a, b) < DEEPEST * swing and (b >= 0.0 or s < 0.0) and not is_taken(P, k):
-            first = min(first, dip(a, b, r, s, P.search[LOOKED]))
-    return first
 
 
 @native

@@ -26,8 +26,12 @@ from adamslite.integrators.event_places import (
     LATE,
     LET_GO,
     LOOSE,
+    PAST,
+    PAST_RATE,
+    PAST_SIZE,
     RATED,
     SINCE,
+    SIZE,
     START,
     STRICT,
     TAKEN,
@@ -163,7 +167,7 @@ def look(P: Problem, row: int) -> int:
 @native
 def look_at_start(P: Problem) -> None:
     """The workspace's state is the start of the next step, with rates that are not known."""
-    P.search[TAKEN], P.search[KNOWN] = 0.0, 0.0
+    P.search[TAKEN], P.search[KNOWN], P.search[PAST_SIZE] = 0.0, 0.0, 0.0
     look(P, START)
 
 
@@ -179,6 +183,9 @@ def keep_margins(P: Problem) -> None:
     S, zones = P.search, P.sizes[ZONES]
     if P.sizes[WATCHED] + zones == 0:
         return
+    copy_margins(P, START, PAST)
+    copy_margins(P, EARLY, PAST_RATE)
+    S[PAST_SIZE] = S[SIZE] if S[KNOWN] != 0.0 else 0.0
     copy_margins(P, END, START)
     copy_margins(P, LATE, EARLY)
     for k in range(zones):

@@ -9,7 +9,7 @@ Reference: Oliveira, Takahashi, ACM Trans. Math. Softw. 47 (2021) 5 (ITP, the br
 from __future__ import annotations
 
 from adamslite.integrators.base import ERROR, WATCHED, Problem
-from adamslite.integrators.event_dips import LITTLE, next_dip, rates, share_into_zones
+from adamslite.integrators.event_dips import LITTLE, rates, share_into_zones
 from adamslite.integrators.event_guards import copy_margins, let_go, look, take_up, turn_back
 from adamslite.integrators.event_places import (
     AGAIN,
@@ -36,6 +36,7 @@ from adamslite.integrators.event_places import (
     OPEN,
     RATE_BEFORE,
     RATE_BEHIND,
+    RATE_RIGHT,
     RATED,
     SHARE,
     SIZE,
@@ -44,18 +45,29 @@ from adamslite.integrators.event_places import (
     TAKEN,
     TOLERANCE,
     WHOLE,
+    WINDOW_HIGH,
+    WINDOW_LOW,
     ZONE_EARLY,
     ZONE_LATE,
 )
 from adamslite.integrators.event_stops import least_step
+from adamslite.integrators.event_windows import (
+    MOST_LOOKS,
+    end_window_here,
+    is_expected,
+    is_trusted,
+    left_row,
+    next_dip,
+    next_window,
+    open_window,
+    rates_at_right,
+)
 from adamslite.translate import native
 
 # An event is met when the step ends behind it by less than this share of the step in which it was
 # seen, or this multiple of ERROR.
 CLOSE, CLOSE_ERROR = 1e-6, 0.01
 TIME_ROUND_OFF = 4e-15
-# Looks at dips of guards in one step.
-MOST_LOOKS = 6.0
 
 
 @native
@@ -64,7 +76,7 @@ def open_search(P: Problem, t: float, h: float) -> None:
     S = P.search
     S[OPEN], S[SHARE], S[STAGE], S[TAKEN] = 1.0, 1.0 - LITTLE, RATE_BEHIND, 0.0
     S[FOUND], S[CUT], S[SIZE], S[LOW], S[HIGH] = NONE, NONE, h, 0.0, NONE
-    S[LOOKS], S[LOOKED] = 0.0, 0.0
+    S[LOOKS], S[WINDOW_LOW] = 0.0, 0.0
     S[AGAIN] = S[LET_GO]
     take_up(P)
     if S[HUNT] != 0.0 and t >= S[HUNT_END]:
@@ -81,8 +93,9 @@ def open_search(P: Problem, t: float, h: float) -> None:
 def open_bracket(P: Problem, share: float, row: int) -> None:
     """A branch has changed somewhere before ``share``, where margins stand in a row."""
     S = P.search
-    S[HIGH], S[FOUND], S[BUDGET], S[STAGE] = share, share, share, BRACKET
-    copy_margins(P, START, LOW_ROW)
+    S[HIGH], S[FOUND], S[BUDGET], S[STAGE] = share, share, share - S[WINDOW_LOW], BRACKET
+    S[LOW] = S[WINDOW_LOW]
+    copy_margins(P, left_row(P), LOW_ROW)
     copy_margins(P, row, HIGH_ROW)
     S[SHARE] = next_share(P)
 
@@ -109,28 +122,53 @@ def judge(P: Problem) -> None:
         choose(P)
     elif S[STAGE] == BRACKET:
         narrow(P, found)
-    elif found:
-        open_bracket(P, S[SHARE], INSIDE)
     else:
-        S[LOOKED] = S[SHARE]
-        choose(P)
+        S[LOOKS] += 1.0
+        if found:
+            open_bracket(P, S[SHARE], INSIDE)
+        else:
+            look_further(P)
     if S[OPEN] == 0.0 and S[TAKEN] != 0.0 and min(S[FOUND], S[CUT]) <= 1.0:
         turn_back(P)
 
 
 @native
 def choose(P: Problem) -> None:
-    """Rates are known: a shorter step where a zone asks for it, the next dip, the bracket of what
-    has changed at the end, or the end of the search.
-    """
+    """Rates are known: a shorter step where a zone asks for it, else a look at the guards."""
+    P.search[CUT] = share_into_zones(P)
+    if P.search[CUT] > 1.0 and P.sizes[WATCHED] > 0:
+        open_window(P)
+        if is_expected(P):
+            pass_window(P)
+    else:
+        P.search[OPEN] = 0.0
+
+
+@native
+def look_further(P: Problem) -> None:
+    """Nothing is below zero at the present share: where to look next, or the end of the search."""
     S = P.search
-    if S[LOOKS] == 0.0:
-        S[CUT] = share_into_zones(P)
-    share = next_dip(P) if S[LOOKS] < MOST_LOOKS and S[CUT] > 1.0 else NONE
-    S[LOOKS] += 1.0
+    if S[STAGE] == RATE_RIGHT:
+        rates_at_right(P)
+    elif not is_trusted(P):
+        end_window_here(P)
+    else:
+        if S[STAGE] == DIP:
+            S[LOOKED] = S[SHARE]
+        pass_window(P)
+
+
+@native
+def pass_window(P: Problem) -> None:
+    """The next dip in the window, the next window, the bracket of what has changed at the end of
+    the step, or the end of the search.
+    """
+    S, share = P.search, next_dip(P)
     if share < 1.0:
         S[SHARE], S[STAGE] = share, DIP
-    elif S[HIGH] == 1.0 and S[CUT] > 1.0:
+    elif S[WINDOW_HIGH] < 1.0 and S[LOOKS] < MOST_LOOKS:
+        next_window(P)
+    elif S[HIGH] == 1.0:
         open_bracket(P, 1.0, END)
     else:
         S[OPEN] = 0.0
