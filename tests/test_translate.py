@@ -197,12 +197,20 @@ MARKER/2, POINT_MASS=2
 DIFF/1, FUNCTION=235*(0.5*SIN(14*TIME)-DIF(1))
 END
 """
+# A step would pass a zone of 1 mm as a whole.
+PASSES = f"""{GROUND}\
+POINT_MASS/2, MASS=1, CM=2, VX=1
+MARKER/2, POINT_MASS=2
+VFORCE/1, I=2, J_PART=1, FX=STEP(DX(2),0.25,0,0.251,1)
+END
+"""
 RUNS = {
     f"{name} {method}": (deck, method) for name, deck in DECKS.items() for method in INTEGRATORS
 }
 RUNS |= {
     "steady": (PENDULUM.replace("END", "INTEGRATOR/HINIT=0.02\nEND"), "CONSTANT_BDF"),
     "rubs": (RUBS, "RADAU"),
+    "passes": (PASSES, "RADAU"),
     "asked": (
         PENDULUM.replace("END", "INTEGRATOR/CORRECTOR=ORIGINAL, INTERPOLATE=OFF, PATTERN=T:F\nEND"),
         "GSTIFF",
