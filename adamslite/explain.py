@@ -111,6 +111,8 @@ def _singular_mass(system: System) -> str:
     if system.nz > MOST_SEARCHED:
         return told
     matrix, kept = _acceleration_matrix(system)
+    if not np.isfinite(matrix).all():
+        return told
     scale = _inertias(system)[kept] ** -0.5
     loosest = np.linalg.svd(scale[:, None] * matrix * scale)[2][-1]
     inert = kept[int(np.abs(np.where(np.array(kept) < system.n, loosest, 0.0)).argmax())]

@@ -66,12 +66,13 @@ def test_the_coordinate_that_loses_its_inertia_is_named(method):
 def test_a_pole_beside_a_force_of_accelerations_is_not_a_lost_mass(method):
     """The added mass 0.5 adds, and does not cancel; beside it a wheel, whose joint has no pivots.
 
-    x" = 1/(0.707.. - t)^2/10.5, driven past its pole.
+    x" = 1/(0.707.. - t)^2/10.5, driven past its pole: whether the error test or the corrector gives
+    up first there is a matter of rounding.
     """
     wheel = "PART/3, MASS=1, CM=3, IP=1,1,1\nMARKER/3, PART=3\nJOINT/3, REVOLUTE, I=3, J=1\n"
     force = "VFORCE/7, I=2, J_PART=1, FX=-0.5*ACCX(2)+1/(SQRT(0.5)-TIME)**2\nEND\n"
     results = run(with_integrator(FALLING + wheel + force, method), 2.0, 20)
-    assert results.outcome is Outcome.STEP_TOO_SMALL
+    assert results.outcome in (Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED)
     assert results.summary["t_end"] == pytest.approx(0.5**0.5, abs=1e-3)
 
 

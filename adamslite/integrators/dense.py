@@ -12,6 +12,8 @@ from __future__ import annotations
 from adamslite.translate import Alone, Ints, Reals, native
 
 TINY = 1e-300
+# Share of the largest entry of its row below which a pivot is round-off.
+NOISE = 1e-15
 WIDTH = 4
 
 
@@ -140,7 +142,8 @@ def negative_pivots(A: Reals, o: int, s: int, work: Reals, found: Reals, at: int
     """Negative pivots of a block eliminated without pivoting; the pivots go to ``found``.
 
     Their number is the signature when the matrix is symmetric (Sylvester) and changes when it
-    becomes singular.  A pivot of zero eliminates nothing.
+    becomes singular.  A pivot of zero eliminates nothing, nor does one that is round-off of its row
+    (the inertia of a rod about its own axis, turned): what it would leave of the others is noise.
     """
     n = coupled(A, o, s)
     for i in range(n * s):
@@ -149,7 +152,11 @@ def negative_pivots(A: Reals, o: int, s: int, work: Reals, found: Reals, at: int
         found[at + k] = 1.0
     count = 0
     for k in range(n):
-        pivot = work[k * s + k]
+        pivot, top = work[k * s + k], 0.0
+        for j in range(k + 1, n):
+            top = max(top, abs(work[k * s + j]))
+        if abs(pivot) <= NOISE * top:
+            pivot = 0.0
         found[at + k] = pivot
         if pivot < 0.0:
             count += 1
