@@ -5,15 +5,21 @@ Tests are in two tiers: those marked `numerical` may depend on how a processor r
 for several; the others read, check and write texts.
 """
 
+from __future__ import annotations
+
 import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from adamslite.caching import entries, folder
 from adamslite.places import find
+
+if TYPE_CHECKING:
+    from fakes import Pipeline
 
 sys.path.append(str(find("decks") / "cables"))
 
@@ -66,3 +72,16 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     yield chosen.resolve()
     folder._settled.cache_clear()
     folder._private.cache_clear()
+
+
+@pytest.fixture
+def pipeline(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Pipeline:
+    """An empty folder with cable.adm as current directory, and a pipeline that solves nothing."""
+    import fakes
+
+    monkeypatch.chdir(tmp_path)
+    Path("cable.adm").write_text("a cable\nEND\n")
+    parts = (fakes.Named("PART"), fakes.Named("PART"))
+    fake = fakes.Pipeline(statements=(*parts, fakes.SIMULATE))
+    fakes.install(monkeypatch, fake)
+    return fake

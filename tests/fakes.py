@@ -11,6 +11,7 @@ import pytest
 
 import adamslite
 from adamslite.deck import Commands
+from adamslite.diagnostics import Diagnostic, Span
 from adamslite.outcomes import Outcome
 from adamslite.results import Results
 
@@ -67,6 +68,10 @@ class Named:
     keyword: str
     n_rows: int = 0
     ground: bool = False
+
+
+SIMULATE = Named("SIMULATE")
+ERROR = Diagnostic("E1", "error", "there is no MARKER/7", Span("cable.adm", 2, 4, 2, 5))
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from frame_constraints import any_rotation
 from newton_euler import Frame
-from random_mechanisms import SYSTEMS, Mechanism, _add_body, _place, _start, any_rotation, text
+from random_mechanisms import SYSTEMS, Mechanism, _add_body, _place, _start, text
 
 import adamslite as al
 

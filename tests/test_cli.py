@@ -4,12 +4,11 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 import pytest
-from fakes import Named, Pipeline, fall, install, stopped
+from fakes import ERROR, SIMULATE, Named, fall, install, stopped
 
 import adamslite
 from adamslite.cli import main
@@ -23,8 +22,6 @@ from adamslite.session import Session
 WARNING = Diagnostic(
     "W1", "warning", "the effective mass is m0 - Dm", Span("cable.adm", 3, 1, 3, 7), "use minus"
 )
-ERROR = Diagnostic("E1", "error", "there is no MARKER/7", Span("cable.adm", 2, 4, 2, 5))
-SIMULATE = Named("SIMULATE")
 FALLING = """\
 a falling mass
 PART/1, GROUND
@@ -32,16 +29,6 @@ POINT_MASS/2, MASS=1
 ACCGRAV/JGRAV=-9.81
 END
 """
-
-
-@pytest.fixture
-def pipeline(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Pipeline:
-    """An empty folder with cable.adm as current directory, and a pipeline that solves nothing."""
-    monkeypatch.chdir(tmp_path)
-    Path("cable.adm").write_text("a cable\nEND\n")
-    fake = Pipeline(statements=(Named("PART"), Named("PART"), SIMULATE))
-    install(monkeypatch, fake)
-    return fake
 
 
 def test_results_go_to_the_decks_name_in_the_current_directory(pipeline, capsys) -> None:
@@ -248,130 +235,6 @@ def test_an_interruption_before_there_are_results(pipeline, capsys, monkeypatch)
     install(monkeypatch, pipeline)
     assert main(["solve", "cable.adm"]) == 4
     assert capsys.readouterr().err == "adamslite: interrupted\n"
-
-
-def test_diff_of_two_files(pipeline, capsys) -> None:
-    results = fall()
-    results.save("b.csv")
-    results.values[3:, 0] += 1e-4
-    results.save("a.csv")
-    assert main(["diff", "a.csv", "a.csv"]) == 0
-    assert "2 compared, all within their tolerances" in capsys.readouterr().out
-    assert main(["diff", "a.csv", "b.csv"]) == 1
-    table = capsys.readouterr().out.splitlines()
-    assert table[1].split() == ["PART/2.x", "1.000e-04", "1.500e-06", "0.3", "0.3"]
-    assert table[-1] == "2 compared, 1 outside its tolerance"
-    assert main(["diff", "a.csv", "b.csv", "--tol", "1e-3"]) == 0
-    assert main(["diff", "a.csv", "b.csv", "--tol", "abs 1e-3"]) == 0
-    assert main(["diff", "a.csv", "b.csv", "--tol", "rel"]) == 2
-
-
-def test_diff_uses_the_tolerances_of_the_reference(pipeline, capsys) -> None:
-    fall().save("a.csv")
-    Path("b.csv").write_text("# tolerance: abs 1e-3\ntime,PART/2.x\n0.5,0.1255\n")
-    assert main(["diff", "a.csv", "b.csv"]) == 0
-    Path("b.csv").write_text("time,PART/2.x\n0.55,0.15125\n")
-    assert main(["diff", "a.csv", "b.csv"]) == 1
-    assert "different: t = 0.55 is not an output time" in capsys.readouterr().out
-    assert main(["diff", "a.csv", "b.csv", "--interpolate", "cubic"]) == 0
-
-
-def test_verify_prints_one_line_each(pipeline, capsys) -> None:
-    Path("reference.csv").write_text("# tolerance: abs 1e-3\ntime,PART/2.x\n1,0.5\n")
-    Path("reference-bad.csv").write_text("# tolerance: abs 1e-3\ntime,PART/2.x\n1,0.6\n")
-    assert main(["verify", "."]) == 1
-    lines = capsys.readouterr().out.splitlines()
-    assert lines[0].startswith("ok    0.00  ") and lines[1].startswith("FAIL 100.00  ")
-    told = "1 of 2 references met; the largest share of a tolerance is 100.00, in "
-    assert lines[2].startswith(told)
-    Path("reference-bad.csv").unlink()
-    assert main(["verify", "cable.adm"]) == 0
-    Path("reference.csv").unlink()
-    assert main(["verify", "cable.adm"]) == 2
-
-
-def test_verify_shares_decks_among_processes(tmp_path: Path, capsys) -> None:
-    """Two decks that hold still, each with a reference that is off by 0.5 mm of 2 mm."""
-    reference = "# tolerance: abs 2e-3\n# measure: last POINT_MASS/2.x = 1.0005 tol abs 2e-3\n"
-    for name in ("a", "b"):
-        (tmp_path / f"{name}.adm").write_text(
-            "Stays\nPART/1, GROUND\nPOINT_MASS/2, MASS=1, QG=1,0,0, CM=2\n"
-            "MARKER/2, POINT_MASS=2\nSIMULATE/DYNAMICS, END=1, STEPS=1\nEND\n"
-        )
-        (tmp_path / f"{name}.reference.csv").write_text(reference)
-    assert main(["verify", str(tmp_path), "-j", "2"]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    assert [line[:12] for line in lines[:2]] == 2 * ["ok    0.25  "]
-    assert main(["verify", str(tmp_path), "-j", "1", "--share", "0.3"]) == 0
-    assert main(["verify", str(tmp_path), "-j", "1", "--share", "0.2"]) == 1
-    assert capsys.readouterr().out.splitlines()[-1].startswith("0 of 2 references met")
-    assert [line.split()[2].rpartition("/")[2] for line in lines[:2]] == ["a", "b"]
-    assert lines[2].endswith(
-        f"2 references met; the largest share of a tolerance is 0.25, in {tmp_path.name}/a"
-    )
-
-
-def test_verify_reports_a_broken_deck_and_goes_on(pipeline, capsys) -> None:
-    pipeline.diagnostics = (ERROR,)
-    Path("reference.csv").write_text("# tolerance: abs 1e-3\ntime,PART/2.x\n1,0.5\n")
-    assert main(["verify", "."]) == 1
-    out = capsys.readouterr().out
-    assert "the deck has errors: cable.adm:2:4: there is no MARKER/7" in out
-
-
-@dataclass(frozen=True)
-class Modes:
-    """What `linearize` gives: a damped pair, a creeping mode and a free motion."""
-
-    eigenvalues: tuple[complex, ...] = (0j, -0.6 - 6j, -0.6 + 6j, -0.5 + 0j)
-    frequencies: tuple[float, ...] = (0.0, 0.95967, 0.95967, 0.0795775)
-    damping_ratios: tuple[float, ...] = (0.0, 0.0995037, 0.0995037, 1.0)
-    undamped: tuple[float, ...] = (0.0, 0.959)
-    modes: tuple[tuple[complex, ...], ...] = ((1 + 0j, 1j, -1j, 1 + 0j),)
-    state_matrix: np.ndarray = field(default_factory=lambda: np.array([[0.0, 1.0], [-1.0, 0.0]]))
-    coordinates: tuple[str, ...] = ("PART/2.x",)
-    input_matrix: np.ndarray = field(default_factory=lambda: np.array([[0.0], [1.0]]))
-    output_matrix: np.ndarray = field(default_factory=lambda: np.array([[1.0, 0.0]]))
-    feedthrough: np.ndarray = field(default_factory=lambda: np.zeros((1, 1)))
-    inputs: tuple[str, ...] = ("VARIABLE/1",)
-    outputs: tuple[str, ...] = ("VARIABLE/2",)
-    note: str = ""
-
-
-def test_linear_prints_a_table_of_modes(pipeline, capsys) -> None:
-    pipeline.linearization = Modes()
-    assert main(["linear", "cable.adm", "--time", "2"]) == 0
-    assert capsys.readouterr().out == (
-        "mode    frequency [Hz]     damping ratio              real         imaginary\n"
-        "   1                 0                 0                 0                 0\n"
-        "   2         0.0795775                 1              -0.5                 0\n"
-        "   3           0.95967         0.0995037              -0.6              +/-6\n"
-    )
-    assert pipeline.calls == [{"commands": (), "time": 2.0}]
-
-
-def test_linear_writes_the_modes_or_everything(pipeline) -> None:
-    pipeline.linearization = Modes()
-    Path("cable.acf").write_text("SIMULATE/STATICS\n")
-    assert main(["linear", "cable.adm", "-o", "a.csv"]) == 0
-    assert main(["linear", "cable.adm", "-o", "a.json"]) == 0
-    assert pipeline.calls[0] == {"commands": (SIMULATE,), "time": None}
-    head, *rows = Path("a.csv").read_text().splitlines()
-    assert head == "mode,frequency,damping_ratio,real,imaginary,pair"
-    assert rows[2] == "3,0.95967,0.0995037,-0.6,6.0,1" and len(rows) == 3
-    whole = json.loads(Path("a.json").read_text())
-    assert whole["eigenvalues"][1] == [-0.6, -6.0] and whole["coordinates"] == ["PART/2.x"]
-    assert whole["modes"] == [[[1, 0], [0, 1], [0, -1], [1, 0]]]
-    assert whole["state_matrix"] == [[0, 1], [-1, 0]]
-    assert (whole["inputs"], whole["input_matrix"]) == (["VARIABLE/1"], [[0], [1]])
-    assert (whole["outputs"], whole["output_matrix"]) == (["VARIABLE/2"], [[1, 0]])
-    assert whole["feedthrough"] == [[0]]
-
-
-@pytest.mark.parametrize("flags", [["-o", "modes.txt"], ["--time", "-1"], ["--time", "later"]])
-def test_wrong_flags_of_linear_are_usage(pipeline, flags: list[str]) -> None:
-    assert main(["linear", "cable.adm", *flags]) == 2
-    assert pipeline.calls == []
 
 
 def test_help_needs_nothing_heavy() -> None:

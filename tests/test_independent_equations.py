@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from frame_constraints import GEARS, JOINTS, PRIMITIVES, about
 from newton_euler import Frame, Tie
-from random_mechanisms import GEARS, JOINTS, PRIMITIVES, SYSTEMS, about, leaves, make, text
+from random_mechanisms import SYSTEMS, leaves, make, text
 
 import adamslite as al
 from adamslite.outcomes import Outcome

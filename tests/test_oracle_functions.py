@@ -10,8 +10,8 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from frame_constraints import about
 from oracle import Flight, Marker, projected_angles, reported, seen, velocity
-from random_mechanisms import about
 
 import adamslite as al
 from adamslite.function import FUNCTIONS

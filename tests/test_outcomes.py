@@ -10,21 +10,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from outcome_scenes import FALLING, PRINTED, WHEN, ended_early, reason, with_integrator
 from scenes import GROUND, PENDULUM, chain, done, run
 
 import adamslite as al
 from adamslite import Outcome
-from adamslite.faults import UsageError
-
-FALLING = (
-    GROUND
-    + "ACCGRAV/JGRAV=-9.81\nPOINT_MASS/2, MASS=10, CM=2\nMARKER/2, POINT_MASS=2\n"
-    + "VARIABLE/5, FUNCTION=10*TIME\n"
-)
-PRINTED = (
-    "VFORCE/7, I=2, J_PART=1, FX=VARVAL(5)*ACCX(2)+10*VX(2)\\"
-    "FY=VARVAL(5)*(ACCY(2)-JGRAV)+10*VY(2)\\FZ=VARVAL(5)*ACCZ(2)+10*VZ(2)\n"
-)
 
 
 def test_the_printed_sign_stops_where_the_mass_is_cancelled():
@@ -156,34 +146,13 @@ def test_an_interrupted_run_keeps_what_it_has(listening):
     assert re.fullmatch(rf"At {WHEN[3:]} and order \d\.", reason(results))
 
 
-# ---- what is said --------------------------------------------------------------------------------
-
-
-def said(deck: str, end: float | None = 1.0, steps: int | None = 10, **options) -> al.Results:
-    """A run that ends early: its message ends with the sentence of the outcome."""
-    results = run(deck, end, steps, **options)
-    assert results.outcome is not Outcome.DONE
-    assert results.message.endswith(f". {results.outcome.value}")
-    return results
-
-
-def reason(results: al.Results) -> str:
-    """The message without the sentence of the outcome."""
-    return results.message.removesuffix(f" {results.outcome.value}")
-
-
-def with_integrator(deck: str, arguments: str) -> str:
-    return deck.replace("END\n", f"INTEGRATOR/{arguments}\nEND\n")
-
-
 # Free, so that only its rotation has an error: that of order 1 in the first step.
 SPINNING = GROUND + "PART/2, MASS=1, CM=2, IP=1,2,3, WX=1, WY=2, WZ=1\nMARKER/2, PART=2\nEND\n"
-WHEN = r"at t = [\d.e-]+, in step \d+ of size [\d.e-]+"
 
 
 def test_a_step_too_small_names_what_the_error_test_fails_for():
     """HMIN = 0.1, and the error of order 1 is far above ERROR."""
-    results = said(with_integrator(SPINNING, "GSTIFF, ERROR=1E-6, HMIN=0.1"))
+    results = ended_early(with_integrator(SPINNING, "GSTIFF, ERROR=1E-6, HMIN=0.1"))
     assert results.outcome is Outcome.STEP_TOO_SMALL
     told = re.fullmatch(
         r"PART/2 \(<text>:4:1\), (.*): at t = 0, in step 1 of size 0\.1 \(HMIN\) and order 1, "
@@ -198,7 +167,7 @@ def test_a_step_too_small_names_what_the_error_test_fails_for():
 @pytest.mark.parametrize("method", ("GSTIFF", "GSTIFF, I3", "HHT", "RADAU"))
 def test_a_corrector_that_failed_names_equation_and_unknown(method):
     """A pendulum that swings may not iterate twice."""
-    results = said(with_integrator(PENDULUM, f"{method}, MAXIT=1, HMIN=0.1"))
+    results = ended_early(with_integrator(PENDULUM, f"{method}, MAXIT=1, HMIN=0.1"))
     assert results.outcome is Outcome.NEWTON_FAILED
     place = r"(PART/2 \(<text>:5:1\)|JOINT/1 \(<text>:8:1\)), "
     told = re.fullmatch(
@@ -215,7 +184,7 @@ def test_fixed_steps_end_where_the_corrector_fails_and_keep_what_there_was():
     """A force that grows without bound at t = 1/2, where x reaches 1."""
     deck = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=2\nMARKER/2, POINT_MASS=2\n"
     deck += "VFORCE/1, I=2, J_PART=1, FX=1E-3/(1-DX(2))**9\nEND\n"
-    results = said(with_integrator(deck, "CONSTANT_BDF, HMAX=0.01"), 1.0, 100)
+    results = ended_early(with_integrator(deck, "CONSTANT_BDF, HMAX=0.01"), 1.0, 100)
     assert results.outcome in (Outcome.NEWTON_FAILED, Outcome.NOT_FINITE)
     assert re.search(WHEN, reason(results))
     assert "POINT_MASS/2 (<text>:4:1), x" in reason(results) or "VFORCE/1" in reason(results)
@@ -227,7 +196,7 @@ def test_fixed_steps_end_where_the_corrector_fails_and_keep_what_there_was():
 def test_an_expression_without_a_value_is_named(method):
     """The root of a negative number from t = 0.5 on, in the second of two forces."""
     force = "VFORCE/6, I=2, J_PART=1, FX=3\nVFORCE/7, I=2, J_PART=1, FX=SQRT(0.5-TIME)\nEND\n"
-    results = said(FALLING + force, integrator=method)
+    results = ended_early(FALLING + force, integrator=method)
     assert results.outcome is Outcome.NOT_FINITE
     assert re.fullmatch(rf"VFORCE/7 \(<text>:9:1\): {WHEN} and order \d\.", reason(results))
     assert results.summary["t_end"] == pytest.approx(0.5, abs=1e-6)
@@ -238,7 +207,7 @@ def test_an_expression_without_a_value_is_named(method):
 def test_a_variable_without_a_root_any_more_names_equation_unknown_and_iteration(method):
     """V = V^2 + t has a root until t = 1/4 only."""
     loop = "VARIABLE/6, FUNCTION=VARVAL(6)**2+TIME\nVFORCE/7, I=2, J_PART=1, FX=VARVAL(6)\nEND\n"
-    results = said(with_integrator(FALLING + loop, method))
+    results = ended_early(with_integrator(FALLING + loop, method))
     assert results.outcome is Outcome.NEWTON_FAILED
     assert results.summary["t_end"] == pytest.approx(0.25, abs=1e-3)
     told = rf"\w+/\d \(<text>:\d:1\).*: {WHEN} and order \d, this equation is off by \S+ after "
@@ -261,56 +230,11 @@ def test_one_body_without_a_value_among_others_that_are_well(method):
     deck = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=0.2\nMARKER/2, POINT_MASS=2\n"
     deck += "POINT_MASS/3, MASS=1, CM=3, QG=0,1,0\nMARKER/3, POINT_MASS=3\n"
     deck += "VFORCE/7, I=2, J_PART=1, FX=3*SQRT(1-DX(2))\nEND\n"
-    results = said(with_integrator(deck, method), 2.0, 20)
+    results = ended_early(with_integrator(deck, method), 2.0, 20)
     assert results.outcome is Outcome.NOT_FINITE
     assert reason(results).startswith("VFORCE/7 (<text>:8:1): at t = 0.")
     assert 0.6 < results.time[-1] < 0.9
     assert np.isfinite(results.values).all()
-
-
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [({"error": 1e-300}, "ERROR too"), ({"hmax": 1e-300}, "HMAX is too short a step")],
-)
-def test_settings_out_of_all_proportion_are_told(options, told):
-    """No expression is to blame for an ERROR of 1e-300, nor accuracy for an HMAX of 1e-300."""
-    assert told in reason(said(FALLING + "END\n", **options))
-
-
-@pytest.mark.parametrize(
-    ("function", "told"),
-    [("VARVAL(6)+1", "every value of it would do, or none"), ("VARVAL(6)**2+1", "open by 1")],
-)
-def test_a_variable_that_has_no_solution_is_named(function, told):
-    results = said(FALLING + f"VARIABLE/6, FUNCTION={function}\nEND\n")
-    assert results.outcome is Outcome.UNDETERMINED
-    assert reason(results).startswith("VARIABLE/6 (<text>:8:1): at t = 0, ")
-    assert reason(results).endswith(f"{told}.")
-
-
-def test_an_expression_without_a_value_at_the_start():
-    results = said(FALLING + "VFORCE/7, I=2, J_PART=1, FX=1/TIME\nEND\n")
-    assert reason(results) == "VFORCE/7 (<text>:8:1): at t = 0, in step 1 of size 0."
-
-
-def test_accelerations_that_nothing_determines():
-    """A part without inertia, free to turn."""
-    results = said(GROUND + "PART/2, MASS=1, CM=2, IP=0,0,0\nMARKER/2, PART=2\nEND\n")
-    assert results.outcome is Outcome.UNDETERMINED
-    told = r"PART/2 \(<text>:4:1\), rotation about [xyz]: at t = 0, it is free\."
-    assert re.fullmatch(told, reason(results))
-
-
-def test_a_joint_that_cannot_close():
-    """Two points of one part, a metre apart, held at one point of the ground."""
-    second = "JOINT/2, SPHERICAL, I=2, J=1\nEND"
-    results = said(PENDULUM.replace("END", second))
-    assert results.outcome is Outcome.INITIAL_CONDITIONS_FAILED
-    told = (
-        r"JOINT/[12] \(<text>:[89]:1\), [xyz] of I - J, stays open by 0\.5\d* at position level, "
-        r"against JOINT/[12] \(<text>:[89]:1\)\."
-    )
-    assert re.fullmatch(told, reason(results))
 
 
 CRANK = """\
@@ -338,31 +262,17 @@ def test_a_mechanism_that_locks_is_not_torn_apart(method):
     The plane and the pin hold the same way there, and one row is left out; a crank that turns
     opens it by 5 - 2 cos t - 3 cos b, sin b = 2/3 sin t: above 0.01 beyond t = 0.08.
     """
-    results = said(with_integrator(GROUND + CRANK, method), 5.0, 500)
+    results = ended_early(with_integrator(GROUND + CRANK, method), 5.0, 500)
     assert results.outcome is Outcome.TORN
     assert re.match(r"JOINT/2 \(.*\), x of I - J: at t = 0\.\d+, it opens\.", reason(results))
     assert results.time[-1] < 0.5
-
-
-def test_a_kinematic_analysis_with_freedom():
-    results = said(PENDULUM.replace("END", "SIMULATE/KINEMATICS, END=1, STEPS=2\nEND"), None, None)
-    assert results.outcome is Outcome.NOT_KINEMATIC
-    assert reason(results) == "At t = 0, the model has one degree of freedom."
-
-
-def test_no_equilibrium_names_the_balance_that_fails():
-    """Nothing holds 10 kg against gravity: 98.1 N along y."""
-    results = said(FALLING + "SIMULATE/STATICS\nEND\n", None, None)
-    assert results.outcome is Outcome.NO_EQUILIBRIUM
-    expected = "POINT_MASS/2 (<text>:5:1), forces along y: at t = 0, out of balance by 98.1."
-    assert reason(results) == expected
 
 
 def test_steps_of_verlet_that_are_too_long_tell_the_longest():
     """k/m = 1e6: h <= 2/1000 but for 7 % of caution."""
     deck = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=1\nMARKER/2, POINT_MASS=2\n"
     deck += "VFORCE/1, I=2, J_PART=1, FX=-1E6*DX(2)\nEND\n"
-    results = said(with_integrator(deck, "VERLET, HINIT=0.1"))
+    results = ended_early(with_integrator(deck, "VERLET, HINIT=0.1"))
     assert results.outcome is Outcome.UNSTABLE
     assert reason(results) == (
         "At t = 0, in step 1 of size 0.1 and order 2; stable are steps up to 0.00186."
@@ -371,7 +281,7 @@ def test_steps_of_verlet_that_are_too_long_tell_the_longest():
 
 def test_a_branch_that_chatters_is_named_with_time_and_step():
     deck = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=1\nMARKER/2, POINT_MASS=2\n"
-    results = said(deck + "VFORCE/1, I=2, J_PART=1, FX=-2*SIGN(1,VX(2))\nEND\n", error=1e-7)
+    results = ended_early(deck + "VFORCE/1, I=2, J_PART=1, FX=-2*SIGN(1,VX(2))\nEND\n", error=1e-7)
     assert results.outcome is Outcome.CHATTERING
     assert re.fullmatch(rf"VFORCE/1 \(<text>:6:1\): {WHEN} and order \d\.", reason(results))
     assert results.time[-1] == pytest.approx(0.5)
@@ -383,25 +293,20 @@ def test_a_motion_that_jumps_is_named_with_time_and_quantity():
         "MOTION/1, JOINT=1, FUNCTION=IF(TIME-0.25: 0, 0, 0.5)\nPOINT_MASS/3, MASS=1, CM=3\n"
         "MARKER/3, POINT_MASS=3\n"
     )
-    results = said(deck + "END\n")
+    results = ended_early(deck + "END\n")
     assert results.outcome is Outcome.BROKEN_MOTION
     assert reason(results) == "MOTION/1 (<text>:7:1): at t = 0.25, the displacement jumps."
 
 
 def test_a_cancelled_mass_names_the_force_time_and_step():
-    results = said(FALLING + PRINTED + "END\n", 2.0, 20, error=1e-8)
+    results = ended_early(FALLING + PRINTED + "END\n", 2.0, 20, error=1e-8)
     inert = r"POINT_MASS/2 \(<text>:5:1\), [xyz], loses its inertia"
     told = rf"VFORCE/7 \(<text>:8:1\): {WHEN} and order \d\. {inert}\."
     assert re.fullmatch(told, reason(results))
 
 
-def test_without_an_end_nothing_runs():
-    with pytest.raises(UsageError, match="Nothing says how long to run"):
-        al.simulate(al.read(FALLING + "END\n"))
-
-
-def test_every_outcome_is_provoked_in_this_file():
-    text = Path(__file__).read_text(encoding="utf-8")
-    assert all(
-        f"Outcome.{each.name}" in text for each in Outcome if each is not Outcome.NO_END_TIME
-    )
+def test_every_outcome_is_provoked():
+    files = Path(__file__).parent.glob("test_outcomes*.py")
+    text = "".join(file.read_text(encoding="utf-8") for file in files)
+    others = set(Outcome) - {Outcome.DONE, Outcome.NO_END_TIME}
+    assert all(f"Outcome.{each.name}" in text for each in others)
