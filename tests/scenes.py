@@ -69,6 +69,26 @@ def added_mass(share: float) -> str:
     )
 
 
+def carriage(way: str, more: str = "") -> str:
+    """PART/2, moved along x of the ground by this function of time, and more statements."""
+    return (
+        GROUND
+        + f"""PART/2, MASS=1, CM=2, IP=1,1,1
+MARKER/2, PART=2, REULER=90D,90D,0
+MARKER/3, PART=1, REULER=90D,90D,0
+JOINT/1, TRANSLATIONAL, I=2, J=3
+MOTION/1, JOINT=1, TRANSLATION, FUNCTION={way}
+{more}END
+"""
+    )
+
+
+def options(formula: str, error: float = 1e-6) -> dict[str, Any]:
+    """Arguments of a run: a method, and behind a space its formulation."""
+    method, _, form = formula.partition(" ")
+    return {"integrator": method, "error": error} | ({"formulation": form} if form else {})
+
+
 def chain(count: int, force: str = "") -> str:
     """Point masses on springs, hanging from the ground; ``force`` with {id} acts on each."""
     lines = [GROUND, "ACCGRAV/JGRAV=-9.81"]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import GROUND, PENDULUM, SPRING, chain, run
+from scenes import GROUND, PENDULUM, SPRING, chain, options, run
 
 from adamslite.cli import main
 from adamslite.integrators import base
@@ -70,9 +70,7 @@ SWINGING = PENDULUM.replace(
 
 def audited(deck: str, end: float, steps: int, method: str, error: float = 1e-6) -> Results:
     """A run with its balance."""
-    name, _, form = method.partition(" ")
-    more = {"formulation": form} if form else {}
-    return run(deck, end, steps, integrator=name, error=error, audit=True, **more)
+    return run(deck, end, steps, audit=True, **options(method, error))
 
 
 @pytest.fixture
@@ -194,9 +192,7 @@ def test_momenta_are_not_told_where_something_external_acts():
 @pytest.mark.parametrize("deck", (SPRING, RUBBING), ids=("spring", "friction"))
 @pytest.mark.parametrize("method", METHODS)
 def test_an_audit_changes_no_number(deck, method):
-    name, _, form = method.partition(" ")
-    more = {"formulation": form} if form else {}
-    plain = run(deck, 2.0, 20, integrator=name, error=1e-5, **more)
+    plain = run(deck, 2.0, 20, **options(method, 1e-5))
     results = audited(deck, 2.0, 20, method, 1e-5)
     assert np.array_equal(plain.values, results.values)
     assert plain.balances == () and "energy" not in plain.meta

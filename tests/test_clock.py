@@ -7,7 +7,7 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 from pytest import approx
-from scenes import GROUND, done, run, system
+from scenes import GROUND, carriage, done, options, run, system
 
 from adamslite.algebra import sp
 from adamslite.analyses.clock import Clock
@@ -38,12 +38,6 @@ PULSES = {
 def pushed(force: str) -> str:
     """A mass of 1 on which a force acts along x."""
     return MASS + f"VFORCE/1, I=2, J_PART=1, FX={force}\nEND\n"
-
-
-def options(formula: str, error: float = 1e-6) -> dict:
-    """Arguments of a run: a method, with a formulation or without."""
-    method, _, form = formula.partition(" ")
-    return {"integrator": method, "error": error} | ({"formulation": form} if form else {})
 
 
 def pulse(law: str, place: float, width: float, impulse: float) -> str:
@@ -85,26 +79,13 @@ def test_a_parabola_of_two_milliseconds_in_ten_seconds(formula, steps):
 
 def test_pulses_in_a_variable_and_in_a_motion_are_found():
     """A carriage is shifted by 0.1 in 1 ms, a mass gets 1 N s in 0.2 ms at the same time."""
-    deck = (
-        (
-            GROUND
-            + """PART/2, MASS=1, CM=2, IP=1,1,1
-MARKER/2, PART=2, REULER=90D,90D,0
-MARKER/3, PART=1, REULER=90D,90D,0
-JOINT/1, TRANSLATIONAL, I=2, J=3
-MOTION/1, JOINT=1, TRANSLATION, FUNCTION=0.05*(1+TANH(VARVAL(9)/5E-4))
-VARIABLE/9, FUNCTION=TIME-0.503
+    more = """VARIABLE/9, FUNCTION=TIME-0.503
 POINT_MASS/4, MASS=1, CM=4, QG=1,0,0
 MARKER/4, POINT_MASS=4
 SFORCE/1, TRANSLATIONAL, I=4, J=1, FUNCTION=VARVAL(8)
 VARIABLE/8, FUNCTION=EXP(-(VARVAL(9)/1E-4)**2)/(1E-4*SQRT(PI))
-END
 """
-        )
-        .replace("J=1, ACTIONONLY", "J=1")
-        .replace("MARKER/4, POINT_MASS=4", "MARKER/4, POINT_MASS=4")
-    )
-    deck = deck.replace("CM=4\n", "CM=4, QG=1,0,0\n")
+    deck = carriage("0.05*(1+TANH(VARVAL(9)/5E-4))", more)
     for formula in IMPLICIT:
         last = done(deck, 1.0, STEPS, **options(formula, 1e-6))
         assert last["PART/2.x"][-1] == approx(0.1, abs=1e-6), formula

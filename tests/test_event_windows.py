@@ -11,7 +11,7 @@ from math import acos, log, pi, sqrt
 import numpy as np
 import pytest
 from pytest import approx
-from scenes import GROUND, done, system
+from scenes import GROUND, done, options, system
 
 from adamslite.faults import UsageError
 from adamslite.results import Results
@@ -30,11 +30,9 @@ def ended(
     formula: str, force: str, end: float, steps: int, error: float, **start: float
 ) -> Results:
     """The results of a point mass of 1 kg on which a force acts."""
-    method, _, form = formula.partition(" ")
-    options = {"formulation": form} if form else {}
     gravity = "ACCGRAV/JGRAV=-9.81\n" if "FY" in force else ""
     deck = DECK.format(**{"x": 0, "y": 0, "v": 0} | start, force=force, gravity=gravity)
-    return done(deck, end, steps, integrator=method, error=error, **options)
+    return done(deck, end, steps, **options(formula, error))
 
 
 # ---- windows: v^2 = v0^2 - 2 F d -----------------------------------------------------------------
@@ -69,9 +67,7 @@ def test_a_window_in_millimetres(formula, half, v):
     force = f"FX=IF(ABS(ABS(DX(2))-5000)-{half}:{-np.sign(v) * 1e4 / half},0,0)"
     units = "UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=MILLIMETER, TIME=SECOND\n"
     deck = DECK.format(x=0, y=0, v=v, force=force, gravity=units)
-    method, _, form = formula.partition(" ")
-    options = {"formulation": form} if form else {}
-    last = done(deck, 1.0, 10, integrator=method, error=1e-6, **options)
+    last = done(deck, 1.0, 10, **options(formula))
     assert last["POINT_MASS/2.vx"][-1] / 1000 == approx(np.sign(v) * sqrt(60.0), abs=1e-4)
 
 
@@ -122,9 +118,7 @@ def test_a_ball_that_is_passed_closely(formula, steps, radius, beside, v):
     force = f"FX=IF(DM(2,9)-{radius}:{-0.15 * v * abs(v) / chord},0,0)"
     marker = f"MARKER/9, PART=1, QP={np.sign(v) * 5.0},0,0\n"
     deck = DECK.format(x=0, y=beside, v=v, force=force, gravity=marker)
-    method, _, form = formula.partition(" ")
-    options = {"formulation": form} if form else {}
-    last = done(deck, 1.3, steps, integrator=method, error=1e-6, **options)
+    last = done(deck, 1.3, steps, **options(formula))
     assert last["POINT_MASS/2.vx"][-1] == approx(v * sqrt(0.7), abs=2e-4)
 
 

@@ -7,7 +7,7 @@ from math import asin, pi, sqrt
 import numpy as np
 import pytest
 from pytest import approx
-from scenes import GROUND, PENDULUM, done, run, system
+from scenes import GROUND, PENDULUM, carriage, done, options, run, system
 
 from adamslite.analyses.edges import stops
 from adamslite.outcomes import Outcome
@@ -20,12 +20,6 @@ FORMULAS = ("GSTIFF", "GSTIFF I3", "HHT", "NEWMARK", "RADAU", "RKF45")
 def moved_by(force: str, mass: float = 1.0, x: float = 0.0, v: float = 0.0) -> str:
     """A point mass on which a force acts along x."""
     return MASS.format(mass=mass, x=x, v=v) + f"VFORCE/1, I=2, J_PART=1, FX={force}\nEND\n"
-
-
-def options(formula: str, error: float) -> dict:
-    """Arguments of a run: a method, with a formulation or without."""
-    method, _, form = formula.partition(" ")
-    return {"integrator": method, "error": error} | ({"formulation": form} if form else {})
 
 
 def stops_of(force: str, end: float, steps: int) -> list[float]:
@@ -104,17 +98,8 @@ def test_the_end_of_a_step_is_a_stop_without_a_new_start():
 
 def test_a_motion_that_bends():
     """A carriage moved by STEP: it stands, and no step passes over the ramp of 1 ms."""
-    deck = (
-        GROUND
-        + """PART/2, MASS=1, CM=2, IP=1,1,1
-MARKER/2, PART=2, REULER=90D,90D,0
-MARKER/3, PART=1, REULER=90D,90D,0
-JOINT/1, TRANSLATIONAL, I=2, J=3
-MOTION/1, JOINT=1, TRANSLATION, FUNCTION=STEP(TIME,0.5,0,0.501,0.1)
-END
-"""
-    )
-    last = done(deck.replace("END", "PART/3, MASS=1, CM=4, IP=1,1,1\nMARKER/4, PART=3\nEND"), 1.0)
+    free = "PART/3, MASS=1, CM=4, IP=1,1,1\nMARKER/4, PART=3\n"
+    last = done(carriage("STEP(TIME,0.5,0,0.501,0.1)", free), 1.0)
     assert last["PART/2.x"][-1] == approx(0.1, abs=1e-6)
     assert last["PART/2.vx"][-1] == approx(0.0, abs=1e-4)
 

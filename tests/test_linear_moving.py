@@ -170,21 +170,29 @@ END
     assert found == pytest.approx(seen, rel=1e-9, abs=1e-12)
 
 
-@pytest.mark.parametrize("spin", [3.0, -1.5])
-def test_modes_seen_from_a_turning_table(spin: float) -> None:
-    """A mass on radial and tangential springs at the middle of a driven table, K = m k for both:
-    x'' - 2 W y' + (k - W^2) x = 0 and so on.  On the table it circles at sqrt(k) -+ W.
-    """
-    text = f"""\
-a mass on a table
+def turning_table(spin: float, faster: float = 0.0) -> str:
+    """PART/2, driven about z at `spin` + `faster` t, and a mass of 2 at its middle."""
+    return f"""\
+a mass and a table that turns
 PART/1, GROUND
 MARKER/1, PART=1
 PART/2, MASS=1, CM=20, IP=1,1,2, WZ={spin}
 MARKER/20, PART=2
 JOINT/1, REVOLUTE, I=20, J=1
-MOTION/1, JOINT=1, FUNCTION={spin}*TIME
+MOTION/1, JOINT=1, FUNCTION={spin}*TIME+{faster / 2}*TIME**2
 POINT_MASS/3, MASS=2, CM=30
 MARKER/30, POINT_MASS=3
+"""
+
+
+@pytest.mark.parametrize("spin", [3.0, -1.5])
+def test_modes_seen_from_a_turning_table(spin: float) -> None:
+    """A mass on radial and tangential springs at the middle of a driven table, K = m k for both:
+    x'' - 2 W y' + (k - W^2) x = 0 and so on.  On the table it circles at sqrt(k) -+ W.
+    """
+    text = (
+        turning_table(spin)
+        + """\
 MARKER/22, FLOATING, PART=2
 VFORCE/3, I=30, JFLOAT=22, RM=20
 , FX=VARVAL(1)-50*DX(30,20,20)\\ FY=-50*DY(30,20,20)\\ FZ=-50*DZ(30,20,20)
@@ -194,6 +202,7 @@ PINPUT/1, VARIABLES=1
 POUTPUT/1, VARIABLES=2
 END
 """
+    )
     modes, states = linearized(text, "EIGENSOL, RM=20", "STATEMAT, RM=20, PINPUT=1, POUTPUT=1")
     rates = sorted(sign * abs(5 + turn) for sign in (1, -1) for turn in (spin, -spin))
     assert spectrum(modes) == pytest.approx(sorted([*rates, 5.0, -5.0]), rel=1e-9)
@@ -217,19 +226,13 @@ def test_a_table_that_turns_faster_and_faster(spin: float, faster: float) -> Non
     """z = x + i y of a mass on springs k, seen from a table of W and W' = A at this moment:
     z" + 2 i W z' + (k - W^2 + i A) z = 0, so that s = -i W +- i sqrt(k + i A).
     """
-    text = f"""\
-a mass above a table
-PART/1, GROUND
-MARKER/1, PART=1
-PART/2, MASS=1, CM=20, IP=1,1,2, WZ={spin}
-MARKER/20, PART=2
-JOINT/1, REVOLUTE, I=20, J=1
-MOTION/1, JOINT=1, FUNCTION={spin}*TIME+{faster / 2}*TIME**2
-POINT_MASS/3, MASS=2, CM=30
-MARKER/30, POINT_MASS=3
+    text = (
+        turning_table(spin, faster)
+        + """\
 VFORCE/3, I=30, J_PART=1, FX=-50*DX(30)\\ FY=-50*DY(30)\\ FZ=-50*DZ(30)
 END
 """
+    )
     ground, table = linearized(text, "EIGENSOL", "EIGENSOL, RM=20")
     assert ground.steady and not table.steady
     assert spectrum(ground) == pytest.approx([-5.0] * 3 + [5.0] * 3, rel=1e-9)
