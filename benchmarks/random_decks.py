@@ -1,8 +1,7 @@
 """Random small decks: one to three moving bodies and the laws that integrators stumble over.
 
 A *mechanism* offers freedoms, each with the words that measure it (x, v, a) and the statement that
-loads it.  Every freedom gets a restoring force and some *laws*: springs up to 1e8 N/m, contacts,
-friction, windows and switches of state and time, added mass, VARIABLE chains, DIFF states.
+loads it.  Every freedom gets a restoring force and some of the laws of :mod:`random_laws`.
 
 A deck is fixed by its number and seed; ``nudge`` moves its start a little, to learn how much the
 motion itself amplifies an error.
@@ -10,88 +9,12 @@ motion itself amplifies an error.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from math import cos, sin
 
 import numpy as np
 
-#: Speed that freedoms reach, in their reach per time.
-FAST = 8.0
-HEAD = "UNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1, PART=1"
-
-
-@dataclass(frozen=True)
-class Freedom:
-    """How a freedom is measured and loaded.
-
-    x, v, a : expressions of displacement, speed and acceleration
-    load : a statement with {id} and {law}
-    inertia : mass or moment of inertia that resists, roughly [kg], [kg m^2]
-    reach : how far it goes, roughly [m], [rad]
-    """
-
-    x: str
-    v: str
-    a: str
-    load: str
-    inertia: float
-    reach: float = 1.0
-
-
-@dataclass
-class Draft:
-    """A deck in the making; ``finest``: the shortest time that a law was given, or passes in."""
-
-    rng: np.random.Generator
-    nudge: float = 0.0
-    end: float = 1.0
-    finest: float = 1.0
-    kinds: list[str] = field(default_factory=list)
-    lines: list[str] = field(default_factory=list)
-    freedoms: list[Freedom] = field(default_factory=list)
-    taken: int = 0
-
-    def between(self, low: float, high: float) -> float:
-        """A number between two, of four digits as somebody types it."""
-        return float(f"{self.rng.uniform(low, high):.4g}")
-
-    def decade(self, low: float, high: float) -> float:
-        """A number between two powers of ten."""
-        return float(f"{10.0 ** self.rng.uniform(low, high):.4g}")
-
-    def start(self, low: float, high: float) -> str:
-        """A start value; the nudge goes in here."""
-        return repr(self.between(low, high) + self.nudge)
-
-    def chance(self, share: float) -> bool:
-        """True in this share of the decks."""
-        return bool(self.rng.random() < share)
-
-    def new_id(self) -> int:
-        """An id for VARIABLE or DIFF."""
-        self.taken += 1
-        return self.taken
-
-    def resolve(self, time: float) -> None:
-        """Something happens within this time."""
-        self.finest = min(self.finest, time)
-
-    def deck(self, title: str, steps: int) -> RandomDeck:
-        """The deck."""
-        run = f"SIMULATE/DYNAMIC, END={self.end!r}, STEPS={steps}"
-        text = "\n".join([title, HEAD, *self.lines, run, "END", ""])
-        return RandomDeck(title, text, self.end, self.finest)
-
-
-@dataclass(frozen=True)
-class RandomDeck:
-    """``text`` of a deck, its ``end`` time, and the shortest time in which something happens."""
-
-    title: str
-    text: str
-    end: float
-    finest: float
+from benchmarks.random_drafts import Draft, Freedom, RandomDeck
+from benchmarks.random_laws import LAWS, spring
 
 
 def deck(number: int, seed: int, nudge: float = 0.0) -> RandomDeck:
@@ -110,9 +33,6 @@ def deck(number: int, seed: int, nudge: float = 0.0) -> RandomDeck:
         draft.lines.append(freedom.load.format(id=k + 1, law=law))
     steps = int(rng.choice([10, 30, 100, 300]))
     return draft.deck(f"random {seed}-{number}: {' '.join(draft.kinds)}", steps)
-
-
-# ---------------------------------------------------------------------------------- mechanisms
 
 
 def masses(draft: Draft) -> None:
@@ -241,170 +161,3 @@ def crane(draft: Draft) -> None:
 
 MECHANISMS = (masses, pendulum, slider, parallelogram, top, crane)
 SHARES = (0.4, 0.15, 0.15, 0.08, 0.12, 0.1)
-
-
-# ---------------------------------------------------------------------------------- laws
-
-
-def spring(draft: Draft, f: Freedom) -> str:
-    """Holds a freedom near its place: 0.3 to 10 Hz."""
-    stiff = f.inertia * draft.decade(0.5, 3.5)
-    damp = 2.0 * np.sqrt(stiff * f.inertia) * draft.decade(-3, -0.5) * draft.chance(0.5)
-    return f"-{stiff:.4g}*{f.x}-{damp:.4g}*{f.v}"
-
-
-def stiff_spring(draft: Draft, f: Freedom) -> str:
-    """Up to 1e8 N/m, damped so that it does not ring for ever, about a place on the way."""
-    stiff = draft.decade(4, 8)
-    damp = 2.0 * np.sqrt(stiff * f.inertia) * draft.between(0.05, 2.0)
-    return f"-{stiff:.4g}*({f.x}-{draft.between(-0.1, 0.1) * f.reach:.4g})-{damp:.4g}*{f.v}"
-
-
-def contact(draft: Draft, f: Freedom) -> str:
-    """IMPACT with damping that lets the body bounce a few times."""
-    stiff, power = draft.decade(3, 6), draft.between(1.05, 1.6)
-    damp = 2.0 * np.sqrt(stiff * f.inertia) * draft.decade(-2, -0.3)
-    edge = -draft.between(0.05, 0.4) * f.reach
-    zone = draft.decade(-4, -2)
-    return f"IMPACT({f.x},{f.v},{edge:.4g},{stiff},{power},{damp:.4g},{zone})"
-
-
-def bistop(draft: Draft, f: Freedom) -> str:
-    """Stops on both sides."""
-    stiff, gap = draft.decade(3, 6), draft.between(0.1, 0.5) * f.reach
-    damp = 2.0 * np.sqrt(stiff * f.inertia) * draft.decade(-1.5, -0.3)
-    zone = draft.decade(-4, -2)
-    return f"BISTOP({f.x},{f.v},{-gap:.4g},{gap:.4g},{stiff},1.2,{damp:.4g},{zone})"
-
-
-def one_sided(draft: Draft, f: Freedom) -> str:
-    """IF(x-c: spring and damper, 0, 0): a force that jumps when it begins and pulls at its end."""
-    stiff = draft.decade(3, 6)
-    damp = 2.0 * np.sqrt(stiff * f.inertia) * draft.decade(-2, -0.5)
-    x = f"({f.x}+{draft.between(0.05, 0.4) * f.reach:.4g})"
-    return f"IF({x}:-{stiff}*{x}-{damp:.4g}*{f.v},0,0)"
-
-
-def dead_zone(draft: Draft, f: Freedom) -> str:
-    """A spring with play."""
-    stiff, play = draft.decade(2, 5), draft.between(0.02, 0.2) * f.reach
-    return f"-{stiff}*MAX(ABS({f.x})-{play:.4g},0)*SIGN(1,{f.x})"
-
-
-def smooth_friction(draft: Draft, f: Freedom) -> str:
-    """Dry friction with a ramp through zero."""
-    most = f.inertia * draft.between(0.5, 8)
-    width = draft.decade(-3, -1)
-    return f"STEP({f.v},{-width},{most:.4g},{width},{-most:.4g})"
-
-
-def sharp_friction(draft: Draft, f: Freedom) -> str:
-    """Dry friction written with SIGN: it slides, or it chatters when it comes to rest."""
-    return f"-{f.inertia * draft.between(0.1, 3):.4g}*SIGN(1,{f.v})"
-
-
-def window(draft: Draft, f: Freedom) -> str:
-    """A force that acts only within a layer."""
-    place, half = draft.between(-0.4, 0.4) * f.reach, draft.decade(-3.5, -1) * f.reach
-    force = f.inertia * draft.between(-1, 1) / half * 0.5
-    draft.resolve(half / (FAST * f.reach))
-    return f"IF(ABS({f.x}-{place:.4g})-{half:.4g}:{force:.4g},0,0)"
-
-
-def smooth_window(draft: Draft, f: Freedom) -> str:
-    """The same with ramps at both sides."""
-    a, w = draft.between(-0.4, 0.4) * f.reach, draft.decade(-3.5, -1) * f.reach
-    force = f.inertia * draft.between(-1, 1) / w * 0.3
-    draft.resolve(w / (FAST * f.reach))
-    step = draft.rng.choice(["STEP", "STEP5", "HAVSIN"])
-    up = f"{step}({f.x},{a:.6g},0,{a + w:.6g},1)"
-    down = f"{step}({f.x},{a + 2 * w:.6g},0,{a + 3 * w:.6g},1)"
-    return f"{force:.4g}*({up}-{down})"
-
-
-def switch(draft: Draft, f: Freedom) -> str:
-    """A force that jumps at a time."""
-    at = draft.between(0.05, 0.95) * draft.end
-    return f"IF(TIME-{at:.5g}:{f.inertia * draft.between(-5, 5):.4g},0,0)"
-
-
-def pulse(draft: Draft, f: Freedom) -> str:
-    """A short parabola of time."""
-    at, width = draft.between(0.05, 0.95) * draft.end, draft.decade(-4, -1) * draft.end
-    force = f.inertia * draft.between(-2, 2) / width
-    draft.resolve(width)
-    return f"{force:.4g}*MAX(0,1-((TIME-{at:.6g})/{width:.4g})**2)"
-
-
-def bell(draft: Draft, f: Freedom) -> str:
-    """A Gaussian of time."""
-    at, width = draft.between(0.05, 0.95) * draft.end, draft.decade(-4, -1) * draft.end
-    force = f.inertia * draft.between(-2, 2) / width
-    draft.resolve(width)
-    return f"{force:.4g}*EXP(-((TIME-{at:.6g})/{width:.4g})**2)"
-
-
-def drive(draft: Draft, f: Freedom) -> str:
-    """A harmonic force, or one that follows a saw."""
-    force, rate = f.inertia * draft.between(-10, 10), draft.between(1, 60)
-    if draft.chance(0.3):
-        return f"{force:.4g}*(MOD({rate / 6:.4g}*TIME,1)-0.5)"
-    return f"{force:.4g}*SIN({rate:.4g}*TIME)"
-
-
-def ramp(draft: Draft, f: Freedom) -> str:
-    """A STEP of time."""
-    at = draft.between(0.05, 0.8) * draft.end
-    wide = draft.decade(-3, -0.7) * draft.end
-    draft.resolve(wide)
-    return f"STEP(TIME,{at:.6g},0,{at + wide:.6g},{f.inertia * draft.between(-5, 5):.4g})"
-
-
-def added_mass(draft: Draft, f: Freedom) -> str:
-    """A force that depends on the acceleration: mass added, or up to half of it taken away."""
-    return f"-{f.inertia * draft.between(-0.5, 2.0):.4g}*{f.a}"
-
-
-def chain(draft: Draft, f: Freedom) -> str:
-    """VARIABLEs that follow one another."""
-    first = draft.new_id()
-    draft.lines.append(f"VARIABLE/{first}, FUNCTION={f.x}*{draft.between(0.5, 2):.4g}")
-    last = first
-    for _ in range(int(draft.rng.integers(1, 4))):
-        here = draft.new_id()
-        how = draft.rng.choice(["SIN({0})", "{0}*(1-{0})", "ATAN({0})", "{0}+0.1*VARVAL({1})"])
-        law = how.format(f"VARVAL({last})", first)
-        draft.lines.append(f"VARIABLE/{here}, FUNCTION={law}")
-        last = here
-    return f"-{f.inertia * draft.decade(0, 2):.4g}*VARVAL({last})"
-
-
-def loop(draft: Draft, f: Freedom) -> str:
-    """A VARIABLE given by an equation in itself."""
-    here = draft.new_id()
-    law = f"0.4*COS(VARVAL({here}))+{f.x}"
-    draft.lines.append(f"VARIABLE/{here}, FUNCTION={law}")
-    return f"-{f.inertia * draft.decade(0, 2):.4g}*VARVAL({here})"
-
-
-def filtered(draft: Draft, f: Freedom) -> str:
-    """A DIFF that follows the displacement and pulls back, or a controller's integral."""
-    here, pace = draft.new_id(), draft.decade(0, 3)
-    draft.lines.append(f"DIFF/{here}, IC=0, FUNCTION={pace}*({f.x}-DIF({here}))")
-    return f"-{f.inertia * draft.decade(0, 2):.4g}*DIF({here})"
-
-
-def drag(draft: Draft, f: Freedom) -> str:
-    """Resistance of the square of the speed."""
-    return f"-{f.inertia * draft.decade(-2, 0):.4g}*{f.v}*ABS({f.v})"
-
-
-def cubic(draft: Draft, f: Freedom) -> str:
-    """A spring that stiffens."""
-    return f"-{f.inertia * draft.decade(1, 3.5):.4g}*{f.x}**3"
-
-
-LAWS: tuple[Callable[[Draft, Freedom], str], ...] = (
-    stiff_spring, contact, bistop, one_sided, dead_zone, smooth_friction, sharp_friction, window,
-    smooth_window, switch, pulse, bell, drive, ramp, added_mass, chain, loop, filtered, drag, cubic,
-)  # fmt: skip
