@@ -59,8 +59,3 @@ def ints(values: list[int]) -> np.ndarray:
 def reals(values: list[float]) -> np.ndarray:
     """An array of reals as native code reads it."""
     return np.array(values, dtype=float)
-
-
-def address_table(arrays: list[np.ndarray]) -> np.ndarray:
-    """(address, length) of every array, in order."""
-    return np.array([v for a in arrays for v in (a.ctypes.data, a.size)], dtype=np.int64)

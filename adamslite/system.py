@@ -13,7 +13,7 @@ import numpy as np
 
 from adamslite.compiled import Kernels
 from adamslite.elimination import Elimination
-from adamslite.engine import INTEGRATORS, address_table, engine, ints, reals
+from adamslite.engine import INTEGRATORS, engine, ints, reals
 from adamslite.faults import UsageError
 from adamslite.integrators import base
 from adamslite.integrators.event_places import MARGIN_ROWS, PLACES
@@ -271,10 +271,18 @@ class System(Elimination):
 
     def run(self, operation: int, phases: int = 0) -> int:
         """Call native code on the arrays as they are now."""
-        problem = address_table([getattr(self, name) for name in base.FIELDS])
-        plan = address_table([self.plan[name] for name in base.Plan.fields])
         more = () if operation in INTEGRATORS else (operation, phases)
-        return engine(operation)(problem.ctypes.data, plan.ctypes.data, *more)
+        problem, plan = self.records()
+        return engine(operation)(problem.address, plan.address, *more)
+
+    def records(self) -> tuple[base.Problem, base.Plan]:
+        """The arrays as native code takes them."""
+        problem, plan = base.Problem.zeros(), base.Plan.zeros()
+        for name in base.Problem.fields:
+            setattr(problem, name, getattr(self, name))
+        for name in base.Plan.fields:
+            setattr(plan, name, self.plan[name])
+        return problem, plan
 
 
 def _turns_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -6,8 +6,6 @@ compiled ones.
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 
 from adamslite.analyses.initial import constraint_gradient, initial_conditions
@@ -59,8 +57,7 @@ class Newton:
     def __init__(self, system: System) -> None:
         self.system = s = system
         rng = np.random.default_rng(1)
-        self.P = SimpleNamespace(**{name: getattr(s, name) for name in base.FIELDS})
-        self.L = SimpleNamespace(**s.plan)
+        self.P, self.L = s.records()
         self.tied = s.stabilised and s.holonomic > 0
         self.phases = base.STABILISED if self.tied else base.INDEX3
         self.yp, self.psi = self.P.trial[: s.n * 2 + s.ns], self.P.trial[s.n * 2 + s.ns :]

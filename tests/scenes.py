@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -129,18 +128,12 @@ def call_address(address: int, *args: Any) -> None:
     ctypes.CFUNCTYPE(None, *[type(a) for a in given])(int(address))(*given)
 
 
-def tables(scene: System) -> tuple[SimpleNamespace, SimpleNamespace]:
-    """The two tables of native code as plain objects on the same arrays."""
-    problem = SimpleNamespace(**{name: getattr(scene, name) for name in base.FIELDS})
-    return problem, SimpleNamespace(**scene.plan)
-
-
 def run_in_python(scene: System, operation: int, phases: int = 0) -> int:
     """What ``System.run`` does, interpreted; kernels stay native, overflow passes in silence."""
     with np.errstate(all="ignore"):
         if operation in INTEGRATORS:
-            return getattr(entry, INTEGRATORS[operation])(*tables(scene))
-        return entry.run(*tables(scene), operation, phases)
+            return getattr(entry, INTEGRATORS[operation])(*scene.records())
+        return entry.run(*scene.records(), operation, phases)
 
 
 def interpreted(monkeypatch: Any) -> None:

@@ -61,7 +61,7 @@ pattern         per iteration whether it renews the Newton matrix, repeated; emp
 ==============  =================================================================================
 """
 
-from adamslite.translate import Table
+from adamslite.translate import Ints, Reals, Record
 
 SIZES = (
     "nb",
@@ -169,18 +169,81 @@ MODE_STATICS = 5.0
 # Columns of P.group.
 GROUP = 9
 
-INT_FIELDS = set(
-    "sizes body scalar group copies product turning mixed unit dead held count pivots "
-    "pivots_a pivots_c kind pattern".split()
-)
-FIELDS = (
-    "sizes body mass inertia weight gravity base scalar group copies product turning mixed unit "
-    "dead held loose settings count times report q u a z mu ra rz rd W F J D LV LA x work coef "
-    "pivots pivots_a pivot0 history trial tableau control pz undo record parts LC pivots_c kind "
-    "guard margin zone stops paces search pattern audit"
-).split()
-Problem = Table("Problem", {f: "Ints" if f in INT_FIELDS else "Reals" for f in FIELDS})
-Plan = Table(
-    "Plan",
-    dict.fromkeys("size start diagonal first node lower upper target place".split(), "Ints"),
-)
+
+class Problem(Record):
+    """The data of a model, as above."""
+
+    sizes: Ints
+    body: Ints
+    mass: Reals
+    inertia: Reals
+    weight: Reals
+    gravity: Reals
+    base: Reals
+    scalar: Ints
+    group: Ints
+    copies: Ints
+    product: Ints
+    turning: Ints
+    mixed: Ints
+    unit: Ints
+    dead: Ints
+    held: Ints
+    loose: Reals
+    settings: Reals
+    count: Ints
+    times: Reals
+    report: Reals
+    q: Reals
+    u: Reals
+    a: Reals
+    z: Reals
+    mu: Reals
+    ra: Reals
+    rz: Reals
+    rd: Reals
+    W: Reals
+    F: Reals
+    J: Reals
+    D: Reals
+    LV: Reals
+    LA: Reals
+    x: Reals
+    work: Reals
+    coef: Reals
+    pivots: Ints
+    pivots_a: Ints
+    pivot0: Reals
+    history: Reals
+    trial: Reals
+    tableau: Reals
+    control: Reals
+    pz: Reals
+    undo: Reals
+    record: Reals
+    parts: Reals
+    LC: Reals
+    pivots_c: Ints
+    kind: Ints
+    guard: Reals
+    margin: Reals
+    zone: Reals
+    stops: Reals
+    paces: Reals
+    search: Reals
+    pattern: Ints
+    audit: Reals
+
+
+class Plan(Record):
+    """The order of elimination (:mod:`adamslite.ordering`)."""
+
+    size: Ints
+    start: Ints
+    diagonal: Ints
+    first: Ints
+    node: Ints
+    lower: Ints
+    upper: Ints
+    target: Ints
+    place: Ints

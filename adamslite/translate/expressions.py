@@ -5,7 +5,17 @@ from __future__ import annotations
 import ast
 
 from adamslite.lowering import literal
-from adamslite.translate.language import ARRAYS, REGISTERED, llvm_type, signature
+from adamslite.translate.language import REGISTERED, llvm_type, name_of, signature
+from adamslite.translate.records import (
+    ARRAYS,
+    Field,
+    Inside,
+    Nested,
+    Reference,
+    RowsOf,
+    Scalar,
+    is_record,
+)
 from adamslite.translate.writer import Value, Writer
 
 INT_OPS = {
@@ -35,17 +45,33 @@ FLOAT_TESTS = {
 }
 
 
+# How what stands in a record of an array is loaded: it stays as it is in a run.
+ADDRESS = "!tbaa !3, !invariant.load !7"
+
+
 class Expressions(Writer):
     """Translates an expression to a value."""
 
-    def element(self, node: ast.expr) -> tuple[str, str]:
-        """Address and type of ``array[index]``."""
-        if not isinstance(node, ast.Subscript):
-            raise self.fail(node, "only array elements can be assigned")
-        array = self.expression(node.value)
-        if array.kind not in ARRAYS:
-            raise self.fail(node, f"{array.kind} is not an array")
-        return self.shifted(array, self.expression(node.slice)), ARRAYS[array.kind]
+    def target(self, node: ast.expr) -> tuple[str, str]:
+        """Address and kind of the number that ``array[index]`` or ``record.field`` is."""
+        if isinstance(node, ast.Attribute):
+            owner, field = self.field(node)
+            if isinstance(field, Scalar):
+                return self.place(owner, field.at), field.kind
+        elif isinstance(node, ast.Subscript):
+            array = self.expression(node.value)
+            if array.kind in ARRAYS:
+                return self.shifted(array, self.expression(node.slice)), ARRAYS[array.kind]
+        raise self.fail(node, "only numbers in arrays and records can be assigned")
+
+    def field(self, node: ast.Attribute) -> tuple[Value, Field]:
+        """The record and its field that ``record.field`` means."""
+        owner = self.expression(node.value)
+        if not is_record(owner.kind):
+            raise self.fail(node, f"{name_of(owner.kind)} is not a record")
+        if node.attr not in owner.kind.fields:
+            raise self.fail(node, f"{owner.kind.__name__} has no field {node.attr}")
+        return owner, owner.kind.fields[node.attr]
 
     def expression(self, node: ast.expr) -> Value:
         handler = getattr(self, f"of_{type(node).__name__}", None)
@@ -64,26 +90,36 @@ class Expressions(Writer):
         return self.constant(node, self.globals[node.id])
 
     def of_Attribute(self, node: ast.Attribute) -> Value:
-        """``P.field`` is an array, ``P.field.size`` its length."""
-        length = node.attr == "size" and isinstance(node.value, ast.Attribute)
-        inner = node.value if length else node
-        owner = self.expression(inner.value)
-        table = self.tables[owner.kind]
-        place = 2 * table.place(inner.attr) + length
-        at = self.value("ptr", f"getelementptr inbounds i64, ptr {owner.text}, i64 {place}").text
-        if length:
-            return self.value("i64", f"load i64, ptr {at}, !tbaa !3, !invariant.load !7")
-        kind = table.fields[inner.attr]
-        return self.value(kind, f"load ptr, ptr {at}, !tbaa !3, !invariant.load !7")
+        """``C.now``, what a record holds; ``P.q.size``, the length of an array that it holds."""
+        if node.attr == "size" and isinstance(node.value, ast.Attribute):
+            owner, field = self.field(node.value)
+            if isinstance(field, Inside):
+                return Value(str(field.slots), "i64")
+            if isinstance(field, Reference):
+                at = self.place(owner, field.at + 1)
+                return self.value("i64", f"load i64, ptr {at}, {ADDRESS}")
+        owner, field = self.field(node)
+        at = self.place(owner, field.at)
+        if isinstance(field, Scalar):
+            return self.load(at, field.kind)
+        if isinstance(field, Nested | Inside):
+            return Value(at, field.kind)
+        return self.value(field.kind, f"load ptr, ptr {at}, {ADDRESS}")
 
     def of_Subscript(self, node: ast.Subscript) -> Value:
+        array = self.expression(node.value)
+        if array.kind not in ARRAYS and not isinstance(array.kind, RowsOf):
+            raise self.fail(node, f"{name_of(array.kind)} is not an array")
         if isinstance(node.slice, ast.Slice):
             if node.slice.lower is None or node.slice.upper or node.slice.step:
                 raise self.fail(node, "a slice has a start only")
-            array = self.expression(node.value)
+            if isinstance(array.kind, RowsOf):
+                raise self.fail(node, "rows are not shifted")
             return Value(self.shifted(array, self.expression(node.slice.lower)), array.kind)
-        address, kind = self.element(node)
-        return self.load(address, kind)
+        at = self.shifted(array, self.expression(node.slice))
+        if isinstance(array.kind, RowsOf):
+            return Value(at, array.kind.record)
+        return self.load(at, ARRAYS[array.kind])
 
     def of_BinOp(self, node: ast.BinOp) -> Value:
         if isinstance(node.op, ast.Pow):
@@ -193,7 +229,15 @@ class Expressions(Writer):
             )
         if name == "call_address":
             return self.call_address(args)
+        if is_record(self.globals.get(name)):
+            return self.seen_as(node, self.globals[name], args)
         return self.call_native(node, name, args)
+
+    def seen_as(self, node: ast.Call, record: type, args: list[Value]) -> Value:
+        """``Record(array)``: the same memory."""
+        if len(args) != 1 or args[0].kind not in ARRAYS:
+            raise self.fail(node, f"{record.__name__} of an array is translated, and nothing else")
+        return Value(args[0].text, record)
 
     def extreme(self, name: str, args: list[Value]) -> Value:
         result = args[0]

@@ -1,17 +1,14 @@
-"""The words of the native language: types, tables, and the functions marked for translation."""
+"""The words of the native language, and the functions marked for translation."""
 
 from __future__ import annotations
 
 import ctypes
 import inspect
+import os
 from collections.abc import Callable
 from typing import Any
 
-Ints = "Ints"
-Reals = "Reals"
-Alone = "Alone"
-SCALARS = {"int": "i64", "float": "double", "bool": "i1"}
-ARRAYS = {"Ints": "i64", "Reals": "double"}
+from adamslite.translate.records import RowsOf, is_record, resolve
 
 REGISTERED: dict[str, Callable[..., Any]] = {}
 
@@ -43,32 +40,33 @@ def call_address(address: int, *arguments: Any) -> None:
     ctypes.CFUNCTYPE(None, *[type(a) for a in given])(int(address))(*given)
 
 
-class Table:
-    """A native argument that is a table of (address, length): one pair for each field, in order."""
-
-    def __init__(self, name: str, fields: dict[str, str]) -> None:
-        self.name = name
-        self.fields = fields
-
-    def place(self, field: str) -> int:
-        return list(self.fields).index(field)
-
-
-def signature(function: Callable[..., Any]) -> tuple[list[tuple[str, str]], str]:
-    """Argument names with types, and the result type (``void`` for none)."""
-    hints = function.__annotations__
-    names = list(inspect.signature(function).parameters)
-    words = [Reals if word_of(hints[n]) == Alone else word_of(hints[n]) for n in names]
-    kinds = [(n, SCALARS.get(word, word)) for n, word in zip(names, words, strict=True)]
-    result = word_of(hints.get("return", "None"))
-    return kinds, "void" if result == "None" else SCALARS[result]
+def signature(function: Callable[..., Any]) -> tuple[list[tuple[str, Any]], str]:
+    """Argument names with kinds, and the kind of the result (``void`` for none)."""
+    hints, kinds = function.__annotations__, []
+    for name in inspect.signature(function).parameters:
+        kind = resolve(hints[name], function.__globals__)
+        if kind is None:
+            why = f"{name}: {hints[name]} is no type of an argument"
+            raise Untranslatable(f"{position(function)}: {why}")
+        kinds.append((name, kind))
+    result = hints.get("return")
+    return kinds, "void" if result in (None, "None") else resolve(result, function.__globals__)
 
 
-def word_of(hint: Any) -> str:
-    """The name of an annotation, whether it is kept as text or not."""
-    return hint if isinstance(hint, str) else getattr(hint, "__name__", str(hint))
+def position(function: Callable[..., Any], line: int = 1) -> str:
+    """File and line of a line of a function, and its name."""
+    code = function.__code__
+    file = os.path.basename(code.co_filename)
+    return f"{file}:{code.co_firstlineno + line - 1}, {function.__qualname__}"
 
 
-def llvm_type(kind: str) -> str:
-    """How a value of this kind is passed: arrays and tables by their address."""
+def llvm_type(kind: Any) -> str:
+    """How a value of this kind is passed: arrays and records by their address."""
     return kind if kind in ("i64", "double", "i1", "void") else "ptr"
+
+
+def name_of(kind: Any) -> str:
+    """A kind in a message."""
+    if isinstance(kind, RowsOf):
+        return f"Rows[{kind.record.__name__}]"
+    return kind.__name__ if is_record(kind) else kind

@@ -7,11 +7,11 @@ import inspect
 import textwrap
 
 from adamslite.translate.expressions import Expressions
-from adamslite.translate.language import REGISTERED, Table, signature
+from adamslite.translate.language import REGISTERED, signature
 from adamslite.translate.writer import METADATA, Value
 
 
-def translate(entry: str, tables: list[Table]) -> str:
+def translate(entry: str) -> str:
     """LLVM assembly of ``entry`` and every native function it reaches; the others are internal."""
     pending, done, texts = [entry], set(), []
     declared: set[str] = set()
@@ -20,7 +20,7 @@ def translate(entry: str, tables: list[Table]) -> str:
         if name in done:
             continue
         done.add(name)
-        work = Translator(REGISTERED[name], {t.name: t for t in tables})
+        work = Translator(REGISTERED[name])
         texts.append(work.define(internal=name != entry))
         declared |= work.declared
         pending.extend(work.called)
@@ -46,6 +46,7 @@ class Translator(Expressions):
 
     def block(self, body: list[ast.stmt]) -> None:
         for statement in body:
+            self.present = statement.lineno
             getattr(self, f"on_{type(statement).__name__}", self.on_other)(statement)
 
     def on_other(self, node: ast.AST) -> None:
@@ -86,7 +87,7 @@ class Translator(Expressions):
                 node.target, self.arithmetic(node, node.op, old, self.expression(node.value))
             )
             return
-        address, kind = self.element(node.target)
+        address, kind = self.target(node.target)
         old = self.load(address, kind)
         new = self.arithmetic(node, node.op, old, self.expression(node.value))
         self.store(address, self.convert(new, kind))
@@ -94,8 +95,12 @@ class Translator(Expressions):
     def assign(self, target: ast.expr, value: Value) -> None:
         if isinstance(target, ast.Name):
             self.store_local(target.id, value)
+        elif isinstance(target, ast.Subscript) and isinstance(target.slice, ast.Slice):
+            if target.slice.lower or target.slice.upper or target.slice.step:
+                raise self.fail(target, "only a whole record is set as a slice")
+            self.fill(self.expression(target.value), value)
         else:
-            address, kind = self.element(target)
+            address, kind = self.target(target)
             self.store(address, self.convert(value, kind))
 
     def on_If(self, node: ast.If) -> None:

@@ -7,9 +7,10 @@ from collections.abc import Callable
 from typing import Any
 
 from adamslite.lowering import FAST, literal
-from adamslite.translate.language import ARRAYS, Alone, Table, Untranslatable, llvm_type, word_of
+from adamslite.translate.language import Untranslatable, llvm_type, name_of, position
+from adamslite.translate.records import ARRAYS, SLOT, RowsOf, is_record
 
-# Which accesses never meet: numbers of each kind, and the addresses in tables.
+# Which accesses never meet: numbers of each kind, and the addresses in records.
 ALIAS = {"i64": "!2", "double": "!1", "ptr": "!3"}
 METADATA = """!0 = !{!"adamslite"}
 !1 = !{!4, !4, i64 0}
@@ -22,9 +23,9 @@ METADATA = """!0 = !{!"adamslite"}
 
 
 class Value:
-    """An SSA value or constant with its type: i64, double, i1, Ints, Reals or a table's name."""
+    """An SSA value or constant with its kind: i64, double, i1, Ints, Reals, a record, rows."""
 
-    def __init__(self, text: str, kind: str) -> None:
+    def __init__(self, text: str, kind: Any) -> None:
         self.text = text
         self.kind = kind
 
@@ -32,34 +33,36 @@ class Value:
 class Writer:
     """What a function has written so far, and the plain instructions."""
 
-    def __init__(self, function: Callable[..., Any], tables: dict[str, Table]) -> None:
+    def __init__(self, function: Callable[..., Any]) -> None:
         self.function = function
-        self.tables = tables
         self.globals = function.__globals__
         self.freedom = "" if hasattr(function, "as_written") else f"{FAST} "
-        self.locals: dict[str, str] = {}
+        self.locals: dict[str, Any] = {}
         self.lines: list[str] = []
         self.allocations: list[str] = []
         self.called: list[str] = []
         self.declared: set[str] = set()
         self.loops: list[tuple[str, str]] = []
         self.count = 0
+        self.present = 1
         self.open = True
 
-    def passed(self, name: str, kind: str) -> str:
+    def passed(self, name: str, kind: Any) -> str:
         """Type of an argument with what is promised of it."""
-        alone = word_of(self.function.__annotations__[name]) == Alone
+        hint = self.function.__annotations__[name]
+        alone = getattr(hint, "__name__", hint) == "Alone"
         return llvm_type(kind) + (" noalias" if alone else "")
 
-    def fail(self, node: ast.AST, why: str) -> Untranslatable:
-        line = getattr(node, "lineno", 0)
-        return Untranslatable(f"{self.function.__qualname__}, line {line}: {why}")
+    def fail(self, node: ast.AST | None, why: str) -> Untranslatable:
+        """``node``: where; None for the statement that is being translated."""
+        line = getattr(node, "lineno", self.present)
+        return Untranslatable(f"{position(self.function, line)}: {why}")
 
     def line(self, text: str) -> None:
         if self.open:
             self.lines.append("  " + text)
 
-    def value(self, kind: str, text: str) -> Value:
+    def value(self, kind: Any, text: str) -> Value:
         self.count += 1
         self.line(f"%t{self.count} = {text}")
         return Value(f"%t{self.count}", kind)
@@ -82,7 +85,7 @@ class Writer:
         self.line(f"br i1 {condition.text}, label %{yes}, label %{no}")
         self.open = False
 
-    def slot(self, kind: str) -> str:
+    def slot(self, kind: Any) -> str:
         self.count += 1
         self.allocations.append(f"  %s{self.count} = alloca {llvm_type(kind)}")
         return f"%s{self.count}"
@@ -93,8 +96,7 @@ class Writer:
             self.allocations.append(f"  %var.{name} = alloca {llvm_type(value.kind)}")
         kind = self.locals[name]
         if value.kind not in (kind, "i64"):
-            why = f"{name} is {kind}, not {value.kind}"
-            raise Untranslatable(f"{self.function.__qualname__}: {why}")
+            raise self.fail(None, f"{name} is {name_of(kind)}, not {name_of(value.kind)}")
         value = self.convert(value, kind)
         self.line(f"store {llvm_type(kind)} {value.text}, ptr %var.{name}")
 
@@ -103,15 +105,47 @@ class Writer:
         return self.value(kind, f"load {llvm_type(kind)}, ptr %var.{name}")
 
     def shifted(self, array: Value, index: Value) -> str:
-        kind = ARRAYS[array.kind]
-        text = f"getelementptr inbounds {kind}, ptr {array.text}, i64 {index.text}"
+        """Address of an element of an array."""
+        if isinstance(array.kind, RowsOf):
+            element = f"[{array.kind.record.slots} x i64]"
+        else:
+            element = ARRAYS[array.kind]
+        text = f"getelementptr inbounds {element}, ptr {array.text}, i64 {index.text}"
+        return self.value("ptr", text).text
+
+    def place(self, record: Value, slot: int) -> str:
+        """Address of a slot of a record."""
+        if slot == 0:
+            return record.text
+        text = f"getelementptr inbounds i64, ptr {record.text}, i64 {slot}"
         return self.value("ptr", text).text
 
     def load(self, address: str, kind: str) -> Value:
+        """A number; a bool fills a slot."""
+        if kind == "i1":
+            return self.value("i1", f"icmp ne i64 {self.load(address, 'i64').text}, 0")
         return self.value(kind, f"load {kind}, ptr {address}, !tbaa {ALIAS[kind]}")
 
     def store(self, address: str, value: Value) -> None:
+        if value.kind == "i1":
+            value = self.value("i64", f"zext i1 {value.text} to i64")
         self.line(f"store {value.kind} {value.text}, ptr {address}, !tbaa {ALIAS[value.kind]}")
+
+    def fill(self, record: Value, value: Value) -> None:
+        """All numbers of a record: those of another one, or none."""
+        if not is_record(record.kind) or record.kind.refers:
+            raise self.fail(None, f"{name_of(record.kind)} is not set as a whole")
+        size = SLOT * record.kind.slots
+        if value.kind is record.kind:
+            self.declared.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
+            operands = f"ptr align 8 {record.text}, ptr align 8 {value.text}"
+            self.line(f"call void @llvm.memcpy.p0.p0.i64({operands}, i64 {size}, i1 false)")
+        elif value.text == "0":
+            self.declared.add("declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)")
+            operands = f"ptr align 8 {record.text}, i8 0"
+            self.line(f"call void @llvm.memset.p0.i64({operands}, i64 {size}, i1 false)")
+        else:
+            raise self.fail(None, f"{name_of(value.kind)} where {name_of(record.kind)} is needed")
 
     def constant(self, node: ast.AST, value: Any) -> Value:
         if isinstance(value, bool):
@@ -127,11 +161,13 @@ class Writer:
         operands = ", ".join(f"double {self.convert(a, 'double').text}" for a in args)
         return self.value("double", f"call {self.freedom}double @{name}({operands})")
 
-    def convert(self, value: Value, kind: str) -> Value:
+    def convert(self, value: Value, kind: Any) -> Value:
         if value.kind == kind:
             return value
+        if is_record(kind) and is_record(value.kind) and issubclass(value.kind, kind):
+            return Value(value.text, kind)
         if value.kind == "i64" and kind == "double":
             if not value.text.startswith("%"):
                 return Value(literal(float(value.text)), "double")
             return self.value("double", f"sitofp i64 {value.text} to double")
-        raise Untranslatable(f"{self.function.__qualname__}: {value.kind} where {kind} is needed")
+        raise self.fail(None, f"{name_of(value.kind)} where {name_of(kind)} is needed")

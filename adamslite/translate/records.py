@@ -1,0 +1,304 @@
+"""Typed records: places in memory that native code and plain Python know by name.
+
+A record is a row of slots of eight bytes.  Its annotations are its fields, in order::
+
+    class Control(Record):
+        now: float                  # int, float, bool: one slot
+        search: Search              # another record: its slots are inside
+        ends: Reals = array(6)      # array of fixed size: its numbers are inside
+        history: Reals              # array by reference: its address and its length
+        body: Rows[Body]            # records behind each other, by reference
+
+    C = Control.zeros()             C.now, C.search.low, C.ends[2], C.history.size, C.body[3].first
+    C = Control(room)               the slots of an array, seen as this record
+    C.search[:] = other             all numbers of a record; C.search[:] = 0 clears it
+
+A record may extend another one, whose fields then come first.
+"""
+
+from __future__ import annotations
+
+import inspect
+import operator
+import sys
+from collections.abc import Iterator
+from typing import Any, ClassVar, Generic, Self, TypeVar
+
+import numpy as np
+
+SLOT = 8
+
+
+class Ints(np.ndarray):
+    """Annotation of an array of integers."""
+
+
+class Reals(np.ndarray):
+    """Annotation of an array of reals."""
+
+
+class Alone(Reals):
+    """Annotation of an array of reals that no other argument reaches."""
+
+
+class array:
+    """How many numbers a field of type ``Ints`` or ``Reals`` has inside of its record."""
+
+    def __init__(self, length: int) -> None:
+        self.length = length
+
+
+SCALARS = {"int": "i64", "float": "double", "bool": "i1"}
+ARRAYS = {"Ints": "i64", "Reals": "double"}
+TYPES = {"i64": np.int64, "double": np.float64}
+
+
+class Field:
+    """One field: its kind, its first slot and how many it takes; what Python reads and sets."""
+
+    slots = 1
+
+    def __init__(self, kind: Any, at: int) -> None:
+        self.kind = kind
+        self.at = at
+
+
+class Scalar(Field):
+    """An ``int``, ``float`` or ``bool``."""
+
+    def __get__(self, record: Record | None, owner: Any = None) -> Any:
+        if record is None:
+            return self
+        if self.kind == "double":
+            return record._reals[self.at]
+        number = int(record._ints[self.at])
+        return number != 0 if self.kind == "i1" else number
+
+    def __set__(self, record: Record, value: Any) -> None:
+        if self.kind == "double":
+            record._reals[self.at] = value
+        else:
+            record._ints[self.at] = bool(value) if self.kind == "i1" else operator.index(value)
+
+
+class Nested(Field):
+    """Another record inside of this one."""
+
+    def __init__(self, kind: type[Record], at: int) -> None:
+        super().__init__(kind, at)
+        self.slots = kind.slots
+
+    def __get__(self, record: Record | None, owner: Any = None) -> Any:
+        if record is None:
+            return self
+        if self.at not in record._kept:
+            record._kept[self.at] = self.kind(record._ints[self.at : self.at + self.slots])
+        return record._kept[self.at]
+
+    def __set__(self, record: Record, value: Any) -> None:
+        self.__get__(record)[:] = value
+
+
+class Inside(Field):
+    """An array of fixed size inside of a record."""
+
+    def __init__(self, kind: str, at: int, length: int) -> None:
+        super().__init__(kind, at)
+        self.slots = length
+
+    def __get__(self, record: Record | None, owner: Any = None) -> Any:
+        if record is None:
+            return self
+        numbers = record._reals if self.kind == "Reals" else record._ints
+        return numbers[self.at : self.at + self.slots]
+
+    def __set__(self, record: Record, value: Any) -> None:
+        self.__get__(record)[:] = value
+
+
+class Reference(Field):
+    """An array, or rows, by address and length; the record keeps it alive."""
+
+    slots = 2
+
+    def __get__(self, record: Record | None, owner: Any = None) -> Any:
+        if record is None:
+            return self
+        return record._kept[self.at]
+
+    def __set__(self, record: Record, value: Any) -> None:
+        numbers = value
+        if isinstance(self.kind, RowsOf):
+            if not (isinstance(value, Rows) and value.kind is self.kind.record):
+                raise TypeError(f"rows of {self.kind.record.__name__} are needed, not {value!r}")
+            numbers = value.numbers
+        elif numbers.dtype != TYPES[ARRAYS[self.kind]] or not numbers.flags.c_contiguous:
+            raise TypeError(f"{self.kind} must be dense and of 64 bits, not {numbers.dtype}")
+        record._kept[self.at] = value
+        record._ints[self.at], record._ints[self.at + 1] = numbers.ctypes.data, value.size
+
+
+class Record:
+    """Fields at fixed places of memory; see above."""
+
+    fields: ClassVar[dict[str, Field]] = {}
+    slots: ClassVar[int] = 0
+    #: Whether it holds addresses: such a record is not copied or cleared as a whole.
+    refers: ClassVar[bool] = False
+
+    def __init_subclass__(cls) -> None:
+        cls.fields, at = dict(cls.fields), cls.slots
+        names = vars(sys.modules[cls.__module__])
+        for name, hint in inspect.get_annotations(cls).items():
+            if str(hint).startswith("ClassVar"):
+                continue
+            if hasattr(Record, name) or name in cls.fields:
+                raise TypeError(f"{cls.__name__}: a field cannot be called {name}")
+            field = _field(resolve(hint, names), at, cls.__dict__.get(name))
+            if field is None:
+                raise TypeError(f"{cls.__name__}.{name}: {hint} is no type of a field")
+            cls.fields[name], at = field, at + field.slots
+            setattr(cls, name, field)
+        cls.slots = at
+        cls.refers = any(
+            isinstance(f, Reference) or isinstance(f, Nested) and f.kind.refers
+            for f in cls.fields.values()
+        )
+
+    def __init__(self, room: np.ndarray) -> None:
+        """The first slots of an array of 64-bit numbers (``slots``,) or more."""
+        if room.size < self.slots:
+            raise ValueError(f"{type(self).__name__} takes {self.slots} slots, not {room.size}")
+        self._ints = room[: self.slots].view(np.int64)
+        self._reals = self._ints.view(np.float64)
+        self._kept: dict[int, Any] = {}
+
+    @classmethod
+    def zeros(cls) -> Self:
+        """A record of its own, all numbers zero, all arrays empty."""
+        record = cls(np.zeros(cls.slots, np.int64))
+        record._empty()
+        return record
+
+    def _empty(self) -> None:
+        for name, field in self.fields.items():
+            if isinstance(field, Nested):
+                getattr(self, name)._empty()
+            elif isinstance(field, Reference):
+                if isinstance(field.kind, RowsOf):
+                    setattr(self, name, Rows(field.kind.record, 0))
+                else:
+                    setattr(self, name, np.zeros(0, TYPES[ARRAYS[field.kind]]))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name not in self.fields and not name.startswith("_"):
+            raise AttributeError(f"{type(self).__name__} has no field {name}")
+        object.__setattr__(self, name, value)
+
+    def __setitem__(self, everything: slice, value: Self | int) -> None:
+        """Copy all numbers of another such record, or clear them with 0."""
+        if everything != slice(None) or self.refers:
+            raise TypeError(f"{type(self).__name__} is not set like this")
+        if isinstance(value, Record):
+            if type(value) is not type(self):
+                raise TypeError(f"{type(value).__name__} is no {type(self).__name__}")
+            self._ints[:] = value._ints
+        elif value == 0:
+            self._ints[:] = 0
+        else:
+            raise TypeError("a record is set to another one, or to 0")
+
+    def copy(self) -> Self:
+        """Another record with the same numbers."""
+        other = self.zeros()
+        other[:] = self
+        return other
+
+    def values(self) -> dict[str, Any]:
+        """What every field holds, by its name."""
+        return {name: getattr(self, name) for name in self.fields}
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{k}={v}' for k, v in self.values().items())})"
+
+    @property
+    def address(self) -> int:
+        """Where it begins, as native code takes it."""
+        return self._ints.ctypes.data
+
+
+R = TypeVar("R", bound=Record)
+
+
+class Rows(Generic[R]):
+    """Records of one kind behind each other: ``size`` of them."""
+
+    def __init__(self, kind: type[R], numbers: Any) -> None:
+        """``numbers``: how many cleared ones, or what all of them hold (size, slots) as 64-bit
+        numbers, which are not copied.
+        """
+        self.kind = kind
+        cleared = isinstance(numbers, int)
+        self.numbers = np.zeros(numbers * kind.slots, np.int64) if cleared else numbers.reshape(-1)
+        self.size = self.numbers.size // kind.slots
+
+    def __len__(self) -> int:
+        return self.size
+
+    def __getitem__(self, k: int) -> R:
+        if not 0 <= k < self.size:
+            raise IndexError(f"{k} of {self.size} rows")
+        return self.kind(self.numbers[k * self.kind.slots : (k + 1) * self.kind.slots])
+
+    def __iter__(self) -> Iterator[R]:
+        return (self[k] for k in range(self.size))
+
+    def __repr__(self) -> str:
+        return repr(list(self))
+
+
+class RowsOf:
+    """The kind of a value that is an array of records."""
+
+    def __init__(self, record: type[Record]) -> None:
+        self.record = record
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, RowsOf) and other.record is self.record
+
+    def __hash__(self) -> int:
+        return hash(self.record)
+
+
+def resolve(hint: Any, names: dict[str, Any]) -> Any:
+    """The kind that an annotation means where ``names`` are known: i64, double, i1, Ints, Reals, a
+    record, rows of records; None for anything else.
+    """
+    word = hint if isinstance(hint, str) else getattr(hint, "__name__", str(hint))
+    if getattr(hint, "__args__", ()):
+        hint = word = f"Rows[{hint.__args__[0].__name__}]"
+    if word.startswith("Rows[") and word.endswith("]"):
+        record = resolve(word[5:-1], names)
+        return RowsOf(record) if is_record(record) else None
+    if word in ("Ints", "Reals", "Alone"):
+        return "Ints" if word == "Ints" else "Reals"
+    if word in SCALARS:
+        return SCALARS[word]
+    found = names.get(word) if isinstance(hint, str) else hint
+    return found if is_record(found) else None
+
+
+def is_record(kind: Any) -> bool:
+    """Whether a kind is that of a record."""
+    return isinstance(kind, type) and issubclass(kind, Record)
+
+
+def _field(kind: Any, at: int, given: Any) -> Field | None:
+    """The field of a kind at a slot; ``given``: what its annotation was set to."""
+    if kind is None:
+        return None
+    if isinstance(given, array):
+        return Inside(kind, at, given.length) if kind in ARRAYS else None
+    if kind in ARRAYS or isinstance(kind, RowsOf):
+        return Reference(kind, at)
+    return Nested(kind, at) if is_record(kind) else Scalar(kind, at)
