@@ -25,7 +25,7 @@ QUICK = {
 
 
 def arguments() -> argparse.Namespace:
-    """What is asked for; nothing means everything."""
+    """The parts to measure; none given means all."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("--what", nargs="+", choices=MEASURED, default=MEASURED)
     parser.add_argument("--scene", nargs="+", choices=SCENES, help="all unless given")
@@ -40,7 +40,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--limit", type=Path, help="folder of the hand-coded C programs")
     parser.add_argument("--quick", action="store_true", help="small scenes, under three minutes")
     parser.add_argument("--out", type=Path, default=RESULTS, help="folder of tables and charts")
-    parser.add_argument("--docs", action="store_true", help="write docs/accuracy.md and its charts")
+    parser.add_argument("--docs", action="store_true", help="write docs/accuracy*.md and charts")
     parser.add_argument("--decks", type=Path, metavar="FOLDER", help="only write all decks there")
     args = parser.parse_args()
     if args.quick:
@@ -58,7 +58,7 @@ def arguments() -> argparse.Namespace:
 
 
 def chosen(args: argparse.Namespace) -> list[str]:
-    """Names of the installed programs that are asked for; the others are named as left out."""
+    """Names of the requested programs that are installed; the others are reported as left out."""
     from benchmarks.peers import PROGRAMS
     from benchmarks.peers.ours import FIXED_STEPS
 
@@ -70,7 +70,7 @@ def chosen(args: argparse.Namespace) -> list[str]:
 
 
 def keep(made: list[Point], folder: Path) -> None:
-    """Put what was measured into the table of the folder."""
+    """Merge the measured points into the table of the folder."""
     rows = points.merged(points.read(folder), map(points.row, made))
     points.write(rows, folder)
 
@@ -95,7 +95,7 @@ def accuracy(args: argparse.Namespace, names: list[str], crew: Crew, scene: str,
 
 
 def measure_all(args: argparse.Namespace) -> None:
-    """Everything asked for, into the tables of the folder."""
+    """Everything requested, into the tables of the folder."""
     from benchmarks.growth import growth
     from benchmarks.same_method import same_method
 
@@ -131,7 +131,7 @@ def measure_all(args: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    """Measure what is asked for, and tell."""
+    """Measure what the command line requests, and report."""
     args = arguments()
     if args.decks:
         from benchmarks.decks import write_all
@@ -146,7 +146,8 @@ def main() -> int:
         report.write(report.FOLDER, report.PAGE, [".svg"], few=True)
     else:
         report.write(args.out, args.out / "report.md", [".png", ".svg"])
-        print((args.out / "report.md").read_text())
+        for name in ("report.md", "report-tables.md"):
+            print((args.out / name).read_text())
     return 0
 
 

@@ -1,4 +1,4 @@
-"""Every hard case by every integrator: inside the band, refused, or outside of it.
+"""Every hard case with every integrator: inside the band, rejected, or outside of it.
 
     python -m benchmarks.matrix                            every case, some minutes
     python -m benchmarks.matrix --case pulse --only HHT    parts of it; the other cells stay
@@ -6,8 +6,8 @@
 A case is a deck with a reference and a band (decks/README.md).  ERROR limits what one step adds,
 not what a run adds up to, and how that grows is a property of the scene and the order of the
 method.  So each integrator starts at the ERROR of the deck and gets a tenth of it, and a tenth of
-that, until the run is inside of the band; the ERROR that it took is told.  CONSTANT_BDF has no
-error test; it starts at a twentieth of the output step and gets a quarter of it.
+that, until the run is inside of the band; the page shows the ERROR that it took.  CONSTANT_BDF has
+no error test; it starts at a twentieth of the output step and gets a quarter of it.
 """
 
 from __future__ import annotations
@@ -43,24 +43,25 @@ SECONDS, LEAST = 20.0, 1e-12
 #: From one rung to the next: ERROR, and the step of CONSTANT_BDF.
 TIGHTER, SHORTER = 0.1, 0.25
 
-#: Inside the band; would not run or stopped by itself; too slow; outside, and the summary says why;
-#: outside, and nothing says so.
-PASSED, REFUSED, SLOW, TOLD, SILENT = "passed", "refused", "slow", "told", "silent"
+#: Inside the band; rejected or ended early; too slow; outside, and the summary reports it; outside,
+#: and nothing reports it.
+PASSED, STOPPED, SLOW = "passed", "stopped", "slow"
+REPORTED, SILENT = "reported", "silent"
 WORDS = {
-    PASSED: "inside the band", REFUSED: "refused or stopped with a named outcome",
-    SLOW: "not inside after twenty seconds", TOLD: "outside, with the summary saying why",
-    SILENT: "outside without a word",
+    PASSED: "ended inside the band", STOPPED: "were rejected or ended early with a named outcome",
+    SLOW: "were not inside after twenty seconds",
+    REPORTED: "ended outside, and their summary says why", SILENT: "ended outside without a report",
 }  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Cell:
-    """What an integrator made of a case.
+    """How an integrator did on a case.
 
     setting, share, steps, cpu : of the run that came closest, and the part of the band that it
         used; infinite when none reached the end
     first : the share at the ERROR of the deck;  outcome : how the last run ended
-    told : what a refusal or the summary said
+    report : the sentence of a rejection or of the summary
     """
 
     case: str
@@ -72,7 +73,12 @@ class Cell:
     steps: int = 0
     cpu: float = 0.0
     outcome: str = ""
-    told: str = ""
+    report: str = ""
+
+    @property
+    def rejected_before(self) -> bool:
+        """Whether the method does not take the deck."""
+        return self.verdict == STOPPED and self.outcome == "UsageError"
 
 
 def columns() -> list[Variant]:
@@ -141,22 +147,22 @@ def attempt(scene: Scene, variant: Variant, seconds: float) -> Cell:
     for setting, options in scene.ladder(variant):
         try:
             results = patient(scene.run, left)(**options)
-        except UsageError as refusal:
-            return replace(best, verdict=REFUSED, outcome="UsageError", told=str(refusal))
+        except UsageError as rejection:
+            return replace(best, verdict=STOPPED, outcome="UsageError", report=str(rejection))
         left -= results.summary["solve_cpu_s"]
         share, verdict = judged(scene.reference, results)
         first = share if first is None else first
         if share < best.share:
-            told = results.meta.get("accuracy", "")
+            report = results.meta.get("accuracy", "")
             best = replace(
                 best, setting=setting, share=share, steps=results.summary["steps"],
-                cpu=results.summary["solve_cpu_s"], told=told,
+                cpu=results.summary["solve_cpu_s"], report=report,
             )  # fmt: skip
         best = replace(best, verdict=verdict, first=first, outcome=results.outcome.name)
         if verdict != SILENT or left <= 0.0:
             break
-    if best.verdict == SILENT and (best.told or left <= 0.0):
-        return replace(best, verdict=TOLD if best.told else SLOW)
+    if best.verdict == SILENT and (best.report or left <= 0.0):
+        return replace(best, verdict=REPORTED if best.report else SLOW)
     return best
 
 
@@ -165,7 +171,7 @@ def judged(reference: Reference, results: Results) -> tuple[float, str]:
     if results.outcome is Outcome.INTERRUPTED:
         return np.inf, SLOW
     if results.outcome is not reference.outcome:
-        return np.inf, REFUSED if results.outcome is not Outcome.DONE else SILENT
+        return np.inf, STOPPED if results.outcome is not Outcome.DONE else SILENT
     share = share_of(reference, results)
     return share, PASSED if share <= 1.0 else SILENT
 
@@ -211,7 +217,7 @@ def measure(cases: Sequence[Case], tried: Sequence[Variant], folder: Path, secon
 
 
 def table_of(cells: Sequence[Cell]) -> str:
-    """Cases by integrators, and what the signs mean."""
+    """Cases by integrators."""
     found = {(cell.case, cell.integrator): cell for cell in cells}
     heads = [variant for variant in columns() if any(c.integrator == variant.label for c in cells)]
     body = [
@@ -220,11 +226,15 @@ def table_of(cells: Sequence[Cell]) -> str:
     ]  # fmt: skip
     if not body:
         return ""
-    counts = ", ".join(
+    return table(("case", "", *map(heading, heads)), body)
+
+
+def counts(cells: Sequence[Cell]) -> str:
+    """How many runs ended in which way, in words."""
+    return ", ".join(
         f"{sum(cell.verdict == verdict for cell in cells)} {words}"
         for verdict, words in WORDS.items()
     )
-    return f"{counts}.\n\n" + table(("case", "", *map(heading, heads)), body)
 
 
 def _shown(cell: Cell | None) -> str:
@@ -234,14 +244,14 @@ def _shown(cell: Cell | None) -> str:
     reached = f"{cell.share:.2g} at {cell.setting}"
     if cell.verdict == PASSED:
         return f"{cell.share:.2g}" if cell.share == cell.first else reached
-    if cell.verdict == REFUSED:
-        return "refused" if cell.outcome == "UsageError" else f"`{cell.outcome}`"
-    sign = {SLOW: "slow", TOLD: "told", SILENT: "**silent**"}[cell.verdict]
+    if cell.verdict == STOPPED:
+        return "rejected" if cell.rejected_before else f"`{cell.outcome}`"
+    sign = {SLOW: "slow", REPORTED: "reported", SILENT: "**silent**"}[cell.verdict]
     return f"{sign}, {reached}" if np.isfinite(cell.share) else sign
 
 
 def main() -> int:
-    """Measure what is asked for."""
+    """Measure what the command line requests."""
     from benchmarks import report
 
     parser = argparse.ArgumentParser(prog="python -m benchmarks.matrix", description=__doc__)

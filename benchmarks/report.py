@@ -1,21 +1,22 @@
-"""The page docs/accuracy.md and its charts, from the tables in docs/accuracy.
+"""The pages docs/accuracy.md and docs/accuracy-tables.md, and the charts, from docs/accuracy.
 
     python -m benchmarks --docs      measures everything but the matrix and ends with this
     python -m benchmarks.matrix      measures the matrix and ends with this
-    python -m benchmarks.report      only writes page and charts anew
+    python -m benchmarks.report      only writes pages and charts again
 
-Each keeps what the others have measured.
+Each keeps what the others have measured.  The first page has the conclusions and the charts, the
+second one the tables behind them.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from adamslite.faults import UsageError
 from adamslite.outputs.whole import whole_file
-from benchmarks import figures, matrix, points, tables
+from benchmarks import conclusions, figures, matrix, points, tables
 from benchmarks.charts import GROWTH, draw_all, file_name, title
 from benchmarks.points import Row
 from benchmarks.tables import by_scene
@@ -25,51 +26,73 @@ FOLDER = PAGE.with_suffix("")
 
 HEAD = """# Speed against accuracy
 
-Written by `python -m benchmarks --docs`; `python -m benchmarks.report` makes page and charts
-anew from [points.csv]({folder}/points.csv), [figures.csv]({folder}/figures.csv) and
-[matrix.csv]({folder}/matrix.csv). What the scenes are and how they are measured:
-[benchmarks/README.md](../benchmarks/README.md).
+How much CPU adamslite takes for how much accuracy, beside other programs, and how each of its
+integrators does on hard cases. CPU is user and system time of one core, the median of runs in
+turns; milliseconds are those of one machine, so only their ratios mean anything elsewhere. Errors
+are absolute, at the end of a scene, against references that none of the programs computed.
 
-All CPU is user and system time of one core, medians of runs in turns. Milliseconds are those of one
-machine (its rates are below); only their ratios mean anything elsewhere. Errors are absolute, at
-the end of a scene, against references that none of the programs made.
+The tables behind this page: [{tables}]({tables}). The scenes, and how they are
+measured: [benchmarks/README.md](../benchmarks/README.md). Written by `python -m benchmarks --docs`.
 """
 
 SECTIONS = {
-    "summary": (
-        "The cheapest way to an accuracy",
-        "The cheapest measured setting of ours and of the others. *times ours* is the CPU of the\n"
-        "other one over ours.",
+    "conclusions": ("Conclusions", ""),
+    "scenes": (
+        "Each scene at an error of 1e-5",
+        "The cheapest setting with an error of 1e-5 m or rad at most. *ratio*: CPU of the other\n"
+        "program over that of adamslite. *none*: no setting was as accurate. Bricard and Top were\n"
+        "given to one other program only, Exudyn.",
     ),
     "charts": (
         "Charts",
-        "More exact to the right, cheaper below; ours bold, peers grey (explicit ones dashed).",
+        "More accurate to the right, cheaper below. adamslite is bold, the others are grey\n"
+        "(explicit ones dashed).",
+    ),
+    "cases": (
+        "Hard cases",
+        "Reference decks that are hard on methods, with every integrator. *Inside*: within the\n"
+        "band of the reference, at the ERROR of the deck or at a smaller one.",
+    ),
+}
+
+TABLES_HEAD = """# Tables behind the comparison of speed and accuracy
+
+The figures behind [{page}]({page}), from [points.csv]({folder}/points.csv),
+[figures.csv]({folder}/figures.csv) and [matrix.csv]({folder}/matrix.csv); `python -m
+benchmarks.report` writes the pages again.
+"""
+
+TABLES = {
+    "summary": (
+        "The cheapest way to an accuracy",
+        "The cheapest measured setting of adamslite and of the others. *times ours* is the CPU of\n"
+        "the other one over that of adamslite.",
     ),
     "equal_steps": (
         "The same method with the same steps",
-        "HHT of ours with equal steps beside generalised alpha with the same damping, in\n"
-        "hand-coded C that can do these two scenes and nothing else, and in Exudyn. That the\n"
-        "errors agree within a fifth shows that it is the same numerical work.",
+        "HHT with equal steps beside generalised alpha with the same damping, in hand-coded C\n"
+        "that solves these two scenes and nothing else, and in Exudyn. The errors agree within a\n"
+        "fifth, so it is the same numerical work.",
     ),
     "growth": (
-        "What a step costs, and how that grows",
-        "CPU per step [us] of the start of S1, long enough that it is not that of the first\n"
-        "steps; the exponent is that from N = 50 on.",
+        "The cost of a step, and how it grows",
+        "CPU per step [us] of the start of S1, long enough not to be that of the first steps; the\n"
+        "exponent is that from N = 50 on.",
     ),
     "singular": (
         "Singular positions",
-        "S4: loops that pass positions in which they could branch off, for ten seconds, by every\n"
-        "integrator of ours.",
+        "S4: loops that pass positions in which they could branch off, for ten seconds, with\n"
+        "every integrator.",
     ),
     "matrix": (
-        "Where methods fail",
-        "Reference decks that are hard on methods, each by every integrator of ours\n"
+        "Hard cases",
+        "Reference decks that are hard on methods, with every integrator\n"
         "(`python -m benchmarks.matrix`). A number is the part of the band of its reference\n"
-        "(decks/README.md) that a run used at the ERROR of the deck, or at the first of smaller\n"
-        "ones (a tenth, a hundredth, ...) that was enough; CONSTANT_BDF has a step in its place.\n"
-        "*Refused*: before the run, with a sentence that says what to use instead. A name is the\n"
-        "outcome with which the run stopped, before any ERROR was enough. *Told*: ERROR = 1e-12\n"
-        "was not enough, and the summary of the run says why.",
+        "(decks/README.md) that a run used at the ERROR of the deck, or at the first smaller one\n"
+        "(a tenth, a hundredth, ...) that was enough; CONSTANT_BDF has a step in its place.\n"
+        "*rejected*: before the run, with a sentence that names another method. A name is the\n"
+        "outcome with which the run ended early. *reported*: ERROR = 1e-12 was not enough, and\n"
+        "the summary of the run says why.",
     ),
     "single": ("Start, memory, machine", ""),
     "programs": (
@@ -81,23 +104,39 @@ SECTIONS = {
 
 def page(
     rows: Sequence[Row],
-    told: Sequence[figures.Figure],
+    single: Sequence[figures.Figure],
     cells: Sequence[matrix.Cell],
     drawn: Sequence[str],
     folder: str,
 ) -> str:
-    """The page."""
-    made = {
-        "summary": tables.summary(rows), "charts": _charts(rows, drawn, folder),
-        "equal_steps": tables.equal_steps(rows), "growth": tables.growth(rows),
-        "singular": _singular(rows), "matrix": matrix.table_of(cells),
-        "single": tables.single(told), "programs": _programs(rows),
+    """The sections of the first page: conclusions and charts."""
+    parts = {
+        "conclusions": conclusions.conclusions(rows, single, cells),
+        "scenes": conclusions.scenes(rows), "charts": _charts(rows, drawn, folder),
+        "cases": conclusions.cases(cells),
     }  # fmt: skip
-    text = HEAD.format(folder=folder)
-    for key, (name, words) in SECTIONS.items():
-        if made[key]:
-            text += f"\n## {name}\n\n" + (f"{words}\n\n" if words else "") + made[key]
-    return text
+    return _sections(SECTIONS, parts)
+
+
+def tables_page(
+    rows: Sequence[Row], single: Sequence[figures.Figure], cells: Sequence[matrix.Cell]
+) -> str:
+    """The sections of the second page."""
+    parts = {
+        "summary": tables.summary(rows), "equal_steps": tables.equal_steps(rows),
+        "growth": tables.growth(rows), "singular": _singular(rows),
+        "matrix": matrix.table_of(cells), "single": tables.single(single),
+        "programs": _programs(rows),
+    }  # fmt: skip
+    return _sections(TABLES, parts)
+
+
+def _sections(heads: Mapping[str, tuple[str, str]], parts: Mapping[str, str]) -> str:
+    """Headings, words and parts; a part that is empty was not measured."""
+    return "".join(
+        f"\n## {name}\n\n" + (f"{words}\n\n" if words else "") + parts[key]
+        for key, (name, words) in heads.items() if parts[key]
+    )  # fmt: skip
 
 
 def _charts(rows: Sequence[Row], drawn: Sequence[str], folder: str) -> str:
@@ -120,9 +159,9 @@ def _programs(rows: Sequence[Row]) -> str:
 
 
 def write(folder: Path, target: Path, suffixes: Sequence[str], few: bool = False) -> None:
-    """Write a page from the tables in ``folder``, where all charts go, too, or ``few`` of them."""
-    rows, told, cells = points.read(folder), figures.read(folder), matrix.read(folder)
-    if not rows and not told and not cells:
+    """Write both pages from the tables in ``folder``, and all charts, or ``few`` of them, there."""
+    rows, single, cells = points.read(folder), figures.read(folder), matrix.read(folder)
+    if not rows and not single and not cells:
         raise UsageError(f"there is nothing measured in {folder}: python -m benchmarks --docs")
     try:
         drawn = draw_all(rows, folder, suffixes, few)
@@ -130,8 +169,12 @@ def write(folder: Path, target: Path, suffixes: Sequence[str], few: bool = False
         print(absent, file=sys.stderr)
         drawn = [path.stem for path in folder.glob("*.svg")]
     link = folder.name if folder.parent == target.parent else "."
-    with whole_file(target) as stream:
-        stream.write(page(rows, told, cells, drawn, link) + "\n")
+    behind = target.with_name(f"{target.stem}-tables.md")
+    first = HEAD.format(tables=behind.name) + page(rows, single, cells, drawn, link)
+    second = TABLES_HEAD.format(page=target.name, folder=link) + tables_page(rows, single, cells)
+    for path, text in ((target, first), (behind, second)):
+        with whole_file(path) as stream:
+            stream.write(text.rstrip("\n") + "\n")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from itertools import groupby
 
@@ -72,7 +73,7 @@ def summary(rows: Iterable[Row], targets: Sequence[float] = TARGETS) -> str:
 def _cell(own: Row | None) -> tuple[str, str]:
     if own is None:
         return "not reached", "-"
-    return f"{_short(own.program)} {own.setting}", milliseconds(own.cpu_median)
+    return f"{short(own.program)} {own.setting}", milliseconds(own.cpu_median)
 
 
 def _against(
@@ -83,11 +84,11 @@ def _against(
     if rival is None:
         tried = [r for r in mine if r.kind in kinds and not r.missed]
         return ("none got there" if tried else "not measured"), "-"
-    told = f"{_short(rival.program)} {milliseconds(rival.cpu_median)} ms"
-    return told, f"{rival.cpu_median / own.cpu_median:.2g}" if own else "-"
+    shown = f"{short(rival.program)} {milliseconds(rival.cpu_median)} ms"
+    return shown, f"{rival.cpu_median / own.cpu_median:.2g}" if own else "-"
 
 
-def _short(program: str) -> str:
+def short(program: str) -> str:
     """The name without what a reader knows from the table."""
     return program.removeprefix("adamslite ").removesuffix(", mechanism")
 
@@ -104,7 +105,7 @@ def programs(mine: Sequence[Row], targets: Sequence[float] = TARGETS) -> str:
         setups = [r.setup for r in own if r.setup is not None]
         peaks = [r.peak for r in own if r.peak is not None]
         body.append(
-            [_short(name), kind, *cells, milliseconds(min(setups, default=None)),
+            [short(name), kind, *cells, milliseconds(min(setups, default=None)),
              f"{max(peaks):.0f}" if peaks else "-", _remark(own, best)]
         )  # fmt: skip
     head = ("program", "kind", *(f"to {t:g}" for t in targets), "set-up", "peak MB", "remark")
@@ -127,13 +128,20 @@ def _remark(own: Sequence[Row], best: Sequence[Row | None]) -> str:
 def errors_of_ours(mine: Sequence[Row]) -> str:
     """S4: error, energy drift and cost of every integrator of ours at every ERROR."""
     body = [
-        [_short(r.program), r.setting, f"{r.error:.1e}", f"{r.drift:.1e}",
+        [short(r.program), r.setting, f"{r.error:.1e}", f"{r.drift:.1e}",
          milliseconds(r.cpu_median)]
         if r.ok and r.error is not None and r.drift is not None
-        else [_short(r.program), r.setting, r.reason.partition(". ")[0], "-", "-"]
+        else [short(r.program), r.setting, _ending(r.reason), "-", "-"]
         for r in mine if r.kind == "ours"
     ]  # fmt: skip
     return table(("integrator", "setting", "error rad", "energy drift", "CPU ms"), body)
+
+
+def _ending(reason: str) -> str:
+    """Why there is no result, without the details of the last step."""
+    first = reason.partition(". ")[0].removeprefix("UsageError: ")
+    when = re.search(r"at t = ([-+.\de]+)", first)
+    return f"ended early at t = {when[1].rstrip('.')}" if when else first
 
 
 def equal_steps(rows: Iterable[Row]) -> str:

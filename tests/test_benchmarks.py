@@ -7,7 +7,7 @@ import pytest
 
 from adamslite import read
 from adamslite.work_precision import Variant, variants
-from benchmarks import figures, matrix, points, report, tables
+from benchmarks import conclusions, figures, matrix, points, report, tables
 from benchmarks.decks import deck
 from benchmarks.figures import Figure
 from benchmarks.growth import worth_measuring
@@ -197,10 +197,20 @@ def test_ratios_are_those_of_the_cheapest_that_meet_the_target() -> None:
     assert "C " not in line  # a limit is no peer
 
 
+def test_the_conclusions_follow_from_the_rows() -> None:
+    shown = conclusions.conclusions(ROWS, [Figure("a", "b", 2.0, "s", 1.0)], CELLS)
+    assert "The best other implicit program takes 10 to 10 times" in shown
+    assert "The best other program of any kind takes 5 to 5 times" in shown
+    assert "0 of 1 figures are within their bounds; beyond them: b (2 s, bound 1)" in shown
+    assert "| S1 N=10 | HHT | 2 | Swift | 10 | 5 |" in conclusions.scenes(ROWS, 1e-3)
+    counted = conclusions.cases(CELLS)
+    assert "| HHT | 0 | 1 |" in counted and "| VERLET | 0 | 0 | 1 | 0 |" in counted
+
+
 def test_a_program_without_a_turn_has_not_failed() -> None:
     late = [ROWS[0], row("Other", "implicit", None, 0.0, reason=TIME_UP)]
-    told = tables.summary(late, [1e-3])
-    assert "S1 N=10*" in told and "not measured" in told and "time was up" in told
+    shown = tables.summary(late, [1e-3])
+    assert "S1 N=10*" in shown and "not measured" in shown and "time was up" in shown
     failed = [ROWS[0], row("Other", "implicit", None, 0.0, reason="it crashed")]
     assert "none got there" in tables.summary(failed, [1e-3])
 
@@ -221,7 +231,7 @@ def test_a_scene_measured_again_loses_its_old_lines() -> None:
 CELLS = [
     matrix.Cell("pulse", "HHT", matrix.PASSED, "1e-08", 0.5, 12.0, 100, 0.01, "DONE"),
     matrix.Cell("pulse", "RADAU", matrix.PASSED, "1e-06", 0.01, 0.01, 100, 0.01, "DONE"),
-    matrix.Cell("pulse", "VERLET", matrix.REFUSED, outcome="UsageError", told="use ABAM"),
+    matrix.Cell("pulse", "VERLET", matrix.STOPPED, outcome="UsageError", report="use ABAM"),
     matrix.Cell("pulse", "NEWMARK", matrix.SILENT, "1e-12", 2.0, 3.0, 100, 0.01, "DONE"),
 ]
 
@@ -230,12 +240,14 @@ def test_the_report_has_what_every_command_measured(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     matrix.write(CELLS, tmp_path)
     report.write(tmp_path, page, [".svg"])
-    line = next(line for line in page.read_text().splitlines() if line.startswith("| pulse"))
+    behind = tmp_path / "page-tables.md"
+    line = next(line for line in behind.read_text().splitlines() if line.startswith("| pulse"))
     cells = [cell.strip() for cell in line.split("|")]
-    assert {"0.5 at 1e-08", "0.01", "refused", "**silent**, 2 at 1e-12"} <= set(cells)
+    assert {"0.5 at 1e-08", "0.01", "rejected", "**silent**, 2 at 1e-12"} <= set(cells)
     points.write(ROWS, tmp_path)
     report.write(tmp_path, page, [".svg"])
-    assert "times ours" in page.read_text() and line in page.read_text()
+    assert "times ours" in behind.read_text() and line in behind.read_text()
+    assert "Of 4 runs of hard cases 2 ended inside the band" in page.read_text()
     assert matrix.read(tmp_path) == sorted(CELLS, key=in_order)
 
 
@@ -264,15 +276,15 @@ def column(label: str) -> Variant:
     return next(variant for variant in matrix.columns() if variant.label == label)
 
 
-def test_a_refusal_is_no_wrong_answer() -> None:
+def test_a_rejection_is_no_wrong_answer() -> None:
     pendulum = matrix.Scene(next(c for c in CASES if c.reference == "pendulum-gcon/reference.csv"))
     cell = matrix.attempt(pendulum, column("VERLET"), 20.0)
-    assert cell.verdict == matrix.REFUSED and "GCON/1" in cell.told
+    assert cell.rejected_before and "GCON/1" in cell.report
 
 
 def test_no_time_is_no_pass(square_wave: matrix.Scene) -> None:
     cell = matrix.attempt(square_wave, column("HHT"), 0.0)
-    assert cell.share > 1.0 and cell.verdict in (matrix.SLOW, matrix.TOLD)
+    assert cell.share > 1.0 and cell.verdict in (matrix.SLOW, matrix.REPORTED)
 
 
 def test_an_answer_outside_of_the_band_is_not_passed(square_wave: matrix.Scene) -> None:
