@@ -25,7 +25,7 @@ def element_ids() -> Any:
 
 def element_range() -> Any:
     """The elements between two ids."""
-    return vector("RANGE", size=2, unit="1", help="first and last id; all elements between count")
+    return vector("RANGE", size=2, unit="1", help="first and last id of a range of elements")
 
 
 class Switch:

@@ -1,4 +1,4 @@
-"""ACTIVATE: elements that act again.
+"""ACTIVATE: switches elements on again.
 
 Equation (a the switch of an element, 1 from here on)::
 
@@ -13,9 +13,9 @@ from adamslite.switching import Switch, element_ids, element_kind, element_range
 
 @statement("ACTIVATE", singleton=True, repeatable=True, place="command")
 class Activate(Switch, Statement):
-    """Switches elements on, after DEACTIVATE; holds from the next SIMULATE on.
+    """Switches elements on after DEACTIVATE, from the next SIMULATE on.
 
-    An element that is on already stays so.
+    An element that is already on is not affected.
     """
 
     on = True

@@ -6,8 +6,9 @@ Equation, components along the axes of J (d = r_I - r_J)::
     torque on I   TORQUE - KT th - CT w      th = AX(I,J), AY(I,J), AZ(I,J),  w: that of I less J's
     on J          -force,  -torque - d x force
 
-each value times its own component: nothing is coupled.  Sign: the forces pull I back to J.  The
-angles are projections; two of the three must stay small, and only AZ may exceed a quarter turn.
+each value times its own component; the directions are not coupled.  Sign: the forces pull I back
+to J.  The angles are projections; two of the three must stay small, and only AZ may exceed a
+quarter turn.
 Source: Adams/Solver statement BUSHING, Adams/View "Constitutive Equations for Bushings".
 """
 
@@ -31,14 +32,14 @@ class Bushing(Compliance, Statement):
 
     i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
     j: int | str = reference(
-        "J", to="MARKER", required=True, help="marker it is seen from, which takes the reaction"
+        "J", to="MARKER", required=True, help="reference marker, which takes the reaction"
     )
     k: tuple[float, ...] = _three("K", "force/length", "stiffness along")
     c: tuple[float, ...] = _three("C", "force time/length", "damping along")
-    force: tuple[float, ...] = _three("FORCE", "force", "force at no displacement along")
+    force: tuple[float, ...] = _three("FORCE", "force", "force at zero displacement along")
     kt: tuple[float, ...] = _three("KT", "torque/angle", "torsional stiffness about")
     ct: tuple[float, ...] = _three("CT", "torque time/angle", "torsional damping about")
-    torque: tuple[float, ...] = _three("TORQUE", "torque", "torque at no rotation about")
+    torque: tuple[float, ...] = _three("TORQUE", "torque", "torque at zero rotation about")
 
     def derived(self, model: Any) -> dict[str, Any]:
         """The matrices of the law."""

@@ -1,11 +1,11 @@
 """COUPLER: two or three joints whose freedoms are proportional.
 
-Equation (q the translation or rotation of I relative to J of each joint, since the drawn posture)::
+Equation (q the translation or rotation of I relative to J of each joint)::
 
     r1 (q1 - q1_0) + r2 (q2 - q2_0) [+ r3 (q3 - q3_0)] = 0
 
-Sign: q is positive along and about z of J; rotations count full turns.  A deck that draws its
-joints at zero has q_0 = 0; one that does not is coupled as it is drawn.
+Sign: q is positive along and about z of J; rotations count full turns.  q_0 is the
+value in the posture of the deck, in which the joints are coupled.
 The reaction reported acts on I of the first joint.
 """
 

@@ -14,7 +14,7 @@ from adamslite.statement import Statement, choice, integer, reference, statement
 
 @statement("CURVE", planned=("FUNCTION", "MINPAR", "MAXPAR", "ROUTINE"))
 class Curve(Statement):
-    """Geometry for PTCV, in the axes of the marker that the curve is laid on."""
+    """Geometry for PTCV, in the axes of the marker to which the curve is fixed."""
 
     form: str = choice(options=("OPEN", "CLOSED"), default="OPEN", help="whether it has ends")
     matrix: int | str | None = reference("MATRIX", to="MATRIX", help="points, one row x, y, z each")
@@ -22,4 +22,4 @@ class Curve(Statement):
         options=("CURVE_POINTS", "CONTROL_POINTS"), supported=("CURVE_POINTS",),
         default="CURVE_POINTS", help="what the rows of MATRIX are",
     )  # fmt: skip
-    order: int = integer("ORDER", default=4, help="degree of the pieces plus one; 4 is meant")
+    order: int = integer("ORDER", default=4, help="degree of the pieces plus one; always 4")

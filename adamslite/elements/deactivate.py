@@ -1,4 +1,4 @@
-"""DEACTIVATE: elements that act no more.
+"""DEACTIVATE: switches elements off.
 
 Equation (a the switch of an element, 0 from here on)::
 
@@ -13,9 +13,9 @@ from adamslite.switching import Switch, element_ids, element_kind, element_range
 
 @statement("DEACTIVATE", singleton=True, repeatable=True, place="command")
 class Deactivate(Switch, Statement):
-    """Switches elements off, until ACTIVATE; holds from the next SIMULATE on.
+    """Switches elements off until ACTIVATE, from the next SIMULATE on.
 
-    Without effect an element keeps its result columns, filled with zeros.
+    The result columns of an element that is off are filled with zeros.
     """
 
     on = False

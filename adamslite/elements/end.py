@@ -10,4 +10,4 @@ from adamslite.statement import Statement, statement
 
 @statement("END", singleton=True, ends=True)
 class End(Statement):
-    """Whatever follows is not read."""
+    """Lines after it are not read."""

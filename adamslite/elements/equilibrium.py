@@ -22,17 +22,17 @@ from adamslite.statement import Statement, flag, integer, number, statement, wor
     ),
 )  # fmt: skip
 class Equilibrium(Statement):
-    """How SIMULATE/STATICS finds the position of rest; what a command omits stays as it was."""
+    """How SIMULATE/STATICS finds the position of rest; omitted arguments keep their values."""
 
-    default: bool = flag("DEFAULT", help="takes back everything given before")
+    default: bool = flag("DEFAULT", help="resets all arguments to their defaults")
     alimit: float = number(
         "ALIMIT", unit="angle", default=radians(10), help="largest rotation of an iteration"
     )
-    error: float = number("ERROR", unit="1", default=1e-4, help="relative correction allowed")
+    error: float = number("ERROR", unit="1", default=1e-4, help="allowed relative correction")
     imbalance: float = number(
-        "IMBALANCE", unit="force", default=1e-4, help="residual of an equation allowed"
+        "IMBALANCE", unit="force", default=1e-4, help="allowed residual of an equation"
     )
-    maxit: int = integer("MAXIT", default=25, help="most iterations")
+    maxit: int = integer("MAXIT", default=25, help="largest number of iterations")
     pattern: tuple[str, ...] = words(
         "PATTERN", options=("T", "F"), help="iterations that renew the Jacobian; all unless given"
     )

@@ -7,9 +7,9 @@ Equation, components along the axes of J (d = r_I - r_J)::
     force, torque on I = FORCE - KMATRIX (x - LENGTH) - CMATRIX v
     on J               = -force,  -torque - d x force
 
-CMATRIX = CRATIO KMATRIX when CRATIO is given.  The 36 values of a matrix stand column by column:
-the first six are what a unit of x along x of J does.  Sign: a positive diagonal pulls I back to
-LENGTH.  The angles are projections; two of the three must stay small.
+CMATRIX = CRATIO KMATRIX when CRATIO is given.  A matrix is given column by column: its first
+six values are the effect of a unit displacement along x of J.  Sign: a positive diagonal pulls I
+back to LENGTH.  The angles are projections; two of the three must stay small.
 Source: Adams/Solver statement FIELD.
 """
 
@@ -27,7 +27,7 @@ class Field(Compliance, Statement):
 
     i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
     j: int | str = reference(
-        "J", to="MARKER", required=True, help="marker it is seen from, which takes the reaction"
+        "J", to="MARKER", required=True, help="reference marker, which takes the reaction"
     )
     kmatrix: tuple[float, ...] = vector(
         "KMATRIX", size=36, unit="force/length, torque/angle, ...", default=NOTHING * 6,

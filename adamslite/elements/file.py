@@ -1,4 +1,4 @@
-"""FILE: names the deck a command file is for.
+"""FILE: names the deck of a command file.
 
 Equation: none.
 """

@@ -17,8 +17,9 @@ Equations (F, T: force and torque of the joint on I; a: z of J; ``_n`` across a,
          STEP from MU_STATIC to MU_DYNAMIC         vs ... 1.5 vs
          MU_DYNAMIC                                beyond
 
-With MAX_STICTION_DEFORMATION = D a TRANSLATIONAL or REVOLUTE joint holds what friction can hold, by
-a bristle between the surfaces whose deflection b (-1 ... 1) is a state, ``DIFF/FRICTION_id``::
+With MAX_STICTION_DEFORMATION = D a TRANSLATIONAL or REVOLUTE joint holds a load below the static
+friction, by a bristle between the surfaces whose deflection b (-1 ... 1) is a state,
+``DIFF/FRICTION_id``::
 
     friction = -(mu(|v|) N + preload) (b + (1 - |b|) p(v)),    mu = MU_STATIC below vs
 
@@ -30,7 +31,7 @@ At rest under a load F the joint has yielded b D, b = F/(MU_STATIC N + preload),
 breaks away at b = 1.  In sliding b = sign(v) and the friction is that of the table above.  A joint
 that stops springs back by D at most.  The term with p damps the bristle.
 
-The reaction is the joint's multipliers of the same instant, solved together with everything else.
+The reaction is that of the joint at the same time, solved for with all other unknowns.
 INPUTS leaves out terms of N or the preload: REACTION_FORCE F, BENDING_MOMENT T_n, TORSIONAL_MOMENT
 T_a.  EFFECT=SLIDING takes MU_DYNAMIC for both coefficients, EFFECT=STICTION has no friction beyond
 1.5 vs.  A preload is a friction force (or torque) of its own, ramped below vs like mu.
@@ -45,7 +46,7 @@ there is no friction, as with INACTIVE=STATIC; the bristle is then straight, b =
 the sliding parts stays INITIAL_OVERLAP.  The defaults of the coefficients and arms are those that
 Adams/View writes.  The weights of N in revolute, cylindrical and spherical joints follow the
 descriptions of their arguments; for the two axes of Hooke and universal joints there is no such
-description, and the joints are refused.
+description, and these joints are rejected.
 Source: Adams/Solver statement FRICTION; Adams/View help "Translational Joint" and "Friction Regime
 Determination"; P. Dupont, V. Hayward, B. Armstrong, F. Altpeter, IEEE Trans. Automatic Control 47
 (2002) 787, section III.
@@ -85,7 +86,9 @@ def _arm(key: str, default: float, help: str) -> float:
 class Friction(Wrench, Statement):
     """Friction of a translational, revolute, cylindrical or spherical joint."""
 
-    joint: int | str = reference("JOINT", to="JOINT", required=True, help="the joint that rubs")
+    joint: int | str = reference(
+        "JOINT", to="JOINT", required=True, help="the joint that has friction"
+    )
     mu_static: float = number("MU_STATIC", unit="1", default=0.5, help="coefficient at rest")
     mu_dynamic: float = number("MU_DYNAMIC", unit="1", default=0.3, help="coefficient in motion")
     stiction_transition_velocity: float = number(

@@ -6,7 +6,7 @@ Equation::
     force on the model   -(d FUNCTION/dq)^T lam
 
 The force acts between the markers i and j of the measures in FUNCTION: FX(i, j) and REQUEST/FORCE
-count it, GCON(id, 0, comp) is what acts on the first of them.
+include it, GCON(id, 0, comp) is what acts on the first of them.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Gcon(Statement):
     """Makes an expression in displacements (holonomic) or velocities (nonholonomic) vanish."""
 
     function: Node = expression(
-        "FUNCTION", required=True, unit="the user's", help="what is kept at zero"
+        "FUNCTION", required=True, unit="the user's", help="the expression that is kept at zero"
     )
 
     @property

@@ -1,4 +1,4 @@
-"""GEAR: two joints on one carrier whose pitch points keep one speed.
+"""GEAR: two joints on one carrier, with equal speeds at the pitch point.
 
 Equation (P the origin of CV, z_CV the direction of the common velocity, seen from the carrier)::
 
@@ -9,7 +9,7 @@ Equation (P the origin of CV, z_CV the direction of the common velocity, seen fr
 
 The carrier holds the J markers of both joints and CV, so the factors s are constants of the deck
 and the speeds ds1/dt = s1 dq1/dt, ds2/dt of the two gears at P along z_CV are equal.  A cylindrical
-joint counts with both its freedoms.  The q count from the drawn posture, rotations with full turns.
+joint counts with both its freedoms.  The q count from the posture of the deck, with full turns.
 Sign: the reaction reported acts on I of the first joint.
 """
 

@@ -31,8 +31,8 @@ class Gforce(Wrench, Statement):
     """A vector force and a vector torque on marker I.
 
     The reaction goes to the part of the floating marker JFLOAT, or to the part ``J_PART`` directly;
-    the ground takes it without a trace.  Omitted components are zero; without RM the components are
-    along the ground axes.
+    a reaction on the ground has no effect.  Omitted components are zero; without RM the components
+    are along the ground axes.
     """
 
     i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")

@@ -1,6 +1,6 @@
 """GRAPHICS: shapes for display.
 
-Equation: none; read and left out.
+Equation: none; it is read and ignored.
 """
 
 from __future__ import annotations

@@ -12,9 +12,9 @@ from adamslite.statement import Statement, choice, integer, number, statement, v
 
 @statement("INTEGRATOR", singleton=True, repeatable=True, place="both")
 class Integrator(Statement):
-    """Settings of the integrator; what is omitted stays as it was.
+    """Settings of the integrator; omitted arguments keep their values.
 
-    May also stand in a command file, before the SIMULATE it is meant for.
+    It may also be in a command file, before the SIMULATE to which it applies.
     """
 
     method: str | None = choice(

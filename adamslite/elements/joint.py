@@ -1,6 +1,6 @@
 """JOINT: a constraint between two parts.
 
-Equations (``d = r_I - r_J``, axes of the markers, theta the turn of I since the drawn posture)::
+Equations (``d = r_I - r_J``, axes of the markers, theta: I turned from the deck's posture)::
 
     SPHERICAL      d = 0
     REVOLUTE       d = 0,  z_I . x_J = 0,  z_I . y_J = 0
@@ -19,8 +19,8 @@ Equations (``d = r_I - r_J``, axes of the markers, theta the turn of I since the
 Sign: the reaction reported is the force and torque on I; the free coordinate is that of I relative
 to J along or about z of J.  A positive PITCH is a right-handed screw.  RACKPIN: I is on the pinion,
 z its axis; J is on the rack, z along it.  A positive PD drives the rack along +z of J when the
-pinion turns about +z of I, and only the turn **seen from the rack** counts: a rack that is carried
-round the pinion winds up.  SCREW and RACKPIN start from the posture the deck draws (d0, s0,
+pinion turns about +z of I, and only the rotation **relative to the rack** counts: a rack that is
+carried round the pinion winds up.  SCREW and RACKPIN start from the posture of the deck (d0, s0,
 theta 0) and count full turns.  The shafts of a CONVEL turn equally fast, in one sense seen along
 the line of shafts; which of its two forms applies is decided by the drawn z axes::
 

@@ -17,18 +17,20 @@ from adamslite.statement import Statement, flag, integer, number, statement, wor
     planned=("HMAX", "APATTERN", "AMAXIT"),
 )  # fmt: skip
 class Kinematics(Statement):
-    """How SIMULATE/KINEMATICS solves; what a command omits stays as it was."""
+    """How SIMULATE/KINEMATICS solves; omitted arguments keep their values."""
 
-    default: bool = flag("DEFAULT", help="takes back everything given before")
-    error: float = number("ERROR", unit="1", default=1e-4, help="position correction allowed")
-    aerror: float = number("AERROR", unit="1", default=1e-4, help="acceleration correction allowed")
+    default: bool = flag("DEFAULT", help="resets all arguments to their defaults")
+    error: float = number("ERROR", unit="1", default=1e-4, help="allowed correction of positions")
+    aerror: float = number(
+        "AERROR", unit="1", default=1e-4, help="allowed correction of accelerations"
+    )
     tlimit: float = number(
         "TLIMIT", unit="length", default=1e10, help="largest translation of an iteration"
     )
     alimit: float = number(
         "ALIMIT", unit="angle", default=radians(30), help="largest rotation of an iteration"
     )
-    maxit: int = integer("MAXIT", default=25, help="most iterations")
+    maxit: int = integer("MAXIT", default=25, help="largest number of iterations")
     pattern: tuple[str, ...] = words(
         "PATTERN", options=("T", "F"), help="iterations that renew the Jacobian; all unless given"
     )

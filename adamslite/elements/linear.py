@@ -6,19 +6,19 @@ Equation::
     STATEMAT   dx/dt = A x + B u,   y = C x + D u      u of PINPUT, y of POUTPUT
 
 x holds the small motions that the constraints allow, their speeds, and the states of DIFFs, as an
-observer sees them: on the ground, or on the body of RM, whose axes turn with it.  A place is seen
-as a vector from him, a change of attitude as a rotation vector, both along his axes; his own body
-moves against the ground::
+observer sees them: on the ground, or on the body of RM, whose axes turn with it.  A position is a
+vector from the observer, a change of attitude a rotation vector, both along the observer's axes;
+the body of the observer (b) moves relative to the ground::
 
     xi = E^T (dx - dx_b - phi_b x r),    sigma = E^T (phi - phi_b)        r = x - x_b
 
-Where the state is steady for him (at rest, turning with him, or turning about an axis of
-symmetry) the eigenvalues s are the exponents of small motions, and gyroscopic, centrifugal and
-Coriolis terms are in them.  Otherwise they belong to this moment only: a note says so, and names
-an RM for which the state is steady if there is one.  Where it is steady for two observers, one of
-whom turns by W against the other, s for one may be s + i W for the other.
+Where the state is steady for the observer (at rest, turning with the observer, or turning about an
+axis of symmetry) the eigenvalues s are the exponents of small motions, including gyroscopic,
+centrifugal and Coriolis terms.  Otherwise they hold at this time only; a note reports that, and
+names an RM for which the state is steady if there is one.  Where it is steady for two observers,
+one of which turns by W relative to the other, s for one may be s + i W for the other.
 
-NODAMPING leaves out all that depends on speeds, gyroscopic terms too.
+NODAMPING leaves out all terms that depend on speeds, also gyroscopic ones.
 """
 
 from __future__ import annotations

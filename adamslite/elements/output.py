@@ -1,4 +1,4 @@
-"""OUTPUT: which files of the original solver are wanted.
+"""OUTPUT: selection of the output files of ADAMS.
 
 Equation: none; every result is always written.
 """

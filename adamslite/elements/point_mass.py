@@ -14,7 +14,7 @@ from adamslite.statement import Statement, number, reference, statement, vector,
 class PointMass(Statement):
     """A mass without rotation: it takes forces, no torques, and costs three unknowns.
 
-    The orientation of its frame (REULER, or ZG and XG) stays what it is at the start.
+    The orientation of its frame (REULER, or ZG and XG) remains that at the start.
     """
 
     alternatives = ((("reuler",), ("zg", "xg")),)

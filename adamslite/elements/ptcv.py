@@ -6,7 +6,7 @@ Equation (``d = r_I - r_RM``, c the curve in the axes of RM, s its parameter, an
 
 The path p is the x coordinate of a massless point of its own (``POINT_MASS/PTCV_id``, y and z kept
 at zero), so that it has a velocity and an acceleration like any coordinate.  Its equation of motion
-says that the reaction has no component along the curve.  s0 is the drawn posture's nearest point.
+says that the reaction has no component along the curve.  s0 is the point nearest to I in the deck.
 
 Sign: the reaction reported acts on I; at the other end (jflag 1) the force acts on the part of RM,
 torque about RM's origin::

@@ -1,4 +1,4 @@
-"""RESULTS: the result file of the original solver.
+"""RESULTS: the result file of ADAMS.
 
 Equation: none.
 """

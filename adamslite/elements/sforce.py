@@ -24,7 +24,7 @@ from adamslite.symbolic import ZERO, Load, Scope, scale, towards
 class Sforce(Statement):
     """A single-component force (or torque) between two markers.
 
-    ``J_PART`` names the part that takes the reaction; the ground takes it without a trace.
+    ``J_PART`` names the part that takes the reaction; a reaction on the ground has no effect.
     """
 
     kind: str = choice(

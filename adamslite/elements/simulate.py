@@ -20,8 +20,8 @@ MOST_STEPS = 10**8
 class Simulate(Statement):
     """What to simulate, for how long and how often to write.
 
-    Stands in a command file; as an extension also in the deck itself.  Several in a row go on from
-    the time that has been reached; END is a time and not a duration.  STATICS without END or
+    Belongs in a command file or, as an extension, in the deck.  Each SIMULATE continues from the
+    time that the previous one reached; END is a time and not a duration.  STATICS without END or
     DURATION finds one equilibrium, with it one at every output time.  INITIAL_CONDITIONS stops
     after displacements, velocities or (unless given) accelerations.
     """

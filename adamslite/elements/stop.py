@@ -10,4 +10,4 @@ from adamslite.statement import Statement, statement
 
 @statement("STOP", singleton=True, place="command", ends=True)
 class Stop(Statement):
-    """Whatever follows is not read."""
+    """Lines after it are not read."""

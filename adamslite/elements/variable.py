@@ -18,7 +18,7 @@ from adamslite.symbolic import Scope
 class Variable(Statement):
     """A quantity with a name: ``VARVAL(id)`` in expressions, or just its name.
 
-    It may depend on anything, itself included; loops are solved together with the mechanics.
+    It may depend on any quantity, also on itself; loops are solved together with the mechanics.
     """
 
     ic: float = number(

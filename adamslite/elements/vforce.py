@@ -23,8 +23,8 @@ class Vforce(Statement):
     """A vector force on marker I.
 
     The reaction goes to the part of the floating marker JFLOAT, or to the part ``J_PART`` directly;
-    the ground takes it without a trace.  Omitted components are zero; without RM the components are
-    along the ground axes.
+    a reaction on the ground has no effect.  Omitted components are zero; without RM the components
+    are along the ground axes.
     """
 
     alternatives = ((("jfloat",), ("j_part",)),)

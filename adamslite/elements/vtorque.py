@@ -24,8 +24,8 @@ class Vtorque(Wrench, Statement):
     """A vector torque on the part of marker I.
 
     The reaction goes to the part of the floating marker JFLOAT, or to the part ``J_PART`` directly;
-    the ground takes it without a trace.  Omitted components are zero; without RM the components are
-    about the ground axes.
+    a reaction on the ground has no effect.  Omitted components are zero; without RM the components
+    are about the ground axes.
     """
 
     i: int | str = reference("I", to="MARKER", required=True, help="marker the torque acts on")

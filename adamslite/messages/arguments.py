@@ -90,7 +90,7 @@ ARGUMENTS: dict[str, Message] = {
          ", GMOD=1",),
     ),
     "discontinued-choice": Message(
-        "ADAMS has given up {word}, and this program does not have it", "write {instead}",
+        "ADAMS has discontinued {word}, and this program does not support it", "write {instead}",
         ("INTEGRATOR/HASTIFF",),
     ),
     "expression-not-closed": Message(
@@ -106,7 +106,7 @@ ARGUMENTS: dict[str, Message] = {
     ),
     "ambiguous-name": Message(
         "the name {word} belongs to {labels}",
-        "names may repeat, but then only the id tells which one is meant",
+        "names may repeat; then write the id",
         ("! adams_view_name='cm'\nMARKER/4, PART=1\n! adams_view_name='cm'\nMARKER/5, PART=1\n"
          "VARIABLE/1, FUNCTION=DX(cm)",
          "! adams_view_name='a'\nVARIABLE/1, FUNCTION=1\n! adams_view_name='A'\n"

@@ -31,7 +31,7 @@ CONSTRAINTS: dict[str, Message] = {
         (_PIN + "COUPLER/1, JOINTS=1,2, SCALES=1,2, TYPE=R",),
     ),
     "freedom-unclear": Message(
-        "{label} does not say which freedom of {joint} it means",
+        "{label} does not specify which freedom of {joint} it couples",
         "",
         (_PIN + "COUPLER/1, JOINTS=1,2, SCALES=1,2", _PIN + "MOTION/1, JOINT=1, FUNCTION=TIME"),
     ),
@@ -57,7 +57,7 @@ CONSTRAINTS: dict[str, Message] = {
         ("MATRIX/1, ROWS=2, COLUMNS=3, VALUES=1,2,3,4,5",),
     ),
     "curve-points": Message(
-        "{label} cannot be laid through {matrix}",
+        "{label} cannot pass through the points of {matrix}",
         "its rows are points x, y, z; at least {least} of them",
         (
             "MATRIX/1, ROWS=2, COLUMNS=2, VALUES=1,2,3,4\nCURVE/1, OPEN, MATRIX=1",
@@ -65,17 +65,17 @@ CONSTRAINTS: dict[str, Message] = {
         ),
     ),
     "motion-nowhere": Message(
-        "{label} does not say what it drives",
+        "{label} does not specify what it drives",
         "give JOINT=, or I= and J= with one of X, Y, Z, B1, B2, B3",
         ("MOTION/1, FUNCTION=TIME", "MOTION/1, I=2, X, FUNCTION=TIME"),
     ),
     "motion-no-axis": Message(
-        "{label} does not say which freedom it drives",
+        "{label} does not specify which freedom it drives",
         "give one of X, Y, Z, B1, B2, B3; TRANSLATION and ROTATION are those of a joint",
         ("MOTION/1, I=2, J=1, FUNCTION=TIME", "MOTION/1, I=2, J=1, ROTATION, FUNCTION=TIME"),
     ),
     "motion-two-ways": Message(
-        "{label} drives a JOINT and has markers too",
+        "{label} has both JOINT and markers",
         "leave out I and J: those of the joint are used",
         (_PIN + "MOTION/1, JOINT=2, I=5, J=1, FUNCTION=TIME",),
     ),

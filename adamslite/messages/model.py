@@ -91,7 +91,7 @@ MODEL: dict[str, Message] = {
     ),
     "orientation-flat": Message(
         "{word} of {label} lies on the {axis} axis that {other} gives",
-        "it is a point beside that axis and decides which way the other two point",
+        "give a point beside that axis; it fixes the directions of the other two",
         ("MARKER/4, PART=1, ZP=0,0,1, XP=0,0,2", "MARKER/4, PART=1, USEXP, XP=0,1,0, ZP=0,-2,0",
          "MARKER/4, PART=1, QP=1,2,3, ZP=1,2,4, XP=1,2,0",
          "PART/4, MASS=1, CM=4, IP=1,1,1, ZG=0,1,1, XG=0,3,3\nMARKER/4, PART=4",
@@ -100,7 +100,7 @@ MODEL: dict[str, Message] = {
     "markers-opposed": Message(
         "MARKER/{i} and MARKER/{j} of {label} are half a turn apart: their {axes} axes point "
         "opposite ways",
-        "the joint {kind} is meant for markers that face the same way; it keeps them as drawn",
+        "the joint {kind} expects axes with equal directions; it keeps them as drawn",
         ("MARKER/4, PART=1, REULER=0,180D,0\nJOINT/1, FIXED, I=2, J=4",
          "MARKER/4, PART=1, REULER=180D,0,0\nJOINT/1, TRANSLATIONAL, I=2, J=4",
          "MARKER/4, PART=1, ZP=0,0,-1\nJOINT/1, REVOLUTE, I=2, J=4",
@@ -108,7 +108,7 @@ MODEL: dict[str, Message] = {
         severity=WARNING,
     ),
     "floating-placed": Message(
-        "{label} is FLOATING and has a place of its own",
+        "{label} is FLOATING and is given a position",
         "the solver places it: leave out QP, REULER, ZP and XP",
         ("MARKER/4, PART=1, FLOATING, QP=1,2,3\nVFORCE/1, I=2, JFLOAT=4, FX=1",),
     ),
@@ -130,7 +130,7 @@ MODEL: dict[str, Message] = {
         ("VFORCE/1, I=2, JFLOAT=1, FX=1",),
     ),
     "no-reaction": Message(
-        "{label} does not say where its reaction goes",
+        "{label} does not name the part that takes its reaction",
         "give JFLOAT= or J_PART=; J_PART=ground drops it",
         ("VFORCE/1, I=2, FX=1",),
     ),
@@ -174,7 +174,7 @@ MODEL: dict[str, Message] = {
     ),
     "two-dampings": Message(
         "{label} has both CRATIO and CMATRIX",
-        "CRATIO makes the damping from the stiffness; CMATRIX gives it outright",
+        "CRATIO derives the damping from the stiffness; CMATRIX gives it directly",
         ("FIELD/1, I=2, J=1, CRATIO=1, CMATRIX=" + ",".join(["1"] * 36),),
     ),
     "friction-not-there": Message(
@@ -184,7 +184,7 @@ MODEL: dict[str, Message] = {
     ),
     "friction-creeps": Message(
         "{label} lets its joint creep under a load that friction could hold",
-        "MAX_STICTION_DEFORMATION lets it hold",
+        "with MAX_STICTION_DEFORMATION it holds",
         ("JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1",
          "JOINT/1, SPHERICAL, I=2, J=1\nFRICTION/1, JOINT=1"),
         severity=WARNING,
@@ -229,17 +229,17 @@ MODEL: dict[str, Message] = {
         "HMIN of INTEGRATOR is larger than HMAX", "", ("INTEGRATOR/HMIN=1, HMAX=0.1",)
     ),
     "empty-request": Message(
-        "{label} asks for nothing",
+        "{label} requests nothing",
         "give DISPLACEMENT, VELOCITY, ACCELERATION or FORCE with I=, or expressions F1= to F8=",
         ("REQUEST/1", "REQUEST/1, DISPLACEMENT", "REQUEST/1, I=2"),
     ),
     "two-requests": Message(
-        "{label} asks for {word} and for expressions",
-        "make two requests of it",
+        "{label} requests both {word} and expressions",
+        "write two REQUEST statements",
         ("REQUEST/1, DISPLACEMENT, I=2, F1=1",),
     ),
     "reserved-name": Message(
-        "{label} has a name with a meaning of its own",
+        "{label} has a reserved name",
         "{word} in an expression always means something else; choose another name",
         ("VARIABLE/Time, FUNCTION=1", "VARIABLE/pi, FUNCTION=1"),
     ),

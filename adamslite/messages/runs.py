@@ -7,7 +7,7 @@ from adamslite.messages.entry import Message
 
 RUNS: dict[str, Message] = {
     "no-end": Message(
-        "SIMULATE does not say when to end",
+        "SIMULATE has no end time",
         "give END= or DURATION=",
         ("SIMULATE/DYNAMICS, STEPS=9",),
     ),
@@ -15,7 +15,7 @@ RUNS: dict[str, Message] = {
         "SIMULATE has both END and DURATION", "", ("SIMULATE/DYNAMICS, END=1, DURATION=1, STEPS=9",)
     ),
     "no-output-step": Message(
-        "SIMULATE does not say how often to write",
+        "SIMULATE has no output step",
         "give STEPS= or DTOUT=; without them 100 steps are written",
         ("SIMULATE/DYNAMICS, END=1",),
         severity=WARNING,
@@ -31,7 +31,7 @@ RUNS: dict[str, Message] = {
         commands=("SIM/DYN, DURATION=2, STEPS=9\nSIM/STATICS\nSIM/DYN, END=2, STEPS=9",),
     ),
     "too-many-steps": Message(
-        "SIMULATE asks for {count:.3g} output steps, more than the {most:.0e} there may be",
+        "SIMULATE requests {count:.3g} output steps; at most {most:.0e} are allowed",
         "fewer STEPS, or a longer DTOUT",
         ("SIMULATE/DYNAMICS, END=1, STEPS=1000000000000", "SIMULATE/DYNAMICS, END=1, DTOUT=1E-12"),
     ),
@@ -50,7 +50,7 @@ RUNS: dict[str, Message] = {
     "scale-order": Message(
         "SCALE is read as factors of ERROR for displacements, angles, modal coordinates, and the "
         "rates of these three",
-        "the pages at hand name the argument, not the order of its factors: compare with yours",
+        "the documentation of SCALE that was available does not give the order of its factors",
         ("INTEGRATOR/ABAM, SCALE=1,0.1",),
         severity=WARNING,
     ),

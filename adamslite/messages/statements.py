@@ -19,7 +19,7 @@ STATEMENTS: dict[str, Message] = {
     ),
     "stray-continuation": Message(
         "this line begins with a comma but continues nothing",
-        "no statement stands before it",
+        "there is no statement before it",
         ("title\n, MASS=1\nPART/1, GROUND\n",),
     ),
     "missing-leading-comma": Message(
@@ -48,7 +48,7 @@ STATEMENTS: dict[str, Message] = {
         ("MARKER/1, PART=1", "VARIABLE/a, FUNCTION=1\nVARIABLE/A, FUNCTION=2"),
     ),
     "duplicate-statement": Message(
-        "{word} stands twice",
+        "{word} is given twice",
         "the first one is in line {line}; only one is allowed",
         ("UNITS/SYSTEM=MKS\nUNITS/SYSTEM=CGS",),
     ),
@@ -76,8 +76,8 @@ STATEMENTS: dict[str, Message] = {
         commands=("UNITS/SYSTEM=MKS\nstop", "RESULTS/\nRESULTS/"),
     ),
     "after-end": Message(
-        "{word} stands behind END and is not read",
-        "nothing behind END is; put END last",
+        "{word} follows END and is not read",
+        "put END last",
         ("END\nMARKER/9, PART=1\nMARKER/9, PART=7",),
         severity=WARNING,
     ),
@@ -104,7 +104,7 @@ STATEMENTS: dict[str, Message] = {
         "{word}= has no value", "", ("VARIABLE/1, FUNCTION=", "VARIABLE/1, IC=, FUNCTION=1")
     ),
     "empty-item": Message(
-        "nothing stands between two separators",
+        "there is nothing between two separators",
         "write a value, or leave one separator out",
         ("MARKER/4, PART=1,, QP=1,2,3", "VARIABLE/1, FUNCTION=1\\\\"),
     ),
