@@ -1,7 +1,8 @@
 """The one door to sympy: ``sp`` imports it at the first use; reading a deck never pays for it.
 
 Beside it stand the few operations where the form sympy gives is not what a kernel needs: choices,
-floors, powers and lengths whose derivatives stay finite, explicit and quick to form.
+floors, powers and lengths whose derivatives stay finite, explicit and quick to form; and values of
+tables.
 """
 
 from __future__ import annotations
@@ -106,3 +107,45 @@ def norm(vector: tuple[Any, Any, Any]) -> Any:
     """
     square = sum(component**2 for component in vector)
     return choose((root(square), square > 0), otherwise=0)
+
+
+@cache
+def _lookups() -> tuple[type, type]:
+    """Values of tables, named by the rules that write them; whole numbers are their first
+    arguments: the table's number, for one argument the curve, orders of derivatives.
+    """
+
+    class Lookup(sp.Function):
+        """(table, curve, order, x)"""
+
+        is_extended_real = True
+
+        def fdiff(self, argindex: int = 4) -> Any:
+            table, curve, order, x = self.args
+            return self.func(table, curve, order + 1, x) if order < 3 else sp.S.Zero
+
+    class LookupBetween(sp.Function):
+        """(table, order by x, order by z, x, z)"""
+
+        is_extended_real = True
+
+        def fdiff(self, argindex: int = 4) -> Any:
+            table, order, z_order, x, z = self.args
+            if argindex == 4:
+                return self.func(table, order + 1, z_order, x, z) if order < 3 else sp.S.Zero
+            return self.func(table, order, z_order + 1, x, z) if z_order < 1 else sp.S.Zero
+
+    return Lookup, LookupBetween
+
+
+def lookup(table: int, x: Any, curve: int = 0, order: int = 0) -> Any:
+    """A curve of a table at ``x``, or its derivative; see :mod:`adamslite.lookup`.
+
+    ``table``: as a statement sees it that derives an interpolant.
+    """
+    return _lookups()[0](table, curve, order, x)
+
+
+def lookup_between(table: int, x: Any, z: Any, order: int = 0, z_order: int = 0) -> Any:
+    """A table of two arguments at ``x`` and ``z``, or its derivatives."""
+    return _lookups()[1](table, order, z_order, x, z)

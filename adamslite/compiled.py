@@ -151,7 +151,7 @@ class FaceWriter:
         at, model = self.binder.instance, self.binder.model
         widths = [model.body_width(b) for b in at.bodies]
         widths += [model.node_width(n) for n in at.nodes]
-        counts = (len(at.params), 0, 0, len(at.signals))
+        counts = (len(at.params), 0, 0, len(at.signals), len(at.tables))
         shape = Shape(self.binder.slots, widths, self.n_bodies, *counts, self)
         return write_kernels(shape, name, self.face, self.face in WITH_JACOBIAN)
 

@@ -120,6 +120,7 @@ class Instances(Numbering):
         found = [self.w_at.get(node, 0) for node in nodes]
         found += [self.w_at["SIGNAL", s] for s in binding.signals]
         found += [self._row(group, node) for node in nodes]
+        found += [table.data.ctypes.data for table in binding.tables]
         guards = group.meta["guards"]
         if any(guards.values()):
             found += [

@@ -36,6 +36,7 @@ class Builder:
         self.lines: list[str] = []
         self.numbered: dict[tuple, str] = {}
         self.declared: set[str] = set()
+        self.called: set[str] = set()
         self.count = 0
 
     def fresh(self) -> str:
@@ -113,6 +114,14 @@ class Builder:
         operands = ", ".join(f"double {self.operand(a)}" for a in args)
         return self.emit((target, *args), f"call {FAST} double @{target}({operands})")
 
+    def call_native(self, name: str, result: str, *args: tuple[str, Value]) -> str:
+        """A native function (:mod:`adamslite.translate`) of arguments (type, value); it reads only
+        what this kernel does not write.
+        """
+        self.called.add(name)
+        operands = ", ".join(f"{kind} {_operand(kind, value)}" for kind, value in args)
+        return self.emit((name, *args), f"call {result} @{name}({operands})")
+
     def power(self, base: Value, exponent: Fraction) -> Value:
         """``base**exponent``: products for integers, square roots for halves."""
         if exponent < 0:
@@ -153,7 +162,12 @@ class Builder:
     def int_at(self, position: int) -> str:
         """Integer ``position`` of the present instance."""
         address = self.emit(("ia", position), f"getelementptr i64, ptr %ip, i64 {position}")
-        return self.emit(("i", position), f"load i64, ptr {address}, !invariant.load !0")
+        return self.emit(("i", position), f"load i64, ptr {address}, !invariant.load !7")
+
+    def table_at(self, position: int) -> str:
+        """The table whose address is integer ``position`` of the present instance."""
+        address = self.emit(("ia", position), f"getelementptr i64, ptr %ip, i64 {position}")
+        return self.emit(("table", position), f"load ptr, ptr {address}, !invariant.load !7")
 
     def real_at(self, position: int) -> str:
         """Real ``position`` of the present instance."""
@@ -189,6 +203,10 @@ class Builder:
         self.lines.append(f"  store double {self.operand(value)}, ptr {address}")
 
 
+def _operand(kind: str, value: Value) -> str:
+    return literal(float(value)) if kind == "double" and not isinstance(value, str) else f"{value}"
+
+
 def joined(factors: tuple[Any, ...]) -> list[Any]:
     """Factors of a product with x**e/x as x**(e - 1): the slope of x**e, at x = 0 not 0/0."""
     raised = [f for f in factors if f.is_Pow and not f.exp.is_number]
@@ -207,14 +225,17 @@ def joined(factors: tuple[Any, ...]) -> list[Any]:
 class Lowering:
     """Turns sympy expressions into builder values; ``leaves`` maps symbols to values.
 
+    ``tables_at``: the integer that holds the address of table 0.
+
     ``branches`` maps the guards of choices (:mod:`adamslite.guards`) to the value that holds their
     branch: zero evaluates the guard as it is, else its sign decides; of a floor it is the middle of
     the unit interval.
     """
 
-    def __init__(self, builder: Builder, leaves: dict[Any, Value]) -> None:
+    def __init__(self, builder: Builder, leaves: dict[Any, Value], tables_at: int = 0) -> None:
         self.b = builder
         self.leaves = leaves
+        self.tables_at = tables_at
         self.branches: dict[Any, Value] = {}
         self.memo: dict[Any, Value] = {}
 
@@ -282,6 +303,25 @@ class Lowering:
         if held is None:
             return value
         return self.b.select(self.b.compare("==", held, 0.0), value, self.b.sub(held, 0.5))
+
+    def _Lookup(self, expr: Any) -> Value:
+        number, curve, order, x = expr.args
+        table, at = self._table(number), ("double", self(x))
+        piece = self.b.call_native("piece_at", "i64", table, at)
+        known = (table, ("i64", piece), ("i64", int(curve)))
+        return self.b.call_native("on_piece", "double", *known, at, ("i64", int(order)))
+
+    def _LookupBetween(self, expr: Any) -> Value:
+        number, order, z_order, x, z = expr.args
+        table, at, across = self._table(number), ("double", self(x)), ("double", self(z))
+        piece = self.b.call_native("piece_at", "i64", table, at)
+        strip = self.b.call_native("strip_at", "i64", table, across)
+        known = (table, ("i64", piece), ("i64", strip), at, across)
+        orders = (("i64", int(order)), ("i64", int(z_order)))
+        return self.b.call_native("on_strip", "double", *known, *orders)
+
+    def _table(self, number: Any) -> tuple[str, Value]:
+        return "ptr", self.b.table_at(self.tables_at + int(number))
 
     def condition(self, cond: Any, held: bool = False) -> str:
         """A sympy relation or logic expression as an ``i1`` value; ``held``: by its branch."""

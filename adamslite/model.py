@@ -8,7 +8,7 @@ force * UCF = mass * acceleration.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -131,6 +131,7 @@ class Model:
         self.without = without
         self.places: dict[Any, Place | None] = {}
         self.folded: dict[Any, float | None] = {}
+        self.known: dict[Any, Any] = {}
         self.body_index: dict[tuple[str, Any], int] = {}
         self.bodies: list[Body] = []
         for statement in deck.statements:
@@ -142,6 +143,12 @@ class Model:
         found = [s for s in deck.statements if hasattr(s, "constraints") and deck.is_active(s)]
         self.constraints = sorted(found, key=lambda s: s.is_rate(self))
         self.held = {(s.keyword, s.key) for s in self.constraints}
+
+    def once(self, what: Any, worked_out: Callable[[], Any]) -> Any:
+        """What is worked out for this model when it is first asked for."""
+        if what not in self.known:
+            self.known[what] = worked_out()
+        return self.known[what]
 
     # bodies and markers
 

@@ -11,6 +11,7 @@ A bound tree is one of
     ("o", op, args)       ("f", function, args)    ("s", keyword, arguments) another statement
     ("v", trees)          ("z", node, component) unknown
     ("dif", node)         ("sig", n, order) time-only variable  ("e", n) element    ("d", tree)
+    ("tab", n) table
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from adamslite.between import written_out
 from adamslite.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.function import FUNCTIONS, Function
 from adamslite.functions.forces import NET
+from adamslite.interpolant import Interpolant
 from adamslite.model import folded
 from adamslite.statement import Statement
 from adamslite.symbolic import ORIGIN, Slot
@@ -46,6 +48,7 @@ class Binding:
     nodes: list[Any] = field(default_factory=list)
     params: list[float] = field(default_factory=list)
     signals: list[Any] = field(default_factory=list)
+    tables: list[Interpolant] = field(default_factory=list)
 
 
 class Binder:
@@ -99,12 +102,12 @@ class Binder:
         return ("p", len(self.instance.params) - 1)
 
     def statement(self, statement: Statement) -> Tree:
-        """All arguments of a statement: (("field", tree), ...)."""
+        """Arguments of a statement, none of data, and what it derives: (("field", tree), ..)."""
         before = self.takes_rates
         self.takes_rates = before or hasattr(statement, "constraints")
         fields = []
         for name, argument in statement.arguments.items():
-            if argument.kind in IGNORED:
+            if statement.data or argument.kind in IGNORED:
                 continue
             fields.append((name, self._argument(argument, getattr(statement, name))))
         for name, value in statement.derived(self.model).items():
@@ -119,7 +122,16 @@ class Binder:
             return ("v", tuple(self._derived(v) for v in value))
         if isinstance(value, Ref):
             return self.reference(value)
+        if isinstance(value, Interpolant):
+            return self.table(value)
         return self.number(value) if isinstance(value, float) else self.expression(value)
+
+    def table(self, value: Interpolant) -> Tree:
+        """Its number among those of the instance; nothing in it shapes the code."""
+        tables = self.instance.tables
+        if value not in tables:
+            tables.append(value)
+        return ("tab", tables.index(value))
 
     def _argument(self, argument: Any, value: Any) -> Tree:
         if value is None:
@@ -259,5 +271,5 @@ class Binder:
         at = self.instance
         widths = tuple([self.model.body_width(b) for b in at.bodies])
         scalars = tuple([self.model.node_width(n) for n in at.nodes])
-        counts = (len(at.params), len(at.signals))
+        counts = (len(at.params), len(at.signals), len(at.tables))
         return (face, body, tuple(self.elements), tuple(self.slots), widths, scalars, counts)

@@ -1,11 +1,12 @@
-"""A cubic spline through points of space, in truncated powers.
+"""A cubic spline through points of space, over the length of its chords.
 
-Equation (knots t_k inside 0..1, <x> = max(x, 0))::
+Equation (c the curve, s from 0 at the first point to 1 at the last)::
 
-    c(s) = a0 + a1 s + a2 s^2 + a3 s^3 + sum b_k <s - t_k>^3
+    c(s_k) = point k,     s_k = length of the chords up to point k over that of all
 
-Every term is smooth enough for second derivatives, and a kernel evaluates it without searching.
-Reference: de Boor, A Practical Guide to Splines, 2001, chapter VIII.
+Open ends take the third derivative from their neighbours ("not a knot"), a closed curve goes
+through its seam with slope and bend.
+Reference: de Boor, A Practical Guide to Splines, 2001, chapter IV.
 """
 
 from __future__ import annotations
@@ -13,37 +14,44 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from adamslite.interpolant import Interpolant, interpolant
+
 # How finely the nearest point is looked for before it is polished, per piece.
 SAMPLES = 20
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SplineCurve:
-    """``knots`` (k,); ``weights`` (4 + k, 3), a0..a3 and b for x, y, z; ``length`` of chords."""
+    """``table``: x, y and z over s; ``length`` of all chords."""
 
-    knots: tuple[float, ...]
-    weights: Any
+    table: Interpolant
     length: float
-
-    def basis(self, s: Any, order: int = 0) -> Any:
-        """Values (n, 4 + k) of the basis or of a derivative at ``s`` (n,)."""
-        return _basis(self.knots, s, order)
 
     def nearest(self, point: Any) -> float:
         """Parameter of the curve's point nearest to ``point`` (3,)."""
-        import numpy as np
-
-        grid = np.linspace(0.0, 1.0, SAMPLES * (len(self.knots) + 3))
-        away = self.basis(grid) @ self.weights - point
-        s = grid[[int(np.argmin((away**2).sum(axis=1)))]]
+        s = self._nearest_sample(point)
         for _ in range(20):
-            gap, slope, bend = (self.basis(s, n) @ self.weights for n in range(3))
+            gap, slope, bend = (self.table.at(s, n) for n in range(3))
             gap = gap - point
             down = (slope * slope + gap * bend).sum()
             if down <= 0.0:
                 break
             s = s - (gap * slope).sum() / down
         return float(s[0])
+
+    def _nearest_sample(self, point: Any) -> Any:
+        """Parameter (1,) of the nearest of all samples, looked at one on each piece at a time."""
+        import numpy as np
+
+        first, span = self.table.knots[:-1], np.diff(self.table.knots)
+        least, best = np.inf, first[:1]
+        for share in np.linspace(0.0, 1.0, SAMPLES + 1):
+            s = first + share * span
+            away = ((self.table.at(s) - point) ** 2).sum(axis=1)
+            nearest = int(np.argmin(away))
+            if away[nearest] < least:
+                least, best = away[nearest], s[nearest : nearest + 1]
+        return best
 
 
 def through(points: Any, closed: bool) -> SplineCurve:
@@ -52,25 +60,12 @@ def through(points: Any, closed: bool) -> SplineCurve:
 
     points = np.asarray(points, dtype=float)
     chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    apart = np.append(True, chords > 0.0)
+    points, chords = points[apart], chords[chords > 0.0]
     length = float(chords.sum())
-    t = np.concatenate([[0.0], np.cumsum(chords) / length])
-    knots = t[1:-1] if closed else t[2:-2]
-    rows, wanted = [_basis(knots, t, 0)], [points]
-    if closed:
-        ends = np.array([0.0, 1.0])
-        rows += [np.diff(_basis(knots, ends, n), axis=0) for n in (1, 2)]
-        wanted.append(np.zeros((2, 3)))
-    matrix = np.concatenate(rows)
-    # Fewer than four points leave powers over: the smallest weights do.
-    weights = np.linalg.lstsq(matrix, np.concatenate(wanted), rcond=None)[0]
-    weights[np.abs(weights) < 1e-13 * length] = 0.0
-    return SplineCurve(tuple(float(k) for k in knots), weights, length)
-
-
-def _basis(knots: Any, s: Any, order: int) -> Any:
-    import numpy as np
-
-    factor = (1.0, 3.0, 6.0)[order]
-    powers = [np.polynomial.Polynomial.basis(n).deriv(order)(s) + 0.0 * s for n in range(4)]
-    beyond = [factor * np.maximum(s - k, 0.0) ** (3 - order) for k in knots]
-    return np.array(powers + beyond).T
+    s = np.append(np.cumsum(np.append(0.0, chords[:-1])) / length, 1.0)
+    if not closed:
+        return SplineCurve(interpolant(s, points, "not-a-knot", "piece"), length)
+    ring = points.copy()
+    ring[-1] = ring[0]
+    return SplineCurve(interpolant(s, ring, "periodic", "piece"), length)

@@ -169,6 +169,7 @@ class Statement:
     planned: ClassVar[tuple[str, ...]] = ()
     body: ClassVar[bool] = False
     redefinable: ClassVar[bool] = False
+    data: ClassVar[bool] = False
     alternatives: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
     """Groups of fields that exclude each other: giving one in a command drops the other groups."""
 
@@ -222,7 +223,8 @@ class Statement:
     def derived(self, model: Any) -> dict[str, Any]:
         """Further values its physics need, from the model as drawn.
 
-        Numbers and expressions become symbols; words decide the form; tuples may hold either.
+        Numbers and expressions become symbols; words decide the form; tuples may hold either.  An
+        :class:`~adamslite.interpolant.Interpolant` becomes a number that stands for the table.
         """
         return {}
 
@@ -251,6 +253,7 @@ def statement(
     planned: tuple[str, ...] = (),
     body: bool = False,
     redefinable: bool = False,
+    data: bool = False,
 ) -> Callable[[type[Statement]], type[Statement]]:
     """Register a class as the statement ``keyword``.
 
@@ -274,6 +277,8 @@ def statement(
         Markers without an owner behind it belong to it.
     redefinable : bool
         A singleton of the deck that a command may change; statements with an id always are.
+    data : bool
+        Its arguments are seen by no kernel, only what it derives from them: tables.
     """
 
     def register(cls: type[Statement]) -> type[Statement]:
@@ -286,6 +291,7 @@ def statement(
         }
         made.singleton, made.repeatable, made.place = singleton, repeatable, place
         made.ends, made.ignored, made.planned, made.body = ends, ignored, planned, body
+        made.data = data
         made.redefinable = redefinable or (place == "deck" and not singleton and not ignored)
         STATEMENTS[keyword] = made
         return made

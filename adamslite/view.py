@@ -117,8 +117,8 @@ class Reader:
                 return _exact(value) if isinstance(value, float) else value
             case ("t",) | ("mode",):
                 return scope.symbol(tree[0])
-            case ("m", frame):
-                return frame
+            case ("m", number) | ("tab", number):
+                return number
             case ("v", trees):
                 return tuple(self(t) for t in trees)
             case ("s", keyword, fields):

@@ -9,10 +9,13 @@ Equation (s from 0 at the first point to 1 at the last, proportional to the leng
 
 from __future__ import annotations
 
+from typing import Any
+
+from adamslite.spline_curve import SplineCurve, through
 from adamslite.statement import Statement, choice, integer, reference, statement
 
 
-@statement("CURVE", planned=("FUNCTION", "MINPAR", "MAXPAR", "ROUTINE"))
+@statement("CURVE", planned=("FUNCTION", "MINPAR", "MAXPAR", "ROUTINE"), data=True)
 class Curve(Statement):
     """Geometry for PTCV, in the axes of the marker to which the curve is fixed."""
 
@@ -23,3 +26,18 @@ class Curve(Statement):
         default="CURVE_POINTS", help="what the rows of MATRIX are",
     )  # fmt: skip
     order: int = integer("ORDER", default=4, help="degree of the pieces plus one; always 4")
+
+    def spline(self, model: Any) -> SplineCurve:
+        """The curve itself."""
+        points = model.element("MATRIX", self.matrix)
+        closed = self.form == "CLOSED"
+        return model.once(("CURVE", self.key), lambda: through(points.table, closed))
+
+    def derived(self, model: Any) -> dict[str, Any]:
+        """The curve as a table, and the length of its chords."""
+        spline = self.spline(model)
+        return {
+            "table": spline.table,
+            "length": spline.length,
+            "closed": "yes" if self.form == "CLOSED" else None,
+        }

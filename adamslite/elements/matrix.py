@@ -10,7 +10,7 @@ from __future__ import annotations
 from adamslite.statement import Statement, choice, integer, statement, vector
 
 
-@statement("MATRIX", planned=("SPARSE", "FILE", "NAME"))
+@statement("MATRIX", planned=("SPARSE", "FILE", "NAME"), data=True)
 class Matrix(Statement):
     """Numbers that other statements use, such as the points of a curve."""
 

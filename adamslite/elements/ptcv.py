@@ -19,11 +19,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.algebra import choose, floor
+from adamslite.algebra import floor, lookup
 from adamslite.constraint import Constraint
 from adamslite.coordinates import pose
 from adamslite.expression import Ref
-from adamslite.spline_curve import through
 from adamslite.statement import STATEMENTS, Statement, reference, statement
 from adamslite.symbolic import ORIGIN, Scope, along_axes, minus
 
@@ -62,29 +61,21 @@ class Ptcv(Constraint, Statement):
         return (point, marker)
 
     def derived(self, model: Any) -> dict[str, Any]:
-        """The spline, and its parameter in the drawn posture."""
-        curve = model.element("CURVE", self.curve)
-        closed = curve.form == "CLOSED"
-        spline = through(model.element("MATRIX", curve.matrix).table, closed)
+        """The parameter of the drawn posture, and what carries it."""
+        start = model.once(("PTCV", self.key), lambda: self._nearest(model))
+        return {"path": Ref("MARKER", self.slider.upper()), "start": start}
+
+    def _nearest(self, model: Any) -> float:
+        """Parameter of the curve's point that is nearest to I."""
         (r, _), (origin, axes) = pose(model, self.i), pose(model, self.j)
-        return {
-            "path": Ref("MARKER", self.slider.upper()),
-            "start": spline.nearest((r - origin) @ axes),
-            "length": spline.length,
-            "knots": spline.knots,
-            "weights": tuple(tuple(map(float, w)) for w in spline.weights),
-            "closed": "yes" if closed else None,
-        }
+        return model.element("CURVE", self.curve).spline(model).nearest((r - origin) @ axes)
 
     def constraints(self, scope: Scope) -> list[Any]:
         """Rows that vanish."""
         p, *unused = scope.position(self.path, ORIGIN)
-        s = self.start + p / self.length
-        if self.closed:
+        s = self.start + p / self.curve.length
+        if self.curve.closed:
             s = s - floor(s)
-        powers = [1, s, s**2, s**3]
-        powers += [choose(((s - k) ** 3, s > k), otherwise=0, order=2) for k in self.knots]
-        terms = list(zip(powers, self.weights, strict=True))
-        point = tuple(sum(power * w[c] for power, w in terms) for c in range(3))
+        point = tuple(lookup(self.curve.table, s, component) for component in range(3))
         placed = along_axes(scope.axes(self.j), point)
         return [*minus(scope.position(self.i, self.j), placed), *unused]

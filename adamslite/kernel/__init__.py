@@ -15,8 +15,9 @@ q holds positions and rotations of bodies (and states s of DIFF), z multipliers 
 W is the workspace (:mod:`adamslite.kinematics`), ``c`` five coefficients.  The integers of an
 instance are
 
-    W offset of each node | W offset of each signal | row of each node | W offset of the branches of
-    clock, watch and zones, if there are guards | block offset of each pair
+    W offset of each node | W offset of each signal | row of each node | address of each table |
+    W offset of the branches of clock, watch and zones, if there are guards | block offset of each
+    pair
 
 and its reals: parameters, remembered angles, times of leaving its law, marker levers and axes.
 """

@@ -17,8 +17,8 @@ class Shape:
 
     ``slots``: markers.  ``widths``: unknowns of each node, bodies first (3 point, 6 part), then
     scalar nodes.  ``n_bodies``: how many nodes are bodies.  ``n_params``, ``n_angles``,
-    ``n_limits``, ``n_signals``: counts.  ``outputs``: writes loads and rows with a scope.
-    ``guards``: found when they are written.
+    ``n_limits``, ``n_signals``, ``n_tables``: counts.  ``outputs``: writes loads and rows with a
+    scope.  ``guards``: found when they are written.
     """
 
     slots: list[Slot]
@@ -28,6 +28,7 @@ class Shape:
     n_angles: int
     n_limits: int
     n_signals: int
+    n_tables: int
     outputs: Callable[[Scope], Outputs]
     guards: Guards = field(default_factory=Guards)
 
@@ -48,11 +49,16 @@ class Shape:
         return len(self.widths) + self.n_signals + node
 
     @property
+    def tables_at(self) -> int:
+        """The integer that holds the address of the first table."""
+        return 2 * len(self.widths) + self.n_signals
+
+    @property
     def branches_at(self) -> int:
         """The integer that holds where the branches of the clock begin; the next two: of the watch,
         the zones.
         """
-        return 2 * len(self.widths) + self.n_signals
+        return self.tables_at + self.n_tables
 
     @property
     def blocks_at(self) -> int:

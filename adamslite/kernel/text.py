@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from adamslite import lookup  # noqa: F401  registers what kernels call
 from adamslite.guards import guards
 from adamslite.kernel.clock import clock_programs
 from adamslite.kernel.jacobian import JacobianWriter
 from adamslite.kernel.shape import Shape
 from adamslite.kernel.writer import Writer
 from adamslite.symbolic import Scope
+from adamslite.translate import METADATA, definitions
 
 RESIDUAL_HEAD = (
     "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias {reals} %reals, "
@@ -93,7 +95,9 @@ def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tu
 
 
 def _module(bodies: list[tuple[str, str, Writer]], n_ints: int, n_reals: int) -> str:
-    parts, declared = [], set()
+    declared, parts = definitions(
+        sorted({name for *_, writer in bodies for name in writer.b.called})
+    )
     for name, head, writer in bodies:
         prelude = "".join(
             f"  %cp{n} = getelementptr double, ptr %c, i64 {n}\n  %c{n} = load double, ptr %cp{n}\n"
@@ -110,4 +114,4 @@ def _module(bodies: list[tuple[str, str, Writer]], n_ints: int, n_reals: int) ->
             )
         )
         declared |= writer.b.declared
-    return "\n".join([*sorted(declared), *parts, "!0 = !{}"])
+    return "\n".join([*sorted(declared), *parts, METADATA])

@@ -20,7 +20,7 @@ class Writer:
         self.scope = scope
         self.b = Builder()
         self.g = Geometry(self.b, shape.slots, shape.marker_reals())
-        self.lower = Lowering(self.b, {})
+        self.lower = Lowering(self.b, {}, shape.tables_at)
         for place, found in enumerate((shape.guards.clock, shape.guards.watch)):
             for n, guard in enumerate(found):
                 at = self.b.int_at(shape.branches_at + place)

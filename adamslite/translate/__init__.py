@@ -20,9 +20,11 @@ from adamslite.translate.language import (
     native,
 )
 from adamslite.translate.records import Alone, Ints, Reals, Record, Rows, array
-from adamslite.translate.statements import translate
+from adamslite.translate.statements import definitions, translate
+from adamslite.translate.writer import METADATA
 
 __all__ = [
+    "METADATA",
     "REGISTERED",
     "Alone",
     "Ints",
@@ -33,6 +35,7 @@ __all__ = [
     "array",
     "as_written",
     "call_address",
+    "definitions",
     "native",
     "translate",
 ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import inspect
 import textwrap
+from collections.abc import Iterable
 
 from adamslite.translate.expressions import Expressions
 from adamslite.translate.language import REGISTERED, signature
@@ -13,7 +14,15 @@ from adamslite.translate.writer import METADATA, Value
 
 def translate(entry: str) -> str:
     """LLVM assembly of ``entry`` and every native function it reaches; the others are internal."""
-    pending, done, texts = [entry], set(), []
+    declared, texts = definitions([entry], public=entry)
+    return "\n".join([*sorted(declared), *texts, METADATA])
+
+
+def definitions(names: Iterable[str], public: str = "") -> tuple[set[str], list[str]]:
+    """Declarations of the library functions and definitions of all native functions that ``names``
+    reach; all but ``public`` are internal to the module they become part of.
+    """
+    pending, done, texts = list(names), set(), []
     declared: set[str] = set()
     while pending:
         name = pending.pop()
@@ -21,10 +30,10 @@ def translate(entry: str) -> str:
             continue
         done.add(name)
         work = Translator(REGISTERED[name])
-        texts.append(work.define(internal=name != entry))
+        texts.append(work.define(internal=name != public))
         declared |= work.declared
         pending.extend(work.called)
-    return "\n".join([*sorted(declared), *texts, METADATA])
+    return declared, texts
 
 
 class Translator(Expressions):

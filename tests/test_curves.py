@@ -1,0 +1,70 @@
+"""CURVE and PTCV: points that are many, given twice, or few."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scenes import GROUND, done
+
+import adamslite as al
+from adamslite.spline_curve import through
+
+
+def bead(points: np.ndarray, form: str, start: np.ndarray) -> str:
+    """A mass of 2 on a curve, drawn at ``start`` with the velocity (0, 3, 0)."""
+    values = "\n,".join(",".join(f"{v:.15g}" for v in point) + "," for point in points)
+    return f"""{GROUND}MATRIX/1, ROWS={len(points)}, COLUMNS=3, VALUES=
+,{values.rstrip(",")}
+CURVE/1, {form}, MATRIX=1, CURVE_POINTS
+POINT_MASS/4, MASS=2, CM=40, QG={",".join(f"{v:.15g}" for v in start)}, VY=3
+MARKER/40, POINT_MASS=4
+PTCV/1, I=40, CURVE=1, RM=1
+REQUEST/1, F1=DM(40)\\F2=VM(40)\\F3=PTCV(1,0,1,0)
+END
+"""
+
+
+def circle(n: int) -> np.ndarray:
+    angle = np.linspace(0.0, 2.0 * np.pi, n + 1)
+    ring = np.column_stack([np.cos(angle), np.sin(angle), 0.0 * angle])
+    ring[-1] = ring[0]
+    return ring
+
+
+def test_curves_of_ten_and_of_thousands_of_points_share_their_code() -> None:
+    decks = (al.read(bead(circle(n), "CLOSED", np.array([1.0, 0.0, 0.0]))) for n in (10, 5000))
+    few, many = (al.compile_model(al.assemble(deck)) for deck in decks)
+    assert many.compiled == 0
+    assert [g.name for g in few.groups] == [g.name for g in many.groups]
+
+
+def test_a_bead_on_a_fine_circle_keeps_radius_speed_and_reaction() -> None:
+    """Reaction m v^2/r = 18; of 2000 points the spline's curvature is off by 1e-6 of it."""
+    deck = bead(circle(2000), "CLOSED", np.array([1.0, 0.0, 0.0]))
+    results = done(deck, end=3.0, error=1e-9)
+    assert results["REQUEST/1.F1"] == pytest.approx(1.0, abs=1e-7)
+    assert results["REQUEST/1.F2"] == pytest.approx(3.0, abs=1e-6)
+    assert results["REQUEST/1.F3"] == pytest.approx(18.0, rel=2e-6)
+
+
+def test_a_point_given_twice_counts_once() -> None:
+    points = np.array([[0.0, 0, 0], [1, 1, 0], [2, 0, 1], [3, 0, 0], [4, 2, 0]])
+    once, twice = (through(p, False) for p in (points, points[[0, 1, 1, 2, 3, 4, 4]]))
+    s = np.linspace(-0.1, 1.1, 50)
+    assert twice.length == once.length
+    assert np.array_equal(once.table.at(s), twice.table.at(s))
+
+
+def test_three_points_are_a_parabola_and_two_a_straight_line() -> None:
+    line = through([[0, 0, 0], [2, 4, 4]], False)
+    assert line.table.at(np.array([0.5]))[0] == pytest.approx([1.0, 2.0, 2.0])
+    bow = through([[0, 0, 0], [1, 1, 0], [2, 0, 0]], False)
+    assert bow.table.at(np.array([0.25]))[0] == pytest.approx([0.5, 0.75, 0.0])
+
+
+def test_the_nearest_point_is_found_on_long_and_short_pieces() -> None:
+    """Between points very unevenly apart, and beyond an end, where the curve goes on."""
+    x = np.array([0.0, 1e-3, 2e-3, 1.0, 5.0, 5.001, 9.0])
+    curve = through(np.column_stack([x, 0 * x, 0 * x]), False)
+    for at in (0.0005, 0.7, 3.0, 8.9, 9.5, -0.2):
+        assert curve.nearest(np.array([at, 0.3, 0.0])) == pytest.approx(at / 9.0, abs=1e-12)
