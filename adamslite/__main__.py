@@ -2,7 +2,7 @@
 
 import sys
 
-from adamslite.cli import main
+from adamslite.cli.main import main
 
 if __name__ == "__main__":
     sys.exit(main())

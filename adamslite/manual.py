@@ -11,14 +11,14 @@ from collections.abc import Iterable, Sequence
 from inspect import cleandoc
 
 from adamslite import elements, functions  # noqa: F401  register what there is to describe
-from adamslite.expression import Node, to_text
-from adamslite.faults import UsageError
-from adamslite.function import FUNCTIONS, Function, Parameter, listed
-from adamslite.integrator_arguments import FAMILIES, USES
-from adamslite.messages import MESSAGES, did_you_mean
-from adamslite.messages.entry import Message
-from adamslite.outcomes import Outcome
-from adamslite.statement import STATEMENTS, Argument, Statement
+from adamslite.errors import UsageError
+from adamslite.language.expression import Node, to_text
+from adamslite.language.function import FUNCTIONS, Function, Parameter, listed
+from adamslite.language.integrator_arguments import FAMILIES, USES
+from adamslite.language.messages import MESSAGES, did_you_mean
+from adamslite.language.messages.entry import Message
+from adamslite.language.statement import STATEMENTS, Argument, Statement
+from adamslite.results.outcomes import Outcome
 
 HEAD = "<!-- Written by docs/generate.py from the program itself: do not edit. -->\n"
 STATEMENTS_INTRO = """# Statements

@@ -20,9 +20,9 @@ from multiprocessing import get_context
 import numpy as np
 
 from adamslite import read, simulate
-from adamslite.faults import UsageError
-from adamslite.outcomes import Outcome
-from adamslite.results import Results
+from adamslite.errors import UsageError
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
 from benchmarks.closed_forms import FAMILIES, Known
 
 METHODS = ("GSTIFF", "GSTIFF", "RADAU", "HHT", "NEWMARK", "ABAM", "VERLET", "GSTIFF I3")

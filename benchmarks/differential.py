@@ -30,12 +30,12 @@ from pathlib import Path
 
 from adamslite import assemble, compile_model, read, simulate
 from adamslite.analyses.choose import AUTO
-from adamslite.diagnostics import DeckError
-from adamslite.faults import UsageError
-from adamslite.outcomes import Outcome
-from adamslite.results import Results
-from adamslite.run_error import error_of
-from adamslite.work_precision import Variant, patient, variants
+from adamslite.errors import UsageError
+from adamslite.language.diagnostics import DeckError
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
+from adamslite.results.run_error import error_of
+from adamslite.verification.work_precision import Variant, patient, variants
 from benchmarks.random_decks import RandomDeck, deck
 from benchmarks.tables import table
 

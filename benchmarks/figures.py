@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from adamslite.outputs.whole import whole_file
+from adamslite.outputs.whole_files import whole_file
 
 NAME = "figures.csv"
 

@@ -26,14 +26,14 @@ import numpy as np
 
 import adamslite
 from adamslite.analyses.choose import AUTO, CONSTANT
-from adamslite.faults import UsageError
-from adamslite.outcomes import Outcome
-from adamslite.outputs.whole import whole_file
-from adamslite.reference import Reference, read_reference
-from adamslite.results import Results
-from adamslite.runs import load_scene
-from adamslite.times import output_times
-from adamslite.work_precision import Variant, patient, variants
+from adamslite.analyses.output_times import output_times
+from adamslite.errors import UsageError
+from adamslite.outputs.whole_files import whole_file
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
+from adamslite.scene import load_scene
+from adamslite.verification.reference_file import Reference, read_reference
+from adamslite.verification.work_precision import Variant, patient, variants
 from benchmarks.tables import table
 from benchmarks.torture import CASES, Case
 

@@ -21,8 +21,8 @@ from statistics import median
 from threading import Event, Thread
 from typing import Any
 
-from adamslite import work_precision
-from adamslite.work_precision import repeats_of
+from adamslite.verification import work_precision
+from adamslite.verification.work_precision import repeats_of
 from benchmarks.peers import PROGRAMS
 from benchmarks.peers.program import Program, Settings
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
-from adamslite.outputs.whole import whole_file
+from adamslite.outputs.whole_files import whole_file
 from benchmarks.measure import TIME_UP, Point
 from benchmarks.peers import PROGRAMS
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from statistics import median
 
 import adamslite
-from adamslite.runs import load_scene
+from adamslite.scene import load_scene
 from benchmarks.figures import Figure
 
 DECKS = Path(__file__).parent.parent / "decks"

@@ -14,8 +14,8 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from adamslite.faults import UsageError
-from adamslite.outputs.whole import whole_file
+from adamslite.errors import UsageError
+from adamslite.outputs.whole_files import whole_file
 from benchmarks import conclusions, figures, matrix, points, tables
 from benchmarks.charts import GROWTH, draw_all, file_name, title
 from benchmarks.points import Row

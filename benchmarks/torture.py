@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from adamslite.verify import Case as Told
-from adamslite.verify import find_cases
+from adamslite.verification.verification import Case as Told
+from adamslite.verification.verification import find_cases
 from benchmarks.mechanisms import DECKS
 
 

@@ -15,9 +15,9 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
-from adamslite.reference import Reference, read_reference  # noqa: E402  (a checkout need not be installed)
-from adamslite.results import Results  # noqa: E402
-from adamslite.verify import Case, find_cases, solve_quietly  # noqa: E402
+from adamslite.results.results import Results  # noqa: E402
+from adamslite.verification.reference_file import Reference, read_reference  # noqa: E402  (a checkout need not be installed)
+from adamslite.verification.verification import Case, find_cases, solve_quietly  # noqa: E402
 
 DECKS, PAGE = HERE.parent / "decks", HERE / "cables.md"
 

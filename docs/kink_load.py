@@ -17,9 +17,9 @@ sys.path[:0] = [str(HERE.parent / "decks" / "cables"), str(HERE.parent)]
 
 from kinks import REFERENCE, brute_force, growing, windows  # noqa: E402  (beside the decks)
 
-from adamslite.results import Results  # noqa: E402
-from adamslite.signals import moving_average, plateau  # noqa: E402
-from adamslite.verify import solve_quietly  # noqa: E402
+from adamslite.results.results import Results  # noqa: E402
+from adamslite.verification.signals import moving_average, plateau  # noqa: E402
+from adamslite.verification.verification import solve_quietly  # noqa: E402
 
 SIZES = (15, 30, 60, 120, 240, 480)
 #: Equivalent masses of the sheave [kg].

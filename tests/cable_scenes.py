@@ -16,8 +16,8 @@ from formulas import Cable, G, Winch
 from spans import Span
 
 from adamslite.cables.statements import cable_variables, head, number, point, section, tail
-from adamslite.results import Results
-from adamslite.signals import arrival, plateau
+from adamslite.results.results import Results
+from adamslite.verification.signals import arrival, plateau
 
 Draw = Callable[[str, int], str]
 Judge = Callable[[Results, int], float]

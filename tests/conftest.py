@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from adamslite.caching import entries, folder
-from adamslite.places import find
+from adamslite.resources import find
 
 if TYPE_CHECKING:
     from fakes import Pipeline

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from adamslite.check import check
-from adamslite.deck import Deck, read
-from adamslite.diagnostics import DeckError, Diagnostic
-from adamslite.expression import Node
-from adamslite.messages import START
-from adamslite.statement import Statement
+from adamslite.checks.bodies_and_elements import check
+from adamslite.deck.deck import Deck, read
+from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.language.expression import Node
+from adamslite.language.messages import START
+from adamslite.language.statement import Statement
 
 
 def deck_with(statements: str) -> Deck:

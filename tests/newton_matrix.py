@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from adamslite.analyses.initial import constraint_gradient, initial_conditions
-from adamslite.compiled import compile_model
-from adamslite.deck import read
-from adamslite.integrators import base, bdf_corrector, equations, newton
-from adamslite.model import PART, assemble
-from adamslite.system import System
+from adamslite.analyses.initial.conditions import constraint_gradient, initial_conditions
+from adamslite.deck.deck import read
+from adamslite.equations.system import System
+from adamslite.integrators import contract, motion_equations, newton
+from adamslite.integrators.bdf import corrector
+from adamslite.kernels.compile import compile_model
+from adamslite.model.model import PART, assemble
 
 H = 0.02
 STEP = 1e-6
@@ -59,7 +60,7 @@ class Newton:
         rng = np.random.default_rng(1)
         self.P, self.L = s.records()
         self.tied = s.stabilised and s.holonomic > 0
-        self.phases = base.STABILISED if self.tied else base.INDEX3
+        self.phases = contract.STABILISED if self.tied else contract.INDEX3
         self.yp, self.psi = self.P.trial[: s.n * 2 + s.ns], self.P.trial[s.n * 2 + s.ns :]
         self.psi = self.psi[: self.yp.size]
         self.start = (
@@ -77,9 +78,9 @@ class Newton:
         n, w = self.system.n, self.yp.size
         P.q[:], P.z[:], P.mu[:] = q, z, mu
         P.trial[2 * w + n : 2 * w + 2 * n] = q[:n] - self.predicted
-        equations.put_time(P, 0.3)
-        bdf_corrector.motion_from_increments(P, 1 / H, self.yp, self.psi, self.tied)
-        equations.residual(P, self.phases, P.F)
+        motion_equations.put_time(P, 0.3)
+        corrector.motion_from_increments(P, 1 / H, self.yp, self.psi, self.tied)
+        motion_equations.residual(P, self.phases, P.F)
         return P.F[: self.system.nz].copy()
 
     def exact(self) -> np.ndarray:

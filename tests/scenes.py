@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 import adamslite as al
-from adamslite.engine import INTEGRATORS, JACOBIAN, RESIDUAL
-from adamslite.integrators import base, entry, equations
-from adamslite.results import Results
-from adamslite.system import System
+from adamslite.equations import operations
+from adamslite.equations.engine import INTEGRATORS, JACOBIAN, RESIDUAL
+from adamslite.equations.system import System
+from adamslite.integrators import contract, motion_equations
+from adamslite.results.results import Results
 
 GROUND = "a scene\nPART/1, GROUND\nMARKER/1, PART=1\n"
 PENDULUM = """a pendulum of length 1 that starts level
@@ -132,13 +133,13 @@ def run_in_python(scene: System, operation: int, phases: int = 0) -> int:
     """What ``System.run`` does, interpreted; kernels stay native, overflow passes in silence."""
     with np.errstate(all="ignore"):
         if operation in INTEGRATORS:
-            return getattr(entry, INTEGRATORS[operation])(*scene.records())
-        return entry.run(*scene.records(), operation, phases)
+            return getattr(operations, INTEGRATORS[operation])(*scene.records())
+        return operations.run(*scene.records(), operation, phases)
 
 
 def interpreted(monkeypatch: Any) -> None:
     """Let every run of this test interpret the engine."""
-    monkeypatch.setattr(equations, "call_address", call_address, raising=False)
+    monkeypatch.setattr(motion_equations, "call_address", call_address, raising=False)
     monkeypatch.setattr(System, "run", run_in_python)
 
 
@@ -152,7 +153,7 @@ def random_state(scene: System, seed: int = 1) -> None:
     scene.q[:n] += 0.3 * some.standard_normal(n)
     for array in (scene.u, scene.a, scene.z, scene.rd):
         array[:] = some.standard_normal(array.size)
-    scene.settings[base.T] = 0.3
+    scene.settings[contract.T] = 0.3
     settle(scene)
 
 

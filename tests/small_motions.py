@@ -20,11 +20,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from adamslite.analyses.dynamic import run_dynamic
-from adamslite.analyses.initial import initial_conditions, move
-from adamslite.integrators import base
-from adamslite.model import PART
-from adamslite.outcomes import Outcome
-from adamslite.session import Session
+from adamslite.analyses.initial.conditions import initial_conditions, move
+from adamslite.analyses.session import Session
+from adamslite.integrators import contract
+from adamslite.model.model import PART
+from adamslite.results.outcomes import Outcome
 
 STATE = ("q", "u", "a", "z", "rd", "mu", "ra", "rz", "pz", "base", "W")
 
@@ -68,7 +68,7 @@ class Flow:
         for name, values in self.start.items():
             getattr(system, name)[:] = values
         self._count_anew()
-        system.settings[base.T] = t
+        system.settings[contract.T] = t
         move(system, -change[:n])
         system.u[:n] += change[n : 2 * n] * 5.0
         first = system.m + system.nv

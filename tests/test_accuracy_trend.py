@@ -7,10 +7,10 @@ from fnmatch import fnmatch
 import numpy as np
 import pytest
 
-from adamslite.outcomes import Outcome
-from adamslite.places import find
-from adamslite.reference import read_reference
-from adamslite.runs import load_scene, run_scene
+from adamslite.resources import find
+from adamslite.results.outcomes import Outcome
+from adamslite.scene import load_scene, run_scene
+from adamslite.verification.reference_file import read_reference
 
 # Deck, reference and the columns that are looked at: a pendulum on a rod (A01), seven bodies in a
 # plane with tiny masses, a slider-crank at 150 rad/s.

@@ -47,7 +47,7 @@ def test_a_wrong_name_is_answered_with_the_near_ones():
 
 
 def test_a_run_without_an_end_is_a_fault_of_use():
-    from adamslite.faults import UsageError
+    from adamslite.errors import UsageError
 
     with pytest.raises(UsageError, match="SIMULATE"):
         al.simulate(al.read(PENDULUM))

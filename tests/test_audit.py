@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from scenes import GROUND, PENDULUM, SPRING, chain, options, run
 
-from adamslite.cli import main
-from adamslite.integrators import base
-from adamslite.results import Results
-from adamslite.system import System
+from adamslite.cli.main import main
+from adamslite.equations.system import System
+from adamslite.integrators import contract
+from adamslite.results.results import Results
 
 METHODS = ("GSTIFF", "GSTIFF I3", "HHT", "RADAU", "RKF45")
 WINDOW = (
@@ -80,7 +80,7 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
     def without_watch(system: System) -> None:
         tables(system)
-        system.sizes[base.WATCHED] = system.sizes[base.ZONES] = 0
+        system.sizes[contract.WATCHED] = system.sizes[contract.ZONES] = 0
 
     monkeypatch.setattr(System, "_tables", without_watch)
     yield

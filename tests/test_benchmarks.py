@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from adamslite import read
-from adamslite.work_precision import Variant, variants
+from adamslite.verification.work_precision import Variant, variants
 from benchmarks import conclusions, figures, matrix, points, report, tables
 from benchmarks.decks import deck
 from benchmarks.figures import Figure

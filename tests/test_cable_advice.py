@@ -7,10 +7,10 @@ import pytest
 from cable_scenes import SCENES, CableScene
 
 import adamslite
-from adamslite.cables.advise import Advice, advise
+from adamslite.cables.advice import Advice, advise
 from adamslite.cables.demand import Demand, elements, level, rigid_fails
-from adamslite.cables.told import about_cables, cables
-from adamslite.cli import main
+from adamslite.cables.report import about_cables, cables
+from adamslite.cli.main import main
 
 DECKS = Path(__file__).parent.parent / "decks"
 #: Scenes that are cheap enough to be solved to 0.1 %.

@@ -7,8 +7,8 @@ import pytest
 from descriptions import BELT, HOIST, PAYOUT
 from scipy.optimize import brentq
 
-from adamslite.cables.law import parse, value
 from adamslite.cables.messages import Faults
+from adamslite.cables.payout_law import parse, value
 from adamslite.cables.scene import deck
 
 LIGHT = """

@@ -9,7 +9,7 @@ from written import assert_same_text
 import adamslite
 from adamslite.cables.messages import MESSAGES
 from adamslite.cables.scene import deck
-from adamslite.places import find
+from adamslite.resources import find
 
 DESCRIBED = sorted((find("decks") / "cables" / "described").glob("*.toml"))
 PAGE = Path(__file__).parent.parent / "docs" / "cable-command.md"

@@ -8,8 +8,8 @@ from descriptions import ATWOOD, BELT, HOIST, PAYOUT, folded
 import adamslite
 from adamslite.cables.messages import MESSAGES
 from adamslite.cables.scene import deck
-from adamslite.cli import main
-from adamslite.diagnostics import WARNING, Diagnostic
+from adamslite.cli.main import main
+from adamslite.language.diagnostics import WARNING, Diagnostic
 
 #: With the form they are written in, on the last line.
 LOWERS = HOIST + "[model]\nlevel = 3\n"

@@ -13,12 +13,13 @@ from pathlib import Path
 
 import pytest
 
-from adamslite import native, parse
 from adamslite.caching import entries, folder
 from adamslite.caching.entries import Damaged, recall, sealed, unsealed
-from adamslite.cli import main
-from adamslite.faults import UsageError
-from adamslite.results import Results
+from adamslite.cli.main import main
+from adamslite.errors import UsageError
+from adamslite.native import compiler
+from adamslite.results.results import Results
+from adamslite.syntax import forms
 
 UNIX = pytest.mark.skipif(not folder.HAS_OWNERS, reason="modes and owners of Unix")
 OWNER = os.geteuid() if folder.HAS_OWNERS else 0
@@ -78,9 +79,9 @@ define double @twice(double %x) {
 
 def tables() -> object:
     """Tables of the parser, unpickled; the tokens of ``A/1`` are parsed with them."""
-    parse._parser.cache_clear()
+    forms._parser.cache_clear()
     kinds = ("NAME", "SLASH", "NUMBER")
-    return parse._form(parse._parser("deck", "statement"), kinds)
+    return forms._form(forms._parser("deck", "statement"), kinds)
 
 
 def facts() -> object:
@@ -90,8 +91,8 @@ def facts() -> object:
 
 def code() -> object:
     """Object code, linked and called."""
-    kept = recall(NAME, lambda: native.object_code(TWICE))
-    address = native._link(kept, ["twice"])["twice"]
+    kept = recall(NAME, lambda: compiler.object_code(TWICE))
+    address = compiler._link(kept, ["twice"])["twice"]
     return ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(address)(21.0)
 
 
@@ -125,7 +126,7 @@ def solve(cache: Path, tmp_path: Path) -> subprocess.CompletedProcess:
     """A run in a process of its own, where code is linked and tables are unpickled anew."""
     (tmp_path / "a.adm").write_text(DECK)
     words = ["-m", "adamslite", "solve", "a.adm", "--end", "1", "--steps", "2"]
-    path = str(Path(parse.__file__).parents[1])
+    path = str(Path(forms.__file__).parents[1])
     environment = {**os.environ, "ADAMSLITE_CACHE": str(cache), "PYTHONPATH": path}
     return subprocess.run(
         [sys.executable, *words], cwd=tmp_path, env=environment, capture_output=True, text=True
@@ -164,8 +165,8 @@ def test_tables_of_the_parser_are_not_unpickled_before_they_are_verified(
     (file,) = cache.glob("deck*.parser")
     file.write_bytes(DAMAGE[damage](file.read_bytes()))
     seen = []
-    loads = parse.pickle.loads
-    monkeypatch.setattr(parse.pickle, "loads", lambda data: (seen.append(data), loads(data))[1])
+    loads = forms.pickle.loads
+    monkeypatch.setattr(forms.pickle, "loads", lambda data: (seen.append(data), loads(data))[1])
     tables()
     assert len(caplog.messages) == 1
     assert seen == [unsealed(file.name, file.read_bytes())]
@@ -290,7 +291,7 @@ for turn in range(60):
 
 def test_processes_that_read_write_trim_and_clear_at_once(cache) -> None:
     environment = {**os.environ, "ADAMSLITE_CACHE_SIZE": "0.009"}
-    environment["PYTHONPATH"] = str(Path(parse.__file__).parents[1])
+    environment["PYTHONPATH"] = str(Path(forms.__file__).parents[1])
     run = [sys.executable, "-c", WORKER]
     running = [
         subprocess.Popen(run, env=environment, stderr=subprocess.PIPE, text=True) for _ in range(3)

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 import adamslite
-from adamslite import places
+from adamslite import resources
 from adamslite.caching.sources import PACKAGE, covered, digest_of, version_of
-from adamslite.parse import _grammars
+from adamslite.syntax.forms import _grammars
 
 # Modules from whose import graph the digests of kernels and of the engine are worked out.
 ROOTS = ("compiled", "engine")
@@ -109,7 +109,7 @@ WORKS = {
     ),
     "engine": (
         "native",
-        "from adamslite.integrators.entry import engine_text; engine_text('verlet')",
+        "from adamslite.equations.operations import engine_text; engine_text('verlet')",
     ),
 }
 
@@ -129,7 +129,7 @@ def test_all_that_is_loaded_while_code_is_shaped_is_covered(root: str, tmp_path:
 
 def test_a_change_of_any_grammar_gives_parser_tables_a_new_name(tmp_path: Path) -> None:
     """The grammars import each other."""
-    shutil.copytree(places.find("grammar"), tmp_path, dirs_exist_ok=True)
+    shutil.copytree(resources.find("grammar"), tmp_path, dirs_exist_ok=True)
     seen = {_grammars(tmp_path)}
     for number, file in enumerate(sorted(tmp_path.glob("*.lark"))):
         file.write_bytes(file.read_bytes() + b"\n")

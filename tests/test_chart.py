@@ -13,15 +13,24 @@ import pytest
 from fakes import SUMMARY
 
 from adamslite.analyses.choose import AUTO, CONSTANT
-from adamslite.cli import main
+from adamslite.cli.main import main
 from adamslite.elements.integrator import Integrator
-from adamslite.faults import RunFailed, UsageError
-from adamslite.outcomes import Outcome
+from adamslite.errors import RunFailed, UsageError
 from adamslite.outputs import chart as drawing
 from adamslite.outputs.chart import spread
-from adamslite.results import Results
-from adamslite.run_error import error_of
-from adamslite.work_precision import TIGHT, Chart, Point, Truth, Variant, measure, patient, variants
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
+from adamslite.results.run_error import error_of
+from adamslite.verification.work_precision import (
+    TIGHT,
+    Chart,
+    Point,
+    Truth,
+    Variant,
+    measure,
+    patient,
+    variants,
+)
 
 SPRING = """\
 a mass on a spring: x = cos(10 t)

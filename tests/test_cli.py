@@ -11,13 +11,13 @@ import pytest
 from fakes import ERROR, SIMULATE, Named, fall, install, stopped
 
 import adamslite
-from adamslite.cli import main
-from adamslite.diagnostics import Diagnostic, Span
-from adamslite.faults import UsageError
-from adamslite.outcomes import Outcome
+from adamslite.analyses.session import Session
+from adamslite.cli.main import main
+from adamslite.errors import UsageError
+from adamslite.language.diagnostics import Diagnostic, Span
 from adamslite.progress import TalkingProgress
-from adamslite.results import Results
-from adamslite.session import Session
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
 
 WARNING = Diagnostic(
     "W1", "warning", "the effective mass is m0 - Dm", Span("cable.adm", 3, 1, 3, 7), "use minus"
@@ -240,7 +240,7 @@ def test_an_interruption_before_there_are_results(pipeline, capsys, monkeypatch)
 def test_help_needs_nothing_heavy() -> None:
     program = (
         "import sys\n"
-        "from adamslite.cli import main\n"
+        "from adamslite.cli.main import main\n"
         "main(['--help'])\n"
         "heavy = {'numpy', 'scipy', 'sympy', 'llvmlite', 'lark'} & set(sys.modules)\n"
         "assert not heavy, heavy\n"

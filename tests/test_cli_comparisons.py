@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fakes import ERROR, fall
 
-from adamslite.cli import main
+from adamslite.cli.main import main
 
 
 def test_diff_of_two_files(pipeline, capsys) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from fakes import SIMULATE
 
-from adamslite.cli import main
+from adamslite.cli.main import main
 
 
 @dataclass(frozen=True)

@@ -9,15 +9,15 @@ import pytest
 from pytest import approx
 from scenes import GROUND, carriage, done, options, run, system
 
-from adamslite.algebra import sp
-from adamslite.analyses.clock import Clock
-from adamslite.analyses.paces import timetable
-from adamslite.enclosures import enclose
-from adamslite.function import FUNCTIONS
-from adamslite.integrators import base
-from adamslite.kernel.clock import ClockWriter
-from adamslite.outcomes import Outcome
-from adamslite.symbolic import Scope
+from adamslite.analyses.clock.clock import Clock
+from adamslite.analyses.clock.enclosures import enclose
+from adamslite.analyses.clock.paces import timetable
+from adamslite.integrators import contract
+from adamslite.kernels.code.clock_program import ClockWriter
+from adamslite.language.function import FUNCTIONS
+from adamslite.results.outcomes import Outcome
+from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.sympy_nodes import sp
 
 FORMULAS = (
     "GSTIFF", "GSTIFF I3", "WSTIFF", "HHT", "NEWMARK", "RADAU", "ABAM", "RKF45", "VERLET"
@@ -99,14 +99,14 @@ def test_ordinary_expressions_leave_the_steps_alone():
     """Nothing here changes within half an output step."""
     force = "SIN(3*TIME)+STEP(TIME,1,0,2,1)*EXP(-TIME)+5*MAX(0,TIME-3)+MOD(TIME,2)+SQRT(TIME+1)"
     table = _table(force, 100)
-    assert table.paces.tolist() == list(base.NO_PACE)
+    assert table.paces.tolist() == list(contract.NO_PACE)
     assert table.overfull == []
     assert table.stops == approx([1, 2, 3, 4, 6, 8, 10])
 
 
 def test_paces_begin_before_the_pulse_and_end_behind_it():
     table = _table("EXP(-((TIME-5.03)/1E-5)**2)", 10)
-    when, longest, fence = table.paces.reshape(-1, base.PACE).T
+    when, longest, fence = table.paces.reshape(-1, contract.PACE).T
     shortest = np.flatnonzero(longest == longest.min())
     assert when[shortest[0]] < 5.03 - 3e-5
     assert when[shortest[-1] + 1] > 5.03 + 3e-5

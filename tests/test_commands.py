@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 from test_deck import public_deck
 
-from adamslite.deck import Commands, Deck, read, read_commands
-from adamslite.diagnostics import DeckError, Diagnostic
-from adamslite.expression import Num, to_text
-from adamslite.messages import START
-from adamslite.redefinition import Redefinition
-from adamslite.runs import load_scene
-from adamslite.times import output_times
+from adamslite.analyses.output_times import output_times
+from adamslite.deck.deck import Commands, Deck, read, read_commands
+from adamslite.deck.redefinition import Redefinition
+from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.language.expression import Num, to_text
+from adamslite.language.messages import START
+from adamslite.scene import load_scene
 
 RIG = (
     START

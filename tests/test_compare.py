@@ -5,8 +5,8 @@ import pytest
 from fakes import fall
 
 from adamslite import compare
-from adamslite.compare import Mismatch, Tolerance, fits
-from adamslite.results import Results
+from adamslite.results.comparison import Mismatch, Tolerance, fits
+from adamslite.results.results import Results
 
 
 def moved(by: float, start: int = 0, **facts) -> Results:

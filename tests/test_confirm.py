@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from scenes import GROUND, PENDULUM, SPRING, run
 
-from adamslite.cli import main
-from adamslite.confirm import confirmation
-from adamslite.places import find
-from adamslite.runs import load_scene, run_scene
+from adamslite.analyses.confirmation import confirmation
+from adamslite.cli.main import main
+from adamslite.resources import find
+from adamslite.scene import load_scene, run_scene
 from benchmarks.bounds import judge, known
 from benchmarks.closed_forms import FAMILIES
 

@@ -8,7 +8,7 @@ from decklets import told
 from scenes import GROUND, PENDULUM, done, run
 
 import adamslite as al
-from adamslite.diagnostics import DeckError
+from adamslite.language.diagnostics import DeckError
 
 SPRING = (
     GROUND

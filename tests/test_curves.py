@@ -7,7 +7,7 @@ import pytest
 from scenes import GROUND, done
 
 import adamslite as al
-from adamslite.spline_curve import through
+from adamslite.elements.bases.spline_curve import through
 
 
 def bead(points: np.ndarray, form: str, start: np.ndarray) -> str:

@@ -12,12 +12,12 @@ import pytest
 from decklets import codes, deck_with, function, last
 
 import adamslite
-from adamslite.check import check
-from adamslite.deck import read, read_commands
-from adamslite.diagnostics import DeckError
-from adamslite.expression import GROUND_FRAME, Call, Num, Op, Ref, to_text
-from adamslite.messages import START
-from adamslite.statement import STATEMENTS
+from adamslite.checks.bodies_and_elements import check
+from adamslite.deck.deck import read, read_commands
+from adamslite.language.diagnostics import DeckError
+from adamslite.language.expression import GROUND_FRAME, Call, Num, Op, Ref, to_text
+from adamslite.language.messages import START
+from adamslite.language.statement import STATEMENTS
 
 PAPER = r"""the statements of the paper, as printed
 ACCGRAV/JGRAV=-9.81
@@ -309,7 +309,7 @@ def test_public_decks_are_read_and_what_is_missing_is_named(name: str) -> None:
 
 def test_deck_with_everything_reads_quickly_enough_to_be_used() -> None:
     """Statements of one form share their syntax tree: a thousand cost far less than a thousand."""
-    from adamslite.parse import expression_form, statement_form
+    from adamslite.syntax.forms import expression_form, statement_form
 
     deck_with("")
     before = statement_form.cache_info().misses + expression_form.cache_info().misses

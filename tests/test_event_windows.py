@@ -13,8 +13,8 @@ import pytest
 from pytest import approx
 from scenes import GROUND, done, options, system
 
-from adamslite.faults import UsageError
-from adamslite.results import Results
+from adamslite.errors import UsageError
+from adamslite.results.results import Results
 
 FORMULAS = ("GSTIFF", "GSTIFF I3", "HHT", "NEWMARK", "RADAU", "ABAM", "RKF45")
 # What a test of velocities holds to ERROR per step.

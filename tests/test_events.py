@@ -9,8 +9,8 @@ import pytest
 from pytest import approx
 from scenes import GROUND, PENDULUM, carriage, done, options, run, system
 
-from adamslite.analyses.edges import stops
-from adamslite.outcomes import Outcome
+from adamslite.analyses.clock.edges import stops
+from adamslite.results.outcomes import Outcome
 
 MASS = GROUND + "POINT_MASS/2, MASS={mass}, CM=2, QG={x},0,0, VX={v}\nMARKER/2, POINT_MASS=2\n"
 ERRORS = (1e-3, 1e-5, 1e-7)

@@ -5,8 +5,8 @@ import pytest
 
 import adamslite as al
 from adamslite.analyses.dynamic import Settings
-from adamslite.faults import UsageError
-from adamslite.outcomes import Outcome
+from adamslite.errors import UsageError
+from adamslite.results.outcomes import Outcome
 
 SPRING = """two masses on springs
 UNITS/SYSTEM=MKS

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from decklets import codes
 
-from adamslite.check import check
-from adamslite.deck import Deck, read, read_commands
-from adamslite.model import assemble
-from adamslite.results import Results
-from adamslite.simulate import simulate
+from adamslite.analyses.simulation import simulate
+from adamslite.checks.bodies_and_elements import check
+from adamslite.deck.deck import Deck, read, read_commands
+from adamslite.model.model import assemble
+from adamslite.results.results import Results
 
 # A slope of tan = 0.4 for a coefficient of 0.8: half of what friction can hold.
 SLOPE = """a block on a slope, g = (4, 0, -10)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import adamslite.functions  # noqa: F401  fills the registry
-from adamslite.function import FUNCTIONS, Parameter, function
+from adamslite.language.function import FUNCTIONS, Parameter, function
 
 
 @pytest.fixture

@@ -16,8 +16,8 @@ import sympy as sp
 from sample_scope import DIGITS, GROUND, SampleScope
 
 import adamslite.functions  # noqa: F401  fills the registry
-from adamslite.function import FUNCTIONS, Function
 from adamslite.functions.forces import NET
+from adamslite.language.function import FUNCTIONS, Function
 
 # What the native printer knows; anything else would only be noticed when a deck uses it.
 PRINTABLE = {

@@ -24,8 +24,8 @@ from sample_scope import (
 )
 
 import adamslite.functions  # noqa: F401  fills the registry
-from adamslite.function import FUNCTIONS
 from adamslite.functions.angles import SEQUENCES
+from adamslite.language.function import FUNCTIONS
 
 MARKERS = (GROUND, 0, 1, 2)
 

@@ -15,7 +15,7 @@ import ropeways
 import strings
 from written import assert_same_reference, assert_same_text
 
-from adamslite.places import find
+from adamslite.resources import find
 
 #: Folders of decks/cables that take seconds to write: what is integrated, and its columns.
 SLOW = {

@@ -14,7 +14,7 @@ from newton_euler import Frame, Tie
 from random_mechanisms import SYSTEMS, leaves, make, text
 
 import adamslite as al
-from adamslite.outcomes import Outcome
+from adamslite.results.outcomes import Outcome
 
 END, STEPS = 0.25, 5
 METHODS = ("ABAM, ERROR=1E-11", "RADAU, ERROR=1E-10")

@@ -11,8 +11,8 @@ from scenes import GROUND, PENDULUM
 
 import adamslite as al
 from adamslite import Outcome
-from adamslite.integrator_arguments import USES
-from adamslite.results import Results
+from adamslite.language.integrator_arguments import USES
+from adamslite.results.results import Results
 
 IMPLICIT = ("GSTIFF", "GSTIFF, I3", "CONSTANT_BDF", "HHT", "NEWMARK", "RADAU")
 FREE = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=1\nMARKER/2, POINT_MASS=2\nEND\n"

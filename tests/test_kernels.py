@@ -19,10 +19,10 @@ from scenes import (
 
 import adamslite as al
 import adamslite.functions  # noqa: F401  fills the registry
-from adamslite import native
-from adamslite.engine import RESIDUAL, engine
-from adamslite.function import FUNCTIONS
-from adamslite.integrators import base
+from adamslite.equations.engine import RESIDUAL, engine
+from adamslite.integrators import contract
+from adamslite.language.function import FUNCTIONS
+from adamslite.native import compiler
 
 BODIES = (
     GROUND
@@ -68,7 +68,7 @@ OWN_NUMBERS = {"SWEEP": (X, "2.0", "0.1", "0.3", "0.9", "0.7", "0.2")}
 def unoptimised(monkeypatch):
     """Kernels of these tests run a few times only: compile them, not the engine, quickly."""
     engine(RESIDUAL)
-    monkeypatch.setattr(native, "object_code", partial(native.object_code, speed=1))
+    monkeypatch.setattr(compiler, "object_code", partial(compiler.object_code, speed=1))
 
 
 def with_markers(name: str, markers: tuple[int, ...]) -> str:
@@ -106,13 +106,13 @@ def states(expressions: list[str]) -> str:
 def test_derivatives_of_every_function_of_markers(part):
     scene = system(states(measures()[part::3]))
     random_state(scene)
-    assert_derivatives(scene, base.ROWS)
+    assert_derivatives(scene, contract.ROWS)
 
 
 def test_derivatives_of_every_function_of_numbers():
     scene = system(states(intrinsics()))
     random_state(scene)
-    assert_derivatives(scene, base.ROWS)
+    assert_derivatives(scene, contract.ROWS)
 
 
 ORIENTATIONS = [f"ORIENT({s},{c},21,31)" for s, c in ((5, 1), (27, 3))]
@@ -138,7 +138,7 @@ OTHERS = ["VARVAL(1)*DX(21)", "VARVAL(2)*DX(21)", "VARVAL(3)**3", "DIF1(100)*DIF
 def test_derivatives_of_functions_of_elements_and_states():
     scene = system(states([*ORIENTATIONS, *REACTIONS, *OTHERS]).replace("END", ELEMENTS + "END"))
     random_state(scene)
-    assert_derivatives(scene, base.INDEX3)
+    assert_derivatives(scene, contract.INDEX3)
 
 
 PAIRS = ["I=21, J=31", "I=11, J=31", "I=40, J=21", "I=31, J=41", "I=41, J=12", "I=20, J=32"]
@@ -164,7 +164,7 @@ def test_derivatives_of_forces_between_every_kind_of_marker(force):
         lines = [force.format(id=k, ij=ij, sign=sign) for k, ij in enumerate(pairs, 1)]
         scene = system(BODIES + "\n".join([*floating, *lines, "END\n"]))
         random_state(scene)
-        assert_derivatives(scene, base.LOADS)
+        assert_derivatives(scene, contract.LOADS)
 
 
 KINDS = ("REVOLUTE", "SPHERICAL", "TRANSLATIONAL", "FIXED")
@@ -176,11 +176,11 @@ def test_derivatives_of_joints(kind):
     pairs = ("I=21, J=31", "I=12, J=32")
     lines = [f"JOINT/{k}, {kind}, {ij}" for k, ij in enumerate(pairs, 1)]
     scene = system(BODIES + "\n".join([*lines, "END\n"]))
-    for phases in (base.INDEX3, base.STABILISED):
+    for phases in (contract.INDEX3, contract.STABILISED):
         random_state(scene)
         assert_derivatives(scene, phases)
-    compare_derivatives(scene, base.ACCELERATION, 2, "d/da")
-    compare_derivatives(scene, base.ACCELERATION, 3, "d/d(lam, V)")
+    compare_derivatives(scene, contract.ACCELERATION, 2, "d/da")
+    compare_derivatives(scene, contract.ACCELERATION, 3, "d/d(lam, V)")
 
 
 def test_derivatives_of_constraints_by_expression():
@@ -193,11 +193,11 @@ def test_derivatives_of_constraints_by_expression():
         "END\n",
     ]
     scene = system(BODIES + "\n".join(lines))
-    for phases in (base.INDEX3, base.STABILISED):
+    for phases in (contract.INDEX3, contract.STABILISED):
         random_state(scene)
         assert_derivatives(scene, phases)
-    compare_derivatives(scene, base.ACCELERATION, 2, "d/da")
-    compare_derivatives(scene, base.ACCELERATION, 3, "d/d(lam, V)")
+    compare_derivatives(scene, contract.ACCELERATION, 2, "d/da")
+    compare_derivatives(scene, contract.ACCELERATION, 3, "d/d(lam, V)")
 
 
 # ---- shapes ------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ from scenes import (
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
-from adamslite.integrators import history as past
+from adamslite.integrators.bdf import differences as past
 from adamslite.integrators.records import interpolate
 
 FORMULATIONS = ("SI2", "I3")

@@ -6,7 +6,7 @@ import pytest
 from constraint_decks import DECKS, deck
 from newton_matrix import matrix_error, rank_at_random_posture
 
-from adamslite.statement import STATEMENTS
+from adamslite.language.statement import STATEMENTS
 
 
 def test_every_constraint_has_a_deck() -> None:

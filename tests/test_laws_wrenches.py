@@ -7,10 +7,10 @@ import pytest
 from constraint_decks import BODIES
 from newton_matrix import matrix_error
 
-from adamslite.deck import read
-from adamslite.model import Model, assemble, rotation_313
-from adamslite.results import Results
-from adamslite.simulate import simulate
+from adamslite.analyses.simulation import simulate
+from adamslite.deck.deck import read
+from adamslite.model.model import Model, assemble, rotation_313
+from adamslite.results.results import Results
 
 FLOATING = "MARKER/39, PART=3, FLOATING\n"
 SECTION = "IXX=1, IYY=2, IZZ=3, AREA=4, EMODULUS=2, GMODULUS=1, ASY=1.2, ASZ=1.1"

@@ -7,10 +7,10 @@ import math
 import pytest
 from decklets import codes, deck_with, function, last
 
-from adamslite.deck import read
-from adamslite.expression import to_text
-from adamslite.messages import START
-from adamslite.parse import spelled
+from adamslite.deck.deck import read
+from adamslite.language.expression import to_text
+from adamslite.language.messages import START
+from adamslite.syntax.forms import spelled
 
 DEGREE = math.pi / 180
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scenes import chain, links, system
 
-from adamslite.integrators import linalg
-from adamslite.ordering import DENSE, analyse
+from adamslite.equations.elimination_order import DENSE, analyse
+from adamslite.integrators.linalg import blocks
 
 PATTERNS = {
     "chain": [(k, k + 1) for k in range(11)],
@@ -52,9 +52,9 @@ def eliminate(full, widths, pairs, late=None):
 
 def solved(full, widths, pairs, b, late=None) -> np.ndarray:
     plan, values, pivots, work = eliminate(full, widths, pairs, late)
-    assert linalg.factor(plan, values, pivots, work)
+    assert blocks.factor(plan, values, pivots, work)
     x = b.copy()
-    linalg.solve(plan, values, pivots, x, np.zeros(len(b)), work)
+    blocks.solve(plan, values, pivots, x, np.zeros(len(b)), work)
     return x
 
 
@@ -119,14 +119,14 @@ def test_negative_pivots_are_negative_eigenvalues(pattern, sizes):
         edges = [e for e in PATTERNS[pattern] if max(e) < count]
         full = random_matrix(widths, both_ways(edges, count), seed, symmetric=True)
         arrays = eliminate(full, widths, both_ways(edges, count))
-        found = linalg.signature(*arrays, np.zeros(len(full)))
+        found = blocks.signature(*arrays, np.zeros(len(full)))
         assert found == (np.linalg.eigvalsh(full) < 0).sum()
 
 
 @pytest.mark.parametrize("full", (np.diag([2.0, 0.0, -1.0]), np.diag([0.0, 2.0, 1.0])))
 def test_a_singular_matrix_has_no_signature(full):
     arrays = eliminate(full, [3], {(0, 0)})
-    assert linalg.signature(*arrays, np.zeros(3)) == -1
+    assert blocks.signature(*arrays, np.zeros(3)) == -1
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
@@ -138,7 +138,7 @@ def test_singular_matrices_are_refused():
         broken = full.copy()
         broken[zero] = broken[:, zero] = 0.0
         plan, values, pivots, work = eliminate(broken, widths, pairs)
-        assert not linalg.factor(plan, values, pivots, work)
+        assert not blocks.factor(plan, values, pivots, work)
 
 
 def test_a_chain_has_no_fill():

@@ -14,10 +14,10 @@ from scipy.spatial.transform import Rotation
 from small_motions import Flow, distance
 
 import adamslite
-from adamslite.analyses.linear import linear
-from adamslite.outcomes import Outcome
-from adamslite.session import Session
-from adamslite.simulate import _Simulation
+from adamslite.analyses.linearization.linear import linear
+from adamslite.analyses.session import Session
+from adamslite.analyses.simulation import _Simulation
+from adamslite.results.outcomes import Outcome
 
 JOINTS = ("REVOLUTE", "UNIVERSAL", "SPHERICAL", "CYLINDRICAL")
 DRIVES = {

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import adamslite
-from adamslite.cli import main
-from adamslite.deck import read_commands
+from adamslite.cli.main import main
+from adamslite.deck.deck import read_commands
 
 
 def linearized(text: str, *arguments: str) -> list:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from adamslite import elf, native
+from adamslite.native import compiler, elf_linker
 
 HERE = pytest.mark.skipif(sys.platform != "linux", reason="links object code of Linux only")
 
@@ -72,29 +72,29 @@ def values(address: int) -> list[float]:
 @HERE
 def test_links_constants_tables_and_calls() -> None:
     """No tolerance: each branch is one operation, or the same function of the C library."""
-    places = elf.link(native.object_code(TEXT.format(name="ours")))
+    places = elf_linker.link(compiler.object_code(TEXT.format(name="ours")))
     assert list(places) == ["ours"]
     assert values(places["ours"]) == EXPECTED
 
 
 def test_llvm_links_what_is_foreign(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(code: bytes) -> None:
-        raise elf.Foreign
+        raise elf_linker.Foreign
 
-    monkeypatch.setattr(elf, "link", refuse)
-    code = native.object_code(TEXT.format(name="theirs"))
-    assert values(native.addresses([(code, ["theirs"])])["theirs"]) == EXPECTED
+    monkeypatch.setattr(elf_linker, "link", refuse)
+    code = compiler.object_code(TEXT.format(name="theirs"))
+    assert values(compiler.addresses([(code, ["theirs"])])["theirs"]) == EXPECTED
 
 
 def spoiled(code: bytes, what: str) -> bytes:
     """Object code with one thing that is not linked here."""
-    sections = elf.sections_of(code)
+    sections = elf_linker.sections_of(code)
     changed = bytearray(code)
     if what == "machine":
-        changed[elf.HEADER.fields["machine"][1]] += 1
+        changed[elf_linker.HEADER.fields["machine"][1]] += 1
     elif what == "relocation":
-        first = int(sections["offset"][sections["type"] == elf.RELA][0])
-        changed[first + elf.RELOCATION.fields["type"][1]] = 2  # R_X86_64_PC32
+        first = int(sections["offset"][sections["type"] == elf_linker.RELA][0])
+        changed[first + elf_linker.RELOCATION.fields["type"][1]] = 2  # R_X86_64_PC32
     elif what == "function":
         at = code.index(b"\0atan2\0")
         changed[at + 1 : at + 6] = b"atanx"
@@ -111,21 +111,21 @@ def spoiled(code: bytes, what: str) -> bytes:
     ],
 )
 def test_refuses_what_it_does_not_link(what: str, why: str) -> None:
-    code = spoiled(native.object_code(TEXT.format(name="spoiled")), what)
-    with pytest.raises(elf.Foreign, match=why):
-        elf.link(code)
+    code = spoiled(compiler.object_code(TEXT.format(name="spoiled")), what)
+    with pytest.raises(elf_linker.Foreign, match=why):
+        elf_linker.link(code)
 
 
 @HERE
 def test_variables_are_refused() -> None:
     text = "@count = global double 1.0\ndefine ptr @where() {\n  ret ptr @count\n}\n"
-    with pytest.raises(elf.Foreign, match="has variables"):
-        elf.link(native.object_code(text))
+    with pytest.raises(elf_linker.Foreign, match="has variables"):
+        elf_linker.link(compiler.object_code(text))
 
 
 def test_no_elf_at_all_is_refused() -> None:
-    with pytest.raises(elf.Foreign):
-        elf.link(b"MZ" + bytes(200))
+    with pytest.raises(elf_linker.Foreign):
+        elf_linker.link(b"MZ" + bytes(200))
 
 
 DECK = """Falls

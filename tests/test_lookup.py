@@ -12,15 +12,15 @@ from scipy.interpolate import Akima1DInterpolator, CubicSpline
 from scipy.special import ellipk
 
 import adamslite as al
-from adamslite import native
-from adamslite.algebra import lookup, lookup_between
-from adamslite.function import FUNCTIONS, function
-from adamslite.integrators import base
-from adamslite.interpolant import BEYOND, Interpolant, interpolant
-from adamslite.lookup import lookup as in_python
-from adamslite.lookup import on_piece, piece_at
-from adamslite.statement import STATEMENTS, Statement, choice, statement, vector
-from adamslite.translate import translate
+from adamslite.integrators import contract
+from adamslite.kernels.code.lookup import lookup as in_python
+from adamslite.kernels.code.lookup import on_piece, piece_at
+from adamslite.language.function import FUNCTIONS, function
+from adamslite.language.statement import STATEMENTS, Statement, choice, statement, vector
+from adamslite.native import compiler
+from adamslite.native.translate import translate
+from adamslite.symbolic.interpolant import BEYOND, Interpolant, interpolant
+from adamslite.symbolic.sympy_nodes import lookup, lookup_between
 
 RANDOM = np.random.default_rng(7)
 X = np.cumsum(RANDOM.uniform(0.05, 1.0, 40)) - 3.0
@@ -47,8 +47,8 @@ def table(kind: str, beyond: str = "parabola") -> Interpolant:
 @pytest.fixture(scope="module")
 def in_native_code() -> Callable[..., float]:
     """``lookup`` compiled: f(T, x, z, order, z_order)."""
-    code = native.object_code(translate("lookup"))
-    address = native.addresses([(code, ["lookup"])])["lookup"]
+    code = compiler.object_code(translate("lookup"))
+    address = compiler.addresses([(code, ["lookup"])])["lookup"]
     real, whole = ctypes.c_double, ctypes.c_int64
     call = ctypes.CFUNCTYPE(real, ctypes.c_void_p, real, real, whole, whole)(address)
     return lambda T, *given: call(T.ctypes.data, *given)
@@ -219,7 +219,7 @@ END
 """
     scene = system(text)
     random_state(scene)
-    assert_derivatives(scene, base.ROWS)
+    assert_derivatives(scene, contract.ROWS)
 
 
 @pytest.mark.usefixtures("tables")

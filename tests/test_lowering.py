@@ -8,8 +8,9 @@ import math
 import pytest
 import sympy as sp
 
-from adamslite import algebra, native
-from adamslite.lowering import Builder, Lowering
+from adamslite.kernels.code.sympy_to_llvm import Builder, Lowering
+from adamslite.native import compiler
+from adamslite.symbolic import sympy_nodes
 
 x, y, z = sp.symbols("x y z", real=True)
 POINTS = ((0.3, 1.7, -0.4), (1.9, 0.2, 2.5), (0.8, 0.8, 0.1))
@@ -18,14 +19,14 @@ ORDINARY = [
     x**2, x**3, x**7, x**-2, sp.sqrt(x), x ** sp.Rational(3, 2), x ** sp.Rational(-1, 2),
     x ** sp.Rational(1, 3), x**y, x**65, x**2.7, sp.sin(x), sp.cos(x * y), sp.tan(x), sp.exp(z),
     sp.log(x), sp.asin(x / 4), sp.acos(x / 4), sp.atan(z), sp.atan2(z, x), sp.sinh(z), sp.cosh(z),
-    sp.tanh(z), algebra.floor(3 * z), sp.pi * x, sp.Rational(1, 3) * x, sp.Integer(4), 0 * x,
+    sp.tanh(z), sympy_nodes.floor(3 * z), sp.pi * x, sp.Rational(1, 3) * x, sp.Integer(4), 0 * x,
     (x + y) ** 2 * (x + y) ** 3 + sp.sin(x + y),
 ]  # fmt: skip
 CHOICES = [
-    algebra.choose((x, x > y), otherwise=y), algebra.choose((1, sp.Eq(x, y)), otherwise=2),
-    algebra.choose((x, sp.And(x > 0, z < 0)), (y, sp.Or(x > 5, z > 2)), otherwise=z),
-    algebra.choose((x, sp.Not(sp.Eq(x, y))), otherwise=-1), algebra.magnitude(z),
-    algebra.norm((x, y, z)), algebra.choose((sp.log(z), z > 0), otherwise=0),
+    sympy_nodes.choose((x, x > y), otherwise=y), sympy_nodes.choose((1, sp.Eq(x, y)), otherwise=2),
+    sympy_nodes.choose((x, sp.And(x > 0, z < 0)), (y, sp.Or(x > 5, z > 2)), otherwise=z),
+    sympy_nodes.choose((x, sp.Not(sp.Eq(x, y))), otherwise=-1), sympy_nodes.magnitude(z),
+    sympy_nodes.norm((x, y, z)), sympy_nodes.choose((sp.log(z), z > 0), otherwise=0),
 ]  # fmt: skip
 
 
@@ -36,10 +37,10 @@ def run(expressions: list, points=POINTS) -> list[list[float]]:
     lower = Lowering(builder, leaves)
     for n, expression in enumerate(expressions):
         builder.store_real(3 + n, lower(sp.S.Zero + expression))
-    name = "lowered" + native.digest(*builder.lines)
+    name = "lowered" + compiler.digest(*builder.lines)
     head = f"define void @{name}(ptr %rp) {{\nentry:\n"
     text = "\n".join([*sorted(builder.declared), head, *builder.lines, "ret void\n}\n!0 = !{}"])
-    address = native.addresses([(native.object_code(text), [name])])[name]
+    address = compiler.addresses([(compiler.object_code(text), [name])])[name]
     found = []
     for point in points:
         reals = (ctypes.c_double * (3 + len(expressions)))(*point)
@@ -71,12 +72,12 @@ def test_not_a_number_stays_what_it_is():
 
 def test_a_choice_hides_the_piece_it_does_not_take():
     """log of a negative number behind a condition that excludes it."""
-    safe = algebra.choose((sp.log(z), z > 0), (sp.sqrt(z), z > 1), otherwise=7)
+    safe = sympy_nodes.choose((sp.log(z), z > 0), (sp.sqrt(z), z > 1), otherwise=7)
     assert run([safe], [(0.0, 0.0, -1.0)])[0] == [7.0]
 
 
 def test_an_undecided_choice_is_not_a_number():
-    open_end = algebra._nodes()[0]((x, x > 0), (y, y > 0))
+    open_end = sympy_nodes._nodes()[0]((x, x > 0), (y, y > 0))
     assert run([open_end], [(2.0, 1.0, 0.0), (-1.0, 3.0, 0.0)]) == [[2.0], [3.0]]
     assert math.isnan(run([open_end], [(-1.0, -1.0, 0.0)])[0][0])
 
@@ -111,6 +112,6 @@ def test_comparisons(relation, number):
     truth = {"<": 1.0 < number, "<=": 1.0 <= number, ">": 1.0 > number, ">=": 1.0 >= number}
     truth |= {"==": number == 1.0, "!=": number != 1.0}
     condition = sp.Rel(x, y, relation)
-    assert run([algebra.choose((1, condition), otherwise=0)], [(1.0, number, 0.0)])[0] == [
+    assert run([sympy_nodes.choose((1, condition), otherwise=0)], [(1.0, number, 0.0)])[0] == [
         float(truth[relation])
     ]

@@ -5,10 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from adamslite import cli, manual
-from adamslite.function import FUNCTIONS
-from adamslite.messages import MESSAGES
-from adamslite.statement import STATEMENTS
+from adamslite import manual
+from adamslite.cli import main
+from adamslite.language.function import FUNCTIONS
+from adamslite.language.messages import MESSAGES
+from adamslite.language.statement import STATEMENTS
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGES = runpy.run_path(str(DOCS / "generate.py"))["PAGES"]
@@ -32,7 +33,7 @@ def test_every_argument_of_a_statement_is_on_its_page(keyword: str) -> None:
 @pytest.mark.parametrize("register", [STATEMENTS, FUNCTIONS, MESSAGES], ids=["st", "fn", "msg"])
 def test_help_knows_every_name(register: dict, capsys: pytest.CaptureFixture[str]) -> None:
     for name in register:
-        assert cli.main(["help", name.lower()]) == 0
+        assert main.main(["help", name.lower()]) == 0
         assert name in capsys.readouterr().out
 
 
@@ -42,13 +43,13 @@ def test_a_name_may_be_a_statement_and_a_function() -> None:
 
 
 def test_help_suggests_a_name(capsys: pytest.CaptureFixture[str]) -> None:
-    assert cli.main(["help", "SPRINGDAMPR"]) == 2
+    assert main.main(["help", "SPRINGDAMPR"]) == 2
     assert "did you mean SPRINGDAMPER?" in capsys.readouterr().err
-    assert cli.main(["help", "sim"]) == 2
+    assert main.main(["help", "sim"]) == 2
     assert "did you mean SIMULATE?" in capsys.readouterr().err
 
 
 def test_help_without_a_name_lists_them(capsys: pytest.CaptureFixture[str]) -> None:
-    assert cli.main(["help"]) == 0
+    assert main.main(["help"]) == 0
     listed = capsys.readouterr().out
     assert all(name in listed for name in (*STATEMENTS, *FUNCTIONS))

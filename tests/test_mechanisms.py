@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import adamslite
-from adamslite.results import Results
+from adamslite.results.results import Results
 
 START = """mechanism
 UNITS/SYSTEM=MKS

@@ -10,9 +10,9 @@ import pytest
 from oracle import Flight, Marker, pair, projected_angles, reported, seen, velocity
 
 import adamslite as al
+from adamslite.elements.bases.wrench import Wrench
 from adamslite.elements.friction import Friction
-from adamslite.statement import STATEMENTS
-from adamslite.wrench import Wrench
+from adamslite.language.statement import STATEMENTS
 
 Array = np.ndarray
 ZERO = np.zeros(3)

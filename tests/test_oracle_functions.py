@@ -14,8 +14,8 @@ from frame_constraints import about
 from oracle import Flight, Marker, projected_angles, reported, seen, velocity
 
 import adamslite as al
-from adamslite.function import FUNCTIONS
-from adamslite.units import FORCE, LENGTH, MASS, TIME
+from adamslite.language.function import FUNCTIONS
+from adamslite.language.units import FORCE, LENGTH, MASS, TIME
 
 Array = np.ndarray
 SEEDS = (0, 1, 3)

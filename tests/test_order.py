@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from scenes import GROUND, done
 
-from adamslite.integrators import dop853, radau_coefficients
+from adamslite.integrators.explicit import dop853
+from adamslite.integrators.radau import coefficients
 
 Tree = tuple["Tree", ...]
 
@@ -128,8 +129,8 @@ def test_the_interpolation_of_dop853_is_of_order_seven():
 
 def test_the_error_weights_of_radau_belong_to_a_formula_of_order_three():
     """Hairer and Wanner (8.19): e_i z_i of t^k is -1 for k = 1, and 0 for k = 2, 3."""
-    table = radau_coefficients.coefficients()
-    weights = table[radau_coefficients.WEIGHT :][:3]
+    table = coefficients.coefficients()
+    weights = table[coefficients.WEIGHT :][:3]
     found = [weights @ table[:3] ** k for k in (1, 2, 3)]
     np.testing.assert_allclose(found, [-1.0, 0.0, 0.0], atol=1e-13)
 

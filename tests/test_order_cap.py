@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scenes import GROUND, done
 
-from adamslite.integrators import order_cap
-from adamslite.integrators.order_cap import CAP, CAPPED, TRAVELLED, TRIES, TRYING, WATCHING
+from adamslite.integrators.bdf import order_cap
+from adamslite.integrators.bdf.order_cap import CAP, CAPPED, TRAVELLED, TRIES, TRYING, WATCHING
 
 LENGTH, MASSES, STIFFNESS = 10.0, 20, 1e7
 

@@ -10,7 +10,7 @@ from scenes import GROUND, PENDULUM
 
 import adamslite as al
 from adamslite import Outcome
-from adamslite.faults import UsageError
+from adamslite.errors import UsageError
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from adamslite.cli import main
+from adamslite.cli.main import main
 
 DECK = """\
 a mass between a spring and a force from outside
@@ -148,7 +148,7 @@ def test_a_description_is_not_written_over(folder, capsys, hard: bool) -> None:
 )
 def test_all_outputs_are_looked_at_before_the_run(folder, capsys, monkeypatch, file, said) -> None:
     """A folder in the place of a file, a name too long for the system."""
-    monkeypatch.setattr("adamslite.commands.solve._write", pytest.fail)
+    monkeypatch.setattr("adamslite.cli.commands.solve._write", pytest.fail)
     commands(RUN, "LINEAR/EIGENSOL", f"LINEAR/STATEMAT, FILE={'m.json' if '.' in file else file}")
     if said == "folder":
         Path(file).mkdir()

@@ -8,21 +8,21 @@ from pathlib import Path
 import pytest
 
 import adamslite
-from adamslite import places
+from adamslite import resources
 
 VERBS = ("read", "check", "assemble", "compile_model", "simulate", "compare")
 
 
 @pytest.mark.parametrize("name", ["grammar", "decks"])
 def test_in_a_checkout_the_folders_stand_next_to_the_package(name: str) -> None:
-    assert places.find(name).is_dir()
+    assert resources.find(name).is_dir()
 
 
 @pytest.mark.parametrize("home", ["adamslite/grammar", "grammar"])
 def test_inside_the_package_first_then_next_to_it(tmp_path: Path, home: str) -> None:
     package = tmp_path / "adamslite"
     package.mkdir()
-    shutil.copy(places.__file__, package)
+    shutil.copy(resources.__file__, package)
     for place in {home, "grammar"}:
         (tmp_path / place).mkdir()
     find = runpy.run_path(str(package / "places.py"))["find"]

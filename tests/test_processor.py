@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from adamslite import native, processor
-from adamslite.cli import main
-from adamslite.commands.codes import USAGE
-from adamslite.places import find
+from adamslite.cli.commands.codes import USAGE
+from adamslite.cli.main import main
+from adamslite.native import compiler, processor
+from adamslite.resources import find
 
 # Four sums at once where there is AVX, a product and a sum in one operation where there is FMA.
 TEXT = """
@@ -56,10 +56,10 @@ def test_each_target_keeps_its_own_code(monkeypatch: pytest.MonkeyPatch) -> None
     keys = set()
     for name in (processor.HOST, *processor.LEVELS):
         monkeypatch.setenv("ADAMSLITE_CPU", name)
-        keys.add(native.digest(TEXT))
+        keys.add(compiler.digest(TEXT))
     assert len(keys) == 1 + len(processor.LEVELS)
     monkeypatch.delenv("ADAMSLITE_CPU")
-    assert native.digest(TEXT) in keys
+    assert compiler.digest(TEXT) in keys
 
 
 def test_features_add_up() -> None:

@@ -23,9 +23,10 @@ from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
 import adamslite as al
-from adamslite.integrators import linalg_complex, radau_coefficients
-from adamslite.ordering import analyse
-from adamslite.outcomes import Outcome
+from adamslite.equations.elimination_order import analyse
+from adamslite.integrators.linalg import complex_blocks
+from adamslite.integrators.radau import coefficients
+from adamslite.results.outcomes import Outcome
 
 # theta'' = -m g L/(m L^2 + J) cos(theta), J about z.
 RATE = MASS * GRAVITY * LENGTH / (MASS * LENGTH**2 + INERTIA)
@@ -39,7 +40,7 @@ def radau(deck: str, end: float, steps: int = 10, **options):
 
 def test_the_coefficients_are_those_of_the_collocation_of_order_five():
     """sum_j b_j c_j^k = 1/(k+1) for k < 5, b the last row of A; the modes belong to A^-1."""
-    table = radau_coefficients.coefficients()
+    table = coefficients.coefficients()
     c, inverse = table[:3], table[3:12].reshape(3, 3)
     b = np.linalg.inv(inverse)[2]
     for k in range(5):
@@ -71,12 +72,12 @@ def test_the_complex_elimination_solves(pivoting):
                 factors[k : k + 2] = block[i, j].real, block[i, j].imag
     plan = type("Plan", (), found.plan)
     pivots, work, x = np.zeros(n, dtype=int), np.zeros(2 * n * n), np.zeros(2 * n)
-    assert linalg_complex.factor_complex(plan, factors, pivots, work)
+    assert complex_blocks.factor_complex(plan, factors, pivots, work)
     b = some.standard_normal(2 * n)
     truth = np.linalg.solve(full, b.view(complex))
-    linalg_complex.solve_complex(plan, factors, pivots, b, x, work)
+    complex_blocks.solve_complex(plan, factors, pivots, b, x, work)
     np.testing.assert_allclose(b.view(complex), truth, rtol=1e-10)
-    assert not linalg_complex.factor_complex(plan, np.zeros_like(factors), pivots, work)
+    assert not complex_blocks.factor_complex(plan, np.zeros_like(factors), pivots, work)
 
 
 def test_the_formula_is_of_order_five():

@@ -7,11 +7,11 @@ import pytest
 
 import adamslite
 from adamslite.analyses import plane
-from adamslite.cli import main
-from adamslite.faults import UsageError
-from adamslite.reduction import RULES
-from adamslite.runs import load_scene
-from adamslite.session import Session
+from adamslite.analyses.session import Session
+from adamslite.cli.main import main
+from adamslite.errors import UsageError
+from adamslite.model.reduction import RULES
+from adamslite.scene import load_scene
 
 DECKS = Path(__file__).parent.parent / "decks"
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from fakes import fall, stopped
 
-from adamslite.compare import Mismatch, Tolerance
-from adamslite.faults import FormatError
-from adamslite.outcomes import Outcome
-from adamslite.places import find
-from adamslite.reference import Reference, read_reference
-from adamslite.results import Results
-from adamslite.verify import Case, Verdict, find_cases, verify
+from adamslite.errors import FormatError
+from adamslite.resources import find
+from adamslite.results.comparison import Mismatch, Tolerance
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
+from adamslite.verification.reference_file import Reference, read_reference
+from adamslite.verification.verification import Case, Verdict, find_cases, verify
 
 TABLE = "time,PART/2.x\n0,0\n0.5,0.125\n1,0.5\n"
 

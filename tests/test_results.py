@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from adamslite.faults import FormatError
-from adamslite.outcomes import Outcome
+from adamslite.errors import FormatError
 from adamslite.outputs import csv
-from adamslite.outputs.whole import whole_file
-from adamslite.results import Results, UnknownChannel
+from adamslite.outputs.whole_files import whole_file
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results, UnknownChannel
 
 
 def test_a_channel_is_found_in_any_case() -> None:

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from fakes import fall
 
-from adamslite.places import find
-from adamslite.results import Results
+from adamslite.resources import find
+from adamslite.results.results import Results
 
 SCRIPT = Path(__file__).parent.parent / "docs" / "cable_scenes.py"
 PAGE = """\

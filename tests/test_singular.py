@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import adamslite
-from adamslite.outcomes import Outcome
+from adamslite.results.outcomes import Outcome
 from benchmarks import decks, mechanisms
 from benchmarks.peers.ours import four_bar_energy
 from benchmarks.reference import four_bar

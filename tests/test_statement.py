@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 import adamslite.elements
-from adamslite import functions, places, unsupported
-from adamslite.function import FUNCTIONS
-from adamslite.statement import STATEMENTS, Statement
+from adamslite import functions, resources
+from adamslite.language import not_supported
+from adamslite.language.function import FUNCTIONS
+from adamslite.language.statement import STATEMENTS, Statement
 
 CLASSES = [pytest.param(cls, id=keyword) for keyword, cls in STATEMENTS.items()]
 NUMERIC = ("number", "vector", "expression")
@@ -43,12 +44,12 @@ def test_keywords_of_a_statement_are_distinct(cls: type[Statement]) -> None:
 
 
 def test_what_is_supported_is_not_listed_as_missing() -> None:
-    assert not set(STATEMENTS) & (unsupported.STATEMENTS | unsupported.COMMANDS)
-    assert functions and not set(FUNCTIONS) & unsupported.FUNCTIONS
+    assert not set(STATEMENTS) & (not_supported.STATEMENTS | not_supported.COMMANDS)
+    assert functions and not set(FUNCTIONS) & not_supported.FUNCTIONS
 
 
 def test_the_grammar_knows_form_and_no_vocabulary() -> None:
-    words = {*STATEMENTS, *FUNCTIONS, *unsupported.STATEMENTS}
-    for path in places.find("grammar").glob("*.lark"):
+    words = {*STATEMENTS, *FUNCTIONS, *not_supported.STATEMENTS}
+    for path in resources.find("grammar").glob("*.lark"):
         rules = "\n".join(line.partition("//")[0] for line in path.read_text().splitlines())
         assert not words & set(rules.replace("|", " ").split())

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import adamslite
-from adamslite.faults import UsageError
-from adamslite.outcomes import Outcome
-from adamslite.places import find
-from adamslite.results import Results
-from adamslite.runs import load_scene, run_scene
+from adamslite.errors import UsageError
+from adamslite.resources import find
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
+from adamslite.scene import load_scene, run_scene
 
 
 def solved(deck: str, **options: object) -> Results:

@@ -14,14 +14,25 @@ import pytest
 from scenes import GROUND, PENDULUM, chain, interpreted, run
 
 import adamslite as al
-from adamslite import engine, lookup, translate
-from adamslite import native as code
 from adamslite.analyses.choose import METHODS
-from adamslite.faults import UsageError
-from adamslite.integrators import entry, linalg
-from adamslite.statement import STATEMENTS
-from adamslite.translate import REGISTERED, Ints, Reals, Record, Rows, Untranslatable, array, native
-from adamslite.translate.statements import Translator
+from adamslite.equations import engine, operations
+from adamslite.errors import UsageError
+from adamslite.integrators.linalg import blocks
+from adamslite.kernels.code import lookup
+from adamslite.language.statement import STATEMENTS
+from adamslite.native import compiler as code
+from adamslite.native import translate
+from adamslite.native.translate import (
+    REGISTERED,
+    Ints,
+    Reals,
+    Record,
+    Rows,
+    Untranslatable,
+    array,
+    native,
+)
+from adamslite.native.translate.statements import Translator
 
 # All but what kernels call.
 ENGINE = {name for name, code in REGISTERED.items() if code.__module__ != lookup.__name__}
@@ -64,7 +75,9 @@ def sample_everything(P: Small, r: Reals, n: Ints) -> float:
 
 def native_call(entry: str, arrays: list, result: type = ctypes.c_double):
     """Compile ``entry`` and call it on numpy arrays and records."""
-    address = code.addresses([(code.object_code(translate.translate(entry)), [entry])])[entry]
+    address = code.addresses([(code.object_code(translate.translate(operations)), [operations])])[
+        operations
+    ]
     places = [a.address if isinstance(a, Record) else a.ctypes.data for a in arrays]
     return ctypes.CFUNCTYPE(result, *[ctypes.c_void_p] * len(places))(address)(*places)
 
@@ -400,14 +413,14 @@ def defined(text: str) -> set[str]:
 
 def test_those_runs_reach_every_native_function(interpretations):
     """All that the registered entries call."""
-    reached = set().union(*(defined(entry.engine_text(name)) for name in ENTRIES))
+    reached = set().union(*(defined(operations.engine_text(name)) for name in ENTRIES))
     assert "write_record" in reached
     assert reached <= interpretations[1]
 
 
 def test_the_entries_are_translated_whole():
     """Every native function is part of one; each has one name that others may call."""
-    texts = [entry.engine_text(name) for name in ENTRIES]
+    texts = [operations.engine_text(name) for name in ENTRIES]
     assert set().union(*map(defined, texts)) >= ENGINE
     assert all(t.count("define ") - t.count("define internal") == 1 for t in texts)
 
@@ -554,4 +567,4 @@ def test_unsupported_python_is_refused_by_name(function):
 
 def test_a_name_is_registered_once():
     with pytest.raises(Untranslatable, match="two native functions are called factor"):
-        native(linalg.factor)
+        native(blocks.factor)

@@ -18,11 +18,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from adamslite.engine import ACCELERATIONS, AUDIT
-from adamslite.integrators import audit_path as at
-from adamslite.integrators import base
-from adamslite.integrators.audit_work import POINTS, ROWS_OF_GUARDS
-from adamslite.system import System
+from adamslite.equations.engine import ACCELERATIONS, AUDIT
+from adamslite.equations.system import System
+from adamslite.integrators import contract
+from adamslite.integrators.audit import path as at
+from adamslite.integrators.audit.work import POINTS, ROWS_OF_GUARDS
 
 # Standard deviations within which a sum of independent errors stays.
 CONFIDENCE = 3.0
@@ -141,7 +141,7 @@ def _memory(system: System) -> np.ndarray:
 
 def _needs_solving(system: System) -> bool:
     """Whether a load depends on multipliers, variables or accelerations, or a constraint drives."""
-    if any(node[0] in DRIVING for node in system.nodes) or system.sizes[base.IMPLICIT_MASS]:
+    if any(node[0] in DRIVING for node in system.nodes) or system.sizes[contract.IMPLICIT_MASS]:
         return True
     loads = [g for g in system.kernels.groups if g.face == "loads"]
     return any(
@@ -151,7 +151,7 @@ def _needs_solving(system: System) -> bool:
 
 def balance(system: System) -> Balance:
     """What the audit of the last run found."""
-    A, steps = system.audit, int(system.count[base.STEPS])
+    A, steps = system.audit, int(system.count[contract.STEPS])
     explained = CONFIDENCE * float(np.sqrt(A[at.SQUARES])) + float(A[at.QUADRATURE])
     explained += ROUND_OFF * (steps + 1) * float(A[at.LARGEST])
     return Balance(

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.model import POINT, Model
+from adamslite.model.model import POINT, Model
 
 ROUND_OFF = 2e-16
 # Share of the way that grown round-off may come to untold.

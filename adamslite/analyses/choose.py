@@ -18,12 +18,12 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.engine import BDF, EXPLICIT, HHT, RADAU, SPECTRUM, VERLET
-from adamslite.faults import UsageError
-from adamslite.guards import JUMPS
-from adamslite.integrators import base
-from adamslite.model import PART
-from adamslite.system import System
+from adamslite.equations.engine import BDF, EXPLICIT, HHT, RADAU, SPECTRUM, VERLET
+from adamslite.equations.system import System
+from adamslite.errors import UsageError
+from adamslite.integrators import contract
+from adamslite.model.model import PART
+from adamslite.symbolic.guards import JUMPS
 
 # Native operation of each method of the INTEGRATOR statement.
 METHODS = {
@@ -79,7 +79,7 @@ def what_is_unfit(system: System, settings: Any) -> str:
         obstacle := what_ties(system) or what_turns(system) or what_changes(system, settings.error)
     ):
         return f"{obstacle}. Use ABAM (explicit) or GSTIFF (implicit)."
-    if METHODS.get(settings.method) == HHT and system.sizes[base.M]:
+    if METHODS.get(settings.method) == HHT and system.sizes[contract.M]:
         _, beta, gamma = settings.second_order
         if echo(beta, gamma) > LOUDEST:
             return (
@@ -111,7 +111,7 @@ def what_is_solved(system: System) -> str:
     for node in system.nodes:
         if node[0] in SOLVED:
             return f"{node[0]}/{node[1]} {SOLVED[node[0]]}"
-    if system.sizes[base.IMPLICIT_MASS]:
+    if system.sizes[contract.IMPLICIT_MASS]:
         return "a force depends on accelerations"
     return ""
 
@@ -149,8 +149,8 @@ def what_changes(system: System, error: float) -> str:
 
 def fastest(system: System, time: float) -> float:
     """Largest circular frequency or rate [rad/time] of the linearised scene, damping included."""
-    system.settings[base.T] = time
-    if system.run(SPECTRUM) != base.DONE:
+    system.settings[contract.T] = time
+    if system.run(SPECTRUM) != contract.DONE:
         return float("inf")
     stiff, damp = (float(x) for x in system.control[:2])
     return max(sqrt(stiff), damp)

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from adamslite.analyses.choose import CONSTANT, METHODS
-from adamslite.engine import BDF, HHT, VERLET
-from adamslite.integrators import base
+from adamslite.equations.engine import BDF, HHT, VERLET
+from adamslite.integrators import contract
 
 # ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do
 # not have to offer.
@@ -53,14 +53,15 @@ def doubts(
     """
     if settings.method == CONSTANT:
         return "equal steps without error test: a run with half of HINIT tells how far off they are"
-    report, steps = system.report, int(counts[base.STEPS])
-    shifted = 1.0 + float(counts[base.RESTARTS]) / SHIFTED
+    report, steps = system.report, int(counts[contract.STEPS])
+    shifted = 1.0 + float(counts[contract.RESTARTS]) / SHIFTED
     way, reach = longest_way(names, values)
-    spent = float(report[base.SPENT]) * settings.error * shifted
+    spent = float(report[contract.SPENT]) * settings.error * shifted
     off = spent * max(1.0, reach)
     found = [*_of_method(settings, steps, report, off), *_added_up(settings, steps, off, way)]
     found += _of_small_states(settings, spent, names, values)
-    if METHODS[settings.method] == BDF and settings.form == "I3" and system.sizes[base.HOLONOMIC]:
+    index_3 = METHODS[settings.method] == BDF and settings.form == "I3"
+    if index_3 and system.sizes[contract.HOLONOMIC]:
         found.append("I3 does not test velocities, so that their errors add up; SI2 does")
     return "; ".join(found)
 
@@ -80,7 +81,7 @@ def longest_way(names: tuple[str, ...], values: np.ndarray) -> tuple[float, floa
 def _of_method(settings: Any, steps: int, report: np.ndarray, off: float) -> Iterator[str]:
     """What belongs to a formula."""
     kind, (alpha, _, gamma) = METHODS[settings.method], settings.second_order
-    rough, divided = int(report[base.ROUGH_STEPS]), int(report[base.DIVIDED])
+    rough, divided = int(report[contract.ROUGH_STEPS]), int(report[contract.DIVIDED])
     if kind == HHT and abs(gamma + alpha - 0.5) > FIRST_ORDER:
         yield (
             f"with GAMMA={gamma:g} the formula is of order 1, and a run is off by the root of ERROR"
@@ -96,12 +97,12 @@ def _of_method(settings: Any, steps: int, report: np.ndarray, off: float) -> Ite
             f"steps were divided {divided} times, because the corrector did not converge with the "
             f"{settings.hinit:g} asked for: a shorter HINIT, or none, for an error test"
         )
-    most = base.STABLE * report[base.STABLE_STEP]
+    most = contract.STABLE * report[contract.STABLE_STEP]
     if kind == VERLET and settings.hinit and settings.hinit > most:
         yield (
             f"HINIT={settings.hinit:g} is close to the longest stable step, "
-            f"{report[base.STABLE_STEP]:.3g} by estimate: above it vibrations grow without bound; "
-            f"stay below {most:.3g}"
+            f"{report[contract.STABLE_STEP]:.3g} by estimate: above it vibrations grow without "
+            f"bound; stay below {most:.3g}"
         )
     if kind in (HHT, VERLET) and settings.error <= FINE:
         yield (

@@ -10,13 +10,13 @@ import numpy as np
 
 from adamslite.analyses.audit import start_audit
 from adamslite.analyses.choose import CONSTANT, METHODS
-from adamslite.analyses.clock import Clock
-from adamslite.analyses.drives import first_jump
-from adamslite.analyses.paces import timetable
-from adamslite.engine import BDF, EXPLICIT, RADAU, ints
-from adamslite.integrators import base
-from adamslite.outcomes import Outcome
-from adamslite.system import System
+from adamslite.analyses.clock.clock import Clock
+from adamslite.analyses.clock.drives import first_jump
+from adamslite.analyses.clock.paces import timetable
+from adamslite.equations.engine import BDF, EXPLICIT, RADAU, ints
+from adamslite.equations.system import System
+from adamslite.integrators import contract
+from adamslite.results.outcomes import Outcome
 
 # How a run may end before a motion that jumps, or gets ever faster.
 CLOSE = (Outcome.DONE, Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED)
@@ -25,14 +25,14 @@ OVERFLOW = 1e300
 # CORRECTOR options that ask for convergence of multipliers too.
 EVERYTHING = ("ORIGINAL", "ORIG_CONSTANT")
 OUTCOMES = {
-    base.DONE: Outcome.DONE,
-    base.STEP_TOO_SMALL: Outcome.STEP_TOO_SMALL,
-    base.NEWTON_FAILED: Outcome.NEWTON_FAILED,
-    base.SINGULAR_MASS: Outcome.SINGULAR_ACCELERATION,
-    base.NOT_FINITE: Outcome.NOT_FINITE,
-    base.INTERRUPTED: Outcome.INTERRUPTED,
-    base.UNSTABLE: Outcome.UNSTABLE,
-    base.CHATTERING: Outcome.CHATTERING,
+    contract.DONE: Outcome.DONE,
+    contract.STEP_TOO_SMALL: Outcome.STEP_TOO_SMALL,
+    contract.NEWTON_FAILED: Outcome.NEWTON_FAILED,
+    contract.SINGULAR_MASS: Outcome.SINGULAR_ACCELERATION,
+    contract.NOT_FINITE: Outcome.NOT_FINITE,
+    contract.INTERRUPTED: Outcome.INTERRUPTED,
+    contract.UNSTABLE: Outcome.UNSTABLE,
+    contract.CHATTERING: Outcome.CHATTERING,
 }
 
 
@@ -136,16 +136,16 @@ def run_dynamic(
         start, end, settings.error, hmax, settings.least_step(end, hmax),
         settings.hinit or 0.0, settings.kmax, settings.maxit,
     )  # fmt: skip
-    system.settings[base.STOP] = system.report[base.TORN] = 0.0
-    system.settings[base.FIXED_STEP] = fixed
-    system.settings[base.ALPHA : base.GAMMA + 1] = settings.second_order
-    system.settings[base.INTERPOLATE] = settings.interpolates
-    system.settings[base.ADAPTIVITY] = settings.adaptivity
-    system.settings[base.ALL_CONVERGE] = settings.corrector in EVERYTHING
+    system.settings[contract.STOP] = system.report[contract.TORN] = 0.0
+    system.settings[contract.FIXED_STEP] = fixed
+    system.settings[contract.ALPHA : contract.GAMMA + 1] = settings.second_order
+    system.settings[contract.INTERPOLATE] = settings.interpolates
+    system.settings[contract.ADAPTIVITY] = settings.adaptivity
+    system.settings[contract.ALL_CONVERGE] = settings.corrector in EVERYTHING
     system.pattern = ints([word == "T" for word in settings.pattern])
     method = METHODS[settings.method]
     times = _scheduled(system, times, settings, hmax)
-    system.settings[base.T_END] = end = float(system.stops[-1])
+    system.settings[contract.T_END] = end = float(system.stops[-1])
     if method == EXPLICIT:
         system.prepare_explicit(settings.scale)
     if method == RADAU:
@@ -156,7 +156,7 @@ def run_dynamic(
     system.release_guards()
     outcome = _named(system, code)
     if system.broken and outcome in CLOSE:
-        near = system.report[base.AT] >= system.broken.time - hmax
+        near = system.report[contract.AT] >= system.broken.time - hmax
         return Outcome.BROKEN_MOTION if near else outcome
     return outcome
 
@@ -166,7 +166,7 @@ def _scheduled(system: System, times: np.ndarray, settings: Settings, hmax: floa
     clock, fine = Clock(system.kernels), not settings.tests_velocities(system.holonomic > 0)
     table = timetable(system, clock, times, hmax, fine)
     equal = settings.equal_steps(hmax)
-    system.paces = np.array(base.NO_PACE) if equal else table.paces
+    system.paces = np.array(contract.NO_PACE) if equal else table.paces
     system.hurried += table.overfull + (table.paced if equal else [])
     system.stops = table.stops
     system.broken = first_jump(clock, table.stops, float(times[0]), settings.error)
@@ -183,16 +183,16 @@ def _named(system: System, code: int) -> Outcome:
     converge, nor an error that is too large; and no force cancels a mass where none depends on
     accelerations.
     """
-    report, cancels = system.report, bool(system.sizes[base.IMPLICIT_MASS])
-    if code == base.BROKEN_START or (code == base.SINGULAR_MASS and not cancels):
+    report, cancels = system.report, bool(system.sizes[contract.IMPLICIT_MASS])
+    if code == contract.BROKEN_START or (code == contract.SINGULAR_MASS and not cancels):
         if not (np.isfinite(system.F).all() and np.isfinite(system.LA).all()):
             return Outcome.NOT_FINITE
         return Outcome.SINGULAR_ACCELERATION if cancels else Outcome.UNDETERMINED
-    if code == base.INTERRUPTED and report[base.TORN]:
+    if code == contract.INTERRUPTED and report[contract.TORN]:
         return Outcome.TORN
-    if code == base.NEWTON_FAILED and np.isnan(report[base.OPEN_BY]):
+    if code == contract.NEWTON_FAILED and np.isnan(report[contract.OPEN_BY]):
         return Outcome.NOT_FINITE
-    if code == base.STEP_TOO_SMALL and not report[base.HOW_MUCH] < OVERFLOW:
+    if code == contract.STEP_TOO_SMALL and not report[contract.HOW_MUCH] < OVERFLOW:
         return Outcome.NOT_FINITE
     return OUTCOMES[code]
 
@@ -207,7 +207,7 @@ def _watched(
             try:
                 wait([running], timeout=0.1)
                 if watch and not running.done():
-                    watch(float(system.report[base.AT]), end)
+                    watch(float(system.report[contract.AT]), end)
             except KeyboardInterrupt:
-                system.settings[base.STOP] = 1.0
+                system.settings[contract.STOP] = 1.0
         return running.result()

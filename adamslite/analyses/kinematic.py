@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from adamslite.analyses.initial import Unclosed, initial_conditions, move
-from adamslite.engine import ACCELERATIONS, RECORD
-from adamslite.integrators import base
-from adamslite.outcomes import Outcome
-from adamslite.system import System
+from adamslite.analyses.initial.conditions import Unclosed, initial_conditions, move
+from adamslite.equations.engine import ACCELERATIONS, RECORD
+from adamslite.equations.system import System
+from adamslite.integrators import contract
+from adamslite.results.outcomes import Outcome
 
 
 def run_kinematic(system: System, times: np.ndarray) -> tuple[Outcome, Unclosed | None]:
@@ -22,15 +22,15 @@ def run_kinematic(system: System, times: np.ndarray) -> tuple[Outcome, Unclosed 
     for row, time in enumerate(times):
         if row:
             _predict(system, float(time) - float(times[row - 1]))
-        system.settings[base.T] = time
-        system.report[base.AT] = time
+        system.settings[contract.T] = time
+        system.report[contract.AT] = time
         unclosed = initial_conditions(system)
         if unclosed:
             return unclosed.outcome, unclosed
-        if system.run(ACCELERATIONS) != base.DONE:
+        if system.run(ACCELERATIONS) != contract.DONE:
             return Outcome.UNDETERMINED, None
         system.run(RECORD, row)
-        system.count[base.COUNTS.index("steps")] += row > 0
+        system.count[contract.COUNTS.index("steps")] += row > 0
     return Outcome.DONE, None
 
 

@@ -14,12 +14,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from adamslite.analyses.initial import constraint_gradient
-from adamslite.engine import ACCELERATIONS
-from adamslite.integrators import base
-from adamslite.model import PART
-from adamslite.outcomes import Outcome
-from adamslite.system import System
+from adamslite.analyses.initial.conditions import constraint_gradient
+from adamslite.equations.engine import ACCELERATIONS
+from adamslite.equations.system import System
+from adamslite.integrators import contract
+from adamslite.model.model import PART
+from adamslite.results.outcomes import Outcome
 
 # Of the largest of their kind: speeds, accelerations, reactions and gradients below are round-off.
 NOTHING = 1e-11
@@ -35,7 +35,7 @@ def in_its_plane(system: System, run: Callable[[], Outcome]) -> Outcome:
     before = {name: getattr(system, name).copy() for name in STATE}
     memories = [(whose, values.copy()) for whose, values in system.memories()]
     outcome = run()
-    if not system.report[base.LEFT_PLANE]:
+    if not system.report[contract.LEFT_PLANE]:
         return outcome
     for name, values in before.items():
         getattr(system, name)[:] = values
@@ -50,9 +50,9 @@ def fold(system: System) -> bool:
     Blocks of point masses without constraints are quick as they are.
     """
     turning = any(body.width == PART for body in system.model.bodies)
-    if not (system.m and turning) or system.run(ACCELERATIONS) != base.DONE:
+    if not (system.m and turning) or system.run(ACCELERATIONS) != contract.DONE:
         return False
-    system.report[base.LEFT_PLANE] = 0.0
+    system.report[contract.LEFT_PLANE] = 0.0
     for normal in range(3):
         out = _out_of_plane(system, normal)
         if _is_still(system.u, out) and _is_still(system.a, out):

@@ -48,7 +48,7 @@ def _pushing(places: dict[str, int], values: np.ndarray) -> dict[str, float]:
 
 def _sections(deck: Any) -> set[str]:
     """Labels of the forces that are sections of cables."""
-    from adamslite.cables.chains import chains
+    from adamslite.cables.chain_finder import chains
     from adamslite.cables.posture import Posture
 
     return {link.statement.label for chain in chains(deck, Posture(deck)) for link in chain.links}

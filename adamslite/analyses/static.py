@@ -7,10 +7,10 @@ from math import pi
 
 import numpy as np
 
-from adamslite.engine import EQUILIBRIUM
-from adamslite.integrators import base
-from adamslite.outcomes import Outcome
-from adamslite.system import System
+from adamslite.equations.engine import EQUILIBRIUM
+from adamslite.equations.system import System
+from adamslite.integrators import contract
+from adamslite.results.outcomes import Outcome
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ def run_static(system: System, settings: StaticSettings) -> Outcome:
     )  # fmt: skip
     control[9] = model_size(system)
     outcome = system.run(EQUILIBRIUM)
-    return Outcome.DONE if outcome == base.DONE else Outcome.NO_EQUILIBRIUM
+    return Outcome.DONE if outcome == contract.DONE else Outcome.NO_EQUILIBRIUM
 
 
 def model_size(system: System) -> float:

@@ -12,11 +12,11 @@ from dataclasses import dataclass, field, replace
 from math import dist
 
 from adamslite.cables.geometry import Span, add, dot
-from adamslite.cables.law import NoValue, Unknown, parse, value
 from adamslite.cables.messages import Faults
-from adamslite.cables.places import Path
+from adamslite.cables.payout_law import NoValue, Unknown, parse, value
+from adamslite.cables.toml_places import Path
 from adamslite.cables.vocabulary import Spec
-from adamslite.expression import Node, Num, Op
+from adamslite.language.expression import Node, Num, Op
 
 INSTANTS = 400
 

@@ -12,12 +12,12 @@ weights, is MARKER/1000 s + k.
 from dataclasses import dataclass
 from math import atan2, ceil, cos, inf, pi, sin, sqrt
 
-from adamslite.cables.choose import Choice, asked, tensions
+from adamslite.cables.brute_force_layout import Laid, Line, lay, length, plane, stretches, way
 from adamslite.cables.demand import loaded
 from adamslite.cables.ends import end
 from adamslite.cables.estimate import Moves
 from adamslite.cables.geometry import Span, add, dot, reaches, unit
-from adamslite.cables.lay import Laid, Line, lay, length, plane, stretches, way
+from adamslite.cables.model_choice import Choice, asked, tensions
 from adamslite.cables.statements import number, point, section
 from adamslite.cables.vocabulary import Spec, Vector
 from adamslite.cables.wheels import drive, marker, mount_request, triple, turning

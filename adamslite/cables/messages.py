@@ -1,8 +1,8 @@
 """What can be wrong with the description of a cable, each with a description that provokes it."""
 
-from adamslite.cables.places import Path, Places
-from adamslite.diagnostics import WARNING, Diagnostic
-from adamslite.messages.entry import Message
+from adamslite.cables.toml_places import Path, Places
+from adamslite.language.diagnostics import WARNING, Diagnostic
+from adamslite.language.messages.entry import Message
 
 MESSAGES: dict[str, Message] = {
     "toml": Message("this is not TOML: {why}", "a key, =, a value; texts in quotes"),

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from math import atan2, sqrt
 from typing import Any
 
-from adamslite.cables.law import Unknown, evaluate
-from adamslite.expression import Call, Node, Ref, Time, walk
+from adamslite.cables.payout_law import Unknown, evaluate
+from adamslite.language.expression import Call, Node, Ref, Time, walk
 
 Vector = tuple[float, float, float]
 Body = tuple[str, Any]
@@ -261,7 +261,7 @@ def _axes(statement: Any) -> tuple[Vector, Vector, Vector]:
         return AXES
     import numpy as np
 
-    from adamslite.model import frame_axes
+    from adamslite.model.model import frame_axes
 
     origin = statement.qp if hasattr(statement, "qp") else statement.qg
     return tuple(tuple(map(float, axis)) for axis in frame_axes(statement, np.asarray(origin)).T)

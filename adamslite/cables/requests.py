@@ -1,9 +1,9 @@
 """What the deck of levels 1 to 3 reports besides its states."""
 
-from adamslite.cables.choose import Choice
 from adamslite.cables.geometry import Span, wrap
 from adamslite.cables.links import wrapped
-from adamslite.cables.pieces import Piece, pieces
+from adamslite.cables.model_choice import Choice
+from adamslite.cables.span_statements import Piece, pieces
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import marker, mount_request, travel
 

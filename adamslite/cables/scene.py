@@ -1,18 +1,18 @@
 """The whole way from the text of a description to the text of a deck."""
 
-from adamslite.cables.choose import Choice, choose, needs_brute, tensions
+from adamslite.cables.brute_force_layout import length, stretches, way
+from adamslite.cables.deck_writer import write
 from adamslite.cables.demand import MOST
 from adamslite.cables.estimate import Moves, laws, travel
 from adamslite.cables.geometry import Span, dot, reaches, spans, turned
-from adamslite.cables.lay import length, stretches, way
 from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
+from adamslite.cables.model_choice import Choice, choose, needs_brute, tensions
 from adamslite.cables.sliders import is_straight, is_wire
 from adamslite.cables.spec import read
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import in_plane, slipping
-from adamslite.cables.write import write
-from adamslite.diagnostics import DeckError, Diagnostic, sort_by_place
+from adamslite.language.diagnostics import DeckError, Diagnostic, sort_by_place
 
 # Shares by which payout may outrun a load before it is told.
 FASTER = 0.01

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from typing import Any
 
 from adamslite.cables.messages import Faults
-from adamslite.cables.places import Path, Places
 from adamslite.cables.route import check_route
+from adamslite.cables.toml_places import Path, Places
 from adamslite.cables.vocabulary import (
     CABLE,
     MODEL,
@@ -19,7 +19,7 @@ from adamslite.cables.vocabulary import (
     Spec,
     Station,
 )
-from adamslite.diagnostics import DeckError, Source, sort_by_place
+from adamslite.language.diagnostics import DeckError, Source, sort_by_place
 
 
 def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
@@ -95,7 +95,7 @@ def _table(
     faults: Faults, data: dict[str, Any], rules: dict[str, Any], path: Path, also: Any = ()
 ) -> dict[str, Any]:
     """The values of a table, checked; those of keys that are not written."""
-    from adamslite.messages import did_you_mean
+    from adamslite.language.messages import did_you_mean
 
     for key in data:
         if key not in rules:

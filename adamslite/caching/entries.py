@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from adamslite.caching.folder import cache_folder, say
-from adamslite.faults import UsageError
+from adamslite.errors import UsageError
 
 HEAD = struct.Struct("<8sQ32s")
 MAGIC = b"alentry1"

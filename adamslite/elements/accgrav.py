@@ -7,7 +7,7 @@ Equation::
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, number, statement
+from adamslite.language.statement import Statement, number, statement
 
 
 @statement("ACCGRAV", singleton=True, redefinable=True)

@@ -7,8 +7,8 @@ Equation (a the switch of an element, 1 from here on)::
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, statement
-from adamslite.switching import Switch, element_ids, element_kind, element_range
+from adamslite.deck.element_switch import Switch, element_ids, element_kind, element_range
+from adamslite.language.statement import Statement, statement
 
 
 @statement("ACTIVATE", singleton=True, repeatable=True, place="command")

@@ -27,8 +27,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.statement import Statement, choice, number, reference, statement, vector
-from adamslite.wrench import NOTHING, Compliance, Row, symmetric, times
+from adamslite.elements.bases.wrench import NOTHING, Compliance, Row, symmetric, times
+from adamslite.language.statement import Statement, choice, number, reference, statement, vector
 
 
 @statement("BEAM")

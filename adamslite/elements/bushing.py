@@ -16,8 +16,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.statement import Statement, reference, statement, vector
-from adamslite.wrench import NOTHING, Compliance, diagonal
+from adamslite.elements.bases.wrench import NOTHING, Compliance, diagonal
+from adamslite.language.statement import Statement, reference, statement, vector
 
 NONE = (0.0, 0.0, 0.0)
 

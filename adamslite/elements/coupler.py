@@ -13,10 +13,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.constraint import Constraint
-from adamslite.coordinates import angle_since, built_slide, built_turn, slide, turn
-from adamslite.statement import Statement, references, statement, vector, words
-from adamslite.symbolic import Scope
+from adamslite.elements.bases.constraint import Constraint
+from adamslite.elements.bases.joint_coordinates import (
+    angle_since,
+    built_slide,
+    built_turn,
+    slide,
+    turn,
+)
+from adamslite.language.statement import Statement, references, statement, vector, words
+from adamslite.symbolic.scope import Scope
 
 
 @statement("COUPLER", planned=("FUNCTION",))

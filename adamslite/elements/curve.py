@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.spline_curve import SplineCurve, through
-from adamslite.statement import Statement, choice, integer, reference, statement
+from adamslite.elements.bases.spline_curve import SplineCurve, through
+from adamslite.language.statement import Statement, choice, integer, reference, statement
 
 
 @statement("CURVE", planned=("FUNCTION", "MINPAR", "MAXPAR", "ROUTINE"), data=True)

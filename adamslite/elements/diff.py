@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.expression import Call, Node, Ref
-from adamslite.statement import Statement, expression, flag, statement, vector
-from adamslite.symbolic import Scope
+from adamslite.language.expression import Call, Node, Ref
+from adamslite.language.statement import Statement, expression, flag, statement, vector
+from adamslite.symbolic.scope import Scope
 
 
 @statement("DIFF", planned=("ROUTINE",))

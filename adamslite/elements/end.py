@@ -5,7 +5,7 @@ Equation: none.
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, statement
+from adamslite.language.statement import Statement, statement
 
 
 @statement("END", singleton=True, ends=True)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from math import radians
 
-from adamslite.statement import Statement, flag, integer, number, statement, words
+from adamslite.language.statement import Statement, flag, integer, number, statement, words
 
 
 @statement(

@@ -17,8 +17,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.statement import Statement, number, reference, statement, vector
-from adamslite.wrench import NOTHING, Compliance, by_columns, times
+from adamslite.elements.bases.wrench import NOTHING, Compliance, by_columns, times
+from adamslite.language.statement import Statement, number, reference, statement, vector
 
 
 @statement("FIELD", planned=("FUNCTION", "ROUTINE", "FORMULATION"))

@@ -5,7 +5,7 @@ Equation: none.
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, statement, text
+from adamslite.language.statement import Statement, statement, text
 
 
 @statement("FILE", singleton=True, repeatable=True, place="command", planned=("COMMAND",))

@@ -56,10 +56,10 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from adamslite.algebra import choose, magnitude, norm, root
-from adamslite.coordinates import relative_velocity, spin
-from adamslite.expression import COMPONENTS, MODE, Call, Node, Num, Op, Ref, measure
-from adamslite.statement import (
+from adamslite.elements.bases.joint_coordinates import relative_velocity, spin
+from adamslite.elements.bases.wrench import Wrench
+from adamslite.language.expression import COMPONENTS, MODE, Call, Node, Num, Op, Ref, measure
+from adamslite.language.statement import (
     STATEMENTS,
     Statement,
     choice,
@@ -68,8 +68,8 @@ from adamslite.statement import (
     statement,
     words,
 )
-from adamslite.symbolic import ZERO, Load, Scope, dot, minus, scale
-from adamslite.wrench import Wrench
+from adamslite.symbolic.scope import ZERO, Load, Scope, dot, minus, scale
+from adamslite.symbolic.sympy_nodes import choose, magnitude, norm, root
 
 BLEND = 1.5
 # Share of the bristle's deflection over which it begins to slip.

@@ -13,10 +13,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.expression import Call, Node, Ref, measure, walk
-from adamslite.function import FUNCTIONS
-from adamslite.statement import Statement, expression, statement
-from adamslite.symbolic import Scope
+from adamslite.language.expression import Call, Node, Ref, measure, walk
+from adamslite.language.function import FUNCTIONS
+from adamslite.language.statement import Statement, expression, statement
+from adamslite.symbolic.scope import Scope
 
 # Measures of velocity: a GCON that uses one constrains velocities only.
 RATES = frozenset(("VM", "VR", "VX", "VY", "VZ", "WM", "WX", "WY", "WZ"))

@@ -15,10 +15,10 @@ Source: Adams/Solver statement GFORCE.
 
 from __future__ import annotations
 
-from adamslite.expression import Node, Num
-from adamslite.statement import Statement, expression, reference, statement
-from adamslite.symbolic import Load, Scope, along_axes
-from adamslite.wrench import Wrench
+from adamslite.elements.bases.wrench import Wrench
+from adamslite.language.expression import Node, Num
+from adamslite.language.statement import Statement, expression, reference, statement
+from adamslite.symbolic.scope import Load, Scope, along_axes
 
 
 def _component(key: str, unit: str) -> Node:

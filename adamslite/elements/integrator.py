@@ -7,7 +7,15 @@ Equation (local error test of the step)::
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, choice, integer, number, statement, vector, words
+from adamslite.language.statement import (
+    Statement,
+    choice,
+    integer,
+    number,
+    statement,
+    vector,
+    words,
+)
 
 
 @statement("INTEGRATOR", singleton=True, repeatable=True, place="both")

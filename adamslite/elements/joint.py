@@ -34,9 +34,8 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from adamslite.algebra import sp
-from adamslite.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
-from adamslite.coordinates import (
+from adamslite.elements.bases.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
+from adamslite.elements.bases.joint_coordinates import (
     angle_since,
     built_slide,
     built_turn,
@@ -47,8 +46,9 @@ from adamslite.coordinates import (
     turn,
     turn_on_rack,
 )
-from adamslite.statement import Statement, choice, number, reference, statement, vector
-from adamslite.symbolic import Scope, dot
+from adamslite.language.statement import Statement, choice, number, reference, statement, vector
+from adamslite.symbolic.scope import Scope, dot
+from adamslite.symbolic.sympy_nodes import sp
 
 Initial = tuple[str, str, float | None, float | None]
 

@@ -16,9 +16,9 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from adamslite.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
-from adamslite.statement import Statement, choice, reference, statement
-from adamslite.symbolic import Scope, dot
+from adamslite.elements.bases.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
+from adamslite.language.statement import Statement, choice, reference, statement
+from adamslite.symbolic.scope import Scope, dot
 
 
 @statement("JPRIM")

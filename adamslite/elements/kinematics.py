@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import radians
 
-from adamslite.statement import Statement, flag, integer, number, statement, words
+from adamslite.language.statement import Statement, flag, integer, number, statement, words
 
 
 @statement(

@@ -23,7 +23,7 @@ NODAMPING leaves out all terms that depend on speeds, also gyroscopic ones.
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, choice, flag, reference, statement, text
+from adamslite.language.statement import Statement, choice, flag, reference, statement, text
 
 
 @statement(

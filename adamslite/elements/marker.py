@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.statement import Statement, flag, reference, statement, vector
+from adamslite.language.statement import Statement, flag, reference, statement, vector
 
 
 @statement("MARKER", planned=("FLEX_BODY", "NODE", "RM"))

@@ -7,7 +7,7 @@ Equation (VALUES v, counted from 0)::
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, choice, integer, statement, vector
+from adamslite.language.statement import Statement, choice, integer, statement, vector
 
 
 @statement("MATRIX", planned=("SPARSE", "FILE", "NAME"), data=True)

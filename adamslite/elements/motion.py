@@ -23,13 +23,20 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.algebra import root
-from adamslite.constraint import Constraint
-from adamslite.coordinates import Turn, angle_to, relative_velocity, spin, turn
-from adamslite.expression import Call, Node, Ref
-from adamslite.statement import STATEMENTS, Statement, choice, expression, number, reference
-from adamslite.statement import statement as register
-from adamslite.symbolic import Scope, dot
+from adamslite.elements.bases.constraint import Constraint
+from adamslite.elements.bases.joint_coordinates import Turn, angle_to, relative_velocity, spin, turn
+from adamslite.language.expression import Call, Node, Ref
+from adamslite.language.statement import (
+    STATEMENTS,
+    Statement,
+    choice,
+    expression,
+    number,
+    reference,
+)
+from adamslite.language.statement import statement as register
+from adamslite.symbolic.scope import Scope, dot
+from adamslite.symbolic.sympy_nodes import root
 
 AXES = ("X", "Y", "Z")
 ANGLES = ("B1", "B2", "B3")

@@ -5,7 +5,7 @@ Equation: none; every result is always written.
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, flag, statement
+from adamslite.language.statement import Statement, flag, statement
 
 
 @statement("OUTPUT", singleton=True)

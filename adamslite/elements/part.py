@@ -10,7 +10,16 @@ its columns are the body axes in ground.
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, flag, number, reference, statement, text, vector, words
+from adamslite.language.statement import (
+    Statement,
+    flag,
+    number,
+    reference,
+    statement,
+    text,
+    vector,
+    words,
+)
 
 
 @statement("PART", planned=("VM", "WM"), body=True)

@@ -7,7 +7,7 @@ Equation (V the VARIABLEs, see LINEAR)::
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, references, statement
+from adamslite.language.statement import Statement, references, statement
 
 
 @statement("PINPUT")

@@ -7,7 +7,7 @@ Equation::
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, number, reference, statement, vector, words
+from adamslite.language.statement import Statement, number, reference, statement, vector, words
 
 
 @statement("POINT_MASS", body=True)

@@ -19,12 +19,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.algebra import floor, lookup
-from adamslite.constraint import Constraint
-from adamslite.coordinates import pose
-from adamslite.expression import Ref
-from adamslite.statement import STATEMENTS, Statement, reference, statement
-from adamslite.symbolic import ORIGIN, Scope, along_axes, minus
+from adamslite.elements.bases.constraint import Constraint
+from adamslite.elements.bases.joint_coordinates import pose
+from adamslite.language.expression import Ref
+from adamslite.language.statement import STATEMENTS, Statement, reference, statement
+from adamslite.symbolic.scope import ORIGIN, Scope, along_axes, minus
+from adamslite.symbolic.sympy_nodes import floor, lookup
 
 
 @statement("PTCV", planned=("DISPLACEMENT", "VELOCITY", "IC"))

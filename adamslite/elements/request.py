@@ -13,9 +13,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.expression import GROUND_FRAME, Call, Node, Num, Ref
-from adamslite.function import FUNCTIONS
-from adamslite.statement import (
+from adamslite.language.expression import GROUND_FRAME, Call, Node, Num, Ref
+from adamslite.language.function import FUNCTIONS
+from adamslite.language.statement import (
     Statement,
     choice,
     expression,

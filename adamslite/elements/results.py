@@ -5,7 +5,7 @@ Equation: none.
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, flag, integer, statement, text
+from adamslite.language.statement import Statement, flag, integer, statement, text
 
 
 @statement("RESULTS", singleton=True)

@@ -15,9 +15,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.expression import Node
-from adamslite.statement import Statement, choice, expression, flag, reference, statement
-from adamslite.symbolic import ZERO, Load, Scope, scale, towards
+from adamslite.language.expression import Node
+from adamslite.language.statement import Statement, choice, expression, flag, reference, statement
+from adamslite.symbolic.scope import ZERO, Load, Scope, scale, towards
 
 
 @statement("SFORCE", planned=("ROUTINE",))

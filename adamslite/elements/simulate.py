@@ -9,7 +9,7 @@ with ``END = t0 + DURATION``; for DTOUT ``t0 + k DTOUT`` up to END, and END itse
 
 from __future__ import annotations
 
-from adamslite.statement import Statement, choice, integer, number, statement
+from adamslite.language.statement import Statement, choice, integer, number, statement
 
 STEPS = 100
 # A table of the time alone would take gigabytes with more rows.

@@ -14,10 +14,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.expression import COMPONENTS, GROUND_FRAME, Call, Node, Op, Ref, measure
-from adamslite.function import FUNCTIONS
-from adamslite.statement import Statement, choice, number, reference, statement
-from adamslite.symbolic import ORIGIN, ZERO, Load, Scope, scale, towards
+from adamslite.language.expression import COMPONENTS, GROUND_FRAME, Call, Node, Op, Ref, measure
+from adamslite.language.function import FUNCTIONS
+from adamslite.language.statement import Statement, choice, number, reference, statement
+from adamslite.symbolic.scope import ORIGIN, ZERO, Load, Scope, scale, towards
 
 
 @statement("SPRINGDAMPER")

@@ -7,8 +7,8 @@ Equation::
 
 from __future__ import annotations
 
-from adamslite import units
-from adamslite.statement import Statement, choice, number, statement
+from adamslite.language import units
+from adamslite.language.statement import Statement, choice, number, statement
 
 
 @statement("UNITS", singleton=True)

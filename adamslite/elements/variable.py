@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.expression import Call, Node, Ref
-from adamslite.statement import Statement, expression, number, statement
-from adamslite.symbolic import Scope
+from adamslite.language.expression import Call, Node, Ref
+from adamslite.language.statement import Statement, expression, number, statement
+from adamslite.symbolic.scope import Scope
 
 
 @statement("VARIABLE", planned=("ROUTINE",))

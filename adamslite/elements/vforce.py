@@ -13,9 +13,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.expression import Node, Num
-from adamslite.statement import Statement, expression, reference, statement
-from adamslite.symbolic import ZERO, Load, Scope, along_axes
+from adamslite.language.expression import Node, Num
+from adamslite.language.statement import Statement, expression, reference, statement
+from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes
 
 
 @statement("VFORCE", planned=("FXYZ", "FUNCTION", "ROUTINE"))

@@ -13,10 +13,10 @@ Source: Adams/Solver statement VTORQUE.
 
 from __future__ import annotations
 
-from adamslite.expression import Node, Num
-from adamslite.statement import Statement, expression, reference, statement
-from adamslite.symbolic import ZERO, Load, Scope, along_axes
-from adamslite.wrench import Wrench
+from adamslite.elements.bases.wrench import Wrench
+from adamslite.language.expression import Node, Num
+from adamslite.language.statement import Statement, expression, reference, statement
+from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes
 
 
 @statement("VTORQUE", planned=("TXYZ", "FUNCTION", "ROUTINE"))

@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.algebra import choose, norm, root, sp
-from adamslite.function import Mistake, function
-from adamslite.symbolic import Scope, dot
+from adamslite.language.function import Mistake, function
+from adamslite.symbolic.scope import Scope, dot
+from adamslite.symbolic.sympy_nodes import choose, norm, root, sp
 
 SEQUENCES = (
     *((0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (1, 0, 2), (2, 1, 0)),

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.algebra import choose
-from adamslite.function import function
-from adamslite.symbolic import Scope
+from adamslite.language.function import function
+from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.sympy_nodes import choose
 
 
 @function("IF", "e:number: a:number b:number c:number", edges=lambda e, a, b, c: (e,), order=-1)

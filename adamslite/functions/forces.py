@@ -14,9 +14,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.algebra import norm
-from adamslite.function import function
-from adamslite.symbolic import Scope, dot
+from adamslite.language.function import function
+from adamslite.symbolic.scope import Scope, dot
+from adamslite.symbolic.sympy_nodes import norm
 
 MEASURES: dict[str, str] = {}
 """Keyword of a statement -> the function that measures what it does."""

@@ -6,9 +6,9 @@ import math
 from functools import reduce
 from typing import Any
 
-from adamslite.algebra import choose, floor, magnitude, root, sp
-from adamslite.function import function
-from adamslite.symbolic import Scope
+from adamslite.language.function import function
+from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.sympy_nodes import choose, floor, magnitude, root, sp
 
 
 def _truncated(x: Any) -> Any:

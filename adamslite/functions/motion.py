@@ -15,9 +15,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.algebra import norm, root
-from adamslite.function import function
-from adamslite.symbolic import Scope, Vector, cross, dot, minus, scale
+from adamslite.language.function import function
+from adamslite.symbolic.scope import Scope, Vector, cross, dot, minus, scale
+from adamslite.symbolic.sympy_nodes import norm, root
 
 
 def _velocity(scope: Scope, i: Any, j: Any, frame: Any) -> Vector:

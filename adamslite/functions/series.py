@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from adamslite.algebra import choose, sp
-from adamslite.function import ascending, function
 from adamslite.functions.steps import step5
-from adamslite.symbolic import Scope
+from adamslite.language.function import ascending, function
+from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.sympy_nodes import choose, sp
 
 
 @function("SHF", "x:number x0:number a:number w:number phi:number=0 b:number=0")

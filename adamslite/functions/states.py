@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.function import function
-from adamslite.symbolic import Scope
+from adamslite.language.function import function
+from adamslite.symbolic.scope import Scope
 
 
 @function("VARVAL", "id:variable")

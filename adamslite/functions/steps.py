@@ -13,9 +13,9 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from adamslite.algebra import choose, power, sp
-from adamslite.function import Mistake, ascending, function
-from adamslite.symbolic import Scope
+from adamslite.language.function import Mistake, ascending, function
+from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.sympy_nodes import choose, power, sp
 
 STEP_SIGNATURE = "x:number x0:number h0:number x1:number h1:number"
 STEP5_ENDS = ascending(1, 3, "STEP5 must begin below its end: x0 < x1")

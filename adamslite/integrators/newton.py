@@ -14,7 +14,7 @@ ODE II, 1996, sections VI.7 and VII.2.
 
 from __future__ import annotations
 
-from adamslite.integrators.base import (
+from adamslite.integrators.contract import (
     FACTORIZATIONS,
     HOLONOMIC,
     NB,
@@ -25,16 +25,16 @@ from adamslite.integrators.base import (
     Plan,
     Problem,
 )
-from adamslite.integrators.equations import (
+from adamslite.integrators.linalg.blocks import factor
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.motion_equations import (
     BODY,
     PART,
     back_rotate,
     jacobian,
     spread,
 )
-from adamslite.integrators.linalg import factor
-from adamslite.integrators.norms import exceeds
-from adamslite.translate import Reals, native
+from adamslite.native.translate import Reals, native
 
 # Increments of positions below this share of the largest position are round-off.
 ROUND_OFF = 2e-15

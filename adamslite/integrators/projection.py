@@ -9,7 +9,7 @@ is the effective mass.  Reference: Hairer, Wanner, Solving ODE II, 1996, section
 
 from __future__ import annotations
 
-from adamslite.integrators.base import (
+from adamslite.integrators.contract import (
     HOLONOMIC,
     MOVED,
     NB,
@@ -23,7 +23,9 @@ from adamslite.integrators.base import (
     Plan,
     Problem,
 )
-from adamslite.integrators.equations import (
+from adamslite.integrators.linalg.blocks import solve
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.motion_equations import (
     BODY,
     PART,
     back_rotate,
@@ -31,9 +33,7 @@ from adamslite.integrators.equations import (
     put_pose,
     run_groups,
 )
-from adamslite.integrators.linalg import solve
-from adamslite.integrators.norms import exceeds
-from adamslite.translate import Reals, native
+from adamslite.native.translate import Reals, native
 
 SWEEPS = 8
 # Violations below this share of the largest coordinate are round-off.

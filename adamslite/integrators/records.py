@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.acceleration import accelerations
-from adamslite.integrators.base import (
+from adamslite.integrators.accelerations import accelerations
+from adamslite.integrators.contract import (
     AT,
     ERROR,
     HOLONOMIC,
@@ -23,8 +23,8 @@ from adamslite.integrators.base import (
     Plan,
     Problem,
 )
-from adamslite.integrators.equations import run_groups
-from adamslite.translate import Reals, native
+from adamslite.integrators.motion_equations import run_groups
+from adamslite.native.translate import Reals, native
 
 # A redundant row is as exact as the deck, whose lengths may have four digits, and as the rows it
 # follows from: within some errors of positions.

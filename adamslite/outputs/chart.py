@@ -12,8 +12,8 @@ from math import log10
 from pathlib import Path
 from typing import Any
 
-from adamslite.faults import UsageError
-from adamslite.outputs.whole import whole_file
+from adamslite.errors import UsageError
+from adamslite.outputs.whole_files import whole_file
 
 ABSENT = "charts are drawn by matplotlib, which is not installed: python -m pip install matplotlib"
 

@@ -19,10 +19,10 @@ from typing import TextIO
 import numpy as np
 
 import adamslite
-from adamslite.faults import FormatError
-from adamslite.outcomes import Outcome
-from adamslite.outputs.whole import whole_file
-from adamslite.results import Results
+from adamslite.errors import FormatError
+from adamslite.outputs.whole_files import whole_file
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,9 @@ FIXED = "INTEGRATOR/HHT, ALPHA=-0.0526, ERROR=1.0E-5, HINIT={h!r}, HMAX={h!r}, H
 
 def installed() -> bool:
     """Whether this checkout can simulate."""
-    return module_found("adamslite")() and bool(importlib.util.find_spec("adamslite.simulate"))
+    return module_found("adamslite")() and bool(
+        importlib.util.find_spec("adamslite.analyses.simulation")
+    )
 
 
 def solve(options: Settings, scene: str, n: int, settings: Settings) -> Solution:
@@ -87,7 +89,7 @@ def programs() -> list[Program]:
     if not installed():
         return []
     from adamslite.analyses.choose import AUTO
-    from adamslite.work_precision import Variant, variants
+    from adamslite.verification.work_precision import Variant, variants
 
     return [
         Program(

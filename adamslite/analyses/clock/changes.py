@@ -1,0 +1,159 @@
+"""Where expressions of time change, found by bisection that excludes and does not guess.
+
+Over a span of time an enclosure (:mod:`adamslite.analyses.clock.enclosures`) says what a value and
+its rate can be.  A span in which the answer is plain is done, every other one is divided.
+
+A *guard* keeps its branch in a span without a zero (a floor: without a whole number), and changes
+it once at most where it is monotone: what the ends say.
+
+A *curve* f of range R has the time scale R/|f'|.  A span is done where f is constant up to a small
+share of R, where it cannot cross R, or where a step as long as the output's cannot miss it; and
+where f' is of one size throughout, as of a fast sine.  A span that stays open down to the round-off
+of the time holds a pole or a kink without a tangent.
+
+Reference: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2009, section 8.1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from adamslite.analyses.clock.clock import Program
+from adamslite.analyses.clock.enclosures import enclose
+
+# Spans at first, and into how many one is divided.
+FIRST, PARTS = 64, 4
+# Spans of one expression at a time, at most; what is still open then is taken as it is.
+MOST = 2**16
+# Spans are not divided below this share of the run.
+ROUND_OFF = 5e-14
+# Changes below this share of the range are none, whatever else is known of the range or of its
+# bound.
+QUIET, SURELY_QUIET = 1e-5, 1e-9
+# Values from here on are on their way to infinity, not at a pole: whoever takes their reciprocal
+# gets zero.
+OVERFLOW = 1e290
+# Rates within this factor are of one size, if one is found that is not far below.
+ALIKE, FOUND = 0.5, 0.1
+# Where a span is looked at: nowhere a periodic function could always be met at the same phase.
+GOLDEN = 0.6180339887498949
+
+
+@dataclass(frozen=True)
+class Found:
+    """``times``: of kinks and poles.  ``spans`` (n, 3): start, end and time scale where it is
+    short.  ``whole``: False when there was too much to look at.
+    """
+
+    times: np.ndarray
+    spans: np.ndarray
+    whole: bool
+
+
+def around_changes(program: Program, start: float, end: float, floor: bool) -> Found:
+    """Times between which a guard changes once at most."""
+    low, high = _spans(start, end)
+    kept, whole = [], True
+    while low.size:
+        least, most, slow, fast = enclose(program, low, high)
+        still = (np.floor(least) == np.floor(most)) if floor else (least > 0.0) | (most < 0.0)
+        still |= np.isnan(least + most)
+        plain = (slow >= 0.0) | (fast <= 0.0) | (high - low <= ROUND_OFF * (end - start))
+        if np.count_nonzero(~still & ~plain) * PARTS > MOST:
+            plain, whole = np.ones_like(plain), False
+        kept += [low[plain & ~still], high[plain & ~still]]
+        low, high = _divided(low, high, ~still & ~plain)
+    return Found(np.unique(np.concatenate(kept)), np.zeros((0, 3)), whole)
+
+
+def time_scales(program: Program, start: float, end: float, longest: float) -> Found:
+    """Where a curve changes so fast that steps up to ``longest`` may miss it."""
+    curve = _Curve(program, start, end)
+    low, high = _spans(start, end)
+    kept, whole, first = [], True, True
+    while low.size:
+        rate, quiet = curve.look(low, high)
+        width = high - low
+        scale = curve.scale(rate)
+        open_ = ~quiet & (scale < np.minimum(2.0 * width, longest))
+        sharp = open_ & (width <= ROUND_OFF * (end - start))
+        if not first:
+            open_ &= ~curve.alike(rate)
+        open_ &= ~sharp
+        if np.count_nonzero(open_) * PARTS > MOST:
+            open_, whole = np.zeros_like(open_), False
+        done = ~open_ & ~quiet
+        kept.append(np.array([low, high, rate, sharp])[:, done])
+        low, high = _divided(low, high, open_)
+        first = False
+    low, high, rate, sharp = np.concatenate(kept, axis=1)
+    scale = curve.scale(rate)
+    short = (scale < longest) & (sharp == 0.0)
+    spans = np.stack([low, high, scale], axis=1)[short]
+    return Found(high[sharp > 0.0], spans[np.argsort(spans[:, 0])], whole)
+
+
+class _Curve:
+    """What is known of a curve so far: its range at least and at most."""
+
+    def __init__(self, program: Program, start: float, end: float) -> None:
+        self.program = program
+        self.least, self.most = np.inf, -np.inf
+        self.bottom, self.top = np.inf, -np.inf
+        ends = np.array([start, end])
+        self._sample(ends)
+
+    @property
+    def range(self) -> float:
+        """The range that was seen."""
+        return max(0.0, self.most - self.least)
+
+    def scale(self, rate: np.ndarray) -> np.ndarray:
+        """The time in which the curve crosses its range at this rate."""
+        with np.errstate(all="ignore"):
+            return np.where(rate > 0.0, self.range / rate, np.inf)
+
+    def look(self, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Largest rate in each span, and whether the value is constant there."""
+        inside = low + (high - low) * (np.arange(low.size) * GOLDEN % 1.0)
+        self.seen = self._sample(inside)
+        least, most, slow, fast = enclose(self.program, low, high)
+        bounds = np.concatenate([least, most])
+        bounds = bounds[np.isfinite(bounds)]
+        self.bottom = min(self.bottom, bounds.min(initial=np.inf))
+        self.top = max(self.top, bounds.max(initial=-np.inf))
+        room = max(0.0, self.top - self.bottom)
+        flat = max(QUIET * self.range, SURELY_QUIET * room)
+        with np.errstate(invalid="ignore"):
+            quiet = ~(most - least > flat)  # what has no value, too
+        quiet |= np.minimum(np.abs(least), np.abs(most)) > OVERFLOW
+        return np.maximum(np.abs(slow), np.abs(fast)), quiet
+
+    def _sample(self, times: np.ndarray) -> np.ndarray:
+        value, _, slow, fast = enclose(self.program, times, times)
+        value = value[np.isfinite(value)]
+        self.least = min(self.least, value.min(initial=np.inf))
+        self.most = max(self.most, value.max(initial=-np.inf))
+        return np.maximum(np.abs(slow), np.abs(fast))
+
+    def alike(self, rate: np.ndarray) -> np.ndarray:
+        """Whether rates are of one size in all parts of a span that was divided."""
+        parts, seen = rate.reshape(-1, PARTS), self.seen.reshape(-1, PARTS)
+        top = parts.max(axis=1)
+        alike = (parts.min(axis=1) >= ALIKE * top) & (seen.max(axis=1) >= FOUND * top)
+        return np.repeat(alike & np.isfinite(top), PARTS)
+
+
+def _spans(start: float, end: float) -> tuple[np.ndarray, np.ndarray]:
+    ends = np.linspace(start, end, FIRST + 1)
+    return ends[:-1], ends[1:]
+
+
+def _divided(low: np.ndarray, high: np.ndarray, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The parts of some spans, neighbours side by side."""
+    low, high = low[which, None], high[which, None]
+    ends = low + (high - low) * (np.arange(PARTS + 1) / PARTS)
+    ends[:, -1:] = high
+    return ends[:, :-1].ravel(), ends[:, 1:].ravel()

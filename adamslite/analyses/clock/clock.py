@@ -1,0 +1,87 @@
+"""What of a model depends on time alone: the programs of its kernels with their numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from adamslite.analyses.clock.enclosures import Instruction
+
+Program = tuple[Instruction, ...]
+
+
+class Clock:
+    """Programs that differ, each with the statement it belongs to; see
+    :mod:`adamslite.kernels.code.clock_program` for what they compute.
+    """
+
+    def __init__(self, kernels: Any) -> None:
+        self.kernels = kernels
+        self._signals = {
+            binding.nodes[0][1]: (group.meta["clock"]["rows"], binding)
+            for group in kernels.groups
+            if group.face == "signal"
+            for _, binding in group.instances
+        }
+        self._rates: dict[tuple[Any, int], Program] = {}
+
+    def programs(self, kind: str) -> dict[Program, Any]:
+        """Every different program of a kind, with the first statement that has it."""
+        return {program: statement for _, statement, program in self._each(kind)}
+
+    def driven(self) -> Iterator[tuple[str, Any, Program]]:
+        """Level, statement and program of what drives a constraint."""
+        yield from self._each("driven")
+
+    def _each(self, kind: str) -> Iterator[tuple[str, Any, Program]]:
+        for group in self.kernels.groups:
+            for code in group.meta["clock"].get(kind, ()):
+                seen: set[Any] = set()
+                for statement, binding in group.instances:
+                    used = tuple(_used(code, binding))
+                    if used not in seen:
+                        seen.add(used)
+                        yield group.face, statement, self._bound(code, binding)
+
+    def _bound(self, code: list[list[Any]], binding: Any) -> Program:
+        """A program with numbers for parameters and the expressions of VARIABLEs put in."""
+        found: list[Instruction] = []
+        place: list[int] = []
+        for name, *given in code:
+            if name == "p":
+                found.append(("number", binding.params[given[0]]))
+            elif name == "sig":
+                inner = self._rate(binding.signals[given[0]], given[1])
+                shift = len(found)
+                found += [_moved(each, lambda n, by=shift: n + by) for each in inner]
+            else:
+                found.append(_moved((name, *given), place.__getitem__))
+            place.append(len(found) - 1)
+        return tuple(found)
+
+    def _rate(self, variable: Any, order: int) -> Program:
+        if (variable, order) not in self._rates:
+            rows, binding = self._signals[variable]
+            self._rates[variable, order] = self._bound(rows[order], binding)
+        return self._rates[variable, order]
+
+
+def _used(code: list[list[Any]], binding: Any) -> Iterator[Any]:
+    """The parameters and VARIABLEs of an instance that a program asks for."""
+    for name, *given in code:
+        if name == "p":
+            yield binding.params[given[0]]
+        elif name == "sig":
+            yield binding.signals[given[0]]
+
+
+def _moved(instruction: Instruction, place: Any) -> Instruction:
+    """An instruction whose operands stand elsewhere."""
+    name, *given = instruction
+    if name in ("number", "decided"):
+        return instruction
+    if name == "root":
+        return name, place(given[0]), *given[1:]
+    if name == "choose":
+        return name, given[0], *map(place, given[1:])
+    return name, *map(place, given)

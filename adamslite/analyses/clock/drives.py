@@ -1,0 +1,63 @@
+"""Motions that nothing can follow: a displacement or a velocity that jumps with time.
+
+What drives a constraint is compared on both sides of every stop, at a distance e and nearer,
+
+    jump(e) = [f(t + e) - e f'(t + e)] - [f(t - e) + e f'(t - e)]
+
+A jump stays as e shrinks; a slope that is only steep leaves the less of it, and one without bound
+counts as a jump.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from adamslite.analyses.clock.clock import Clock
+from adamslite.analyses.clock.enclosures import enclose
+
+# Distances from a stop, as shares of the run, and what must be left of a jump at the smaller one.
+FAR, NEAR, LEFT = 1e-8, 1e-11, 0.5
+WORDS = {"position": "displacement", "velocity": "velocity"}
+
+
+class Break(NamedTuple):
+    """Where a run cannot go on: statement, time, and what becomes of which quantity."""
+
+    statement: Any
+    time: float
+    quantity: str
+    how: str
+
+
+def first_jump(clock: Clock, stops: np.ndarray, start: float, error: float) -> Break | None:
+    """The first stop (k,) at which something that drives a constraint jumps by more than
+    ``error``.
+    """
+    inside, found = stops[:-1], []
+    if not inside.size:
+        return None
+    span = float(stops[-1]) - start
+    for face, statement, program in clock.driven():
+        far, near = (_jump(program, inside, share * span) for share in (FAR, NEAR))
+        size = np.maximum(1.0, np.abs(enclose(program, inside, inside)[0]))
+        size = np.where(np.isfinite(size), size, 1.0)
+        jumps = ~(near <= error * size) & ~(near < LEFT * far)
+        found += [Break(statement, t, WORDS[face], "jumps") for t in inside[jumps][:1].tolist()]
+    return min(found, key=lambda each: each.time, default=None)
+
+
+def _jump(program: Any, times: np.ndarray, e: float) -> np.ndarray:
+    before, behind = (enclose(program, times + side * e, times + side * e) for side in (-1, 1))
+    with np.errstate(all="ignore"):
+        return np.abs((behind[0] - e * behind[2]) - (before[0] + e * before[2]))
+
+
+def without_value(clock: Clock, time: float) -> Break | None:
+    """A MOTION whose displacement or velocity has no finite value at a time."""
+    at = np.array([time])
+    for face, statement, program in clock.driven():
+        if statement.keyword == "MOTION" and not np.isfinite(enclose(program, at, at)[0]).all():
+            return Break(statement, time, WORDS[face], "has no finite value")
+    return None

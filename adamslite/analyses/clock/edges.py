@@ -1,0 +1,101 @@
+"""Stops of a run: the times at which a guard of the clock changes its branch.
+
+Guards of the clock (:mod:`adamslite.symbolic.guards`) are functions of time alone, so their changes
+are found before the run:
+
+1. bisection with enclosures separates the changes, however near to each other they are, and
+   proves that there is none elsewhere (:mod:`adamslite.analyses.clock.changes`);
+2. bisection of every change down to round-off, by the native kernels that the run itself uses.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from adamslite.analyses.clock.changes import around_changes
+from adamslite.analyses.clock.clock import Clock
+from adamslite.equations.engine import CLOCK
+from adamslite.equations.system import System
+from adamslite.symbolic.guards import FLOOR, STRICT
+
+# Changes nearer to each other, or to an output time, than this share of the run are one; they are
+# located to that of round-off.
+SAME, ROUND_OFF = 1e-13, 1e-16
+
+
+def stops(system: System, times: np.ndarray) -> np.ndarray:
+    """Times inside the run over ``times`` (nt,) at which it must stop, and its end; sorted."""
+    return edges(system, Clock(system.kernels), times)[0]
+
+
+def edges(system: System, clock: Clock, times: np.ndarray) -> tuple[np.ndarray, list[Any]]:
+    """The stops, and the statements whose changes are too many to find all of them."""
+    start, end = float(times[0]), float(times[-1])
+    if not system.guarded["clock"] or not end > start:
+        return np.array([end]), []
+    grid, overfull = _grid(clock, start, end)
+    return merged(_changes(system, grid), times), overfull
+
+
+def merged(found: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Times inside the run and its end, sorted, without those that differ by round-off."""
+    start, end = float(times[0]), float(times[-1])
+    same = SAME * (end - start)
+    near = times[np.abs(times[:, None] - found).argmin(axis=0)]
+    found = np.where(np.abs(near - found) <= same, near, found)
+    inside = np.sort(found[(found > start + same) & (found < end - same)])
+    return np.append(inside[np.diff(inside, prepend=-np.inf) > same], end)
+
+
+def _grid(clock: Clock, start: float, end: float) -> tuple[np.ndarray, list[Any]]:
+    """Times so dense that every guard changes once at most between two of them, and the
+    statements of which that could not be reached.
+    """
+    times, overfull = [np.array([start, end])], []
+    for floor in (False, True):
+        for program, statement in clock.programs("floors" if floor else "guards").items():
+            found = around_changes(program, start, end, floor)
+            times.append(found.times)
+            overfull += [] if found.whole else [statement]
+    return np.unique(np.concatenate(times)), overfull
+
+
+def _changes(system: System, grid: np.ndarray) -> np.ndarray:
+    """Every change between two times of the grid, sorted; a floor may pass several numbers."""
+    below, above = grid[:-1], grid[1:]
+    found = []
+    left, right = _branches(system, below), _branches(system, above)
+    while len(below):
+        middle = 0.5 * (below + above)
+        changed = (left != right).any(axis=1)
+        fine = above - below <= ROUND_OFF * (grid[-1] - grid[0])
+        fine |= (middle <= below) | (middle >= above)
+        found.append(above[changed & fine])
+        open_ = changed & ~fine
+        below, above, left, right, middle = (x[open_] for x in (below, above, left, right, middle))
+        inner = _branches(system, middle)
+        below, above = np.concatenate([below, middle]), np.concatenate([middle, above])
+        left, right = np.concatenate([left, inner]), np.concatenate([inner, right])
+    return np.unique(np.concatenate(found))
+
+
+def _branches(system: System, times: np.ndarray) -> np.ndarray:
+    """Branch of every guard of the clock at ``times``, (nt, guards)."""
+    values = sample(system, times)
+    kind = system.kind[: values.shape[1]]
+    relation = np.where(kind == STRICT, values > 0.0, values >= 0.0).astype(float)
+    return np.where(kind == FLOOR, np.floor(values), relation)
+
+
+def sample(system: System, times: np.ndarray) -> np.ndarray:
+    """Values of the guards of the clock at ``times``, (nt, guards)."""
+    count = len(system.guarded["clock"])
+    kept = system.times, system.record
+    system.times = np.ascontiguousarray(times, dtype=float)
+    system.record = np.zeros(len(times) * count + 1)
+    system.run(CLOCK)
+    values = system.record[:-1].reshape(len(times), count)
+    system.times, system.record = kept
+    return values

@@ -1,0 +1,269 @@
+"""Interval arithmetic: what an expression of time and its rate can be within a span of time.
+
+An instruction (:mod:`adamslite.kernels.code.clock_program`) becomes an *enclosure* over n spans at
+once: the least and the largest value, the least and the largest rate, each (n,) or a number.  Every
+value that the expression takes within the span lies between them, up to round-off; with the span
+they shrink to it.  Where a branch that jumps is not decided the rate is unbounded.
+
+Reference: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2009, chapters 5 and 6.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+Span = tuple[Any, Any]
+Instruction = tuple[Any, ...]
+# The kind of analysis, as MODE gives it.
+DYNAMICS = 4.0
+WHOLE: Span = (-math.inf, math.inf)
+
+
+def enclose(code: Sequence[Instruction], low: np.ndarray, high: np.ndarray) -> np.ndarray:
+    """Least and largest value and rate of the last instruction over spans of time, (4, n)."""
+    values: list[Any] = []
+    with np.errstate(all="ignore"):
+        for name, *given in code:
+            if name == "t":
+                values.append(((low, high), (np.float64(1.0), np.float64(1.0))))
+            else:
+                values.append(RULES[name](values, *given))
+    result = np.empty((4, len(low)))
+    result[:] = [np.broadcast_to(x, len(low)) for pair in values[-1] for x in pair]
+    return result
+
+
+def _plus(a: Span, b: Span) -> Span:
+    low, high = np.asarray(a[0] + b[0]), np.asarray(a[1] + b[1])
+    return np.where(np.isnan(low), -np.inf, low), np.where(np.isnan(high), np.inf, high)
+
+
+def _times(a: Span, b: Span) -> Span:
+    corners = np.array(np.broadcast_arrays(a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]))
+    # Zero times what has no bound: an exact zero.
+    corners[np.isnan(corners)] = 0.0
+    return corners.min(axis=0), corners.max(axis=0)
+
+
+def _inverse(a: Span) -> Span:
+    low, high = np.asarray(1.0 / a[1]), np.asarray(1.0 / a[0])
+    across = (a[0] < 0.0) & (a[1] > 0.0)
+    low = np.where(across | (a[1] == 0.0), -np.inf, low)
+    return low, np.where(across | (a[0] == 0.0), np.inf, high)
+
+
+def _even(a: Span, power: Callable[[Any], Any]) -> Span:
+    """An even function that grows away from zero."""
+    one, other = power(np.abs(a[0])), power(np.abs(a[1]))
+    across = (a[0] < 0.0) & (a[1] > 0.0)
+    return np.where(across, power(0.0), np.minimum(one, other)), np.maximum(one, other)
+
+
+def _power(a: Span, p: int, q: int) -> Span:
+    """a**(p/q); fractions only of what is not negative."""
+    if p < 0:
+        return _inverse(_power(a, -p, q))
+    if q != 1:
+        return np.maximum(a[0], 0.0) ** (p / q), np.maximum(a[1], 0.0) ** (p / q)
+    if p % 2:
+        return a[0] ** p, a[1] ** p
+    return _even(a, lambda x: x**p)
+
+
+def _cosine(a: Span) -> Span:
+    """Extrema at the multiples of pi that lie inside."""
+    one, other = np.cos(a[0]), np.cos(a[1])
+    top = np.floor(a[1] / (2.0 * math.pi)) >= np.ceil(a[0] / (2.0 * math.pi))
+    bottom = np.floor(a[1] / (2.0 * math.pi) - 0.5) >= np.ceil(a[0] / (2.0 * math.pi) - 0.5)
+    wide = ~np.isfinite(a[0] + a[1])
+    low = np.where(bottom | wide, -1.0, np.minimum(one, other))
+    return low, np.where(top | wide, 1.0, np.maximum(one, other))
+
+
+def _sine(a: Span) -> Span:
+    return _cosine((a[0] - 0.5 * math.pi, a[1] - 0.5 * math.pi))
+
+
+def _tangent(a: Span) -> Span:
+    pole = np.floor(a[1] / math.pi - 0.5) >= np.ceil(a[0] / math.pi - 0.5)
+    pole |= ~np.isfinite(a[0] + a[1])
+    return np.where(pole, -np.inf, np.tan(a[0])), np.where(pole, np.inf, np.tan(a[1]))
+
+
+def _rising(function: Callable[[Any], Any], least: float, most: float) -> Callable[[Span], Span]:
+    """A function that rises where it is defined, from ``least`` to ``most``."""
+    return lambda a: (function(np.clip(a[0], least, most)), function(np.clip(a[1], least, most)))
+
+
+def _one_less_square(a: Span) -> Span:
+    low, high = _even(a, np.square)
+    return 1.0 - high, 1.0 - low
+
+
+def _bell(a: Span, power: int) -> Span:
+    """(1 -+ a**2)**(-1/2) for ``power`` 2, else 1/(1 + a**2)."""
+    if power == 1:
+        return _inverse(_plus((1.0, 1.0), _even(a, np.square)))
+    inside = (np.clip(a[0], -1.0, 1.0), np.clip(a[1], -1.0, 1.0))
+    return _inverse(_power(_one_less_square(inside), 1, 2))
+
+
+def _minus(a: Span) -> Span:
+    return -a[1], -a[0]
+
+
+_exp = _rising(np.exp, -np.inf, np.inf)
+_tanh = _rising(np.tanh, -np.inf, np.inf)
+_sinh = _rising(np.sinh, -np.inf, np.inf)
+_log = _rising(np.log, 0.0, np.inf)
+
+
+def _cosh(a: Span) -> Span:
+    return _even(a, np.cosh)
+
+
+def _arccosine(a: Span) -> Span:
+    return np.arccos(np.clip(a[1], -1.0, 1.0)), np.arccos(np.clip(a[0], -1.0, 1.0))
+
+
+# Value and rate by the argument of functions of one argument.
+FUNCTIONS: dict[str, tuple[Callable[[Span], Span], Callable[[Span], Span]]] = {
+    "sin": (_sine, _cosine),
+    "cos": (_cosine, lambda a: _minus(_sine(a))),
+    "tan": (_tangent, lambda a: _plus((1.0, 1.0), _even(_tangent(a), np.square))),
+    "asin": (_rising(np.arcsin, -1.0, 1.0), lambda a: _bell(a, 2)),
+    "acos": (_arccosine, lambda a: _minus(_bell(a, 2))),
+    "atan": (_rising(np.arctan, -np.inf, np.inf), lambda a: _bell(a, 1)),
+    "sinh": (_sinh, _cosh),
+    "cosh": (_cosh, _sinh),
+    "tanh": (_tanh, lambda a: _one_less_square(_tanh(a))),
+    "exp": (_exp, _exp),
+    "log": (_log, lambda a: _inverse((np.maximum(a[0], 0.0), a[1]))),
+}
+
+
+def _number(values: list[Any], value: float) -> Any:
+    exact, still = np.float64(value), np.float64(0.0)
+    return (exact, exact), (still, still)
+
+
+def _add(values: list[Any], *terms: int) -> Any:
+    value, rate = values[terms[0]]
+    for each in terms[1:]:
+        value, rate = _plus(value, values[each][0]), _plus(rate, values[each][1])
+    return value, rate
+
+
+def _multiply(values: list[Any], *factors: int) -> Any:
+    value, rate = values[factors[0]]
+    for each in factors[1:]:
+        other, its_rate = values[each]
+        rate = _plus(_times(value, its_rate), _times(rate, other))
+        value = _times(value, other)
+    return value, rate
+
+
+def _root(values: list[Any], base: int, p: int, q: int) -> Any:
+    """A rational power; its rate is (p/q) a**(p/q - 1) a'."""
+    value, rate = values[base]
+    slope = _power(value, p - q, q) if p != q else (1.0, 1.0)
+    return _power(value, p, q), _times(_times((p / q, p / q), slope), rate)
+
+
+def _pow(values: list[Any], base: int, exponent: int) -> Any:
+    """a**b = exp(b log a)."""
+    logarithm = _of_one("log")(values, base)
+    kept = [logarithm, values[exponent]]
+    return _of_one("exp")([_multiply(kept, 0, 1)], 0)
+
+
+def _of_one(name: str) -> Callable[..., Any]:
+    function, slope = FUNCTIONS[name]
+
+    def rule(values: list[Any], argument: int) -> Any:
+        value, rate = values[argument]
+        return function(value), _times(slope(value), rate)
+
+    return rule
+
+
+def _atan2(values: list[Any], sine: int, cosine: int) -> Any:
+    """The angle of a point (c, s): at the corners of its box, unless that meets the cut."""
+    (s, ds), (c, dc) = values[sine], values[cosine]
+    angles = [np.arctan2(y, x) for y in s for x in c]
+    cut = (c[0] <= 0.0) & (s[0] <= 0.0) & (s[1] >= 0.0) & ~((s[0] == s[1]) & (c[0] == c[1]))
+    low = np.where(cut, -math.pi, np.minimum.reduce(np.broadcast_arrays(*angles)))
+    high = np.where(cut, math.pi, np.maximum.reduce(np.broadcast_arrays(*angles)))
+    square = _plus(_even(s, np.square), _even(c, np.square))
+    turn = _times(_plus(_times(c, ds), _minus(_times(s, dc))), _inverse(square))
+    return (low, high), (np.where(cut, -np.inf, turn[0]), np.where(cut, np.inf, turn[1]))
+
+
+def _floor(values: list[Any], argument: int) -> Any:
+    (low, high), _ = values[argument]
+    low, high = np.floor(low), np.floor(high)
+    unknown = np.where(low == high, 0.0, np.inf)
+    return (low, high), (-unknown, unknown)
+
+
+def _choose(values: list[Any], jumps: bool, *pieces: int) -> Any:
+    """All pieces that may be chosen; ``pieces``: conditions and values in turn."""
+    open_, several = True, False
+    low, high, slow, fast = np.inf, -np.inf, np.inf, -np.inf
+    for condition, piece in zip(pieces[::2], pieces[1::2], strict=True):
+        may, may_not = values[condition]
+        taken, (value, rate) = open_ & may, values[piece]
+        low, high = _joined(taken, (low, high), value)
+        slow, fast = _joined(taken, (slow, fast), rate)
+        several = several | (taken & may_not)
+        open_ = open_ & may_not
+    if jumps:
+        slow, fast = np.where(several, -np.inf, slow), np.where(several, np.inf, fast)
+    return (low, high), (slow, fast)
+
+
+def _joined(taken: Any, a: Span, b: Span) -> Span:
+    """The span of both where ``taken``."""
+    return np.where(taken, np.fmin(a[0], b[0]), a[0]), np.where(taken, np.fmax(a[1], b[1]), a[1])
+
+
+def _relation(compare: Callable[[Span, Span], Any]) -> Callable[..., Any]:
+    return lambda values, a, b: compare(values[a][0], values[b][0])
+
+
+def _equal(a: Span, b: Span) -> tuple[Any, Any]:
+    return (a[0] <= b[1]) & (b[0] <= a[1]), (a[0] != a[1]) | (b[0] != b[1]) | (a[0] != b[0])
+
+
+def _both(values: list[Any], *terms: int) -> Any:
+    may, may_not = values[terms[0]]
+    for each in terms[1:]:
+        may, may_not = may & values[each][0], may_not | values[each][1]
+    return may, may_not
+
+
+def _either(values: list[Any], *terms: int) -> Any:
+    may_not, may = _both([each[::-1] for each in values], *terms)
+    return may, may_not
+
+
+# Conditions are (may be true, may be false).
+RULES: dict[str, Callable[..., Any]] = {
+    "Add": _add, "Mul": _multiply, "root": _root, "Pow": _pow, "atan2": _atan2,
+    "floor": _floor, "choose": _choose, "And": _both, "Or": _either,
+    "Not": lambda values, a: values[a][::-1],
+    "decided": lambda values, holds: (np.bool_(holds), np.bool_(not holds)),
+    "number": _number, "mode": lambda values: _number(values, DYNAMICS),
+    "nan": lambda values: _number(values, math.nan),
+    "<": _relation(lambda a, b: (a[0] < b[1], ~(a[1] < b[0]))),
+    "<=": _relation(lambda a, b: (a[0] <= b[1], ~(a[1] <= b[0]))),
+    ">": _relation(lambda a, b: (a[1] > b[0], ~(a[0] > b[1]))),
+    ">=": _relation(lambda a, b: (a[1] >= b[0], ~(a[0] >= b[1]))),
+    "==": _relation(lambda a, b: _equal(a, b)),
+    "!=": _relation(lambda a, b: _equal(a, b)[::-1]),
+    **{name: _of_one(name) for name in FUNCTIONS},
+}  # fmt: skip

@@ -1,0 +1,188 @@
+"""How long steps may be where expressions of time change within less than a step.
+
+An error test compares the ends of a step: a pulse between them is not there.  Where a curve has a
+time scale s (:mod:`adamslite.analyses.clock.changes`) below the longest step, or where two stops
+are nearer than that to each other, steps are
+
+    h <= share * s,     share = the least, or as many steps as are worth it shared among all pulses
+
+A share of a half is enough to see what there is; the error test does the rest in methods that test
+velocities.  The others need as many steps for a pulse as its impulse is to have digits: of 1/n of
+its length, trapezoids leave n^-2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from adamslite.analyses.clock.changes import time_scales
+from adamslite.analyses.clock.clock import Clock
+from adamslite.analyses.clock.edges import SAME, edges, merged
+from adamslite.equations.system import System
+from adamslite.integrators import contract
+
+# Steps per time scale at least (to see it) and, where it must be integrated without an error test
+# of velocities; how many steps of a run are worth that.
+SEEN, FINE, WORTH = 2.0, 32.0, 8192.0
+# What would need more steps than this is left to the error test, and said.
+MOST = 1e5
+# Curves slower than this share of the longest step cannot be missed, nor what lies between two
+# stops this many of the longest steps apart; nearer stops bound a pulse.
+SHORT, LONG, NEAR = 0.5, 2.0, 0.25
+# Pulses up to this many time scales long get equal steps, which add up to the impulse best.
+BRIEF = 32.0
+# A span between two stops is five time scales long.
+PARTS = 5.0
+
+
+@dataclass(frozen=True)
+class Timetable:
+    """What is known of time before a run.
+
+    ``stops`` (k,): where steps end and branches may change, the end last.  ``paces`` (3 n,): see
+    ``base.PACE``.  ``paced``: statements that change within less than the longest step;
+    ``overfull``: those that change too often to follow all of it.
+    """
+
+    stops: np.ndarray
+    paces: np.ndarray
+    paced: list[Any]
+    overfull: list[Any]
+
+
+def timetable(
+    system: System, clock: Clock, times: np.ndarray, longest: float, fine: bool
+) -> Timetable:
+    """Stops and paces of a run over ``times`` (nt,) with steps up to ``longest``.
+
+    ``fine``: the method does not test velocities.
+    """
+    start, end = float(times[0]), float(times[-1])
+    if not end > start:
+        return Timetable(np.array([end]), np.array(contract.NO_PACE), [], [])
+    found, overfull = edges(system, clock, times)
+    kinks, spans, paced = [found], [np.zeros((0, 3))], []
+    for program, statement in clock.programs("curves").items():
+        curve = time_scales(program, start, end, SHORT * longest)
+        kinks.append(curve.times)
+        if not curve.whole or _crossings(curve.spans) * SEEN > MOST:
+            overfull.append(statement)
+        else:
+            paced += [statement] if len(curve.spans) else []
+            spans.append(curve.spans)
+    found = merged(np.concatenate(kinks), times)
+    if len(found) == 1 and not any(map(len, spans)):
+        return Timetable(found, np.array(contract.NO_PACE), paced, overfull)
+    between = _between(found, start)
+    gaps = between[:, 1] - between[:, 0]
+    spans.append(between[gaps < NEAR * longest])
+    scales, looks = _least(np.concatenate(spans)), between[gaps < LONG * longest]
+    rows = _rows(_paces(scales, looks, longest, fine), found, start)
+    return Timetable(found, rows, paced, overfull)
+
+
+def _between(found: np.ndarray, start: float) -> np.ndarray:
+    """The spans between stops with their time scales, (n, 3); none where there are no stops."""
+    low = np.append(start, found[:-1])
+    return np.stack([low, found, (found - low) / PARTS], axis=1)[len(found) == 1 :]
+
+
+def _crossings(spans: np.ndarray) -> float:
+    """How often a curve crosses its range at its largest rates."""
+    return float(((spans[:, 1] - spans[:, 0]) / spans[:, 2]).sum())
+
+
+def _least(spans: np.ndarray) -> np.ndarray:
+    """Spans that do not overlap, each with the least of the third columns there, (n, 3)."""
+    ends = np.unique(spans[:, :2])
+    least = np.full(max(0, len(ends) - 1), np.inf)
+    first, last = np.searchsorted(ends, spans[:, 0]), np.searchsorted(ends, spans[:, 1])
+    for a, b, value in zip(first.tolist(), last.tolist(), spans[:, 2].tolist(), strict=True):
+        least[a:b] = np.minimum(least[a:b], value)
+    table = np.stack([ends[:-1], ends[1:], least], axis=1)
+    return table[np.isfinite(least)]
+
+
+def _paces(scales: np.ndarray, looks: np.ndarray, longest: float, fine: bool) -> np.ndarray:
+    """Spans with their longest steps from spans with their time scales, (n, 3); in ``looks`` it is
+    enough to have steps at all.
+    """
+    spans = [looks / (1.0, 1.0, SEEN)]
+    if len(scales):
+        per_scale = min(FINE, max(SEEN, WORTH / _crossings(scales))) if fine else SEEN
+        groups = [group / (1.0, 1.0, per_scale) for group in _pulses(scales)]
+        spans += groups + [_approach(group, longest) for group in groups]
+    return np.concatenate(spans)
+
+
+def _rows(spans: np.ndarray, stops: np.ndarray, start: float) -> np.ndarray:
+    """The rows of ``P.paces``; what is nearer to a stop than round-off is at the stop."""
+    never, same = contract.NO_PACE[1], SAME * (stops[-1] - start)
+    for each in (stops[:-1], stops[1:]) if len(stops) > 1 else ():
+        near = each[np.searchsorted(each, spans[:, :2] + same).clip(1, len(each)) - 1]
+        spans[:, :2] = np.where(np.abs(near - spans[:, :2]) <= same, near, spans[:, :2])
+    rows = [(contract.NO_PACE[0], never)]
+    for low, high, step in _least(spans).tolist():
+        if high - low <= same:
+            continue
+        if low - rows[-1][0] <= same:  # the end of the span before
+            low = rows.pop()[0]
+        if rows[-1][1] != step:
+            rows.append((low, step))
+        rows.append((high, never))
+    return _with_fences(rows)
+
+
+def _pulses(scales: np.ndarray) -> list[np.ndarray]:
+    """Runs of neighbouring spans; what is brief becomes one span, for equal steps, and elsewhere
+    time scales change gradually.
+    """
+    breaks = np.flatnonzero(scales[1:, 0] > scales[:-1, 1]) + 1
+    groups = np.split(scales, breaks)
+    for k, group in enumerate(groups):
+        low, high, least = group[0, 0], group[-1, 1], group[:, 2].min()
+        if high - low <= BRIEF * least:
+            groups[k] = np.array([[low, high, least]])
+        else:
+            group[:, 2] = _graded(group)
+    return groups
+
+
+def _graded(group: np.ndarray) -> np.ndarray:
+    """Time scales that nowhere grow faster than the time passes, (n,)."""
+    low, high, scale = group.T
+    behind = np.minimum.accumulate(scale - high)[:-1] + low[1:]
+    before = np.minimum.accumulate((scale + low)[::-1])[-2::-1] - high[:-1]
+    graded = scale.copy()
+    graded[1:] = np.minimum(graded[1:], behind)
+    graded[:-1] = np.minimum(graded[:-1], before)
+    return graded
+
+
+def _approach(group: np.ndarray, longest: float) -> np.ndarray:
+    """Spans beside a pulse in which steps are as long as the way to it, (n, 3): what the curve is
+    at its edge would otherwise count for the whole of a long step.
+    """
+    low, high = group[0, 0], group[-1, 1]
+    way = group[:, 2].min() * np.exp2(np.arange(64))
+    way = way[way < longest]
+    ends, step = np.cumsum(np.append(0.0, way)), way
+    before = np.stack([low - ends[1:], low - ends[:-1], step], axis=1)
+    behind = np.stack([high + ends[:-1], high + ends[1:], step], axis=1)
+    return np.concatenate([before, behind])
+
+
+def _with_fences(rows: list[tuple[float, float]]) -> np.ndarray:
+    """Rows of (since when, longest step, fence): the fence is where a later row first asks for
+    shorter steps.
+    """
+    table, later = [], []
+    for when, step in reversed(rows):
+        while later and later[-1][1] >= step:
+            later.pop()
+        table.append((when, step, later[-1][0] if later else contract.NO_PACE[2]))
+        later.append((when, step))
+    return np.array(table[::-1]).ravel()

@@ -1,0 +1,251 @@
+"""Why a run ended early: statement, line, equation, time, step, iteration, cause and remedy."""
+
+from __future__ import annotations
+
+from math import isnan
+from typing import Any
+
+import numpy as np
+
+from adamslite.equations.engine import JACOBIAN, RESIDUAL
+from adamslite.equations.system import System
+from adamslite.equations.unknown_names import equation, placed, tested, unknown
+from adamslite.integrators import contract
+from adamslite.integrators.event_rows import CULPRIT
+from adamslite.integrators.verlet.method import LIMIT
+from adamslite.results.outcomes import Outcome
+
+# Models up to this many unknowns are searched for what leaves their accelerations open.
+MOST_SEARCHED = 1500
+# Singular values below this share of the largest are zero.
+RANK = 1e-12
+# The search ahead for an expression without a value doubles its way so often at most.
+DOUBLINGS = 40
+# Contradicting statements named.
+MOST_NAMED = 4
+# Least steps below this share of the run are its own.
+ROUND_OFF = 1e-12
+
+
+def explain(system: System, outcome: Outcome, unclosed: Any) -> str:
+    """One paragraph for the user: where, when, what, and the outcome's own remedy."""
+    if unclosed:
+        return f"{_contradiction(unclosed)} {outcome.value}"
+    told = REASONS.get(outcome, _when)(system)
+    return f"{told[:1].upper()}{told[1:]}. {outcome.value}"
+
+
+def _contradiction(unclosed: Any) -> str:
+    """The constraint that stays open at the start, and those that keep it from closing."""
+    found = f"{placed(unclosed.statement)}, {unclosed.equation},"
+    if isnan(unclosed.size):
+        return f"{found} has no value at the start."
+    told = f"{found} stays open by {unclosed.size:.3g} at {unclosed.level} level"
+    others = unclosed.others[:MOST_NAMED]
+    return f"{told}{', against ' * bool(others)}{' and '.join(map(placed, others))}."
+
+
+def _when(system: System) -> str:
+    """Time, number and size of the last step tried, its order."""
+    report = system.report
+    step = int(system.count[contract.STEPS]) + 1
+    text = f"at t = {report[contract.AT]:.9g}, in step {step} of size {report[contract.STEP]:.3g}"
+    text += " (HMIN)" if _is_least(system) else ""
+    return text + (f" and order {report[contract.ORDER]:.0f}" if report[contract.ORDER] else "")
+
+
+def _is_least(system: System) -> bool:
+    """Whether the last step tried was as small as an HMIN that was asked for."""
+    step, least = system.report[contract.STEP], system.settings[contract.H_MIN]
+    return 0.0 < step <= 1.01 * least and least > ROUND_OFF * system.settings[contract.T_END]
+
+
+def _where(system: System) -> str:
+    """Only the time, for analyses without steps."""
+    return f"at t = {system.report[contract.AT]:.9g}"
+
+
+def _error(system: System) -> str:
+    """What the error test fails for, and by how much."""
+    report = system.report
+    if not report[contract.STEP]:
+        return f"{_where(system)}, HMAX is too short a step to change the time"
+    found = f"{tested(system, int(report[contract.WHERE]))}: {_when(system)}"
+    told = f"{found}, the estimated error is {report[contract.HOW_MUCH]:.3g} times ERROR"
+    return told + _held_up(system)
+
+
+def _corrector(system: System) -> str:
+    """The equation that stays open, the unknown that moves most."""
+    report = system.report
+    if not report[contract.ITERATION]:
+        return f"{tested(system, int(report[contract.WHERE]))}: {_when(system)}, no accelerations found"
+    said = f"{equation(system, int(report[contract.OPEN_ROW]))}: {_when(system)}, this equation is off by "
+    said += f"{report[contract.OPEN_BY]:.3g} after iteration {report[contract.ITERATION]:.0f}, more than all"
+    moving = unknown(system, int(report[contract.CHANGED]))
+    told = f"{said} others. {moving}, changes most, by {report[contract.CHANGE]:.3g}"
+    return told + _held_up(system)
+
+
+def _held_up(system: System) -> str:
+    """What there is to say when HMIN kept the step from being shorter."""
+    return (
+        ". HMIN allows no shorter step; a smaller one, or none, would" if _is_least(system) else ""
+    )
+
+
+def _singular_mass(system: System) -> str:
+    """The forces that depend on accelerations, and the coordinate without inertia."""
+    found = [
+        s
+        for group in system.kernels.groups
+        if group.face in ("loads", "equation") and group.meta["mass"]
+        for s, _ in group.instances
+    ]
+    named = ", ".join(placed(s) for s in found[:3])
+    told = f"{named}: {_when(system)}" if named else _when(system)
+    if system.nz > MOST_SEARCHED:
+        return told
+    matrix, kept = _acceleration_matrix(system)
+    if not np.isfinite(matrix).all():
+        return told
+    scale = _inertias(system)[kept] ** -0.5
+    loosest = np.linalg.svd(scale[:, None] * matrix * scale)[2][-1]
+    inert = kept[int(np.abs(np.where(np.array(kept) < system.n, loosest, 0.0)).argmax())]
+    return f"{told}. {unknown(system, inert)}, loses its inertia"
+
+
+def _inertias(system: System) -> np.ndarray:
+    """Masses and moments of inertia of the coordinates as the deck gives them, 1 for other
+    unknowns; so that a small mass is not mistaken for one that vanishes.
+    """
+    sizes = np.ones(system.nz)
+    for b, body in enumerate(system.model.bodies):
+        i = system.starts[b]
+        sizes[i : i + 3] = body.mass
+        if system.widths[b] > 3:
+            sizes[i + 3 : i + 6] = np.diag(body.inertia)
+    return np.where(sizes > 0.0, sizes, 1.0)
+
+
+def _acceleration_matrix(system: System) -> tuple[np.ndarray, list[int]]:
+    """The matrix of accelerations, multipliers and variables where the run stands, and the numbers
+    of its unknowns.
+    """
+    system.coef[:5], system.settings[contract.T] = (
+        (0.0, 0.0, 1.0, 1.0, 1.0),
+        system.report[contract.AT],
+    )
+    system.run(JACOBIAN, contract.ACCELERATION)
+    count = system.n + system.m + system.nv + system.ns
+    kept = [k for k in range(count) if k - system.n not in system.dropped]
+    return system.dense_jacobian()[np.ix_(kept, kept)], kept
+
+
+def _undetermined(system: System) -> str:
+    """The unknown that the equations leave open most: largest in the null vector of the matrix of
+    accelerations, multipliers and variables; when it has none, the equation that stays open.
+    """
+    if system.nz > MOST_SEARCHED:
+        return _where(system)
+    matrix, kept = _acceleration_matrix(system)
+    _, sizes, rows = np.linalg.svd(matrix)
+    if sizes[-1] > RANK * sizes[0]:
+        return _open(system, kept)
+    free = kept[int(np.abs(rows[-1]).argmax())]
+    why = "it is free" if free < system.n + system.m else "every value of it would do, or none"
+    return f"{unknown(system, free)}: {_where(system)}, {why}"
+
+
+def _open(system: System, rows: list[int]) -> str:
+    """The equation of accelerations that is farthest from being solved."""
+    system.run(RESIDUAL, contract.ACCELERATION)
+    sizes = np.abs(system.F[rows])
+    worst = int(np.argmax(np.where(np.isfinite(sizes), sizes, np.inf)))
+    return f"{equation(system, rows[worst])}: {_where(system)}, it stays open by {sizes[worst]:.3g}"
+
+
+def _not_finite(system: System) -> str:
+    """The statement whose expression has no value where the run stands, or further ahead: as far
+    as an output step of VERLET, which stands still at the last output time.
+    """
+    start, report = system.q.copy(), system.report
+    system.a[:], system.z[:] = 0.0, np.nan_to_num(system.z)
+    ahead = [0.0, *(report[contract.STEP] * np.exp2(range(DOUBLINGS)))]
+    far = float(np.diff(system.times).max(initial=0.0))
+    for way in (each for each in ahead if each <= max(far, report[contract.STEP])):
+        system.settings[contract.T] = report[contract.AT] + way
+        system.q[: system.n] = start[: system.n] + way * system.u[: system.n]
+        guilty = _without_value(system)
+        if guilty is not None:
+            break
+    system.q[:] = start
+    if guilty is not None:
+        return f"{placed(guilty)}: {_when(system)}"
+    told = f"{tested(system, int(report[contract.WHERE]))}: {_when(system)}"
+    return f"{told}, though no statement by itself lacks a value. Look at END, HMAX and ERROR too"
+
+
+def _without_value(system: System) -> Any:
+    """The first statement that brings not-a-number or infinity into the equations."""
+    groups, count = system.group, system.sizes[contract.NG]
+    system.sizes[contract.NG] = 1
+    guilty = None
+    for k, group in enumerate(system.kernels.groups):
+        for instance, (statement, _) in enumerate(group.instances):
+            system.group = system.one_instance(groups, k, instance)
+            system.run(RESIDUAL, contract.ACCELERATION)
+            if guilty is None and not np.isfinite(system.F[: system.nz]).all():
+                guilty = statement
+    system.group, system.sizes[contract.NG] = groups, count
+    return guilty
+
+
+def _static(system: System) -> str:
+    """What is out of balance."""
+    system.u[:], system.a[:] = 0.0, 0.0
+    system.run(RESIDUAL, contract.STATIC)
+    rows = np.abs(system.F[: system.nz])
+    worst = int(np.argmax(np.where(np.isfinite(rows), rows, np.inf)))
+    return f"{equation(system, worst)}: {_where(system)}, out of balance by {rows[worst]:.3g}"
+
+
+def _chattering(system: System) -> str:
+    guilty = system.guarded["watch"][int(system.search[CULPRIT])][0]
+    return f"{placed(guilty)}: {_when(system)}"
+
+
+def _torn(system: System) -> str:
+    """The row that was left out and opens."""
+    return f"{equation(system, int(system.report[contract.TORN]))}: {_where(system)}, it opens"
+
+
+def _broken_motion(system: System) -> str:
+    """What drives a constraint and cannot be followed."""
+    found = system.broken
+    return f"{placed(found.statement)}: at t = {found.time:.9g}, the {found.quantity} {found.how}"
+
+
+def _unstable(system: System) -> str:
+    return f"{_when(system)}; stable are steps up to {system.control[LIMIT]:.3g}"
+
+
+def _not_kinematic(system: System) -> str:
+    ways = "one degree" if system.dof == 1 else f"{system.dof} degrees"
+    return f"{_where(system)}, the model has {ways} of freedom"
+
+
+REASONS = {
+    Outcome.STEP_TOO_SMALL: _error,
+    Outcome.NEWTON_FAILED: _corrector,
+    Outcome.SINGULAR_ACCELERATION: _singular_mass,
+    Outcome.UNDETERMINED: _undetermined,
+    Outcome.NOT_FINITE: _not_finite,
+    Outcome.NO_EQUILIBRIUM: _static,
+    Outcome.CHATTERING: _chattering,
+    Outcome.UNSTABLE: _unstable,
+    Outcome.BROKEN_MOTION: _broken_motion,
+    Outcome.TORN: _torn,
+    Outcome.NOT_KINEMATIC: _not_kinematic,
+    Outcome.INITIAL_CONDITIONS_FAILED: _where,
+}

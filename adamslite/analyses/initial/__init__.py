@@ -1,0 +1,1 @@
+"""Initial conditions: assembled positions and velocities, and constraints that are redundant."""

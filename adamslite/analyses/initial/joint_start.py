@@ -1,0 +1,84 @@
+"""Initial conditions of joints and motions: IC, ICTRAN, ICROT, ICDISP hold at the start only.
+
+A displacement asked for is what a MOTION with FUNCTION = d demands of the positions, a speed what a
+MOTION/VELOCITY with FUNCTION = v demands of the velocities.  The model with these motions added is
+assembled once, and its state handed on.  What is not asked for stays as the bodies say: the speed
+of a freedom with a displacement alone, and of a MOTION/ACCELERATION without ICVEL.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.analyses.initial.conditions import Unclosed, initial_conditions, speed_defects
+from adamslite.elements.motion import Motion
+from adamslite.equations.system import System
+from adamslite.kernels.compile import compile_model
+from adamslite.language.expression import Num
+from adamslite.language.statement import Statement
+from adamslite.model.model import assemble
+
+
+class Condition(Motion):
+    """A motion that holds at the start only; ``name`` says what of the deck it stands for."""
+
+    @property
+    def label(self) -> str:
+        """``ICDISP of MOTION/1``"""
+        return self.name or super().label
+
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """What is asked for."""
+        return ("speed" if self.level == "VELOCITY" else "displacement",)
+
+
+def start_of_joints(system: System, progress: Any) -> Unclosed | None:
+    """Put the state that satisfies all constraints and initial conditions into ``system``."""
+    deck = system.model.deck
+    active = [s for s in deck.statements if hasattr(s, "initial") and deck.is_active(s)]
+    extra = [condition for s in active for condition in _conditions(s)]
+    coasting = [s for s in active if _coasts(s)]
+    if not extra and not coasting:
+        return None
+    model = assemble(deck.with_more(extra))
+    asked = System(compile_model(model, progress), system.stabilised)
+    free = [c for c in extra if c.level == "DISPLACEMENT"] + coasting
+    unclosed = initial_conditions(asked, free)
+    if unclosed is None:
+        _take_speeds(asked, coasting)
+        system.adopt(asked)
+    return unclosed
+
+
+def _conditions(statement: Statement) -> list[Condition]:
+    """A motion for each displacement and each speed asked for."""
+    where = {"joint": statement.key}
+    if statement.keyword == "MOTION":
+        where = {"joint": statement.joint, "i": statement.i, "j": statement.j}
+    return [
+        Condition(
+            id=f"{statement.label} {field} {level}",
+            name=f"{field.upper()} of {statement.label}",
+            axis=freedom or None,
+            level=level,
+            function=Num(value),
+            spans=statement.spans,
+            **where,
+        )
+        for field, freedom, *values in statement.initial()
+        for level, value in zip(("DISPLACEMENT", "VELOCITY"), values, strict=True)
+        if value is not None
+    ]
+
+
+def _coasts(statement: Statement) -> bool:
+    """Whether a motion begins with the speed that the bodies have."""
+    return getattr(statement, "level", "") == "ACCELERATION" and statement.icvel is None
+
+
+def _take_speeds(system: System, motions: list[Any]) -> None:
+    """Let the states s of accelerations start at the speeds there are: their rows are dq/dt - s."""
+    for motion, (defect,) in zip(motions, speed_defects(system, motions), strict=True):
+        place = system.starts[system.node_at["DIFF", motion.state.upper()]] - system.n
+        system.z[place] += defect

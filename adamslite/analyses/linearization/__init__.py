@@ -1,0 +1,1 @@
+"""Small motions about a state: eigenvalues, modes and state matrices."""

@@ -1,0 +1,164 @@
+"""Linearisation: eigenvalues, modes and state matrices about the present, moving or resting, state.
+
+Small motions are those that an :class:`~adamslite.analyses.linearization.observer.Observer` sees;
+how they follow from the equations of motion, constraints and all, says
+:mod:`adamslite.analyses.linearization.first_order`.  For an observer to whom nothing of that
+changes with time the eigenvalues are the exponents of small motions.  Otherwise they are those of
+the coefficients of this moment, and the result says so.
+
+Undamped frequencies come from the columns of y and p' alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import Any
+
+import numpy as np
+
+from adamslite.analyses.initial.conditions import consistent_velocities
+from adamslite.analyses.linearization.course import Course
+from adamslite.analyses.linearization.eigen import eigen
+from adamslite.analyses.linearization.first_order import Ports
+from adamslite.analyses.linearization.observer import Observer
+from adamslite.equations.system import System
+
+VARIES = "the linear system varies with time: its eigenvalues are those of this moment only"
+
+
+@dataclass(frozen=True)
+class Linearization:
+    """The model about one state.
+
+    Parameters
+    ----------
+    eigenvalues : (nx,) complex array
+        Of the state matrix, by frequency [1/time].
+    undamped : (f,) array
+        Natural frequencies without damping [1/time], imaginary parts as negative numbers for
+        unstable directions (a negative stiffness gives -sqrt|k/m|).
+    modes : (n, nx) complex array
+        Body coordinates (translations, rotation vectors) of each eigenvector, relative to the
+        observer's body and in the observer's axes.
+    state_matrix : (nx, nx) array
+        A of x' = A x + B w with x = (y, p, s), see
+        :mod:`adamslite.analyses.linearization.first_order`.
+    input_matrix, output_matrix, feedthrough : (nx, nw), (nv, nx), (nv, nw) arrays
+        B, C, D; w is added to the VARIABLEs of PINPUT, v = C x + D w is those of POUTPUT.
+    coordinates, inputs, outputs : tuple of str
+        Names of the rows of ``modes``, of w and of v.
+    steady : bool
+        Whether A to D stay as they are while the motion goes on.
+    steady_for : str
+        Where they do not, for which observer they would ("RM=5"); empty if for none.
+    """
+
+    eigenvalues: np.ndarray
+    undamped: np.ndarray
+    modes: np.ndarray
+    state_matrix: np.ndarray
+    coordinates: tuple[str, ...]
+    input_matrix: np.ndarray
+    output_matrix: np.ndarray
+    feedthrough: np.ndarray
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    steady: bool = True
+    steady_for: str = ""
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """|eigenvalue|/(2 pi) [cycles per time]."""
+        return np.abs(self.eigenvalues) / (2 * pi)
+
+    @property
+    def damping_ratios(self) -> np.ndarray:
+        """-Re/|eigenvalue|; zero where the eigenvalue vanishes."""
+        size = np.abs(self.eigenvalues)
+        shares = -self.eigenvalues.real / np.where(size > 0.0, size, 1.0)
+        return np.where(np.abs(shares) > 0.0, shares, 0.0)
+
+    @property
+    def note(self) -> str:
+        """What to know before the eigenvalues are used; empty for a steady state."""
+        if self.steady:
+            return ""
+        return f"{VARIES}; it is steady {self.steady_for}" if self.steady_for else VARIES
+
+
+def linear(
+    system: System,
+    inputs: tuple[Any, ...] = (),
+    outputs: tuple[Any, ...] = (),
+    damping: bool = True,
+    relative_to: Any = None,
+) -> Linearization:
+    """Linearise ``system`` at the state it holds.
+
+    Parameters
+    ----------
+    inputs, outputs : tuple of ids
+        VARIABLEs, those of a PINPUT and of a POUTPUT.
+    damping : bool
+        Without it, what depends on velocities is left out.
+    relative_to : id
+        A MARKER: motions are those that an observer on its body sees, with its axes.
+    """
+    places = [
+        tuple(system.starts[system.node_at["VARIABLE", key]] for key in keys)
+        for keys in (inputs, outputs)
+    ]
+    system.unfold()
+    consistent_velocities(system)
+    observer = Observer(system, relative_to)
+    course = Course(system, Ports(*places, damping))
+    found, steady = course.seen(observer)
+    steady_for = "" if steady else course.steady_observer(observer)
+    nx = found.whole.shape[1] - len(inputs)
+    a, b, c, d = (
+        found.whole[rows, columns]
+        for rows in (slice(0, nx), slice(nx, None))
+        for columns in (slice(0, nx), slice(nx, None))
+    )
+    n, speeds = found.basis.positions[0], found.basis.speeds[0]
+    f, g = speeds.shape
+    values, vectors = eigen(a)
+    order = np.lexsort((-values.imag, np.round(np.abs(values), 12)))
+    moved, speed = found.q @ vectors[:f], found.q @ speeds @ vectors[f : f + g]
+    modes = (n @ vectors[:f] * _factors(moved, speed))[:, order]
+    modes[observer.own] = 0.0
+    return Linearization(
+        values[order], _undamped(found.minus_stiffness), modes, a, _names(system), b, c, d,
+        *(tuple(f"VARIABLE/{key}" for key in keys) for keys in (inputs, outputs)),
+        steady, steady_for,
+    )  # fmt: skip
+
+
+def _factors(places: np.ndarray, speeds: np.ndarray) -> np.ndarray:
+    """What to scale eigenvectors (nx,) with, given their motion in ground axes (n, nx): to unit
+    size, their largest displacement real and positive.
+    """
+    size = np.sqrt((np.abs(places) ** 2 + np.abs(speeds) ** 2).sum(axis=0))
+    factors = 1.0 / np.where(size > 0.0, size, 1.0) + 0j
+    for k, column in enumerate(places.T):
+        far = np.abs(column)
+        if far.any():
+            largest = column[np.flatnonzero(far > (1.0 - 1e-6) * far.max())[0]]
+            factors[k] *= largest.conjugate() / abs(largest)
+    return factors
+
+
+def _undamped(minus_stiffness: np.ndarray) -> np.ndarray:
+    """Signed roots of the eigenvalues of M^-1 K, smallest first."""
+    squares = np.sort(np.linalg.eigvals(-minus_stiffness).real)
+    return np.sign(squares) * np.sqrt(np.abs(squares))
+
+
+def _names(system: System) -> tuple[str, ...]:
+    words = ("x", "y", "z", "rx", "ry", "rz")
+    return tuple(
+        f"{body.statement.label}.{word}"
+        for body in system.model.bodies
+        for word in words[: body.width]
+    )

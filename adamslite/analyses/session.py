@@ -1,0 +1,386 @@
+"""One run: a model, its present state, and the commands carried out on it one after another.
+
+::
+
+    INTEGRATOR EQUILIBRIUM              settings from here on
+    SIMULATE                            statics, dynamics, kinematics, initial conditions, from
+                                        where it stands
+    ACTIVATE DEACTIVATE redefinitions   another deck; bodies, multipliers and states keep their
+                                        values
+    LINEAR                              the model about the present state
+    STOP                                the end
+"""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Iterable
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+
+from adamslite.analyses.choose import METHODS, Choice, choose
+from adamslite.analyses.clock.clock import Clock
+from adamslite.analyses.clock.drives import without_value
+from adamslite.analyses.dynamic import Settings, run_dynamic
+from adamslite.analyses.initial.conditions import (
+    Unclosed,
+    consistent_velocities,
+    initial_conditions,
+    settle_variables,
+)
+from adamslite.analyses.initial.joint_start import start_of_joints
+from adamslite.analyses.initial.redundancy import leave_out_redundant
+from adamslite.analyses.kinematic import run_kinematic
+from adamslite.analyses.output_times import output_times
+from adamslite.analyses.plane import in_its_plane
+from adamslite.analyses.static import StaticSettings, run_static
+from adamslite.equations.engine import ACCELERATIONS, RECORD, engine
+from adamslite.equations.result_columns import columns
+from adamslite.equations.system import System
+from adamslite.gc_pause import uncollected
+from adamslite.integrators import contract
+from adamslite.kernels.compile import Kernels, compile_model
+from adamslite.model.model import Model, assemble
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Linearized
+
+# Outcomes after which the rank of the constraints is looked at again.
+STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
+# Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
+# pivot.
+PIVOTING = 1500
+
+
+class Session:
+    """The state of a run.
+
+    Attributes
+    ----------
+    system : System
+        Equations and present state.
+    time : float
+        Time reached.
+    pieces : list of (times, values)
+        What the analyses wrote; ``names`` are the columns.
+    late_setup : float
+        CPU [s] of compiling an integrator when a run first needed it.
+    outcome, unclosed
+        How the last analysis ended; the constraint that stayed open, if one did.
+    linearizations : list of Linearized
+    balances : list of Balance
+        What the audits of dynamic analyses found.
+    """
+
+    def __init__(
+        self,
+        scene: Any,
+        progress: Any,
+        flags: dict[str, Any],
+        without: frozenset[str] = frozenset(),
+        audited: bool = False,
+    ) -> None:
+        self.progress = progress
+        self.flags = flags
+        self.audited = audited
+        self.kernels = _compiled(scene, progress, without, audited)
+        self.without = without | self.kernels.model.without
+        engine(ACCELERATIONS, progress)
+        self.settings = replace(Settings(), **flags)
+        self.chosen = Choice(self.settings)
+        self.statics = StaticSettings()
+        self.time, self.late_setup = 0.0, 0.0
+        self.pieces: list[tuple[np.ndarray, np.ndarray]] = []
+        self.names: tuple[str, ...] = ()
+        self.outcome = Outcome.DONE
+        self.unclosed: Unclosed | None = None
+        self.linearizations: list[Linearized] = []
+        self.balances: list[Any] = []
+        self.counts = np.zeros(len(contract.COUNTS), dtype=np.int64)
+        self.ways_to_fall = 0
+        self.out_of_law: dict[str, str] = {}
+        self.assembled: list[str] = []
+        self.speeds: list[str] = []
+        self._system: System | None = None
+        self._began_static = False
+
+    @property
+    def deck(self) -> Any:
+        return self.kernels.model.deck
+
+    @property
+    def system(self) -> System:
+        """The equations, numbered and assembled when first needed."""
+        if self._system is None:
+            self._system = self._numbered(False)
+            if self._is_driven():
+                self.unclosed = start_of_joints(self._system, self.progress)
+                self._assemble()
+        return self._system
+
+    def prepare(self) -> None:
+        """Number and assemble the equations now."""
+        self._system = self.system
+
+    def execute(self, commands: Iterable[Any]) -> None:
+        """Carry out commands until one stops the run or an analysis ends early."""
+        for command in commands:
+            if command.keyword == "STOP" or self.outcome is not Outcome.DONE:
+                return
+            action = getattr(self, f"_do_{command.keyword.lower()}", None)
+            if action is not None:
+                action(command)
+            elif command.keyword not in ("FILE", "END"):
+                self._change(self.deck.after(command))
+
+    # settings
+
+    def _do_integrator(self, command: Any) -> None:
+        self.settings = replace(_updated(self.settings, command), **self.flags)
+
+    def _do_equilibrium(self, command: Any) -> None:
+        self.statics = _updated(StaticSettings() if command.default else self.statics, command)
+
+    def _do_kinematics(self, command: Any) -> None:
+        """Its tolerances are looser than what is done anyway."""
+
+    # changes of the model
+
+    def _do_activate(self, command: Any) -> None:
+        self._change(self.deck.after(command))
+
+    _do_deactivate = _do_activate
+
+    def _change(self, deck: Any) -> None:
+        """Go on with another deck from the present state."""
+        old = self._system
+        self.kernels = compile_model(assemble(deck, self.without), self.progress, self.audited)
+        self._system = None
+        if old is not None:
+            self._system = self._numbered(False)
+            self._system.adopt(old)
+            if self._is_driven():
+                self._assemble()
+
+    # analyses
+
+    def _do_simulate(self, command: Any) -> None:
+        self.system.unfold()
+        times = output_times(command, self.time)
+        kind = command.kind
+        if kind == "TRANSIENT":
+            kind = "KINEMATICS" if self.system.dof == 0 else "DYNAMICS"
+        if self.outcome is not Outcome.DONE:
+            return
+        {
+            "DYNAMICS": self._dynamics,
+            "STATICS": self._statics,
+            "KINEMATICS": self._kinematics,
+            "INITIAL_CONDITIONS": self._initial,
+        }[kind](times)
+
+    def _dynamics(self, times: np.ndarray) -> None:
+        system = self.system
+        if self.outcome is not Outcome.DONE:
+            return
+        if self._began_static:
+            self.unclosed = consistent_velocities(system)
+            if self.unclosed:
+                self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
+                return
+        self.chosen = choose(system, times, self.settings)
+        if system.sizes[contract.SI2] and system.holonomic and self.chosen.settings.form != "SI2":
+            system = self._system = self._renumbered(system, system.pivoting)
+        began = clock.process_time()
+        engine(METHODS[self.chosen.settings.method], self.progress)
+        self.late_setup += clock.process_time() - began
+        self.outcome = self._integrated(times)
+        self.time = float(system.report[contract.AT])
+        self._keep(times, False)
+        if self.outcome in STALLED and self._rank_changed():
+            self._continue(times)
+
+    def _integrated(self, times: np.ndarray) -> Outcome:
+        system, settings = self._system, self.chosen.settings
+
+        def run() -> Outcome:
+            return run_dynamic(system, times, settings, self.progress, self.audited)
+
+        outcome = run() if "plane" in self.without else in_its_plane(system, run)
+        self._note_balance()
+        return outcome
+
+    def _note_balance(self) -> None:
+        if self.audited:
+            # Few runs are audited, and what an audit needs takes a while to load.
+            from adamslite.analyses.audit import balance
+
+            self.balances.append(balance(self._system))
+
+    def _rank_changed(self) -> bool:
+        """Look again for redundant rows; True when they are others than before."""
+        before = list(self._system.dropped)
+        leave_out_redundant(self._system)
+        return self._system.dropped != before
+
+    def _continue(self, times: np.ndarray) -> None:
+        """Go on from where a run stalled to the rest of its output times."""
+        self.outcome = Outcome.DONE
+        rest = np.append(self.time, times[times > self.time])
+        self.outcome = run_dynamic(
+            self._system, rest, self.chosen.settings, self.progress, self.audited
+        )
+        self._note_balance()
+        self.time = float(self._system.report[contract.AT])
+        self._keep(rest, False, own_start=False)
+
+    def _statics(self, times: np.ndarray) -> None:
+        system = self.system
+        for time in times if len(times) > 1 else [self.time]:
+            if self.outcome is not Outcome.DONE:
+                return
+            system.settings[contract.T] = time
+            system.start_record(np.array([time]))
+            self.outcome = self._at_rest(system)
+            self.time = float(time)
+            system.report[contract.AT] = time
+            if self.outcome is Outcome.DONE:
+                system.run(RECORD, 0)
+                self._keep(np.array([time]), True)
+
+    def _kinematics(self, times: np.ndarray) -> None:
+        system = self.system
+        if system.dof > 0:
+            self.outcome = Outcome.NOT_KINEMATIC
+            return
+        self.outcome, self.unclosed = run_kinematic(system, times)
+        self.time = float(system.report[contract.AT])
+        self._keep(times, False)
+
+    def _initial(self, times: np.ndarray) -> None:
+        self._kinematics_free(self.system)
+
+    def _kinematics_free(self, system: System) -> None:
+        """Record the assembled state with its accelerations."""
+        system.settings[contract.T] = self.time
+        system.start_record(np.array([self.time]))
+        if system.run(ACCELERATIONS) != contract.DONE:
+            self.outcome = Outcome.UNDETERMINED
+            return
+        system.run(RECORD, 0)
+        self._keep(np.array([self.time]), True)
+
+    def _do_linear(self, command: Any) -> None:
+        ports = (("PINPUT", command.pinput), ("POUTPUT", command.poutput))
+        inputs, outputs = (
+            self.deck.find(kind, key).variables if key is not None else () for kind, key in ports
+        )
+        from adamslite.analyses.linearization.linear import linear
+
+        found = linear(self.system, inputs, outputs, not command.nodamping, command.rm)
+        self.linearizations.append(Linearized(command.kind, command.file, self.time, found))
+
+    # helpers
+
+    def _numbered(self, pivoting: bool, form: str = "") -> System:
+        with uncollected():
+            stabilised = (form or self.settings.form) == "SI2"
+            system = System(self.kernels, stabilised, pivoting)
+        system.settings[contract.T] = self.time
+        return system
+
+    def _is_driven(self) -> bool:
+        """Whether all that drives a constraint has a value at this time."""
+        self._system.broken = without_value(Clock(self.kernels), self.time)
+        if self._system.broken:
+            self.outcome = Outcome.BROKEN_MOTION
+            self._system.report[contract.AT] = self.time
+        return self._system.broken is None
+
+    def _assemble(self) -> None:
+        """Consistent positions and velocities, redundant rows, a regular elimination order."""
+        system = self._system
+        self.unclosed = self.unclosed or initial_conditions(system)
+        if self.unclosed:
+            self.outcome = self.unclosed.outcome
+            return
+        if self.time == 0.0 and not self.pieces:
+            self.assembled = system.largest_changes()
+            self.speeds = system.changed_speeds()
+        settle_variables(system)
+        leave_out_redundant(system)
+        system.settings[contract.T] = self.time
+        small = system.nz <= PIVOTING and not system.pivoting
+        if small and system.run(ACCELERATIONS) != contract.DONE and np.isfinite(system.F).all():
+            self._system = self._renumbered(system, True)
+
+    def _renumbered(self, system: System, pivoting: bool) -> System:
+        """``system`` in its present state, in the formulation of the method that AUTO picked, or
+        eliminated with row pivoting.
+        """
+        other = self._numbered(pivoting, self.chosen.settings.form)
+        other.adopt(system)
+        other.drop(system.dropped)
+        return other
+
+    def _at_rest(self, system: System) -> Outcome:
+        """Equilibrium.
+
+        A stiffness alone, other than with the inertia of a time step, need not have regular blocks
+        on its diagonal: elimination without pivoting may blow up where the equilibrium is regular.
+        """
+        start = [(x, x.copy()) for x in (system.q, system.z, system.base)]
+        outcome = run_static(system, self.statics)
+        self.ways_to_fall = int(system.report[contract.WAYS_TO_FALL])
+        if outcome is Outcome.DONE or system.pivoting or system.nz > PIVOTING:
+            return outcome
+        for array, before in start:
+            array[:] = before
+        spare = self._renumbered(system, True)
+        outcome = run_static(spare, self.statics)
+        self.ways_to_fall = int(spare.report[contract.WAYS_TO_FALL])
+        system.adopt(spare)
+        system.count += spare.count
+        return outcome
+
+    def _keep(self, times: np.ndarray, static: bool, own_start: bool = True) -> None:
+        """Append the records made; a state both ends and begins two analyses only once.
+
+        ``own_start``: the first time was asked for.
+        """
+        system = self._system
+        self.out_of_law = system.out_of_law() | self.out_of_law
+        made = int(system.count[contract.RECORDS])
+        row = system.nw + int(system.sizes[contract.N_OUT])
+        self.names, values = columns(system, system.record[: made * row].reshape(made, row))
+        times = times[:made].copy()
+        if not own_start:
+            times, values = times[1:], values[1:]
+            made -= 1
+        last = self.pieces[-1] if self.pieces else (times[:0], values[:0])
+        if made > 0 and len(last[0]) and last[0][-1] == times[0]:
+            if self._began_static:
+                self.pieces[-1] = (last[0][:-1], last[1][:-1])
+            else:
+                times, values = times[1:], values[1:]
+        self._began_static = static
+        self.pieces.append((times, values))
+        self.counts += system.count
+
+
+def _updated(settings: Any, command: Any) -> Any:
+    """Settings with what the command gives."""
+    given = {
+        each.name: getattr(command, each.name)
+        for each in fields(settings)
+        if command.given(each.name) and getattr(command, each.name) is not None
+    }
+    return replace(settings, **given)
+
+
+def _compiled(scene: Any, progress: Any, without: frozenset[str], audited: bool) -> Kernels:
+    if isinstance(scene, Kernels):
+        return scene
+    model = scene if isinstance(scene, Model) else assemble(scene, without)
+    return compile_model(model, progress, audited)

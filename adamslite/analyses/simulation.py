@@ -1,0 +1,304 @@
+"""A deck in, results out."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from adamslite.analyses.buckling import buckled
+from adamslite.analyses.doubts import doubts
+from adamslite.analyses.failure_report import explain
+from adamslite.analyses.initial.redundancy import row_name
+from adamslite.analyses.output_times import spread_times
+from adamslite.analyses.session import Session
+from adamslite.analyses.slack import compressed
+from adamslite.equations.unknown_names import placed
+from adamslite.errors import RunFailed, UsageError
+from adamslite.integrators import contract
+from adamslite.kernels.compile import Kernels
+from adamslite.language.integrator_arguments import without_effect
+from adamslite.language.messages import did_you_mean
+from adamslite.model.model import Model
+from adamslite.model.reduction import left_off
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
+
+# Few runs need them, and they take a while to load.
+if TYPE_CHECKING:
+    from adamslite.analyses.audit import Balance
+    from adamslite.analyses.linearization.linear import Linearization
+
+SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
+CAPPED = (
+    "held at 2: stiff vibrations without damping limited the steps of higher orders; HHT suits "
+    "such a scene"
+)
+FASTER = (
+    "an expression of TIME changes faster or more often than the steps of this run can follow, and "
+    "what it does may be missed; a shorter HMAX shows it"
+)
+# Columns named that hold entries without a value.
+MOST_TOLD = 5
+COUNTED = (
+    "steps", "rejected", "newton", "jacobians", "factorizations", "events", "restarts",
+)  # fmt: skip
+
+
+def simulate(
+    scene: Any,
+    end: float | None = None,
+    steps: int | None = None,
+    integrator: str | None = None,
+    formulation: str | None = None,
+    error: float | None = None,
+    hmax: float | None = None,
+    commands: Iterable[Any] = (),
+    progress: Any = None,
+    no_reduction: Iterable[str] = (),
+    audit: bool = False,
+    confirm: bool = False,
+) -> Results:
+    """Run a deck, a model or its kernels.
+
+    Parameters
+    ----------
+    scene : Deck, Model or Kernels
+        What to simulate.
+    end, steps : float, int
+        End time and number of output steps; instead of SIMULATE.
+    integrator, formulation, error, hmax
+        Win over INTEGRATOR in ``commands``, which wins over the deck.
+    commands : iterable of Statement
+        Statements of a command file.
+    progress : callable
+        ``progress(time, end)`` from time to time; ``progress.say(sentence)`` before a long wait.
+    no_reduction : iterable of str
+        Rules of :mod:`adamslite.model.reduction` not to apply; ``points`` and ``variables`` of a
+        model are settled when it is assembled.
+    audit : bool
+        Follow the balance of energy; elastic elements of ready kernels are not followed.
+    confirm : bool
+        Run again, more tightly and by another method, and say how far the results agree.
+
+    Raises
+    ------
+    UsageError
+        When nothing says how long to run, or there is no such rule.
+    """
+    began, commands = clock.process_time(), tuple(commands)
+    asked = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
+    flags = {name: value for name, value in asked.items() if value is not None}
+    plan = _plan(_deck(scene), commands, end, steps)
+    session = Session(scene, progress, flags, left_off(no_reduction), audit)
+    first = next((k for k, c in enumerate(plan) if c.keyword not in SETTINGS), len(plan))
+    session.execute(plan[:first])
+    session.prepare()
+    ready = clock.process_time()
+    session.execute(plan[first:])
+    late, now = session.late_setup, clock.process_time()
+    cpu = (ready - began + late, now - ready - late)
+    results = _results(session, cpu)
+    if not confirm:
+        return results
+    more = {"commands": commands, "progress": progress, "no_reduction": no_reduction}
+    return _confirmed(results, session, partial(simulate, scene, end, steps, **more))
+
+
+def _confirmed(results: Results, session: Session, again: Callable[..., Results]) -> Results:
+    """The results with what their witnesses say."""
+    from adamslite.analyses.confirmation import confirmation
+
+    found = confirmation(results, session.chosen.settings, again)
+    summary = {**results.summary, "confirmed": found.confirmed, "verdict": found.verdict}
+    return replace(results, confirmation=found, summary=summary)
+
+
+def linearize(
+    scene: Any, commands: Iterable[Any] = (), time: float | None = None, rm: Any = None
+) -> Linearization:
+    """The model about one state: at the end of the commands, or integrated to ``time``.
+
+    Without commands, and without SIMULATE in the deck, the assembled start is taken as it is.  A
+    LINEAR command decides state and observer; otherwise, and with ``rm``, a MARKER on whose body
+    the observer stands, it is the last state.
+
+    Raises
+    ------
+    UsageError
+        When there is no such MARKER.
+    RunFailed
+        When the state could not be reached.
+    """
+    from adamslite.analyses.linearization.linear import linear
+
+    deck = _deck(scene)
+    marker = None if rm is None else _marker(deck, str(rm))
+    session = Session(scene, None, {})
+    plan = [s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM")]
+    session.execute([*plan, *commands, *([_Simulation(time, None, None)] if time else [])])
+    system = session.system
+    if session.outcome is not Outcome.DONE:
+        raise RunFailed(explain(system, session.outcome, session.unclosed))
+    made = session.linearizations
+    return made[-1].model if made and rm is None else linear(system, relative_to=marker)
+
+
+def _marker(deck: Any, word: str) -> Any:
+    """The id of a MARKER that a flag names."""
+    found = deck.find("MARKER", int(word) if word.isdigit() else word)
+    if found is None:
+        hint = did_you_mean(word, deck.names.known("MARKER"))
+        raise UsageError(f"--rm: there is no MARKER/{word}" + (f"; {hint}" if hint else ""))
+    return found.key
+
+
+class _Simulation:
+    """A dynamic run asked for by flags instead of a SIMULATE statement."""
+
+    keyword, kind = "SIMULATE", "DYNAMICS"
+
+    def __init__(self, end: float, steps: int | None, dtout: float | None) -> None:
+        spread_times(0.0, end, steps, dtout)
+        self.end, self.steps, self.dtout, self.duration = end, steps, dtout, None
+
+
+def _plan(deck: Any, commands: tuple[Any, ...], end: float | None, steps: int | None) -> list[Any]:
+    """What to carry out: settings of the deck, then the commands, or the deck's own SIMULATE
+    statements.
+
+    Flags replace the last SIMULATE/DYNAMICS and what follows it.
+    """
+    own = [s for s in deck.statements if s.keyword in SETTINGS]
+    runs = [s for s in deck.statements if s.keyword == "SIMULATE"]
+    given = any(c.keyword == "SIMULATE" for c in commands)
+    plan = [*own, *([] if given else runs), *commands]
+    runs = [k for k, s in enumerate(plan) if s.keyword == "SIMULATE"]
+    if end is None and not runs:
+        raise UsageError(Outcome.NO_END_TIME.value)
+    if end is None and steps is None:
+        return plan
+    last = plan[runs[-1]] if runs else None
+    stop = end if end is not None else last.end if last.end is not None else last.duration
+    dtout = last.dtout if last is not None and steps is None else None
+    chosen = steps if steps is not None or end is not None or last is None else last.steps
+    keep = [s for k, s in enumerate(plan) if k not in runs[-1:]]
+    return [*(s for s in keep if s.keyword != "STOP"), _Simulation(stop, chosen, dtout)]
+
+
+def _deck(scene: Any) -> Any:
+    if isinstance(scene, Kernels):
+        return scene.model.deck
+    return scene.deck if isinstance(scene, Model) else scene
+
+
+def _without_value(time: np.ndarray, names: tuple[str, ...], values: np.ndarray) -> str:
+    """The first columns with entries that are no numbers, and since when."""
+    columns = np.flatnonzero(~np.isfinite(values).all(axis=0))
+    told = [
+        f"{names[k]} at t = {time[np.flatnonzero(~np.isfinite(values[:, k]))[0]]:.6g}"
+        for k in columns[:MOST_TOLD]
+    ]
+    more = f" and {len(columns) - MOST_TOLD} more" if len(columns) > MOST_TOLD else ""
+    return "; ".join(told) + more
+
+
+def _results(session: Session, cpu: tuple[float, float]) -> Results:
+    system = session.system
+    time = np.concatenate([t for t, _ in session.pieces]) if session.pieces else np.zeros(0)
+    width = len(session.names)
+    values = (
+        np.concatenate([v for _, v in session.pieces]) if session.pieces else np.zeros((0, width))
+    )
+    counts = dict(zip(contract.COUNTS, map(int, session.counts), strict=True))
+    summary = {
+        "outcome": session.outcome.name, "t_end": session.time, "dof": system.dof,
+        **{name: counts[name] for name in COUNTED}, "setup_cpu_s": cpu[0], "solve_cpu_s": cpu[1],
+        "max_violation": float(system.report[contract.VIOLATION]),
+    }  # fmt: skip
+    if session.balances:
+        worst = _worst(session.balances)
+        summary |= {"energy_gap": worst.gap, "energy_gap_explained": worst.explained}
+    done = session.outcome is Outcome.DONE
+    without = _without_value(time, session.names, values)
+    meta = {**_meta(session), **({"no number": without} if without else {})}
+    return Results(
+        time=time, names=session.names, values=values, meta=meta, outcome=session.outcome,
+        message="" if done else explain(system, session.outcome, session.unclosed), summary=summary,
+        linearizations=tuple(session.linearizations), balances=tuple(session.balances),
+    )  # fmt: skip
+
+
+def _meta(session: Session) -> Mapping[str, str]:
+    deck, settings = session.deck, session.chosen.settings
+    units = deck.single("UNITS").names
+    hurried = ", ".join(dict.fromkeys(map(placed, session.system.hurried)))
+    return {
+        "deck": deck.title,
+        "deck hash": deck.hash,
+        "units": " ".join(units) if units else "as in the deck",
+        "integrator": f"{settings.method} {settings.form} ERROR={settings.error:g}",
+        **({"integrator chosen": session.chosen.reason} if session.chosen.reason else {}),
+        **_notes(session),
+        **_beyond(session),
+        **({"time": f"{hurried}: {FASTER}"} if hurried else {}),
+    }
+
+
+def _doubt(session: Session) -> str:
+    names, values = session.names, np.concatenate([v for _, v in session.pieces])
+    time = np.concatenate([t for t, _ in session.pieces])
+    said = doubts(session.system, session.chosen.settings, session.counts, names, values)
+    grown = buckled(session.kernels.model, names, time, values)
+    return "; ".join(sentence for sentence in (grown, said) if sentence)
+
+
+def _worst(balances: list[Balance]) -> Balance:
+    """Of several analyses."""
+    return max(balances, key=lambda b: (not b.closes, b.gap / max(b.explained, 1e-300)))
+
+
+def _beyond(session: Session) -> dict[str, str]:
+    """Elements that the motion carried beyond what their law is meant for."""
+    told = [f"{label} {how}" for label, how in session.out_of_law.items()]
+    if session.pieces:
+        values = np.concatenate([v for _, v in session.pieces])
+        time = np.concatenate([t for t, _ in session.pieces])
+        slack = compressed(session.deck, session.names, time, values) if len(time) else ""
+        told += [slack] if slack else []
+    return {"out of its law": "; ".join(told)} if told else {}
+
+
+def _notes(session: Session) -> dict[str, str]:
+    """What the program did to the model on its own: moves of the assembly, rows left out."""
+    found = {}
+    if session.assembled:
+        found["assembled"] = "moved " + "; ".join(session.assembled)
+    if session.speeds:
+        changed = "; ".join(session.speeds)
+        found["start speeds"] = f"contradicted constraints, the nearest that do not: {changed}"
+    if session.ways_to_fall:
+        ways = "one way" if session.ways_to_fall == 1 else f"{session.ways_to_fall} ways"
+        found["equilibrium"] = f"unstable in {ways}: the least disturbance makes it leave"
+    if session.system.report[contract.ORDER_CAPPED]:
+        found["order"] = CAPPED
+    if session.balances:
+        found["energy"] = str(_worst(session.balances))
+    steps = int(session.counts[contract.STEPS])
+    if steps and (doubt := _doubt(session)):
+        found["accuracy"] = doubt
+    told = {each.model.note: each.time for each in reversed(session.linearizations)}
+    if varying := [f"t = {t:g}: {note}" for note, t in reversed(told.items()) if note]:
+        found["linear"] = "; ".join(varying)
+    idle = list(without_effect(session.chosen.settings.method, session.settings.given))
+    if idle:
+        told = "; ".join(f"{word}, because {reason}" for word, reason in idle)
+        found["integrator arguments"] = f"without effect: {told}"
+    rows = [row_name(session.system, row) for row in session.system.dropped]
+    if rows:
+        found["redundant"] = f"left out, their reactions are zero: {'; '.join(rows)}"
+    return found

@@ -1,0 +1,271 @@
+"""What a deck asks of one of its cables: the chain as a :class:`Demand`."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import sqrt
+from statistics import mean
+from typing import Any
+
+from adamslite.cables.chain_finder import Chain, Link, free_length, law_of
+from adamslite.cables.demand import Demand
+from adamslite.cables.estimate import Travel, from_ways
+from adamslite.cables.payout_law import Unknown
+from adamslite.cables.posture import Body, Posture, Vector, dot, norm, plus
+from adamslite.language.expression import Call, Ref, calls
+
+INSTANTS = 100
+# A small part of a time or a length, to form rates with.
+SHORT = 1e-6
+# Of what feeds the whole cable a section gets at least this share.
+FED = 1e-5
+ZERO = (0.0, 0.0, 0.0)
+# Directions that differ by less are the same.
+ASIDE = 1e-6
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A chain, what is asked of it, and how it is made.
+
+    `form` is "fixed" without payout, "paper" or "ale"; `gained` is the range of dm/m0 of an inner
+    node.
+    """
+
+    chain: Chain
+    demand: Demand
+    form: str
+    gained: tuple[float, float]
+
+
+def asked(chain: Chain, posture: Posture, end: float) -> Asked:
+    """The figures of a chain in a run from 0 to `end`."""
+    deck, ucf = posture.deck, posture.deck.ucf
+    n = len(chain.links)
+    free = sum(link.free for link in chain.links)
+    stiffness = mean(link.stiffness * link.free for link in chain.links)
+    masses = [deck.find(*node).mass / ucf for node in chain.inner]
+    travel, gained = _travel(chain, posture, end)
+    shape = _Shape(chain, posture)
+    tips = [deck.find(*node).mass / ucf for node in _tips(chain)]
+    weight = mean(masses) * n * abs(shape.pull)
+    drawn = mean(max(link.pull, 0.0) for link in chain.links)
+    hung = (max(tips, default=0.0) + mean(masses) * n / 2) * norm(deck.gravity)
+    carried = drawn if drawn > ASIDE * stiffness else hung
+    jump, across = shape.jumps()
+    if travel.jump:
+        jump = abs(travel.jump - shape.leaves(chain))
+        jump = jump if jump > 0.01 * travel.speed else 0.0
+    demand = Demand(
+        stiffness=stiffness, density=mean(masses) * n / free, length=free, tension=carried,
+        moved=sum(tips), pull=abs(shape.pull), least=travel.least, most=travel.most,
+        speed=travel.speed, acceleration=travel.acceleration, known=travel.known, jump=jump,
+        across=across, straight=shape.straight, wave=shape.wave(across, free),
+        bounces=abs(drawn - hung) > 0.5 * weight + 0.01 * hung and not chain.is_ring, end=end,
+        tied=_is_tied(deck),
+    )  # fmt: skip
+    return Asked(chain, demand, _form(chain, posture, travel), gained)
+
+
+def _tips(chain: Chain) -> list[Body]:
+    """Ends that are bodies."""
+    return (
+        [] if chain.is_ring else [e for e in (chain.nodes[0], chain.nodes[-1]) if e[0] != "MARKER"]
+    )
+
+
+def _is_tied(deck: Any) -> bool:
+    """Whether anything keeps accelerations from following mass by mass."""
+    return any(
+        hasattr(each, "constraints")
+        or each.keyword in ("DIFF", "VFORCE")
+        or (each.keyword == "PART" and not each.ground)
+        for each in deck.statements
+    )
+
+
+# ---- payout ----------------------------------------------------------------------------------
+
+
+def _travel(chain: Chain, posture: Posture, end: float) -> tuple[Travel, tuple[float, float]]:
+    """Payout over the run, and the range of dm/m0."""
+    laws: dict[Any, list[Link]] = {}
+    for link in chain.links:
+        laws.setdefault(law_of(link), []).append(link)
+    fed = [(same[0], len(same)) for same in laws.values()]
+    fed = [(link, count) for link, count in fed if _is_fed(link, posture)]
+    known = all([posture.follow(call) for link, _ in fed for call in _drivers(link, posture)])
+
+    def payout(time: float) -> float:
+        posture.at(time)
+        return sum(count * free_length(link, posture) for link, count in fed)
+
+    try:
+        if not fed or not end > 0:
+            return Travel(known=not fed), (0.0, 0.0)
+        if not known:
+            speed = abs(payout(end * SHORT) - payout(0.0)) / (end * SHORT)
+            speed = speed if speed * end > SHORT * payout(0.0) else 0.0
+            return Travel(speed=speed, jump=speed, known=False), (_gained(chain, posture),) * 2
+        times = [end * i / INSTANTS for i in range(INSTANTS + 1)]
+        ways = [payout(time) for time in times]
+        gains = []
+        for way in (min(ways), max(ways)):
+            posture.at(times[ways.index(way)])
+            gains.append(_gained(chain, posture))
+        return from_ways([way - ways[0] for way in ways], end / INSTANTS, 0.0), tuple(gains)
+    except Unknown:
+        return Travel(known=False), (0.0, 0.0)
+    finally:
+        posture.at(0.0)
+
+
+def _drivers(link: Link, posture: Posture) -> set[Call]:
+    """What its force depends on besides the distance of its own ends."""
+    own = {link.i, link.j}
+    return {
+        call
+        for node in link.components
+        for call in posture.measures(node)
+        if not own & {arg.id for arg in call.args if _is_marker(arg)}
+    }
+
+
+def _is_fed(link: Link, posture: Posture) -> bool:
+    """Whether its free length may change in the run."""
+    if any(posture.depends_on_time(node) for node in link.components):
+        return True
+    before = free_length(link, posture)
+    for call in _drivers(link, posture):
+        posture.given[call] = posture.value(call) + SHORT * link.free
+        posture.forget()
+        after = free_length(link, posture)
+        del posture.given[call]
+        posture.forget()
+        if abs(after - before) > FED * SHORT * link.free:
+            return True
+    return False
+
+
+def _gained(chain: Chain, posture: Posture) -> float:
+    """dm/m0 of the node in the middle: minus the slope of its VFORCE by its acceleration."""
+    node = chain.inner[len(chain.inner) // 2]
+    total = 0.0
+    for force in _grows(posture, node):
+        for component in (force.fx, force.fy, force.fz):
+            for call in set(calls(component, "ACCX", "ACCY", "ACCZ")):
+                if posture.body(call.args[0].id) == node:
+                    total = max(total, _slope(component, call, posture))
+    return total * posture.deck.ucf / posture.deck.find(*node).mass
+
+
+def _slope(component: Any, call: Call, posture: Posture) -> float:
+    values = []
+    for posture.given[call] in (0.0, 1.0):
+        values.append(posture.value(component))
+    del posture.given[call]
+    return values[0] - values[1]
+
+
+def _grows(posture: Posture, node: Body) -> Iterator[Any]:
+    """VFORCEs on a body."""
+    return (f for f in posture.deck.of("VFORCE") if posture.body(f.i) == node)
+
+
+def _form(chain: Chain, posture: Posture, travel: Travel) -> str:
+    """What feeds mass into the nodes: nothing, the paper's term, or the flow through them."""
+    node = chain.inner[len(chain.inner) // 2]
+    near = {posture.body(k.i) for k in chain.links} | {posture.body(k.j) for k in chain.links}
+    forms = set()
+    for force in _grows(posture, node):
+        found = [c for n in (force.fx, force.fy, force.fz) for c in calls(n)]
+        if any(c.name.startswith("ACC") for c in found):
+            seen = {posture.body(a.id) for c in found for a in c.args if _is_marker(a)}
+            forms.add("ale" if len(seen & near) > 1 else "paper")
+    return forms.pop() if len(forms) == 1 else "fixed"
+
+
+def _is_marker(node: Any) -> bool:
+    return isinstance(node, Ref) and node.kind == "MARKER" and node.id != 0
+
+
+# ---- shape -----------------------------------------------------------------------------------
+
+
+class _Shape:
+    """How a chain lies and moves at the start."""
+
+    def __init__(self, chain: Chain, posture: Posture) -> None:
+        self.places = [_place(chain, posture, k) for k in range(len(chain.nodes))]
+        self.speeds = [
+            ZERO if node[0] == "MARKER" else posture.velocity(node) for node in chain.nodes
+        ]
+        steps = [plus(b, a, -1.0) for a, b in zip(self.places, self.places[1:], strict=False)]
+        self.along = [_unit(step) for step in steps]
+        across_ends = plus(self.places[-1], self.places[0], -1.0)
+        self.line = _unit(across_ends) if norm(across_ends) > 0 else ZERO
+        self.pull = dot(posture.deck.gravity, self.line)
+        self.gravity = posture.deck.gravity
+
+    @property
+    def straight(self) -> bool:
+        """Whether gravity and all places and speeds are along one line."""
+        fastest = max(map(norm, self.speeds))
+        return (
+            norm(self.line) > 0
+            and all(norm(_aside(a, self.line)) < ASIDE for a in self.along)
+            and all(norm(_aside(v, self.line)) <= ASIDE * fastest for v in self.speeds)
+            and norm(_aside(self.gravity, self.line)) <= ASIDE * norm(self.gravity)
+        )
+
+    def jumps(self) -> tuple[float, float]:
+        """Differences of speed along and across that stand between two neighbours, not spread over
+        the chain.
+        """
+        steps = [plus(b, a, -1.0) for a, b in zip(self.speeds, self.speeds[1:], strict=False)]
+        along = [abs(dot(d, t)) for d, t in zip(steps, self.along, strict=True)]
+        across = [norm(_aside(d, t)) for d, t in zip(steps, self.along, strict=True)]
+        return tuple(max(each) if max(each) > 0.5 * sum(each) else 0.0 for each in (along, across))
+
+    def leaves(self, chain: Chain) -> float:
+        """Speed at which the far end moves away along the cable; cable comes in at the other."""
+        if chain.nodes[0][0] == "MARKER" or chain.nodes[-1][0] != "MARKER":
+            return dot(self.speeds[-1], self.along[-1])
+        return -dot(self.speeds[0], self.along[0])
+
+    def wave(self, across: float, free: float) -> float:
+        """Wave number of the drawn shape and speeds, by the free length: sqrt of sum y"^2 over sum
+        y'^2, across the line.
+        """
+        if across or self.straight:
+            return 0.0
+        h = free / len(self.along)
+        numbers = [_wave_number(values, h, self.line) for values in (self.places, self.speeds)]
+        return max(numbers)
+
+
+def _wave_number(values: list[Vector], h: float, line: Vector) -> float:
+    ys = [_aside(v, line) for v in values]
+    slopes = [plus(b, a, -1.0) for a, b in zip(ys, ys[1:], strict=False)]
+    bends = [plus(b, a, -1.0) for a, b in zip(slopes, slopes[1:], strict=False)]
+    first = sum(dot(s, s) for s in slopes)
+    if first <= (ASIDE * max(map(norm, values))) ** 2:
+        return 0.0
+    return sqrt(sum(dot(b, b) for b in bends) / first) / h
+
+
+def _place(chain: Chain, posture: Posture, k: int) -> Vector:
+    """Of node k: its marker in the link before or after it."""
+    link = chain.links[min(k, len(chain.links) - 1)]
+    i_first = link.ends[0] == chain.nodes[min(k, len(chain.links) - 1)]
+    first, second = (link.i, link.j) if i_first else (link.j, link.i)
+    return posture.place(first if k < len(chain.links) else second)
+
+
+def _unit(a: Vector) -> Vector:
+    size = norm(a)
+    return plus(ZERO, a, 1 / size) if size > 0 else ZERO
+
+
+def _aside(a: Vector, line: Vector) -> Vector:
+    """The part of a across the line."""
+    return plus(a, line, -dot(a, line))

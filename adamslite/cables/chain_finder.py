@@ -1,0 +1,233 @@
+"""Cables in a deck: masses in a row, joined by springs along the lines between them.
+
+A spring is any SFORCE, VFORCE or SPRINGDAMPER that pulls two bodies together by a force which grows
+when one of them is moved away along the line. Its stiffness k and free length H come from moving
+it; EA = k H. A row ends at the ground, at a body that is joined to one or to more than two others,
+and at a body much heavier or lighter than the masses in between.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from statistics import median
+from typing import Any
+
+from adamslite.cables.payout_law import Unknown
+from adamslite.cables.posture import GROUND, Body, Posture, dot, norm, plus
+from adamslite.language.expression import Node, Ref, rebuild
+
+Key = int | str
+# Fewer springs in a row are springs, not a cable.
+FEWEST = 3
+# Masses and stiffnesses of one cable differ by less than this factor.
+ALIKE = 4.0
+# Lengths of a spring, in parts of the drawn one, at which its pull is looked at: a slack one pulls
+# when it is long enough, a contact never.
+STRETCHES = (0.0, 1e-2, 0.1)
+DIFFERENCE = 1e-5
+# The same where a free length is looked for that may have grown.
+LONGER = (0.0, 1e-2, 0.1, 1.0, 10.0, 100.0)
+
+
+@dataclass(frozen=True)
+class Link:
+    """A spring between two bodies; `components` are its force on I, along the line or in ground.
+
+    `pull` [force] is its tension as drawn, `stiffness` [force/length], `free` its free length.
+    """
+
+    statement: Any
+    i: Key
+    j: Key
+    ends: tuple[Any, Any]
+    components: tuple[Node, ...]
+    pull: float = 0.0
+    stiffness: float = 0.0
+    free: float = 0.0
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Springs in a row; node k is between link k - 1 and link k, the first and last are ends."""
+
+    links: tuple[Link, ...]
+    nodes: tuple[Any, ...]
+
+    @property
+    def is_ring(self) -> bool:
+        """Whether it closes on itself."""
+        return self.nodes[0] == self.nodes[-1]
+
+    @property
+    def inner(self) -> tuple[Body, ...]:
+        """The masses between the ends."""
+        return self.nodes[1:] if self.is_ring else self.nodes[1:-1]
+
+
+def chains(deck: Any, posture: Posture) -> list[Chain]:
+    """All cables of a deck, in the order of their first springs."""
+    joined: dict[Any, dict[Any, Link]] = {}
+    for link in _links(deck, posture):
+        a, b = link.ends
+        joined.setdefault(a, {})[b] = link
+        joined.setdefault(b, {})[a] = link
+    masses = {node: _mass(deck, node) for node in joined}
+    two = [m for node, m in masses.items() if m and len(joined[node]) == 2]
+    middle = median(two) if two else 0.0
+
+    def inside(node: Any) -> bool:
+        m = masses[node]
+        return bool(m) and len(joined[node]) == 2 and middle / ALIKE < m < middle * ALIKE
+
+    return [chain for chain in _rows(joined, inside) if _is_cable(chain)]
+
+
+def _links(deck: Any, posture: Posture) -> Iterator[Link]:
+    for drawn in _candidates(deck, posture):
+        try:
+            found = _sprung(drawn, posture)
+        except Unknown:
+            found = None
+        if found:
+            yield found
+
+
+def _candidates(deck: Any, posture: Posture) -> Iterator[Link]:
+    """Forces along a line between two bodies."""
+    for force in deck.of("SFORCE"):
+        if force.kind == "TRANSLATIONAL" and not force.actiononly and deck.is_active(force):
+            yield from _between(posture, force, force.j, (force.function,))
+    for spring in deck.of("SPRINGDAMPER"):
+        if spring.kind == "TRANSLATIONAL" and deck.is_active(spring):
+            yield from _between(posture, spring, spring.j, ())
+    for force in deck.of("VFORCE"):
+        if force.rm == 0 and deck.is_active(force):
+            components = (force.fx, force.fy, force.fz)
+            for j in _other_ends(posture, force.i, components):
+                yield from _between(posture, force, j, components)
+
+
+def _between(posture: Posture, force: Any, j: Key, components: Sequence[Node]) -> Iterator[Link]:
+    ends = tuple(
+        body if body is not GROUND else ("MARKER", marker)
+        for marker in (force.i, j)
+        for body in [posture.body(marker)]
+    )
+    if ends[0] != ends[1] and any(end[0] != "MARKER" for end in ends):
+        yield Link(force, force.i, j, ends, tuple(components))
+
+
+def _other_ends(posture: Posture, i: Key, components: Sequence[Node]) -> set[Key]:
+    """The marker that a force on I depends on, when it is one: the other end of a spring."""
+    own = posture.body(i)
+    found = {
+        arg.id
+        for node in components
+        for call in posture.measures(node)
+        for arg in call.args
+        if isinstance(arg, Ref) and arg.kind == "MARKER" and arg.id != 0
+        and posture.body(arg.id) != own
+    }  # fmt: skip
+    return found if len(found) == 1 else set()
+
+
+def _sprung(link: Link, posture: Posture) -> Link | None:
+    """The link with its stiffness and free length; None when it is no spring that pulls."""
+    spring = link.statement
+    line = plus(posture.place(link.i), posture.place(link.j), -1.0)
+    drawn = norm(line)
+    if not link.components:
+        free = spring.length + spring.force / spring.k if spring.k > 0 else 0.0
+        return _made(link, spring.k * (drawn - free), spring.k, free) if free > 0 else None
+    if not drawn > 0 or not _pull(link, posture, STRETCHES[-1]) > 0:
+        return None
+    found = _stiff(link, posture, STRETCHES)
+    if found is None or not found[1] > 0:
+        return None
+    taut = found[0] * (drawn - found[1])
+    return _made(link, taut if taut > 0 else _pull(link, posture, 0.0), *found)
+
+
+def _stiff(link: Link, posture: Posture, stretches: Sequence[float]) -> tuple[float, float] | None:
+    """Stiffness and free length at the first stretch at which it is stiff."""
+    drawn = norm(plus(posture.place(link.i), posture.place(link.j), -1.0))
+    for stretch in stretches:
+        pull = _pull(link, posture, stretch)
+        more = _pull(link, posture, stretch + DIFFERENCE)
+        stiffness = (more - pull) / (DIFFERENCE * drawn)
+        if stiffness > 0:
+            return stiffness, (1 + stretch) * drawn - pull / stiffness
+    return None
+
+
+def _made(link: Link, pull: float, stiffness: float, free: float) -> Link:
+    return Link(
+        link.statement, link.i, link.j, link.ends, link.components, pull, stiffness, free
+    )  # fmt: skip
+
+
+def _pull(link: Link, posture: Posture, stretch: float) -> float:
+    """Its tension when it is drawn longer by a share of its length."""
+    line = plus(posture.place(link.i), posture.place(link.j), -1.0)
+    body, sense = posture.body(link.i), 1.0
+    if body is GROUND:
+        body, sense = posture.body(link.j), -1.0
+    posture.shift[body] = plus((0.0, 0.0, 0.0), line, sense * stretch)
+    posture.forget()
+    try:
+        values = tuple(posture.value(node) for node in link.components)
+    finally:
+        posture.shift.clear()
+        posture.forget()
+    return -values[0] if len(values) == 1 else -dot(values, line) / norm(line)
+
+
+def free_length(link: Link, posture: Posture) -> float:
+    """Of a link in the posture as it is now: raises :class:`Unknown`."""
+    found = _stiff(link, posture, LONGER) if link.components else (0.0, link.free)
+    if found is None:
+        raise Unknown
+    return found[1]
+
+
+def law_of(link: Link) -> Any:
+    """What all links that are one law between different markers have in common."""
+    own = {link.i: "I", link.j: "J"}
+
+    def rename(node: Node) -> Node:
+        if isinstance(node, Ref) and node.kind == "MARKER":
+            return Ref("MARKER", own.get(node.id, node.id))
+        return node
+
+    if link.components:
+        return tuple(rebuild(node, rename) for node in link.components)
+    return link.free
+
+
+def _mass(deck: Any, node: Any) -> float:
+    found = deck.find(*node) if node[0] != "MARKER" else None
+    return (found.mass or 0.0) if found else 0.0
+
+
+def _rows(joined: dict[Any, dict[Any, Link]], inside: Any) -> Iterator[Chain]:
+    used: set[int] = set()
+    ends = [node for node in joined if not inside(node)]
+    for start in [*ends, *joined]:
+        for after, link in joined[start].items():
+            if id(link.statement) in used:
+                continue
+            nodes, links = [start, after], [link]
+            used.add(id(link.statement))
+            while inside(nodes[-1]) and nodes[-1] != start:
+                node, last = nodes[-1], links[-1]
+                after, link = next((n, k) for n, k in joined[node].items() if k is not last)
+                nodes.append(after)
+                links.append(link)
+                used.add(id(link.statement))
+            yield Chain(tuple(links), tuple(nodes))
+
+
+def _is_cable(chain: Chain) -> bool:
+    if len(chain.links) < FEWEST:
+        return False
+    rigidities = [link.stiffness * link.free for link in chain.links]
+    return max(rigidities) < ALIKE * min(rigidities)

@@ -1,0 +1,55 @@
+"""The deck of a cable scene: head, wheels, cable, run."""
+
+from adamslite.cables.estimate import Moves
+from adamslite.cables.geometry import Span
+from adamslite.cables.lumps import start_speed, write_lumps
+from adamslite.cables.model_choice import Choice
+from adamslite.cables.requests import write_requests
+from adamslite.cables.span_statements import write_pieces
+from adamslite.cables.statements import cable_variables, head, number, tail
+from adamslite.cables.vocabulary import Spec
+from adamslite.cables.wheels import wheel
+
+NOTES = {
+    1: "Level 1: the cable is rigid and has no mass; GCON/p.f is the force in span p.",
+    2: "Level 2: sections of fixed length; the section at a wheel takes what comes over it.",
+    3: "Level 3: all sections of a span grow with the payout.",
+}
+BRUTE = "Brute force: sections of fixed length run over the rims and off the winches."
+
+
+def write(spec: Spec, spans: list[Span], moves: Moves, choice: Choice) -> str:
+    """The deck.
+
+    Parameters
+    ----------
+    spec : Spec
+        With the turn of every wheel.
+    spans : list of Span
+        One between every two stations.
+    moves : Moves
+    choice : Choice
+
+    Returns
+    -------
+    str
+    """
+    brute = choice.form == "brute"
+    notes = f"{BRUTE if brute else NOTES[choice.level]} Chosen: {'; '.join(choice.reasons)}."
+    notes += f" Figures: {'; '.join(choice.figures)}."
+    gravity = ", ".join(
+        f"{n}={number(g)}" for n, g in zip(("IGRAV", "JGRAV", "KGRAV"), spec.gravity, strict=True)
+        if g
+    )  # fmt: skip
+    lines = ["", "PART/1, GROUND", *([f"ACCGRAV/{gravity}"] if gravity else [])]
+    text = head(spec.title, notes, *lines, author="adamslite cable")
+    if choice.level > 1:
+        text += cable_variables(spec.cable, spec.cable.damping)
+    speed = start_speed(spec, moves)
+    for i, each in enumerate(spec.route):
+        text += wheel(spec, i, speed) if each.is_wheel else ""
+    if brute or spec.bends:
+        text += write_lumps(spec, spans, choice, moves)
+    else:
+        text += write_pieces(spec, spans, choice) + write_requests(spec, spans, choice)
+    return text + tail(choice.integrator, spec.end, spec.steps)

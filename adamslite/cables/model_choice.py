@@ -1,0 +1,239 @@
+"""The model a description asks for, or what its wanted accuracy needs by the estimates of
+:mod:`adamslite.cables.demand`, and why.
+
+Sections that run over a rim of radius R need (h/R)**2/24 < p/50 besides: the payout of a drum with
+h = R/10, R/14, R/20 and R/28 swings by 1.5, 0.9, 0.25 and 0.12 % of the tension.
+"""
+
+from dataclasses import dataclass
+from math import ceil, sqrt
+
+from adamslite.cables import demand
+from adamslite.cables.advice import advise
+from adamslite.cables.demand import Demand
+from adamslite.cables.estimate import Moves, moving_mass
+from adamslite.cables.geometry import Span, add, dot, reaches, unit, wrap
+from adamslite.cables.messages import Faults
+from adamslite.cables.vocabulary import Spec
+from adamslite.cables.wheels import slipping
+
+# An arc that is long enough to have to be round [rad].
+LIES = 0.1
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Level, form of level 3, sections of the longest span and integrator; the figures and reasons
+    they rest on."""
+
+    level: int
+    form: str
+    elements: int
+    integrator: str
+    figures: tuple[str, ...]
+    reasons: tuple[str, ...]
+
+
+def tensions(spec: Spec, spans: list[Span]) -> list[float]:
+    """Of every span at rest, at its lower or free end [N]: what hangs there, or the pretension."""
+    first, last = spec.route[0], spec.route[-1]
+    if spec.closed:
+        return [max(spec.cable.pretension, spec.cable.running(spec.speed))] * len(spans)
+    down = -dot(spec.gravity, spans[0].along), dot(spec.gravity, spans[-1].along)
+    ends = [first.mass * max(0.0, down[0]), last.mass * max(0.0, down[1])]
+    # Free wheels pass a tension on; nothing at an end takes what the other end, or a block, asks.
+    blocks = [_block(spec, spans, i) for i, each in enumerate(spec.route)
+              if each.is_carried or each.slides]  # fmt: skip
+    ends[0] = ends[0] or ends[1] or max(blocks, default=0.0)
+    ends[1] = ends[1] or ends[0]
+    carried = [ends[0], *[sum(ends) / 2] * (len(spans) - 2), ends[1]]
+    if len(spans) == 1:
+        carried = [max(ends)]
+    return [max(each, spec.cable.pretension) for each in carried]
+
+
+def _block(spec: Spec, spans: list[Span], i: int) -> float:
+    """Tension that holds the wheel or weight of station i, which is free to move, against gravity,
+    with half of the cable beside a weight [N]."""
+    before, behind = (spans[p] for p in spec.beside(i))
+    pull = add(behind.along, before.along, -1)
+    size = dot(pull, pull)
+    mass = spec.route[i].mass
+    if spec.route[i].slides:
+        mass += spec.cable.density * (before.length + behind.length) / 2
+    if spec.route[i].haul:
+        along = unit(add(behind.finish, before.start, -1))
+        pull = add(pull, along, -dot(pull, along))
+        size = dot(pull, pull)
+    return max(0.0, -mass * dot(spec.gravity, pull) / size) if size else 0.0
+
+
+def needs_brute(spec: Spec, spans: list[Span]) -> list[str]:
+    """What only sections that run over the rims can show."""
+    if not any(each.is_wheel for each in spec.route):
+        return []
+    found = ["the route is closed"] if spec.closed else []
+    found += ["nothing holds its bends"] if spec.bends else []
+    for i, each in enumerate(spec.route):
+        if each.teeth:
+            found.append(f"the wheel of station {i + 1} has teeth")
+        if each.is_wheel and not spec.is_end(i) and each.gives_way:
+            if not spec.closed and not _stays_tangent(spec, spans, i):
+                found.append(f"the wheel of station {i + 1} moves across its cable")
+    return found
+
+
+def _stays_tangent(spec: Spec, spans: list[Span], i: int) -> bool:
+    """Whether wheel i moves along both its spans, so that they touch it where they did, or on
+    links that follow."""
+    each = spec.route[i]
+    near = [spec.route[j] for p in spec.beside(i) for j in spec.pairs[p]]
+    if all(other.leans or not other.is_wheel for other in near):
+        return True
+    if each.mount:
+        return False
+    ways = [each.slide] if each.is_carried else []
+    ways += [tuple(float(k == j) for k in range(3)) for j in range(3) if each.motion[j]]
+    return all(
+        any(v) and abs(dot(unit(v), spans[p].along)) > 1 - 1e-9
+        for v in ways for p in spec.beside(i)
+    )  # fmt: skip
+
+
+def choose(spec: Spec, spans: list[Span], moves: Moves, faults: Faults) -> Choice:
+    """The model the description asks for, or what `accuracy` needs."""
+    p, of = spec.accuracy, asked(spec, spans, moves)
+    figures = _figures(of, moves)
+    level, why = _level(spec, spans, of, moves)
+    form, why_form = _form(spec, spans, of, level, moves)
+    count, why_count = _elements(spec, spans, of, form)
+    if spec.level == 1 and demand.fronts(of, p) + (["rushes"] * (of.rushes > p)):
+        told = "; ".join((*demand.waves(of, p), *figures))
+        faults.add("rigid-has-waves", ("model", "level"), figures=told,
+                   level=demand.elastic_level(of))  # fmt: skip
+    bad = demand.paper_fails(of, p)
+    if spec.form == "paper" and level == 3 and bad:
+        told = "; ".join(_said(bad, moves))
+        faults.add("paper-not-valid", ("model", "form"), accuracy=p, figures=told)
+    if level == 3 and form != "brute" and 0.0 < of.tension and of.speed > of.c_t:
+        faults.add("faster-than-waves", ("model", "level"), speed=of.speed, wave=of.c_t,
+                   tension=of.tension)  # fmt: skip
+    method, why_method = _integrator(spec, of, level, form, count)
+    reasons = [*why, *why_form, *([why_count] if level > 1 else []), why_method]
+    return Choice(level, form, count, method, tuple(figures), tuple(reasons))
+
+
+def asked(spec: Spec, spans: list[Span], moves: Moves) -> Demand:
+    """What the longest span is asked for; it lies on its line unless something strikes it."""
+    cable = spec.cable
+    longest = max(reaches(spec, spans))
+    weight = max(abs(dot(spec.gravity, span.along)) for span in spans)
+    tied = any(each.feeds or each.is_moved or each.kind == "body" for each in spec.route)
+    return Demand(
+        stiffness=cable.stiffness, density=cable.density, length=longest,
+        tension=min(tensions(spec, spans)) + cable.density * longest * weight / 2,
+        moved=moving_mass(spec), pull=weight, least=moves.least, most=moves.most,
+        speed=moves.speed, acceleration=moves.acceleration, known=moves.known, jump=moves.jump,
+        across=moves.across, straight=not (moves.across or spec.bends), end=spec.end, tied=tied,
+    )  # fmt: skip
+
+
+def _said(found: list[str], moves: Moves) -> list[str]:
+    """The same, with what is not known before the run by its name."""
+    told = [moves.unknown if moves.unknown and "not known" in text else text for text in found]
+    return list(dict.fromkeys(told))
+
+
+def _level(spec: Spec, spans: list[Span], of: Demand, moves: Moves) -> tuple[int, list[str]]:
+    """The level, and why."""
+    if spec.level:
+        return spec.level, [f"level {spec.level} as asked"]
+    if spec.form == "brute" or needs_brute(spec, spans):
+        return 3, []
+    against = demand.rigid_fails(of, spec.accuracy)
+    against += ["a long run feeds the cable"] * any(each.kind == "run" for each in spec.route)
+    against += ["the cable may slip on its wheels"] * any(
+        slipping(i, spec) for i in range(len(spec.route))
+    )
+    if not against:
+        return 1, ["level 1: no estimate speaks against a rigid cable without mass"]
+    level = demand.elastic_level(of)
+    goes = moves.unknown or "cable goes over wheels"
+    why = goes if level == 3 else "no cable goes over a wheel"
+    return level, [f"not level 1: {', '.join(_said(against, moves))}", f"level {level}: {why}"]
+
+
+def _form(
+    spec: Spec, spans: list[Span], of: Demand, level: int, moves: Moves
+) -> tuple[str, list[str]]:
+    """The form, and why."""
+    if spec.form != "auto":
+        return spec.form, [f"form {spec.form} as asked"] if level > 1 else []
+    across = needs_brute(spec, spans)
+    if across and level > 1:
+        return "brute", [f"form brute: {'; '.join(across)}"]
+    if level < 3:
+        return "paper", []
+    bad = _said(demand.paper_fails(of, spec.accuracy), moves)
+    if bad:
+        return "ale", [f"form ale: the paper's misses {spec.accuracy:g} by {', '.join(bad)}"]
+    return "paper", [f"form paper: its estimates are all below {spec.accuracy:g}"]
+
+
+def _elements(spec: Spec, spans: list[Span], of: Demand, form: str) -> tuple[int, str]:
+    """Sections of the longest span, and what asks for them."""
+    if spec.pitch:
+        return max(round(of.length / spec.pitch), 1), "a section for every link"
+    if spec.elements:
+        return spec.elements, f"{spec.elements} sections as asked"
+    found = demand.needed(of, spec.accuracy)
+    radii = [each.radius for i, each in enumerate(spec.route) if _lies_on(spec, spans, i)]
+    if form == "brute" and radii:
+        found["for (h/R)^2/24 on a rim"] = of.length / min(radii) / sqrt(0.48 * spec.accuracy)
+    bends = [spec.route[i].radius for i in spec.bends]
+    if bends:
+        found["for one on a radius of a bend"] = of.length / min(bends)
+    why = max(found, key=lambda name: found[name])
+    count = min(ceil(found[why]), demand.MOST)
+    return count, f"{count} sections {why}"
+
+
+def _lies_on(spec: Spec, spans: list[Span], i: int) -> bool:
+    """Whether cable lies on a good part of wheel i."""
+    each = spec.route[i]
+    return each.is_wheel and (spec.is_end(i) or wrap(spec, spans, i) > LIES)
+
+
+def _integrator(spec: Spec, of: Demand, level: int, form: str, count: int) -> tuple[str, str]:
+    """The INTEGRATOR statement after its keyword, and why."""
+    p = spec.accuracy
+    error, says = advise(of, p).error, "p T H/EA"
+    if level == 1:
+        method, why = "GSTIFF, SI2", "constraints, and no fast vibration"
+        error, says = 1e-7 * of.longest, "1e-7 l"
+    elif form == "brute":
+        method, why = "HHT", "contacts, and sections that vibrate fast"
+        radius = min((each.radius for each in spec.route if each.is_wheel), default=1.0)
+        error, says = (of.length / count) ** 2 / (800 * radius), "a tenth of what a node sinks in"
+    elif any(slipping(i, spec) for i in range(len(spec.route))):
+        method, why = "HHT", "friction that a small sliding speed builds up"
+    elif spec.bends and not of.tied:
+        method, why = "VERLET", "masses that nothing ties together and nothing keeps in place"
+    elif demand.is_sudden(of, p) and not of.tied and not spec.has_run:
+        method, why = "VERLET", "fronts in masses that nothing ties together"
+    elif demand.has_waves(of, p) or spec.has_run:
+        method, why = "HHT", "waves are followed with many small steps"
+    else:
+        method, why = "GSTIFF, SI2", "slow motion, which long steps of high order follow"
+    error, says = (spec.error, "as asked") if spec.error else (error, says)
+    name = method.split(",")[0]
+    return f"{method}, ERROR={error:.1E}", f"{name}: {why}; ERROR {says}"
+
+
+def _figures(of: Demand, moves: Moves) -> list[str]:
+    return [
+        f"axial waves {of.c:.4g} m/s, transit of the longest span {1e3 * of.transit:.3g} ms",
+        f"transverse waves {of.c_t:.4g} m/s at {of.tension:.4g} N",
+        f"travel {of.least:.4g} to {of.most:.4g} m, up to {of.speed:.4g} m/s"
+        if of.known else moves.unknown,
+    ]  # fmt: skip

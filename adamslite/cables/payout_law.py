@@ -1,0 +1,90 @@
+"""A payout law or an engine's force: an expression of the deck, worked out here as well."""
+
+import math
+from collections.abc import Callable, Mapping
+from operator import add, mul, neg, pow, sub, truediv
+
+from adamslite.cables.messages import Faults
+from adamslite.cables.toml_places import Path
+from adamslite.language.expression import Call, Node, Num, Op, Ref, Time
+
+OPERATORS = {"+": add, "-": sub, "*": mul, "/": truediv, "**": pow, "neg": neg}
+
+
+class Unknown(Exception):
+    """The value of this expression is not known before the run."""
+
+
+class NoValue(Unknown):
+    """There is none, before the run or in it: a division by zero, the root of a negative number."""
+
+
+def _step(shape: Callable[[float], float]) -> Callable[..., float]:
+    def value(x: float, x0: float, h0: float, x1: float, h1: float) -> float:
+        return h0 + (h1 - h0) * shape(min(max((x - x0) / (x1 - x0), 0.0), 1.0))
+
+    return value
+
+
+def _if(x: float, *values: float) -> float:
+    return values[1 + (x > 0) - (x < 0)]
+
+
+FUNCTIONS: dict[str, Callable[..., float]] = {
+    "ABS": abs, "MIN": min, "MAX": max, "IF": _if,
+    **{n: getattr(math, n.lower()) for n in ("SIN", "COS", "TAN", "EXP", "SQRT", "TANH", "LOG")},
+    "STEP": _step(lambda d: d * d * (3 - 2 * d)),
+    "STEP5": _step(lambda d: d**3 * (10 - 15 * d + 6 * d * d)),
+    "HAVSIN": _step(lambda d: (1 - math.cos(math.pi * d)) / 2),
+}  # fmt: skip
+
+
+def parse(text: str, path: Path, faults: Faults) -> Node | None:
+    """The expression; None after saying what is wrong with it."""
+    from adamslite.deck.deck import read
+    from adamslite.language.diagnostics import DeckError
+
+    moved = path[-1] in ("force", "torque", "pull")
+    names = "VARIABLE/S, FUNCTION=0\nVARIABLE/SD, FUNCTION=0\n" if moved else ""
+    deck = f"a law\nPART/1, GROUND\n{names}VARIABLE/1, FUNCTION={text}\n"
+    try:
+        return read(deck).of("VARIABLE")[-1].function
+    except DeckError as fault:
+        for each in fault.errors:
+            faults.add("expression", path, word=path[-1], why=each.message, hint=each.hint)
+        return None
+
+
+def value(node: Node, time: float, named: Mapping[str, float]) -> float:
+    """What the expression is at a time; raises :class:`Unknown`."""
+
+    def look(leaf: Node) -> float:
+        match leaf:
+            case Time():
+                return time
+            case Call("VARVAL", (Ref(_, name),)) if str(name).upper() in named:
+                return named[str(name).upper()]
+        raise Unknown
+
+    return evaluate(node, look)
+
+
+def evaluate(node: Node, look: Callable[[Node], float]) -> float:
+    """Arithmetic and functions of numbers; `look` gives everything else or raises
+    :class:`Unknown`.
+    """
+    if type(node) is Num:
+        return node.value
+    if type(node) is Op:
+        function = OPERATORS[node.op]
+    elif type(node) is Call and node.name in FUNCTIONS:
+        function = FUNCTIONS[node.name]
+    else:
+        return look(node)
+    try:
+        found = function(*[evaluate(arg, look) for arg in node.args])
+    except (ArithmeticError, ValueError):
+        raise NoValue from None
+    if isinstance(found, complex):
+        raise NoValue
+    return found

@@ -1,0 +1,164 @@
+"""What `adamslite check` says about cables: their figures, and the model it would choose."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from math import pi
+from typing import Any
+
+from adamslite.cables.advice import Advice, advise
+from adamslite.cables.chain_demand import Asked, asked
+from adamslite.cables.chain_finder import Chain, chains
+from adamslite.cables.demand import Demand
+from adamslite.cables.payout_law import Unknown
+from adamslite.cables.posture import Posture
+from adamslite.language import units
+
+ACCURACIES = (0.01, 0.001)
+# Cables that differ are told one by one; of more than this many the rest is only counted.
+MOST = 6
+
+
+def about_cables(deck: Any, commands: Iterable[Any] = ()) -> list[str]:
+    """Lines about every cable; none for a deck without."""
+    return _listed(cables(deck, commands))
+
+
+def cables(deck: Any, commands: Iterable[Any] = ()) -> list[Asked]:
+    """The cables of a deck in its run, in SI units when the deck names its units."""
+    posture = Posture(deck)
+    rows = chains(deck, posture)
+    end = _end(deck, commands) if rows else 0.0
+    found = []
+    for chain in rows:
+        try:
+            each = asked(chain, posture, end)
+        except Unknown:
+            continue
+        found.append(replace(each, demand=_in_si(each.demand, deck)))
+    return found
+
+
+def _end(deck: Any, commands: Iterable[Any]) -> float:
+    """When the dynamics end, 0 when nothing says so."""
+    runs = [c for c in commands if c.keyword == "SIMULATE"] or deck.of("SIMULATE")
+    time = reached = 0.0
+    for run in runs:
+        if run.at_once or run.until(time) is None:
+            continue
+        time = run.until(time)
+        reached = time if run.kind in ("DYNAMICS", "TRANSIENT") else reached
+    return reached
+
+
+def _in_si(of: Demand, deck: Any) -> Demand:
+    names = deck.single("UNITS").names
+    if not names:
+        return of
+    force, length, time = units.FORCE[names[0]], units.LENGTH[names[2]], units.TIME[names[3]]
+    mass = force * time**2 / length
+    powers = {
+        "stiffness": force, "density": mass / length, "length": length, "tension": force,
+        "moved": mass, "pull": length / time**2, "least": length, "most": length,
+        "speed": length / time, "acceleration": length / time**2, "jump": length / time,
+        "across": length / time, "wave": 1 / length, "end": time,
+    }  # fmt: skip
+    return replace(of, **{name: getattr(of, name) * factor for name, factor in powers.items()})
+
+
+# ---- the text --------------------------------------------------------------------------------
+
+
+def _listed(found: list[Asked]) -> list[str]:
+    """Equal cables share their lines."""
+    groups: dict[tuple[str, ...], list[Chain]] = {}
+    for each in found:
+        groups.setdefault(tuple(_figures(each)), []).append(each.chain)
+    lines = []
+    for figures, same in list(groups.items())[:MOST]:
+        shown = ", ".join(_ends(chain) for chain in same[:3])
+        more = f" and {len(same) - 3} more" if len(same) > 3 else ""
+        lines += [f"  cable {shown}{more}", *(f"    {line}" for line in figures)]
+    left = len(groups) - MOST
+    return [*lines, *([f"  {left} more cables"] if left > 0 else [])]
+
+
+def _ends(chain: Chain) -> str:
+    if chain.is_ring:
+        return f"round through {_name(chain.nodes[0])}"
+    return f"from {_name(chain.nodes[0])} to {_name(chain.nodes[-1])}"
+
+
+def _name(node: tuple[str, Any]) -> str:
+    return f"{node[0]}/{node[1]}"
+
+
+def _figures(each: Asked) -> list[str]:
+    of = each.demand
+    sections = len(each.chain.links)
+    return [
+        f"cable      {sections} sections of {of.length / sections:.4g} m, EA = {of.stiffness:.4g} N"
+        f", rho = {of.density:.4g} kg/m, {_made(each)}",
+        f"waves      axial {of.c:.4g} m/s, {_time(of.transit)} along it; {_transverse(of)}"
+        + (f"; the run lasts {_time(of.end)}" if of.end else ""),
+        f"sections   vibrate with up to {_frequency(of, sections)}",
+        *_payout(each),
+        *(_advised(of, advise(of, p)) for p in ACCURACIES),
+    ]
+
+
+def _made(each: Asked) -> str:
+    if each.form == "fixed":
+        return "of fixed length"
+    least, most = each.gained
+    if not each.demand.known:
+        return f"{each.form} form, Dm/m0 = {_short(least)} at the start"
+    return f"{each.form} form, Dm/m0 from {_short(least)} to {_short(most)}"
+
+
+def _transverse(of: Demand) -> str:
+    if not of.c_t:
+        return "slack"
+    return f"transverse {of.c_t:.4g} m/s at {of.tension:.4g} N, {_time(of.length / of.c_t)}"
+
+
+def _frequency(of: Demand, sections: int) -> str:
+    found = of.c * sections / of.length / pi
+    return f"{found:.3g} Hz, c/(pi H)"
+
+
+def _payout(each: Asked) -> list[str]:
+    of = each.demand
+    if not of.known:
+        rate = f"; it starts with {_short(of.speed)} m/s" if of.speed else ""
+        return [f"payout     is known after the run only{rate}"]
+    if not of.way:
+        return []
+    shares = f"{_short(of.speed / of.c_t)} of the transverse and " if of.c_t else ""
+    estimates = ", ".join(f"{name} = {_short(value)}" for name, value in of.validity.items())
+    bad = [name for name, value in of.validity.items() if value >= ACCURACIES[0]]
+    held = "its errors are below 1 %" if not bad else "not good for 1 %"
+    return [
+        f"payout     {_short(of.least)} to {of.most:.3g} m, up to {_short(of.speed)} m/s: "
+        f"{shares}{_short(of.speed / of.c)} of the axial wave",
+        f"paper form {estimates}: {held}",
+    ]
+
+
+def _advised(of: Demand, advice: Advice) -> str:
+    label = f"for {100 * advice.accuracy:g} %"
+    if advice.level == 1:
+        model = "level 1, rigid and without mass"
+    else:
+        kind = f", {advice.form} form" if advice.form else ", fixed sections"
+        model = f"level {advice.level}{kind}, {advice.elements} of them"
+    error = "" if advice.integrator == "VERLET" else f" ERROR={advice.error:.0E}"
+    cost = f"; about {advice.cost:.1g} s of CPU" if of.end else ""
+    return f"{label:<10} {model}; {advice.integrator}{error}{cost}"
+
+
+def _time(value: float) -> str:
+    return f"{value:.3g} s" if value >= 1 else f"{1e3 * value:.3g} ms"
+
+
+def _short(value: float) -> str:
+    return f"{value:.2g}" if abs(value) > 1e-9 else "0"

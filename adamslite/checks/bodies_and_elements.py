@@ -1,0 +1,364 @@
+"""What the statements of a deck must mean together: a list of small rules.
+
+A rule takes a deck and yields diagnostics; statements with mistakes of their own are not in the
+deck it gets.  :data:`RULES` are quick and run whenever a deck is read; :data:`ADVICE` may take its
+time and runs in :func:`check` only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from adamslite.checks.constraints import CONSTRAINT_RULES
+from adamslite.checks.effective_mass import effective_masses
+from adamslite.checks.posture import (
+    facing_markers,
+    inertia_at_mass_centre,
+    is_plain,
+    no_body,
+    orientations,
+)
+from adamslite.checks.rates import unformed_equations
+from adamslite.checks.rule import Rule, apply, needs, positive, say
+from adamslite.checks.runs import RUN_RULES
+from adamslite.language.diagnostics import Diagnostic, sort_by_place
+from adamslite.language.expression import Ref, walk
+from adamslite.language.messages import compose
+from adamslite.language.statement import Statement
+from adamslite.reading.resolver import RESERVED
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+
+Key = int | str
+Body = tuple[str, Key]
+
+POINT = "POINT_MASS"
+# Forces whose reaction follows I, and all elements between two markers.
+FOLLOWING = ("VFORCE", "VTORQUE", "GFORCE")
+COMPLIANT = ("BUSHING", "FIELD", "BEAM")
+BETWEEN = ("SFORCE", "SPRINGDAMPER", "JOINT", *COMPLIANT, *FOLLOWING)
+
+
+def check(deck: Deck) -> list[Diagnostic]:
+    """Everything to say about a deck that could be read: warnings and advice, in deck order."""
+    return sort_by_place([*deck.warnings, *apply(ADVICE, deck)])
+
+
+# ---- bodies -----------------------------------------------------------------------------------
+
+
+def body_of(deck: Deck, marker: Key | None) -> Body | None:
+    """Keyword and id of the body a marker is on; None when that cannot be told."""
+    found = deck.find("MARKER", marker) if marker is not None else None
+    return found.owner if found else None
+
+
+def _label(body: Body) -> str:
+    return f"{body[0]}/{body[1]}"
+
+
+def _is_ground(deck: Deck, body: Body | None) -> bool:
+    part = deck.find(*body) if body and body[0] == "PART" else None
+    return bool(part) and part.ground
+
+
+@needs("PART")
+def one_ground(deck: Deck) -> Iterator[Diagnostic]:
+    grounds = [part for part in deck.of("PART") if part.ground]
+    if not grounds:
+        source = deck.source
+        yield compose("no-ground", source.span(0, len(source.line(1))), source.line(1))
+    for part in grounds[1:]:
+        yield say(part, "two-grounds", "ground")
+
+
+def ground_without_data(deck: Deck) -> Iterator[Diagnostic]:
+    ignored = ("mass", "cm", "im", "ip", "vx", "vy", "vz", "wx", "wy", "wz")
+    for part in deck.of("PART"):
+        for field in ignored if part.ground else ():
+            if part.given(field):
+                yield say(part, "ground-with-data", field, word=field.upper())
+
+
+def masses(deck: Deck) -> Iterator[Diagnostic]:
+    for part in deck.of("PART"):
+        if part.ground:
+            continue
+        if not part.mass:
+            if not _is_held(deck, part):
+                yield say(part, "no-mass", "mass")
+        elif part.mass < 0:
+            yield say(part, "no-mass", "mass")
+        elif part.cm is None:
+            yield say(part, "no-cm")
+    for point in deck.of(POINT):
+        if point.given("mass") and point.mass <= 0:
+            yield say(point, "no-mass", "mass")
+
+
+def _is_held(deck: Deck, part: Statement) -> bool:
+    """Whether some constraint acts on a part: only then may it be without mass."""
+    own = {m.key for m in deck.of("MARKER") if m.owner == ("PART", part.key)}
+    return any(
+        getattr(s, "i", None) in own or getattr(s, "j", None) in own
+        for s in deck.statements
+        if hasattr(s, "constraints")
+    )
+
+
+def inertia(deck: Deck) -> Iterator[Diagnostic]:
+    for part in deck.of("PART"):
+        if part.ground or part.cm is None:
+            continue
+        if part.ip is None:
+            yield say(part, "no-inertia")
+            continue
+        reason = no_body(part.ip[:3]) if is_plain(part) else ""
+        if reason:
+            yield say(part, "bad-inertia", "ip", reason=reason)
+
+
+def markers_of_bodies(deck: Deck) -> Iterator[Diagnostic]:
+    for keyword in ("PART", POINT):
+        for body in deck.of(keyword):
+            for field in ("cm", "im"):
+                marker = getattr(body, field, None)
+                owner = body_of(deck, marker)
+                if owner and owner != (keyword, body.key):
+                    words = {"word": field.upper(), "key": marker, "owner": _label(owner)}
+                    yield say(body, "foreign-marker", field, **words)
+
+
+# ---- markers ----------------------------------------------------------------------------------
+
+
+def owners(deck: Deck) -> Iterator[Diagnostic]:
+    for marker in deck.of("MARKER"):
+        if marker.part is not None and marker.point_mass is not None:
+            yield say(marker, "two-owners", "point_mass")
+        elif marker.owner is None and not deck.incomplete & {"PART", POINT, "FLEX_BODY"}:
+            yield say(marker, "no-owner")
+
+
+def floating_alone(deck: Deck) -> Iterator[Diagnostic]:
+    for marker in deck.of("MARKER"):
+        placed = [f for f in ("qp", "reuler", "zp", "xp", "usexp") if marker.given(f)]
+        if marker.floating and placed:
+            yield say(marker, "floating-placed", placed[0])
+
+
+def _uses(statement: Statement) -> Iterator[tuple[str, Key]]:
+    """The markers a statement refers to, with the field."""
+    for field, argument in statement.arguments.items():
+        value = getattr(statement, field)
+        if argument.kind == "reference" and argument.to == "MARKER" and value not in (None, 0):
+            yield field, value
+        elif argument.kind == "expression" and value is not None:
+            for node in walk(value):
+                if type(node) is Ref and node.kind == "MARKER":
+                    yield field, node.id
+
+
+def floating_use(deck: Deck) -> Iterator[Diagnostic]:
+    floating = {marker.key for marker in deck.of("MARKER") if marker.floating}
+    for force in _all(deck, FOLLOWING):
+        if force.jfloat is not None and force.jfloat not in floating:
+            if deck.find("MARKER", force.jfloat):
+                yield say(force, "not-floating", "jfloat", key=force.jfloat)
+    for statement in deck.statements if floating else ():
+        for field, key in _uses(statement):
+            if key in floating and field != "jfloat":
+                word = statement.arguments[field].key
+                yield say(statement, "floating-misused", field, word=word, key=key)
+
+
+@needs(*FOLLOWING, "PTCV", "CVCV")
+def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
+    used = {force.jfloat for force in _all(deck, (*FOLLOWING, "PTCV"))}
+    for marker in deck.of("MARKER"):
+        if marker.floating and marker.key not in used:
+            yield say(marker, "floating-unused")
+
+
+# ---- forces and constraints -------------------------------------------------------------------
+
+
+def reactions(deck: Deck) -> Iterator[Diagnostic]:
+    for force in _all(deck, FOLLOWING):
+        if force.jfloat is None and force.j_part is None:
+            yield say(force, "no-reaction")
+        elif force.jfloat is not None and force.j_part is not None:
+            yield say(force, "two-reactions", "j_part")
+    for force in deck.of("SFORCE"):
+        target = None if force.j_part is None else ("PART", force.j_part)
+        owner = body_of(deck, force.j)
+        if target and owner and owner != target and not _is_ground(deck, target):
+            words = {"word": _label(target), "owner": _label(owner)}
+            yield say(force, "reaction-on-other-part", "j_part", **words)
+
+
+def _all(deck: Deck, keywords: Sequence[str]) -> Iterator[Statement]:
+    return (each for keyword in keywords for each in deck.of(keyword))
+
+
+def _ends(deck: Deck, element: Statement) -> tuple[Body | None, Body | None]:
+    """The bodies an element acts on."""
+    j = element.jfloat if element.keyword in FOLLOWING else element.j
+    if j is not None:
+        return body_of(deck, element.i), body_of(deck, j)
+    part = element.j_part
+    return body_of(deck, element.i), None if part is None else ("PART", part)
+
+
+def distinct_ends(deck: Deck) -> Iterator[Diagnostic]:
+    for each in _all(deck, BETWEEN):
+        if getattr(each, "actiononly", False):
+            continue
+        keyword, (here, there) = each.keyword, _ends(deck, each)
+        if keyword not in ("JOINT", *FOLLOWING) and each.i == each.j:
+            yield say(each, "same-marker", "j")
+        elif here and here == there:
+            code = "same-body" if keyword in ("JOINT", *FOLLOWING) else "internal-force"
+            yield say(each, code, "j", owner=_label(here))
+
+
+def torques_on_points(deck: Deck) -> Iterator[Diagnostic]:
+    for keyword in ("SFORCE", "SPRINGDAMPER", "JOINT"):
+        for each in deck.of(keyword):
+            ends = [each.i] if getattr(each, "actiononly", False) else [each.i, each.j]
+            if each.kind in ("TRANSLATIONAL", "SPHERICAL") and keyword != "JOINT":
+                continue
+            for owner in (body_of(deck, end) for end in ends):
+                if each.kind != "SPHERICAL" and owner and owner[0] == POINT:
+                    yield say(each, "torque-on-point", owner=_label(owner))
+
+
+def wrenches_on_points(deck: Deck) -> Iterator[Diagnostic]:
+    for each in _all(deck, (*COMPLIANT, "VTORQUE", "GFORCE")):
+        for owner in _ends(deck, each):
+            if owner and owner[0] == POINT:
+                yield say(each, "torque-on-point", owner=_label(owner))
+
+
+def sections(deck: Deck) -> Iterator[Diagnostic]:
+    for beam in deck.of("BEAM"):
+        yield from positive(beam, "length", "area", "ixx", "iyy", "izz", "emodulus", "gmodulus")
+    for each in _all(deck, ("BEAM", "FIELD")):
+        if each.given("cratio") and each.given("cmatrix"):
+            yield say(each, "two-dampings", "cmatrix")
+
+
+def frictions(deck: Deck) -> Iterator[Diagnostic]:
+    lengths = ("stiction_transition_velocity", "pin_radius", "ball_radius", "friction_arm")
+    for each in deck.of("FRICTION"):
+        yield from positive(
+            each, *lengths, "bending_reaction_arm", "reaction_arm", "initial_overlap"
+        )
+        joint = deck.find("JOINT", each.joint)
+        if joint and joint.kind not in each.joints:
+            yield say(each, "friction-not-there", "joint", joint=joint.label, kind=joint.kind)
+        if joint and joint.kind in each.joints:
+            yield from _stiction(each, joint)
+
+
+def _stiction(friction: Statement, joint: Statement) -> Iterator[Diagnostic]:
+    """Whether the joint can hold at rest, and whether that was asked for."""
+    field, creeps = "max_stiction_deformation", f"a joint {joint.kind} at rest under load creeps"
+    if friction.given(field):
+        yield from positive(friction, field)
+        if not friction.sticks(joint):
+            sliding = friction.effect == "SLIDING"
+            reason = "EFFECT=SLIDING leaves stiction out" if sliding else creeps
+            yield say(friction, "no-effect", field, word=field.upper(), reason=reason)
+    elif friction.effect != "SLIDING":
+        holds = joint.kind in friction.held
+        hint = f"{field.upper()} lets it hold" if holds else creeps
+        yield say(friction, "friction-creeps", hint=hint)
+
+
+def held_states(deck: Deck) -> Iterator[Diagnostic]:
+    fields = {
+        "static_hold": "a static analysis finds the y at which dy/dt = 0",
+        "dynamic_hold": "a dynamic analysis integrates y",
+    }
+    for state in deck.of("DIFF"):
+        for field, reason in fields.items():
+            if getattr(state, field):
+                yield say(state, "no-effect", field, word=field.upper(), reason=reason)
+
+
+def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:
+    fields = {
+        "TRANSLATIONAL": ("kt", "ct", "torque", "angle"),
+        "ROTATIONAL": ("k", "c", "force", "length"),
+    }
+    for spring in deck.of("SPRINGDAMPER"):
+        for field in fields[spring.kind]:
+            if spring.given(field):
+                word, reason = field.upper(), f"the spring is {spring.kind}"
+                yield say(spring, "no-effect", field, word=word, reason=reason)
+
+
+def reserved_names(deck: Deck) -> Iterator[Diagnostic]:
+    for variable in deck.of("VARIABLE"):
+        names = {str(variable.key), (variable.name or "").upper()}
+        for word in names & set(RESERVED):
+            yield say(variable, "reserved-name", word=word)
+
+
+def requests(deck: Deck) -> Iterator[Diagnostic]:
+    for request in deck.of("REQUEST"):
+        expressions = any(function is not None for function in request.functions)
+        if request.kind and expressions:
+            yield say(request, "two-requests", "kind", word=request.kind)
+        elif not expressions and (request.kind is None or request.i is None):
+            yield say(request, "empty-request")
+
+
+# ---- units and runs ---------------------------------------------------------------------------
+
+
+def unit_system(deck: Deck) -> Iterator[Diagnostic]:
+    for units in deck.of("UNITS"):
+        named = [f for f in ("force", "mass", "length", "time") if units.given(f)]
+        ways = [bool(named), units.given("system"), units.given("ucf")]
+        if sum(ways) > 1:
+            yield say(units, "units-twice")
+        elif 0 < len(named) < 4:
+            yield say(units, "units-incomplete", word=", ".join(named).upper())
+        yield from positive(units, "ucf")
+
+
+RULES: list[Rule] = [
+    one_ground,
+    ground_without_data,
+    masses,
+    inertia,
+    markers_of_bodies,
+    owners,
+    orientations,
+    floating_alone,
+    floating_use,
+    floating_unused,
+    reactions,
+    distinct_ends,
+    torques_on_points,
+    wrenches_on_points,
+    sections,
+    frictions,
+    idle_arguments,
+    held_states,
+    reserved_names,
+    requests,
+    unit_system,
+    *CONSTRAINT_RULES,
+    *RUN_RULES,
+]
+ADVICE: list[Rule] = [
+    inertia_at_mass_centre,
+    facing_markers,
+    effective_masses,
+    unformed_equations,
+]

@@ -1,0 +1,226 @@
+"""Rules about constraints: what they may hold, couple and drive."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from adamslite.checks.rule import Rule, needs, say
+from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.expression import Call, Mode, Node, Ref, walk
+from adamslite.language.statement import Statement
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+
+POINT = "POINT_MASS"
+TURNING = ("ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR")
+SIZES = {"SCREW": "pitch", "RACKPIN": "pd"}
+# Freedoms of marker I seen from J that a joint already holds.
+HELD = {
+    "REVOLUTE": ("X", "Y", "Z"), "SPHERICAL": ("X", "Y", "Z"), "HOOKE": ("X", "Y", "Z"),
+    "UNIVERSAL": ("X", "Y", "Z"), "CONVEL": ("X", "Y", "Z"), "PLANAR": ("Z", "B1", "B2"),
+    "CYLINDRICAL": ("X", "Y", "B1", "B2"), "TRANSLATIONAL": ("X", "Y", "B1", "B2", "B3"),
+    "FIXED": ("X", "Y", "Z", "B1", "B2", "B3"),
+}  # fmt: skip
+
+
+def _owner(deck: Deck, marker: int | str | None) -> tuple[str, int | str] | None:
+    found = deck.find("MARKER", marker) if marker is not None else None
+    return found.owner if found else None
+
+
+def _turns(deck: Deck, owner: tuple[str, int | str] | None) -> bool:
+    """Whether a body can rotate; a body that cannot be told counts as one that can."""
+    if owner is None:
+        return True
+    body = deck.find(*owner)
+    return owner[0] != POINT and not (body and body.ground)
+
+
+def pairs(deck: Deck) -> Iterator[Diagnostic]:
+    for keyword in ("JPRIM", "MOTION", "PTCV"):
+        for each in deck.of(keyword):
+            here, there = _owner(deck, each.i), _owner(deck, each.j)
+            if here and here == there:
+                yield say(each, "same-body", "j", owner=f"{here[0]}/{here[1]}")
+                continue
+            kind = getattr(each, "kind", None) or getattr(each, "axis", None) or ""
+            points = [o for o in (here, there) if o and o[0] == POINT]
+            needs_turning = kind in TURNING or kind[:1] == "B"
+            if needs_turning and points and not (_turns(deck, here) or _turns(deck, there)):
+                yield say(each, "torque-on-point", owner=f"{points[0][0]}/{points[0][1]}")
+
+
+def joint_sizes(deck: Deck) -> Iterator[Diagnostic]:
+    for joint in deck.of("JOINT"):
+        for kind, field in SIZES.items():
+            value = getattr(joint, field)
+            if joint.kind == kind and not value:
+                word = "without " + field.upper() if value is None else f"with {field.upper()}=0"
+                yield say(joint, "joint-size", field, kind=kind, word=word)
+            elif joint.kind != kind and value is not None:
+                reason = f"only the joint {kind} has one"
+                yield say(joint, "no-effect", field, word=field.upper(), reason=reason)
+        free = len(joint.coordinates)
+        for field, wanted in (("ic", 1), ("ictran", 2), ("icrot", 2)):
+            if joint.given(field) and free != wanted:
+                reason = "IC is for joints with one freedom, ICTRAN and ICROT for CYLINDRICAL"
+                yield say(joint, "no-effect", field, word=field.upper(), reason=reason)
+
+
+def couplers(deck: Deck) -> Iterator[Diagnostic]:
+    for coupler in deck.of("COUPLER"):
+        joints = [deck.find("JOINT", key) for key in coupler.joints]
+        count = len(joints)
+        if count not in (2, 3):
+            yield say(coupler, "coupled-count", "joints", count=count, expected="two or three")
+            continue
+        if len(coupler.scales) not in (count - 1, count):
+            yield say(coupler, "scale-count", "scales", count=len(coupler.scales), joints=count)
+        if coupler.type and len(coupler.type) != count:
+            yield say(coupler, "type-count", "type", count=len(coupler.type), joints=count)
+            continue
+        for number, joint in enumerate(joints):
+            if joint is not None:
+                yield from _coupled(coupler, number, joint)
+
+
+def _coupled(coupler: Statement, number: int, joint: Statement) -> Iterator[Diagnostic]:
+    if coupler.uses(number, joint.coordinates) is not None:
+        return
+    if joint.kind == "CYLINDRICAL":
+        yield say(coupler, "freedom-unclear", "joints", joint=joint.label, hint="give TYPE=T or R")
+    else:
+        field = "type" if coupler.type and joint.coordinates else "joints"
+        yield say(coupler, "no-such-freedom", field, joint=joint.label, kind=joint.kind)
+
+
+def gears(deck: Deck) -> Iterator[Diagnostic]:
+    for gear in deck.of("GEAR"):
+        if len(gear.joints) != 2:
+            count = len(gear.joints)
+            yield say(gear, "coupled-count", "joints", count=count, expected="two")
+            continue
+        carrier = _owner(deck, gear.cv)
+        for key in gear.joints:
+            joint = deck.find("JOINT", key)
+            if joint and not joint.coordinates:
+                yield say(gear, "no-such-freedom", "joints", joint=joint.label, kind=joint.kind)
+            elif joint and carrier and _owner(deck, joint.j) not in (carrier, None):
+                owner = f"{carrier[0]}/{carrier[1]}"
+                yield say(gear, "not-on-carrier", "cv", joint=joint.label, owner=owner)
+
+
+def driven_freedoms(deck: Deck) -> Iterator[Diagnostic]:
+    taken: dict[tuple, Statement] = {}
+    for motion in deck.of("MOTION"):
+        found = list(_form(deck, motion))
+        yield from found
+        if found:
+            continue
+        joint = deck.find("JOINT", motion.joint) if motion.joint is not None else None
+        freedom = motion.driven(joint)
+        place = (motion.i, motion.j) if joint is None else (joint.i, joint.j)
+        word = {"TRANSLATION": "Z", "ROTATION": "B3"}.get(freedom, freedom)
+        other = taken.setdefault((*place, word), motion)
+        if other is not motion:
+            yield say(motion, "motion-twice", other=other.label, freedom=freedom)
+        for holder in deck.of("JOINT") if joint is None else ():
+            held = HELD.get(holder.kind, ())
+            if (holder.i, holder.j) == place and freedom in held:
+                yield say(motion, "freedom-held", "axis", joint=holder.label, freedom=freedom)
+
+
+def _form(deck: Deck, motion: Statement) -> Iterator[Diagnostic]:
+    """What is wrong with the way a motion names its freedom."""
+    markers = [f for f in ("i", "j") if motion.given(f)]
+    if motion.joint is None:
+        if len(markers) < 2:
+            yield say(motion, "motion-nowhere")
+        elif motion.driven(None) is None:
+            yield say(motion, "motion-no-axis", "axis")
+        return
+    if markers:
+        yield say(motion, "motion-two-ways", markers[0])
+    joint = deck.find("JOINT", motion.joint)
+    if joint is None or motion.driven(joint) is not None:
+        return
+    if joint.kind == "CYLINDRICAL" and motion.axis is None:
+        hint = "give TRANSLATION or ROTATION"
+        yield say(motion, "freedom-unclear", "joint", joint=joint.label, hint=hint)
+    else:
+        field = "axis" if motion.axis and joint.coordinates else "joint"
+        yield say(motion, "no-such-freedom", field, joint=joint.label, kind=joint.kind)
+
+
+@needs("VARIABLE")
+def functions_of_time(deck: Deck) -> Iterator[Diagnostic]:
+    for motion in deck.of("MOTION"):
+        culprit = _not_of_time(deck, motion.function, ())
+        if culprit:
+            yield say(motion, "motion-not-of-time", "function", word=culprit)
+
+
+def _not_of_time(deck: Deck, node: Node, inside: tuple[int | str, ...]) -> str | None:
+    """What in an expression depends on more than TIME, itself or through variables.
+
+    ``inside``: the variables whose expressions it is part of.
+    """
+    for each in walk(node):
+        if isinstance(each, Mode):
+            return "MODE"
+        if not isinstance(each, Call):
+            continue
+        for ref in each.args:
+            if not isinstance(ref, Ref):
+                continue
+            if ref.kind != "VARIABLE":
+                return each.name
+            variable = deck.find("VARIABLE", ref.id)
+            if variable is None:
+                continue
+            if ref.id in inside or _not_of_time(deck, variable.function, (*inside, ref.id)):
+                return variable.label
+    return None
+
+
+def motion_starts(deck: Deck) -> Iterator[Diagnostic]:
+    used = {"DISPLACEMENT": (), "VELOCITY": ("icdisp",), "ACCELERATION": ("icdisp", "icvel")}
+    for motion in deck.of("MOTION"):
+        for field in ("icdisp", "icvel"):
+            if motion.given(field) and field not in used[motion.level]:
+                reason = f"FUNCTION gives the {motion.level.lower()}"
+                yield say(motion, "no-effect", field, word=field.upper(), reason=reason)
+
+
+def curves(deck: Deck) -> Iterator[Diagnostic]:
+    for matrix in deck.of("MATRIX"):
+        count, expected = len(matrix.values), matrix.rows * matrix.columns
+        if count != expected:
+            yield say(matrix, "matrix-size", "values", count=count, expected=expected)
+    for curve in deck.of("CURVE"):
+        if curve.matrix is None:
+            yield say(curve, "missing-argument", word="MATRIX")
+            continue
+        matrix = deck.find("MATRIX", curve.matrix)
+        least = 4 if curve.form == "CLOSED" else 2
+        if matrix and (matrix.columns != 3 or matrix.rows < least):
+            yield say(curve, "curve-points", "matrix", matrix=matrix.label, least=least)
+    for each in deck.of("PTCV"):
+        floats, lies = _owner(deck, each.jfloat), _owner(deck, each.j)
+        if floats and lies and floats != lies:
+            words = {"word": "JFLOAT", "key": each.jfloat, "owner": f"{floats[0]}/{floats[1]}"}
+            yield say(each, "foreign-marker", "jfloat", **words)
+
+
+CONSTRAINT_RULES: list[Rule] = [
+    curves,
+    pairs,
+    joint_sizes,
+    couplers,
+    gears,
+    driven_freedoms,
+    functions_of_time,
+    motion_starts,
+]

@@ -1,0 +1,176 @@
+"""Forces that depend on the acceleration of their own body: what they make of its mass.
+
+A component F = e(..., A) with A the acceleration of the loaded body along that component gives
+
+    m0 A = F + ...   hence   (m0 - de/dA) A = ...
+
+so de/dA > 0 takes inertia away: the body runs off where m0 - de/dA reaches zero.  The d'Alembert
+force of an added mass has de/dA = -(added mass).  The slope is formed on the expression itself;
+reading a deck does not wait for an algebra system.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.expression import (
+    NEGATE,
+    Call,
+    Node,
+    Num,
+    Op,
+    Ref,
+    Time,
+    calls,
+    to_text,
+    walk,
+)
+from adamslite.language.messages import compose
+from adamslite.language.statement import Statement
+
+AXES = {"fx": "ACCX", "fy": "ACCY", "fz": "ACCZ"}
+ZERO, ONE = Num(0.0), Num(1.0)
+# Times at which time-only variables are looked at to see whether the slope is ever positive.
+SAMPLES = (0.0, 1e-3, 0.1, 1.0, 10.0)
+
+
+def effective_masses(deck: Any) -> Iterator[Diagnostic]:
+    """A warning for each VFORCE that takes inertia away from its own body."""
+    for force in deck.of("VFORCE"):
+        body = _body(deck, force.i)
+        if body is None or force.rm != 0:
+            continue
+        for field, name in AXES.items():
+            slope = _own_slope(deck, getattr(force, field), name, body)
+            if slope != ZERO and _can_be_positive(deck, slope):
+                yield _warning(force, field, body.label, body.mass / deck.ucf, slope)
+                break
+
+
+def _body(deck: Any, marker_id: Any) -> Statement | None:
+    marker = deck.find("MARKER", marker_id)
+    owner = marker.owner if marker else None
+    body = deck.find(*owner) if owner else None
+    return None if body is None or getattr(body, "ground", False) else body
+
+
+def _own_slope(deck: Any, component: Node, name: str, body: Statement) -> Node:
+    """Sum of d(component)/d(acceleration) over the calls that measure this body against ground."""
+    total: Node = ZERO
+    for call in set(calls(component, name)):
+        moving, against = call.args[0], call.args[1]
+        if against == Ref("MARKER", 0) and moving.id and _body(deck, moving.id) is body:
+            total = _plus(total, slope_of(component, call))
+    return total
+
+
+def slope_of(node: Node, unknown: Call) -> Node:
+    """Derivative of an expression with respect to one of its calls; zero where it stands inside
+    others.
+    """
+    if node == unknown:
+        return ONE
+    if not isinstance(node, Op):
+        return ZERO
+    slopes = [slope_of(arg, unknown) for arg in node.args]
+    match node.op, node.args:
+        case "+", _:
+            return _plus(*slopes)
+        case "-", _:
+            return _plus(slopes[0], _negative(slopes[1]))
+        case "neg", _:
+            return _negative(slopes[0])
+        case "*", (a, b):
+            return _plus(_times(slopes[0], b), _times(a, slopes[1]))
+        case "/", (_, b) if slopes[1] == ZERO:
+            return slopes[0] if slopes[0] == ZERO or b == ONE else Op("/", (slopes[0], b))
+    return ZERO
+
+
+def _plus(a: Node, b: Node) -> Node:
+    return b if a == ZERO else a if b == ZERO else Op("+", (a, b))
+
+
+def _negative(a: Node) -> Node:
+    return a if a == ZERO else a.args[0] if _is_negative(a) else Op(NEGATE, (a,))
+
+
+def _is_negative(a: Node) -> bool:
+    return isinstance(a, Op) and a.op == NEGATE
+
+
+def _times(a: Node, b: Node) -> Node:
+    if ZERO in (a, b):
+        return ZERO
+    return b if a == ONE else a if b == ONE else Op("*", (_plain(a), _plain(b)))
+
+
+def _plain(a: Node) -> Node:
+    return a.args[0] if isinstance(a, Op) and a.op == "/" and a.args[1] == ONE else a
+
+
+def _can_be_positive(deck: Any, slope: Node) -> bool:
+    """Whether the slope is above zero at some sample time; unknown quantities count as one."""
+    return any(_value(deck, slope, time) > 0.0 for time in SAMPLES)
+
+
+def _value(deck: Any, node: Node, time: float) -> float:
+    match node:
+        case Num(value):
+            return value
+        case Time():
+            return time
+        case Call("VARVAL", (Ref(kind, id),)):
+            function = deck.find(kind, id).function
+            own = any(isinstance(each, Ref) for each in walk(function))
+            return 1.0 if own else _value(deck, function, time)
+        case Op(op, args):
+            return _arithmetic(op, [_value(deck, arg, time) for arg in args])
+    return 1.0
+
+
+def _arithmetic(op: str, values: list[float]) -> float:
+    a, b = values[0], values[-1]
+    try:
+        return {
+            "+": lambda: a + b, "-": lambda: a - b, "*": lambda: a * b,
+            "/": lambda: a / b, "**": lambda: float(a**b), NEGATE: lambda: -a,
+        }[op]()  # fmt: skip
+    except (ArithmeticError, TypeError):
+        return 0.0
+
+
+def _warning(force: Statement, field: str, body: str, mass: float, slope: Node) -> Diagnostic:
+    """``mass`` is in units of force per acceleration, as the slope is."""
+    fields = [each for each in AXES if force.given(each)]
+    lines = " \\\n      ".join(f", {each.upper()}= -( {_source(force, each)} )" for each in fields)
+    spans = force.spans.home(field)
+    span = spans[field]
+    return compose(
+        "effective-mass",
+        span,
+        spans.source.line(span.line),
+        label=force.label,
+        body=body,
+        axis=field[1],
+        mass=f"{mass:g} - {_in_product(_plain(slope))}",
+        hint="as printed this removes inertia and the run stops where the effective mass reaches"
+        f" zero; for a mass that is added write\n      {lines}",
+    )
+
+
+def _in_product(slope: Node) -> str:
+    text = to_text(slope)
+    return f"({text})" if isinstance(slope, Op) and slope.op in "+-" else text
+
+
+def _source(force: Statement, field: str) -> str:
+    """The expression as the deck has it, on one line."""
+    spans = force.spans.home(field)
+    start, end = spans.ranges[field]
+    text = spans.source.text[start:end]
+    pieces = [piece.strip().removeprefix(",").strip() for piece in text.splitlines()]
+    joined = " ".join(piece for piece in pieces if piece)
+    return joined.partition("=")[2].strip().rstrip("\\/").strip()

@@ -1,0 +1,73 @@
+"""A rule about equations that cannot be formed: rates of what has none, forces of themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from adamslite.functions.forces import MEASURES, NET
+from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.expression import Call, Mode, Node, Ref, calls, expressions, walk
+from adamslite.language.statement import Statement
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+
+# Functions without a rate, or with one that depends on what they measure.
+RATELESS = (
+    "VARVAL", "DIF", "DIF1", "ACCM", "ACCX", "ACCY", "ACCZ", "WDTM", "WDTX", "WDTY", "WDTZ",
+)  # fmt: skip
+PLACES = ("DM", "DX", "DY", "DZ", "AX", "AY", "AZ")
+# What they name is solved for.
+PORTS = ("PINPUT", "POUTPUT")
+
+
+def unformed_equations(deck: Deck) -> Iterator[Diagnostic]:
+    """Forces that depend on themselves, rates of what has none."""
+    known: dict[Any, bool] = {}
+    suspects = [each for each in deck.statements if _is_suspect(deck, each, known)]
+    if suspects:
+        from adamslite.kernels.compile import unformed
+        from adamslite.model.model import Model
+
+        yield from unformed(Model(deck), suspects)
+
+
+def _is_suspect(deck: Deck, statement: Statement, known: dict[Any, bool]) -> bool:
+    """Whether it takes rates of more than places and TIME, or measures forces with forces."""
+    asked = ("DDT",)
+    if hasattr(statement, "constraints"):
+        asked += RATELESS
+    if hasattr(statement, "loads") or statement.keyword == "GCON":
+        asked += (*MEASURES.values(), *NET)
+    found = (call for node in expressions(statement) for call in calls(node, *asked))
+    return not all(call.name == "VARVAL" and _has_rates(deck, call, known) for call in found)
+
+
+def _has_rates(deck: Deck, node: Node, known: dict[Any, bool]) -> bool:
+    """Whether it depends on places and TIME alone, directly or by VARIABLEs that are not solved
+    for; ``known``: which of these do.
+    """
+    return not any(
+        isinstance(each, Mode)
+        or (isinstance(each, Ref) and each.kind not in ("MARKER", "VARIABLE"))
+        or (isinstance(each, Ref) and each.kind == "VARIABLE" and not _is_plain(deck, each, known))
+        or (isinstance(each, Call) and each.name not in PLACES and _asks_markers(each))
+        for each in walk(node)
+    )
+
+
+def _asks_markers(call: Call) -> bool:
+    return any(isinstance(each, Ref) and each.kind == "MARKER" for each in call.args)
+
+
+def _is_plain(deck: Deck, ref: Ref, known: dict[Any, bool]) -> bool:
+    """Whether a VARIABLE is put in where it is used, and has rates."""
+    key = ref.id
+    if key not in known:
+        known[key] = False  # what comes back to it depends on itself
+        variable = deck.find("VARIABLE", key)
+        solved = any(key in port.variables for w in PORTS for port in deck.of(w))
+        plain = variable is not None and not solved
+        known[key] = plain and _has_rates(deck, variable.function, known)
+    return known[key]

@@ -1,0 +1,221 @@
+"""Rules about the statements that run a deck; they hold in decks and in command files."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from adamslite.checks.rule import Rule, positive, say
+from adamslite.deck.element_switch import Switch
+from adamslite.elements.simulate import MOST_STEPS, output_steps
+from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.expression import Node, Ref, calls, expressions, walk
+from adamslite.language.integrator_arguments import BACKWARD, FIXED, RUNGE_KUTTA, without_effect
+from adamslite.language.messages import did_you_mean
+from adamslite.language.statement import STATEMENTS, Statement
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.deck.redefinition import Redefinition
+
+# The highest order of the backward differences: 6 is unstable for all but strongly damped motion.
+HIGHEST = 5
+# The name of a file without a folder; one with a dot in front is for the system or hidden.
+FILE_NAME = re.compile(r"[^./\\:][^/\\:]*")
+TIMES = ("end", "duration", "dtout", "steps")
+
+
+def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of("INTEGRATOR"):
+        yield from positive(each, "error", "hmax", "hmin", "hinit", "kmax", "maxit")
+        if each.alpha is not None and not -1 / 3 - 1e-9 <= each.alpha <= 0:
+            yield say(each, "out-of-range", "alpha", word="ALPHA", low="-1/3", high="0")
+        if each.hmin is not None and each.hmax is not None and each.hmin > each.hmax:
+            yield say(each, "steps-disordered", "hmin")
+        if any(factor <= 0 for factor in each.scale):
+            yield say(each, "not-positive", "scale", word="SCALE")
+        elif each.scale and (each.method or "") in RUNGE_KUTTA:
+            yield say(each, "scale-order", "scale")
+        if each.formulation == "SI1":
+            yield say(each, "solved-as", "formulation", word="SI1", other="SI2")
+
+
+def idle_integrator_arguments(deck: Deck) -> Iterator[Diagnostic]:
+    method = "GSTIFF"
+    for each in deck.of("INTEGRATOR"):
+        method = each.method or method
+        given = {
+            argument.key: field for field, argument in each.arguments.items() if each.given(field)
+        }
+        for word, reason in without_effect(method, given):
+            yield _idle(each, given[word], word, reason)
+        if each.kmax is not None and each.kmax > HIGHEST and method in BACKWARD + FIXED:
+            yield say(each, "order-limited", "kmax", word=each.kmax, highest=HIGHEST)
+
+
+def iteration_values(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of("EQUILIBRIUM"):
+        yield from positive(each, "alimit", "error", "imbalance", "maxit", "tlimit")
+        if each.stability < 0:
+            yield say(each, "negative", "stability", word="STABILITY")
+    for each in deck.of("KINEMATICS"):
+        yield from positive(each, "alimit", "error", "aerror", "maxit", "tlimit")
+
+
+def simulation_times(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of("SIMULATE"):
+        yield from positive(each, "duration", "dtout", "steps")
+        if each.level and each.kind != "INITIAL_CONDITIONS":
+            yield _idle(each, "level", each.level, "only INITIAL_CONDITIONS come in levels")
+        if each.kind == "INITIAL_CONDITIONS":
+            for field in filter(each.given, TIMES):
+                yield _idle(each, field, field.upper(), "initial conditions take no time")
+        elif not each.at_once or each.given("steps") or each.given("dtout"):
+            yield from _span_of_time(each)
+
+
+def _idle(statement: Statement, field: str, word: str, reason: str) -> Diagnostic:
+    return say(statement, "no-effect", field, word=word, reason=reason)
+
+
+def _span_of_time(run: Statement) -> Iterator[Diagnostic]:
+    if run.end is None and run.duration is None:
+        yield say(run, "no-end")
+    elif run.end is not None and run.duration is not None:
+        yield say(run, "two-ends", "duration")
+    elif run.steps is None and run.dtout is None:
+        yield say(run, "no-output-step")
+    elif run.steps is not None and run.dtout is not None:
+        yield say(run, "two-output-steps", "dtout")
+    else:
+        yield from _not_too_many(run)
+
+
+def _not_too_many(run: Statement) -> Iterator[Diagnostic]:
+    """Of a run that begins at 0; one that begins later is looked at when it begins."""
+    if run.steps is None and run.dtout <= 0:
+        return
+    count = output_steps(run.until(0.0), run.steps, run.dtout)
+    if count > MOST_STEPS:
+        field = "dtout" if run.steps is None else "steps"
+        yield say(run, "too-many-steps", field, count=float(count), most=float(MOST_STEPS))
+
+
+def late_start_values(command: Redefinition) -> Iterator[Diagnostic]:
+    """Start values given anew to a model that has moved: it goes on from where it is."""
+    for field in command.changes:
+        argument = command.of.arguments[field]
+        if argument.start:
+            reason, word = "the model goes on from the state it has reached", argument.keys[0]
+            yield say(command, "no-effect", field, word=word, reason=reason)
+
+
+def ends_in_order(deck: Deck) -> Iterator[Diagnostic]:
+    if "SENSOR" in deck.names.ids:  # it may have ended the run before
+        return
+    time = 0.0
+    for each in deck.of("SIMULATE"):
+        if each.at_once or (each.end is None and each.duration is None):
+            continue
+        if each.duration is None and each.end <= time:
+            yield say(each, "end-not-later", "end", end=f"{each.end:g}", time=f"{time:g}")
+        time = max(time, each.until(time))
+
+
+def switched_elements(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.statements:
+        if not isinstance(each, Switch):
+            continue
+        if each.kind not in STATEMENTS:
+            yield say(each, "planned-statement", "kind", word=each.kind, times="")
+            continue
+        if not each.ids and each.range is None:
+            yield say(each, "missing-argument", word="ID", hint="ID=1,2 or RANGE=first,last")
+        for key in each.ids:
+            yield from _missing(deck, each, key)
+        if each.range and not each.elements(deck.names):
+            words = dict(zip(("low", "high"), map(int, each.range), strict=True))
+            yield say(each, "empty-range", "range", kind=each.kind, **words)
+
+
+def _missing(deck: Deck, switch: Statement, key: int | str) -> Iterator[Diagnostic]:
+    found = deck.names.find(switch.kind, key)
+    if isinstance(found, list):
+        labels = ", ".join(f"{switch.kind}/{each}" for each in found[:5])
+        yield say(switch, "ambiguous-name", "ids", word=key, labels=labels)
+    elif found is None:
+        hint = did_you_mean(str(key), deck.names.known(switch.kind))
+        yield say(switch, "missing-reference", "ids", kind=switch.kind, key=key, hint=hint)
+
+
+def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of("LINEAR"):
+        for field in ("file", "pinput", "poutput"):
+            if each.kind == "EIGENSOL" and each.given(field):
+                yield _idle(each, field, field.upper(), "EIGENSOL has neither input nor output")
+
+
+def file_names(deck: Deck) -> Iterator[Diagnostic]:
+    """Files that commands name lie beside the results, each written once."""
+    known: set[str] = set()
+    for each in deck.of("LINEAR"):
+        if each.file is None or each.kind == "EIGENSOL":
+            continue
+        if not FILE_NAME.fullmatch(each.file) or not each.file.isprintable():
+            yield say(each, "not-a-file-name", "file", word=each.file or '""')
+        elif each.file.casefold() in known:
+            what = "that of an earlier LINEAR"
+            yield say(each, "file-taken", "file", word=each.file, what=what)
+        known.add(each.file.casefold())
+
+
+def inputs_with_rates(deck: Deck, commands: Iterable[Statement]) -> Iterator[Diagnostic]:
+    """Inputs of a linear model whose rates count as well: it would have no columns for these."""
+    for command in commands:
+        port = None
+        if command.keyword == "LINEAR" and command.pinput is not None:
+            port = deck.find("PINPUT", command.pinput)
+        for key in port.variables if port else ():
+            user = _taker_of_rate(deck, key)
+            if user is not None:
+                word = f"VARIABLE/{key}"
+                yield say(command, "input-rate", "pinput", word=word, user=user.label)
+
+
+def _taker_of_rate(deck: Deck, key: int | str) -> Statement | None:
+    """A MOTION, GCON or d( )/dt of an equation that depends on a VARIABLE."""
+    for each in deck.statements:
+        found = expressions(each)
+        if each.keyword == "REQUEST":
+            continue
+        if each.keyword not in ("MOTION", "GCON"):
+            found = [call for node in found for call in calls(node, "DDT")]
+        if any(key in _variables(deck, node) for node in found):
+            return each
+    return None
+
+
+def _variables(deck: Deck, node: Node) -> set[int | str]:
+    """VARIABLEs that an expression depends on, itself or through others."""
+    found: set[int | str] = set()
+    pending = [node]
+    while pending:
+        for each in walk(pending.pop()):
+            if isinstance(each, Ref) and each.kind == "VARIABLE" and each.id not in found:
+                found.add(each.id)
+                variable = deck.find("VARIABLE", each.id)
+                pending += [variable.function] if variable else []
+    return found
+
+
+RUN_RULES: list[Rule] = [
+    integrator_values,
+    idle_integrator_arguments,
+    iteration_values,
+    simulation_times,
+    ends_in_order,
+    switched_elements,
+    linear_arguments,
+    file_names,
+]

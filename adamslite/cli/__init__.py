@@ -1,0 +1,1 @@
+"""The command `adamslite`: one module for each sub-command."""

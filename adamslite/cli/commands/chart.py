@@ -1,0 +1,168 @@
+"""what accuracy costs with each integrator
+
+Runs the deck with every integrator that can, at several values of ERROR, measures each run against
+a tight reference, and prints a table and a recommendation. NAME.csv takes all points, NAME.png and
+NAME.svg the chart; drawing needs matplotlib. How long to run is found as `adamslite solve` does.
+The error is that of the motion: places against the longest way any body goes, attitudes in radians;
+or, with --channel, that of the channels named, each against its largest value.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
+from adamslite.run_flags import count, positive
+
+if TYPE_CHECKING:
+    from adamslite.scene import Scene
+    from adamslite.verification.work_precision import Chart, Point, Variant
+
+PICTURES = ("png", "svg")
+COLUMNS = (
+    "program", "setting", "error", "digits", "cpu_median_s", "cpu_least_s", "runs", "steps",
+    "reason",
+)  # fmt: skip
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `adamslite chart`."""
+    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    parser.add_argument(
+        "-o", "--output", metavar="NAME", help="of the files, without suffix (DECK's name-chart)"
+    )
+    parser.add_argument("--end", type=positive, metavar="T", help="end time")
+    parser.add_argument("--steps", type=count, metavar="N", help="number of output steps")
+    parser.add_argument(
+        "--integrator", type=str.upper, nargs="+", metavar="NAME", help="only these"
+    )
+    parser.add_argument("--error", type=positive, nargs="+", metavar="TOL", help="only these")
+    parser.add_argument("--channel", nargs="+", default=[], metavar="C", help="what must be right")
+    parser.add_argument("--digits", type=count, default=3, metavar="D", help="to recommend for (3)")
+    parser.add_argument("--repeats", type=count, default=3, metavar="R", help="of each run (3)")
+    parser.add_argument(
+        "--patience", type=positive, default=20.0, metavar="S", help="CPU [s] a run may take (20)"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Measure, write, print; return the exit code."""
+    from adamslite.outputs.whole_files import need_writable
+    from adamslite.scene import load_scene
+    from adamslite.verification.work_precision import ERRORS, measure
+
+    name = args.output or f"{args.deck.stem}-chart"
+    scene = load_scene(args.deck, args.commands)
+    for suffix in ("csv", *PICTURES):
+        need_writable(f"{name}.{suffix}", scene.read, bool(args.output))
+    tried, runs = _runs(args, scene)
+    errors = sorted(args.error or ERRORS, reverse=True)
+    chart = measure(runs, tried, errors, args.repeats, args.channel)
+    _write(chart, Path(f"{name}.csv"))
+    sys.stdout.write(_table(chart))
+    _draw(chart, name, args.deck.stem)
+    sys.stdout.write(_verdict(chart, args.digits))
+    return OUTSIDE_TOLERANCE if chart.useless else DONE
+
+
+def _runs(args: argparse.Namespace, scene: "Scene") -> tuple[list["Variant"], Any]:
+    """The integrators to try, and what runs the deck with one of them."""
+    from functools import partial
+
+    import adamslite
+    from adamslite.errors import UsageError
+    from adamslite.language.diagnostics import render
+    from adamslite.progress import TalkingProgress
+    from adamslite.verification.work_precision import patient, variants
+
+    if scene.beside:
+        sys.stderr.write(f"{scene.title}\n")
+    if scene.warnings:
+        sys.stderr.write(render(scene.warnings) + "\n\n")
+    model = adamslite.assemble(scene.deck)
+    tried = variants()
+    known = dict.fromkeys(name for v in tried for name in (v.integrator, *v.also))
+    for wanted in args.integrator or ():
+        if wanted not in known:
+            raise UsageError(f"--integrator {wanted}: there are {', '.join(known)}")
+    progress = TalkingProgress()
+    kernels = adamslite.compile_model(model, progress)
+    fixed = {k: v for k in ("end", "steps") if (v := getattr(args, k)) is not None}
+    solve = partial(adamslite.simulate, kernels, commands=scene.commands, **fixed)
+    asked = set(args.integrator or known)
+    chosen = [v for v in tried if asked & {v.integrator, *v.also}]
+    return chosen, patient(solve, args.patience, progress)
+
+
+def _write(chart: "Chart", path: Path) -> None:
+    import csv
+
+    from adamslite.outputs.whole_files import whole_file
+
+    with whole_file(path) as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for p in chart.points:
+            writer.writerow(
+                (p.program, p.setting, "" if p.error is None else p.error, p.digits,
+                 p.median, p.least, len(p.cpu), p.steps, p.reason)
+            )  # fmt: skip
+
+
+def _draw(chart: "Chart", name: str, title: str) -> None:
+    """The chart; without matplotlib a sentence instead."""
+    from adamslite.errors import UsageError
+    from adamslite.outputs.chart import Axes, Line, draw
+    from adamslite.verification.work_precision import by_program
+
+    known = by_program(p for p in chart.points if p.ok and p.error)
+    lines = [
+        Line(program, "ours", [p.error for p in mine], [1e3 * p.median for p in mine])
+        for program, mine in known.items()
+    ]
+    axes = Axes(f"{title}: what accuracy costs", "error", "CPU [ms]", towards_less=True)
+    try:
+        draw(lines, axes, [Path(f"{name}.{kind}") for kind in PICTURES])
+    except UsageError as absent:
+        sys.stderr.write(f"adamslite: {absent}\n")
+
+
+def _table(chart: "Chart") -> str:
+    lines = [
+        f"{'integrator':<14} {'setting':<12} {'CPU [ms]':>10} {'steps':>8} {'error':>9} digits"
+    ]
+    for p in chart.points:
+        start = f"{p.program:<14} {p.setting:<12}"
+        if p.ok:
+            digits = "-" if chart.useless else p.digits
+            lines.append(
+                f"{start} {1e3 * p.median:>10.3g} {p.steps:>8} {p.error:>9.1e} {digits:>6}"
+            )
+        else:
+            lines.append(f"{start} {' '.join(p.reason.split())}")
+    return "\n".join(lines) + "\n"
+
+
+def _verdict(chart: "Chart", digits: int) -> str:
+    truth = chart.truth
+    told = f"reference: {truth.origin}; known to {truth.doubt:.1e}\n"
+    if chart.useless:
+        return (
+            told + "no recommendation: even tight runs do not agree, so no error above can be "
+            "trusted. The scene may amplify every error (a shorter --end shows), or jump.\n"
+        )
+    best = chart.recommended(digits)
+    if best:
+        return f"{told}recommended: {_named(best)}\n"
+    good = [p for p in chart.points if p.ok]
+    nearest = min(good, key=lambda p: (p.error, p.median), default=None)
+    return told + (
+        f"no run has {digits} digits; nearest: {_named(nearest)}\n" if nearest
+        else "no run reached its end\n"
+    )  # fmt: skip
+
+
+def _named(p: "Point") -> str:
+    return f"{p.program} {p.setting}: {1e3 * p.median:.3g} ms, {p.digits} digits"

@@ -1,0 +1,99 @@
+"""what is wrong with a deck, and what it contains
+
+Prints every error and warning with its place, then what the deck consists of and, for cables, how
+fast waves are in them and what model they need (docs/cables.md). Exit code 3 when there are errors;
+warnings alone do not count.
+"""
+
+import argparse
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from adamslite.cli.commands.codes import DECK_ERRORS, DONE
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.language.diagnostics import DeckError
+    from adamslite.scene import Scene
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `adamslite check`."""
+    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print what there is to say; return the exit code."""
+    from adamslite.language.diagnostics import DeckError, render
+    from adamslite.scene import load_scene
+
+    try:
+        scene = load_scene(args.deck, args.commands)
+    except DeckError as fault:
+        sys.stdout.write(f"{render(fault.diagnostics)}\n\n{_tally(fault)}\n")
+        return DECK_ERRORS
+    if scene.warnings:
+        sys.stdout.write(render(scene.warnings) + "\n\n")
+    sys.stdout.write(_contents(scene))
+    return DONE
+
+
+def _tally(fault: "DeckError") -> str:
+    errors = len(fault.errors)
+    warnings = len(fault.diagnostics) - errors
+    return f"{_many(errors, 'error')}, {_many(warnings, 'warning')}"
+
+
+def _contents(scene: "Scene") -> str:
+    counted = Counter(statement.keyword for statement in scene.deck.statements)
+    listed = ", ".join(f"{number} {keyword}" for keyword, number in counted.items())
+    warnings = _many(len(scene.warnings), "warning") if scene.warnings else "no mistakes found"
+    return "".join(
+        f"{line}\n"
+        for line in (
+            f"{scene.title}: {warnings}",
+            f"  {_many(counted.total(), 'statement')}: {listed}",
+            f"  {_freedom(scene.deck)}",
+            *_cables(scene),
+        )
+    )
+
+
+def _cables(scene: "Scene") -> list[str]:
+    """What the cables are like and how they would be modelled."""
+    from adamslite.cables.report import about_cables
+
+    return about_cables(scene.deck, scene.commands)
+
+
+def _freedom(deck: "Deck") -> str:
+    """Six coordinates for a part and three for a point mass, less one for each independent row."""
+    statements = deck.statements
+    parts = sum(each.keyword == "PART" and not each.ground for each in statements)
+    points = sum(each.keyword == "POINT_MASS" for each in statements)
+    rows = [getattr(each, "n_rows", 0) * deck.is_active(each) for each in statements]
+    held = [number for number in rows if number]
+    found = _dropped(deck) if len(held) > parts + points else []
+    free = 6 * parts + 3 * points - sum(held) + len(found)
+    redundant = f"\n  redundant, left out: {'; '.join(found)}" if found else ""
+    return (
+        f"{_many(free, 'degree')} of freedom: "
+        f"{_many(parts, 'moving part')}, {_many(points, 'point mass', 'point masses')}, "
+        f"{_many(sum(held), 'constraint row')}{redundant}"
+    )
+
+
+def _dropped(deck: "Deck") -> list[str]:
+    """Names of redundant rows; only a mechanism with closed loops can have any."""
+    from adamslite.analyses.initial.redundancy import row_name
+    from adamslite.analyses.session import Session
+
+    system = Session(deck, None, {}).system
+    return [row_name(system, row) for row in system.dropped]
+
+
+def _many(number: int, one: str, several: str = "") -> str:
+    return f"{number} {one if number == 1 else several or one + 's'}"

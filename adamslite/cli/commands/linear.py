@@ -1,0 +1,51 @@
+"""eigenvalues and modes of small motions
+
+Prints number, undamped frequency, damping ratio and eigenvalue of every mode about the state the
+commands lead to: COMMANDS.acf, else the .acf of the deck's name beside the deck, else the deck's
+own SIMULATE. Without any of them it is the initial state. With --time the motion is followed up
+to T. With --rm
+MARKER motions are those that an observer on its body sees; without, what the last LINEAR command
+asks for, else those seen from the ground. A line below the table says where the linear system
+varies with time. FILE.csv takes the table, FILE.json everything: mode shapes and state matrix too.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from adamslite.cli.commands.codes import DONE
+from adamslite.run_flags import instant
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `adamslite linear`."""
+    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    parser.add_argument("--time", type=instant, metavar="T", help="linearise at this time")
+    parser.add_argument("--rm", metavar="MARKER", help="marker on whose body the observer stands")
+    parser.add_argument("-o", "--output", metavar="FILE", help="result file, .csv or .json")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the mode table; return the exit code."""
+    import adamslite
+    from adamslite.language.diagnostics import render
+    from adamslite.outputs.modes import mode_table, need_suffix, save
+    from adamslite.outputs.whole_files import need_writable
+    from adamslite.scene import load_scene
+
+    if args.output:
+        need_suffix(args.output)
+    scene = load_scene(args.deck, args.commands)
+    if args.output:
+        need_writable(args.output, scene.read)
+    if scene.beside:
+        sys.stderr.write(f"{scene.title}\n")
+    if scene.warnings:
+        sys.stderr.write(render(scene.warnings) + "\n\n")
+    seen = {} if args.rm is None else {"rm": args.rm}
+    found = adamslite.linearize(scene.deck, commands=scene.commands, time=args.time, **seen)
+    sys.stdout.write(mode_table(found))
+    if args.output:
+        save(found, args.output)
+    return DONE

@@ -1,0 +1,177 @@
+"""run a deck and write the results
+
+How long to run: --end, else SIMULATE in COMMANDS.acf, else in the .acf of the deck's name beside
+the deck, else in the deck itself. The results go to DECK's name with .csv in the current directory,
+or to OUT; `-o -` writes them to standard output. Beside it LINEAR/EIGENSOL writes OUT.modes.csv,
+LINEAR/STATEMAT its FILE or OUT.states.json (matrices A, B, C, D). All the command says goes to
+standard error.
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
+from adamslite.run_flags import add_run_flags, run_options
+
+if TYPE_CHECKING:
+    from adamslite.results.results import Results
+    from adamslite.scene import Scene
+
+#: OUT that means standard output.
+STDOUT = "-"
+
+#: What becomes of LINEAR commands then.
+UNWRITTEN = "not written: it goes beside the results, and they went to no file"
+
+SUMMARY = """\
+{deck}: {sentence}
+  reached              t = {t_end:g}
+  degrees of freedom   {dof}
+  steps                {steps} and {rejected} rejected
+  Newton iterations    {newton}
+  Jacobians            {jacobians}, factorizations {factorizations}
+  CPU                  {setup_cpu_s:.2f} s to set up, {solve_cpu_s:.2f} s to solve
+  constraints          violated by {max_violation:.1e} at most
+  results              {output}
+"""
+
+#: Comments of the results that the summary repeats: what was done to the model and the method.
+NOTES = (
+    "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "energy", "time",
+    "linear", "no number", "out of its law",
+)  # fmt: skip
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `adamslite solve`."""
+    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    parser.add_argument("-o", "--output", metavar="OUT.csv", help="result file, or - for stdout")
+    add_run_flags(parser)
+    talk = parser.add_argument_group("talk")
+    talk.add_argument("--quiet", action="store_true", help="say nothing unless something is wrong")
+    talk.add_argument(
+        "--summary",
+        choices=("text", "json"),
+        default="text",
+        help="summary as text to standard error (default) or as JSON to standard output",
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Solve and write; return the exit code."""
+    from adamslite.errors import UsageError
+    from adamslite.progress import Progress, TalkingProgress
+    from adamslite.result_files import plan
+    from adamslite.results.outcomes import Outcome
+    from adamslite.scene import load_scene, run_scene
+
+    output = args.output or f"{args.deck.stem}.csv"
+    if output == STDOUT and args.summary == "json":
+        raise UsageError(
+            "'-o -' and '--summary json' both want standard output; give -o a file name"
+        )
+    scene = load_scene(args.deck, args.commands)
+    files = plan(scene, output, bool(args.output)) if output != STDOUT else []
+    if not args.quiet:
+        _tell_warnings(scene)
+    progress = Progress() if args.quiet else TalkingProgress()
+    try:
+        results = run_scene(scene, run_options(args), progress)
+    finally:
+        progress.close()
+    written = _write(results, output, files)
+    _summarize(scene, args, results, output, written)
+    if results.outcome is not Outcome.DONE:
+        return STOPPED_EARLY
+    found = results.confirmation
+    return DONE if found is None or found.confirmed else OUTSIDE_TOLERANCE
+
+
+def _write(results: "Results", output: str, files: Sequence[Path]) -> list[Path]:
+    """Write the time histories, and the files of LINEAR commands, whose names are returned."""
+    if output == STDOUT:
+        from adamslite.outputs.csv import write_to
+
+        write_to(results, sys.stdout)
+        return []
+    results.save(output)
+    if not results.linearizations:
+        return []
+    from adamslite.outputs.modes import save
+
+    found = list(zip(results.linearizations, files, strict=False))  # a run may stop before all
+    for each, path in found:
+        save(each.model, path)
+    return [path for _, path in found]
+
+
+def _tell_warnings(scene: "Scene") -> None:
+    from adamslite.language.diagnostics import render
+
+    if scene.warnings:
+        sys.stderr.write(render(scene.warnings) + "\n\n")
+
+
+def _summarize(
+    scene: "Scene", args: argparse.Namespace, results: "Results", output: str, files: list[Path]
+) -> None:
+    from adamslite.results.outcomes import Outcome
+
+    if args.summary == "json":
+        sys.stdout.write(_as_json({**results.summary, **_files(scene, output)}) + "\n")
+    elif not args.quiet:
+        shown = "standard output" if output == STDOUT else output
+        sentence = (
+            results.outcome.value
+            if results.outcome is Outcome.DONE
+            else f"stopped early ({results.outcome.name})"
+        )
+        sys.stderr.write(
+            SUMMARY.format(deck=scene.title, sentence=sentence, **results.summary, output=shown)
+        )
+        unwritten = [UNWRITTEN] if results.linearizations and output == STDOUT else []
+        for file in (*files, *unwritten):
+            sys.stderr.write(f"  linearised model     {file}\n")
+        for note in NOTES:
+            if note in results.meta:
+                sys.stderr.write(f"  {note:<20} {results.meta[note]}\n")
+    _tell_trust(scene, args, results)
+    if results.outcome is not Outcome.DONE:
+        sys.stderr.write(f"adamslite: {results.message or results.outcome.value}\n")
+
+
+def _tell_trust(scene: "Scene", args: argparse.Namespace, results: "Results") -> None:
+    """What the run knows of its own errors; only what is wrong where nothing else is told."""
+    silent, found = args.quiet or args.summary == "json", results.confirmation
+    if silent and any(not each.closes for each in results.balances):
+        sys.stderr.write(f"{scene.title}: {results.meta['energy']}\n")
+    if found is not None and not (silent and found.confirmed):
+        sys.stderr.write("" if silent else f"{found.table()}\n")
+        sys.stderr.write(f"{scene.title}: {found.verdict}\n")
+
+
+def _files(scene: "Scene", output: str) -> dict[str, Any]:
+    """The files of a run: the deck, the commands it took from a file, the results."""
+    commands = scene.commands_path and str(scene.commands_path)
+    return {"deck": str(scene.deck_path), "commands": commands, "output": output}
+
+
+def _as_json(summary: dict[str, Any]) -> str:
+    """JSON knows neither infinity nor not-a-number: both become null."""
+    import json
+    from math import isfinite
+
+    plain = {
+        key: None if isinstance(value, float) and not isfinite(value) else value
+        for key, value in summary.items()
+    }
+    return json.dumps(plain, allow_nan=False, default=_plain_number)
+
+
+def _plain_number(number: Any) -> Any:
+    """A numpy number as one of Python."""
+    return number.item()

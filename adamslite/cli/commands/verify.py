@@ -1,0 +1,94 @@
+"""run reference decks and compare
+
+Solves every deck below the given folders (or the given decks) that has a reference.csv and prints
+one line each: the share of its tolerance that the worst channel uses, and which that is. Without
+arguments: those that come with the program. A new deck folder joins by being there;
+decks/README.md says what it holds.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
+from adamslite.run_flags import count, positive
+
+if TYPE_CHECKING:
+    from adamslite.results.results import Results
+    from adamslite.verification.verification import Verdict
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `adamslite verify`."""
+    parser.add_argument("paths", metavar="DIR|DECK", type=Path, nargs="*")
+    parser.add_argument(
+        "-j", "--jobs", metavar="N", type=count, default=_processors(),
+        help="processes that share the decks (default: as many as there are processors)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--share", metavar="S", type=positive, default=1.0,
+        help="largest share of a tolerance that may be used (default: 1, all of it)",
+    )  # fmt: skip
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print one line per reference; return the exit code."""
+    from adamslite.errors import UsageError
+    from adamslite.resources import find
+    from adamslite.verification.verification import find_cases, verify
+
+    paths = args.paths or [find("decks")]
+    cases = find_cases(paths)
+    if not cases:
+        raise UsageError(f"there is no deck with a reference.csv in {', '.join(map(str, paths))}")
+    width = max(len(case.name) for case in cases)
+    verdicts = []
+    for verdict in verify(cases, solve_tellingly, args.jobs):
+        verdicts.append(verdict)
+        mark = "ok  " if _meets(verdict, args.share) else "FAIL"
+        share = f"{'':5}" if verdict.share is None else f"{verdict.share:5.2f}"
+        sys.stdout.write(f"{mark} {share}  {verdict.case.name:{width}}  {verdict.text}\n")
+        sys.stdout.flush()
+    sys.stdout.write(_summary(verdicts, args.share))
+    met = all(_meets(verdict, args.share) for verdict in verdicts)
+    return DONE if met else OUTSIDE_TOLERANCE
+
+
+def solve_tellingly(deck: Path, options: Mapping[str, Any]) -> Results:
+    """Solve a deck as `verify` does, and tell what takes long."""
+    from adamslite.progress import TalkingProgress
+    from adamslite.verification.verification import solve_quietly
+
+    progress = TalkingProgress()
+    try:
+        return solve_quietly(deck, options, progress)
+    finally:
+        progress.close()
+
+
+def _meets(verdict: Verdict, share: float) -> bool:
+    """Whether a reference is met with this share of its tolerance."""
+    return verdict.passed and (verdict.share or 0.0) <= share
+
+
+def _summary(verdicts: Sequence[Verdict], share: float) -> str:
+    """How many references are met, and which is met most narrowly."""
+    met = sum(_meets(verdict, share) for verdict in verdicts)
+    text = f"{met} of {len(verdicts)} references met"
+    judged = [verdict for verdict in verdicts if verdict.share is not None]
+    if judged:
+        worst = max(judged, key=lambda verdict: verdict.share)
+        text += f"; the largest share of a tolerance is {worst.share:.2f}, in {worst.case.name}"
+    return f"{text}\n"
+
+
+def _processors() -> int:
+    """How many processors this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

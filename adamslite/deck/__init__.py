@@ -1,0 +1,1 @@
+"""A deck as typed statements: names, lookup, redefinition and switching."""

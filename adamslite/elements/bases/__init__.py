@@ -1,0 +1,1 @@
+"""What families of statements share: constraints, wrenches, joint coordinates, curves."""

@@ -1,0 +1,51 @@
+"""What all constraint statements share.
+
+Equation::
+
+    g(q, t) = 0           n_rows rows, or g(u, q, t) = 0 when is_rate
+    force on the model    -G^T lam
+
+Sign: the reaction is what acts **on I**, torque about I's origin; J gets the opposite force::
+
+    reaction on I  <---- I o = = = o J ---->  opposite
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.language.expression import COMPONENTS, Node, Ref, measure
+
+# What each kind of row keeps at zero, for messages.
+TOGETHER = ("x of I - J", "y of I - J", "z of I - J")
+ON_LINE = ("offset along x_J", "offset along y_J")
+PARALLEL = ("rotation about y_J (z_I . x_J)", "rotation about x_J (z_I . y_J)")
+SAME_TURN = ("rotation about z_J (x_I . y_J)",)
+
+
+class Constraint:
+    """Mixed into statements that have ``constraints(self, scope)``: rows that vanish."""
+
+    @property
+    def n_rows(self) -> int:
+        """Constraint equations."""
+        return 1
+
+    def is_rate(self, model: Any) -> bool:
+        """Whether the rows constrain velocities only."""
+        return False
+
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """What each row keeps at zero."""
+        return tuple(f"condition {n + 1}" for n in range(self.n_rows))
+
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """Reaction on I, ground axes, torque about I's origin."""
+        return ("fx", "fy", "fz", "tx", "ty", "tz")
+
+    def outputs(self, model: Any) -> list[Node]:
+        """Values of ``result_names``."""
+        own = Ref(self.keyword, self.key)
+        return [measure(self.keyword, own, component) for component in COMPONENTS]

@@ -1,0 +1,71 @@
+"""A cubic spline through points of space, over the length of its chords.
+
+Equation (c the curve, s from 0 at the first point to 1 at the last)::
+
+    c(s_k) = point k,     s_k = length of the chords up to point k over that of all
+
+Open ends take the third derivative from their neighbours ("not a knot"), a closed curve goes
+through its seam with slope and bend.
+Reference: de Boor, A Practical Guide to Splines, 2001, chapter IV.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from adamslite.symbolic.interpolant import Interpolant, interpolant
+
+# How finely the nearest point is looked for before it is polished, per piece.
+SAMPLES = 20
+
+
+@dataclass(frozen=True, eq=False)
+class SplineCurve:
+    """``table``: x, y and z over s; ``length`` of all chords."""
+
+    table: Interpolant
+    length: float
+
+    def nearest(self, point: Any) -> float:
+        """Parameter of the curve's point nearest to ``point`` (3,)."""
+        s = self._nearest_sample(point)
+        for _ in range(20):
+            gap, slope, bend = (self.table.at(s, n) for n in range(3))
+            gap = gap - point
+            down = (slope * slope + gap * bend).sum()
+            if down <= 0.0:
+                break
+            s = s - (gap * slope).sum() / down
+        return float(s[0])
+
+    def _nearest_sample(self, point: Any) -> Any:
+        """Parameter (1,) of the nearest of all samples, looked at one on each piece at a time."""
+        import numpy as np
+
+        first, span = self.table.knots[:-1], np.diff(self.table.knots)
+        least, best = np.inf, first[:1]
+        for share in np.linspace(0.0, 1.0, SAMPLES + 1):
+            s = first + share * span
+            away = ((self.table.at(s) - point) ** 2).sum(axis=1)
+            nearest = int(np.argmin(away))
+            if away[nearest] < least:
+                least, best = away[nearest], s[nearest : nearest + 1]
+        return best
+
+
+def through(points: Any, closed: bool) -> SplineCurve:
+    """The spline through ``points`` (n, 3); a closed one ends where it begins."""
+    import numpy as np
+
+    points = np.asarray(points, dtype=float)
+    chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    apart = np.append(True, chords > 0.0)
+    points, chords = points[apart], chords[chords > 0.0]
+    length = float(chords.sum())
+    s = np.append(np.cumsum(np.append(0.0, chords[:-1])) / length, 1.0)
+    if not closed:
+        return SplineCurve(interpolant(s, points, "not-a-knot", "piece"), length)
+    ring = points.copy()
+    ring[-1] = ring[0]
+    return SplineCurve(interpolant(s, ring, "periodic", "piece"), length)

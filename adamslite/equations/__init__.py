@@ -1,0 +1,1 @@
+"""The numbered equations of a model: unknowns, elimination order, arrays, native operations."""

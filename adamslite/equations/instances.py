@@ -1,0 +1,167 @@
+"""Instances of the kernels: the integers and reals that each reads, the blocks that it writes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from math import inf
+from typing import Any
+
+import numpy as np
+
+from adamslite.equations.engine import ints
+from adamslite.equations.numbering import Numbering
+from adamslite.integrators import contract
+from adamslite.kernels.binding import Binding
+from adamslite.kernels.compile import Group, Kernels
+
+PHASES = {
+    "loads": contract.LOADS,
+    "reactions": contract.REACTIONS,
+    "position": contract.POSITION_ROWS,
+    "velocity": contract.VELOCITY_ROWS,
+    "acceleration": contract.ACCELERATION_ROWS,
+    "equation": contract.ROWS,
+    "signal": contract.SIGNALS,
+    "output": contract.OUTPUTS,
+    "stored": contract.STORED_ENERGY,
+}
+
+
+class Instances(Numbering):
+    """Kernels bound to the numbered unknowns."""
+
+    def __init__(self, kernels: Kernels, stabilised: bool) -> None:
+        super().__init__(kernels, stabilised)
+        self._groups()
+
+    def _groups(self) -> None:
+        """Instances as integers and reals, and the Jacobian blocks they write."""
+        self.blocks: dict[tuple[int, int], int] = {}
+        self.size_j = 0
+        for b in range(len(self.model.bodies)):
+            self.block(b, b)
+        rows, self.keep = [], []
+        self.out_at: dict[Any, int] = {}
+        for statement, names in self.kernels.outputs:
+            self.out_at[statement] = self._out_next(names)
+        for group in self.kernels.groups:
+            rows += self._group(group)
+        self.group = ints(rows)
+
+    def _out_next(self, names: tuple[str, ...]) -> int:
+        first = getattr(self, "n_out", 0)
+        self.n_out = first + len(names)
+        return first
+
+    def _is_rate(self, group: Group) -> bool:
+        return group.instances[0][0].is_rate(self.model)
+
+    def _group(self, group: Group) -> list[int]:
+        phase = PHASES[group.face]
+        if group.face == "velocity" and self._is_rate(group):
+            phase = contract.RATE_ROWS
+        if group.face == "loads" and hasattr(group.instances[0][0], "stored"):
+            phase |= contract.ELASTIC
+        ints = np.array(
+            [self._integers(group, b, n) for n, (_, b) in enumerate(group.instances)],
+            dtype=np.int64,
+        )
+        reals = np.array([self._reals(group, b) for _, b in group.instances], dtype=float)
+        reals = np.ascontiguousarray(np.append(reals.ravel(), 0.0))
+        ints = np.ascontiguousarray(ints.ravel())
+        self.keep += [ints, reals]
+        at = self.kernels.addresses
+        kinds = ("residual", "jacobian", "track", "clock", "watch")
+        entry = [at.get(f"{group.name}_{kind}", 0) for kind in kinds]
+        data = [len(group.instances), ints.ctypes.data, reals.ctypes.data]
+        return [phase, *entry[:3], *data, *entry[3:]]
+
+    def one_instance(self, groups: np.ndarray, k: int, instance: int) -> np.ndarray:
+        """The row of ``groups`` of group ``k``, with one of its instances only."""
+        row, count = (
+            groups[contract.GROUP * k : contract.GROUP * (k + 1)].copy(),
+            groups[contract.GROUP * k + 4],
+        )
+        of_ints, of_reals = self.keep[2 * k].size, self.keep[2 * k + 1].size - 1
+        row[4] = 1
+        row[5] += 8 * instance * (of_ints // count)
+        row[6] += 8 * instance * (of_reals // count)
+        return row
+
+    def memories(self) -> Iterator[tuple[tuple[Any, ...], np.ndarray]]:
+        """Whose it is and what it remembers: angles, then times of leaving its law."""
+        for group, reals in zip(self.kernels.groups, self.keep[1::2], strict=True):
+            count = group.meta["angles"] + group.meta["limits"]
+            rows = reals[:-1].reshape(len(group.instances), -1) if count else ()
+            for (statement, binding), row in zip(group.instances, rows, strict=False):
+                first = len(binding.params)
+                yield (group.name, statement.keyword, statement.key), row[first : first + count]
+
+    def remember(self, known: Iterable[tuple[tuple[Any, ...], np.ndarray]]) -> None:
+        """Take memories over, of instances that are known."""
+        found = dict(known)
+        for whose, values in self.memories():
+            values[:] = found.get(whose, values)
+
+    def out_of_law(self) -> dict[str, str]:
+        """Elements that were beyond what their law is meant for: how, and when first."""
+        limited = {g.name: g.meta["limits"] for g in self.kernels.groups if g.face == "loads"}
+        found = {}
+        for (name, *node), values in self.memories():
+            statement = self.model.element(*node)
+            limits = limited.get(name, 0)
+            time = min(values[len(values) - limits :], default=inf)
+            if hasattr(statement, "beyond") and time < inf:
+                found[statement.label] = f"{statement.beyond}, first at t = {time:.6g}"
+        return found
+
+    def _integers(self, group: Group, binding: Binding, instance: int) -> list[int]:
+        nodes = [("BODY", b) for b in binding.bodies] + binding.nodes
+        found = [self.w_at.get(node, 0) for node in nodes]
+        found += [self.w_at["SIGNAL", s] for s in binding.signals]
+        found += [self._row(group, node) for node in nodes]
+        found += [table.data.ctypes.data for table in binding.tables]
+        guards = group.meta["guards"]
+        if any(guards.values()):
+            found += [
+                self.first_branch[place, group.name] + instance * len(each)
+                for place, each in guards.items()
+            ]
+        if group.meta["blocks"]:
+            rows = [self._row_node(group, node) for node in nodes]
+            columns = [self.node_at[node] for node in nodes]
+            found += [self.block(rows[r], columns[c]) for r, c in group.meta["blocks"]]
+        return found
+
+    def _row_node(self, group: Group, node: tuple[str, Any]) -> int:
+        """Node whose rows an instance writes: velocity rows stand at mu."""
+        if group.face == "velocity" and ("MU", node) in self.node_at:
+            return self.node_at["MU", node]
+        return self.node_at[node]
+
+    def _row(self, group: Group, node: tuple[str, Any]) -> int:
+        if node[0] == "OUTPUT":
+            return self.out_at[node[1]]
+        if node[0] == "SIGNAL":
+            return self.w_at[node]
+        if node[0] == "STORED":
+            return 0  # all add up in one number
+        return self.starts[self._row_node(group, node)]
+
+    def _reals(self, group: Group, binding: Binding) -> list[float]:
+        values = list(binding.params) + [0.0] * group.meta["angles"]
+        values += [inf] * group.meta["limits"]
+        for marker_id in binding.markers:
+            place = self.model.marker(marker_id)
+            if place.offset:
+                values += place.p.tolist()
+            if place.turned:
+                values += place.axes.ravel().tolist()
+        return values
+
+    def block(self, row: int, column: int) -> int:
+        """Offset of a Jacobian block, made on first use."""
+        if (row, column) not in self.blocks:
+            self.blocks[row, column] = self.size_j
+            self.size_j += self.widths[row] * self.widths[column]
+        return self.blocks[row, column]

@@ -1,0 +1,84 @@
+"""Numbers of unknowns: nodes of the elimination, first unknowns, places in the workspace."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from adamslite.equations.engine import ints
+from adamslite.kernels.compile import Kernels
+from adamslite.model.model import PART
+
+HEAD = 2
+POINT_SIZE, PART_SIZE = 9, 24
+
+
+class Numbering:
+    """The unknowns of a model in one formulation."""
+
+    def __init__(self, kernels: Kernels, stabilised: bool) -> None:
+        self.kernels = kernels
+        self.model = kernels.model
+        self.stabilised = stabilised
+        self._number()
+
+    def _number(self) -> None:
+        """Nodes, first unknowns and workspace offsets."""
+        model = self.model
+        self.nodes: list[tuple[str, Any]] = [("BODY", b) for b in range(len(model.bodies))]
+        self.widths = [body.width for body in model.bodies]
+        self.n = sum(self.widths)
+        constraints = [(c.keyword, c.key) for c in model.constraints]
+        loops = [v for v in model.deck.of("VARIABLE") if model.variable_kind(v.key) == "loop"]
+        states = model.deck.of("DIFF")
+        scalars = constraints + [("VARIABLE", v.key) for v in loops]
+        scalars += [("DIFF", d.key) for d in states]
+        self.nodes += scalars
+        self.widths += [model.node_width(node) for node in scalars]
+        self.m = sum(c.n_rows for c in model.constraints)
+        self.nv, self.ns = len(loops), len(states)
+        self.holonomic = sum(c.n_rows for c in model.constraints if not c.is_rate(model))
+        if self.stabilised:
+            with_mu = [c for c in model.constraints if not c.is_rate(model)]
+            self.nodes += [("MU", (c.keyword, c.key)) for c in with_mu]
+            self.widths += [c.n_rows for c in with_mu]
+        self.starts = np.concatenate([[0], np.cumsum(self.widths)]).astype(int)[:-1].tolist()
+        self.nz = sum(self.widths)
+        self.node_at = {node: k for k, node in enumerate(self.nodes)}
+        self._workspace(scalars)
+
+    def _workspace(self, scalars: list[tuple[str, Any]]) -> None:
+        model = self.model
+        at = HEAD
+        self.w_at: dict[Any, int] = {}
+        for variable in model.deck.of("VARIABLE"):
+            if model.variable_kind(variable.key) == "signal":
+                self.w_at["SIGNAL", variable.key] = at
+                at += 3
+        self.n_head = at
+        for b, body in enumerate(model.bodies):
+            self.w_at["BODY", b] = at
+            at += PART_SIZE if body.width == PART else POINT_SIZE
+        offsets = []
+        for node in scalars:
+            self.w_at[node] = at
+            width = model.node_width(node)
+            offsets += range(at, at + width)
+            at += 2 if node[0] == "DIFF" else width
+        self.nw = at
+        self.scalar = ints(offsets)
+        self._branches()
+
+    def _branches(self) -> None:
+        """Guards and zones of all instances; branches stand behind the workspace."""
+        self.guarded: dict[str, list[tuple[Any, int]]] = {"clock": [], "watch": [], "zone": []}
+        self.first_branch: dict[tuple[str, str], int] = {}
+        at = self.nw
+        for place, found in self.guarded.items():
+            for group in self.kernels.groups:
+                self.first_branch[place, group.name] = at + len(found)
+                for statement, _ in group.instances:
+                    found += [(statement, kind) for kind in group.meta["guards"][place]]
+            at += len(found)
+        self.kind = ints([kind for found in self.guarded.values() for _, kind in found])

@@ -1,0 +1,61 @@
+"""The native entries, tables of addresses in, an outcome out: the integrators and the rest."""
+
+from __future__ import annotations
+
+from adamslite.equations.engine import (
+    ACCELERATIONS,
+    AUDIT,
+    CLOCK,
+    EQUILIBRIUM,
+    RECORD,
+    RESIDUAL,
+    SPECTRUM,
+)
+from adamslite.integrators.accelerations import accelerations, put_state
+from adamslite.integrators.audit.balance import start_balance
+from adamslite.integrators.bdf.method import bdf
+from adamslite.integrators.contract import BROKEN_START, DONE, Plan, Problem, T
+from adamslite.integrators.equilibrium import equilibrium
+from adamslite.integrators.events.stops import sample_clock
+from adamslite.integrators.explicit.method import explicit
+from adamslite.integrators.hht.method import hht
+from adamslite.integrators.motion_equations import jacobian, residual, track
+from adamslite.integrators.radau.method import radau
+from adamslite.integrators.records import write_record
+from adamslite.integrators.unconstrained import spectrum
+from adamslite.integrators.verlet.method import verlet
+from adamslite.native.translate import native, translate
+
+__all__ = ["bdf", "engine_text", "explicit", "hht", "radau", "run", "verlet"]
+
+
+@native
+def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
+    """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
+    row ``phases``; CLOCK writes the guards of the clock at the asked times; AUDIT starts a balance.
+    """
+    if operation == CLOCK:
+        return sample_clock(P)
+    if operation == EQUILIBRIUM:
+        return equilibrium(P, L)
+    if operation == ACCELERATIONS:
+        good = accelerations(P, L, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
+        return DONE if good else BROKEN_START
+    put_state(P, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
+    if operation == SPECTRUM:
+        return spectrum(P)
+    if operation == RECORD:
+        write_record(P, phases)
+        track(P)
+    elif operation == AUDIT:
+        start_balance(P)
+    elif operation == RESIDUAL:
+        residual(P, phases, P.F)
+    else:
+        jacobian(P, phases, P.coef, P.J)
+    return DONE
+
+
+def engine_text(name: str) -> str:
+    """LLVM assembly of one of the entries."""
+    return translate(name)

@@ -1,0 +1,69 @@
+"""Result columns from the record of a run: names as in the deck."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from adamslite.equations.system import System
+from adamslite.kernels.code.kinematics import (
+    ACCELERATION,
+    ALPHA,
+    ATTITUDE,
+    OMEGA,
+    POSITION,
+    VELOCITY,
+)
+from adamslite.model.model import PART
+
+# Below this sine of theta the first and third angle of the 3-1-3 sequence are one angle.
+ALIGNED = 1e-10
+
+OF_PART = "x y z psi theta phi vx vy vz wx wy wz ax ay az alx aly alz".split()
+OF_POINT = "x y z vx vy vz ax ay az".split()
+
+
+def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
+    """Names and values (nt, nc) of every body and every statement that writes something.
+
+    A body gives position, 3-1-3 angles, velocity, angular velocity, acceleration and angular
+    acceleration of its centre-of-mass marker in ground axes; a point mass the translational ones.
+    """
+    names: list[str] = []
+    parts: list[np.ndarray] = []
+    for b, body in enumerate(system.model.bodies):
+        w = record[:, system.w_at["BODY", b] :]
+        label = body.statement.label
+        turns = body.statement.keyword == "PART"
+        names += [f"{label}.{c}" for c in (OF_PART if turns else OF_POINT)]
+        parts.append(_part(system, b, w) if turns else _point(body.width, w))
+    for statement, suffixes in system.kernels.outputs:
+        names += [f"{statement.label}.{s}" if s else statement.label for s in suffixes]
+    parts.append(record[:, system.nw :])
+    values = np.concatenate(parts, axis=1) if parts else np.zeros((len(record), 0))
+    return tuple(names), values
+
+
+def _point(width: int, w: np.ndarray) -> np.ndarray:
+    """Position, velocity and acceleration; a point mass may have been solved as a part."""
+    if width != PART:
+        return w[:, :9]
+    return np.concatenate([w[:, k : k + 3] for k in (POSITION, VELOCITY, ACCELERATION)], axis=1)
+
+
+def _part(system: System, b: int, w: np.ndarray) -> np.ndarray:
+    attitude = w[:, ATTITUDE : ATTITUDE + 9].reshape(-1, 3, 3)
+    cm = system.model.bodies[b].statement.cm
+    if cm is not None:
+        attitude = attitude @ system.model.marker(cm).axes
+    columns = [w[:, POSITION : POSITION + 3], angles_313(attitude), w[:, VELOCITY : VELOCITY + 3]]
+    columns += [w[:, OMEGA : OMEGA + 3], w[:, ACCELERATION : ACCELERATION + 3]]
+    return np.concatenate([*columns, w[:, ALPHA : ALPHA + 3]], axis=1)
+
+
+def angles_313(r: np.ndarray) -> np.ndarray:
+    """psi, theta, phi (nt, 3) of attitudes (nt, 3, 3); phi = 0 where the two turns are one."""
+    sine = np.hypot(r[:, 0, 2], r[:, 1, 2])
+    regular = sine > ALIGNED
+    psi = np.where(regular, np.arctan2(r[:, 0, 2], -r[:, 1, 2]), np.arctan2(r[:, 1, 0], r[:, 0, 0]))
+    phi = np.where(regular, np.arctan2(r[:, 2, 0], r[:, 2, 1]), 0.0)
+    return np.column_stack([psi, np.arctan2(sine, r[:, 2, 2]), phi])

@@ -1,0 +1,313 @@
+"""The numbered equations of a model: the arrays that native code works on.
+
+Unknowns stand in the order bodies, multipliers (holonomic first), variables, states of DIFF and,
+in the stabilised form, multipliers of the velocity rows; every equation has the row of its unknown.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from adamslite.equations.elimination import Elimination
+from adamslite.equations.engine import INTEGRATORS, engine, ints, reals
+from adamslite.errors import UsageError
+from adamslite.integrators import contract
+from adamslite.integrators.event_rows import MARGIN_ROWS, PLACES
+from adamslite.kernels.compile import Kernels
+from adamslite.model.model import PART, Model
+
+# Moves of the assembly below this are round-off.
+MOVED = 1e-9
+# Share of a lever that a radius of gyration counts at least.
+LEVER = 0.1
+
+
+class System(Elimination):
+    """Arrays of one model in one formulation, and the operations on them.
+
+    Every field of ``Problem`` is an attribute of that name.
+    """
+
+    def __init__(self, kernels: Kernels, stabilised: bool, pivoting: bool = False) -> None:
+        """``pivoting``: eliminate the whole matrix with row pivoting, whatever its size."""
+        super().__init__(kernels, stabilised, pivoting)
+        self._allocate()
+        self._bodies()
+        self._scalars()
+        self._tables()
+        self.drop([])
+
+    @property
+    def dof(self) -> int:
+        """Degrees of freedom: unknowns of the bodies less independent constraint rows."""
+        return self.n - self.m + len(self.dropped)
+
+    def _allocate(self) -> None:
+        n, nz = self.n, self.nz
+        rest = self.m + self.nv + self.ns
+        w = 2 * n + self.ns
+        for name in ("q", "u", "a", "ra"):
+            setattr(self, name, np.zeros(n + 1))
+        for name in ("z", "rz", "pz"):
+            setattr(self, name, np.zeros(rest + 1))
+        self.rd, self.mu = np.zeros(self.ns + 1), np.zeros(self.holonomic + 1)
+        self.W, self.F, self.x = np.zeros(self.nw + 1), np.zeros(nz + 1), np.zeros(nz + 1)
+        if self.kind.size:
+            self.W = np.zeros(self.nw + self.kind.size)
+        self.guard = np.zeros(self.W.size)
+        self.margin = np.zeros(MARGIN_ROWS * len(self.guarded["watch"]))
+        self.zone = np.zeros(5 * len(self.guarded["zone"]))
+        self.stops, self.search, self.pattern = np.zeros(1), np.zeros(PLACES), ints([])
+        self.broken, self.hurried = None, []
+        self.paces = np.array(contract.NO_PACE)
+        self.pivot0 = np.zeros(nz + 1)
+        self.history, self.trial = np.zeros(9 * w + 160), np.zeros(3 * w + 3)
+        self.control, self.tableau = np.zeros(48), np.zeros(1)
+        self.parts, self.LC, self.pivots_c = np.zeros(1), np.zeros(1), ints([0])
+        self.coef, self.report = np.zeros(16), np.zeros(len(contract.REPORT))
+        self.settings, self.count = (
+            np.zeros(len(contract.SETTINGS)),
+            ints([0] * len(contract.COUNTS)),
+        )
+        self.times, self.record, self.undo = np.zeros(1), np.zeros(1), np.zeros(0)
+        self.audit = np.zeros(0)
+        self.gravity = np.asarray(self.model.deck.gravity, dtype=float)
+
+    def _bodies(self) -> None:
+        bodies = self.model.bodies
+        self.mass = reals([b.mass for b in bodies])
+        inertia = reals([b.inertia for b in bodies]).reshape(-1, 3, 3)
+        self.inertia = inertia.ravel()
+        self.base = reals([b.attitude for b in bodies]).ravel()
+        self.weight = _rotation_weights(self.model, self.mass, inertia)
+        if bodies:
+            at = self.places
+            self.q[at], self.u[at] = [b.x for b in bodies], [b.v for b in bodies]
+        for b, body in enumerate(bodies):
+            if body.width == PART:
+                i = self.starts[b]
+                self.u[i + 3 : i + 6] = body.w
+
+    @property
+    def places(self) -> np.ndarray:
+        """Numbers of the unknowns of each body that are its place, (bodies, 3)."""
+        starts = self.starts[: len(self.model.bodies)]
+        return np.array(starts, dtype=int)[:, None] + np.arange(3)
+
+    def _scalars(self) -> None:
+        """Start values of variables that are solved for and of DIFF states: their IC."""
+        for k, node in enumerate(n for n in self.nodes if n[0] in ("VARIABLE", "DIFF")):
+            ic = self.model.element(*node).ic
+            self.z[self.m + k] = ic if node[0] == "VARIABLE" else ic[0]
+            if node[0] == "DIFF":
+                self.rd[k - self.nv] = ic[1] if len(ic) > 1 else 0.0
+
+    def _tables(self) -> None:
+        body = []
+        for b in range(len(self.model.bodies)):
+            body += [self.widths[b], self.starts[b], self.w_at["BODY", b], self.blocks[b, b], 0]
+        self.body = ints(body)
+        mass = any(g.meta["mass"] for g in self.kernels.groups if g.face in ("loads", "equation"))
+        facts = {
+            "nb": len(self.model.bodies), "n": self.n, "m": self.m, "nv": self.nv, "ns": self.ns,
+            "nw": self.nw, "ng": self.group.size // contract.GROUP, "si2": int(self.stabilised),
+            "implicit_mass": int(mass), "n_out": getattr(self, "n_out", 0), "nz": self.nz,
+            "holonomic": self.holonomic, "n_head": self.n_head,
+            "clocks": len(self.guarded["clock"]), "watched": len(self.guarded["watch"]),
+            "zones": len(self.guarded["zone"]),
+        }  # fmt: skip
+        self.sizes = ints([facts[name] for name in contract.SIZES])
+
+    def adopt(self, other: System) -> None:
+        """Take over the state of another system of (almost) the same model."""
+        self.remember(other.memories())
+        for node, k in self.node_at.items():
+            at = other.node_at.get(self._named(node, other))
+            if at is None or other.widths[at] != self.widths[k]:
+                continue
+            i, j, w = self.starts[k], other.starts[at], self.widths[k]
+            if node[0] == "BODY":
+                for name in ("q", "u", "a"):
+                    getattr(self, name)[i : i + w] = getattr(other, name)[j : j + w]
+                b, c = 9 * node[1], 9 * other.nodes[at][1]
+                self.base[b : b + 9] = other.base[c : c + 9]
+            elif node[0] != "MU":
+                self.z[i - self.n : i - self.n + w] = other.z[j - other.n : j - other.n + w]
+
+    def _named(self, node: tuple[str, Any], other: System) -> tuple[str, Any]:
+        """The node of another system that is the same statement."""
+        if node[0] != "BODY":
+            return node
+        statement = self.model.bodies[node[1]].statement
+        return "BODY", other.model.body_index.get((statement.keyword, statement.key), -1)
+
+    def largest_changes(self) -> list[str]:
+        """The five largest moves of bodies from where the deck puts them, as text."""
+        bodies = self.model.bodies
+        if not bodies:
+            return []
+        shifts = np.abs(self.q[self.places] - [b.x for b in bodies]).max(axis=1)
+        turns = _turns_between(reals([b.attitude for b in bodies]), self.base.reshape(-1, 3, 3))
+        moved = []
+        for b in np.flatnonzero(np.maximum(shifts, turns) > MOVED).tolist():
+            shift, turn = float(shifts[b]), float(turns[b])
+            text = f"{bodies[b].statement.label} by {shift:.3g}"
+            moved.append(
+                (max(shift, turn), text + (f" and {turn:.3g} rad" if turn > MOVED else ""))
+            )
+        return [text for _, text in sorted(moved, reverse=True)[:5]]
+
+    def changed_speeds(self) -> list[str]:
+        """The five largest changes of velocities that the deck gives, as text."""
+        changed = []
+        for b, body in enumerate(self.model.bodies):
+            if not (body.v.any() or body.w.any()):
+                continue
+            i, given = self.starts[b], np.concatenate([body.v, body.w])[: self.widths[b]]
+            change = float(np.abs(self.u[i : i + self.widths[b]] - given).max())
+            size = float(np.abs(given).max())
+            if size > 0.0 and change > MOVED * max(1.0, size):
+                changed.append((change, f"{body.statement.label} by {change:.3g}"))
+        return [text for _, text in sorted(changed, reverse=True)[:5]]
+
+    def dense_jacobian(self) -> np.ndarray:
+        """The Jacobian blocks as one matrix (nz, nz)."""
+        full = np.zeros((self.nz, self.nz))
+        for (row, column), at in self.blocks.items():
+            r, c, h, w = (
+                self.starts[row],
+                self.starts[column],
+                self.widths[row],
+                self.widths[column],
+            )
+            full[r : r + h, c : c + w] = self.J[at : at + h * w].reshape(h, w)
+        return full
+
+    def sparse_jacobian(self) -> Any:
+        """The Jacobian blocks as one sparse matrix (nz, nz)."""
+        from scipy.sparse import coo_array
+
+        rows, columns, places = self._entries
+        values = self.J[places]
+        return coo_array((values, (rows, columns)), shape=(self.nz, self.nz)).tocsr()
+
+    @cached_property
+    def _entries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Row, column and place in ``J`` of every entry of every block."""
+        found = [(ints([]), ints([]), ints([]))]
+        for (row, column), at in self.blocks.items():
+            h, w = self.widths[row], self.widths[column]
+            rows, columns = np.divmod(np.arange(h * w), w)
+            places = at + np.arange(h * w)
+            found.append((self.starts[row] + rows, self.starts[column] + columns, places))
+        return tuple(np.concatenate(each) for each in zip(*found, strict=True))
+
+    def release_guards(self) -> None:
+        """Let every expression take the branch of the moment again."""
+        self.W[self.nw :] = 0.0
+
+    def prepare_explicit(self, scale: tuple[float, ...]) -> None:
+        """Coefficients and room for the stages of the explicit formula; ``scale`` as in SCALE."""
+        from adamslite.integrators.explicit.dop853 import tableau
+        from adamslite.integrators.explicit.state import HISTORY_ROWS, SCALES
+
+        w = 2 * self.n + self.ns
+        room = HISTORY_ROWS * w + 9 * len(self.model.bodies) + 16
+        self.tableau = tableau()
+        if self.history.size < room:
+            self.history = np.zeros(room)
+        self.history[SCALES * w : (SCALES + 1) * w] = self._error_scales(scale)
+
+    def _error_scales(self, scale: tuple[float, ...]) -> np.ndarray:
+        """Factors of ERROR (2 n + ns,): SCALE for bodies, 1 for states and what is not given."""
+        place, angle, _, speed, spin, _ = (*scale, *(6 - len(scale)) * (1.0,))
+        factors = np.ones(2 * self.n + self.ns)
+        for b, body in enumerate(self.model.bodies):
+            i = self.starts[b]
+            for start, shift, turn in ((i, place, angle), (self.n + i, speed, spin)):
+                factors[start : start + 3] = shift
+                if body.width == PART:
+                    factors[start + 3 : start + 6] = turn
+        return factors
+
+    def prepare_radau(self) -> None:
+        """Coefficients and room for the stages and the complex factors of the Radau formula."""
+        from adamslite.integrators.radau.coefficients import coefficients
+        from adamslite.integrators.radau.stages import Y_ROWS, Z_ROWS
+
+        z = self.m + self.nv + self.ns + self.holonomic
+        room = Y_ROWS * (2 * self.n + self.ns) + Z_ROWS * z + 7 * self.nz + 16
+        self.tableau = coefficients()
+        if self.parts.size == 1:
+            self.history = np.zeros(max(room, self.history.size))
+            self.parts = np.zeros(3 * self.J.size)
+            self.LC, self.pivots_c = np.zeros(2 * self.LV.size), ints([0] * self.nz)
+            widest = int(self.plan["size"].max(initial=0))
+            self.work = np.zeros(max(self.work.size, 2 * widest**2))
+
+    def start_record(self, times: np.ndarray) -> None:
+        """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier
+        runs.
+
+        Raises
+        ------
+        UsageError
+            When there is not so much room.
+        """
+        self.times = np.ascontiguousarray(times, dtype=float)
+        row = self.nw + int(self.sizes[contract.N_OUT])
+        try:
+            self.record = np.zeros(len(times) * row + 1)
+        except MemoryError:
+            size = 8e-9 * len(times) * row
+            raise UsageError(
+                f"The output of {len(times)} times would take {size:.3g} GB of memory, which are "
+                "not there: fewer STEPS, a longer DTOUT."
+            ) from None
+        if self.m:
+            kept = (self.history, self.control, self.base, self.ra, self.rz, self.pz, self.audit)
+            self.undo = np.zeros(sum(each.size for each in kept))
+        self.count[:] = 0
+
+    def run(self, operation: int, phases: int = 0) -> int:
+        """Call native code on the arrays as they are now."""
+        more = () if operation in INTEGRATORS else (operation, phases)
+        problem, plan = self.records()
+        return engine(operation)(problem.address, plan.address, *more)
+
+    def records(self) -> tuple[contract.Problem, contract.Plan]:
+        """The arrays as native code takes them."""
+        problem, plan = contract.Problem.zeros(), contract.Plan.zeros()
+        for name in contract.Problem.fields:
+            setattr(problem, name, getattr(self, name))
+        for name in contract.Plan.fields:
+            setattr(plan, name, self.plan[name])
+        return problem, plan
+
+
+def _turns_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Angles (n,) of the rotations from attitudes (n, 3, 3) to others [rad]."""
+    spin = b @ a.transpose(0, 2, 1)
+    axis = [spin[:, i, j] - spin[:, j, i] for i, j in ((2, 1), (0, 2), (1, 0))]
+    return np.arctan2(np.linalg.norm(axis, axis=0), np.trace(spin, axis1=1, axis2=2) - 1.0)
+
+
+def _rotation_weights(model: Model, mass: np.ndarray, inertia: np.ndarray) -> np.ndarray:
+    """1/(radius of gyration)^2 of each body: puts rotations on the scale of translations in
+    W G^T mu; 1 for a body without mass or inertia.
+
+    At least ``LEVER`` of the way from the mass centre to a marker that is held: a part whose mass
+    is all but a point turns about such a marker, and a weight of its inertia alone would make
+    G W G^T, and what round-off does to mu, as large as the ratio of the two is small.
+    """
+    trace = np.trace(inertia, axis1=1, axis2=2)
+    known = (trace > 0.0) & (mass > 0.0)
+    square = np.divide(trace, mass, out=np.ones(mass.size), where=known)
+    ends = [getattr(each, name, None) for each in model.constraints for name in ("i", "j")]
+    for place in (model.marker(end) for end in ends if end is not None):
+        if place is not None and place.body >= 0 and known[place.body]:
+            square[place.body] = max(square[place.body], LEVER**2 * float(place.p @ place.p))
+    return 1.0 / square

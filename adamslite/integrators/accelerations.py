@@ -1,0 +1,149 @@
+"""Accelerations, multipliers, variables and DIFF rates at given positions, velocities and states.
+
+    F(t, q, u, a, lam, V, s') = 0,   d2g/dt2 = 0        solved by Newton for (a, lam, V, s')
+
+Its matrix [M - df/da, G^T; G, 0] loses rank when a force that depends on accelerations cancels the
+inertia; :func:`mass_signature` sees that between two steps.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import (
+    ACCELERATION,
+    FACTORIZATIONS,
+    IMPLICIT_MASS,
+    ITERATION,
+    MODE_DYNAMICS,
+    NS,
+    NV,
+    NZ,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.failure_notes import note_trouble
+from adamslite.integrators.linalg.blocks import factor, signature, solve
+from adamslite.integrators.motion_equations import (
+    jacobian,
+    put_motion,
+    put_pose,
+    put_scalars,
+    put_time,
+    residual,
+    spread,
+)
+from adamslite.native.translate import Reals, native
+
+MAX_ITERATIONS = 12
+ROUND_OFF = 1e-11
+# The equations are linear but for loops of variables: a worse rate of convergence asks for a new
+# matrix.
+SLOW = 0.03
+# A pivot of the acceleration matrix below this share of its first value has vanished.
+VANISHING = 1e-3
+
+
+@native
+def put_state(P: Problem, t: float, q: Reals, u: Reals, a: Reals, z: Reals, sd: Reals) -> None:
+    """A whole state into the workspace."""
+    P.W[1] = MODE_DYNAMICS
+    put_time(P, t)
+    put_pose(P, q)
+    put_motion(P, u, a)
+    put_scalars(P, z, sd)
+
+
+@native
+def acceleration_matrix(P: Problem) -> None:
+    """dF/d(a, lam, V, s') spread into ``P.LA``."""
+    c = P.coef
+    c[0], c[1], c[2], c[3], c[4] = 0.0, 0.0, 1.0, 1.0, 1.0
+    jacobian(P, ACCELERATION, c, P.J)
+    spread(P, P.LA)
+    for k in range(P.unit.size):
+        P.LA[P.unit[k]] = 1.0
+    P.count[FACTORIZATIONS] += 1
+
+
+@native
+def accelerations(
+    P: Problem, L: Plan, t: float, q: Reals, u: Reals, a: Reals, z: Reals, sd: Reals
+) -> bool:
+    """Solve for a, lam, V and s' in place; False when the matrix is singular or Newton fails."""
+    put_state(P, t, q, u, a, z, sd)
+    acceleration_matrix(P)
+    if not factor(L, P.LA, P.pivots_a, P.work):
+        return False
+    return settle(P, L, u, a, z, sd)
+
+
+@native
+def settle(P: Problem, L: Plan, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool:
+    """Newton at the workspace's state with the matrix that is factored, renewed when it is slow."""
+    last = 1e300
+    for iteration in range(MAX_ITERATIONS):
+        P.report[ITERATION] = iteration + 1.0
+        residual(P, ACCELERATION, P.F)
+        for k in range(P.sizes[NZ] - P.sizes[N] - P.sizes[M] - P.sizes[NV] - P.sizes[NS]):
+            P.F[P.sizes[NZ] - 1 - k] = 0.0
+        solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
+        size = correct_rates(P, a, z, sd)
+        if not size < 1e300:
+            break
+        put_motion(P, u, a)
+        put_scalars(P, z, sd)
+        if size <= ROUND_OFF or (iteration > 1 and size >= 0.5 * last and size < 1e-7):
+            return True
+        if iteration > 0 and size > SLOW * last:
+            acceleration_matrix(P)
+            if not factor(L, P.LA, P.pivots_a, P.work):
+                return False
+        last = size
+    note_trouble(P, ACCELERATION, P.report[ITERATION])
+    return False
+
+
+@native
+def correct_rates(P: Problem, a: Reals, z: Reals, sd: Reals) -> float:
+    """Subtract the increment in ``P.F``; returns its size against the largest unknown of a kind."""
+    n, algebraic = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    change, top = 0.0, 0.0
+    for k in range(n):
+        a[k] -= P.F[k]
+        change, top = max(change, abs(P.F[k])), max(top, abs(a[k]))
+    size = change / max(1.0, top)
+    change, top = 0.0, 0.0
+    for k in range(algebraic):
+        z[k] -= P.F[n + k]
+        change, top = max(change, abs(P.F[n + k])), max(top, abs(z[k]))
+    for k in range(P.sizes[NS]):
+        sd[k] -= P.F[n + algebraic + k]
+        change, top = max(change, abs(P.F[n + algebraic + k])), max(top, abs(sd[k]))
+    size = max(size, change / max(1.0, top))
+    for k in range(n + algebraic + P.sizes[NS]):
+        if not abs(P.F[k]) < 1e300:
+            return 1e301
+    return size
+
+
+@native
+def mass_signature(P: Problem, L: Plan, found: Reals) -> int:
+    """Negative pivots of the acceleration matrix at the workspace's state; -1 when singular."""
+    acceleration_matrix(P)
+    return signature(L, P.LA, P.pivots_a, P.work, found)
+
+
+@native
+def mass_vanishes(P: Problem, L: Plan, before: int) -> bool:
+    """Whether the acceleration matrix at the workspace's state has lost a pivot since the start, or
+    is close to it; ``before`` is its last signature.
+    """
+    if P.sizes[IMPLICIT_MASS] == 0:
+        return False
+    if mass_signature(P, L, P.x) != before:
+        return True
+    for k in range(P.sizes[NZ]):
+        if not abs(P.x[k]) >= VANISHING * abs(P.pivot0[k]):
+            return True
+    return False

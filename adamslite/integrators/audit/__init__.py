@@ -1,0 +1,1 @@
+"""The balance of energy of a run, on its accepted steps."""

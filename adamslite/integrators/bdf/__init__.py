@@ -1,0 +1,1 @@
+"""GSTIFF and CONSTANT_BDF: backward differentiation formulas."""

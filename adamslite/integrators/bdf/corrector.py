@@ -1,0 +1,218 @@
+"""The corrector of the backward differences: Newton from the prediction, d = y - y_p.
+
+    y' = (psi + d) cu,    cu = gamma_k / h
+
+A matrix factored with another cu serves on; its increments are multiplied by 2/(1 + cu/cu_old).
+Iterations stop when rate/(1 - rate) times the last increment is a small share of ERROR, and fail
+when increments do not shrink.
+Reference: Brenan, Campbell, Petzold, Numerical Solution of IVP in DAE, 1996, section 5.2.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.bdf.differences import predict
+from adamslite.integrators.bdf.state import (
+    AGE,
+    FACTORED,
+    FRESH,
+    H_LAST,
+    NOW,
+    RATE,
+    H,
+    K,
+    tests_velocities,
+)
+from adamslite.integrators.contract import (
+    ADAPTIVITY,
+    ALL_CONVERGE,
+    ERROR,
+    FIXED_STEP,
+    ITERATION,
+    MAX_IT,
+    NEWTON,
+    NS,
+    NV,
+    NZ,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.linalg.blocks import solve
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.motion_equations import (
+    project_on_constraints,
+    put_motion,
+    put_pose,
+    put_scalars,
+    put_time,
+    residual,
+    velocities,
+)
+from adamslite.integrators.newton import (
+    apply_increment,
+    increment_norm,
+    multiplier_change,
+    newton_matrix,
+    renews,
+    velocity_change,
+)
+from adamslite.native.translate import Reals, native
+
+# Newton stops when the estimated remaining error is this share of ERROR.
+CORRECTOR_SHARE = 0.02
+# Fixed steps have no error test: a corrector looser than this would be all that errs.
+LOOSEST = 1e-3
+# Near a singular posture round-off keeps increments of velocities from shrinking further: with a
+# new matrix this share of ERROR is as good as it gets.
+STALL_SHARE = 0.2
+# The factored matrix is kept while its cu is within this ratio of the present one.
+KEEP_RATIO = 0.25
+# ... and for this many steps.
+KEEP_STEPS = 20.0
+# The rate of convergence is not believed to be better than this, and is doubted twice as much
+# after every step that needed one iteration, because the matrix grows old unseen.
+LEAST_RATE = 0.02
+
+
+@native
+def motion_from_increments(P: Problem, cu: float, yp: Reals, psi: Reals, si2: bool) -> None:
+    """u and a from the increments e of q, the history and (stabilised form) mu; writes the
+    workspace; v = q' to trial, before e.
+
+    q - q_p would do in place of e but for the round-off of q, which small steps divide by h.
+    """
+    n = P.sizes[N]
+    w = 2 * n + P.sizes[NS]
+    q, u, a, v, e = P.q, P.u, P.a, P.trial[2 * w :], P.trial[2 * w + n :]
+    for i in range(n):
+        v[i] = (psi[i] + e[i]) * cu
+    put_pose(P, q)
+    velocities(P, q, v, u)
+    if si2:
+        project_on_constraints(P, P.mu, P.F)
+        for i in range(n):
+            u[i] += P.F[i]
+    for i in range(n):
+        a[i] = (psi[n + i] + u[i] - yp[n + i]) * cu
+    put_motion(P, u, a)
+    first = P.sizes[M] + P.sizes[NV]
+    for k in range(P.sizes[NS]):
+        P.rd[k] = (psi[2 * n + k] + P.z[first + k] - yp[2 * n + k]) * cu
+    put_scalars(P, P.z, P.rd)
+
+
+@native
+def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
+    """Newton iterations from the predictor; True when converged."""
+    n, C = P.sizes[N], P.control
+    w = 2 * n + P.sizes[NS]
+    yp, psi, v, e = P.trial[0:], P.trial[w:], P.trial[2 * w :], P.trial[2 * w + n :]
+    error = asked(P, P.settings[FIXED_STEP])
+    tolerance = CORRECTOR_SHARE * error + P.settings[ADAPTIVITY] / C[H]
+    tested = cu if tests_velocities(P) else 0.0
+    last = 0.0
+    motion_from_increments(P, cu, yp, psi, si2)
+    for iteration in range(int(P.settings[MAX_IT])):
+        P.report[ITERATION] = iteration + 1.0
+        if not fits_step(C, cu) or renews(P, iteration, C[AGE] < KEEP_STEPS):
+            if not newton_matrix(P, L, phases, cu, P.q, v, P.u):
+                C[FACTORED] = 0.0
+                return False
+            C[FACTORED], C[RATE], C[FRESH], C[AGE] = cu, 1.0, 1.0, 0.0
+        residual(P, phases, P.F)
+        solve(L, P.LV, P.pivots, P.F, P.x, P.work)
+        scale_increment(P, 2.0 / (1.0 + cu / C[FACTORED]))
+        size = increment_norm(P, P.F, tested, si2)
+        apply_increment(P, P.F, P.q, P.z, P.mu, si2)
+        for i in range(n):
+            P.x[i] = P.u[i]
+            e[i] -= P.F[i]
+            # One rounding for all: noise of q is noise of forces.
+            P.q[i] = P.history[i] + (yp[i] + e[i])
+        motion_from_increments(P, cu, yp, psi, si2)
+        size = max(size, further_change(P, cu, si2))
+        P.count[NEWTON] += 1
+        if iteration > 0:
+            C[RATE] = max(LEAST_RATE, size / last)
+        if iteration > 1 and C[RATE] > 0.5 and C[FRESH] == 1.0 and size <= STALL_SHARE * error:
+            return True
+        if not size < 1e12 or (C[RATE] > 0.9 and iteration > 0 and size > tolerance):
+            return False
+        if remaining(C, size) <= tolerance:
+            if iteration == 0:
+                C[RATE] = min(1.0, 2.0 * C[RATE])
+            return True
+        last = size
+    return False
+
+
+@native
+def asked(P: Problem, fixed: float) -> float:
+    """ERROR; with ``fixed`` steps at most LOOSEST."""
+    return min(P.settings[ERROR], LOOSEST) if fixed > 0.0 else P.settings[ERROR]
+
+
+@native
+def further_change(P: Problem, cu: float, si2: bool) -> float:
+    """What an increment changed besides positions: velocities in the stabilised form (those before
+    stand in ``P.x``) and, with CORRECTOR=ORIGINAL, multipliers.
+    """
+    size = velocity_change(P, P.x, cu) if si2 else 0.0
+    if P.settings[ALL_CONVERGE] != 0.0:
+        size = max(size, multiplier_change(P, P.F, P.z, cu * cu))
+    return size
+
+
+@native
+def remaining(C: Reals, size: float) -> float:
+    """Error left after an increment of ``size`` when increments shrink by RATE each time."""
+    return size * min(1.0, C[RATE] / max(1e-3, 1.0 - min(C[RATE], 0.999)))
+
+
+@native
+def fits_step(C: Reals, cu: float) -> bool:
+    """Whether there is a factored matrix for about this ``cu``."""
+    return C[FACTORED] != 0.0 and abs(cu / C[FACTORED] - 1.0) <= KEEP_RATIO
+
+
+@native
+def scale_increment(P: Problem, ratio: float) -> None:
+    """Correct the increment for a matrix factored with another cu (Brenan et al., eq. 5.2.12)."""
+    if ratio != 1.0:
+        for k in range(P.sizes[NZ]):
+            P.F[k] *= ratio
+
+
+@native
+def start_try(P: Problem, w: int) -> None:
+    """Predicted values of all unknowns at the end of the step; of q only the change is kept."""
+    n, ns, C = P.sizes[N], P.sizes[NS], P.control
+    first = P.sizes[M] + P.sizes[NV]
+    yp, e = P.trial[0:], P.trial[2 * w + n :]
+    predict(P.history, w, int(C[K]), yp, P.trial[w:])
+    for i in range(n, w):
+        yp[i] += P.history[i]
+    for i in range(n):
+        P.q[i], e[i] = P.history[i] + yp[i], 0.0
+    for i in range(ns):
+        P.z[first + i] = yp[2 * n + i]
+    ahead = C[H] / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
+    for i in range(first):
+        P.z[i] = P.rz[i] + min(ahead, 2.0) * (P.rz[i] - P.pz[i])
+    for i in range(P.mu.size):
+        P.mu[i] = 0.0
+    put_time(P, C[NOW] + C[H])
+
+
+@native
+def wildest(P: Problem) -> int:
+    """The unknown with the largest last increment, numbered as in the error test."""
+    n, first, where, top = P.sizes[N], P.sizes[M] + P.sizes[NV], 0, -1.0
+    for i in range(n):
+        if exceeds(abs(P.F[i]), top * max(1.0, abs(P.q[i]))):
+            top, where = abs(P.F[i]) / max(1.0, abs(P.q[i])), i
+    for k in range(first, first + P.sizes[NS]):
+        if exceeds(abs(P.F[n + k]), top * max(1.0, abs(P.z[k]))):
+            top, where = abs(P.F[n + k]) / max(1.0, abs(P.z[k])), 2 * n + k - first
+    return where

@@ -1,0 +1,193 @@
+"""Backward differences at events: the search in a tried step, the state and the step behind it.
+
+Within the tried step, at the share x of it, with pi_j = prod_{m=0..j-1} (x + m)/(m + 1)
+
+    y = sum_{j=0..k} D_j pi_j + d pi_k
+
+goes through the new value and k past ones; accelerations, multipliers and variables in between are
+taken from a straight line, for guards that depend on them.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import accelerations, mass_signature, put_state
+from adamslite.integrators.bdf.order_cap import BAD, SUSPECT, TRAVELLED, TRIES
+from adamslite.integrators.bdf.state import (
+    EQUAL,
+    FACTORED,
+    H_LAST,
+    NOW,
+    RUNNING,
+    SIGNATURE,
+    H,
+    K,
+    first_step,
+    keep_algebraic,
+    restore_state,
+    start_values,
+)
+from adamslite.integrators.contract import (
+    ERROR,
+    HOLONOMIC,
+    IMPLICIT_MASS,
+    INDEX3,
+    NEWTON_FAILED,
+    NS,
+    NV,
+    RESTARTS,
+    SI2,
+    STABILISED,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.event_rows import JUMP, OPEN, SHARE
+from adamslite.integrators.events.events import change_here, pass_event
+from adamslite.integrators.events.harmless import take_harmless
+from adamslite.integrators.events.search import judge, open_search
+from adamslite.integrators.motion_equations import vector_rates
+from adamslite.integrators.step_back import UNDOABLE
+from adamslite.native.translate import native
+
+# Where accelerations are looked at behind an event, as a share of the step that is thought of.
+LOOK_AHEAD = 0.1
+# The first step behind an event in multiples of (ERROR/|a'|)^(1/2).
+CAREFUL = 0.8
+
+
+@native
+def put_between(P: Problem, k: int, t: float, h: float, x: float) -> None:
+    """The tried step from ``t`` of size ``h`` at the share ``x`` into the workspace; d stands in
+    the second part of ``P.trial``.
+    """
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w = 2 * n + ns
+    D, d, y = P.history, P.trial[w:], P.trial[2 * w :]
+    for i in range(w):
+        y[i] = D[i]
+    p = 1.0
+    for j in range(k):
+        p *= (x + j) / (j + 1)
+        for i in range(w):
+            y[i] += p * D[(j + 1) * w + i]
+    a, z = P.x, P.F
+    for i in range(w):
+        y[i] += p * d[i]
+    for i in range(n):
+        a[i] = P.ra[i] + x * (P.a[i] - P.ra[i])
+    for i in range(first):
+        z[i] = P.rz[i] + x * (P.z[i] - P.rz[i])
+    for i in range(ns):
+        z[first + i] = y[2 * n + i]
+    put_state(P, t + x * h, y, y[n:], a, z, P.rd)
+
+
+@native
+def jerk(P: Problem, L: Plan, t: float, ahead: float) -> float:
+    """|a'| against max(1, |u|) at the start of a history, from accelerations a little further on.
+
+    The state, accelerations and algebraic unknowns are the accepted ones (q, u, ra, rz).
+    """
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w = 2 * n + ns
+    y, rates, top = P.trial[0:], P.trial[w:], 0.0
+    vector_rates(P, P.q, P.u, y)
+    for i in range(n):
+        y[i], y[n + i] = P.q[i] + ahead * y[i], P.u[i] + ahead * P.ra[i]
+    for k in range(ns):
+        rates[k] = P.rd[k]
+        P.z[first + k] = P.rz[first + k] + ahead * P.rd[k]
+    if accelerations(P, L, t + ahead, y, y[n:], P.a, P.z, P.rd):
+        for i in range(n):
+            top = max(top, abs(P.a[i] - P.ra[i]) / max(1.0, abs(P.u[i])))
+        for k in range(ns):
+            top = max(top, abs(P.rd[k] - rates[k]) / max(1.0, abs(P.rz[first + k])))
+    for i in range(n):
+        P.a[i] = P.ra[i]
+    for k in range(first + ns):
+        P.z[k] = P.rz[k]
+    for k in range(ns):
+        P.rd[k] = rates[k]
+    return top / ahead
+
+
+@native
+def restart_step(P: Problem, L: Plan, t: float, h: float) -> float:
+    """``h``, or less where a step of order 1 would err too much in the velocities: h^2 |a'|/2."""
+    change = jerk(P, L, t, LOOK_AHEAD * h)
+    if not change > 0.0:
+        return h
+    return min(h, CAREFUL * (P.settings[ERROR] / change) ** 0.5)
+
+
+# A jump at a stop that moves velocities by less than this share of ERROR within a step is none.
+SMOOTH = 0.02
+
+
+@native
+def locate(P: Problem, L: Plan, cu: float) -> None:
+    """Look for the first change of a branch within the step that has passed its test."""
+    C = P.control
+    t, h = C[NOW], C[H]
+    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    open_search(P, t, h)
+    take_harmless(P, L, STABILISED if stabilised else INDEX3, cu)
+    while P.search[OPEN] != 0.0:
+        put_between(P, int(C[K]), t, h, P.search[SHARE])
+        judge(P)
+    put_state(P, t + h, P.q, P.u, P.a, P.z, P.rd)
+
+
+@native
+def switch_at_start(P: Problem, L: Plan, w: int) -> int:
+    """A branch changes just behind the start of the step: change it there and begin anew."""
+    P.control[UNDOABLE] = 0.0
+    restore_state(P, P.history, w, P.control[NOW])
+    for i in range(P.sizes[N]):
+        P.a[i] = P.ra[i]
+    if not change_here(P, L, P.control[NOW]):
+        return NEWTON_FAILED
+    begin_anew(P, L, w)
+    return RUNNING
+
+
+@native
+def pass_on(P: Problem, L: Plan, w: int) -> int:
+    """Behind an event: the history goes on when nothing jumped, else a new one begins."""
+    C = P.control
+    # A step that is taken back must not lead across an event.
+    C[UNDOABLE] = 0.0
+    restore_state(P, P.history, w, C[NOW])
+    for i in range(P.sizes[N]):
+        P.a[i] = P.ra[i]
+    if not pass_event(P, L, C[NOW]):
+        return NEWTON_FAILED
+    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+        begin_anew(P, L, w)
+        return RUNNING
+    C[FACTORED] = 0.0
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    keep_algebraic(P)
+    restore_state(P, P.history, w, C[NOW])
+    return RUNNING
+
+
+@native
+def begin_anew(P: Problem, L: Plan, w: int) -> None:
+    """A history of order 1 from the state and the accelerations in place."""
+    C = P.control
+    P.count[RESTARTS] += 1
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    keep_algebraic(P)
+    for i in range(P.z.size):
+        P.pz[i] = P.rz[i]
+    C[H], C[K], C[EQUAL] = restart_step(P, L, C[NOW], first_step(P, w)), 1.0, 0.0
+    C[H_LAST], C[FACTORED] = 0.0, 0.0
+    C[TRAVELLED], C[BAD], C[TRIES], C[SUSPECT] = 0.0, 0.0, 0.0, 0.0
+    start_values(P, P.history, w, C[H])
+    put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.x))

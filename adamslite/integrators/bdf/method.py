@@ -1,0 +1,247 @@
+"""GSTIFF: backward differentiation formulas of order 1 to 5 with variable step (BDF).
+
+With backward differences D_i of the past values on the present step h, for y = (q, u, s)
+
+    predictor  y_p = sum_{i=0..k} D_i,        psi = sum_{i=1..k} gamma_i D_i / gamma_k
+    corrector  y' = (psi + d) gamma_k / h,    y = y_p + d,    gamma_k = 1 + 1/2 + ... + 1/k
+    error      d / (k + 1)
+
+Index 3 (I3): unknowns (q, lam), u = T q', errors of q tested.  Stabilised index 2 (SI2): also
+G u + g_t = 0 with multipliers mu, errors of q and u tested.  Both in the maximum norm with weights
+ERROR max(1, |y|).
+CONSTANT_BDF has no error test: steps of FIXED_STEP and the order KMAX, both reached in a start-up;
+what the corrector cannot do ends the run.
+
+References: Gear, IEEE Trans. Circuit Theory 18 (1971) 89; Shampine, Reichelt, SIAM J. Sci. Comput.
+18 (1997) 1 (quasi-constant step, differences); Brenan, Campbell, Petzold, Numerical Solution of
+IVP in DAE, 1996, section 5.2 (tests of the corrector).
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import accelerations, mass_signature
+from adamslite.integrators.audit.balance import audit
+from adamslite.integrators.bdf.corrector import correct, start_try
+from adamslite.integrators.bdf.differences import extend_history, gamma, rebase
+from adamslite.integrators.bdf.events import locate, pass_on, switch_at_start
+from adamslite.integrators.bdf.order import adapt_order, local_error, most_order
+from adamslite.integrators.bdf.order_cap import CAP, CAPPED, TRAVELLED, highest_order, start_watch
+from adamslite.integrators.bdf.recovery import (
+    after_failure,
+    after_rejection,
+    land_elsewhere,
+    near_singularity,
+    stuck,
+)
+from adamslite.integrators.bdf.state import (
+    AGE,
+    EQUAL,
+    FRESH,
+    H_LAST,
+    K_TOP,
+    NEXT,
+    NOISY,
+    NORM,
+    NOW,
+    RATE,
+    RETRIES,
+    RUNNING,
+    SIGNATURE,
+    H,
+    K,
+    first_step,
+    keep_algebraic,
+    resize,
+    restore_state,
+    start_values,
+    tests_velocities,
+    too_small,
+)
+from adamslite.integrators.contract import (
+    AT,
+    BROKEN_START,
+    DONE,
+    FIXED_STEP,
+    H_MAX,
+    HOLONOMIC,
+    HOW_MUCH,
+    IMPLICIT_MASS,
+    INDEX3,
+    INTERPOLATE,
+    INTERRUPTED,
+    NS,
+    ORDER,
+    ORDER_CAPPED,
+    SI2,
+    SINGULAR_MASS,
+    SPENT,
+    STABILISED,
+    STEP,
+    STEPS,
+    STOP,
+    T_END,
+    WATCHED,
+    ZONES,
+    N,
+    Plan,
+    Problem,
+    T,
+)
+from adamslite.integrators.events.events import happened, start_events
+from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
+from adamslite.integrators.events.search import ends_there, shorter, starts_there
+from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
+from adamslite.integrators.motion_equations import track
+from adamslite.integrators.records import note_violation, record_at
+from adamslite.integrators.step_back import make_undoable
+from adamslite.native.translate import native
+
+# Steps that differ by less than this share are equal.
+EQUAL_STEPS = 1e-9
+
+
+@native
+def bdf(P: Problem, L: Plan) -> int:
+    """Integrate to the end time; returns an outcome."""
+    outcome = begin(P, L)
+    while outcome == RUNNING:
+        outcome = advance(P, L)
+    restore_state(P, P.history, 2 * P.sizes[N] + P.sizes[NS], P.control[NOW])
+    P.report[AT] = P.control[NOW]
+    return outcome
+
+
+@native
+def begin(P: Problem, L: Plan) -> int:
+    """Accelerations at the start, history of order 1, first record."""
+    C, t = P.control, P.settings[T]
+    w = 2 * P.sizes[N] + P.sizes[NS]
+    for i in range(P.control.size):
+        C[i] = 0.0
+    C[NOW], C[RATE], C[K], C[K_TOP] = t, 1.0, 1.0, most_order(P)
+    start_watch(C)
+    P.report[ORDER_CAPPED] = 0.0
+    start_events(P, True, tests_velocities(P))
+    started = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
+    hold_watch(P)
+    h = first_step(P, w)
+    C[H] = h
+    start_values(P, P.history, w, h)
+    if not started:
+        return BROKEN_START
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
+    keep_algebraic(P)
+    for i in range(P.z.size):
+        P.pz[i] = P.rz[i]
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    track(P)
+    C[NEXT] = float(record_at(P, L, P.history, w, 0, t, h, 0))
+    restore_state(P, P.history, w, t)
+    return RUNNING
+
+
+@native
+def advance(P: Problem, L: Plan) -> int:
+    """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
+    C = P.control
+    n, ns = P.sizes[N], P.sizes[NS]
+    w = 2 * n + ns
+    if C[NOW] >= P.settings[T_END]:
+        return DONE
+    if P.settings[STOP] != 0.0:
+        return INTERRUPTED
+    limit_step(P, w)
+    if too_small(P) or crawls(P, C[H]):
+        return RUNNING if land_elsewhere(P, w) else stuck(P, L, w)
+    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], C[K]
+    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    cu = gamma(int(C[K])) / C[H]
+    start_try(P, w)
+    if not correct(P, L, STABILISED if stabilised else INDEX3, cu, stabilised):
+        return after_failure(P, w)
+    norm = local_error(P, w)
+    P.report[HOW_MUCH] = norm
+    if not norm <= 1.0 and not (P.settings[FIXED_STEP] > 0.0 and norm < 1e12):
+        return after_rejection(P, w, norm)
+    if P.sizes[IMPLICIT_MASS]:
+        if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
+            return near_singularity(P, w)
+    return finish(P, L, w, cu, norm)
+
+
+@native
+def finish(P: Problem, L: Plan, w: int, cu: float, norm: float) -> int:
+    """The step has passed its tests: accept it, or take it again to end at the first crossing."""
+    C = P.control
+    if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
+        locate(P, L, cu)
+        if not ends_there(P):
+            if starts_there(P):
+                return switch_at_start(P, L, w)
+            resize(P, w, shorter(P) / C[H])
+            return RUNNING
+    return accept(P, L, w, norm)
+
+
+@native
+def limit_step(P: Problem, w: int) -> None:
+    """Keep the step within its pace, the horizon and, when stepped onto, the output times."""
+    C = P.control
+    set_pace(P, C[NOW])
+    longest = longest_step(P)
+    if C[H] > longest * 1.0000001:
+        resize(P, w, longest / C[H])
+    left = horizon(P) - C[NOW]
+    if P.settings[INTERPOLATE] == 0.0 and P.settings[FIXED_STEP] == 0.0:
+        fit = fitted(P, C[H], step_limit(P, int(C[NEXT])) - C[NOW]) / C[H]
+        # Equal steps keep their history.
+        if abs(fit - 1.0) > EQUAL_STEPS:
+            resize(P, w, fit)
+    elif C[H] * 1.0000001 > left:
+        resize(P, w, left / C[H])
+    elif 2.0 * C[H] > left and horizon(P) < P.settings[T_END]:
+        resize(P, w, 0.5 * left / C[H])
+
+
+@native
+def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
+    """Move the history on, write records, choose the next order and step."""
+    C, D = P.control, P.history
+    k = int(C[K])
+    P.count[STEPS] += 1
+    P.report[SPENT] += norm
+    make_undoable(P, C[NOW], C[H], C[RETRIES] == 0.0 and C[NORM] == 0.0)
+    C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0
+    C[AGE] += 1.0
+    extend_history(D, P.trial[w:], w, k)
+    t, h = C[NOW] + C[H], C[H]
+    limit = horizon(P) if P.settings[FIXED_STEP] > 0.0 else step_limit(P, int(C[NEXT]))
+    if t + 1e-7 * h > limit:
+        t = limit
+    C[NOW], C[H_LAST] = t, h
+    for i in range(P.z.size):
+        P.pz[i] = P.rz[i]
+    keep_algebraic(P)
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    note_violation(P, t)
+    audit(P, L, t)
+    following = record_at(P, L, D, w, k, t, h, int(C[NEXT]))
+    if following < 0:
+        return SINGULAR_MASS
+    if following > int(C[NEXT]):
+        restore_state(P, D, w, t)
+    C[NEXT] = float(following)
+    track(P)
+    rebase(P, D, w, k)
+    C[EQUAL] += 1.0
+    C[TRAVELLED] += h
+    C[K_TOP] = highest_order(C, C[K_TOP], most_order(P), P.settings[H_MAX])
+    P.report[ORDER_CAPPED] = 1.0 if C[CAP] == CAPPED else 0.0
+    if happened(P, t):
+        return pass_on(P, L, w)
+    keep_margins(P)
+    adapt_order(P, w, norm)
+    return RUNNING

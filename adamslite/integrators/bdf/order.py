@@ -1,0 +1,144 @@
+"""The error test of the backward differences, and the order and size of the next step.
+
+    error of order j  =  |D_{j+1}| / (j + 1),    step ratio  =  (SAFETY error/ERROR)^(-1/(j+1))
+
+Reference: Shampine, Reichelt, SIAM J. Sci. Comput. 18 (1997) 1, section 2.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.bdf.differences import MAX_ORDER
+from adamslite.integrators.bdf.order_cap import TRIES, suspect
+from adamslite.integrators.bdf.state import EQUAL, K_TOP, H, K, cut, resize, tests_velocities
+from adamslite.integrators.contract import (
+    ERROR,
+    FIXED_STEP,
+    K_MAX,
+    NS,
+    NV,
+    WHERE,
+    M,
+    N,
+    Problem,
+)
+from adamslite.integrators.events.stops import longest_step
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.native.translate import Reals, native
+
+# The next step aims at an estimated error below ERROR by these factors (at a higher order: more
+# caution).
+SAFETY, SAFETY_UP = 3.0, 4.5
+# A step grows only when it pays for a new matrix, and never by more than this at once.
+LEAST_GROWTH, MOST_GROWTH = 1.2, 10.0
+# Steps that double again and again amplify the noise of higher orders.
+GROWING_ORDER = 3.0
+
+
+@native
+def weighted(
+    D: Reals, row: int, w: int, n: int, ns: int, y: Reals, si2: bool, report: Reals
+) -> float:
+    """Largest |D_row| against max(1, |y|) over the tested variables; remembers where."""
+    top, where = 0.0, 0
+    o = row * w
+    for i in range(2 * n if si2 else n):
+        # Compared before divided: few elements ever set a new maximum.
+        weight = max(1.0, abs(y[i]))
+        if exceeds(abs(D[o + i]), top * weight):
+            top, where = abs(D[o + i]) / weight, i
+    for i in range(2 * n, 2 * n + ns):
+        weight = max(1.0, abs(y[i]))
+        if exceeds(abs(D[o + i]), top * weight):
+            top, where = abs(D[o + i]) / weight, i
+    report[WHERE] = where
+    return top
+
+
+@native
+def local_error(P: Problem, w: int) -> float:
+    """Estimated error over ERROR; leaves d in psi's place and y in the prediction's."""
+    n, ns, C = P.sizes[N], P.sizes[NS], P.control
+    first = P.sizes[M] + P.sizes[NV]
+    y, d, e = P.trial[0:], P.trial[w:], P.trial[2 * w + n :]
+    for i in range(n):
+        d[i], d[n + i] = e[i], P.u[i] - y[n + i]
+        y[i], y[n + i] = P.q[i], P.u[i]
+    for i in range(2 * n, w):
+        d[i] = P.z[first + i - 2 * n] - y[i]
+        y[i] = P.z[first + i - 2 * n]
+    C[TRIES] += 1.0
+    size = weighted(d, 0, 0, n, ns, y, tests_velocities(P), P.report)
+    return size / ((C[K] + 1.0) * P.settings[ERROR])
+
+
+@native
+def adapt_order(P: Problem, w: int, norm: float) -> None:
+    """Order and size of the next step."""
+    C = P.control
+    if P.settings[FIXED_STEP] > 0.0:
+        approach_fixed_step(P, w)
+    elif C[K] > C[K_TOP]:
+        drop_order(P, w)
+    elif C[EQUAL] > C[K]:
+        choose_order(P, w, norm)
+
+
+@native
+def most_order(P: Problem) -> float:
+    """KMAX, as far as there are formulas."""
+    return min(float(MAX_ORDER), P.settings[K_MAX])
+
+
+@native
+def drop_order(P: Problem, w: int) -> None:
+    """Down to the highest order allowed, with the step that suits it."""
+    C, D, si2 = P.control, P.history, tests_velocities(P)
+    k = int(C[K_TOP])
+    size = weighted(D, k + 1, w, P.sizes[N], P.sizes[NS], D, si2, P.coef)
+    C[K] = C[K_TOP]
+    norm = size / ((k + 1) * P.settings[ERROR])
+    resize(P, w, min(1.0, max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))))
+
+
+@native
+def approach_fixed_step(P: Problem, w: int) -> None:
+    """Raise the order to GROWING_ORDER, the step to FIXED_STEP, then the order to KMAX; each only
+    after as many equal steps as the formula looks back.
+    """
+    C, growth = P.control, min(2.0, P.settings[FIXED_STEP] / P.control[H])
+    if C[EQUAL] <= C[K]:
+        return
+    grown = growth <= 1.0000001
+    if C[K] < most_order(P) and (C[K] < GROWING_ORDER or grown):
+        C[K] += 1.0
+        C[EQUAL] = 0.0
+    elif not grown:
+        resize(P, w, growth)
+
+
+@native
+def choose_order(P: Problem, w: int, norm: float) -> None:
+    """The order and the step ratio that promise the largest next step.
+
+    When HMAX caps the step, the present order is kept unless a higher one is more accurate, because
+    "largest step" would always pick the lowest.
+    """
+    C, D, n, ns = P.control, P.history, P.sizes[N], P.sizes[NS]
+    k, si2, tol, room = int(C[K]), tests_velocities(P), P.settings[ERROR], longest_step(P) / C[H]
+    same = max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))
+    best, factor = k, same
+    if k > 1:
+        low = weighted(D, k, w, n, ns, D, si2, P.coef)
+        suspect(C, k, low, norm * (k + 1) * tol, tol, C[EQUAL])
+        f = max(SAFETY * low / (k * tol), 1e-10) ** (-1.0 / k)
+        if f > factor and min(f, same) < room:
+            best, factor = k - 1, f
+    if k < int(C[K_TOP]):
+        high = weighted(D, k + 2, w, n, ns, D, si2, P.coef) / ((k + 2) * tol)
+        f = max(SAFETY_UP * high, 1e-10) ** (-1.0 / (k + 2))
+        if f > factor or (min(f, factor) >= room and high < norm):
+            best, factor = k + 1, f
+    factor = min(factor, min(room, MOST_GROWTH))
+    if best != k or factor >= LEAST_GROWTH or factor < 0.9:
+        C[K] = float(best)
+        resize(P, w, cut(P, factor))

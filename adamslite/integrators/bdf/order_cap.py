@@ -1,0 +1,95 @@
+"""When orders above 2 cost more than they bring: the cap on the order of BDF.
+
+Orders 3 to 5 are unstable for undamped vibrations of some `h omega`.  In a stiff scene without
+much damping they feed a vibration that the motion does not have until the error test holds it: it
+stays at some hundred times ERROR, and the step at a fraction of its period, whatever ERROR is.
+Order 2 damps it.  Seen on the differences, with r = |D_(k+1)| / |D_k| at order k,
+
+    amplitude of what sets the step = |D_(k+1)| / r^(k+1)
+
+When that is small in a whole window of steps, order 2 is tried for some windows.  Its steps
+decide: if they get clearly longer than before, the cap stays; if not, it is lifted, and the next
+trial is further away.
+References: Hairer, Wanner, Solving ODEs II, 1996, section V.1 (stability of BDF); Hindmarsh,
+Avoiding BDF stability barriers, LLNL UCRL-ID-120480, 1995 (the same trouble, seen by other signs).
+"""
+
+from __future__ import annotations
+
+from adamslite.native.translate import Reals, native
+
+# Tries of a step in a window.
+WINDOW = 50.0
+# A vibration below this many times ERROR is suspected to be fed by the formula.
+SUSPECT_AMPLITUDE = 100.0
+# The share of a window's steps, or of rejections at order 3 and above, that makes a suspicion.
+SUSPECT_SHARE, REJECTED_SHARE = 0.8, 0.14
+# The cap is lifted when its steps are no longer this much longer than those before the trial.
+STILL_PAYS = 4.0
+# Steps that still grow, as after a start, are not held by anything.
+STEADY = 1.5
+# Windows of a trial; it has paid when a window covers this many times as much time as before.
+TRIAL_WINDOWS, PAYS = 14.0, 8.0
+# No trial when steps are longer than HMAX over this: there is too little to win.
+ROOM = 20.0
+# A trial that goes this much slower ends at once.
+HOPELESS = 0.3
+# Tries until the next trial; after each trial in vain as many times more.
+PATIENCE, MORE_PATIENCE = 500.0, 4.0
+
+WATCHING, TRYING, CAPPED = 0.0, 1.0, 2.0
+# Places in the integrator's control.
+(
+    CAP, TRIES, TRAVELLED, SUSPECT, BAD, PACE, WINDOWS, REST, NEXT_REST,
+) = range(20, 29)  # fmt: skip
+
+
+@native
+def start_watch(C: Reals) -> None:
+    """Nothing suspected yet."""
+    for k in range(CAP, NEXT_REST + 1):
+        C[k] = 0.0
+    C[NEXT_REST] = PATIENCE
+
+
+@native
+def suspect(C: Reals, order: int, low: float, high: float, error: float, steps: float) -> None:
+    """Judge by |D_k| and |D_(k+1)| what set the last ``steps`` steps."""
+    if order < 3 or not (low > 0.0 and high > 0.0):
+        return
+    if high * (low / high) ** (order + 1.0) < SUSPECT_AMPLITUDE * error:
+        C[SUSPECT] += steps
+
+
+@native
+def highest_order(C: Reals, top: float, most: float, h_max: float) -> float:
+    """The highest order from now on, after an accepted step; ``top`` is that until now."""
+    if C[TRIES] < WINDOW:
+        return top
+    pace, tries = C[TRAVELLED] / C[TRIES], C[TRIES]
+    suspected = C[SUSPECT] >= SUSPECT_SHARE * WINDOW or C[BAD] >= REJECTED_SHARE * WINDOW
+    C[TRIES], C[TRAVELLED], C[SUSPECT], C[BAD] = 0.0, 0.0, 0.0, 0.0
+    if C[CAP] != WATCHING:
+        return after_window(C, pace, most)
+    growing = pace > STEADY * C[PACE]
+    C[PACE] = pace
+    C[REST] -= tries
+    if growing or C[REST] > 0.0 or pace * ROOM > h_max or not suspected:
+        return top
+    C[CAP], C[WINDOWS] = TRYING, 0.0
+    return 2.0
+
+
+@native
+def after_window(C: Reals, pace: float, most: float) -> float:
+    """The highest order after a window of a trial, or of steps under the cap."""
+    C[WINDOWS] += 1.0
+    if pace > PAYS * C[PACE]:
+        C[CAP] = CAPPED
+    if C[CAP] == CAPPED and pace > STILL_PAYS * C[PACE]:
+        return 2.0
+    if C[CAP] == TRYING and C[WINDOWS] < TRIAL_WINDOWS and pace > HOPELESS * C[PACE]:
+        return 2.0
+    C[CAP], C[REST] = WATCHING, C[NEXT_REST]
+    C[NEXT_REST] *= MORE_PATIENCE
+    return most

@@ -1,0 +1,172 @@
+"""When a try of a step fails: another matrix, length or start, or the end of the run."""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import mass_vanishes
+from adamslite.integrators.bdf.corrector import wildest
+from adamslite.integrators.bdf.order import SAFETY
+from adamslite.integrators.bdf.order_cap import BAD
+from adamslite.integrators.bdf.state import (
+    BLAMED,
+    FACTORED,
+    FRESH,
+    H_LAST,
+    NOISY,
+    NORM,
+    NOW,
+    RETRIES,
+    RUNNING,
+    SIGNATURE,
+    H,
+    K,
+    cut,
+    resize,
+    restore_state,
+)
+from adamslite.integrators.contract import (
+    CHATTERING,
+    FAILURES,
+    FIXED_STEP,
+    H_MAX,
+    HOLONOMIC,
+    INDEX3,
+    ITERATION,
+    NEWTON_FAILED,
+    NOT_FINITE,
+    REJECTED,
+    SI2,
+    SINGULAR_MASS,
+    STABILISED,
+    STEP_TOO_SMALL,
+    WHERE,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.event_rows import FREED
+from adamslite.integrators.events.guards import let_go
+from adamslite.integrators.failure_notes import note_trouble
+from adamslite.integrators.step_back import TROUBLE, before_trouble
+from adamslite.native.translate import Reals, native
+
+# A sign change of the effective mass is approached to this share of HMAX.
+SINGULAR_RESOLUTION = 1e-6
+# Cuts of the step after corrector failures before other lengths are tried.
+CUTS = 3
+# A step is noise, not truncation, when the error estimates of this many tries in turn keep more
+# than this share of the one before, although each was shorter.
+NOISY_TRIES, NOISY_SHARE = 2.0, 0.3
+
+
+@native
+def after_failure(P: Problem, w: int) -> int:
+    """The corrector failed: renew an old matrix, else cut the step."""
+    C = P.control
+    P.count[FAILURES] += 1
+    old = C[FRESH] == 0.0 and C[FACTORED] != 0.0
+    C[FACTORED] = 0.0
+    if old or let_go(P):
+        return RUNNING
+    C[RETRIES] += 1.0
+    C[TROUBLE] += 1.0
+    C[FRESH] = 0.0
+    C[BLAMED] = float(wildest(P))
+    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    note_trouble(P, STABILISED if stabilised else INDEX3, P.report[ITERATION])
+    if P.settings[FIXED_STEP] > 0.0:
+        P.report[WHERE] = C[BLAMED]
+        return NEWTON_FAILED
+    if int(C[RETRIES]) != CUTS or not land_elsewhere(P, w):
+        resize(P, w, cut(P, retry_factor(C)))
+    return RUNNING
+
+
+@native
+def land_elsewhere(P: Problem, w: int) -> bool:
+    """Back to before the trouble, with a shorter step; False when that was tried enough."""
+    C = P.control
+    share = before_trouble(P, C[NOW] + C[H])
+    if share == 0.0:
+        return False
+    C[FACTORED], C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0, 0.0
+    restore_state(P, P.history, w, C[NOW])
+    resize(P, w, share)
+    return True
+
+
+@native
+def retry_factor(C: Reals) -> float:
+    """Change of the step after a failed corrector: smaller at first.
+
+    Near a singular posture (dead centre, flattened parallelogram) ever smaller steps do not help,
+    but a step across does: after some cuts a few other lengths around the last good one are tried.
+    """
+    tried = int(C[RETRIES])
+    if tried == 1:
+        return 0.6
+    if C[H_LAST] > 0.0 and tried > CUTS and tried <= CUTS + 5:
+        leap = 0.7
+        if tried == CUTS + 1:
+            leap = 1.3
+        if tried == CUTS + 2:
+            leap = 1.9
+        if tried == CUTS + 3:
+            leap = 2.7
+        if tried == CUTS + 4:
+            leap = 4.0
+        return leap * C[H_LAST] / C[H]
+    return 0.25
+
+
+@native
+def after_rejection(P: Problem, w: int, norm: float) -> int:
+    """The error was too large: a smaller step."""
+    C = P.control
+    P.count[REJECTED] += 1
+    C[FRESH] = 0.0
+    C[TROUBLE] += 1.0
+    if not norm < 1e12:
+        return NOT_FINITE
+    factor = max(0.2, (SAFETY * norm) ** (-1.0 / (C[K] + 1.0)))
+    # At the last, tiny steps the error is round-off, and anybody's.
+    if C[H] > 1e-9 * P.settings[H_MAX]:
+        C[BLAMED] = P.report[WHERE]
+    C[NOISY] = C[NOISY] + 1.0 if norm > NOISY_SHARE * C[NORM] and C[NORM] > 0.0 else 0.0
+    C[NORM] = norm
+    if C[NOISY] >= NOISY_TRIES and land_elsewhere(P, w):
+        return RUNNING
+    if C[K] > 2.0:
+        C[BAD] += 1.0
+    resize(P, w, cut(P, factor))
+    return RUNNING
+
+
+@native
+def near_singularity(P: Problem, w: int) -> int:
+    """The acceleration matrix became singular within the step: approach the place, never pass
+    it.
+    """
+    if P.control[H] < SINGULAR_RESOLUTION * P.settings[H_MAX] or P.settings[FIXED_STEP] > 0.0:
+        return SINGULAR_MASS
+    P.control[FRESH] = 0.0
+    resize(P, w, 0.25)
+    return RUNNING
+
+
+@native
+def stuck(P: Problem, L: Plan, w: int) -> int:
+    """Why the step became too small: a vanishing pivot of the acceleration matrix, or something
+    else.
+    """
+    restore_state(P, P.history, w, P.control[NOW])
+    if mass_vanishes(P, L, int(P.control[SIGNATURE])):
+        return SINGULAR_MASS
+    P.report[WHERE] = P.control[BLAMED]
+    if P.search[FREED] > 0.0:
+        return CHATTERING
+    return NEWTON_FAILED if corrector_failed(P.control) else STEP_TOO_SMALL
+
+
+@native
+def corrector_failed(C: Reals) -> bool:
+    """Whether the last tries failed for the corrector, not for accuracy."""
+    return C[RETRIES] > 2.0 or (C[RETRIES] > 0.0 and C[NORM] == 0.0)

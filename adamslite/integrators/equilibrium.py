@@ -1,0 +1,258 @@
+"""Static equilibrium: F(q, 0, 0, lam, V, s) = 0, g(q) = 0, ds/dt = 0.
+
+Newton with limited increments on [K + sigma (M + C), G^T; G, 0]; sigma is the small STABILITY at
+first. When that does not settle, dynamic relaxation: implicit Euler steps from rest, the velocity
+dropped after each (pseudo-transient continuation), sigma = 1/h^2 with a step h that grows while it
+works.  Each step lowers the potential energy, so this ends in a stable equilibrium, and with h ->
+infinity it is Newton.  It also follows when Newton went far and ended where the stiffness has a
+negative direction: folded cables, links in compression.
+
+References: Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508 (continuation); Day, The Engineer 219
+(1965) 218 (relaxation); Wittrick, Williams, Quart. J. Mech. Appl. Math. 24 (1971) 263 (signs).
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import put_state
+from adamslite.integrators.contract import (
+    DONE,
+    FACTORIZATIONS,
+    MODE_STATICS,
+    NB,
+    NEWTON,
+    NOT_SETTLED,
+    NV,
+    STATIC,
+    WAYS_TO_FALL,
+    M,
+    N,
+    Plan,
+    Problem,
+    T,
+)
+from adamslite.integrators.linalg.blocks import factor, signature, solve
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.motion_equations import BODY, PART, jacobian, put_pose, residual, spread
+from adamslite.integrators.newton import apply_increment
+from adamslite.native.translate import native
+
+# Places in P.control.
+ALIMIT, TLIMIT, CHANGE, IMBALANCE, STABILITY, ITERATIONS, SIGMA, WORST, MOVED, LENGTH = range(10)
+# Newton settled, before anything was judged.
+FOUND = 10
+RELAXATIONS = 3000
+GROWTH, UPHILL = 1.6, 4.0
+# An equilibrium is far from the start beyond this share of the model, or this turn [rad].
+FAR = 0.02
+# Weight of the stiffness where only the inertia shall count.
+SMALL = 1e-13
+
+
+@native
+def equilibrium(P: Problem, L: Plan) -> int:
+    """Move to the nearest equilibrium; DONE or NOT_SETTLED."""
+    keep_start(P)
+    if newton(P, L) and not (wandered(P) and unstable_ways(P, L) != 0):
+        return noted(P, L)
+    if P.control[FOUND] == 1.0:
+        # Newton finds unstable equilibria as well as stable ones, and here it went far to do so.
+        back_to_start(P)
+    if relaxed(P, L):
+        return noted(P, L)
+    return NOT_SETTLED
+
+
+@native
+def newton(P: Problem, L: Plan) -> bool:
+    """Limited Newton steps; True when settled."""
+    C = P.control
+    C[SIGMA], C[FOUND] = C[STABILITY], 0.0
+    for _iteration in range(int(C[ITERATIONS])):
+        if not static_step(P, L):
+            C[SIGMA] = max(10.0 * C[SIGMA], 1e-8)
+        elif settled(P):
+            C[FOUND] = 1.0
+            return True
+    return False
+
+
+@native
+def relaxed(P: Problem, L: Plan) -> bool:
+    """Relaxation from where the model is; True when settled."""
+    C = P.control
+    C[SIGMA] = first_sigma(P)
+    last, signs = 1e300, pivot_signs(P, L, SMALL, 1.0)
+    for _iteration in range(RELAXATIONS):
+        if signs >= 0 and pivot_signs(P, L, 1.0, C[SIGMA]) != signs:
+            # Too long a step: it would go uphill, to an unstable equilibrium.
+            C[SIGMA] *= UPHILL
+        elif not static_step(P, L):
+            C[SIGMA] *= 16.0
+        elif settled(P):
+            return True
+        elif C[WORST] > 10.0 * last:
+            C[SIGMA] *= 16.0
+        else:
+            C[SIGMA] /= GROWTH * GROWTH
+        last = C[WORST]
+    return False
+
+
+@native
+def noted(P: Problem, L: Plan) -> int:
+    """DONE, with the number of ways in which the equilibrium is unstable in the report."""
+    P.report[WAYS_TO_FALL] = float(unstable_ways(P, L))
+    imbalance(P)
+    return DONE
+
+
+@native
+def keep_start(P: Problem) -> None:
+    """Remember the posture the search begins with."""
+    for i in range(P.q.size):
+        P.history[i] = P.q[i]
+    for i in range(P.base.size):
+        P.history[P.q.size + i] = P.base[i]
+
+
+@native
+def back_to_start(P: Problem) -> None:
+    """The posture the search began with."""
+    for i in range(P.q.size):
+        P.q[i] = P.history[i]
+    for i in range(P.base.size):
+        P.base[i] = P.history[P.q.size + i]
+
+
+@native
+def wandered(P: Problem) -> bool:
+    """Whether the posture is far from the one the search began with."""
+    n, away = P.q.size, 0.0
+    for b in range(P.sizes[NB]):
+        i = P.body[BODY * b + 1]
+        for k in range(3):
+            away = max(away, abs(P.q[i + k] - P.history[i + k]) / P.control[LENGTH])
+        for k in range(9):
+            away = max(away, abs(P.base[9 * b + k] - P.history[n + 9 * b + k]))
+    return away > FAR
+
+
+@native
+def unstable_ways(P: Problem, L: Plan) -> int:
+    """Difference between the negative pivots of [K, G^T; G, 0] and of [M, G^T; G, 0].
+
+    K + sigma M becomes singular once for every sigma > 0 with a motion that grows like
+    exp(sqrt(sigma) t), and changes the sign of one pivot there.
+    """
+    stiff = pivot_signs(P, L, 1.0, P.control[STABILITY])
+    heavy = pivot_signs(P, L, SMALL, 1.0)
+    return stiff - heavy if stiff >= 0 and heavy >= 0 else 0
+
+
+@native
+def pivot_signs(P: Problem, L: Plan, stiffness: float, mass: float) -> int:
+    """Negative pivots of the matrix of an equilibrium with K and M weighted."""
+    c = P.coef
+    imbalance(P)
+    c[0], c[1], c[2], c[3], c[4] = stiffness, 0.0, mass, 1.0, 0.0
+    jacobian(P, STATIC, c, P.J)
+    spread(P, P.LV)
+    for k in range(P.unit.size):
+        P.LV[P.unit[k]] = 1.0
+    P.count[FACTORIZATIONS] += 1
+    return signature(L, P.LV, P.pivots, P.work, P.x)
+
+
+@native
+def first_sigma(P: Problem) -> float:
+    """1/h^2 for a step that moves the most accelerated body by a hundredth of the model."""
+    imbalance(P)
+    fastest = 1e-12
+    for b in range(P.sizes[NB]):
+        i = P.body[BODY * b + 1]
+        if P.mass[b] > 0.0:
+            for k in range(3):
+                fastest = max(fastest, abs(P.F[i + k]) / P.mass[b])
+    return 100.0 * fastest / P.control[LENGTH]
+
+
+@native
+def imbalance(P: Problem) -> None:
+    """Residual at rest; the largest force left over goes to C[WORST]."""
+    n = P.sizes[N]
+    for i in range(n):
+        P.u[i] = 0.0
+        P.a[i] = 0.0
+    for i in range(P.rd.size):
+        P.rd[i] = 0.0
+    put_state(P, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
+    P.W[1] = MODE_STATICS
+    residual(P, STATIC, P.F)
+    worst = 0.0
+    for i in range(n):
+        if exceeds(abs(P.F[i]), worst):
+            worst = abs(P.F[i])
+    P.control[WORST] = worst
+
+
+@native
+def static_step(P: Problem, L: Plan) -> bool:
+    """One limited Newton step; False when the matrix is singular or the residual is not finite."""
+    C, c = P.control, P.coef
+    imbalance(P)
+    if not C[WORST] < 1e200:
+        return False
+    c[0], c[1], c[2], c[3], c[4] = 1.0, 0.0, C[SIGMA], 1.0, 0.0
+    jacobian(P, STATIC, c, P.J)
+    spread(P, P.LV)
+    for k in range(P.unit.size):
+        P.LV[P.unit[k]] = 1.0
+    P.count[FACTORIZATIONS] += 1
+    P.count[NEWTON] += 1
+    if not factor(L, P.LV, P.pivots, P.work):
+        return False
+    solve(L, P.LV, P.pivots, P.F, P.x, P.work)
+    return limited_move(P)
+
+
+@native
+def limited_move(P: Problem) -> bool:
+    """Apply the increment in P.F, shortened to TLIMIT and ALIMIT; attitudes are counted from the
+    new ones.
+    """
+    C, shrink, moved = P.control, 1.0, 0.0
+    for b in range(P.sizes[NB]):
+        i, kind = P.body[BODY * b + 1], P.body[BODY * b]
+        for k in range(kind):
+            size = abs(P.F[i + k])
+            moved = max(moved, size / max(1.0, abs(P.q[i + k])))
+            if not size < 1e200:
+                return False
+            limit = C[TLIMIT] if k < 3 else C[ALIMIT]
+            shrink = min(shrink, limit / max(size, 1e-300))
+    C[MOVED] = moved
+    if shrink < 1.0:
+        for i in range(P.sizes[N]):
+            P.F[i] *= shrink
+    apply_increment(P, P.F, P.q, P.z, P.mu, False)
+    put_pose(P, P.q)
+    for b in range(P.sizes[NB]):
+        if P.body[BODY * b] == PART:
+            o = P.body[BODY * b + 2]
+            for k in range(9):
+                P.base[9 * b + k] = P.W[o + 15 + k]
+            for k in range(3, 6):
+                P.q[P.body[BODY * b + 1] + k] = 0.0
+    return True
+
+
+@native
+def settled(P: Problem) -> bool:
+    """Small correction, and small residual of forces and constraints after it."""
+    C = P.control
+    imbalance(P)
+    first = P.sizes[N] + P.sizes[M] + P.sizes[NV]
+    for k in range(P.sizes[N], first):
+        if not abs(P.F[k]) <= C[CHANGE] * 1e-3 * max(1.0, C[LENGTH]):
+            return False
+    return C[WORST] <= C[IMBALANCE] and C[MOVED] <= C[CHANGE]

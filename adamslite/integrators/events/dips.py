@@ -1,0 +1,165 @@
+"""What a guard does between the ends of a step: the cubic through its values and rates there.
+
+At the share x of a step, with values a, b and rates r, s per step,
+
+    p(x) = a + r x + c x^2 + d x^3,    c = 3 (b - a) - 2 r - s,    d = 2 (a - b) + r + s
+
+A margin that is positive at both ends was negative in between where p dips below zero; so near to
+zero that p cannot tell, the dense output is asked, and also where the tangents at both ends meet
+below zero: a distance between markers that pass each other is no cubic but almost a kink there.
+Where p fails to predict what is found inside, the step is looked at window by window
+(:mod:`adamslite.integrators.events.windows`).
+The place D within the zone of a smooth step follows the same cubic: a step that touches the zone
+0 < D < 1 may change D by a share of it, or it would pass a force without having felt it.
+
+Reference: Shampine, Gladwell, Brankin, ACM Trans. Math. Softw. 17 (1991) 11, "Reliable solution of
+special event location problems for ODEs".
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import (
+    ERROR,
+    FIXED_STEP,
+    H_MAX,
+    WATCHED,
+    ZONES,
+    Problem,
+)
+from adamslite.integrators.event_rows import (
+    END,
+    INSIDE,
+    NONE,
+    SIZE,
+    SPAN,
+    START,
+    ZONE_EARLY,
+    ZONE_LATE,
+)
+from adamslite.native.translate import native
+
+# Rates are differences over this share of the step.
+LITTLE = 1e-3
+# A dip is looked at when it comes nearer to zero than this share of the rates at both ends.
+NEAR = 0.05
+# No dip is looked for where the lower end is above this share of the rates: tangents do not meet
+# below zero, and no cubic dips that far (4/27).
+DEEPEST = 0.25
+# Share of a zone that a step may cross, and this multiple of ERROR^(1/3) where a method of order 2
+# does not test velocities; what it aims at when it may not, as a part of that; how far before the
+# zone it stops when it comes from outside.
+SHARE_OF_ZONE, UNTESTED, AIM, BEFORE_ZONE = 0.34, 3.0, 0.7, 0.02
+# Shorter steps are not made for the sake of a zone, as a share of HMAX.
+LEAST_CUT = 1e-10
+# Halvings in the solution of a cubic.
+HALVINGS = 50
+
+
+@native
+def rates(P: Problem, row: int, target: int, zone_target: int) -> None:
+    """Rates between the end of the step in ``row`` and what was looked at inside, per time."""
+    count, zones = P.sizes[WATCHED], P.sizes[ZONES]
+    w = 1.0 / (LITTLE * P.search[SIZE])
+    if row == START:
+        w = 0.0 - w
+    for k in range(count):
+        P.margin[target * count + k] = w * (
+            P.margin[row * count + k] - P.margin[INSIDE * count + k]
+        )
+    for k in range(zones):
+        P.zone[zone_target * zones + k] = w * (P.zone[row * zones + k] - P.zone[INSIDE * zones + k])
+
+
+@native
+def dip(a: float, b: float, r: float, s: float, behind: float) -> float:
+    """The first share behind another at which a guard may be below zero, else ``NONE``."""
+    low, bend = lowest(a, b, r, s), meeting(a, b, r, s)
+    if not (behind < low and cubic(a, b, r, s, low) < NEAR * (abs(r) + abs(s))):
+        low = NONE
+    return min(low, bend) if behind < bend else low
+
+
+@native
+def meeting(a: float, b: float, r: float, s: float) -> float:
+    """The share at which the tangents at both ends meet below zero, else ``NONE``.
+
+    A distance that is passed bends where they meet, more sharply than a cubic may.
+    """
+    if not (a >= 0.0 and b >= 0.0 and r < 0.0 and s > 0.0):
+        return NONE
+    share = (a - b + s) / (s - r)
+    return share if a + r * share < 0.0 else NONE
+
+
+@native
+def lowest(a: float, b: float, r: float, s: float) -> float:
+    """The share at which the cubic has a minimum inside of the step, else ``NONE``."""
+    c, d = 3.0 * (b - a) - 2.0 * r - s, 2.0 * (a - b) + r + s
+    root = c * c - 3.0 * d * r
+    if not root > 0.0:
+        return NONE
+    root = root**0.5
+    if c > 0.0:
+        share = 0.0 - r / (c + root)
+    elif d != 0.0:
+        share = (root - c) / (3.0 * d)
+    else:
+        return NONE
+    return share if 0.0 < share and share < 1.0 else NONE
+
+
+@native
+def cubic(a: float, b: float, r: float, s: float, x: float) -> float:
+    """p(x)"""
+    return a + x * (r + x * (3.0 * (b - a) - 2.0 * r - s + x * (2.0 * (a - b) + r + s)))
+
+
+@native
+def share_of_zone(P: Problem, tested: bool) -> float:
+    """Share of a zone that a step may cross; ``tested``: errors of velocities are."""
+    if tested:
+        return SHARE_OF_ZONE
+    return min(SHARE_OF_ZONE, UNTESTED * P.settings[ERROR] ** (1.0 / 3.0))
+
+
+@native
+def share_into_zones(P: Problem) -> float:
+    """The share of the step that crosses no zone too quickly; ``NONE`` when the whole does not."""
+    count, h, span, least = P.sizes[ZONES], P.search[SIZE], P.search[SPAN], NONE
+    if count == 0 or P.settings[FIXED_STEP] > 0.0:
+        return NONE
+    for k in range(count):
+        a, b = P.zone[START * count + k], P.zone[END * count + k]
+        r, s = h * P.zone[ZONE_EARLY * count + k], h * P.zone[ZONE_LATE * count + k]
+        # The cubic stays between these: most steps are outside of most zones.
+        low = min(a, b) - DEEPEST * (abs(r) + abs(s))
+        high = max(a, b) + DEEPEST * (abs(r) + abs(s))
+        if low < 1.0 and high > 0.0 and high - low > span and high - low < 1e300:
+            # Downwards is upwards in 1 - D.
+            least = min(least, share_into(a, b, r, s, span))
+            least = min(least, share_into(1.0 - a, 1.0 - b, 0.0 - r, 0.0 - s, span))
+    return least if least * h > LEAST_CUT * P.settings[H_MAX] else NONE
+
+
+@native
+def share_into(a: float, b: float, r: float, s: float, span: float) -> float:
+    """The share of the step that moves upwards in a zone by no more than ``span``."""
+    top, peak = b, 1.0
+    highest = lowest(0.0 - a, 0.0 - b, 0.0 - r, 0.0 - s)
+    if highest < 1.0:
+        inside = cubic(a, b, r, s, highest)
+        if inside > top:
+            top, peak = inside, highest
+    if not (top > 0.0 and a < 1.0 and top - a > span):
+        return NONE
+    level = a + AIM * span
+    if a < 0.0 - 2.0 * BEFORE_ZONE:
+        level = 0.0 - BEFORE_ZONE
+    low, high = 0.0, peak
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if cubic(a, b, r, s, middle) < level:
+            low = middle
+        else:
+            high = middle
+    return low

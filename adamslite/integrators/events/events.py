@@ -1,0 +1,155 @@
+"""Events: where an expression changes its branch, and how an integrator meets them.
+
+Within a step every guard (:mod:`adamslite.symbolic.guards`) keeps the branch it had, so that the
+equations are smooth.  Branches stand behind the state in the workspace: first those of the clock,
+then those of the watch; 0 stands for a guard that is evaluated as it is.
+
+*Stops* are the times at which a branch of the clock changes.  They are known before the run and
+stand in ``P.stops``, the end of the run last.  *Crossings* are sign changes of watched guards; they
+are seen from the values and rates of every guard at the two ends of a step, and located on the
+dense output.  *Zones* are where smooth steps of the state rise: they are no events, but a step that
+would cross more than a share of one is taken again, shorter.
+
+Guards and branches are in :mod:`adamslite.integrators.events.guards`, stops in ``event_stops``, the
+location of crossings in ``event_search``, what lies between the ends of a step in ``event_dips``,
+changes that need no location in ``event_harmless``.
+
+An integrator
+
+1. calls :func:`start_events` before it solves for the first accelerations and :func:`hold_watch`
+   behind that, with the accelerations in the workspace;
+2. never steps beyond :func:`horizon`, and ends a step exactly there;
+3. looks for a crossing when a step has passed its error test, with the end of the step in the
+   workspace::
+
+       open_search(P, t, h)
+       while P.search[OPEN] != 0.0:
+           (the state at the share P.search[SHARE] of the step into the workspace)
+           judge(P)
+
+   and afterwards puts the end back.  Above 1, ``P.search[FOUND]`` says that there was none.  Where
+   ``ends_beyond(P)`` right after ``open_search``, branches differ at the end; when they make no
+   difference there (:func:`take_harmless`) they are changed without a search;
+   A try that fails because nothing is defined behind a branch is done again after
+   :func:`let_go`;
+   A try after which it :func:`crawls` ends the run as CHATTERING;
+4. does nothing more when :func:`ends_there`; otherwise takes the step again with the size
+   :func:`shorter`, or, when :func:`starts_there`, changes branches where it stands;
+5. accepts the step, writes the records of the time until then, and calls :func:`keep_margins`
+   unless something :func:`happened`, else :func:`pass_event`; that leaves accelerations of the new
+   branches, and in ``P.search[JUMP]`` how much they changed.  After a jump what is remembered of
+   the past is worthless: it starts anew.  Behind the end of a STEP in time it may go on.
+
+Reference: Shampine, Thompson, Appl. Math. Comput. 2000, "Event location for ODEs"; Oliveira,
+Takahashi, ACM Trans. Math. Softw. 47 (2021) 5 (ITP, the bracketing).
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import accelerations
+from adamslite.integrators.audit.balance import audit_from
+from adamslite.integrators.contract import EVENTS, NS, N, Plan, Problem, T
+from adamslite.integrators.event_rows import (
+    END,
+    FOUND,
+    HIGH_ROW,
+    HUGE,
+    HUNT,
+    JUMP,
+    LOOSE,
+    NONE,
+    SPAN,
+)
+from adamslite.integrators.events.dips import share_of_zone
+from adamslite.integrators.events.guards import (
+    hold_watch,
+    look_at_start,
+    note_changes,
+    release_watch,
+    remember_branches,
+    turn_over,
+)
+from adamslite.integrators.events.stops import is_stop, next_stop, set_clock, set_pace
+from adamslite.native.translate import native
+
+
+@native
+def start_events(P: Problem, located: bool, tested: bool) -> None:
+    """Nothing has happened yet; branches of the clock for the time until the first stop.
+
+    ``located``: crossings are looked for; else watched guards are evaluated as they are.
+    ``tested``: so are errors of velocities.
+    """
+    for k in range(P.search.size):
+        P.search[k] = 0.0
+    P.search[FOUND], P.search[LOOSE] = NONE, 0.0 if located else 1.0
+    P.search[SPAN] = share_of_zone(P, tested)
+    for k in range(P.margin.size):
+        P.margin[k] = 0.0
+    release_watch(P)
+    set_clock(P, P.settings[T])
+    set_pace(P, P.settings[T])
+
+
+@native
+def happened(P: Problem, t: float) -> bool:
+    """Whether the accepted step to ``t`` ends at a stop or a crossing."""
+    return met(P) or is_stop(P, t)
+
+
+@native
+def met(P: Problem) -> bool:
+    """Whether the accepted step ends at a crossing."""
+    return P.search[FOUND] <= 1.0
+
+
+@native
+def change_here(P: Problem, L: Plan, t: float) -> bool:
+    """Change the branches that break at the start of the step; q, u and states are where they
+    were, a and z those of the new branches.  False when the equations have no solution.
+    """
+    remember_branches(P)
+    turn_over(P, HIGH_ROW, 1.0)
+    note_changes(P, t, HIGH_ROW)
+    P.count[EVENTS] += 1
+    P.search[HUNT] = 0.0
+    if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
+        return False
+    look_at_start(P)
+    audit_from(P, t)
+    return True
+
+
+@native
+def pass_event(P: Problem, L: Plan, t: float) -> bool:
+    """Behind a stop or a crossing at ``t``: branches and accelerations of the other side.
+
+    The state stands in q, u, z, rd and P.a and in the workspace; ``P.search[JUMP]``: the largest
+    change at a stop of an acceleration or of the rate of a state, against max(1, |u|) or
+    max(1, |s|); at a crossing it is beyond all bounds.  False when the equations have no solution.
+    """
+    n, ns, S, old = P.sizes[N], P.sizes[NS], P.search, P.trial
+    P.count[EVENTS] += 1
+    S[HUNT], S[JUMP] = 0.0, 0.0
+    if met(P):
+        note_changes(P, t, END)
+        S[JUMP] = HUGE
+    elif not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
+        return False
+    for i in range(n):
+        old[i] = P.a[i]
+    for k in range(ns):
+        old[n + k] = P.rd[k]
+    if is_stop(P, t):
+        next_stop(P, t)
+    release_watch(P)
+    if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
+        return False
+    hold_watch(P)
+    for i in range(n):
+        S[JUMP] = max(S[JUMP], abs(P.a[i] - old[i]) / max(1.0, abs(P.u[i])))
+    for k in range(ns):
+        size = max(1.0, abs(P.z[P.z.size - 1 - ns + k]))
+        S[JUMP] = max(S[JUMP], abs(P.rd[k] - old[n + k]) / size)
+    audit_from(P, t)
+    return True

@@ -1,0 +1,99 @@
+"""Branches that differ at the end of a step and change nothing there: taken without a search."""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import CLOCKS, ERROR, NW, NZ, WATCHED, N, Plan, Problem
+from adamslite.integrators.event_rows import BEFORE, END, HIGH, HUNT, INSIDE, NONE, TAKEN
+from adamslite.integrators.events.guards import (
+    SAME_TIME,
+    crossing_share,
+    margins,
+    note_changes,
+    remember_branches,
+    turn_back,
+    turn_over,
+)
+from adamslite.integrators.events.search import ends_beyond
+from adamslite.integrators.linalg.blocks import solve
+from adamslite.integrators.motion_equations import residual
+from adamslite.native.translate import native
+
+# Branches that change the end of a step by less than this share of ERROR need no event.
+HARMLESS = 0.02
+# So many groups of changes are tried one after another.
+MOST_GROUPS = 5
+
+
+@native
+def take_harmless(P: Problem, L: Plan, phases: int, cu: float) -> None:
+    """Where the step ends beyond changes that do not matter, and none is being hunted, take them:
+    Newton's next increment on the other branches, dq with du = cu dq, is too small.  The converged
+    end of the step stands in the workspace.
+
+    Branches are changed one after another as they were met: two that cancel at the end (a force
+    that acts only in a thin layer) need not have cancelled on the way.
+    """
+    if not ends_beyond(P) or P.search[HUNT] != 0.0:
+        return
+    share, groups, harmless = -1.0, 0, True
+    remember_branches(P)
+    while harmless and share < 1.0:
+        groups += 1
+        share = next_change(P, share) if groups < MOST_GROUPS else 1.0
+        turn_back(P)
+        turn_over(P, END, share)
+        harmless = small_change(P, L, phases, cu)
+    if harmless and not exposes(P):
+        forget(P)
+    else:
+        turn_back(P)
+
+
+@native
+def next_change(P: Problem, share: float) -> float:
+    """Estimated share of the step of the first change after ``share``; 1 for the last one."""
+    count, found, last = P.sizes[WATCHED], 1.0, 0.0
+    for k in range(count):
+        if P.margin[END * count + k] < 0.0:
+            at = crossing_share(P, k)
+            last = max(last, at)
+            if at > share + SAME_TIME:
+                found = min(found, at)
+    return found if found < last - SAME_TIME else 1.0
+
+
+@native
+def small_change(P: Problem, L: Plan, phases: int, cu: float) -> bool:
+    """Whether the residual of the present branches moves the converged state too little to see."""
+    residual(P, phases, P.F)
+    solve(L, P.LV, P.pivots, P.F, P.x, P.work)
+    largest = 0.0
+    for i in range(P.sizes[N]):
+        size = abs(P.F[i])
+        largest = max(largest, size / max(1.0, abs(P.q[i])), cu * size / max(1.0, abs(P.u[i])))
+    for k in range(P.sizes[NZ]):
+        if not abs(P.F[k]) < 1e300:
+            return False
+    return largest <= HARMLESS * P.settings[ERROR]
+
+
+@native
+def exposes(P: Problem) -> bool:
+    """Whether the branches that were turned over move the margin of another guard: what that one
+    decides may have changed on the way (MAX(ABS(x) - a, 0): with the branch of ABS that of MAX).
+    """
+    count, first = P.sizes[WATCHED], P.sizes[NW] + P.sizes[CLOCKS]
+    margins(P, INSIDE)
+    for k in range(count):
+        same = P.W[first + k] == P.margin[BEFORE * count + k]
+        if same and P.margin[INSIDE * count + k] != P.margin[END * count + k]:
+            return True
+    return False
+
+
+@native
+def forget(P: Problem) -> None:
+    """The branches that were turned over are those of the end; others are still looked at."""
+    note_changes(P, P.W[0], END)
+    P.search[TAKEN], P.search[HIGH] = 1.0, NONE
+    margins(P, END)

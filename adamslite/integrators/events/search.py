@@ -1,0 +1,240 @@
+"""The first crossing within a tried step: seen from its ends, bracketed and located.
+
+Guards and their rates are taken at both ends; where the cubic through them
+(:mod:`adamslite.integrators.events.dips`) comes near zero in between, the dense output is looked
+at.
+
+Reference: Oliveira, Takahashi, ACM Trans. Math. Softw. 47 (2021) 5 (ITP, the bracketing).
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import ERROR, WATCHED, Problem
+from adamslite.integrators.event_rows import (
+    AGAIN,
+    BRACKET,
+    BUDGET,
+    CUT,
+    DIP,
+    EARLY,
+    END,
+    FOUND,
+    HIGH,
+    HIGH_ROW,
+    HUNT,
+    HUNT_END,
+    INSIDE,
+    KNOWN,
+    LATE,
+    LET_GO,
+    LOOKED,
+    LOOKS,
+    LOW,
+    LOW_ROW,
+    NONE,
+    OPEN,
+    RATE_BEFORE,
+    RATE_BEHIND,
+    RATE_RIGHT,
+    RATED,
+    SHARE,
+    SIZE,
+    STAGE,
+    START,
+    TAKEN,
+    TOLERANCE,
+    WHOLE,
+    WINDOW_HIGH,
+    WINDOW_LOW,
+    ZONE_EARLY,
+    ZONE_LATE,
+)
+from adamslite.integrators.events.dips import LITTLE, rates, share_into_zones
+from adamslite.integrators.events.guards import copy_margins, let_go, look, take_up, turn_back
+from adamslite.integrators.events.stops import least_step
+from adamslite.integrators.events.windows import (
+    MOST_LOOKS,
+    end_window_here,
+    is_expected,
+    is_trusted,
+    left_row,
+    next_dip,
+    next_window,
+    open_window,
+    rates_at_right,
+)
+from adamslite.native.translate import native
+
+# An event is met when the step ends behind it by less than this share of the step in which it was
+# seen, or this multiple of ERROR.
+CLOSE, CLOSE_ERROR = 1e-6, 0.01
+TIME_ROUND_OFF = 4e-15
+
+
+@native
+def open_search(P: Problem, t: float, h: float) -> None:
+    """Look at the end of the step from ``t``, which stands in the workspace."""
+    S = P.search
+    S[OPEN], S[SHARE], S[STAGE], S[TAKEN] = 1.0, 1.0 - LITTLE, RATE_BEHIND, 0.0
+    S[FOUND], S[CUT], S[SIZE], S[LOW], S[HIGH] = NONE, NONE, h, 0.0, NONE
+    S[LOOKS], S[WINDOW_LOW] = 0.0, 0.0
+    S[AGAIN] = S[LET_GO]
+    take_up(P)
+    if S[HUNT] != 0.0 and t >= S[HUNT_END]:
+        S[HUNT] = 0.0
+    if S[HUNT] == 0.0:
+        S[HUNT_END], S[WHOLE] = t + h, h
+        share = min(CLOSE, CLOSE_ERROR * P.settings[ERROR])
+        S[TOLERANCE] = max(share * h + TIME_ROUND_OFF * abs(t), least_step(P))
+    if look(P, END) > 0:
+        S[HIGH] = 1.0
+
+
+@native
+def open_bracket(P: Problem, share: float, row: int) -> None:
+    """A branch has changed somewhere before ``share``, where margins stand in a row."""
+    S = P.search
+    S[HIGH], S[FOUND], S[BUDGET], S[STAGE] = share, share, share - S[WINDOW_LOW], BRACKET
+    S[LOW] = S[WINDOW_LOW]
+    copy_margins(P, left_row(P), LOW_ROW)
+    copy_margins(P, row, HIGH_ROW)
+    S[SHARE] = next_share(P)
+
+
+@native
+def ends_beyond(P: Problem) -> bool:
+    """Whether the end of the step is on other branches."""
+    return P.search[HIGH] == 1.0
+
+
+@native
+def judge(P: Problem) -> None:
+    """Look at the guards at the workspace's state, and choose another share or close the search."""
+    S = P.search
+    found = look(P, INSIDE) > 0
+    if S[STAGE] == RATE_BEHIND:
+        rates(P, END, LATE, ZONE_LATE)
+        S[RATED], S[STAGE], S[SHARE] = 1.0, RATE_BEFORE, LITTLE
+        if S[KNOWN] != 0.0:
+            choose(P)
+    elif S[STAGE] == RATE_BEFORE:
+        rates(P, START, EARLY, ZONE_EARLY)
+        S[KNOWN] = 1.0
+        choose(P)
+    elif S[STAGE] == BRACKET:
+        narrow(P, found)
+    else:
+        S[LOOKS] += 1.0
+        if found:
+            open_bracket(P, S[SHARE], INSIDE)
+        else:
+            look_further(P)
+    if S[OPEN] == 0.0 and S[TAKEN] != 0.0 and min(S[FOUND], S[CUT]) <= 1.0:
+        turn_back(P)
+
+
+@native
+def choose(P: Problem) -> None:
+    """Rates are known: a shorter step where a zone asks for it, else a look at the guards."""
+    P.search[CUT] = share_into_zones(P)
+    if P.search[CUT] > 1.0 and P.sizes[WATCHED] > 0:
+        open_window(P)
+        if is_expected(P):
+            pass_window(P)
+    else:
+        P.search[OPEN] = 0.0
+
+
+@native
+def look_further(P: Problem) -> None:
+    """Nothing is below zero at the present share: where to look next, or the end of the search."""
+    S = P.search
+    if S[STAGE] == RATE_RIGHT:
+        rates_at_right(P)
+    elif not is_trusted(P):
+        end_window_here(P)
+    else:
+        if S[STAGE] == DIP:
+            S[LOOKED] = S[SHARE]
+        pass_window(P)
+
+
+@native
+def pass_window(P: Problem) -> None:
+    """The next dip in the window, the next window, the bracket of what has changed at the end of
+    the step, or the end of the search.
+    """
+    S, share = P.search, next_dip(P)
+    if share < 1.0:
+        S[SHARE], S[STAGE] = share, DIP
+    elif S[WINDOW_HIGH] < 1.0 and S[LOOKS] < MOST_LOOKS:
+        next_window(P)
+    elif S[HIGH] == 1.0:
+        open_bracket(P, 1.0, END)
+    else:
+        S[OPEN] = 0.0
+
+
+@native
+def narrow(P: Problem, found: bool) -> None:
+    """Move one end of the bracket to the present share."""
+    S = P.search
+    if found:
+        S[HIGH], S[FOUND] = S[SHARE], S[SHARE]
+        copy_margins(P, INSIDE, HIGH_ROW)
+    else:
+        S[LOW] = S[SHARE]
+        copy_margins(P, INSIDE, LOW_ROW)
+    S[BUDGET] *= 0.5
+    S[OPEN] = 1.0 if (S[HIGH] - S[LOW]) * S[SIZE] > 0.5 * S[TOLERANCE] else 0.0
+    S[SHARE] = next_share(P)
+
+
+@native
+def next_share(P: Problem) -> float:
+    """Where to look next: the earliest secant root in the bracket, kept near enough to the middle
+    that bisection would not be faster (ITP).
+    """
+    S, count = P.search, P.sizes[WATCHED]
+    low, width = S[LOW], S[HIGH] - S[LOW]
+    middle, secant = low + 0.5 * width, S[HIGH]
+    for k in range(count):
+        after = P.margin[HIGH_ROW * count + k]
+        if after < 0.0:
+            before = max(0.0, P.margin[LOW_ROW * count + k])
+            secant = min(secant, low + width * before / (before - after))
+    towards = 1.0 if middle >= secant else -1.0
+    nudge = max(0.2 * width * width, 0.1 * S[TOLERANCE] / S[SIZE])
+    share = secant + towards * nudge if nudge <= abs(middle - secant) else middle
+    reach = max(2.0 * S[BUDGET] - 0.5 * width, 0.0)
+    return share if abs(share - middle) <= reach else middle - towards * reach
+
+
+@native
+def ends_there(P: Problem) -> bool:
+    """Whether the step can stay: no crossing, or one just before its end."""
+    S = P.search
+    if S[CUT] < 1.0:
+        return False
+    return S[FOUND] > 1.0 or (1.0 - S[FOUND]) * S[SIZE] <= S[TOLERANCE]
+
+
+@native
+def starts_there(P: Problem) -> bool:
+    """Whether the crossing is so near to the start of the step that branches change there."""
+    S = P.search
+    return S[CUT] > 1.0 and S[FOUND] * S[SIZE] <= S[TOLERANCE]
+
+
+@native
+def shorter(P: Problem) -> float:
+    """Size of the step that ends just behind the crossing, or before more of a zone is crossed than
+    a share of it.
+    """
+    S = P.search
+    if S[AGAIN] != 0.0:
+        let_go(P)
+    if S[CUT] < 1.0:
+        return S[CUT] * S[SIZE]
+    S[HUNT] = 1.0
+    return S[FOUND] * S[SIZE] + 0.5 * S[TOLERANCE]

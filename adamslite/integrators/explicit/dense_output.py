@@ -1,0 +1,150 @@
+"""Records within a step of the explicit formula: three more stages, a polynomial of order 7.
+
+    p(x) at the share x of the step,    defect  p'(x) - h f(p(x))
+
+The step ends right where its error test says so, but the polynomial has a test of its own to pass:
+where something stiff holds the steps at the bound of stability, its error is not that of the ends.
+The defect, which the rates of the record cost nothing more, shows it; such records are taken by
+steps of their own.
+
+References: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6; Enright, Numer. Algorithms
+18 (1998) 205 (defects of interpolants).
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import ERROR, Plan, Problem
+from adamslite.integrators.explicit.dop853 import LATE, POWERS, ROW, TIMES
+from adamslite.integrators.explicit.stages import (
+    add_combined,
+    combine,
+    exact_rates,
+    rates_at,
+    run_stages,
+)
+from adamslite.integrators.explicit.state import (
+    BETWEEN,
+    CLOCK,
+    FOLLOWING,
+    K_NEW,
+    NEXT_STATE,
+    OLD,
+    SLOPE,
+    WIDTH,
+    H,
+)
+from adamslite.integrators.records import write_record
+from adamslite.native.translate import Reals, native
+
+# An error e of the polynomial leaves a defect of about e times its order, or e times what the
+# stiffest component changes in a step, which is as much at the bound of stability.
+DEFECT = 7.0
+
+
+@native
+def write_dense(P: Problem, L: Plan, w: int, t: float) -> bool:
+    """Write every asked time up to ``t``, the end of the step."""
+    C, K = P.control, P.history
+    following, ready, apart, h = int(C[FOLLOWING]), False, False, C[H]
+    while following < P.times.size and P.times[following] <= t + 1e-9 * h:
+        at = P.times[following]
+        if at < t - 1e-9 * h:
+            x, y = (at - C[CLOCK]) / h, K[BETWEEN * w :]
+            if not ready and not late_stages(P, L, w, h):
+                return False
+            ready = True
+            if not apart:
+                interpolated(P, w, h, x, y)
+                slope(P, w, h, x, K[SLOPE * w :])
+                if not exact_rates(P, L, at, y, P.trial):
+                    return False
+                apart = defect(P, w, h) > DEFECT * P.settings[ERROR]
+            if apart and not step_to(P, L, w, at, x * h):
+                return False
+        elif ready and not exact_rates(P, L, at, K[NEXT_STATE * w :], P.trial):
+            return False
+        write_record(P, following)
+        following += 1
+    C[FOLLOWING] = float(following)
+    return True
+
+
+@native
+def step_to(P: Problem, L: Plan, w: int, t: float, h: float) -> bool:
+    """The state at ``t`` by a step of size ``h`` from the start of this one; the new state stays,
+    the stages of this step do not.
+    """
+    K, whole = P.history, P.control[H]
+    new, y = K[NEXT_STATE * w :], K[BETWEEN * w :]
+    for i in range(w):
+        y[i] = new[i]
+    P.control[H] = h
+    good = run_stages(P, L, w, h)
+    P.control[H] = whole
+    for i in range(w):
+        kept = y[i]
+        y[i] = new[i]
+        new[i] = kept
+    return good and exact_rates(P, L, t, y, P.trial)
+
+
+@native
+def late_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
+    """Three more stages for the interpolation."""
+    K, y = P.history, P.history[BETWEEN * w :]
+    for i in range(K_NEW + 1, K_NEW + 4):
+        combine(P, LATE + i - K_NEW - 1, w, h, K[OLD * w :], y)
+        at = P.control[CLOCK] + h * P.tableau[ROW * TIMES + i]
+        if not rates_at(P, L, at, y, K[i * int(P.control[WIDTH]) :]):
+            return False
+    return True
+
+
+@native
+def interpolated(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
+    """The state at t + x h: order 7."""
+    K, z = P.history, 1.0 - x
+    old, new = K[OLD * w :], K[NEXT_STATE * w :]
+    a, b, c = x, x * z, x * x * z
+    for i in range(w):
+        y[i] = old[i] + (a - b + 2.0 * c) * (new[i] - old[i])
+    width = int(P.control[WIDTH])
+    for i in range(width):
+        y[w - width + i] += h * ((b - c) * K[i] - c * K[K_NEW * width + i])
+    for i in range(w - width):
+        y[i] += h * ((b - c) * old[width + i] - c * new[width + i])
+    weight = h * x * x * z * z
+    for j in range(4):
+        add_combined(P, POWERS + j, w, weight, y)
+        weight *= x if j % 2 == 0 else z
+
+
+@native
+def slope(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
+    """h times the rate of the interpolation at t + x h."""
+    K, z = P.history, 1.0 - x
+    old, new = K[OLD * w :], K[NEXT_STATE * w :]
+    b, c = z - x, 2.0 * x * z - x * x
+    for i in range(w):
+        y[i] = (1.0 - b + 2.0 * c) * (new[i] - old[i])
+    width = int(P.control[WIDTH])
+    for i in range(width):
+        y[w - width + i] += h * ((b - c) * K[i] - c * K[K_NEW * width + i])
+    for i in range(w - width):
+        y[i] += h * ((b - c) * old[width + i] - c * new[width + i])
+    xz = x * z
+    add_combined(P, POWERS, w, h * 2.0 * xz * b, y)
+    add_combined(P, POWERS + 1, w, h * x * xz * (3.0 * z - 2.0 * x), y)
+    add_combined(P, POWERS + 2, w, h * 3.0 * xz * xz * b, y)
+    add_combined(P, POWERS + 3, w, h * x * xz * xz * (4.0 * z - 3.0 * x), y)
+
+
+@native
+def defect(P: Problem, w: int, h: float) -> float:
+    """max |p' - h f(p)| / max(1, |p|), of what has rates in ``P.trial``."""
+    width, top = int(P.control[WIDTH]), 0.0
+    y, rate = P.history[BETWEEN * w :], P.history[SLOPE * w :]
+    for i in range(w - width, w):
+        off = abs(rate[i] - h * P.trial[i - (w - width)])
+        top = max(top, off / max(1.0, abs(y[i])))
+    return top

@@ -1,0 +1,130 @@
+"""The error test of the explicit formula, the first step and the next.
+
+    error = |e5|^2/sqrt(|e5|^2 + 0.01 |e3|^2)    over ERROR SCALE max(1, |y|)
+
+Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, sections II.4 (start) and II.10 (error).
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import ERROR, H_INIT, H_MIN, T_END, WHERE, N, Plan, Problem
+from adamslite.integrators.events.stops import longest_step
+from adamslite.integrators.explicit.dop853 import ERROR3, ERROR5
+from adamslite.integrators.explicit.stages import combine, rates_at
+from adamslite.integrators.explicit.state import (
+    BETWEEN,
+    CAUTIOUS,
+    CLOCK,
+    LAST_ERROR,
+    NEXT_STATE,
+    OLD,
+    SCALES,
+    WIDTH,
+    H,
+)
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.native.translate import Reals, native
+
+# The next step aims at this share of what the error test allows; exponents of the present and the
+# last error (section IV.2 of the second volume: steadier at the limit of stability).
+SAFETY = 0.9
+NOW_POWER, LAST_POWER = -0.125 + 0.03, 0.04
+SHRINK, GROW = 0.2, 6.0
+
+
+@native
+def distance(P: Problem, a: Reals, y: Reals, scales: Reals, w: int) -> float:
+    """Largest |a_i| against ERROR scale_i max(1, |y_i|); remembers where."""
+    top, where = 0.0, 0
+    for i in range(w):
+        # Compared before divided: few elements ever set a new maximum.
+        weight = scales[i] * max(1.0, abs(y[i]))
+        if exceeds(abs(a[i]), top * weight):
+            top, where = abs(a[i]) / weight, i
+    P.report[WHERE] = where
+    return top / P.settings[ERROR]
+
+
+@native
+def starting_step(P: Problem, L: Plan, w: int) -> float:
+    """A step whose errors are small, from the rates here and one small step further (section
+    II.4).
+    """
+    t = P.control[CLOCK]
+    room = min(longest_step(P), P.settings[T_END] - t)
+    if P.settings[H_INIT] > 0.0:
+        return min(room, P.settings[H_INIT])
+    y, new, width = P.history[OLD * w :], P.history[NEXT_STATE * w :], int(P.control[WIDTH])
+    h = euler(P, w, 1.0)
+    scales = P.history[SCALES * w :]
+    d0, d1 = distance(P, y, y, scales, w), change(P, w) / h
+    h = min(room, 0.01 * d0 / d1 if d0 > 1e-5 and d1 > 1e-5 else 1e-6)
+    euler(P, w, h)
+    k = P.history[width:]
+    if not rates_at(P, L, t + h, new, k):
+        return 0.01 * h
+    d2, n = d1, P.sizes[N]
+    for i in range(w - n):
+        k[i] = k[width - w + n + i] - P.history[width - w + n + i]
+    d2 = max(d2, distance(P, k, y[n:], scales[n:], w - n) / h)
+    later = (0.01 / d2) ** 0.125 if d2 > 1e-15 else max(1e-6, 1e-3 * h)
+    return min(room, max(P.settings[H_MIN], min(100.0 * h, later)))
+
+
+@native
+def euler(P: Problem, w: int, h: float) -> float:
+    """The new state by Euler's formula; returns h."""
+    P.control[H] = h
+    combine(P, 0, w, h / P.tableau[3], P.history[OLD * w :], P.history[NEXT_STATE * w :])
+    return h
+
+
+@native
+def change(P: Problem, w: int) -> float:
+    """Distance of the new state from the old."""
+    y, new, e = P.history[OLD * w :], P.history[NEXT_STATE * w :], P.trial[0:]
+    for i in range(w):
+        e[i] = new[i] - y[i]
+    return distance(P, e, y, P.history[SCALES * w :], w)
+
+
+@native
+def estimate(P: Problem, w: int, h: float) -> float:
+    """Error of the step against ERROR: the fifth order's, tamed by the third's."""
+    y, zero, e = P.history[NEXT_STATE * w :], P.history[BETWEEN * w :], P.trial[0:]
+    scales = P.history[SCALES * w :]
+    for i in range(w):
+        zero[i] = 0.0
+    combine(P, ERROR3, w, h, zero, e)
+    third = distance(P, e, y, scales, w)
+    combine(P, ERROR5, w, h, zero, e)
+    fifth = distance(P, e, y, scales, w)
+    if not third < 1e150 or not fifth < 1e150:
+        return 1e300
+    if fifth < 1e-100:  # whose square may be nothing
+        return 0.0
+    return fifth * fifth / (fifth * fifth + 0.01 * third * third) ** 0.5
+
+
+@native
+def choose_explicit_step(P: Problem, error: float) -> None:
+    """The next step from the errors of this and the last one."""
+    C, factor = P.control, GROW
+    if error > 0.0:
+        factor = min(GROW, SAFETY * error**NOW_POWER * C[LAST_ERROR] ** LAST_POWER)
+    if C[CAUTIOUS] != 0.0:
+        factor = min(1.0, factor)
+    C[CAUTIOUS], C[LAST_ERROR] = 0.0, max(error, 1e-4)
+    cut_step(P, max(SHRINK, factor))
+
+
+@native
+def cut_step(P: Problem, factor: float) -> None:
+    """``factor`` times the step, but not below HMIN, unless a step of HMIN has failed."""
+    C, h, least = P.control, P.control[H], P.settings[H_MIN]
+    if h * factor >= least:
+        C[H] = h * factor
+    elif h > least * 1.0000001:
+        C[H] = least
+    elif C[CAUTIOUS] != 0.0:
+        C[H] = h * factor

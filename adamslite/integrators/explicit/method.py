@@ -1,0 +1,250 @@
+"""ABAM, RKF45: an explicit Runge-Kutta pair of order 8(5,3) with dense output of order 7.
+
+    y = (q, u, s),   y' = f(t, y) = (T^-1 u, a, s'),     k_i = f(t + c_i h, y + h sum a_ij k_j)
+    y+ = y + h sum b_i k_i,    error = |e5|^2/sqrt(|e5|^2 + 0.01 |e3|^2)    over ERROR max(1, |y|)
+
+Accelerations come body by body when nothing ties bodies together
+(:mod:`adamslite.integrators.unconstrained`), else from the index-1 equations
+(:mod:`adamslite.integrators.accelerations`) with a factored matrix that serves all stages of a
+step. With constraints every accepted state is projected in the mass metric,
+
+    [M, G^T; G, 0] (dq, .) = (0, g),    [M, G^T; G, 0] (du, .) = (0, G u + g_t),
+
+so that nothing drifts.  Rotations are Cayley vectors counted from the attitude at the step's start.
+References: Hairer, Norsett, Wanner, Solving ODE I, 1993, sections II.4 (start, steps), II.5, II.6,
+II.10 (error); Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006, sections IV.4, VII.1.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import accelerations, mass_signature, put_state
+from adamslite.integrators.audit.balance import audit
+from adamslite.integrators.contract import (
+    AT,
+    BROKEN_START,
+    DONE,
+    ERROR,
+    H_MAX,
+    H_MIN,
+    HOW_MUCH,
+    IMPLICIT_MASS,
+    INTERPOLATE,
+    INTERRUPTED,
+    MOVED,
+    NS,
+    NV,
+    ORDER,
+    SINGULAR_MASS,
+    SPENT,
+    STEP,
+    STEPS,
+    STOP,
+    T_END,
+    WATCHED,
+    ZONES,
+    M,
+    N,
+    Plan,
+    Problem,
+    T,
+)
+from adamslite.integrators.events.events import happened, start_events
+from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins, let_go
+from adamslite.integrators.events.search import ends_there, shorter, starts_there
+from adamslite.integrators.events.stops import (
+    fitted,
+    least_step,
+    longest_step,
+    set_pace,
+    step_limit,
+)
+from adamslite.integrators.explicit.dense_output import write_dense
+from adamslite.integrators.explicit.error import (
+    choose_explicit_step,
+    estimate,
+    starting_step,
+)
+from adamslite.integrators.explicit.events import change_where_it_stands, locate_between, pass_by
+from adamslite.integrators.explicit.recovery import reject, shorten, why_stuck
+from adamslite.integrators.explicit.stages import exact_rates, run_stages
+from adamslite.integrators.explicit.state import (
+    BODIES,
+    CAUTIOUS,
+    CLOCK,
+    FAILED,
+    FOLLOWING,
+    FREE,
+    INVERSE,
+    K_NEW,
+    LAST_ERROR,
+    MASSES,
+    NEXT_STATE,
+    OLD,
+    PULLED,
+    RUNNING,
+    SIGNATURE,
+    TRIES,
+    WIDTH,
+    H,
+    base_here,
+    keep_solution,
+    stand_again,
+)
+from adamslite.integrators.motion_equations import track
+from adamslite.integrators.records import note_violation, write_record
+from adamslite.integrators.step_back import make_undoable
+from adamslite.integrators.unconstrained import invert_inertia, is_free, mass_tables
+from adamslite.native.translate import Reals, native
+
+# A projection that moves further than this times ERROR does not correct a step but leaves it, as
+# where constraints lose rank and another branch is near. Just beside such postures it moves by some
+# ERROR: with 1 the four-bar that passes 97 of them stopped on a processor without FMA.
+FAR = 10.0
+# Where steps below this share of HMAX are pulled so far this often, shorter ones will not help.
+TINY, MOST_PULLED = 1e-6, 20.0
+
+
+@native
+def explicit(P: Problem, L: Plan) -> int:
+    """Integrate to the end time; returns an outcome."""
+    outcome = begin_explicit(P, L)
+    while outcome == RUNNING:
+        outcome = try_step(P, L)
+    P.report[AT] = P.control[CLOCK]
+    return outcome
+
+
+@native
+def begin_explicit(P: Problem, L: Plan) -> int:
+    """Rates at the start, first record, first step."""
+    C, t = P.control, P.settings[T]
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w = 2 * n + ns
+    for i in range(P.control.size):
+        C[i] = 0.0
+    C[CLOCK], C[LAST_ERROR] = t, 1e-4
+    y, k = P.history[OLD * w :], P.history[0:]
+    for i in range(n):
+        y[i], y[n + i] = P.q[i], P.u[i]
+    for i in range(ns):
+        y[2 * n + i] = P.z[first + i]
+    C[WIDTH] = float(w)
+    start_events(P, True, True)
+    inverse = P.history[INVERSE * w :]
+    if is_free(P) and mass_tables(P, inverse, inverse[n:]):
+        C[FREE], C[WIDTH] = MASSES, float(n)
+    elif is_free(P) and invert_inertia(P, inverse):
+        C[FREE] = BODIES
+    elif not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
+        return BROKEN_START
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
+    if not exact_rates(P, L, t, y, k):
+        return BROKEN_START
+    hold_watch(P)
+    P.report[ORDER] = 8.0
+    C[H] = starting_step(P, L, w)
+    if not exact_rates(P, L, t, y, k):
+        return BROKEN_START
+    base_here(P, w)
+    keep_solution(P)
+    track(P)
+    write_record(P, 0)
+    C[FOLLOWING] = 1.0
+    return RUNNING
+
+
+@native
+def try_step(P: Problem, L: Plan) -> int:
+    """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
+    C = P.control
+    w = 2 * P.sizes[N] + P.sizes[NS]
+    if C[CLOCK] >= P.settings[T_END]:
+        return DONE
+    if P.settings[STOP] != 0.0:
+        return INTERRUPTED
+    set_pace(P, C[CLOCK])
+    C[H] = min(C[H], longest_step(P))
+    left = step_limit(P, int(C[FOLLOWING])) - C[CLOCK]
+    if P.settings[INTERPOLATE] == 0.0:
+        C[H] = fitted(P, C[H], left)
+    if C[H] * 1.0000001 > left:
+        C[H] = left
+    least = P.settings[H_MIN] if C[CAUTIOUS] != 0.0 else least_step(P)
+    if C[H] < least or crawls(P, C[H]):
+        return why_stuck(P, L, w)
+    P.report[AT], P.report[STEP] = C[CLOCK], C[H]
+    if not run_stages(P, L, w, C[H]):
+        if let_go(P):
+            return RUNNING
+        return shorten(P, w, 0.25)
+    error = estimate(P, w, C[H])
+    P.report[HOW_MUCH] = error
+    if not error <= 1.0:
+        return reject(P, w, error)
+    return accept_step(P, L, w, error)
+
+
+@native
+def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
+    """Project, and move on unless the step is to end at a crossing before."""
+    C, K = P.control, P.history
+    h, t = C[H], C[CLOCK] + C[H]
+    limit = step_limit(P, int(C[FOLLOWING]))
+    if t + 1e-7 * h > limit:
+        t = limit
+    new, width = K[NEXT_STATE * w :], int(C[WIDTH])
+    if P.sizes[IMPLICIT_MASS] and changed_signature(P, L, t, new):
+        return shorten(P, w, 0.25)
+    P.report[MOVED] = 0.0
+    if not exact_rates(P, L, t, new, K[K_NEW * width :]):
+        return shorten(P, w, 0.25)
+    if P.report[MOVED] > FAR * P.settings[ERROR]:
+        if h < TINY * P.settings[H_MAX]:
+            C[PULLED] += 1.0
+        return why_stuck(P, L, w) if C[PULLED] > MOST_PULLED else shorten(P, w, 0.5)
+    if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
+        locate_between(P, C[CLOCK], h, width, OLD * w, K_NEW)
+        if not ends_there(P):
+            if starts_there(P):
+                return change_where_it_stands(P, L, w)
+            C[H] = shorter(P)
+            return RUNNING
+    return move_on(P, L, w, t, error)
+
+
+@native
+def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
+    """Write records up to ``t``, take over the new state, choose the next step."""
+    C, K, width = P.control, P.history, int(P.control[WIDTH])
+    new = K[NEXT_STATE * w :]
+    P.count[STEPS] += 1
+    P.report[SPENT] += error
+    make_undoable(P, C[CLOCK], C[H], C[TRIES] == 0.0)
+    C[FAILED], C[TRIES] = 0.0, 0.0
+    note_violation(P, t)
+    audit(P, L, t)
+    keep_solution(P)
+    if not write_dense(P, L, w, t):
+        return SINGULAR_MASS
+    C[CLOCK] = t
+    for i in range(w):
+        K[OLD * w + i] = new[i]
+    for i in range(width):
+        K[i] = K[K_NEW * width + i]
+    stand_again(P, w)
+    track(P)
+    base_here(P, w)
+    if happened(P, t):
+        return pass_by(P, L, w)
+    keep_margins(P)
+    choose_explicit_step(P, error)
+    return RUNNING
+
+
+@native
+def changed_signature(P: Problem, L: Plan, t: float, y: Reals) -> bool:
+    """Whether the acceleration matrix became singular within the step."""
+    n = P.sizes[N]
+    put_state(P, t, y, y[n:], P.a, P.z, P.rd)
+    return mass_signature(P, L, P.x) != int(P.control[SIGNATURE])

@@ -1,0 +1,102 @@
+"""When a try of the explicit formula fails: a shorter step, another start, or the end of the run.
+
+Near a posture in which constraints lose rank shorter steps do not help, because the state they
+start from is spoilt by round-off (:mod:`adamslite.integrators.step_back`): after a few failures the
+step that led there is taken back and made shorter, so that the next one passes the posture with a
+leap.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import mass_vanishes
+from adamslite.integrators.contract import (
+    CHATTERING,
+    FAILURES,
+    H_MAX,
+    IMPLICIT_MASS,
+    NEWTON_FAILED,
+    REJECTED,
+    SINGULAR_MASS,
+    STEP_TOO_SMALL,
+    M,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.event_rows import FREED
+from adamslite.integrators.events.guards import let_go
+from adamslite.integrators.explicit.error import NOW_POWER, SAFETY, SHRINK, cut_step
+from adamslite.integrators.explicit.state import (
+    CAUTIOUS,
+    CLOCK,
+    FAILED,
+    RUNNING,
+    SIGNATURE,
+    TRIES,
+    H,
+    stand_again,
+)
+from adamslite.integrators.step_back import TROUBLE, before_trouble
+from adamslite.native.translate import native
+
+SINGULAR_RESOLUTION = 1e-6
+# Tries in vain around one place before the step that led there is taken back: failures of the
+# equations, rejections.
+FEW_FAILURES, FEW_REJECTIONS = 2.0, 3.0
+
+
+@native
+def start_elsewhere(P: Problem, w: int) -> bool:
+    """Back to the state before the trouble, with a shorter step; False when that was tried enough
+    or is of no use.
+    """
+    C = P.control
+    share = before_trouble(P, C[CLOCK] + C[H])
+    if share == 0.0:
+        return False
+    C[CAUTIOUS] = 1.0
+    C[H] *= share
+    stand_again(P, w)
+    return True
+
+
+@native
+def shorten(P: Problem, w: int, factor: float) -> int:
+    """Accelerations could not be solved for within the step: a shorter one."""
+    C = P.control
+    P.count[FAILURES] += 1
+    C[FAILED], C[TRIES] = C[FAILED] + 1.0, C[TRIES] + 1.0
+    if P.sizes[M] > 0 and C[FAILED] >= FEW_FAILURES and start_elsewhere(P, w):
+        return RUNNING
+    C[CAUTIOUS] = 1.0
+    cut_step(P, factor)
+    if P.sizes[IMPLICIT_MASS] and C[H] < SINGULAR_RESOLUTION * P.settings[H_MAX]:
+        return SINGULAR_MASS
+    return RUNNING
+
+
+@native
+def reject(P: Problem, w: int, error: float) -> int:
+    """The error was too large: a smaller step."""
+    C = P.control
+    P.count[REJECTED] += 1
+    if not error < 1e150 and let_go(P):
+        return RUNNING
+    C[TROUBLE], C[TRIES] = C[TROUBLE] + 1.0, C[TRIES] + 1.0
+    if P.sizes[M] > 0 and C[TROUBLE] >= FEW_REJECTIONS and start_elsewhere(P, w):
+        return RUNNING
+    C[CAUTIOUS] = 1.0
+    cut_step(P, max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK)
+    return RUNNING
+
+
+@native
+def why_stuck(P: Problem, L: Plan, w: int) -> int:
+    """The step became too small: because a mass vanishes, the equations could not be solved, or for
+    accuracy.
+    """
+    stand_again(P, w)
+    if mass_vanishes(P, L, int(P.control[SIGNATURE])):
+        return SINGULAR_MASS
+    if P.search[FREED] > 0.0:
+        return CHATTERING
+    return NEWTON_FAILED if P.control[FAILED] > 0.0 else STEP_TOO_SMALL

@@ -1,0 +1,176 @@
+"""Stages of the explicit formula: sums over rows of the tableau, and rates of a state.
+
+    k_i = f(t + c_i h, y + h sum a_ij k_j),    f(t, y) = (T^-1 u, a, s')
+
+Accelerations come body by body when nothing ties bodies together, else from the index-1 equations.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import (
+    acceleration_matrix,
+    accelerations,
+    put_state,
+    settle,
+)
+from adamslite.integrators.contract import FACTORIZATIONS, NS, NV, M, N, Plan, Problem
+from adamslite.integrators.explicit.dop853 import RESULT, ROW, TIMES
+from adamslite.integrators.explicit.state import (
+    BODIES,
+    CLOCK,
+    FREE,
+    INVERSE,
+    MASSES,
+    NEXT_STATE,
+    OLD,
+    STALE,
+    WIDTH,
+    H,
+)
+from adamslite.integrators.linalg.blocks import factor
+from adamslite.integrators.motion_equations import vector_rates
+from adamslite.integrators.projection import project
+from adamslite.integrators.unconstrained import free_accelerations, mass_accelerations
+from adamslite.native.translate import Alone, Reals, native
+
+
+@native
+def combine(P: Problem, row: int, w: int, h: float, x: Reals, y: Reals) -> None:
+    """y = x + h sum (weight k) over one row of the tableau."""
+    if P.control[FREE] == MASSES:
+        n, s = P.sizes[N], h * P.tableau[ROW * row + 1]
+        for i in range(n):
+            y[n + i] = x[n + i]
+            y[i] = x[i] + s * x[n + i]
+    else:
+        for i in range(w):
+            y[i] = x[i]
+    add_combined(P, row, w, h, y)
+
+
+@native
+def add_combined(P: Problem, row: int, w: int, h: float, y: Reals) -> None:
+    """y += h sum (weight k) over one row of the tableau.
+
+    Masses keep no rates of positions: those of stage i are u + h sum a_ij a_j, so that positions
+    get h^2 sum (weight A)_j a_j.
+    """
+    K, o, n = P.history, ROW * row, P.sizes[N]
+    for g in range(0, int(P.tableau[o]), 4):
+        V = P.tableau[o + 2 + 3 * g :]
+        if P.control[FREE] == MASSES:
+            add_twice(
+                K[n * int(V[0]) :], K[n * int(V[3]) :], K[n * int(V[6]) :], K[n * int(V[9]) :],
+                h * V[1], h * V[4], h * V[7], h * V[10],
+                h * P.control[H] * V[2], h * P.control[H] * V[5],
+                h * P.control[H] * V[8], h * P.control[H] * V[11], n, y, y[n:],
+            )  # fmt: skip
+        else:
+            add_once(
+                K[w * int(V[0]) :], K[w * int(V[3]) :], K[w * int(V[6]) :], K[w * int(V[9]) :],
+                h * V[1], h * V[4], h * V[7], h * V[10], w, y,
+            )  # fmt: skip
+
+
+@native
+def add_once(
+    a: Reals, b: Reals, c: Reals, d: Reals,
+    ca: float, cb: float, cc: float, cd: float, w: int, y: Alone,
+) -> None:  # fmt: skip
+    """y += ca a + cb b + cc c + cd d"""
+    for i in range(w):
+        y[i] += (ca * a[i] + cb * b[i]) + (cc * c[i] + cd * d[i])
+
+
+@native
+def add_twice(
+    a: Reals, b: Reals, c: Reals, d: Reals,
+    ca: float, cb: float, cc: float, cd: float,
+    ea: float, eb: float, ec: float, ed: float, n: int, q: Alone, u: Alone,
+) -> None:  # fmt: skip
+    """u += ca a + ..., q += ea a + ... in one pass."""
+    for i in range(n):
+        u[i] += (ca * a[i] + cb * b[i]) + (cc * c[i] + cd * d[i])
+        q[i] += (ea * a[i] + eb * b[i]) + (ec * c[i] + ed * d[i])
+
+
+@native
+def rates_at(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
+    """k = f(t, y); False when the accelerations cannot be solved for."""
+    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    inverse = P.history[INVERSE * (2 * n) :]
+    if P.control[FREE] == MASSES:
+        mass_accelerations(P, t, y, y[n:], inverse, inverse[n:], k)
+        return True
+    if P.control[FREE] == BODIES:
+        free_accelerations(P, t, y, y[n:], inverse, k[n:])
+        vector_rates(P, y, y[n:], k)
+        return True
+    for i in range(P.sizes[NS]):
+        P.z[first + i] = y[2 * n + i]
+    # Once the matrix of the step's start was too old for a stage, each of the rest gets its own.
+    before = P.count[FACTORIZATIONS]
+    if P.control[STALE] == 1.0:
+        good = accelerations(P, L, t, y, y[n:], P.a, P.z, P.rd)
+    else:
+        put_state(P, t, y, y[n:], P.a, P.z, P.rd)
+        good = settle(P, L, y[n:], P.a, P.z, P.rd)
+        P.control[STALE] = 1.0 if P.count[FACTORIZATIONS] > before else 0.0
+    keep_rates(P, y, k)
+    return good
+
+
+@native
+def keep_rates(P: Problem, y: Reals, k: Reals) -> None:
+    """k = (T^-1 u, a, s') from what was solved for."""
+    n = P.sizes[N]
+    vector_rates(P, y, y[n:], k)
+    for i in range(n):
+        k[n + i] = P.a[i]
+    for i in range(P.sizes[NS]):
+        k[2 * n + i] = P.rd[i]
+
+
+@native
+def exact_rates(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
+    """Rates at a state that is kept: projected onto the constraints, with a new matrix; writes
+    q, u, a and the workspace.
+    """
+    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    good = True
+    if P.control[FREE] != 0.0:
+        rates_at(P, L, t, y, k)
+        first = 0 if P.control[FREE] == MASSES else n
+        for i in range(n):
+            P.a[i] = k[first + i]
+        put_state(P, t, y, y[n:], P.a, P.z, P.rd)
+    else:
+        for i in range(P.sizes[NS]):
+            P.z[first + i] = y[2 * n + i]
+        put_state(P, t, y, y[n:], P.a, P.z, P.rd)
+        acceleration_matrix(P)
+        good = factor(L, P.LA, P.pivots_a, P.work)
+        if good and P.sizes[M] > 0:
+            good = project(P, L, y, y[n:])
+        if good:
+            put_state(P, t, y, y[n:], P.a, P.z, P.rd)
+            good = settle(P, L, y[n:], P.a, P.z, P.rd)
+        keep_rates(P, y, k)
+    for i in range(n):
+        P.q[i], P.u[i] = y[i], y[n + i]
+    return good
+
+
+@native
+def run_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
+    """Rates of all stages and the new state; False when one could not be had."""
+    K, t = P.history, P.control[CLOCK]
+    y, new = K[OLD * w :], K[NEXT_STATE * w :]
+    P.control[STALE] = 0.0
+    for i in range(1, RESULT + 1):
+        combine(P, i - 1, w, h, y, new)
+        at = t + h * P.tableau[ROW * TIMES + i]
+        if not rates_at(P, L, at, new, K[i * int(P.control[WIDTH]) :]):
+            return False
+    combine(P, RESULT, w, h, y, new)
+    return True

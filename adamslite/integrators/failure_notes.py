@@ -1,0 +1,45 @@
+"""What is kept of a corrector that failed, for the message: which unknown moved, which equation is
+open.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import (
+    ACCELERATION,
+    CHANGE,
+    CHANGED,
+    ITERATION,
+    NZ,
+    OPEN_BY,
+    OPEN_ROW,
+    N,
+    Problem,
+)
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.motion_equations import residual
+from adamslite.native.translate import native
+
+
+@native
+def note_trouble(P: Problem, phases: int, iteration: float) -> None:
+    """Keep the unknown with the largest last increment (in ``P.F``), against max(1, |value|), and
+    the equation with the largest residual at the workspace's state; overwrites ``P.F``.
+    """
+    n, where, top = P.sizes[N], 0, -1.0
+    solved = P.a if phases == ACCELERATION else P.q
+    for k in range(P.sizes[NZ]):
+        value = 0.0
+        if k < n:
+            value = solved[k]
+        elif k - n < P.z.size - 1:
+            value = P.z[k - n]
+        weight = max(1.0, abs(value))
+        if exceeds(abs(P.F[k]), top * weight):
+            where, top = k, abs(P.F[k]) / weight
+    P.report[CHANGED], P.report[CHANGE], P.report[ITERATION] = float(where), top, iteration
+    residual(P, phases, P.F)
+    where, top = 0, -1.0
+    for k in range(P.sizes[NZ]):
+        if exceeds(abs(P.F[k]), top):
+            where, top = k, abs(P.F[k])
+    P.report[OPEN_ROW], P.report[OPEN_BY] = float(where), top

@@ -1,0 +1,1 @@
+"""HHT and NEWMARK: second-order implicit formulas on accelerations."""

@@ -1,0 +1,130 @@
+"""HHT and NEWMARK at events: the tried step in between, and the start behind a jump."""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import mass_signature, put_state
+from adamslite.integrators.bdf.events import LOOK_AHEAD, SMOOTH, jerk
+from adamslite.integrators.bdf.state import (
+    EQUAL,
+    FACTORED,
+    H_LAST,
+    NOW,
+    RUNNING,
+    SIGNATURE,
+    H,
+    first_step,
+    keep_algebraic,
+)
+from adamslite.integrators.contract import (
+    BETA,
+    ERROR,
+    H_MAX,
+    IMPLICIT_MASS,
+    INDEX3,
+    NEWTON_FAILED,
+    NS,
+    NV,
+    RESTARTS,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.event_rows import JUMP, OPEN, SHARE
+from adamslite.integrators.events.events import change_here, pass_event
+from adamslite.integrators.events.harmless import take_harmless
+from adamslite.integrators.events.search import judge, open_search
+from adamslite.integrators.hht.newmark_formula import CU, back_to_accepted, bodies_between
+from adamslite.integrators.motion_equations import vector_rates
+from adamslite.native.translate import native
+
+# The first step behind an event: where its estimated error is this share of ERROR.
+CAREFUL = 0.02
+
+
+@native
+def locate_in_step(P: Problem, L: Plan) -> None:
+    """Look for the first change of a branch within the step that has passed its test."""
+    C, n = P.control, P.sizes[N]
+    t, h, end = C[NOW], C[H], P.trial[0:]
+    open_search(P, t, h)
+    take_harmless(P, L, INDEX3, C[CU])
+    vector_rates(P, P.q, P.u, end[n:])
+    while P.search[OPEN] != 0.0:
+        put_share(P, t, h, P.search[SHARE])
+        judge(P)
+    put_state(P, t + h, P.q, P.u, P.a, P.z, P.rd)
+
+
+@native
+def put_share(P: Problem, t: float, h: float, x: float) -> None:
+    """The tried step from ``t`` at the share ``x`` into the workspace: cubics, and straight lines
+    for accelerations, multipliers and variables.
+
+    Velocities have a cubic of their own: in steps that end at an event the derivative of that of
+    positions is round-off over the step.
+    """
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    D, y, a, z = P.history, P.trial[2 * n + ns :], P.x, P.F
+    bodies_between(P, h, x, P.trial[0:], y)
+    along, w0, w1 = x * x * (3.0 - 2.0 * x), h * x * (1.0 - x) * (1.0 - x), h * x * x * (x - 1.0)
+    for i in range(n):
+        a[i] = P.ra[i] + x * (P.a[i] - P.ra[i])
+        y[n + i] = D[n + i] + along * (P.u[i] - D[n + i]) + w0 * P.ra[i] + w1 * P.a[i]
+    for k in range(first):
+        z[k] = P.rz[k] + x * (P.z[k] - P.rz[k])
+    for k in range(ns):
+        o = 4 * n + k
+        step = P.z[first + k] - D[o]
+        z[first + k] = D[o] + along * step + w0 * D[o + ns] + w1 * P.rd[k]
+    put_state(P, t + x * h, y, y[n:], a, z, P.rd)
+
+
+@native
+def change_at_start(P: Problem, L: Plan) -> int:
+    """A branch changes just behind the start of the step: change it there and begin anew."""
+    back_to_accepted(P)
+    if not change_here(P, L, P.control[NOW]):
+        return NEWTON_FAILED
+    start_over(P, L)
+    return RUNNING
+
+
+@native
+def step_on(P: Problem, L: Plan) -> int:
+    """Behind an event: go on when nothing jumped, else start over."""
+    C, n, ns = P.control, P.sizes[N], P.sizes[NS]
+    if not pass_event(P, L, C[NOW]):
+        return NEWTON_FAILED
+    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+        start_over(P, L)
+        return RUNNING
+    C[FACTORED] = 0.0
+    for i in range(n):
+        P.ra[i] = P.a[i]
+    for k in range(ns):
+        P.history[4 * n + ns + k] = P.rd[k]
+    keep_algebraic(P)
+    return RUNNING
+
+
+@native
+def start_over(P: Problem, L: Plan) -> None:
+    """Forget earlier accelerations: those in place are the first."""
+    C, D, n, ns = P.control, P.history, P.sizes[N], P.sizes[NS]
+    P.count[RESTARTS] += 1
+    C[H_LAST], C[EQUAL], C[FACTORED] = 0.0, 0.0, 0.0
+    for i in range(n):
+        P.ra[i], D[2 * n + i] = P.a[i], P.a[i]
+    for k in range(ns):
+        for row in range(1, 4):
+            D[4 * n + row * ns + k] = P.rd[k]
+    keep_algebraic(P)
+    h = first_step(P, 0)
+    change = abs(P.settings[BETA] - 1.0 / 6.0) * jerk(P, L, C[NOW], LOOK_AHEAD * h)
+    C[H] = P.settings[H_MAX]
+    if change > 0.0:
+        C[H] = min(C[H], (CAREFUL * P.settings[ERROR] / change) ** (1.0 / 3.0))
+    put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.x))

@@ -1,0 +1,16 @@
+"""The largest of many sizes, when one may be not-a-number.
+
+A norm that forgets it calls a state good whose worst component has no value.
+"""
+
+from __future__ import annotations
+
+from adamslite.native.translate import native
+
+
+@native
+def exceeds(size: float, largest: float) -> bool:
+    """Whether ``size`` takes the place of the ``largest`` so far: not-a-number exceeds every
+    number, and nothing exceeds it.
+    """
+    return not size <= largest and largest == largest

@@ -1,0 +1,1 @@
+"""RADAU: the three-stage Radau IIA formula of order 5."""

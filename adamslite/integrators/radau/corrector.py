@@ -1,0 +1,118 @@
+"""Newton on the three stages of the Radau formula.
+
+Iterations stop when rate/(1 - rate) times the last increment is a small share of ERROR, and fail
+when what is left cannot come below that within MAXIT iterations.
+Reference: Hairer, Wanner, Solving ODE II, 1996, section IV.8 (stopping criterion).
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.bdf.corrector import wildest
+from adamslite.integrators.bdf.recovery import retry_factor
+from adamslite.integrators.bdf.state import (
+    AGE,
+    BLAMED,
+    FACTORED,
+    FRESH,
+    RATE,
+    RETRIES,
+    RUNNING,
+    H,
+    cut,
+)
+from adamslite.integrators.contract import ERROR, FAILURES, MAX_IT, NEWTON, NS, N, Plan, Problem
+from adamslite.integrators.events.guards import let_go
+from adamslite.integrators.failure_notes import note_trouble
+from adamslite.integrators.newton import ROUND_OFF, renews
+from adamslite.integrators.radau.coefficients import REAL
+from adamslite.integrators.radau.stages import (
+    ORIGIN,
+    equations_kept,
+    move_stages,
+    put_stage,
+    radau_jacobian,
+    radau_matrices,
+    stage_increments,
+    stage_residuals,
+)
+from adamslite.integrators.radau.state import CAUTIOUS, KNOWN, THETA, TURNS
+from adamslite.native.translate import native
+
+# Newton stops when the estimated remaining error is this share of ERROR.
+CORRECTOR_SHARE = 0.002
+# The derivatives are kept for the next step when increments shrank by this, but not for ever.
+QUICK, KEEP_STEPS = 0.01, 20.0
+# The second increment may exceed the first by this, which moves one stage for the sake of another
+# where constraints are nearly dependent.
+DIVERGING = 3.0
+# What RATE/(1 - RATE) is not believed to be below.
+LEAST_RATE = 0.01
+# Factors made for a step that differs by this share serve.
+SAME_STEP = 1e-6
+
+
+@native
+def ready(P: Problem, L: Plan, turn: int) -> bool:
+    """Derivatives and factors for the present step and iteration."""
+    C = P.control
+    if C[KNOWN] == 0.0 or renews(P, turn, C[AGE] < KEEP_STEPS or turn > 0):
+        radau_jacobian(P, L, C[H])
+        C[KNOWN], C[FRESH], C[AGE], C[FACTORED] = 1.0, 1.0, 0.0, 0.0
+    if not abs(C[H] - C[FACTORED]) <= SAME_STEP * C[H]:
+        C[FACTORED] = C[H] if radau_matrices(P, L, C[H]) else 0.0
+    return C[FACTORED] != 0.0
+
+
+@native
+def solve_stages(P: Problem, L: Plan) -> bool:
+    """Newton from the prediction; True when converged."""
+    C, h, last = P.control, P.control[H], 0.0
+    tolerance, most = CORRECTOR_SHARE * P.settings[ERROR], int(P.settings[MAX_IT])
+    C[RATE], C[THETA] = max(C[RATE], LEAST_RATE) ** 0.8, 0.0
+    for turn in range(most):
+        if not ready(P, L, turn):
+            return False
+        stage_residuals(P, h)
+        stage_increments(P, L)
+        size = move_stages(P, h)
+        P.count[NEWTON] += 1
+        C[TURNS] = turn + 1.0
+        if not size < 1e12:
+            return False
+        if turn > 0 and last > 0.0:
+            C[THETA] = size / last
+            if C[THETA] > (DIVERGING if turn == 1 else 0.99):
+                return size <= round_off(P)
+            rest = max(0.01, 1.0 - C[THETA])
+            C[RATE] = max(LEAST_RATE, C[THETA] / rest)
+            if turn > 1 and C[THETA] ** (most - 1.0 - turn) / rest * size > tolerance:
+                return False
+        if C[RATE] * size <= tolerance:
+            return True
+        last = size
+    return False
+
+
+@native
+def round_off(P: Problem) -> float:
+    """Changes of velocities that come from the last digits of positions."""
+    w, reach = 2 * P.sizes[N] + P.sizes[NS], 1.0
+    for i in range(P.sizes[N]):
+        reach = max(reach, abs(P.history[ORIGIN * w + i]))
+    return ROUND_OFF * reach * P.tableau[REAL] / P.control[H]
+
+
+@native
+def after_failed_stages(P: Problem) -> int:
+    """Newton failed: new derivatives when they were old, else another step."""
+    C = P.control
+    P.count[FAILURES] += 1
+    old = C[FRESH] == 0.0 and C[KNOWN] != 0.0
+    C[KNOWN], C[FACTORED], C[RATE], C[CAUTIOUS] = 0.0, 0.0, 1.0, 1.0
+    if not old and not let_go(P):
+        C[RETRIES] += 1.0
+        C[BLAMED] = float(wildest(P))
+        put_stage(P, 3, C[H])
+        note_trouble(P, equations_kept(P), C[TURNS])
+        C[H] *= cut(P, retry_factor(C))
+    return RUNNING

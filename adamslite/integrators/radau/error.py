@@ -1,0 +1,101 @@
+"""The error estimate of the Radau formula.
+
+One Newton step, with the factors of the real eigenvalue g, on the equations at the start of the
+step with y' = (g (y - y_0) - sum_i e_i (y_i - y_0))/h: the difference of y_1 from a formula of
+order 3, with stiff components filtered.  After a failure and at the start once more from there.
+Tested in q, u and s against ERROR max(1, |y|).
+Reference: Hairer, Wanner, Solving ODE II, 1996, section IV.8 (eq. 8.19, 8.20).
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.bdf.order import weighted
+from adamslite.integrators.bdf.state import NOW, H
+from adamslite.integrators.contract import (
+    ERROR,
+    HOLONOMIC,
+    NS,
+    NV,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.linalg.blocks import solve
+from adamslite.integrators.motion_equations import (
+    project_on_constraints,
+    put_motion,
+    put_scalars,
+    put_time,
+    residual,
+    velocities,
+)
+from adamslite.integrators.newton import apply_increment
+from adamslite.integrators.radau.coefficients import REAL, WEIGHT
+from adamslite.integrators.radau.stages import ORIGIN, equations_kept, is_tied, put_counted
+from adamslite.native.translate import Reals, native
+
+
+@native
+def filtered_error(P: Problem, L: Plan, cautious: bool) -> float:
+    """Estimated error over ERROR."""
+    n, ns, first, h = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV], P.control[H]
+    w = 2 * n + ns
+    base, error = P.trial[0:], P.trial[w:]
+    for i in range(w):
+        base[i] = P.history[i]
+    for k in range(first):
+        P.z[k] = P.rz[k]
+    norm = newton_error(P, L, h, base, error)
+    if norm > 1.0 and cautious:
+        for i in range(w):
+            base[i] += error[i]
+        norm = newton_error(P, L, h, base, error)
+    return norm
+
+
+@native
+def newton_error(P: Problem, L: Plan, h: float, base: Reals, error: Reals) -> float:
+    """One Newton step from ``base`` with y' = (g error - sum_i e_i (y_i - y_0))/h; over ERROR."""
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w, Y, cu, v = 2 * n + ns, P.history, P.tableau[REAL] / h, P.trial[2 * (2 * n + ns) :]
+    a, b, c = P.tableau[WEIGHT] / h, P.tableau[WEIGHT + 1] / h, P.tableau[WEIGHT + 2] / h
+    for i in range(w):
+        y = Y[i]
+        v[i] = -a * (Y[w + i] - y) - b * (Y[2 * w + i] - y) - c * (Y[3 * w + i] - y)
+        error[i] = 0.0
+    for k in range(P.sizes[HOLONOMIC]):
+        P.mu[k] = 0.0
+    for k in range(ns):
+        P.z[first + k] = base[2 * n + k]
+    put_time(P, P.control[NOW])
+    error_motion(P, cu, base, error, v)
+    residual(P, equations_kept(P), P.F)
+    solve(L, P.LV, P.pivots, P.F, P.x, P.work)
+    apply_increment(P, P.F, error, P.z, P.mu, is_tied(P))
+    for k in range(ns):
+        error[2 * n + k] = P.z[first + k] - base[2 * n + k]
+    error_motion(P, cu, base, error, v)
+    return weighted(P.trial, 1, w, n, ns, Y[ORIGIN * w :], True, P.report) / P.settings[ERROR]
+
+
+@native
+def error_motion(P: Problem, cu: float, base: Reals, error: Reals, v: Reals) -> None:
+    """Velocities and accelerations that belong to the error of q, into the workspace and
+    ``error``.
+    """
+    n = P.sizes[N]
+    for i in range(n):
+        P.a[i] = v[i] + cu * error[i]
+        P.q[i] = base[i] + error[i]
+    velocities(P, P.q, P.a, P.u)
+    put_counted(P, P.q)
+    if is_tied(P):
+        project_on_constraints(P, P.mu, P.x)
+        for i in range(n):
+            P.u[i] += P.x[i]
+    for i in range(n):
+        error[n + i] = P.u[i] - base[n + i]
+        P.a[i] = v[n + i] + cu * error[n + i]
+    put_motion(P, P.u, P.a)
+    put_scalars(P, P.z, v[2 * n :])

@@ -1,0 +1,192 @@
+"""The Radau formula at events: the search in a tried step, the state and the step behind it.
+
+Within the tried step, at the share x of it, positions, velocities and states follow the cubic
+through the start and the stages,
+
+    y(x) = sum_{i=0..3} l_i(x) y_i,    l_i(x) = prod_{j != i} (x - c_j)/(c_i - c_j),    c_0 = 0,
+
+and what has no value at the start, accelerations, multipliers and variables, the quadratic through
+the stages.  The collocation polynomial has order 3 inside of the step; because the step is taken
+again to end at the crossing, that is the accuracy of a guess, not of the result.
+
+A formula of one step has no past to forget: behind an event only the prediction begins anew.
+Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6 (discontinuities).
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import mass_signature, put_state
+from adamslite.integrators.bdf.events import SMOOTH
+from adamslite.integrators.bdf.state import (
+    H_LAST,
+    NOW,
+    RUNNING,
+    SIGNATURE,
+    H,
+    first_step,
+    keep_algebraic,
+)
+from adamslite.integrators.contract import (
+    ERROR,
+    IMPLICIT_MASS,
+    NEWTON_FAILED,
+    NS,
+    NV,
+    RESTARTS,
+    WATCHED,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.event_rows import (
+    CUT,
+    END,
+    FOUND,
+    HUNT,
+    INSIDE,
+    JUMP,
+    NONE,
+    OPEN,
+    SHARE,
+    SIZE,
+    TOLERANCE,
+)
+from adamslite.integrators.events.events import change_here, pass_event
+from adamslite.integrators.events.guards import look
+from adamslite.integrators.events.harmless import take_harmless
+from adamslite.integrators.events.search import CLOSE, judge, open_search
+from adamslite.integrators.radau.coefficients import REAL
+from adamslite.integrators.radau.corrector import round_off
+from adamslite.integrators.radau.stages import (
+    ORIGIN,
+    RATES,
+    collocated,
+    equations_kept,
+    quadratic,
+    stage_z,
+)
+from adamslite.integrators.radau.state import (
+    CAUTIOUS,
+    KNOWN,
+    LAST_SIZE,
+    LENGTHENED,
+    PASSED,
+    put_end,
+    stand_at_start,
+)
+from adamslite.native.translate import native
+
+# A step to a crossing that ends before it by less than this share is taken again, longer, but not
+# more often than MOST_LENGTHENED.
+BEYOND, MOST_LENGTHENED = 1e-4, 3.0
+
+
+@native
+def locate_in_stages(P: Problem, L: Plan) -> None:
+    """Look for the first change of a branch within the step that has passed its test."""
+    t, h = P.control[NOW], P.control[H]
+    put_end(P)
+    open_search(P, t, h)
+    take_harmless(P, L, equations_kept(P), P.tableau[REAL] / h)
+    while P.search[OPEN] != 0.0:
+        put_inside(P, t, h, P.search[SHARE])
+        judge(P)
+    put_end(P)
+
+
+@native
+def put_inside(P: Problem, t: float, h: float, x: float) -> None:
+    """The tried step from ``t`` at the share ``x`` into the workspace."""
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w, Y, y, a, z = 2 * n + ns, P.history, P.trial[0:], P.x, P.F
+    collocated(P, Y, w, x, y)
+    quadratic(P, x, Y[(RATES + 1) * w + n :], w, n, a)
+    quadratic(P, x, Y[stage_z(P, 0) :], stage_z(P, 1) - stage_z(P, 0), first, z)
+    for i in range(n):
+        y[i] += Y[ORIGIN * w + i]
+    for k in range(ns):
+        z[first + k] = y[2 * n + k]
+    put_state(P, t + x * h, y, y[n:], a, z, P.rd)
+
+
+@native
+def falls_short(P: Problem) -> bool:
+    """Whether a step to a crossing ends just before it: then it is taken again, longer by what it
+    lacks.
+
+    A step to the crossing from there would be so short that round-off of positions, over its size,
+    spoils velocities.  What is lacking is read from the guards at the end and a little beyond,
+    where the polynomial of the step goes on.
+    """
+    S, C, count, share = P.search, P.control, P.sizes[WATCHED], NONE
+    if S[HUNT] == 0.0 or min(S[FOUND], S[CUT]) <= 1.0 or C[LENGTHENED] >= MOST_LENGTHENED:
+        return False
+    put_inside(P, C[NOW], C[H], 1.0 + BEYOND)
+    look(P, INSIDE)
+    put_end(P)
+    for k in range(count):
+        before, after = P.margin[END * count + k], P.margin[INSIDE * count + k]
+        if before >= 0.0 and after < 0.0:
+            share = min(share, before / (before - after))
+    if share > 1.0:
+        return False
+    C[H] += BEYOND * share * C[H] + 0.5 * S[TOLERANCE]
+    C[LENGTHENED] += 1.0
+    return True
+
+
+@native
+def is_at_crossing(P: Problem, norm: float) -> bool:
+    """Whether the step to a crossing is so short that the last digits of positions make up its
+    error, though a longer one from the same start has passed the test: the crossing is here.
+    """
+    S, C = P.search, P.control
+    if C[H] > CLOSE * C[PASSED] or S[FOUND] > 1.0 or S[FOUND] * S[SIZE] > C[H]:
+        return False
+    return norm * P.settings[ERROR] <= round_off(P)
+
+
+@native
+def switch_behind(P: Problem, L: Plan) -> int:
+    """A branch changes just behind the start of the step: change it there and begin anew."""
+    P.control[PASSED], P.control[LENGTHENED] = 0.0, 0.0
+    stand_at_start(P)
+    if not change_here(P, L, P.control[NOW]):
+        return NEWTON_FAILED
+    predict_anew(P, L)
+    return RUNNING
+
+
+@native
+def move_past(P: Problem, L: Plan) -> int:
+    """Behind an event: the prediction goes on when nothing jumped, else it begins anew."""
+    C = P.control
+    if not pass_event(P, L, C[NOW]):
+        return NEWTON_FAILED
+    C[KNOWN] = 0.0
+    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+        predict_anew(P, L)
+    else:
+        take_accelerations(P)
+    return RUNNING
+
+
+@native
+def take_accelerations(P: Problem) -> None:
+    """Accelerations and algebraic unknowns in place are those of the accepted state."""
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    keep_algebraic(P)
+
+
+@native
+def predict_anew(P: Problem, L: Plan) -> None:
+    """The next step is predicted from the accelerations in place, and chosen like the first."""
+    C = P.control
+    P.count[RESTARTS] += 1
+    take_accelerations(P)
+    C[H_LAST], C[LAST_SIZE], C[KNOWN], C[CAUTIOUS] = 0.0, 0.0, 0.0, 1.0
+    C[H] = first_step(P, 0)
+    if P.sizes[IMPLICIT_MASS]:
+        C[SIGNATURE] = float(mass_signature(P, L, P.x))

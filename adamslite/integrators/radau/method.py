@@ -1,0 +1,357 @@
+"""RADAU: the three-stage Radau IIA formula of order 5 on the stabilised equations, variable step.
+
+    q_i = q_0 + h sum_j a_ij q'_j,   u_i = u_0 + h sum_j a_ij u'_j,   s_i = s_0 + h sum_j a_ij s'_j
+    u_i = T(q_i) q'_i + W G^T mu_i,  F(t_i, q_i, u_i, u'_i, lam_i, V_i, s_i, s'_i) = 0
+    g(t_i, q_i) = 0,                 G u_i + g_t = 0                      at t_i = t_0 + c_i h
+
+with the last stage as result: stiffly accurate, so that it meets the constraints, and strongly
+damped.  Between, q, u and s follow the cubic through start and stages; accelerations, multipliers
+and variables are solved for at the output times.
+
+Error: :mod:`adamslite.integrators.radau.error`.  Steps after Gustafsson.
+
+q of a part is the Cayley vector counted from the attitude at the start of the step.
+References: Hairer, Wanner, Solving ODE II, 1996, sections IV.8 (iteration, error, steps) and VII.4
+(stabilised form); Gustafsson, ACM Trans. Math. Softw. 20 (1994) 496.
+"""
+
+from __future__ import annotations
+
+from math import floor
+
+from adamslite.integrators.accelerations import (
+    accelerations,
+    mass_signature,
+    mass_vanishes,
+    put_state,
+)
+from adamslite.integrators.audit.balance import audit
+from adamslite.integrators.bdf.recovery import SINGULAR_RESOLUTION, corrector_failed
+from adamslite.integrators.bdf.state import (
+    AGE,
+    BLAMED,
+    FRESH,
+    H_LAST,
+    NEXT,
+    NORM,
+    NOW,
+    RATE,
+    RETRIES,
+    RUNNING,
+    SIGNATURE,
+    H,
+    cut,
+    first_step,
+    keep_algebraic,
+    too_small,
+)
+from adamslite.integrators.contract import (
+    AT,
+    BROKEN_START,
+    CHATTERING,
+    DONE,
+    ERROR,
+    H_MAX,
+    HOW_MUCH,
+    IMPLICIT_MASS,
+    INTERPOLATE,
+    INTERRUPTED,
+    NEWTON_FAILED,
+    NOT_FINITE,
+    NS,
+    NV,
+    ORDER,
+    REJECTED,
+    SINGULAR_MASS,
+    SPENT,
+    STEP,
+    STEP_TOO_SMALL,
+    STEPS,
+    STOP,
+    T_END,
+    WATCHED,
+    WHERE,
+    ZONES,
+    M,
+    N,
+    Plan,
+    Problem,
+    T,
+)
+from adamslite.integrators.event_rows import CUT, FREED, HUNT
+from adamslite.integrators.events.events import happened, start_events
+from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
+from adamslite.integrators.events.search import ends_there, shorter, starts_there
+from adamslite.integrators.events.stops import horizon, longest_step, set_pace
+from adamslite.integrators.motion_equations import track
+from adamslite.integrators.radau.corrector import QUICK, after_failed_stages, solve_stages
+from adamslite.integrators.radau.error import filtered_error
+from adamslite.integrators.radau.events import (
+    falls_short,
+    is_at_crossing,
+    locate_in_stages,
+    move_past,
+    switch_behind,
+)
+from adamslite.integrators.radau.stages import (
+    ORIGIN,
+    collocated,
+    keep_stages,
+    predict_stages,
+    stage_motion,
+)
+from adamslite.integrators.radau.state import (
+    CAUTIOUS,
+    KNOWN,
+    LAST_NORM,
+    LAST_SIZE,
+    LENGTHENED,
+    PASSED,
+    THETA,
+    TO_TARGET,
+    TURNS,
+    count_from_here,
+    put_end,
+    stand_at_start,
+)
+from adamslite.integrators.records import note_violation, write_record
+from adamslite.native.translate import Reals, native
+
+# The next step aims at this share of the step that the error allows; it is changed only when it
+# grows by more than KEEP_GROWTH, because every other size needs new factors.
+SAFETY, MOST_GROWTH, LEAST_SHRINK, KEEP_GROWTH = 0.9, 5.0, 0.125, 1.2
+# Further from the target than this many steps they need not fit.
+MANY_STEPS = 100.0
+
+
+@native
+def radau(P: Problem, L: Plan) -> int:
+    """Integrate to the end time; returns an outcome."""
+    outcome = start_radau(P, L)
+    while outcome == RUNNING:
+        outcome = try_radau(P, L)
+    stand_at_start(P)
+    P.report[AT] = P.control[NOW]
+    return outcome
+
+
+@native
+def start_radau(P: Problem, L: Plan) -> int:
+    """Accelerations at the start, the first record, attitudes counted from here."""
+    C, Y, t = P.control, P.history, P.settings[T]
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    for i in range(P.control.size):
+        C[i] = 0.0
+    for i in range(P.history.size):
+        Y[i] = 0.0
+    C[NOW], C[RATE], C[CAUTIOUS] = t, 1.0, 1.0
+    start_events(P, True, True)
+    good = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
+    hold_watch(P)
+    C[H] = first_step(P, 0)
+    if good:
+        if P.sizes[IMPLICIT_MASS]:
+            C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
+        while int(C[NEXT]) < P.times.size and P.times[int(C[NEXT])] <= t:
+            write_record(P, int(C[NEXT]))
+            C[NEXT] += 1.0
+        track(P)
+        count_from_here(P)
+    origin = Y[ORIGIN * (2 * n + ns) :]
+    for i in range(n):
+        origin[i], origin[n + i], Y[n + i], P.ra[i] = P.q[i], P.u[i], P.u[i], P.a[i]
+    for k in range(ns):
+        origin[2 * n + k], Y[2 * n + k] = P.z[first + k], P.z[first + k]
+    keep_algebraic(P)
+    return RUNNING if good else BROKEN_START
+
+
+@native
+def try_radau(P: Problem, L: Plan) -> int:
+    """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
+    C = P.control
+    if C[NOW] >= P.settings[T_END]:
+        return DONE
+    if P.settings[STOP] != 0.0:
+        return INTERRUPTED
+    fit_step(P)
+    if too_small(P) or crawls(P, C[H]):
+        return why_no_step(P, L)
+    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 5.0
+    predict_stages(P, C[H], C[H_LAST])
+    stage_motion(P, C[H])
+    if not solve_stages(P, L):
+        return after_failed_stages(P)
+    norm = filtered_error(P, L, C[CAUTIOUS] != 0.0)
+    P.report[HOW_MUCH] = norm
+    if not norm < 1e12:
+        return NOT_FINITE
+    if norm > 1.0:
+        if is_at_crossing(P, norm):
+            return switch_behind(P, L)
+        take_shorter(P, norm)
+        return RUNNING
+    if P.sizes[IMPLICIT_MASS]:
+        put_end(P)
+        if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
+            C[H] *= 0.25
+            return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings[H_MAX] else SINGULAR_MASS
+    return finish_stages(P, L, norm)
+
+
+@native
+def take_shorter(P: Problem, norm: float) -> None:
+    """The error was too large: a shorter step, with new derivatives where they were old, because
+    these may be all that is wrong with the estimate.
+    """
+    C = P.control
+    P.count[REJECTED] += 1
+    C[CAUTIOUS], C[NORM] = 1.0, norm
+    if C[FRESH] == 0.0:
+        C[KNOWN] = 0.0
+    C[H] *= cut(P, step_factor(C, norm))
+    if C[H] > 1e-9 * P.settings[H_MAX]:
+        C[BLAMED] = P.report[WHERE]
+
+
+@native
+def finish_stages(P: Problem, L: Plan, norm: float) -> int:
+    """The step has passed its tests: accept it, or take it again to end at the first crossing."""
+    if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
+        locate_in_stages(P, L)
+        if not ends_there(P):
+            if starts_there(P):
+                return switch_behind(P, L)
+            if P.search[CUT] > 1.0:
+                P.control[PASSED] = max(P.control[PASSED], P.control[H])
+            P.control[H] = shorter(P)
+            return RUNNING
+        if falls_short(P):
+            return RUNNING
+    return accept_stages(P, L, norm)
+
+
+@native
+def fit_step(P: Problem) -> None:
+    """Keep the step within its pace; equal steps to the horizon or, unless they may be
+    interpolated, to the next output time.  A step to a crossing keeps its size.
+    """
+    set_pace(P, P.control[NOW])
+    C, target, row = P.control, horizon(P), int(P.control[NEXT])
+    if P.settings[INTERPOLATE] == 0.0 and row < P.times.size:
+        target = min(target, P.times[row])
+    C[H] = min(C[H], longest_step(P))
+    left = target - C[NOW]
+    if P.search[HUNT] != 0.0:
+        C[H] = min(C[H], left)
+        return
+    C[TO_TARGET] = floor(left / C[H] + 1.0 - 1e-7)
+    if C[TO_TARGET] < MANY_STEPS:
+        C[H] = left / max(1.0, C[TO_TARGET])
+
+
+@native
+def step_factor(C: Reals, norm: float) -> float:
+    """Change of the step that the error allows; many iterations ask for caution."""
+    safety = min(SAFETY, SAFETY * 15.0 / (C[TURNS] + 14.0))
+    return max(LEAST_SHRINK, min(MOST_GROWTH, safety * max(norm, 1e-10) ** -0.25))
+
+
+@native
+def accept_stages(P: Problem, L: Plan, norm: float) -> int:
+    """Move on, write records, choose the next step."""
+    C, h = P.control, P.control[H]
+    P.count[STEPS] += 1
+    # The formula is of order 5, its estimate of order 3.
+    P.report[SPENT] += norm * (norm * P.settings[ERROR]) ** 0.5
+    t, row = C[NOW] + h, int(C[NEXT])
+    if t + 1e-7 * h > horizon(P):
+        t = horizon(P)
+    if row < P.times.size and abs(P.times[row] - t) < 1e-7 * h:
+        t = P.times[row]
+    put_end(P)
+    keep_algebraic(P)
+    for i in range(P.sizes[N]):
+        P.ra[i] = P.a[i]
+    note_violation(P, t)
+    audit(P, L, t)
+    C[NOW] = t
+    good = record_within(P, L, t, h)
+    put_end(P)
+    track(P)
+    count_from_here(P)
+    keep_stages(P)
+    put_state(P, t, P.q, P.u, P.a, P.z, P.rd)
+    choose_step(P, norm)
+    if not good:
+        return SINGULAR_MASS
+    if happened(P, t):
+        return move_past(P, L)
+    keep_margins(P)
+    return RUNNING
+
+
+@native
+def choose_step(P: Problem, norm: float) -> None:
+    """The next step, from the errors of the last two (Gustafsson), and what is kept for it."""
+    C, h = P.control, P.control[H]
+    factor = step_factor(C, norm)
+    if C[LAST_SIZE] > 0.0:
+        trend = h / C[LAST_SIZE] * (max(C[LAST_NORM], 1e-10) / max(norm, 1e-10) ** 2.0) ** 0.25
+        factor = min(factor, max(LEAST_SHRINK, SAFETY * trend))
+    if C[CAUTIOUS] != 0.0 and C[LAST_SIZE] > 0.0:
+        factor = min(factor, 1.0)
+    C[LAST_SIZE], C[LAST_NORM], C[H_LAST] = h, max(0.01, norm), h
+    C[RETRIES], C[FRESH], C[CAUTIOUS], C[NORM] = 0.0, 0.0, 0.0, 0.0
+    C[AGE] += 1.0
+    if C[THETA] > QUICK:
+        C[KNOWN] = 0.0
+    if C[PASSED] > h:
+        resume(P)
+    elif factor < 1.0 or min(factor * h, longest_step(P)) > KEEP_GROWTH * h:
+        C[H] *= cut(P, factor)
+    C[PASSED], C[LENGTHENED] = 0.0, 0.0
+
+
+@native
+def resume(P: Problem) -> None:
+    """A step shortened to a crossing ends, maybe, just before it: the next is the rest of the one
+    that has passed its test.  Derivatives of a step this short, and its error, are round-off.
+    """
+    C = P.control
+    C[H] = max(C[PASSED] - C[H], C[H])
+    C[H_LAST], C[LAST_SIZE] = 0.0, 0.0
+
+
+@native
+def record_within(P: Problem, L: Plan, t: float, h: float) -> bool:
+    """Write every asked time of the accepted step; False when accelerations are not determined."""
+    C, n, ns, first = P.control, P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    row, y, w = int(C[NEXT]), P.trial[0:], 2 * P.sizes[N] + P.sizes[NS]
+    while row < P.times.size and P.times[row] <= t + 1e-9 * h:
+        collocated(P, P.history, w, min(1.0, 1.0 + (P.times[row] - t) / h), y)
+        for i in range(n):
+            y[i] += P.history[ORIGIN * w + i]
+        for k in range(ns):
+            P.z[first + k] = y[2 * n + k]
+        if not accelerations(P, L, P.times[row], y, y[n:], P.a, P.z, P.rd):
+            return False
+        write_record(P, row)
+        row += 1
+        C[NEXT] = float(row)
+    return True
+
+
+@native
+def why_no_step(P: Problem, L: Plan) -> int:
+    """Why the step became too small: a vanishing pivot of the acceleration matrix, or something
+    else.
+    """
+    C = P.control
+    stand_at_start(P)
+    if mass_vanishes(P, L, int(C[SIGNATURE])):
+        return SINGULAR_MASS
+    P.report[WHERE] = C[BLAMED]
+    if P.search[FREED] > 0.0:
+        return CHATTERING
+    return NEWTON_FAILED if corrector_failed(C) else STEP_TOO_SMALL

@@ -1,0 +1,371 @@
+"""The three stages of the Radau formula: values, residuals, Newton matrices and increments.
+
+Equations and references: :mod:`adamslite.integrators.radau.method`.  With A^-1 = (w_ij) the stages
+give
+
+    q'_i = sum_j w_ij (q_j - q_0)/h,    u_i = T(q_i) q'_i + W G^T mu_i,
+    u'_i = sum_j w_ij (u_j - u_0)/h,    s'_i = sum_j w_ij (s_j - s_0)/h
+
+so that only (q, lam, V, s, mu) of each stage are unknown.  With the same derivatives at all stages
+the Newton equations of the three fall apart in the eigenvectors of A^-1 into one real and one
+complex system with the matrix
+
+    J(c) = J_0 + c J_1 + c^2 J_2,      c = g/h and (alpha + i beta)/h
+
+    J_0 = F_q + F_u (E, W G^T, .),     J_1 = F_u + F_a (E, W G^T, .) + F_s',     J_2 = F_a
+
+E: the part of d(omega)/d(phi) that comes from the attitude.  For a step of another size the parts
+are only added up again.
+
+``P.history``: rows of y = (q, u, s) with q counted from the start of the step, because differences
+of positions over h would lose digits; then rows of z = (lam, V, s, mu), then three rows of
+residuals and workspace of the complex system.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.bdf.differences import count_anew
+from adamslite.integrators.bdf.state import NOW
+from adamslite.integrators.contract import (
+    ALL_CONVERGE,
+    FACTORIZATIONS,
+    HOLONOMIC,
+    INDEX3,
+    JACOBIANS,
+    NB,
+    NS,
+    NV,
+    NZ,
+    SI2,
+    STABILISED,
+    M,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.linalg.blocks import factor, solve
+from adamslite.integrators.linalg.complex_blocks import factor_complex, solve_complex
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.motion_equations import (
+    BODY,
+    PART,
+    jacobian,
+    project_on_constraints,
+    put_motion,
+    put_pose,
+    put_scalars,
+    put_time,
+    residual,
+    spread,
+    velocities,
+)
+from adamslite.integrators.newton import (
+    add_attitude_part,
+    add_mixed_product,
+    apply_increment,
+    multiplier_change,
+)
+from adamslite.integrators.radau.coefficients import (
+    ALPHA_MODE,
+    BETA_MODE,
+    INVERSE,
+    NODE,
+    REAL,
+    TO_MODES,
+    TO_STAGES,
+)
+from adamslite.native.translate import Reals, native
+
+# Rows of y: the start of the step, behind it its stages and their rates; the step before; the start
+# with q as it is.
+RATES, BEFORE, ORIGIN, Y_ROWS = 3, 7, 11, 12
+# Rows of z: the stages, those of the step before.
+Z_ROWS = 6
+
+
+@native
+def stage_z(P: Problem, row: int) -> int:
+    """Where a row of z begins."""
+    first = P.sizes[M] + P.sizes[NV]
+    w, e = 2 * P.sizes[N] + P.sizes[NS], first + P.sizes[NS] + P.sizes[HOLONOMIC]
+    return Y_ROWS * w + row * e
+
+
+@native
+def is_tied(P: Problem) -> bool:
+    """Whether constraints are kept on positions and velocities."""
+    return P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+
+
+@native
+def equations_kept(P: Problem) -> int:
+    """The groups of kernels that make the equations of a stage."""
+    return STABILISED if is_tied(P) else INDEX3
+
+
+@native
+def radau_jacobian(P: Problem, L: Plan, h: float) -> None:
+    """J_0, J_1, J_2 at the middle stage, one after the other in ``P.parts``."""
+    n, size, c, K = P.sizes[N], P.J.size, P.coef, P.parts
+    y, d = P.history[2 * (2 * n + P.sizes[NS]) :], P.history[5 * (2 * n + P.sizes[NS]) :]
+    put_stage(P, 2, h)
+    for part in range(3):
+        for k in range(5):
+            c[k] = 0.0
+        c[part] = 1.0
+        if part == 0:
+            c[3] = 1.0
+        if part == 1:
+            c[4] = 1.0
+        jacobian(P, equations_kept(P), c, K[part * size :])
+    P.count[JACOBIANS] -= 2
+    # Products with F_u and F_a as they are: of each pair of blocks the lower power comes first, and
+    # the columns of mu before those of the attitude change F_u.
+    for part in range(2):
+        for k in range(0, P.mixed.size, 7):
+            add_mixed_product(P, k, K[part * size :], K[(part + 1) * size :], K)
+    for part in range(2):
+        for k in range(0, P.turning.size, 3):
+            add_attitude_part(P, k, K[part * size :], K[(part + 1) * size :], y, d, y[n:])
+
+
+@native
+def add_up(P: Problem, first: float, second: float, third: float, target: Reals) -> None:
+    """The parts of the matrix with these weights, spread into ``target``."""
+    size = P.J.size
+    for k in range(size):
+        P.J[k] = first * P.parts[k] + second * P.parts[size + k] + third * P.parts[2 * size + k]
+    spread(P, target)
+
+
+@native
+def radau_matrices(P: Problem, L: Plan, h: float) -> bool:
+    """Factor J(c) for the complex pair and for the real eigenvalue."""
+    x, y = P.tableau[ALPHA_MODE] / h, P.tableau[BETA_MODE] / h
+    add_up(P, 0.0, y, 2.0 * x * y, P.LA)
+    add_up(P, 1.0, x, x * x - y * y, P.LV)
+    for k in range(P.LV.size):
+        P.LC[2 * k], P.LC[2 * k + 1] = P.LV[k], P.LA[k]
+    P.count[FACTORIZATIONS] += 2
+    if not factor_complex(L, P.LC, P.pivots_c, P.work):
+        return False
+    x = P.tableau[REAL] / h
+    add_up(P, 1.0, x, x * x, P.LV)
+    return factor(L, P.LV, P.pivots, P.work)
+
+
+@native
+def put_counted(P: Problem, y: Reals) -> None:
+    """Positions counted from the start of the step into ``P.q`` and the workspace."""
+    n = P.sizes[N]
+    origin = P.history[ORIGIN * (2 * n + P.sizes[NS]) :]
+    for i in range(n):
+        P.q[i] = origin[i] + y[i]
+    put_pose(P, P.q)
+
+
+@native
+def stage_velocities(P: Problem, stage: int, h: float) -> None:
+    """q', u and s' of a stage."""
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w, Y = 2 * n + ns, P.history
+    y, d, z = Y[stage * w :], Y[(RATES + stage) * w :], Y[stage_z(P, stage - 1) :]
+    row = INVERSE + 3 * (stage - 1)
+    a, b, c = P.tableau[row] / h, P.tableau[row + 1] / h, P.tableau[row + 2] / h
+    for i in range(n):
+        s = Y[i]
+        d[i] = a * (Y[w + i] - s) + b * (Y[2 * w + i] - s) + c * (Y[3 * w + i] - s)
+    for k in range(ns):
+        i = 2 * n + k
+        s = Y[i]
+        y[i] = z[first + k]
+        d[i] = a * (Y[w + i] - s) + b * (Y[2 * w + i] - s) + c * (Y[3 * w + i] - s)
+    velocities(P, y, d, y[n:])
+    if is_tied(P):
+        put_time(P, P.control[NOW] + P.tableau[NODE + stage - 1] * h)
+        put_counted(P, y)
+        project_on_constraints(P, z[first + ns :], P.F)
+        for i in range(n):
+            y[n + i] += P.F[i]
+
+
+@native
+def stage_motion(P: Problem, h: float) -> None:
+    """Velocities, then accelerations of all stages."""
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w, Y = 2 * n + ns, P.history
+    for stage in range(1, 4):
+        for k in range(ns):
+            Y[stage * w + 2 * n + k] = Y[stage_z(P, stage - 1) + first + k]
+    for stage in range(1, 4):
+        stage_velocities(P, stage, h)
+    for stage in range(1, 4):
+        d, row = Y[(RATES + stage) * w :], INVERSE + 3 * (stage - 1)
+        a, b, c = P.tableau[row] / h, P.tableau[row + 1] / h, P.tableau[row + 2] / h
+        for i in range(n, 2 * n):
+            s = Y[i]
+            d[i] = a * (Y[w + i] - s) + b * (Y[2 * w + i] - s) + c * (Y[3 * w + i] - s)
+
+
+@native
+def stage_residuals(P: Problem, h: float) -> None:
+    """The equations at the three stages."""
+    nz, at = P.sizes[NZ], stage_z(P, Z_ROWS)
+    for stage in range(1, 4):
+        put_stage(P, stage, h)
+        residual(P, equations_kept(P), P.F)
+        for k in range(nz):
+            P.history[at + (stage - 1) * nz + k] = P.F[k]
+
+
+@native
+def put_stage(P: Problem, stage: int, h: float) -> None:
+    """A stage into the workspace."""
+    n, Y = P.sizes[N], P.history
+    y, d = Y[stage * (2 * n + P.sizes[NS]) :], Y[(RATES + stage) * (2 * n + P.sizes[NS]) :]
+    put_time(P, P.control[NOW] + P.tableau[NODE + stage - 1] * h)
+    put_counted(P, y)
+    put_motion(P, y[n:], d[n:])
+    put_scalars(P, Y[stage_z(P, stage - 1) :], d[2 * n :])
+
+
+@native
+def stage_increments(P: Problem, L: Plan) -> None:
+    """Newton increments of the three stages in the place of their residuals."""
+    nz, X = P.sizes[NZ], P.tableau
+    R = P.history[stage_z(P, Z_ROWS) :]
+    pair, spare = R[3 * nz :], R[5 * nz :]
+    for k in range(nz):
+        a, b, c = R[k], R[nz + k], R[2 * nz + k]
+        P.F[k] = X[TO_MODES] * a + X[TO_MODES + 1] * b + X[TO_MODES + 2] * c
+        pair[2 * k] = X[TO_MODES + 3] * a + X[TO_MODES + 4] * b + X[TO_MODES + 5] * c
+        pair[2 * k + 1] = X[TO_MODES + 6] * a + X[TO_MODES + 7] * b + X[TO_MODES + 8] * c
+    solve(L, P.LV, P.pivots, P.F, P.x, P.work)
+    solve_complex(L, P.LC, P.pivots_c, pair, spare, P.work)
+    for k in range(nz):
+        a, b, c = P.F[k], pair[2 * k], pair[2 * k + 1]
+        for stage in range(3):
+            o = TO_STAGES + 3 * stage
+            R[stage * nz + k] = X[o] * a + X[o + 1] * b + X[o + 2] * c
+
+
+@native
+def move_stages(P: Problem, h: float) -> float:
+    """Subtract the increments; returns the largest change of a tested variable of a stage.
+
+    Positions, rotations and velocities against max(1, |value|), where constraints tie them together
+    as they are (see :func:`adamslite.integrators.newton.increment_norm`); variables and states.
+    """
+    n, ns, nz, first = P.sizes[N], P.sizes[NS], P.sizes[NZ], P.sizes[M] + P.sizes[NV]
+    w, Y, tied, largest = 2 * n + ns, P.history, is_tied(P), 0.0
+    R, origin = Y[stage_z(P, Z_ROWS) :], Y[ORIGIN * w :]
+    for stage in range(3):
+        y, z, dz = Y[(1 + stage) * w :], Y[stage_z(P, stage) :], R[stage * nz :]
+        for k in range(P.sizes[M], first + ns):
+            largest = larger(largest, dz[n + k], z[k])
+        if P.settings[ALL_CONVERGE] != 0.0:
+            largest = max(largest, multiplier_change(P, dz, z, (P.tableau[REAL] / h) ** 2.0))
+        for i in range(n):
+            P.trial[stage * n + i] = y[n + i]
+        apply_increment(P, dz, y, z, z[first + ns :], tied)
+    stage_motion(P, h)
+    for stage in range(3):
+        y, dz = Y[(1 + stage) * w :], R[stage * nz :]
+        for i in range(n):
+            largest = larger(largest, dz[i], 0.0 if tied else origin[i])
+            change = y[n + i] - P.trial[stage * n + i]
+            largest = larger(largest, change, 0.0 if tied else origin[n + i])
+    for k in range(nz):
+        P.F[k] = R[2 * nz + k]
+    return largest
+
+
+@native
+def larger(largest: float, change: float, value: float) -> float:
+    """The larger of ``largest`` and |change|/max(1, |value|); one that is not a number wins."""
+    weight = max(1.0, abs(value))
+    return abs(change) / weight if exceeds(abs(change), largest * weight) else largest
+
+
+@native
+def predict_stages(P: Problem, h: float, before: float) -> None:
+    """First values of the stages: the polynomial of the step before (of size ``before``) goes on,
+    or without one accelerations stay.
+    """
+    n, ns, first, X = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV], P.tableau
+    w, Y, e = 2 * n + ns, P.history, stage_z(P, 1) - stage_z(P, 0)
+    for stage in range(3):
+        y, z, c = Y[(1 + stage) * w :], Y[stage_z(P, stage) :], X[NODE + stage] * h
+        if before > 0.0:
+            collocated(P, Y[BEFORE * w :], w, 1.0 + c / before, y)
+            quadratic(P, 1.0 + c / before, Y[stage_z(P, 3) :], e, first, z)
+        else:
+            for i in range(n):
+                y[i] = Y[i] + c * (Y[n + i] + 0.5 * c * P.ra[i])
+            for k in range(ns):
+                y[2 * n + k] = Y[2 * n + k] + c * P.rd[k]
+            for k in range(first):
+                z[k] = P.rz[k]
+        for k in range(ns):
+            z[first + k] = y[2 * n + k]
+        for k in range(P.sizes[HOLONOMIC]):
+            z[first + ns + k] = 0.0
+
+
+@native
+def collocated(P: Problem, rows: Reals, w: int, x: float, y: Reals) -> None:
+    """y at the share ``x`` of a step: the cubic through its start and its stages."""
+    a, b = P.tableau[NODE], P.tableau[NODE + 1]
+    f0 = (x - a) * (x - b) * (x - 1.0) / (-a * b)
+    f1 = x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
+    f2 = x * (x - a) * (x - 1.0) / (b * (b - a) * (b - 1.0))
+    f3 = x * (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
+    for i in range(w):
+        y[i] = f0 * rows[i] + f1 * rows[w + i] + f2 * rows[2 * w + i] + f3 * rows[3 * w + i]
+
+
+@native
+def quadratic(P: Problem, x: float, rows: Reals, lead: int, count: int, z: Reals) -> None:
+    """z at the share ``x`` of a step: through the values at its stages, ``lead`` apart."""
+    a, b = P.tableau[NODE], P.tableau[NODE + 1]
+    f1 = (x - b) * (x - 1.0) / ((a - b) * (a - 1.0))
+    f2 = (x - a) * (x - 1.0) / ((b - a) * (b - 1.0))
+    f3 = (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
+    for k in range(count):
+        z[k] = f1 * rows[k] + f2 * rows[lead + k] + f3 * rows[2 * lead + k]
+
+
+@native
+def keep_stages(P: Problem) -> None:
+    """Remember the accepted stages with positions counted from the end of the step."""
+    w, e = 2 * P.sizes[N] + P.sizes[NS], stage_z(P, 1) - stage_z(P, 0)
+    Y, n = P.history, P.sizes[N]
+    for i in range(n):
+        Y[ORIGIN * w + i] += Y[3 * w + i]
+        Y[ORIGIN * w + n + i] = Y[3 * w + n + i]
+    for k in range(P.sizes[NS]):
+        Y[ORIGIN * w + 2 * n + k] = Y[3 * w + 2 * n + k]
+    for k in range(4 * w):
+        Y[BEFORE * w + k] = Y[k]
+    old = stage_z(P, 0)
+    for k in range(3 * e):
+        Y[old + 3 * e + k] = Y[old + k]
+    for b in range(P.sizes[NB]):
+        count_from_end(P, b, w)
+    for k in range(w):
+        Y[k] = Y[(BEFORE + 3) * w + k]
+
+
+@native
+def count_from_end(P: Problem, b: int, w: int) -> None:
+    """Positions of a body in the step before, counted from its end."""
+    Y, i = P.history, P.body[BODY * b + 1]
+    for k in range(3):
+        for row in range(4):
+            Y[(BEFORE + row) * w + i + k] -= Y[3 * w + i + k]
+    if P.body[BODY * b] == PART:
+        c0, c1, c2 = Y[3 * w + i + 3], Y[3 * w + i + 4], Y[3 * w + i + 5]
+        for row in range(4):
+            count_anew(Y, (BEFORE + row) * w + i + 3, c0, c1, c2)
+        for k in range(3, 6):
+            Y[ORIGIN * w + i + k] = 0.0

@@ -1,0 +1,56 @@
+"""What the Radau formula remembers: its numbers, the accepted state, the end of a tried step."""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import put_state
+from adamslite.integrators.bdf.state import NOW, H
+from adamslite.integrators.contract import NB, NS, NV, M, N, Problem
+from adamslite.integrators.motion_equations import BODY, PART
+from adamslite.integrators.radau.stages import ORIGIN, stage_z
+from adamslite.native.translate import native
+
+# Places in P.control after those of the BDF.  PASSED: the step that has passed its error test from
+# where the run stands, and was taken again, shorter, to end at a crossing; LENGTHENED: how often
+# that one then was taken again, longer, because it ended before the crossing.
+THETA, TURNS, LAST_NORM, LAST_SIZE, CAUTIOUS, KNOWN, TO_TARGET, PASSED, LENGTHENED = range(18, 27)
+
+
+@native
+def count_from_here(P: Problem) -> None:
+    """The workspace's attitudes become the base of rotation vectors."""
+    for b in range(P.sizes[NB]):
+        if P.body[BODY * b] == PART:
+            i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+            for k in range(9):
+                P.base[9 * b + k] = P.W[o + 15 + k]
+            for k in range(3, 6):
+                P.q[i + k] = 0.0
+
+
+@native
+def stand_at_start(P: Problem) -> None:
+    """The last accepted state into the unknowns and the workspace."""
+    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    Y = P.history[ORIGIN * (2 * n + P.sizes[NS]) :]
+    for i in range(n):
+        P.q[i], P.u[i], P.a[i] = Y[i], Y[n + i], P.ra[i]
+    for k in range(first):
+        P.z[k] = P.rz[k]
+    for k in range(P.sizes[NS]):
+        P.z[first + k] = Y[2 * n + k]
+    put_state(P, P.control[NOW], P.q, P.u, P.a, P.z, P.rd)
+
+
+@native
+def put_end(P: Problem) -> None:
+    """The end of the tried step into the unknowns and the workspace."""
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w, Y, z = 2 * n + ns, P.history, P.history[stage_z(P, 2) :]
+    y, d = Y[3 * w :], Y[6 * w :]
+    for i in range(n):
+        P.q[i], P.u[i], P.a[i] = Y[ORIGIN * w + i] + y[i], y[n + i], d[n + i]
+    for k in range(first + ns):
+        P.z[k] = z[k]
+    for k in range(ns):
+        P.rd[k] = d[2 * n + k]
+    put_state(P, P.control[NOW] + P.control[H], P.q, P.u, P.a, P.z, P.rd)

@@ -1,0 +1,112 @@
+"""Taking an accepted step back.
+
+Close to a posture in which constraints lose rank (dead centre, flattened parallelogram) they hold
+the motion on its branch with a lever d, the distance from that posture: round-off e of positions
+becomes an error e/d of the accepted position and e/d^2 of the velocity. A step that happens to land
+there can be accepted, but no step may start from it. The way out is to land somewhere else.
+Reference: Garcia de Jalon, Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994,
+section 5.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import NB, Problem
+from adamslite.integrators.motion_equations import BODY, PART
+from adamslite.native.translate import Reals, native
+
+# Places in P.control, above those of every method: whether a state is kept, how often it was
+# returned to, the time behind which the trouble is over, the angle turned since, tries in vain.
+UNDOABLE, BACKS, PASSED, TURNED, TROUBLE = range(40, 45)
+# Accepted steps taken back in one place.
+MOST_BACKS = 24.0
+# The golden ratio spreads the lengths of repeated steps evenly over a range without multiples.
+GOLDEN, SHORTEST = 0.6180339887498949, 0.4
+# A state is not kept for longer than parts turn by this angle: AZ and the like count turns by the
+# nearest angle to the last accepted one, and two parts may turn against each other.
+MOST_TURNED = 1.5
+
+
+@native
+def make_undoable(P: Problem, now: float, h: float, clean: bool) -> None:
+    """Keep the state from which an accepted step of size h started, unless in the middle of
+    trouble; ``clean`` when its first try was good.
+
+    Steps that shrink towards a singular posture are accepted one by one, each after a rejection:
+    the state before the first of them is the one to return to.
+    """
+    C = P.control
+    if clean:
+        C[TROUBLE] = max(0.0, C[TROUBLE] - 1.0)
+    if P.undo.size > 0:
+        angle = turning(P, h)
+        C[TURNED] += angle
+        clear = C[TROUBLE] == 0.0 and now >= C[PASSED]
+        if C[UNDOABLE] == 0.0 or clear or C[TURNED] > MOST_TURNED:
+            C[UNDOABLE], C[BACKS], C[TURNED] = 1.0, 0.0, 0.0
+            remember(P)
+            C[TURNED] = angle
+
+
+@native
+def before_trouble(P: Problem, tried: float) -> float:
+    """Back to the state kept before the trouble, which lies before the time ``tried``; the share of
+    its step to take there, 0 when that was done often enough or there is no such state.
+    """
+    C = P.control
+    if C[UNDOABLE] == 0.0 or C[BACKS] >= MOST_BACKS:
+        return 0.0
+    backs, passed = C[BACKS] + 1.0, max(C[PASSED], tried)
+    bring_back(P)
+    C[BACKS], C[PASSED] = backs, passed
+    return SHORTEST + (1.0 - SHORTEST) * (GOLDEN * backs - int(GOLDEN * backs))
+
+
+@native
+def turning(P: Problem, h: float) -> float:
+    """The largest angle by which a part turns in a time h at its present speed."""
+    top = 0.0
+    for b in range(P.sizes[NB]):
+        if P.body[BODY * b] == PART:
+            w = P.u[P.body[BODY * b + 1] + 3 :]
+            top = max(top, w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+    return h * top**0.5
+
+
+@native
+def remember(P: Problem) -> None:
+    """Keep the last accepted state before the next one replaces it."""
+    at = copied(P.history.size, P.history, P.undo, 0)
+    at = copied(P.control.size, P.control, P.undo, at)
+    at = copied(P.base.size, P.base, P.undo, at)
+    at = copied(P.ra.size, P.ra, P.undo, at)
+    at = copied(P.rz.size, P.rz, P.undo, at)
+    at = copied(P.pz.size, P.pz, P.undo, at)
+    at = copied(P.audit.size, P.audit, P.undo, at)
+
+
+@native
+def bring_back(P: Problem) -> None:
+    """What :func:`remember` kept."""
+    at = taken(P.history.size, P.history, P.undo, 0)
+    at = taken(P.control.size, P.control, P.undo, at)
+    at = taken(P.base.size, P.base, P.undo, at)
+    at = taken(P.ra.size, P.ra, P.undo, at)
+    at = taken(P.rz.size, P.rz, P.undo, at)
+    at = taken(P.pz.size, P.pz, P.undo, at)
+    at = taken(P.audit.size, P.audit, P.undo, at)
+
+
+@native
+def copied(n: int, x: Reals, y: Reals, at: int) -> int:
+    """x into y at a place; returns the place after it."""
+    for i in range(n):
+        y[at + i] = x[i]
+    return at + n
+
+
+@native
+def taken(n: int, x: Reals, y: Reals, at: int) -> int:
+    """x from y at a place; returns the place after it."""
+    for i in range(n):
+        x[i] = y[at + i]
+    return at + n

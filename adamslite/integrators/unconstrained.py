@@ -1,0 +1,206 @@
+"""Accelerations of bodies that nothing ties together: M^-1 f, body by body.
+
+    x'' = f/m + g,        w' = R I^-1 (R^T tau - w_b x I w_b),    w_b = R^T w
+
+for models without constraints, loops of variables, DIFF states and forces that depend on
+accelerations; nothing is factored.  tau is about the mass centre, in ground axes; I in part axes.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import (
+    BROKEN_START,
+    DONE,
+    IMPLICIT_MASS,
+    LOADS,
+    NB,
+    NS,
+    NV,
+    RESIDUALS,
+    M,
+    N,
+    Problem,
+)
+from adamslite.integrators.linalg.blocks import invert3
+from adamslite.integrators.motion_equations import (
+    BODY,
+    PART,
+    attitude,
+    jacobian,
+    put_time,
+    run_groups,
+)
+from adamslite.native.translate import Reals, native
+
+# A part's inertia below this share of its largest entry is singular.
+SINGULAR = 1e-12
+POWERS = 30
+
+
+@native
+def is_free(P: Problem) -> bool:
+    """Whether accelerations follow body by body."""
+    if P.sizes[M] + P.sizes[NV] + P.sizes[NS] + P.sizes[IMPLICIT_MASS] > 0:
+        return False
+    for b in range(P.sizes[NB]):
+        if not P.mass[b] > 0.0:
+            return False
+    return True
+
+
+@native
+def invert_inertia(P: Problem, inverse: Reals) -> bool:
+    """I^-1 of every part into ``inverse`` (9 nb,); False when one is singular."""
+    for b in range(P.sizes[NB]):
+        if P.body[BODY * b] == PART:
+            top = 0.0
+            for k in range(9):
+                inverse[9 * b + k] = P.inertia[9 * b + k]
+                top = max(top, abs(inverse[9 * b + k]))
+            det = invert3(inverse, 9 * b)
+            if not abs(det) > SINGULAR * top * top * top:
+                return False
+    return True
+
+
+@native
+def put_free(P: Problem, t: float, q: Reals, u: Reals) -> None:
+    """Time, positions and velocities into the workspace; minus the weights into F."""
+    W, F, body = P.W, P.F, P.body
+    gx, gy, gz = P.gravity[0], P.gravity[1], P.gravity[2]
+    put_time(P, t)
+    for b in range(P.sizes[NB]):
+        i, o, m = body[BODY * b + 1], body[BODY * b + 2], P.mass[b]
+        x, y, z = q[i], q[i + 1], q[i + 2]
+        vx, vy, vz = u[i], u[i + 1], u[i + 2]
+        W[o], W[o + 1], W[o + 2] = x, y, z
+        W[o + 3], W[o + 4], W[o + 5] = vx, vy, vz
+        F[i], F[i + 1], F[i + 2] = -m * gx, -m * gy, -m * gz
+        if body[BODY * b] == PART:
+            attitude(q[i + 3], q[i + 4], q[i + 5], P.base, 9 * b, W, o + 15)
+            for k in range(3):
+                W[o + 9 + k] = u[i + 3 + k]
+                F[i + 3 + k] = 0.0
+
+
+@native
+def free_accelerations(P: Problem, t: float, q: Reals, u: Reals, inverse: Reals, a: Reals) -> None:
+    """a (n,) at positions q, velocities u."""
+    put_free(P, t, q, u)
+    run_groups(P, LOADS, P.F)
+    P.count[RESIDUALS] += 1
+    divide_by_mass(P, P.F, inverse, 1.0, a)
+
+
+@native
+def mass_tables(P: Problem, inverse: Reals, weight: Reals) -> bool:
+    """-1/m and -m g of every unknown; False when a body turns."""
+    for b in range(P.sizes[NB]):
+        if P.body[BODY * b] == PART:
+            return False
+        for k in range(3):
+            inverse[3 * b + k] = -1.0 / P.mass[b]
+            weight[3 * b + k] = -P.mass[b] * P.gravity[k]
+    return True
+
+
+@native
+def mass_accelerations(
+    P: Problem, t: float, q: Reals, u: Reals, inverse: Reals, weight: Reals, a: Reals
+) -> None:
+    """a (n,) of point masses, with the tables made before; unknowns and workspace are in a row."""
+    n, W, F = P.sizes[N], P.W[P.body[2] :], P.F
+    put_time(P, t)
+    for b in range(P.sizes[NB]):
+        i, o = 3 * b, 9 * b
+        x, y, z = q[i], q[i + 1], q[i + 2]
+        vx, vy, vz = u[i], u[i + 1], u[i + 2]
+        W[o], W[o + 1], W[o + 2], W[o + 3], W[o + 4], W[o + 5] = x, y, z, vx, vy, vz
+    for i in range(n):
+        F[i] = weight[i]
+    run_groups(P, LOADS, F)
+    P.count[RESIDUALS] += 1
+    for i in range(n):
+        a[i] = inverse[i] * F[i]
+
+
+@native
+def divide_by_mass(P: Problem, F: Reals, inverse: Reals, turning: float, a: Reals) -> None:
+    """a = -M^-1 F, for parts with ``turning`` times the gyroscopic torque of the workspace."""
+    body = P.body
+    for b in range(P.sizes[NB]):
+        i, w = body[BODY * b + 1], -1.0 / P.mass[b]
+        a[i], a[i + 1], a[i + 2] = w * F[i], w * F[i + 1], w * F[i + 2]
+        if body[BODY * b] == PART:
+            turn(P, b, F[i + 3 :], inverse[9 * b :], turning, a[i + 3 :])
+
+
+@native
+def turn(P: Problem, b: int, F: Reals, inverse: Reals, turning: float, a: Reals) -> None:
+    """Angular acceleration of part b under the torque -F."""
+    R, tensor, s = P.W[P.body[BODY * b + 2] + 15 :], P.inertia[9 * b :], P.work
+    w = P.W[P.body[BODY * b + 2] + 9 :]
+    for k in range(3):
+        s[k] = R[k] * w[0] + R[3 + k] * w[1] + R[6 + k] * w[2]
+    for k in range(3):
+        s[3 + k] = tensor[3 * k] * s[0] + tensor[3 * k + 1] * s[1] + tensor[3 * k + 2] * s[2]
+    s[6] = turning * (s[2] * s[4] - s[1] * s[5])
+    s[7] = turning * (s[0] * s[5] - s[2] * s[3])
+    s[8] = turning * (s[1] * s[3] - s[0] * s[4])
+    for k in range(3):
+        s[6 + k] -= R[k] * F[0] + R[3 + k] * F[1] + R[6 + k] * F[2]
+    for k in range(3):
+        s[k] = inverse[3 * k] * s[6] + inverse[3 * k + 1] * s[7] + inverse[3 * k + 2] * s[8]
+    for k in range(3):
+        a[k] = R[3 * k] * s[0] + R[3 * k + 1] * s[1] + R[3 * k + 2] * s[2]
+
+
+@native
+def spectrum(P: Problem) -> int:
+    """Spectral radii of M^-1 K and M^-1 C of the forces at the workspace's state, into P.control;
+    constraints only lower them.
+    """
+    if not invert_inertia(P, P.history):
+        return BROKEN_START
+    P.control[0], P.control[1] = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
+    return DONE
+
+
+@native
+def radius(P: Problem, cq: float, cu: float) -> float:
+    """Spectral radius of M^-1 (cq dF/dq + cu dF/du) by power iteration (Golub, Van Loan, 7.3.1)."""
+    n, c = P.sizes[N], P.coef
+    x, y, inverse = P.trial[0:], P.trial[n:], P.history[0:]
+    c[0], c[1], c[2], c[3], c[4] = cq, cu, 0.0, 0.0, 0.0
+    jacobian(P, LOADS, c, P.J)
+    size, found = 0.0, 0.0
+    for i in range(n):
+        x[i] = float((i * 7919 + 3) % 101) - 50.3
+        size += x[i] * x[i]
+    for _iteration in range(POWERS):
+        w = size**-0.5
+        for i in range(n):
+            x[i] *= w
+            y[i] = 0.0
+        multiply(P, x, y)
+        divide_by_mass(P, y, inverse, 0.0, x)
+        size = 0.0
+        for i in range(n):
+            size += x[i] * x[i]
+        if not size > 1e-200:
+            return 0.0
+        found = size**0.5
+    return found
+
+
+@native
+def multiply(P: Problem, x: Reals, y: Reals) -> None:
+    """y += J x over the blocks of bodies."""
+    for k in range(0, P.product.size, 5):
+        at, columns = P.product[k], P.product[k + 2]
+        first, c = P.product[k + 3], P.product[k + 4]
+        for r in range(P.product[k + 1]):
+            total = 0.0
+            for j in range(columns):
+                total += P.J[at + r * columns + j] * x[c + j]
+            y[first + r] += total

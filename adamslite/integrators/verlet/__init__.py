@@ -1,0 +1,1 @@
+"""VERLET: the explicit leapfrog formula for free point masses."""

@@ -1,0 +1,267 @@
+"""VERLET: half a kick, drift, half a kick; for point masses that nothing ties together.
+
+    u+ = u- + h M^-1 f(t, q, u-),     q <- q + h u+         (u half a step away from q)
+
+Second order, in forces of velocities first, because those see the velocity of half a step earlier.
+Between two output times all steps are equal; their length keeps, with the largest eigenvalues
+kappa of M^-1 K and c of M^-1 C,
+
+    kappa h^2 + 2 c h <= 4 and the local error h^2 |change of a|/6 <= ERROR max(1, |q|);
+
+an interval in which it grew too large is done again with shorter steps.
+Reference: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006, sections I.1.4, VIII.4.
+"""
+
+from __future__ import annotations
+
+from math import floor
+
+from adamslite.integrators.accelerations import put_state
+from adamslite.integrators.audit.balance import audit_leap, bring_audit_back, keep_audit
+from adamslite.integrators.contract import (
+    AT,
+    DONE,
+    ERROR,
+    EVENTS,
+    H_INIT,
+    H_MAX,
+    H_MIN,
+    HOW_MUCH,
+    INTERRUPTED,
+    LOADS,
+    NB,
+    ORDER,
+    REJECTED,
+    RESIDUALS,
+    SPENT,
+    STABLE,
+    STABLE_STEP,
+    STEP,
+    STEP_TOO_SMALL,
+    STEPS,
+    STOP,
+    UNSTABLE,
+    WATCHED,
+    N,
+    Plan,
+    Problem,
+)
+from adamslite.integrators.events.events import start_events
+from adamslite.integrators.events.stops import (
+    end_of_pace,
+    is_stop,
+    longest_step,
+    next_stop,
+    present_stop,
+    set_pace,
+)
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.motion_equations import BODY, put_time, run_groups, track
+from adamslite.integrators.records import write_record
+from adamslite.integrators.unconstrained import divide_by_mass, put_free, radius
+from adamslite.native.translate import native
+
+# Steps from one look at the local error to the next, where no force changes its law (a contact may
+# begin and end between two looks) and stability decides how long they are: eight of these are one
+# or two periods of the fastest vibration.
+SAMPLE = 8
+# ... and with equal steps, whose length nothing changes.
+FIXED_SAMPLE = 32
+# Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
+WORTH = 200.0
+SHRINK, GROW = 0.25, 2.0
+# Tries of one interval that may blow up: steps 4^8 times as short take every jump of a stiffness
+# that a run can be meant to have; what still blows up has no value there, with any step.
+MOST_BLOWN = 8
+
+# Places in P.control.
+LIMIT, WANTED, SINCE, SUM = range(4)
+
+
+@native
+def verlet(P: Problem, L: Plan) -> int:
+    """Integrate over the output times; returns an outcome."""
+    C, fixed = P.control, P.settings[H_INIT] > 0.0
+    for i in range(P.control.size):
+        C[i] = 0.0
+    P.report[ORDER] = 2.0
+    start_events(P, False, False)
+    P.report[STABLE_STEP] = 1e300
+    synchronise(P, P.times[0], 0)
+    P.report[AT] = P.times[0]
+    C[SINCE] = WORTH
+    C[WANTED] = P.settings[H_INIT] if fixed else P.settings[H_MAX]
+    for row in range(1, P.times.size):
+        if P.settings[STOP] != 0.0:
+            return INTERRUPTED
+        look_at_stability(P)
+        outcome = reach(P, L, P.times[row - 1], P.times[row], fixed)
+        if outcome != DONE:
+            stand(P, P.report[AT])
+            return outcome
+        synchronise(P, P.times[row], row)
+        track(P)
+    return DONE
+
+
+@native
+def reach(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
+    """From one output time to the next over all stops between; returns an outcome."""
+    at, outcome = t, DONE
+    while at < end and outcome == DONE:
+        set_pace(P, at)
+        to = min(end, present_stop(P), end_of_pace(P))
+        outcome = cross(P, L, at, to, fixed)
+        if outcome == DONE:
+            P.report[AT], at = to, to
+            if is_stop(P, to):
+                P.count[EVENTS] += 1
+                next_stop(P, to)
+    return outcome
+
+
+@native
+def synchronise(P: Problem, t: float, row: int) -> None:
+    """Accelerations at the state in q and u, and a record of it."""
+    stand(P, t)
+    write_record(P, row)
+
+
+@native
+def stand(P: Problem, t: float) -> None:
+    """Accelerations at the state in q and u."""
+    put_free(P, t, P.q, P.u)
+    run_groups(P, LOADS, P.F)
+    divide_by_mass(P, P.F, P.history, 0.0, P.a)
+    put_state(P, t, P.q, P.u, P.a, P.z, P.rd)
+
+
+@native
+def look_at_stability(P: Problem) -> None:
+    """The longest stable step at the workspace's state, when enough steps were taken since."""
+    C = P.control
+    if C[SINCE] < WORTH:
+        return
+    C[SINCE] = 0.0
+    kappa, c = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
+    bottom = c + (c * c + 4.0 * kappa) ** 0.5
+    C[LIMIT] = 4.0 * STABLE / bottom if bottom > 0.0 else 1e300
+    P.report[STABLE_STEP] = min(P.report[STABLE_STEP], C[LIMIT] / STABLE)
+
+
+@native
+def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
+    """From one output time or stop to the next; returns an outcome."""
+    C, n = P.control, P.sizes[N]
+    old = P.trial[0:]
+    for i in range(n):
+        old[i], old[n + i] = P.q[i], P.u[i]
+    keep_audit(P)
+    wanted, blown = min(C[WANTED], longest_step(P)), 0
+    while P.settings[STOP] == 0.0:
+        if not fixed:
+            wanted = min(wanted, C[LIMIT])
+        h = (end - t) / max(1.0, 0.0 - floor(1e-9 - (end - t) / wanted))
+        P.report[STEP] = h
+        if wanted < P.settings[H_MIN] or blown == MOST_BLOWN:
+            return STEP_TOO_SMALL
+        if fixed and STABLE * h > C[LIMIT]:
+            return UNSTABLE
+        error = march(P, L, t, h, int((end - t) / h + 0.5), fixed)
+        P.report[HOW_MUCH] = error
+        if error <= 1.0:
+            P.report[SPENT] += C[SUM]
+            C[WANTED] = following(P, error, h, wanted, fixed)
+            return DONE
+        P.count[REJECTED] += 1
+        if fixed:
+            return UNSTABLE
+        blown = 0 if error < 1e300 else blown + 1
+        wanted = h * (max(SHRINK, 0.8 * error ** (-1.0 / 3.0)) if error < 1e12 else SHRINK)
+        for i in range(n):
+            P.q[i], P.u[i] = old[i], old[n + i]
+        bring_audit_back(P)
+    return INTERRUPTED
+
+
+@native
+def following(P: Problem, error: float, h: float, wanted: float, fixed: bool) -> float:
+    """The step to try next: what was before, when these were short for the sake of a pulse."""
+    if longest_step(P) < P.settings[H_MAX]:
+        return P.control[WANTED]
+    if fixed or error >= 0.5:
+        return wanted
+    return min(GROW, 0.9 * max(error, 1e-3) ** (-1.0 / 3.0)) * h
+
+
+@native
+def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> float:
+    """``count`` steps; returns the largest local error seen against ERROR, 1e300 for a blow-up."""
+    top, every, P.control[SUM] = 0.0, FIXED_SAMPLE if fixed else 1, 0.0
+    if not fixed and P.sizes[WATCHED] == 0 and 2.0 * h > P.control[LIMIT]:
+        every = SAMPLE
+    put_free(P, t, P.q, P.u)
+    for s in range(count + 1):
+        if s > 0:
+            put_time(P, t + s * h)
+        run_groups(P, LOADS, P.F)
+        audit_leap(P, L, t + s * h, h if s > 0 else 0.0)
+        if s > 0 and s % every == 1 % every:
+            divide_by_mass(P, P.F, P.history, 0.0, P.a)
+            error = sampled_error(P, h)
+            top = max(top, error)
+            if not top < 1e6 and not fixed:
+                return top
+            P.control[SUM] += every * error
+        if s % every == 0:
+            divide_by_mass(P, P.F, P.history, 0.0, P.ra)
+        kick = 0.5 * h if s == 0 or s == count else h
+        leap(P, kick, h if s < count else 0.0)
+    if not take_over(P):
+        return 1e300
+    P.count[STEPS] += count
+    P.count[RESIDUALS] += count + 1
+    P.control[SINCE] += float(count)
+    return 0.0 if fixed else top
+
+
+@native
+def leap(P: Problem, kick: float, drift: float) -> None:
+    """u -= kick M^-1 F, q += drift u in the workspace; minus the weights into F."""
+    W, F, body = P.W, P.F, P.body
+    gx, gy, gz = P.gravity[0], P.gravity[1], P.gravity[2]
+    for b in range(P.sizes[NB]):
+        i, o, m = body[BODY * b + 1], body[BODY * b + 2], P.mass[b]
+        p = kick / m
+        u, v, w = W[o + 3] - p * F[i], W[o + 4] - p * F[i + 1], W[o + 5] - p * F[i + 2]
+        W[o + 3], W[o + 4], W[o + 5] = u, v, w
+        W[o], W[o + 1], W[o + 2] = W[o] + drift * u, W[o + 1] + drift * v, W[o + 2] + drift * w
+        F[i], F[i + 1], F[i + 2] = -m * gx, -m * gy, -m * gz
+
+
+@native
+def sampled_error(P: Problem, h: float) -> float:
+    """h^2 |a - earlier a|/6 against ERROR max(1, |q|)."""
+    top = 0.0
+    for b in range(P.sizes[NB]):
+        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+        for k in range(3):
+            change = abs(P.a[i + k] - P.ra[i + k])
+            weight = max(1.0, abs(P.W[o + k]))
+            if exceeds(change, top * weight):
+                top = change / weight
+    if not top < 1e200:
+        return 1e300
+    return top * h * h / (6.0 * P.settings[ERROR])
+
+
+@native
+def take_over(P: Problem) -> bool:
+    """Positions and velocities of the workspace into q and u; False when they are not numbers."""
+    for b in range(P.sizes[NB]):
+        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+        for k in range(3):
+            P.q[i + k], P.u[i + k] = P.W[o + k], P.W[o + 3 + k]
+            if not abs(P.W[o + k]) + abs(P.W[o + 3 + k]) < 1e200:
+                return False
+    return True

@@ -1,0 +1,1 @@
+"""From statements to native kernels: shapes, their bindings, and compilation."""

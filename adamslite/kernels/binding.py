@@ -1,0 +1,275 @@
+"""From a statement to its shape and back: what 1000 equal statements share.
+
+:class:`Binder` walks a statement's declared arguments and replaces every id, number and marker by
+a slot. What remains, written as text, is the *key* of the shape; what was taken out is the
+instance.  The walk needs no sympy, so a deck whose shapes are cached compiles nothing.
+:mod:`adamslite.kernels.view` does the reverse.
+
+A bound tree is one of
+
+    ("p", n) parameter    ("c", value) constant of the shape    ("t",) ("mode",)    ("m", frame)
+    ("o", op, args)       ("f", function, args)    ("s", keyword, arguments) another statement
+    ("v", trees)          ("z", node, component) unknown
+    ("dif", node)         ("sig", n, order) time-only variable  ("e", n) element    ("d", tree)
+    ("tab", n) table
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from adamslite import functions  # noqa: F401  registers the deck functions
+from adamslite.functions.forces import NET
+from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
+from adamslite.language.function import FUNCTIONS, Function
+from adamslite.language.statement import Statement
+from adamslite.model.model import folded
+from adamslite.model.net_force import written_out
+from adamslite.symbolic.interpolant import Interpolant
+from adamslite.symbolic.scope import ORIGIN, Slot
+
+Tree = tuple
+IGNORED = ("text", "texts")
+# What cannot be switched off.
+LASTING = ("MARKER", "VARIABLE", "DIFF")
+
+
+class ForceLoop(Exception):
+    """An element's force depends on itself without a VARIABLE between."""
+
+
+@dataclass
+class Binding:
+    """One instance: what fills the slots of its shape."""
+
+    markers: list[Any] = field(default_factory=list)
+    bodies: list[int] = field(default_factory=list)
+    nodes: list[Any] = field(default_factory=list)
+    params: list[float] = field(default_factory=list)
+    signals: list[Any] = field(default_factory=list)
+    tables: list[Interpolant] = field(default_factory=list)
+
+
+class Binder:
+    """Binds statements of one model; ``model`` answers what a marker or a variable is.
+
+    Time-only variables are read from the workspace, except among themselves (``inline_signals``),
+    so that they need no order.  What a constraint or d( )/dt takes the rate of is written out:
+    variables that are solved for too, unless they depend on themselves.
+    """
+
+    def __init__(self, model: Any, inline_signals: bool = False) -> None:
+        self.model = model
+        self.inline_signals = inline_signals
+        self.takes_rates = False
+        self.instance = Binding()
+        self.frames: dict[Any, Tree] = {0: ("m", ORIGIN)}
+        self.slots: list[Slot] = []
+        self.elements: list[tuple[str, Tree]] = []
+        self.element_at: dict[tuple[str, Any], int] = {}
+
+    def marker(self, marker_id: Any) -> Tree:
+        """The frame of a marker, of a part's mass centre for ``("PART", id)``."""
+        frame = self.frames.get(marker_id)
+        if frame is None:
+            frame = self.frames[marker_id] = self._frame(marker_id)
+        return frame
+
+    def _frame(self, marker_id: Any) -> Tree:
+        place, at = self.model.marker(marker_id), self.instance
+        if place is None:
+            return ("c", None)
+        body = -1
+        if place.kind != "ground":
+            if place.body not in at.bodies:
+                at.bodies.append(place.body)
+            body = at.bodies.index(place.body)
+        at.markers.append(marker_id)
+        self.slots.append(Slot(place.kind, body, place.offset, place.turned))
+        return ("m", len(at.markers) - 1)
+
+    def node_slot(self, node: Any) -> int:
+        """Slot of a scalar node, counted after the bodies once binding is finished."""
+        if node not in self.instance.nodes:
+            self.instance.nodes.append(node)
+        return self.instance.nodes.index(node)
+
+    def number(self, value: float) -> Tree:
+        if value == 0.0:
+            return ("c", 0.0)
+        self.instance.params.append(value)
+        return ("p", len(self.instance.params) - 1)
+
+    def statement(self, statement: Statement) -> Tree:
+        """Arguments of a statement, none of data, and what it derives: (("field", tree), ..)."""
+        before = self.takes_rates
+        self.takes_rates = before or hasattr(statement, "constraints")
+        fields = []
+        for name, argument in statement.arguments.items():
+            if statement.data or argument.kind in IGNORED:
+                continue
+            fields.append((name, self._argument(argument, getattr(statement, name))))
+        for name, value in statement.derived(self.model).items():
+            fields.append((name, self._derived(value)))
+        self.takes_rates = before
+        return tuple(fields)
+
+    def _derived(self, value: Any) -> Tree:
+        if value is None or isinstance(value, str):
+            return ("c", value)
+        if isinstance(value, tuple):
+            return ("v", tuple(self._derived(v) for v in value))
+        if isinstance(value, Ref):
+            return self.reference(value)
+        if isinstance(value, Interpolant):
+            return self.table(value)
+        return self.number(value) if isinstance(value, float) else self.expression(value)
+
+    def table(self, value: Interpolant) -> Tree:
+        """Its number among those of the instance; nothing in it shapes the code."""
+        tables = self.instance.tables
+        if value not in tables:
+            tables.append(value)
+        return ("tab", tables.index(value))
+
+    def _argument(self, argument: Any, value: Any) -> Tree:
+        if value is None:
+            return ("c", None)
+        if argument.kind == "expression":
+            return self.expression(value)
+        if argument.kind == "number":
+            return self.number(value)
+        if argument.kind == "vector":
+            return ("v", tuple(self.number(v) for v in value))
+        if argument.kind == "reference":
+            return self._referred(argument.to, value)
+        if argument.kind == "references":
+            return ("v", tuple(self._referred(argument.to, v) for v in value))
+        return ("c", value)
+
+    def _referred(self, keyword: str, value: Any) -> Tree:
+        """A marker or part as a frame; any other statement with its own arguments."""
+        if keyword == "MARKER":
+            return self.marker(value)
+        if keyword == "PART":
+            return self.marker(("PART", value))
+        return ("s", keyword, self.statement(self.model.element(keyword, value)))
+
+    def expression(self, node: Node) -> Tree:
+        return self._bound(node)[0]
+
+    def _bound(self, node: Node) -> tuple[Tree, float | None]:
+        """An expression, with its value if nothing in it changes."""
+        kind = type(node)
+        if kind is Num:
+            return self.number(node.value), node.value
+        if kind is Op:
+            return self._operation(node)
+        if kind is Call:
+            constant = self.model.constant(node)
+            return (
+                (self.call(node), None) if constant is None else (self.number(constant), constant)
+            )
+        if kind is Time or kind is Mode:
+            return ("t",) if kind is Time else ("mode",), None
+        raise TypeError(f"not an expression: {node!r}")
+
+    def _operation(self, node: Op) -> tuple[Tree, float | None]:
+        """Numbers are parameters, except what they are folded from, and constant exponents."""
+        params = self.instance.params
+        mark = len(params)
+        trees, values = zip(*[self._bound(each) for each in node.args], strict=True)
+        if None not in values:
+            del params[mark:]
+            value = folded(node.op, values)
+            return self.number(value), value
+        if node.op == "**" and values[1] is not None:
+            if trees[1][0] == "p":
+                params.pop()
+            trees = (trees[0], ("c", values[1]))
+        return ("o", node.op, trees), None
+
+    def output(self, node: Node, statement: Statement) -> Tree:
+        """A value to write: zero for an element that is switched off."""
+        return self.expression(node) if self.model.acts(statement) else ("c", 0.0)
+
+    def call(self, node: Call) -> Tree:
+        if node.name in NET:
+            return self.expression(written_out(node, self.model))
+        for arg in node.args:
+            if type(arg) is Ref and arg.kind not in LASTING and self._is_off(arg):
+                return ("c", 0.0)
+        function = FUNCTIONS[node.name]
+        if (
+            node.name == "GCON" and not node.args[2].value
+        ):  # its multiplier, and nothing of its kind
+            strength = ("z", self.node_slot(("GCON", node.args[0].id)), 0)
+            return ("f", "GCON", (strength, ("c", 0), ("c", 0), self.marker(0)))
+        before = self.takes_rates
+        self.takes_rates = before or node.name == "DDT"
+        taken = tuple([self._taken(function, n, a) for n, a in enumerate(node.args)])
+        self.takes_rates = before
+        return ("f", node.name, taken)
+
+    def _is_off(self, ref: Ref) -> bool:
+        """A reference to an element that is switched off: whatever it measures is zero."""
+        return not self.model.acts(self.model.element(ref.kind, ref.id))
+
+    def _taken(self, function: Function, n: int, node: Node) -> Tree:
+        """Argument number ``n`` of a call."""
+        if type(node) is Ref:
+            return self.reference(node)
+        if function.parameter(n).kind == "constant":
+            return ("c", int(node.value))
+        return self.expression(node)
+
+    def reference(self, ref: Ref) -> Tree:
+        if ref.kind == "MARKER":
+            return self.marker(ref.id)
+        if ref.kind == "VARIABLE":
+            return self.variable(ref.id)
+        if ref.kind == "DIFF":
+            return ("dif", self.node_slot(("DIFF", ref.id)))
+        return self.element(ref)
+
+    def variable(self, variable_id: Any) -> Tree:
+        kind = self.model.variable_kind(variable_id)
+        written_out = self.takes_rates and variable_id not in self.model.circular
+        if kind == "loop" and not written_out:
+            return ("z", self.node_slot(("VARIABLE", variable_id)), 0)
+        if kind == "signal" and not self.inline_signals:
+            signals = self.instance.signals
+            if variable_id not in signals:
+                signals.append(variable_id)
+            return ("sig", signals.index(variable_id), 0)
+        return self.expression(self.model.variable(variable_id).function)
+
+    def element(self, ref: Ref) -> Tree:
+        """Another element whose load is measured: bound into this shape."""
+        key = (ref.kind, ref.id)
+        if key not in self.element_at:
+            self.element_at[key] = -1
+            statement = self.model.element(ref.kind, ref.id)
+            tree = (ref.kind, self.statement(statement), self.unknowns(statement))
+            self.elements.append(tree)
+            self.element_at[key] = len(self.elements) - 1
+        if self.element_at[key] < 0:
+            raise ForceLoop(f"{ref.kind}/{ref.id}")
+        return ("e", self.element_at[key])
+
+    def unknowns(self, statement: Statement) -> int:
+        """Node slot of a statement's own unknowns (multipliers, V, s), -1 for a force."""
+        node = (statement.keyword, statement.key)
+        return self.node_slot(node) if self.model.has_unknowns(node) else -1
+
+    def key(self, face: str, body: Any) -> tuple:
+        """Everything that decides the native code.
+
+        Equal constants at the same place are of the same type, which field or parameter decides.
+        """
+        at = self.instance
+        widths = tuple([self.model.body_width(b) for b in at.bodies])
+        scalars = tuple([self.model.node_width(n) for n in at.nodes])
+        counts = (len(at.params), len(at.signals), len(at.tables))
+        return (face, body, tuple(self.elements), tuple(self.slots), widths, scalars, counts)

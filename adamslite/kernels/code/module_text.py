@@ -1,0 +1,117 @@
+"""The LLVM text of all kernels of a shape."""
+
+from __future__ import annotations
+
+from adamslite.kernels.code import lookup  # noqa: F401  registers what kernels call
+from adamslite.kernels.code.clock_program import clock_programs
+from adamslite.kernels.code.jacobian_writer import JacobianWriter
+from adamslite.kernels.code.residual_writer import Writer
+from adamslite.kernels.code.shape import Shape
+from adamslite.native.translate import METADATA, definitions
+from adamslite.symbolic.guards import guards
+from adamslite.symbolic.scope import Scope
+
+RESIDUAL_HEAD = (
+    "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias {reals} %reals, "
+    "ptr noalias readonly %W, ptr noalias %F) nounwind"
+)
+JACOBIAN_HEAD = (
+    "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias readonly %reals, "
+    "ptr noalias readonly %W, ptr noalias readonly %c, ptr noalias %F) nounwind"
+)
+LOOP = """{head} {{
+entry:
+{prelude}  %some = icmp sgt i64 %n, 0
+  br i1 %some, label %loop, label %exit
+loop:
+  %k = phi i64 [0, %entry], [%next, %loop]
+  %io = mul i64 %k, {n_ints}
+  %ip = getelementptr i64, ptr %ints, i64 %io
+  %ro = mul i64 %k, {n_reals}
+  %rp = getelementptr double, ptr %reals, i64 %ro
+{body}
+  %next = add nuw nsw i64 %k, 1
+  %more = icmp slt i64 %next, %n
+  br i1 %more, label %loop, label %exit
+exit:
+  ret void
+}}
+"""
+
+
+def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tuple[str, dict]:
+    """LLVM text of a shape's kernels and what an instance must provide.
+
+    Choices keep their branch within a step, except in what is written: the ``face`` "output".
+
+    Returns
+    -------
+    text, meta
+        ``meta["blocks"]``: pairs (row node, column node) of Jacobian blocks in the order of the
+        integers; ``meta["n_ints"]``: integers of an instance; ``meta["angles"]``: how many angles
+        it remembers, ``meta["limits"]``: how many times of leaving its law; ``meta["mass"]``: a
+        force depends on accelerations; ``meta["guards"]``: kinds of the guards of the clock and of
+        the watch; ``meta["clock"]``: what depends on time alone.
+    """
+    scope = Scope(shape.slots)
+    out = shape.outputs(scope)
+    shape.n_angles, shape.n_limits = len(scope.angles), len(scope.limits)
+    clock: dict = {}
+    if face != "output":
+        shape.guards = guards(out.expressions, scope.leaves)
+        clock = clock_programs(face, out.expressions, shape.guards.clock, scope.leaves)
+    blocks: list[tuple[int, int]] = []
+    bodies: list[tuple[str, str, Writer]] = []
+    if with_jacobian:
+        writer = JacobianWriter(shape, scope)
+        writer.jacobian(out)
+        blocks = writer.blocks
+        bodies.append((f"{name}_jacobian", JACOBIAN_HEAD, writer))
+    writer = Writer(shape, scope)
+    writer.residual(out)
+    bodies.append((f"{name}_residual", RESIDUAL_HEAD, writer))
+    if scope.angles or scope.limits:
+        writer = Writer(shape, scope)
+        writer.track()
+        bodies.append((f"{name}_track", RESIDUAL_HEAD, writer))
+    kinds = shape.guards.kinds
+    evaluated = {"clock": kinds["clock"], "watch": kinds["watch"] + kinds["zone"]}
+    for place, (kind, found) in enumerate(evaluated.items()):
+        if found:
+            writer = Writer(shape, scope)
+            writer.guard_values(place)
+            bodies.append((f"{name}_{kind}", RESIDUAL_HEAD, writer))
+    n_ints = shape.blocks_at + len(blocks)
+    meta = {
+        "n_ints": n_ints,
+        "blocks": blocks,
+        "angles": len(scope.angles),
+        "limits": len(scope.limits),
+        "guards": kinds,
+        "clock": clock,
+        "mass": any(leaf[0] in ("a", "al") for leaf in scope.symbols),
+    }
+    return _module(bodies, n_ints, shape.n_reals), meta
+
+
+def _module(bodies: list[tuple[str, str, Writer]], n_ints: int, n_reals: int) -> str:
+    declared, parts = definitions(
+        sorted({name for *_, writer in bodies for name in writer.b.called})
+    )
+    for name, head, writer in bodies:
+        prelude = "".join(
+            f"  %cp{n} = getelementptr double, ptr %c, i64 {n}\n  %c{n} = load double, ptr %cp{n}\n"
+            for n in range(5)
+        )
+        reals = "" if name.endswith("_track") else "readonly"
+        parts.append(
+            LOOP.format(
+                head=head.format(name=name, reals=reals),
+                prelude=prelude if head is JACOBIAN_HEAD else "",
+                n_ints=n_ints,
+                n_reals=n_reals,
+                body="\n".join(writer.b.lines),
+            )
+        )
+        declared |= writer.b.declared
+    return "\n".join([*sorted(declared), *parts, METADATA])

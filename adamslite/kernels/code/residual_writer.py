@@ -1,0 +1,135 @@
+"""The loop bodies of the kernels that evaluate: residual, angle memory, guards."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from adamslite.kernels.code.kinematics import HEAD, MODE, TIME, Geometry, Vec
+from adamslite.kernels.code.shape import Outputs, Shape
+from adamslite.kernels.code.sympy_to_llvm import Builder, Lowering, Value
+from adamslite.symbolic.scope import Load, Scope, Slot
+from adamslite.symbolic.sympy_nodes import sp
+
+
+class Writer:
+    """Writes the loop body of a kernel of values: residual, angle memory, guards."""
+
+    def __init__(self, shape: Shape, scope: Scope) -> None:
+        self.shape = shape
+        self.scope = scope
+        self.b = Builder()
+        self.g = Geometry(self.b, shape.slots, shape.marker_reals())
+        self.lower = Lowering(self.b, {}, shape.tables_at)
+        for place, found in enumerate((shape.guards.clock, shape.guards.watch)):
+            for n, guard in enumerate(found):
+                at = self.b.int_at(shape.branches_at + place)
+                self.lower.branches[guard] = self.b.read("W", at, n)
+
+    def value(self, expr: Any) -> Value:
+        """Lower an expression, loading the leaves it uses first."""
+        expr = sp.S.Zero + expr
+        for symbol in sorted(expr.free_symbols, key=str):
+            if symbol not in self.lower.leaves:
+                self.lower.leaves[symbol] = self.leaf(self.scope.leaves[symbol])
+        return self.lower(expr)
+
+    def leaf(self, leaf: tuple) -> Value:
+        kind = leaf[0]
+        if kind in ("d", "v", "a", "w", "al", "x"):
+            return self.g.leaf(leaf)
+        if kind == "p":
+            return self.b.real_at(leaf[1])
+        if kind in ("t", "mode"):
+            return self.b.emit(
+                (kind,), f"load double, ptr {self._head(TIME if kind == 't' else MODE)}"
+            )
+        if kind in ("z", "dif"):
+            return self.b.read("W", self.b.int_at(leaf[1]), leaf[2] if kind == "z" else 0)
+        if kind == "dif1":
+            return self.b.read("W", self.b.int_at(leaf[1]), 1)
+        if kind == "sig":
+            return self.b.read("W", self.b.int_at(len(self.shape.widths) + leaf[1]), leaf[2])
+        if kind == "nan":
+            return math.nan
+        return self._turns(leaf[1])
+
+    def _head(self, position: int) -> str:
+        if position >= HEAD:
+            raise IndexError(position)
+        return self.b.emit(("head", position), f"getelementptr double, ptr %W, i64 {position}")
+
+    def _turns(self, n: int) -> Value:
+        """Whole turns that bring the wrapped angle nearest to the remembered one."""
+        b = self.b
+        gap = b.sub(b.real_at(self.shape.n_params + n), self.value(self.scope.angles[n]))
+        turns = b.call("floor", b.add(b.mul(gap, 0.5 / math.pi), 0.5))
+        return b.mul(turns, 2 * math.pi)
+
+    def residual(self, out: Outputs) -> None:
+        for load in out.loads:
+            force = [self.value(f) for f in load.force]
+            torque = [self.value(t) for t in load.torque]
+            for body, sign, lever in self._ends(load):
+                self._add_load(body, sign, force, torque, lever)
+        for node, component, expr in out.rows:
+            self.b.accumulate(
+                "F", self.b.int_at(self.shape.row_at(node)), component, self.value(expr)
+            )
+
+    def _ends(self, load: Load) -> list[tuple[Slot, float, Vec]]:
+        """The loaded bodies: slot, sign in the residual, lever about the mass centre."""
+        ends = []
+        slot = self._moving(load.frame)
+        if slot is not None:
+            ends.append((slot, -1.0, self.g.lever(load.frame)))
+        other = self._moving(load.reaction) if load.reaction is not None else None
+        if other is not None:
+            ends.append((other, 1.0, self._reaction_lever(load)))
+        return ends
+
+    def _moving(self, frame: int) -> Slot | None:
+        return None if self.scope.is_ground(frame) else self.shape.slots[frame]
+
+    def _reaction_lever(self, load: Load) -> Vec:
+        slot = self.shape.slots[load.reaction]
+        if slot.kind == "part" and load.follows:
+            return self.g.sub(self.g.position(load.frame), self.g.body(slot.body, 0))
+        return self.g.lever(load.reaction)
+
+    def _add_load(self, slot: Slot, sign: float, force: Vec, torque: Vec, lever: Vec) -> None:
+        row = self.b.int_at(self.shape.row_at(slot.body))
+        values = list(force)
+        if slot.kind == "part":
+            values += self.g.add(torque, self.g.cross(lever, force))
+        for c, value in enumerate(values):
+            self.b.accumulate("F", row, c, self.b.mul(sign, value))
+
+    def guard_values(self, place: int) -> None:
+        """The guards of the clock (``place`` 0), or those of the watch and places within zones (1),
+        which share much of what they are made of: gaps of relations, arguments of floors.
+        """
+        guards, first = self.shape.guards, self.shape.branches_at
+        for n, guard in enumerate(guards.watch if place else guards.clock):
+            self.b.accumulate("F", self.b.int_at(first + place), n, self._guard_value(guard))
+        for n, zone in enumerate(guards.zone if place else ()):
+            self.b.accumulate("F", self.b.int_at(first + 2), n, self.value(zone))
+
+    def _guard_value(self, guard: Any) -> Value:
+        for side in guard.args:
+            self.value(side)
+        return self.lower.gap(guard) if hasattr(guard, "rel_op") else self.value(guard.args[0])
+
+    def track(self) -> None:
+        for n, wrapped in enumerate(self.scope.angles):
+            angle = self.b.add(self.value(wrapped), self._turns(n))
+            self.b.store_real(self.shape.n_params + n, angle)
+        for n, limit in enumerate(self.scope.limits):
+            at = self.shape.n_params + self.shape.n_angles + n
+            first, now = self.b.real_at(at), self.leaf(("t",))
+            left = self.b.logic(
+                "and",
+                self.b.compare("<", self.value(limit), 0.0),
+                self.b.compare("<", now, first),
+            )
+            self.b.store_real(at, self.b.select(left, now, first))

@@ -1,0 +1,267 @@
+"""From a model to native kernels: statements grouped by shape, each shape compiled once.
+
+A statement shows several *faces*: the loads it exerts, its constraint rows at position, velocity
+and acceleration level, its algebraic or differential equation, the values it writes.  All
+instances of one face with one shape form a :class:`Group`, run by one kernel in one call.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from adamslite.caching.entries import recall, recall_json
+from adamslite.caching.sources import version_of
+from adamslite.checks.rule import say
+from adamslite.gc_pause import uncollected
+from adamslite.kernels.binding import Binder, Binding, ForceLoop, Tree
+from adamslite.kernels.view import Reader, reactions, symbolic_view
+from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.language.statement import Statement
+from adamslite.model.model import Model
+from adamslite.native import compiler
+from adamslite.symbolic.scope import Scope, UndefinedRate
+
+
+@dataclass
+class Group:
+    """The instances of one shape: ``face`` names what its kernels compute."""
+
+    face: str
+    name: str
+    write: FaceWriter
+    instances: list[tuple[Statement, Binding]] = field(default_factory=list)
+    code: bytes = b""
+    meta: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass
+class Kernels:
+    """A model with its compiled groups and the values it writes.
+
+    ``outputs``: (statement, result names) in the order of the output rows.
+    """
+
+    model: Model
+    groups: list[Group]
+    outputs: list[tuple[Statement, tuple[str, ...]]]
+    addresses: dict[str, int]
+    compiled: int
+
+
+LEVELS = ("reactions", "position", "velocity", "acceleration")
+WITH_JACOBIAN = ("loads", "equation", *LEVELS)
+
+
+def compile_model(model: Model, progress: Any = None, audited: bool = False) -> Kernels:
+    """Bind every statement, compile the shapes not seen before, link all of them.
+
+    ``audited``: what elastic elements store too.
+    """
+    groups: dict[tuple, Group] = {}
+    outputs = []
+    with uncollected():
+        for statement in model.deck.statements:
+            for face in faces(statement, model):
+                _add(groups, model, statement, face)
+            if audited and hasattr(statement, "stored") and model.acts(statement):
+                _add(groups, model, statement, "stored")
+            for face in _output(statement):
+                outputs.append((statement, statement.result_names))
+                _add(groups, model, statement, face)
+    fresh = sum(_compile(group, progress) for group in groups.values())
+    addresses = compiler.addresses((group.code, _entry_points(group)) for group in groups.values())
+    return Kernels(model, list(groups.values()), outputs, addresses, fresh)
+
+
+def faces(statement: Statement, model: Model) -> Iterator[str]:
+    """What a statement contributes to the equations."""
+    if not model.acts(statement):
+        return
+    if hasattr(statement, "loads"):
+        yield "loads"
+    if (statement.keyword, statement.key) in model.held:
+        rate = statement.is_rate(model)
+        yield from ("reactions", "velocity", "acceleration") if rate else LEVELS
+    if hasattr(statement, "equation"):
+        kind = model.variable_kind(statement.key) if statement.keyword == "VARIABLE" else "loop"
+        if kind != "inline":
+            yield "equation" if kind == "loop" else "signal"
+
+
+def _output(statement: Statement) -> Iterator[str]:
+    if getattr(statement, "result_names", ()):
+        yield "output"
+
+
+def _add(groups: dict[tuple, Group], model: Model, statement: Statement, face: str) -> None:
+    binder = Binder(model, inline_signals=face == "signal")
+    try:
+        fields, own = _bound(binder, statement, face)
+    except ForceLoop as loop:
+        raise DeckError([say(statement, "force-loop", other=str(loop))], model.deck) from None
+    rate = (statement.keyword, statement.key) in model.held and statement.is_rate(model)
+    key = binder.key(face, (statement.keyword, fields, own, rate))
+    if key not in groups:
+        name = "k" + compiler.digest(repr(key), version_of("kernels.compile"), algebra())
+        level = LEVELS.index(face) - 1 if face in LEVELS else 0
+        level -= level > 0 and rate
+        write = FaceWriter(binder, statement.keyword, face, fields, own, level)
+        groups[key] = Group(face, name, write)
+    groups[key].instances.append((statement, binder.instance))
+
+
+def _bound(binder: Binder, statement: Statement, face: str) -> tuple[Tree, int]:
+    """What a face is made of, and the slot of its own unknowns."""
+    if face == "output":
+        values = tuple(binder.output(node, statement) for node in statement.outputs(binder.model))
+        return values, binder.node_slot(("OUTPUT", statement))
+    fields = binder.statement(statement)
+    if face in ("signal", "stored"):
+        return fields, binder.node_slot((face.upper(), statement.key))
+    return fields, binder.unknowns(statement)
+
+
+@dataclass
+class FaceWriter:
+    """Writes loads and rows of one face with a scope; ``level``: how often they are differentiated
+    by time.
+    """
+
+    binder: Binder
+    keyword: str
+    face: str
+    fields: Tree
+    own: int
+    level: int
+
+    @property
+    def n_bodies(self) -> int:
+        """Bodies among the nodes."""
+        return len(self.binder.instance.bodies)
+
+    def kernels(self, name: str) -> tuple[str, dict]:
+        """LLVM text of all kernels of the shape, and what an instance must provide."""
+        from adamslite.kernels.code import Shape, write_kernels
+
+        at, model = self.binder.instance, self.binder.model
+        widths = [model.body_width(b) for b in at.bodies]
+        widths += [model.node_width(n) for n in at.nodes]
+        counts = (len(at.params), 0, 0, len(at.signals), len(at.tables))
+        shape = Shape(self.binder.slots, widths, self.n_bodies, *counts, self)
+        return write_kernels(shape, name, self.face, self.face in WITH_JACOBIAN)
+
+    def __call__(self, scope: Scope) -> Any:
+        from adamslite.kernels.code import Outputs
+
+        scope.read = Reader(scope, self.n_bodies)
+        widths = self.binder.model.node_width
+        nodes = self.binder.instance.nodes
+        for keyword, fields, node in self.binder.elements:
+            width = widths(nodes[node]) if node >= 0 else 0
+            scope.elements.append(symbolic_view(keyword, fields, node, width, scope, self.n_bodies))
+        row = self.n_bodies + self.own
+        if self.face == "output":
+            return Outputs(rows=[(row, n, scope.read(t)) for n, t in enumerate(self.fields)])
+        width = widths(nodes[self.own]) if self.own >= 0 else 0
+        view = symbolic_view(self.keyword, self.fields, self.own, width, scope, self.n_bodies)
+        if self.face == "loads":
+            return Outputs(loads=view.cls.loads(view, scope))
+        if self.face == "reactions":
+            return Outputs(loads=reactions(view, scope))
+        if self.face == "stored":
+            return Outputs(rows=[(row, 0, view.cls.stored(view, scope))])
+        if self.face == "equation":
+            return Outputs(rows=[(row, 0, view.cls.equation(view, scope))])
+        if self.face == "signal":
+            return Outputs(
+                rows=[(row, n, e) for n, e in enumerate(_rates(scope, view.function, 2))]
+            )
+        rows = [_rates(scope, e, self.level)[-1] for e in view.cls.constraints(view, scope)]
+        numbered = [(row, n, e) for n, e in enumerate(rows)]
+        return Outputs(rows=numbered, rates_only=self.face == "acceleration")
+
+
+def _rates(scope: Scope, expr: Any, order: int) -> list[Any]:
+    """An expression and its total time derivatives up to ``order``."""
+    found = [expr]
+    for _ in range(order):
+        found.append(scope.derivative(found[-1]))
+    return found
+
+
+def _compile(group: Group, progress: Any) -> bool:
+    """Fetch or make the object code; True when it was made."""
+    made: list[tuple[str, dict]] = []
+
+    def text_and_meta() -> tuple[str, dict]:
+        if not made:
+            if progress is not None and group.face == "loads":
+                progress.say(
+                    f"compiling the expressions of {group.instances[0][0].label} (kept for later)"
+                )
+            made.append(_kernels(group))
+        return made[0]
+
+    group.meta = recall_json(f"{group.name}.json", lambda: text_and_meta()[1])
+    group.code = recall(f"{group.name}.o", lambda: compiler.object_code(text_and_meta()[0]))
+    return bool(made)
+
+
+def _kernels(group: Group) -> tuple[str, dict]:
+    try:
+        return group.write.kernels(group.name)
+    except UndefinedRate as fault:
+        raise DeckError([_no_rate(group, fault)], group.write.binder.model.deck) from None
+
+
+def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnostic]:
+    """What there is to say of statements whose equations cannot be formed; nothing is compiled."""
+    groups: dict[tuple, Group] = {}
+    for statement in statements:
+        try:
+            for face in (*faces(statement, model), *_output(statement)):
+                _add(groups, model, statement, face)
+        except DeckError as fault:
+            yield from fault.diagnostics
+    for group in groups.values():
+        try:
+            group.write(Scope(group.write.binder.slots))
+        except UndefinedRate as fault:
+            yield _no_rate(group, fault)
+
+
+def _no_rate(group: Group, fault: UndefinedRate) -> Diagnostic:
+    """What the equations would need the rate of."""
+    kind, at, *_ = fault.leaf
+    what = {"a": "an acceleration", "al": "an angular acceleration"}.get(kind, "a second rate")
+    if kind in ("z", "dif1"):
+        binder = group.write.binder
+        label = binder.model.element(*binder.instance.nodes[at - group.write.n_bodies]).label
+        circular = label.startswith("VARIABLE")
+        what = f"{label}, which depends on itself" if circular else f"a reaction of {label}"
+        what = f"the rate of {label}" if kind == "dif1" else what
+    return say(group.instances[0][0], "no-rate", what=what)
+
+
+def _entry_points(group: Group) -> list[str]:
+    names = [f"{group.name}_residual"]
+    if group.face in WITH_JACOBIAN:
+        names.append(f"{group.name}_jacobian")
+    if group.meta["angles"] or group.meta["limits"]:
+        names.append(f"{group.name}_track")
+    kinds = group.meta["guards"]
+    names += [f"{group.name}_clock"] if kinds["clock"] else []
+    names += [f"{group.name}_watch"] if kinds["watch"] or kinds["zone"] else []
+    return names
+
+
+@cache
+def algebra() -> str:
+    """Version of sympy, whose transformations shape the text of a kernel; sympy is not imported."""
+    place = find_spec("sympy").submodule_search_locations[0]
+    return (Path(place) / "release.py").read_text(encoding="utf-8")

@@ -1,0 +1,225 @@
+"""Where something stands in a deck, and what is said about it.
+
+A mistake of the user is data: a :class:`Diagnostic` with a code, one sentence, a place and a hint.
+All of them are collected and raised once, as :class:`DeckError`.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+ERROR = "error"
+WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A stretch of a file; lines and columns count from 1, ``end_column`` is one past the end."""
+
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+NOWHERE = Span("", 0, 0, 0, 0)
+
+
+class Source:
+    """A text with its file name; turns character offsets into lines and columns."""
+
+    __slots__ = ("file", "text", "_starts")
+
+    def __init__(self, text: str, file: str = "<text>") -> None:
+        self.file = file
+        self.text = text
+        self._starts: list[int] | None = None
+
+    @property
+    def starts(self) -> list[int]:
+        """Offset of the first character of each line."""
+        if self._starts is None:
+            starts = [0]
+            find = self.text.find
+            while (at := find("\n", starts[-1])) >= 0:
+                starts.append(at + 1)
+            self._starts = starts
+        return self._starts
+
+    def place(self, offset: int) -> tuple[int, int]:
+        """Line and column (from 1) of a character offset."""
+        line = bisect_right(self.starts, offset)
+        return line, offset - self.starts[line - 1] + 1
+
+    def span(self, start: int, end: int) -> Span:
+        """The span of the characters ``start`` up to, not including, ``end``."""
+        return Span(self.file, *self.place(start), *self.place(max(start, end)))
+
+    def line(self, number: int) -> str:
+        """The text of line ``number`` (from 1), without its end."""
+        if not 1 <= number <= len(self.starts):
+            return ""
+        start = self.starts[number - 1]
+        end = self.text.find("\n", start)
+        return self.text[start : end if end >= 0 else len(self.text)].rstrip("\r")
+
+
+class Spans(Mapping[str, Span]):
+    """The places of a statement's arguments as written, by field name; worked out when asked."""
+
+    __slots__ = ("source", "whole_range", "ranges")
+
+    def __init__(
+        self,
+        source: Source | None = None,
+        whole_range: tuple[int, int] = (0, 0),
+        ranges: dict[str, tuple[int, int]] | None = None,
+    ) -> None:
+        self.source = source
+        self.whole_range = whole_range
+        self.ranges = ranges if ranges is not None else {}
+
+    @property
+    def whole(self) -> Span:
+        """The span of the whole statement."""
+        return self.source.span(*self.whole_range) if self.source else NOWHERE
+
+    def home(self, field: str) -> Spans:
+        """The places, all in one source, that ``field`` is among."""
+        return self
+
+    def __getitem__(self, field: str) -> Span:
+        start, end = self.ranges[field]
+        return self.source.span(start, end) if self.source else NOWHERE
+
+    def __contains__(self, field: object) -> bool:
+        return field in self.ranges
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.ranges)
+
+    def __len__(self) -> int:
+        return len(self.ranges)
+
+
+class MergedSpans(Spans):
+    """The places of a statement that a later one changed: each argument where it stands last.
+
+    Parameters
+    ----------
+    older, newer : Spans
+        The statement itself is where ``older`` has it, unless that is nowhere.
+    dropped : collection of str
+        Fields of ``older`` that no longer count.
+    """
+
+    __slots__ = ("parts",)
+
+    def __init__(self, older: Spans, newer: Spans, dropped: Collection[str]) -> None:
+        whole = older if older.source else newer
+        super().__init__(whole.source, whole.whole_range)
+        kept = {field: older.home(field) for field in older if field not in dropped}
+        self.parts = kept | {field: newer.home(field) for field in newer}
+
+    def home(self, field: str) -> Spans:
+        return self.parts.get(field, self)
+
+    def __getitem__(self, field: str) -> Span:
+        return self.parts[field][field]
+
+    def __contains__(self, field: object) -> bool:
+        return field in self.parts
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.parts)
+
+    def __len__(self) -> int:
+        return len(self.parts)
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One thing to tell about a deck.
+
+    Parameters
+    ----------
+    code : str
+        Short name of the kind of message, the key into
+        :data:`adamslite.language.messages.MESSAGES`.
+    severity : str
+        ``"error"`` or ``"warning"``.
+    message : str
+        One sentence.
+    span : Span
+        Where.
+    hint : str
+        What to do about it; may be empty.
+    source_line : str
+        The line of the deck the span begins on; may be empty.
+    """
+
+    code: str
+    severity: str
+    message: str
+    span: Span = NOWHERE
+    hint: str = ""
+    source_line: str = ""
+
+    @property
+    def is_error(self) -> bool:
+        return self.severity == ERROR
+
+    def render(self) -> str:
+        """The message with its place, the source line, carets below it and the hint."""
+        place = f"{self.span}: " if self.span.line else ""
+        lines = [f"{place}{self.severity}: {self.message} [{self.code}]"]
+        if self.source_line.strip():
+            lines += self._marked_line()
+        if self.hint:
+            lines.append(f"    = {self.hint}")
+        return "\n".join(lines)
+
+    def _marked_line(self) -> list[str]:
+        text = self.source_line.expandtabs(1)
+        start = self.span.column
+        end = self.span.end_column if self.span.end_line == self.span.line else len(text) + 1
+        number = str(self.span.line)
+        carets = "^" * max(1, min(end, len(text) + 1) - start)
+        return [f"  {number} | {text}", f"  {' ' * len(number)} | {' ' * (start - 1)}{carets}"]
+
+
+def sort_by_place(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """In the order of the deck, the same message at the same place once."""
+    unique = dict.fromkeys(diagnostics)
+    return sorted(unique, key=lambda d: (d.span.file, d.span.line, d.span.column))
+
+
+def render(diagnostics: Iterable[Diagnostic]) -> str:
+    """All messages as text, one blank line between two."""
+    return "\n\n".join(diagnostic.render() for diagnostic in diagnostics)
+
+
+class DeckError(Exception):
+    """A deck (or command file) with mistakes; carries every one of them.
+
+    ``deck`` is what could be read, so that the command file can be looked at as well.
+    """
+
+    def __init__(self, diagnostics: Iterable[Diagnostic], deck: Any = None) -> None:
+        self.diagnostics = tuple(sort_by_place(diagnostics))
+        self.deck = deck
+        super().__init__(self.diagnostics)
+
+    @property
+    def errors(self) -> tuple[Diagnostic, ...]:
+        return tuple(d for d in self.diagnostics if d.is_error)
+
+    def __str__(self) -> str:
+        return render(self.diagnostics)

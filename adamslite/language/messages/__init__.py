@@ -1,0 +1,117 @@
+"""Everything the program says about a deck: one table of sentences, hints and broken decks.
+
+The same table is behaviour (:class:`Log` looks messages up in it), test (every broken deck yields
+its code) and manual page.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
+from adamslite.language.messages.arguments import ARGUMENTS
+from adamslite.language.messages.constraints import CONSTRAINTS
+from adamslite.language.messages.entry import Message
+from adamslite.language.messages.expressions import EXPRESSIONS
+from adamslite.language.messages.model import MODEL
+from adamslite.language.messages.runs import RUNS
+from adamslite.language.messages.statements import STATEMENTS
+from adamslite.language.not_supported import INSTEAD
+
+MESSAGES: dict[str, Message] = STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CONSTRAINTS | RUNS
+
+ALIKE = {"PART": "POINT_MASS", "POINT_MASS": "PART", "VARIABLE": "DIFF", "DIFF": "VARIABLE"}
+"""Which kind of statement is easily written for which."""
+
+LEAST_GUESSED = 100
+"""Numbers of one or two digits are all alike: those that there are say more than a guess."""
+MOST_LISTED = 6
+
+START = """a deck to add broken statements to
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=1, CM=2, IP=1,1,1
+MARKER/2, PART=2
+POINT_MASS/3, MASS=1
+MARKER/3, POINT_MASS=3
+"""
+
+
+def compose(code: str, span: Span, source_line: str = "", **words: Any) -> Diagnostic:
+    """The message ``code`` with its words filled in; ``hint=`` replaces the hint of the table."""
+    message = MESSAGES[code]
+    hint = words.pop("hint", "") or message.hint.format(**words)
+    return Diagnostic(
+        code, message.severity, message.sentence.format(**words), span, hint, source_line
+    )
+
+
+def did_you_mean(word: str, candidates: Iterable[str]) -> str:
+    """A hint naming the closest candidates; empty when none is close."""
+    from difflib import SequenceMatcher, get_close_matches
+
+    word = word.upper()
+    close = get_close_matches(word, dict.fromkeys(c.upper() for c in candidates), 3, 0.6)
+    likeness = [SequenceMatcher(None, each, word).ratio() for each in close]
+    found = [each for each, ratio in zip(close, likeness, strict=True) if ratio > likeness[0] - 0.1]
+    return f"did you mean {' or '.join(found)}?" if found else ""
+
+
+@dataclass
+class _Tally:
+    first: tuple[int, int]
+    words: dict[str, Any]
+    count: int = 1
+
+
+class Log:
+    """Collects the messages about one source."""
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.diagnostics: list[Diagnostic] = []
+        self._tallies: dict[tuple[str, str], _Tally] = {}
+        self._errors = 0
+
+    @property
+    def errors(self) -> int:
+        """How many errors there were so far; those told once per kind count each time."""
+        return self._errors
+
+    def add(self, code: str, start: int, end: int, **words: Any) -> None:
+        """Say ``code`` about the characters from ``start`` to ``end``."""
+        span = self.source.span(start, end)
+        self.diagnostics.append(compose(code, span, self.source.line(span.line), **words))
+        self._errors += MESSAGES[code].severity == ERROR
+
+    def tally(self, code: str, kind: str, start: int, end: int, **words: Any) -> None:
+        """Say ``code`` once for each ``kind``, at its first place, with the number of places."""
+        self._errors += 1
+        known = self._tallies.get((code, kind))
+        if known:
+            known.count += 1
+        else:
+            hint = INSTEAD.get(kind, "")
+            self._tallies[code, kind] = _Tally((start, end), {"hint": hint} | words)
+
+    def missing(self, names: Any, kind: str, key: int | str, start: int, end: int) -> None:
+        """Say that a statement is referred to and does not exist."""
+        other = ALIKE.get(kind)
+        if other and names.find(other, key) is not None:
+            hint = f"there is a {other}/{key}"
+        elif isinstance(key, int) and key < LEAST_GUESSED:
+            known = list(map(str, names.ids.get(kind, ())))
+            hint = f"there is {kind}/{', '.join(known)}" if 0 < len(known) <= MOST_LISTED else ""
+        else:
+            hint = did_you_mean(str(key), names.known(kind))
+        self.add("missing-reference", start, end, kind=kind, key=key, hint=hint)
+
+    def finish(self) -> list[Diagnostic]:
+        """Every message, those told once per kind included."""
+        for (code, _), tally in self._tallies.items():
+            times = "" if tally.count == 1 else f" ({tally.count} times, first here)"
+            self.add(code, *tally.first, times=times, **tally.words)
+        self._tallies = {}
+        return self.diagnostics

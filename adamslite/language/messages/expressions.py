@@ -1,0 +1,73 @@
+"""Messages about function expressions."""
+
+from __future__ import annotations
+
+from adamslite.language.messages.entry import Message
+
+
+def _variables(*functions: str) -> tuple[str, ...]:
+    return tuple(f"VARIABLE/1, FUNCTION={function}" for function in functions)
+
+
+EXPRESSIONS: dict[str, Message] = {
+    "missing-operator": Message(
+        "an operator is missing between {word} and {other}",
+        "an expression ends with a backslash when another argument follows",
+        _variables("2 TIME", "(1)(2)", "1, 2", "SIN(1)COS(1)"),
+    ),
+    "missing-operand": Message(
+        "{word} lacks a value on one side",
+        "",
+        _variables("1+", "*2", "MAX(1+, 2)", "2*/3"),
+    ),
+    "empty-argument": Message(
+        "an argument between the commas is missing", "", _variables("MAX(1,,2)", "MAX(1,)")
+    ),
+    "empty-brackets": Message("these brackets are empty", "", _variables("1+()")),
+    "stray-comma": Message(
+        "{word} does not belong here",
+        "commas and colons separate the arguments of functions only",
+        _variables("(1:2)", "1:2"),
+    ),
+    "too-deep": Message(
+        "the expression is nested more than {limit} deep",
+        "put inner parts into a VARIABLE of their own",
+        _variables("SIN(" * 120 + "1" + ")" * 120),
+    ),
+    "unknown-name": Message(
+        "there is no VARIABLE named {word}",
+        "a name in an expression stands for the VARIABLE of that name",
+        _variables("EA/2", "TIM", "SIN"),
+    ),
+    "unknown-function": Message(
+        "there is no function {word}",
+        "",
+        _variables("SIM(1)", "WHATEVER(1,2)", "d(2)"),
+    ),
+    "planned-function": Message(
+        "not supported yet: function {word}{times}",
+        "the function exists in ADAMS; this program cannot run it",
+        _variables("USER(1,2,3)", "AKISPL(TIME,0,1)+AKISPL(TIME,0,2)"),
+    ),
+    "argument-count": Message(
+        "{word} takes {limits} and has {count}",
+        "it is written {usage}",
+        _variables("DX()", "DX(1,1,1,1)", "STEP(TIME,0,0,1)", "IF(1: 2, 3)"),
+    ),
+    "wrong-separator": Message(
+        "a colon and a comma are mixed up",
+        "it is written {usage}",
+        _variables("IF(1, 2, 3, 4)", "MAX(1: 2)"),
+    ),
+    "not-an-id": Message(
+        "{word} takes the id or name of a {kind} here",
+        "an id is written, as a whole number of 18 digits at most or a name, and not computed",
+        _variables("DX(1+1)", "DX(1.5)", "DX(-1)", "VARVAL(2*3)"),
+    ),
+    "not-constant": Message(
+        "{word} takes a fixed number here", "", _variables("ORIENT(TIME, 1, 1)")
+    ),
+    "function-rule": Message(
+        "{sentence}", "", _variables("STEP(TIME, 1, 0, 1, 1)", "ORIENT(99, 1, 1)")
+    ),
+}

@@ -1,0 +1,300 @@
+"""What a statement is: a frozen dataclass whose fields declare how they are written in a deck.
+
+>>> @statement("SFORCE")
+... class Sforce(Statement):
+...     i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
+...     function: Node = expression("FUNCTION", required=True, help="size of the force")
+
+Nothing else describes or validates the arguments; readers, checkers and manuals ask the class.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from dataclasses import FrozenInstanceError, dataclass, field
+from functools import cache
+from typing import Any, ClassVar
+
+from adamslite.language.diagnostics import Span, Spans
+
+STATEMENTS: dict[str, type[Statement]] = {}
+NO_SPANS = Spans()
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """How one field of a statement is written in a deck.
+
+    Parameters
+    ----------
+    kind : str
+        ``number vector integer flag choice reference references ids expression text texts words``.
+    keys : tuple of str
+        The keyword and its aliases, in capitals.
+    help, unit : str
+        Meaning and physical unit, for the manual.
+    default : Any
+        Value of the field when the argument is omitted.
+    required : bool
+        Whether omitting it is a mistake.
+    sizes : tuple of int
+        Least and greatest number of values of a vector.
+    to : str
+        Keyword of the statement a reference names.
+    options : tuple of str
+        Words a choice may take.
+    discontinued : tuple of pairs
+        Options that ADAMS has given up, and what to write instead of each.
+    supported : tuple of str
+        Those options the program can run; empty means all.
+    bare : bool
+        A choice whose options are written as flags, without ``KEY=``.
+    start : bool
+        A value that counts only where a model starts from.
+    name : str
+        Name of the field.
+    """
+
+    kind: str
+    keys: tuple[str, ...]
+    help: str
+    unit: str = ""
+    default: Any = None
+    required: bool = False
+    sizes: tuple[int, int] = (1, 1)
+    to: str = ""
+    options: tuple[str, ...] = ()
+    supported: tuple[str, ...] = ()
+    discontinued: tuple[tuple[str, str], ...] = ()
+    bare: bool = False
+    start: bool = False
+    name: str = ""
+
+    @property
+    def key(self) -> str:
+        """The keyword to show to people."""
+        return self.keys[0] if self.keys else " | ".join(self.options)
+
+
+def _declare(kind: str, keys: tuple[str, ...], **facts: Any) -> Any:
+    argument = Argument(kind=kind, keys=keys, **facts)
+    return field(default=argument.default, metadata={"argument": argument})
+
+
+def number(*keys: str, help: str, unit: str, **facts: Any) -> Any:
+    """One real number (a constant expression is worked out)."""
+    return _declare("number", keys, help=help, unit=unit, **facts)
+
+
+def vector(*keys: str, size: int, help: str, unit: str, most: int = 0, **facts: Any) -> Any:
+    """``size`` real numbers, or from ``size`` to ``most``."""
+    sizes = (size, most or size)
+    return _declare("vector", keys, help=help, unit=unit, sizes=sizes, **facts)
+
+
+def integer(*keys: str, help: str, unit: str = "", **facts: Any) -> Any:
+    """One whole number."""
+    return _declare("integer", keys, help=help, unit=unit, **facts)
+
+
+def flag(*keys: str, help: str) -> Any:
+    """A word without a value."""
+    return _declare("flag", keys, help=help, default=False)
+
+
+def choice(*keys: str, options: tuple[str, ...], help: str, **facts: Any) -> Any:
+    """One word of several: ``KEY=WORD``, or just ``WORD`` when no key is given."""
+    return _declare("choice", keys, help=help, options=options, bare=not keys, **facts)
+
+
+def reference(*keys: str, to: str, help: str, **facts: Any) -> Any:
+    """The id or name of another statement; a marker may also be written ``KEY_MARKER=``."""
+    if to == "MARKER":
+        keys += tuple(f"{key}_MARKER" for key in keys if not key.endswith("MARKER"))
+    return _declare("reference", keys, help=help, to=to, **facts)
+
+
+def references(*keys: str, to: str, help: str, **facts: Any) -> Any:
+    """Ids or names of several statements."""
+    return _declare("references", keys, help=help, to=to, default=(), **facts)
+
+
+def ids(*keys: str, help: str, **facts: Any) -> Any:
+    """Ids or names of several statements, of a kind that another argument tells."""
+    return _declare("ids", keys, help=help, default=(), **facts)
+
+
+def expression(*keys: str, help: str, unit: str = "", **facts: Any) -> Any:
+    """A function expression; the last argument, or closed by a backslash."""
+    return _declare("expression", keys, help=help, unit=unit, **facts)
+
+
+def text(*keys: str, help: str, **facts: Any) -> Any:
+    """Free text up to the next comma."""
+    return _declare("text", keys, help=help, **facts)
+
+
+def texts(*keys: str, help: str, **facts: Any) -> Any:
+    """Several texts, separated by commas."""
+    return _declare("texts", keys, help=help, default=(), **facts)
+
+
+def words(*keys: str, options: tuple[str, ...], help: str, **facts: Any) -> Any:
+    """Words separated by colons, as in ``X:Y:PSI``."""
+    return _declare("words", keys, help=help, options=options, default=(), **facts)
+
+
+@dataclass(init=False, repr=False, eq=False)
+class Statement:
+    """A statement of the deck as data; frozen, all fields by keyword.
+
+    Parameters
+    ----------
+    id : int or str
+        A number (leading zeros dropped) or the name as written; 0 for statements without id.
+    name : str or None
+        The name from the ``! adams_view_name='...'`` comment before the statement.
+    spans : Spans
+        Places of the arguments that were given, by field name.
+    """
+
+    keyword: ClassVar[str] = ""
+    arguments: ClassVar[Mapping[str, Argument]] = {}
+    singleton: ClassVar[bool] = False
+    repeatable: ClassVar[bool] = False
+    place: ClassVar[str] = "deck"
+    ends: ClassVar[bool] = False
+    ignored: ClassVar[bool] = False
+    planned: ClassVar[tuple[str, ...]] = ()
+    body: ClassVar[bool] = False
+    redefinable: ClassVar[bool] = False
+    data: ClassVar[bool] = False
+    alternatives: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
+    """Groups of fields that exclude each other: giving one in a command drops the other groups."""
+
+    id: int | str = 0
+    name: str | None = None
+    spans: Spans = field(default_factory=Spans)
+
+    @property
+    def span(self) -> Span:
+        """The place of the whole statement."""
+        return self.spans.whole
+
+    @property
+    def label(self) -> str:
+        """What results and messages call it: ``SFORCE/5``, ``VARIABLE/Dm``."""
+        return self.keyword if self.singleton else f"{self.keyword}/{self.id}"
+
+    @property
+    def key(self) -> int | str:
+        """The id as references to this statement hold it: a number or a name in capitals."""
+        return self.id.upper() if isinstance(self.id, str) else self.id
+
+    def __init__(self, **values: Any) -> None:
+        # One initialiser for all classes, and the dictionary directly: generated ones cost more
+        # than reading the deck.  Defaults stay with the class.
+        known = _fields(type(self))
+        if not values.keys() <= known:
+            unknown = ", ".join(sorted(values.keys() - known))
+            raise TypeError(f"{type(self).__name__} has no field {unknown}")
+        self.__dict__.update(values)
+        self.__dict__.setdefault("spans", NO_SPANS)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise FrozenInstanceError(f"cannot assign to field {name!r}")
+
+    def __repr__(self) -> str:
+        given = ", ".join(f"{name}={getattr(self, name)!r}" for name in self.spans)
+        return f"<{self.label} {given}>"
+
+    @classmethod
+    def completed(
+        cls, values: dict[str, Any], body: tuple[str, int | str] | None
+    ) -> dict[str, Any]:
+        """Values that follow from keyword and id of the nearest body before the statement."""
+        return {}
+
+    def companions(self, deck: Any) -> tuple[Statement, ...]:
+        """Statements this one brings with it; ``deck`` finds those it refers to."""
+        return ()
+
+    def derived(self, model: Any) -> dict[str, Any]:
+        """Further values its physics need, from the model as drawn.
+
+        Numbers and expressions become symbols; words decide the form; tuples may hold either.  An
+        :class:`~adamslite.symbolic.interpolant.Interpolant` becomes a number that stands for the
+        table.
+        """
+        return {}
+
+    def constants(self) -> dict[str, float]:
+        """Numbers this statement gives a name that expressions may use, names in capitals."""
+        return {}
+
+    def given(self, field_name: str) -> bool:
+        """Whether the deck has this argument."""
+        return field_name in self.spans
+
+
+@cache
+def _fields(cls: type[Statement]) -> frozenset[str]:
+    return frozenset(each.name for each in dataclasses.fields(cls))
+
+
+def statement(
+    keyword: str,
+    *,
+    singleton: bool = False,
+    repeatable: bool = False,
+    place: str = "deck",
+    ends: bool = False,
+    ignored: bool = False,
+    planned: tuple[str, ...] = (),
+    body: bool = False,
+    redefinable: bool = False,
+    data: bool = False,
+) -> Callable[[type[Statement]], type[Statement]]:
+    """Register a class as the statement ``keyword``.
+
+    Parameters
+    ----------
+    keyword : str
+        In capitals.
+    singleton : bool
+        Written without id (``UNITS/...``), so the first item is an argument already.
+    repeatable : bool
+        A singleton that may stand more than once.
+    place : str
+        Where it may stand: ``"deck"``, ``"command"`` or ``"both"``.
+    ends : bool
+        Reading stops after it.
+    ignored : bool
+        Its arguments are not read.
+    planned : tuple of str
+        Keywords that are part of the language and cannot be run yet.
+    body : bool
+        Markers without an owner behind it belong to it.
+    redefinable : bool
+        A singleton of the deck that a command may change; statements with an id always are.
+    data : bool
+        Its arguments are seen by no kernel, only what it derives from them: tables.
+    """
+
+    def register(cls: type[Statement]) -> type[Statement]:
+        made = dataclass(init=False, repr=False, eq=False)(cls)
+        made.keyword = keyword
+        made.arguments = {
+            f.name: dataclasses.replace(f.metadata["argument"], name=f.name)
+            for f in dataclasses.fields(made)
+            if "argument" in f.metadata
+        }
+        made.singleton, made.repeatable, made.place = singleton, repeatable, place
+        made.ends, made.ignored, made.planned, made.body = ends, ignored, planned, body
+        made.data = data
+        made.redefinable = redefinable or (place == "deck" and not singleton and not ignored)
+        STATEMENTS[keyword] = made
+        return made
+
+    return register

@@ -1,0 +1,1 @@
+"""The model: bodies, markers, and what expressions may take as known."""

@@ -1,0 +1,371 @@
+"""The model: bodies, markers and what expressions may take as known.
+
+Frames.  A body's coordinates are the position x of its mass centre and, for a part, the attitude
+R of its body frame, both in ground.  A marker on a part is fixed at p from the mass centre, in
+body axes.  Masses and inertias are divided by UCF, so that forces keep the deck's unit:
+force * UCF = mass * acceleration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from adamslite import elements  # noqa: F401  registers the statements
+from adamslite.functions.forces import NET
+from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time, expressions, walk
+from adamslite.language.statement import Statement
+from adamslite.model.net_force import written_out
+
+POINT, PART = 3, 6
+IDENTITY = np.eye(3)
+IDENTITY.flags.writeable = False
+
+
+def rotation_313(angles: tuple[float, float, float]) -> np.ndarray:
+    """R = Rz(a) Rx(b) Rz(c), (3, 3): columns are the turned axes."""
+    a, b, c = angles
+    if a == b == c == 0.0:
+        return IDENTITY
+    return _about_z(a) @ _about_x(b) @ _about_z(c)
+
+
+def _about_z(angle: float) -> np.ndarray:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _about_x(angle: float) -> np.ndarray:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def axes_from_points(
+    origin: np.ndarray, z_point: Any, x_point: Any, x_exact: bool
+) -> np.ndarray | None:
+    """Axes through points: +z through one, +xz half-plane through the other (or x exact)."""
+    if z_point is None and x_point is None:
+        return None
+    along_z = None if z_point is None else np.asarray(z_point) - origin
+    along_x = None if x_point is None else np.asarray(x_point) - origin
+    if x_exact:
+        x = along_x / np.linalg.norm(along_x)
+        y = np.cross(along_z if along_z is not None else _aside(x), x)
+        y /= np.linalg.norm(y)
+        return np.column_stack([x, y, np.cross(x, y)])
+    if along_z is None:
+        along_z = _aside(along_x)
+        along_z -= along_x * (along_z @ along_x) / (along_x @ along_x)
+    z = along_z / np.linalg.norm(along_z)
+    y = np.cross(z, along_x if along_x is not None else _aside(z))
+    y /= np.linalg.norm(y)
+    return np.column_stack([np.cross(y, z), y, z])
+
+
+def _aside(v: np.ndarray) -> np.ndarray:
+    """The coordinate axis furthest from ``v``."""
+    return IDENTITY[int(np.argmin(np.abs(v)))].copy()
+
+
+def frame_axes(statement: Statement, origin: np.ndarray) -> np.ndarray:
+    """Axes of a body or marker statement from REULER or its points."""
+    z = getattr(statement, "zg", getattr(statement, "zp", None))
+    x = getattr(statement, "xg", getattr(statement, "xp", None))
+    axes = axes_from_points(origin, z, x, getattr(statement, "usexp", False))
+    return axes if axes is not None else rotation_313(statement.reuler)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a marker sits: ``p`` from the mass centre or ground origin, ``axes`` in body axes.
+
+    ``offset``, ``turned``: whether these differ from zero and from the axes of the body.
+    """
+
+    kind: str
+    body: int
+    p: np.ndarray
+    axes: np.ndarray
+    offset: bool = field(init=False)
+    turned: bool = field(init=False)
+
+    def __post_init__(self) -> None:
+        turned = self.axes is not IDENTITY and not np.array_equal(self.axes, IDENTITY)
+        object.__setattr__(self, "offset", bool(self.p.any()))
+        object.__setattr__(self, "turned", turned)
+
+
+@dataclass(frozen=True)
+class Body:
+    """A moving body: ``width`` 3 or 6 unknowns, start in ground, inertia in body axes over UCF."""
+
+    statement: Statement
+    width: int
+    mass: float
+    inertia: np.ndarray
+    x: np.ndarray
+    attitude: np.ndarray
+    v: np.ndarray
+    w: np.ndarray
+
+
+class Model:
+    """A deck ready to be compiled.
+
+    Attributes
+    ----------
+    bodies : list of Body
+        Parts and point masses that can move, in deck order.
+    constraints : list of Statement
+        Statements with constraint rows, holonomic ones first.
+    without : frozenset of str
+        Rules of :mod:`adamslite.model.reduction` that are not applied.
+    """
+
+    def __init__(self, deck: Any, without: frozenset[str] = frozenset()) -> None:
+        self.deck = deck
+        self.without = without
+        self.places: dict[Any, Place | None] = {}
+        self.folded: dict[Any, float | None] = {}
+        self.known: dict[Any, Any] = {}
+        self.body_index: dict[tuple[str, Any], int] = {}
+        self.bodies: list[Body] = []
+        for statement in deck.statements:
+            if statement.keyword in ("PART", "POINT_MASS") and not getattr(
+                statement, "ground", False
+            ):
+                self.body_index[statement.keyword, statement.key] = len(self.bodies)
+                self.bodies.append(self._body(statement))
+        found = [s for s in deck.statements if hasattr(s, "constraints") and deck.is_active(s)]
+        self.constraints = sorted(found, key=lambda s: s.is_rate(self))
+        self.held = {(s.keyword, s.key) for s in self.constraints}
+
+    def once(self, what: Any, worked_out: Callable[[], Any]) -> Any:
+        """What is worked out for this model when it is first asked for."""
+        if what not in self.known:
+            self.known[what] = worked_out()
+        return self.known[what]
+
+    # bodies and markers
+
+    def _body(self, statement: Statement) -> Body:
+        origin = np.asarray(statement.qg, dtype=float)
+        attitude = frame_axes(statement, origin)
+        cm = self._marker_in_body(statement.cm)
+        x = origin + attitude @ cm[0]
+        mass = (statement.mass or 0.0) / self.deck.ucf
+        v = np.array([statement.vx, statement.vy, statement.vz], dtype=float)
+        if statement.keyword == "POINT_MASS":
+            if "points" in self.without:
+                ball = mass * IDENTITY  # nothing turns it, whatever its inertia
+                return Body(statement, PART, mass, ball, x, attitude, v, np.zeros(3))
+            return Body(statement, POINT, mass, np.zeros((3, 3)), x, attitude, v, np.zeros(3))
+        w = attitude @ cm[1] @ np.array([statement.wx, statement.wy, statement.wz], dtype=float)
+        return Body(statement, PART, mass, self._inertia(statement, cm[0], mass), x, attitude, v, w)
+
+    def _marker_in_body(self, marker_id: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Origin and axes of a marker in its body frame."""
+        if marker_id is None:
+            return np.zeros(3), IDENTITY
+        marker = self.deck.find("MARKER", marker_id)
+        origin = np.asarray(marker.qp, dtype=float)
+        return origin, frame_axes(marker, origin)
+
+    def _inertia(self, part: Statement, cm: np.ndarray, mass: float) -> np.ndarray:
+        """Inertia about the mass centre in body axes (parallel axes from IM)."""
+        xx, yy, zz, xy, xz, yz = (*(part.ip or ()), *[0.0] * 6)[:6]
+        given = np.array([[xx, -xy, -xz], [-xy, yy, -yz], [-xz, -yz, zz]]) / self.deck.ucf
+        origin, axes = self._marker_in_body(part.im if part.im is not None else part.cm)
+        d = cm - origin
+        return axes @ given @ axes.T - mass * (d @ d * IDENTITY - np.outer(d, d))
+
+    def marker(self, marker_id: Any) -> Place | None:
+        """Where a marker sits; ``("PART", id)`` is a part's mass centre, None for the ground."""
+        if marker_id not in self.places:
+            self.places[marker_id] = self._place(marker_id)
+        return self.places[marker_id]
+
+    def _place(self, marker_id: Any) -> Place | None:
+        if isinstance(marker_id, tuple):
+            at = self.body_index.get(marker_id)
+            return None if at is None else Place("part", at, np.zeros(3), IDENTITY)
+        marker = self.deck.find("MARKER", marker_id)
+        owner = marker.owner
+        body = self.body_index.get(owner)
+        origin, axes = self._marker_in_body(marker_id)
+        if body is None:
+            part = self.deck.find(*owner)
+            shift, base = np.asarray(part.qg, dtype=float), frame_axes(part, np.asarray(part.qg))
+            return Place("ground", -1, shift + _turned(base, origin), _clean(_turned(base, axes)))
+        cm = self._marker_in_body(self.bodies[body].statement.cm)[0]
+        if self.bodies[body].width == POINT:
+            base = self.bodies[body].attitude
+            return Place("point", body, _turned(base, origin - cm), _clean(_turned(base, axes)))
+        return Place("part", body, origin - cm, _clean(axes))
+
+    def body_width(self, body: int) -> int:
+        return self.bodies[body].width
+
+    # variables and elements
+
+    def acts(self, statement: Statement) -> bool:
+        """Whether an element is switched on."""
+        return self.deck.is_active(statement)
+
+    def element(self, keyword: str, element_id: Any) -> Statement:
+        return self.deck.find(keyword, element_id)
+
+    def variable(self, variable_id: Any) -> Statement:
+        return self.deck.find("VARIABLE", variable_id)
+
+    def has_unknowns(self, node: tuple[str, Any]) -> bool:
+        """Whether a statement brings unknowns of its own."""
+        if node[0] == "VARIABLE":
+            return self.variable_kind(node[1]) == "loop"
+        return node[0] == "DIFF" or node in self.held
+
+    def node_width(self, node: tuple[str, Any]) -> int:
+        """Unknowns of a scalar node: (keyword, id)."""
+        if node in self.held:
+            return self.element(*node).n_rows
+        return 1
+
+    def constant(self, node: Node) -> float | None:
+        """Value of an expression without anything that changes; None when something does."""
+        if type(node) is Num:
+            return node.value
+        if type(node) is Op:
+            values = [self.constant(each) for each in node.args]
+            return None if None in values else folded(node.op, values)
+        if type(node) is Call and node.name == "VARVAL":
+            return self.constant_variable(node.args[0].id)
+        return None
+
+    def constant_variable(self, variable_id: Any) -> float | None:
+        """Value of a VARIABLE that never changes."""
+        if variable_id not in self.folded:
+            self.folded[variable_id] = None
+            if variable_id in self._plant or "variables" in self.without:
+                return None
+            self.folded[variable_id] = self.constant(self.variable(variable_id).function)
+        return self.folded[variable_id]
+
+    def variable_kind(self, variable_id: Any) -> str:
+        """``signal`` (depends on time only), ``loop`` (solved for) or ``inline``.
+
+        Solved for are those that depend on themselves, and inputs and outputs of the plant.
+        """
+        return self._kinds[variable_id]
+
+    @cached_property
+    def _plant(self) -> set[Any]:
+        """VARIABLEs of every PINPUT and POUTPUT."""
+        ports = [*self.deck.of("PINPUT"), *self.deck.of("POUTPUT")]
+        return {key for port in ports for key in port.variables}
+
+    @cached_property
+    def circular(self) -> set[Any]:
+        """VARIABLEs that depend on themselves."""
+        return _in_loops({v.key: set(self._uses(v.function)) for v in self.deck.of("VARIABLE")})
+
+    @cached_property
+    def _kinds(self) -> dict[Any, str]:
+        loops = self._plant | self.circular
+        if "variables" in self.without:
+            loops |= {v.key for v in self.deck.of("VARIABLE")}
+        return {
+            v.key: "loop"
+            if v.key in loops
+            else ("signal" if self._time_only(v.function, loops) else "inline")
+            for v in self.deck.of("VARIABLE")
+        }
+
+    def _uses(self, node: Node) -> Iterator[Any]:
+        """Variables an expression depends on, through the elements it measures too."""
+        seen: set[Node] = set()
+        pending = [node]
+        while pending:
+            for each in walk(pending.pop()):
+                if isinstance(each, Call) and each.name in NET and each not in seen:
+                    seen.add(each)
+                    pending.append(written_out(each, self))
+                if not isinstance(each, Ref) or each in seen:
+                    continue
+                seen.add(each)
+                if each.kind == "VARIABLE":
+                    yield each.id
+                elif each.kind not in ("MARKER", "DIFF"):
+                    pending += expressions(self.element(each.kind, each.id))
+
+    def _time_only(self, node: Node, loops: set[Any]) -> bool:
+        for each in walk(node):
+            if isinstance(each, Mode):
+                return False
+            if isinstance(each, Ref):
+                if each.kind != "VARIABLE" or each.id in loops:
+                    return False
+                if not self._time_only(self.variable(each.id).function, loops):
+                    return False
+        return any(isinstance(each, Time | Ref) for each in walk(node))
+
+    @property
+    def dof(self) -> int:
+        """Unknowns of the bodies less constraint rows."""
+        return sum(b.width for b in self.bodies) - sum(c.n_rows for c in self.constraints)
+
+
+def _turned(base: np.ndarray, array: np.ndarray) -> np.ndarray:
+    """``base @ array``; nothing to do for axes like those of ground, the usual ones."""
+    return array if base is IDENTITY else base @ array
+
+
+def _clean(axes: np.ndarray) -> np.ndarray:
+    """Axes with round-off of right angles removed, so that aligned markers share a shape."""
+    if axes is IDENTITY:
+        return axes
+    rounded = np.round(axes)
+    return rounded if np.abs(axes - rounded).max() < 1e-15 else axes
+
+
+def folded(op: str, values: list[float]) -> float:
+    """The value of an operation on numbers; not a number where it has none."""
+    a, b = values[0], values[-1]
+    try:
+        match op:
+            case "neg":
+                return -a
+            case "+":
+                return a + b
+            case "-":
+                return a - b
+            case "*":
+                return a * b
+            case "/":
+                return a / b
+        power = a**b
+    except (ZeroDivisionError, OverflowError):
+        return float("nan")
+    return float("nan") if isinstance(power, complex) else power
+
+
+def _in_loops(uses: dict[Any, set[Any]]) -> set[Any]:
+    """Members of dependency cycles."""
+    reach = {key: set(direct) for key, direct in uses.items()}
+    changed = True
+    while changed:
+        changed = False
+        for direct in reach.values():
+            more = set().union(*(reach.get(k, set()) for k in direct)) - direct
+            if more:
+                direct |= more
+                changed = True
+    return {key for key, all_used in reach.items() if key in all_used}
+
+
+def assemble(deck: Any, without: frozenset[str] = frozenset()) -> Model:
+    """Bodies, markers and constraints of a deck without errors, reduced but for some rules."""
+    return Model(deck, without)

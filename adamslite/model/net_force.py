@@ -1,0 +1,63 @@
+"""What all elements together do at a marker: the functions FM, FX ... TZ written out.
+
+    FX(i, j, k) = sum of  NAME(id, 0 or 1, 2, k)  over the elements NAME/id between i and j
+
+Without j every force and constraint that acts at i counts.  An element counts when its own I or J
+marker (its JFLOAT, the markers of the joint a MOTION drives) *is* marker i.
+Source: Adams/Solver C++ functions FX, TX; the value is the force on marker i, along the axes of k.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.functions.forces import MEASURES, NET
+from adamslite.language.expression import GROUND_FRAME, Call, Node, Num, Op, Ref, measure
+
+Key = int | str
+
+
+def written_out(call: Call, model: Any) -> Node:
+    """One of the functions of the net force as a sum of the elements' own."""
+    i, j, k = (*(ref.id for ref in call.args), 0)[:3]
+    component = NET[call.name]
+    if component in (1, 5):
+        parts = [_sum_of(model, i, j, component + n, 0) for n in (1, 2, 3)]
+        return Call("SQRT", (total([Op("*", (c, c)) for c in parts]),))
+    return _sum_of(model, i, j, component, k)
+
+
+def _sum_of(model: Any, i: Key, j: Key, component: int, k: Key) -> Node:
+    axes = Ref("MARKER", k) if k else GROUND_FRAME
+    return total(
+        [
+            measure(MEASURES[s.keyword], Ref(s.keyword, s.key), component, axes, jflag)
+            for s in model.deck.statements
+            if s.keyword in MEASURES
+            for jflag in _flags(model, s, i, j)
+        ]
+    )
+
+
+def ends(deck: Any, element: Any) -> tuple[Key | None, Key | None]:
+    """The I and J markers of an element, or of the joint it drives."""
+    joint = getattr(element, "joint", None)
+    if joint is not None:
+        element = deck.find("JOINT", joint)
+    i, j = getattr(element, "i", None), getattr(element, "jfloat", None)
+    return i, j if j is not None else getattr(element, "j", None)
+
+
+def _flags(model: Any, element: Any, i: Key, j: Key) -> list[int]:
+    if hasattr(element, "flags"):
+        return element.flags(model, i, j)
+    found = ends(model.deck, element)
+    return [n for n in (0, 1) if found[n] == i and (j == 0 or found[1 - n] == j)]
+
+
+def total(terms: list[Node]) -> Node:
+    """The sum of terms, 0 of none."""
+    result = terms[0] if terms else Num(0.0)
+    for term in terms[1:]:
+        result = Op("+", (result, term))
+    return result

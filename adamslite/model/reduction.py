@@ -1,0 +1,33 @@
+"""What is left out of a model because the scene does not need it, each by a rule with a name.
+
+    plane      what moves in a plane is solved in the plane (analyses/plane.py)
+    points     a point mass has three unknowns and no attitude
+    variables  a VARIABLE is worked out where it is used; solved for is only what depends on itself,
+               and inputs and outputs of a plant
+
+Results are the same with and without, to the accuracy of the integration. Not by rules, because
+nothing is gained by doing without: ground and its markers are constants, redundant constraint rows
+are no part of the matrix, requests are worked out at output times.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from adamslite.errors import UsageError
+
+RULES = ("plane", "points", "variables")
+
+
+def left_off(names: Iterable[str]) -> frozenset[str]:
+    """The rules not to apply.
+
+    Raises
+    ------
+    UsageError
+        When there is no such rule.
+    """
+    found = frozenset(names)
+    for name in found.difference(RULES):
+        raise UsageError(f"There is no reduction {name}. There are {', '.join(RULES)}.")
+    return found

@@ -1,0 +1,93 @@
+"""Native code: LLVM text in, object code and callable addresses out.
+
+LLVM compiles; what has been compiled is linked by :mod:`adamslite.native.elf_linker` where that can
+be, so that its library, 40 MB of memory, is loaded for new code only.
+
+Object code is kept (:mod:`adamslite.caching`) under a hash of what it is made from, the compiler
+version and the processor (:mod:`adamslite.native.processor`), so a deck seen before, or one whose
+expressions have the same shape, compiles nothing.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+from collections.abc import Iterable
+from typing import Any
+
+from adamslite.native import processor
+
+
+def digest(*parts: str) -> str:
+    """Content hash of texts, compiler and processor."""
+    text = "\0".join((*parts, processor.identity()))
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+# LLVM takes functions in up to this size. Its own 250 makes the integrators a third longer to
+# compile, and no faster.
+INLINED = 100
+
+
+def object_code(text: str, speed: int = 3) -> bytes:
+    """Compile LLVM assembly to object code at full optimisation."""
+    import llvmlite.binding as llvm
+
+    machine = processor.target_machine()
+    module = llvm.parse_assembly(text)
+    module.triple = machine.triple
+    module.data_layout = str(machine.target_data)
+    tuning = llvm.create_pipeline_tuning_options(speed_level=speed)
+    tuning.loop_vectorization = tuning.slp_vectorization = speed > 2
+    tuning.inlining_threshold = INLINED
+    passes = llvm.create_pass_builder(machine, tuning)
+    passes.getModulePassManager().run(module, passes)
+    return machine.emit_object(module)
+
+
+def addresses(parts: Iterable[tuple[bytes, list[str]]]) -> dict[str, int]:
+    """Addresses of the names in each object code; one linked earlier is not linked again."""
+    found = {}
+    for code, names in parts:
+        if names[0] not in _linked:
+            _linked.update(_link(code, names))
+        found.update((name, _linked[name]) for name in names)
+    return found
+
+
+_linked: dict[str, int] = {}
+
+
+def _link(code: bytes, names: list[str]) -> dict[str, int]:
+    from adamslite.native import (
+        elf_linker,  # which imports numpy, and the syntax is cached here, too
+    )
+
+    try:
+        places = elf_linker.link(code)
+    except elf_linker.Foreign:
+        return _link_by_llvm(code, names)
+    return {name: places[name] for name in names}
+
+
+def _link_by_llvm(code: bytes, names: list[str]) -> dict[str, int]:
+    """Addresses from LLVM's linker, which knows every system and machine."""
+    import llvmlite.binding as llvm
+
+    engine = _llvm_linker()
+    # It reads code and object later without owning them.
+    _kept.append((code, llvm.ObjectFileRef.from_data(code)))
+    engine.add_object_file(_kept[-1][1])
+    engine.finalize_object()
+    return {name: engine.get_function_address(name) for name in names}
+
+
+@functools.cache
+def _llvm_linker() -> Any:
+    """The one linker of LLVM; code added to it lives as long as the process."""
+    import llvmlite.binding as llvm
+
+    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), processor.target_machine())
+
+
+_kept: list[tuple[bytes, Any]] = []

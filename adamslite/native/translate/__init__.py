@@ -1,0 +1,42 @@
+"""Native code from a small, typed part of Python: what the integrators are written in.
+
+A function marked :func:`native` may use ``int`` (64 bit), ``float``, ``bool``, arrays (``Ints``,
+``Reals``), records (:mod:`adamslite.native.translate.records`) and their ``Rows``, ``if``,
+``while``, ``for .. in range``, assignments, arithmetic, comparisons, ``abs min max float int sqrt
+floor``, slices ``a[k:]`` (a shifted array), calls of other native functions and ``call_address``.
+Arguments carry annotations; a local variable has the type of its first assignment. ``Alone`` is an
+array of reals that no other argument reaches while the function runs. Sums may be reordered except
+in functions marked :func:`as_written`. There is no bounds check, and division follows the
+processor.
+
+The same functions run under plain Python on numpy arrays and records, which is how tests compare
+the two.
+"""
+
+from adamslite.native.translate.language import (
+    REGISTERED,
+    Untranslatable,
+    as_written,
+    call_address,
+    native,
+)
+from adamslite.native.translate.records import Alone, Ints, Reals, Record, Rows, array
+from adamslite.native.translate.statements import definitions, translate
+from adamslite.native.translate.writer import METADATA
+
+__all__ = [
+    "METADATA",
+    "REGISTERED",
+    "Alone",
+    "Ints",
+    "Reals",
+    "Record",
+    "Rows",
+    "Untranslatable",
+    "array",
+    "as_written",
+    "call_address",
+    "definitions",
+    "native",
+    "translate",
+]

@@ -1,0 +1,72 @@
+"""The words of the native language, and the functions marked for translation."""
+
+from __future__ import annotations
+
+import ctypes
+import inspect
+import os
+from collections.abc import Callable
+from typing import Any
+
+from adamslite.native.translate.records import RowsOf, is_record, resolve
+
+REGISTERED: dict[str, Callable[..., Any]] = {}
+
+
+class Untranslatable(Exception):
+    """A native function uses something outside the language above."""
+
+
+def native(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Mark a function for translation; it stays an ordinary Python function."""
+    if function.__name__ in REGISTERED:
+        raise Untranslatable(f"two native functions are called {function.__name__}")
+    REGISTERED[function.__name__] = function
+    return function
+
+
+def as_written(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Sums and products of this native function are neither reordered nor contracted."""
+    function.as_written = True
+    return function
+
+
+def call_address(address: int, *arguments: Any) -> None:
+    """Call the kernel at an address; natively a plain call, under Python one through ctypes."""
+    given = [
+        ctypes.c_void_p(a.ctypes.data) if hasattr(a, "ctypes") else ctypes.c_int64(int(a))
+        for a in arguments
+    ]
+    ctypes.CFUNCTYPE(None, *[type(a) for a in given])(int(address))(*given)
+
+
+def signature(function: Callable[..., Any]) -> tuple[list[tuple[str, Any]], str]:
+    """Argument names with kinds, and the kind of the result (``void`` for none)."""
+    hints, kinds = function.__annotations__, []
+    for name in inspect.signature(function).parameters:
+        kind = resolve(hints[name], function.__globals__)
+        if kind is None:
+            why = f"{name}: {hints[name]} is no type of an argument"
+            raise Untranslatable(f"{position(function)}: {why}")
+        kinds.append((name, kind))
+    result = hints.get("return")
+    return kinds, "void" if result in (None, "None") else resolve(result, function.__globals__)
+
+
+def position(function: Callable[..., Any], line: int = 1) -> str:
+    """File and line of a line of a function, and its name."""
+    code = function.__code__
+    file = os.path.basename(code.co_filename)
+    return f"{file}:{code.co_firstlineno + line - 1}, {function.__qualname__}"
+
+
+def llvm_type(kind: Any) -> str:
+    """How a value of this kind is passed: arrays and records by their address."""
+    return kind if kind in ("i64", "double", "i1", "void") else "ptr"
+
+
+def name_of(kind: Any) -> str:
+    """A kind in a message."""
+    if isinstance(kind, RowsOf):
+        return f"Rows[{kind.record.__name__}]"
+    return kind.__name__ if is_record(kind) else kind

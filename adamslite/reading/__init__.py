@@ -1,0 +1,1 @@
+"""From syntax trees to typed statements: names, arguments and expressions are resolved."""

@@ -1,0 +1,220 @@
+"""The arguments of a statement: which item is which field, and its value.
+
+Bare values belong to the argument before them; an expression takes everything up to a backslash or
+the next ``KEY=``.  Keywords may be shortened to any prefix that fits one argument only.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from adamslite.language.abbreviations import Ambiguous, vocabulary
+from adamslite.language.messages import did_you_mean
+from adamslite.language.statement import STATEMENTS, Argument, Statement
+from adamslite.reading.argument_values import Reader, Refused
+from adamslite.syntax.forms import OPERATORS, Item, Lexeme, end_of, spelled
+from adamslite.syntax.syntax_errors import Syntax
+
+_LISTS = ("vector", "references", "ids", "texts")
+
+
+class Pieces:
+    """What is written for one argument: the tokens of each value."""
+
+    __slots__ = ("argument", "values", "start", "closed")
+
+    def __init__(self, argument: Argument, start: int) -> None:
+        self.argument = argument
+        self.values: list[list[Lexeme]] = []
+        self.start = start
+        self.closed = False
+
+    @property
+    def range(self) -> tuple[int, int]:
+        """Offsets of the argument, from its keyword to its last value."""
+        return self.start, end_of(self.values[-1][-1])
+
+
+class Grouping:
+    """Collects the items of one statement under its arguments."""
+
+    def __init__(self, cls: type[Statement], syntax: Syntax, reader: Reader) -> None:
+        self.cls = cls
+        self.tokens = syntax.tokens
+        self.log = reader.log
+        self.words = vocabulary(cls)
+        self.found: dict[str, Pieces] = {}
+        self.current: Pieces | None = None
+        self.skipping = False
+        self.unknown_flag = False
+        """A word was not understood: it may be the choice that is missing."""
+
+    def collect(self, items: tuple[Item, ...]) -> dict[str, Pieces]:
+        """The pieces of each argument that is given, by field name."""
+        for item in items:
+            if item.key >= 0:
+                self._key(item)
+            elif not self._flag(item):
+                self._value(item)
+            if self.current and item.closed:
+                self.current.closed = True
+        return self.found
+
+    def _key(self, item: Item) -> None:
+        token = self.tokens[item.key]
+        meaning = self.words.look_up(token[1], True)
+        self._warn_open(item.key)
+        self.current, self.skipping = None, True
+        if isinstance(meaning, str):
+            self._planned(meaning, token)
+            return
+        if not isinstance(meaning, Argument):
+            meaning = self._unknown(token, meaning, True)
+        pieces = self._open(meaning, token) if meaning else None
+        if pieces:
+            pieces.values.append(self.tokens[item.start : item.end])
+            self.current, self.skipping = pieces, False
+
+    def _open(self, argument: Argument, token: Lexeme) -> Pieces | None:
+        if argument.name in self.found:
+            self.log.add("duplicate-argument", token[2], end_of(token), word=argument.key)
+            return None
+        pieces = self.found[argument.name] = Pieces(argument, token[2])
+        return pieces
+
+    def _flag(self, item: Item) -> bool:
+        """Take the item as a flag, if it is one."""
+        token = self.tokens[item.start]
+        if item.end - item.start != 1 or token[0] != "NAME":
+            return False
+        if self._inside_expression():
+            complete = self.current.values[0][-1][0] not in OPERATORS
+            if not complete or spelled(token[1]).upper() not in self.words.bare:
+                return False
+            self._warn_open(item.start)
+        meaning = self.words.look_up(token[1], False)
+        if type(meaning) is not tuple:
+            if self._takes_more() or self.skipping:
+                return False
+            meaning = self._unknown(token, meaning, False)
+        if meaning:
+            argument, option = meaning
+            self.current, self.skipping = None, False
+            pieces = self._open(argument, token)
+            if pieces:
+                pieces.values.append([("NAME", option, token[2])])
+        return True
+
+    def _inside_expression(self) -> bool:
+        current = self.current
+        return bool(current) and current.argument.kind == "expression" and not current.closed
+
+    def _takes_more(self) -> bool:
+        current = self.current
+        if current is None:
+            return False
+        kind = current.argument.kind
+        return kind in _LISTS or (current.closed if kind == "text" else kind == "expression")
+
+    def _value(self, item: Item) -> None:
+        piece = self.tokens[item.start : item.end]
+        current = self.current
+        if self._takes_more() and not (current.closed and current.argument.kind != "text"):
+            if current.argument.kind in _LISTS:
+                current.values.append(piece)
+            else:
+                current.values[0] = current.values[0] + piece
+        elif not self.skipping:
+            text = self._text(piece)
+            self.log.add("unexpected-value", piece[0][2], end_of(piece[-1]), text=text)
+
+    def _text(self, piece: list[Lexeme]) -> str:
+        text = self.log.source.text[piece[0][2] : end_of(piece[-1])]
+        return " ".join(text.split())
+
+    def _warn_open(self, at: int) -> None:
+        if self._inside_expression():
+            token = self.tokens[at]
+            word = spelled(token[1])
+            self.log.add("expression-not-closed", token[2], end_of(token), word=word)
+
+    def _planned(self, key: str, token: Lexeme) -> None:
+        keyword = self.cls.keyword
+        self.log.tally(
+            "planned-argument", f"{keyword} {key}", token[2], end_of(token),
+            word=key, keyword=keyword,
+        )  # fmt: skip
+
+    def _unknown(self, token: Lexeme, meaning: Any, valued: bool) -> Any:
+        """A keyword that fits nothing, or too much, or a flag with a value.
+
+        Returns what it was meant to be, when there is but one guess.
+        """
+        word = spelled(token[1]).upper()
+        place = token[2], end_of(token)
+        if isinstance(meaning, Ambiguous):
+            choices = " or ".join(meaning.choices)
+            self.log.add("ambiguous-argument", *place, word=word, choices=choices)
+        elif valued and type(flag := self.words.look_up(token[1], False)) is tuple:
+            self.log.add("flag-with-value", *place, word=flag[1])
+        elif not valued and type(planned := self.words.look_up(token[1], True)) is str:
+            self._planned(planned, token)
+        elif not valued and isinstance(bare := self.words.look_up(token[1], True), Argument):
+            choices = " or ".join(bare.options) or bare.help
+            self.log.add("argument-without-value", *place, word=bare.key, value=choices)
+        else:
+            table = self.words.valued if valued else self.words.bare
+            others = self.words.bare if valued else self.words.valued
+            hint = did_you_mean(word, table) or did_you_mean(word, others)
+            self.unknown_flag = self.unknown_flag or not valued
+            if not valued:
+                homes = [c.keyword for c in STATEMENTS.values() if word in vocabulary(c).bare]
+                hint = hint or f"{word} belongs to {' or '.join(homes[:3])}" * bool(homes)
+            self.log.add(
+                "unknown-argument", *place, word=token[1], keyword=self.cls.keyword,
+                known=", ".join(self.words.known), hint=hint,
+            )  # fmt: skip
+            guess = table.get(hint.removeprefix("did you mean ").rstrip("?"))
+            return None if isinstance(guess, str) else guess
+        return None
+
+
+def read_arguments(
+    cls: type[Statement],
+    syntax: Syntax,
+    items: tuple[Item, ...],
+    reader: Reader,
+    label: str,
+    partial: bool = False,
+) -> tuple[dict[str, Any], dict[str, tuple[int, int]]]:
+    """The field values of a statement and where they are written.
+
+    Fields with a mistake are left out of the values; ``partial`` statements need no argument.
+    """
+    grouping = Grouping(cls, syntax, reader)
+    found = grouping.collect(items)
+    values: dict[str, Any] = {}
+    ranges: dict[str, tuple[int, int]] = {}
+    for name, pieces in found.items():
+        ranges[name] = pieces.range
+        try:
+            values[name] = reader.value(cls, pieces.argument, pieces.values)
+        except Refused:
+            continue
+    if syntax.whole and not partial:
+        for name, argument in _required(cls):
+            unclear = argument.bare and grouping.unknown_flag
+            if name not in found and not unclear:
+                hint = f"{argument.key}: {argument.help}"
+                if argument.bare:
+                    hint = f"one of {', '.join(argument.options)}"
+                word = argument.help if argument.bare else argument.key
+                place = syntax.range
+                reader.log.add("missing-argument", *place, label=label, word=word, hint=hint)
+    return values, ranges
+
+
+@cache
+def _required(cls: type[Statement]) -> list[tuple[str, Argument]]:
+    return [(name, argument) for name, argument in cls.arguments.items() if argument.required]

@@ -1,0 +1,383 @@
+"""From names to things: ids of statements, and expressions without open names.
+
+A resolved expression (:mod:`adamslite.language.expression`) holds numbers, ids and calls with all
+their arguments; every name in it was looked up here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from adamslite import functions  # noqa: F401  registers the functions
+from adamslite.language.expression import MODE, NEGATE, TIME, Call, Node, Num, Op, Ref
+from adamslite.language.function import FUNCTIONS, Function, Parameter
+from adamslite.language.messages import Log, did_you_mean
+from adamslite.language.not_supported import FUNCTIONS as PLANNED
+from adamslite.syntax.forms import Fault, Lexeme, Tree, end_of, expression_form, spelled
+from adamslite.syntax.syntax_errors import expression_mistake
+
+Key = int | str
+
+DEEPEST = 100
+LONGEST_CHAIN = 16
+_SYMBOLS = {"PLUS": "+", "MINUS": "-", "STAR": "*", "SLASH": "/", "POWER": "**"}
+_ARITHMETIC: dict[str, Callable[..., float]] = {
+    "+": lambda a, b: a + b,
+    "-": lambda a, b: a - b,
+    "*": lambda a, b: a * b,
+    "/": lambda a, b: a / b,
+    "**": math.pow,
+    NEGATE: lambda a: -a,
+}
+RESERVED: dict[str, Node] = {
+    "TIME": TIME,
+    "MODE": MODE,
+    "PI": Num(math.pi),
+    "DTOR": Num(math.pi / 180),
+    "RTOD": Num(180 / math.pi),
+}
+
+
+_STAND_IN = Num(0.0)
+
+
+class Unresolved(Exception):
+    """An expression could not be resolved; the reason has been logged."""
+
+
+class Names:
+    """The ids and view names of all statements, by keyword."""
+
+    def __init__(self) -> None:
+        self.ids: dict[str, dict[Key, Any]] = {}
+        self.views: dict[str, dict[str, list[Key]]] = {}
+
+    def add(self, kind: str, key: Key, view: str | None, thing: Any) -> bool:
+        """Enter a statement; False when its id is taken."""
+        ids = self.ids.setdefault(kind, {})
+        if view:
+            self.views.setdefault(kind, {}).setdefault(spelled(view).upper(), []).append(key)
+        if key in ids:
+            return False
+        ids[key] = thing
+        return True
+
+    def find(self, kind: str, word: Key) -> Key | list[Key] | None:
+        """The id that ``word`` (a number or a name in capitals) means; a list when several do."""
+        if word in self.ids.get(kind, ()):
+            return word
+        found = self.views.get(kind, {}).get(word, []) if isinstance(word, str) else []
+        return found[0] if len(found) == 1 else found or None
+
+    def known(self, kind: str) -> list[str]:
+        """Everything that may be written for a statement of this kind."""
+        return [*map(str, self.ids.get(kind, ())), *self.views.get(kind, ())]
+
+
+def to_number(text: str) -> float:
+    """The value of a number token: exponents with E or D, a bare D at the end means degrees."""
+    try:
+        return float(text)
+    except ValueError:
+        if text[-1] in "dD":
+            return math.radians(to_number(text[:-1]))
+        return float(text.upper().replace("D", "E"))
+
+
+def fold(node: Node) -> float | None:
+    """The value of an expression of numbers only; None for any other."""
+    if type(node) is Num:
+        return node.value
+    if type(node) is not Op:
+        return None
+    values = [fold(arg) for arg in node.args]
+    if None in values:
+        return None
+    try:
+        return float(_ARITHMETIC[node.op](*values))
+    except (ArithmeticError, ValueError):
+        return None
+
+
+class _Slot(NamedTuple):
+    """What an argument of a function must be: the kind of statement, or None for an expression;
+    and what stands for it where it is left out.
+    """
+
+    kind: str | None
+    constant: bool
+    default: Node | None
+
+
+class Resolver:
+    """Resolves expressions of one deck.
+
+    Parameters
+    ----------
+    names : Names
+    log : Log
+    """
+
+    def __init__(self, names: Names, log: Log) -> None:
+        self.names = names
+        self.log = log
+        self.constants: dict[str, float] = {}
+        """Numbers that statements of the deck give a name, unless a VARIABLE has it."""
+        self.tokens: list[Lexeme] = []
+        self.failed = False
+        self._slots: dict[str, list[_Slot]] = {}
+
+    # ---- entry points -------------------------------------------------------------------------
+
+    def expression(self, tokens: list[Lexeme]) -> Node:
+        """The resolved expression; raises :class:`Unresolved` after logging what is wrong."""
+        form = expression_form(tuple([token[0] for token in tokens]))
+        if isinstance(form, Fault):
+            mistake = expression_mistake(tokens)
+            self._refuse(mistake.code, tokens[mistake.first], tokens[mistake.last], **mistake.words)
+        node = self._whole(form, tokens)
+        if self.failed:
+            raise Unresolved
+        return node
+
+    def constant(self, tokens: list[Lexeme]) -> float | None:
+        """The value of an expression of numbers only; None for anything else."""
+        form = expression_form(tuple([token[0] for token in tokens]))
+        if isinstance(form, Fault):
+            return None
+        names = {spelled(t[1]).upper() for t in tokens if t[0] == "NAME"}
+        if not all(isinstance(RESERVED.get(name), Num) for name in names):
+            return None
+        return fold(self._whole(form, tokens))
+
+    # ---- nodes --------------------------------------------------------------------------------
+
+    def _whole(self, tree: Tree, tokens: list[Lexeme]) -> Node:
+        self.tokens, self.failed = tokens, False
+        return self._node(tree, 0)
+
+    def _node(self, tree: Tree, depth: int) -> Node:
+        """One node; after a mistake a stand-in, so that the rest is looked at as well."""
+        try:
+            return self._build(tree, depth)
+        except Unresolved:
+            self.failed = True
+            return _STAND_IN
+
+    def _build(self, tree: Tree, depth: int) -> Node:
+        rule, at = tree[0], tree[1]
+        if rule == "number":
+            return Num(self._number(at))
+        if depth > DEEPEST:
+            self._refuse("too-deep", self.tokens[at], limit=DEEPEST)
+        if rule == "name":
+            return self._name(at)
+        if rule == "operation":
+            return self._operation(tree, depth)
+        if rule == "negation":
+            inner = self._node(tree[2], depth + 1)
+            if type(inner) is Num and tree[2][0] == "number":
+                return Num(-inner.value)
+            return Op(NEGATE, (inner,))
+        return self._call(tree, depth)
+
+    def _number(self, at: int) -> float:
+        value = to_number(self.tokens[at][1])
+        if math.isinf(value):
+            self._refuse("number-too-large", self.tokens[at], word=self.tokens[at][1])
+        return value
+
+    def _operation(self, tree: Tree, depth: int) -> Node:
+        op = _SYMBOLS[self.tokens[tree[1]][0]]
+        left, right = tree[2], tree[3]
+        if op in "+-" and left[0] == "operation":
+            terms = self._terms(tree)
+            if len(terms) > LONGEST_CHAIN:
+                return self._sum([(op, self._node(term, depth + 1)) for op, term in terms])
+        return Op(op, (self._node(left, depth + 1), self._node(right, depth + 1)))
+
+    def _terms(self, tree: Tree) -> list[tuple[str, Tree]]:
+        """The signed terms of a sum, the first one with a plus."""
+        terms = []
+        while tree[0] == "operation" and self.tokens[tree[1]][0] in ("PLUS", "MINUS"):
+            terms.append((_SYMBOLS[self.tokens[tree[1]][0]], tree[3]))
+            tree = tree[2]
+        return [("+", tree), *reversed(terms)]
+
+    def _sum(self, terms: list[tuple[str, Node]]) -> Node:
+        """A long sum as a balanced tree, so that its depth grows with the logarithm only."""
+        if len(terms) == 1:
+            return terms[0][1]
+        half = len(terms) // 2
+        sign = terms[half][0]
+        right = [("+" if op == sign else "-", node) for op, node in terms[half:]]
+        return Op(sign, (self._sum(terms[:half]), self._sum(right)))
+
+    def _name(self, at: int) -> Node:
+        word = spelled(self.tokens[at][1]).upper()
+        if word in RESERVED:
+            return RESERVED[word]
+        found = self.names.find("VARIABLE", word)
+        if isinstance(found, list):
+            self._ambiguous("VARIABLE", at, found)
+        if found is not None:
+            return Call("VARVAL", (Ref("VARIABLE", found),))
+        if word in self.constants:
+            return Num(self.constants[word], word)
+        written = self.tokens[at][1]
+        if word in FUNCTIONS:
+            hint = f"{word} is a function: write {FUNCTIONS[word].usage}"
+        else:
+            known = [*RESERVED, *self.constants, *self.names.known("VARIABLE")]
+            hint = did_you_mean(word, known)
+        self._refuse("unknown-name", self.tokens[at], word=written, hint=hint)
+
+    # ---- calls --------------------------------------------------------------------------------
+
+    def _call(self, tree: Tree, depth: int) -> Node:
+        at, separators, branches = tree[1], tree[2], tree[3:]
+        name = spelled(self.tokens[at][1]).upper()
+        function = FUNCTIONS.get(name)
+        if function is None:
+            self._unknown_function(name, at)
+        self._count(function, at, separators, branches)
+        slots = self._signature(function)
+        if slots[0].kind == "VARIABLE" and branches[0][0] == "operation":
+            return self._derivative(function, branches[0])
+        last = len(slots) - 1
+        args = [
+            self._argument(function, slots[min(i, last)], branch, depth + 1)
+            for i, branch in enumerate(branches)
+        ]
+        if function.ruled:
+            self._rules(function, args, branches)
+        args += [slot.default for slot in slots[len(args) :] if slot.default is not None]
+        return Call(name, tuple(args))
+
+    def _signature(self, function: Function) -> list[_Slot]:
+        slots = self._slots.get(function.name)
+        if slots is None:
+            slots = [
+                _Slot(p.statement, p.kind == "constant", _default(p)) for p in function.parameters
+            ]
+            self._slots[function.name] = slots
+        return slots
+
+    def _unknown_function(self, name: str, at: int) -> None:
+        token = self.tokens[at]
+        if name in PLANNED:
+            self.log.tally("planned-function", name, token[2], end_of(token), word=name)
+            raise Unresolved
+        if self.names.find("VARIABLE", name) is not None:
+            hint = f"{token[1]} is a VARIABLE: an operator is missing before the bracket"
+        elif name in RESERVED:
+            hint = f"{name} takes no arguments: write {name}"
+        elif name == "D":
+            hint = "the time derivative of a VARIABLE is written VARVAL(d(name)/dt)"
+        else:
+            hint = did_you_mean(name, [*FUNCTIONS, *PLANNED])
+        self._refuse("unknown-function", token, word=token[1], hint=hint)
+
+    def _count(self, function: Function, at: int, separators: str, branches: tuple) -> None:
+        count, most = len(branches), function.maximum
+        if count < function.minimum or (most is not None and count > most):
+            self._refuse(
+                "argument-count", self.tokens[at],
+                word=function.name, count=count, limits=_limits(function), usage=function.usage,
+            )  # fmt: skip
+        if separators[:1] == ":" and not function.colon or ":" in separators[1:]:
+            self._refuse("wrong-separator", self.tokens[at], usage=function.usage)
+        if function.colon and separators[:1] == ",":
+            self._refuse("wrong-separator", self.tokens[at], usage=function.usage)
+
+    def _argument(self, function: Function, slot: _Slot, branch: Tree, depth: int) -> Node:
+        if slot.kind is not None:
+            try:
+                return self._reference(function, slot.kind, branch)
+            except Unresolved:
+                self.failed = True
+                return _STAND_IN
+        node = self._node(branch, depth)
+        if slot.constant and fold(node) is None:
+            token = self.tokens[branch[1]]
+            self._log("not-constant", token, token, word=function.name)
+            self.failed = True
+        return Num(fold(node) or 0.0) if slot.constant else node
+
+    def _reference(self, function: Function, kind: str, branch: Tree) -> Ref:
+        rule, first = branch[0], branch[1]
+        text = self.tokens[first][1]
+        if rule == "number" and text.isdigit() and len(text) < 19:
+            key: Key = int(text)
+            if key == 0 and kind == "MARKER":
+                return Ref(kind, 0)
+        elif rule == "name":
+            key = spelled(text).upper()
+        else:
+            self._refuse("not-an-id", self.tokens[first], word=function.name, kind=kind)
+        return Ref(kind, self._find(kind, key, first))
+
+    def _find(self, kind: str, key: Key, at: int) -> Key:
+        found = self.names.find(kind, key)
+        if isinstance(found, list):
+            self._ambiguous(kind, at, found)
+        if found is None:
+            self.log.missing(self.names, kind, key, self.tokens[at][2], end_of(self.tokens[at]))
+            raise Unresolved
+        return found
+
+    def _derivative(self, function: Function, tree: Tree) -> Node:
+        """``VARVAL(d(x)/dt)``: the VARIABLE of that very name, else the rate of VARIABLE x."""
+        _, slash, top, bottom = tree
+        text = [spelled(token[1]).upper() for token in self.tokens]
+        rate = (
+            self.tokens[slash][0] == "SLASH"
+            and (top[0], text[top[1]], bottom[0], text[bottom[1]]) == ("call", "D", "name", "DT")
+            and len(top) == 4
+            and top[3][0] in ("name", "number")
+        )
+        if not rate:
+            self._refuse("not-an-id", self.tokens[tree[1]], word=function.name, kind="VARIABLE")
+        inner = top[3][1]
+        whole = self.names.find("VARIABLE", f"D({text[inner]})/DT")
+        if whole is not None and not isinstance(whole, list):
+            return Call(function.name, (Ref("VARIABLE", whole),))
+        return Call("DDT", (self._reference(function, "VARIABLE", top[3]),))
+
+    def _rules(self, function: Function, args: list[Node], branches: tuple) -> None:
+        if self.failed:
+            return
+        for index, sentence in function.mistakes([fold(arg) for arg in args]):
+            token = self.tokens[branches[index][1]]
+            self._log("function-rule", token, token, sentence=sentence)
+            self.failed = True
+
+    # ---- messages -----------------------------------------------------------------------------
+
+    def _ambiguous(self, kind: str, at: int, found: list[Key]) -> None:
+        labels = ", ".join(f"{kind}/{key}" for key in found[:5])
+        self._refuse("ambiguous-name", self.tokens[at], word=self.tokens[at][1], labels=labels)
+
+    def _log(self, code: str, first: Lexeme, last: Lexeme, **words: Any) -> None:
+        self.log.add(code, first[2], end_of(last), **words)
+
+    def _refuse(self, code: str, first: Lexeme, last: Lexeme | None = None, **words: Any) -> None:
+        self._log(code, first, last or first, **words)
+        raise Unresolved
+
+
+def _default(parameter: Parameter) -> Node | None:
+    if parameter.default is None:
+        return None
+    if parameter.statement:
+        return Ref(parameter.statement, int(parameter.default))
+    return Num(parameter.default)
+
+
+def _limits(function: Function) -> str:
+    least, most = function.minimum, function.maximum
+    if least == most:
+        return f"{least} argument{'s' * (least != 1)}"
+    return f"{least} or more arguments" if most is None else f"{least} to {most} arguments"

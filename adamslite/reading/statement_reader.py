@@ -1,0 +1,290 @@
+"""The two passes that turn a text into statements.
+
+The first finds keyword and id of every statement, so that references may point forward; the second
+reads arguments and expressions.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any, NamedTuple
+
+import adamslite.elements  # noqa: F401  registers the statements
+from adamslite.deck.redefinition import Redefinition
+from adamslite.language.abbreviations import Ambiguous, match, vocabulary
+from adamslite.language.diagnostics import Source, Spans
+from adamslite.language.messages import Log, did_you_mean
+from adamslite.language.not_supported import COMMANDS as PLANNED_COMMANDS
+from adamslite.language.not_supported import STATEMENTS as PLANNED_STATEMENTS
+from adamslite.language.statement import STATEMENTS, Statement
+from adamslite.reading.argument_grouping import read_arguments
+from adamslite.reading.argument_values import Reader, to_id
+from adamslite.reading.resolver import Key, Names, Resolver
+from adamslite.syntax.forms import end_of, join, scan
+from adamslite.syntax.syntax_errors import Syntax, statement_syntax
+
+Body = tuple[str, Key | None]
+# A line that begins as a statement does.
+BEGINNING = re.compile(r"^[ \t]*(\w+)[ \t]*/", re.MULTILINE)
+
+
+class Entry(NamedTuple):
+    """A statement after the first pass; ``body`` is the nearest body before it."""
+
+    cls: type[Statement]
+    syntax: Syntax
+    id: Key
+    body: Body | None
+    again: bool = False
+    """Another one has its id already."""
+    changes: bool = False
+    """It is a command that changes the statement of this id."""
+
+    @property
+    def label(self) -> str:
+        return self.cls.keyword if self.cls.singleton else f"{self.cls.keyword}/{self.id}"
+
+
+def canonical(id: Key) -> Key:
+    """The id as references hold it: names in capitals."""
+    return id.upper() if isinstance(id, str) else id
+
+
+class Reading:
+    """Reads one text.
+
+    Parameters
+    ----------
+    source : Source
+    names : Names
+        Filled by the first pass; those of the deck when commands are read.
+    place : str
+        ``"deck"`` or ``"command"``.
+    deck : Deck
+        The deck commands are for.
+    """
+
+    def __init__(self, source: Source, names: Names, place: str, deck: Any = None) -> None:
+        self.log = Log(source)
+        self.names = names
+        self.place = place
+        self.deck = deck
+        self.entries: list[Entry] = []
+        self.broken: set[str] = set()
+        """Keywords of statements that could not be read, or not wholly."""
+        self._body: Body | None = None
+        self._guesses: list[tuple[str, Syntax]] = []
+        self._started: dict[str, int] = {}
+        self._meanings: dict[str, Any] = {}
+        commands = place == "command"
+        here = {k: c for k, c in STATEMENTS.items() if commands or c.place != "command"}
+        planned = PLANNED_STATEMENTS | PLANNED_COMMANDS if commands else PLANNED_STATEMENTS
+        self._table: dict[str, Any] = {name: name for name in planned} | here
+
+    def title(self, line: str) -> None:
+        """Warn of a first line that is not meant as a title."""
+        keyword, slash, _ = line.partition("/")
+        if slash and keyword.strip().upper() in STATEMENTS:
+            self.log.add("title-like-statement", 0, len(line))
+
+    def statements(self, start: int) -> tuple[Any, ...]:
+        """All statements from offset ``start`` on; those with mistakes are left out."""
+        text = self.log.source.text
+        for logical in join(scan(text, start), ampersand=self.place == "command"):
+            syntax, found = statement_syntax(logical)
+            if self._is_model_name(syntax):
+                continue
+            for mistake, tokens in found:
+                first, last = tokens[mistake.first], tokens[mistake.last]
+                self.log.add(mistake.code, first[2], end_of(last), **mistake.words)
+            cls = self._class(syntax) if syntax else None
+            if cls is not None:
+                self._enter(cls, syntax)
+                if cls.ends:
+                    self._behind_end(syntax.range[1])
+                    break
+        for keyword, syntax in self._guesses:
+            self._remember(keyword, syntax)
+        return self._second_pass()
+
+    def _behind_end(self, start: int) -> None:
+        """Warn of the first statement behind END; whatever else stands there is no concern."""
+        for found in BEGINNING.finditer(self.log.source.text, start):
+            if found[1].upper() in STATEMENTS:
+                self.log.add("after-end", *found.span(1), word=found[1])
+                return
+
+    # ---- first pass ---------------------------------------------------------------------------
+
+    def _is_model_name(self, syntax: Syntax | None) -> bool:
+        """Whether this is a bare name at the top of a command file: that of the model."""
+        return (
+            self.place == "command"
+            and not self.entries
+            and syntax is not None
+            and len(syntax.tokens) == 1
+            and match(syntax.keyword, self._table) is None
+        )
+
+    def _class(self, syntax: Syntax) -> type[Statement] | None:
+        """The class of a statement; None, with a message, when it cannot be read."""
+        token = syntax.tokens[0]
+        word = token[1]
+        if word not in self._meanings:
+            self._meanings[word] = match(syntax.keyword, self._table)
+        found = self._meanings[word]
+        place = token[2], end_of(token)
+        if isinstance(found, type):
+            if self._changes(found) and not found.redefinable:
+                self.log.tally("statement-in-commands", word, *place, word=found.keyword)
+                return None
+            return found
+        if isinstance(found, str):
+            self.log.tally("planned-statement", found, *place, word=found)
+            self._remember(found, syntax)
+        elif isinstance(found, Ambiguous):
+            choices = " or ".join(found.choices)
+            self.log.add("ambiguous-statement", *place, word=word, choices=choices)
+        elif syntax.keyword in STATEMENTS:
+            self.log.add("command-in-deck", *place, word=syntax.keyword)
+        else:
+            self._unknown(syntax, place)
+        return None
+
+    def _changes(self, cls: type[Statement]) -> bool:
+        """Whether a statement of this class changes one of the deck."""
+        return self.place == "command" and cls.place == "deck"
+
+    def _unknown(self, syntax: Syntax, place: tuple[int, int]) -> None:
+        hint = did_you_mean(syntax.keyword, self._table)
+        self.log.add("unknown-statement", *place, word=syntax.tokens[0][1], hint=hint)
+        for keyword in hint.strip("?").split():
+            if keyword in STATEMENTS:
+                self.broken.add(keyword)
+                self._guesses.append((keyword, syntax))
+                if STATEMENTS[keyword].body:
+                    self._body = (keyword, None)
+
+    def _remember(self, keyword: str, syntax: Syntax) -> None:
+        """Note the id of a statement that is not read, so that references to it are no mistakes."""
+        self.broken.add(keyword)
+        first = syntax.items[0] if syntax.items else None
+        id = to_id(syntax.tokens[first.start : first.end]) if first else None
+        if id is not None:
+            self.names.add(keyword, canonical(id), syntax.name, syntax.tokens[0][2])
+        if keyword == "FLEX_BODY":
+            self._body = (keyword, None)
+
+    def _enter(self, cls: type[Statement], syntax: Syntax) -> None:
+        if self._changes(cls):
+            self._enter_change(cls, syntax)
+            return
+        start = syntax.tokens[0][2]
+        if cls.singleton:
+            first = self._started.setdefault(cls.keyword, start)
+            again = first != start and not cls.repeatable
+            if again:
+                line, _ = self.log.source.place(first)
+                self.log.add("duplicate-statement", *syntax.range, word=cls.keyword, line=line)
+            self.entries.append(Entry(cls, syntax, 0, None, again))
+            return
+        id = self._id(cls, syntax)
+        if id is None:
+            self.broken.add(cls.keyword)
+            return
+        key = canonical(id)
+        again = not self.names.add(cls.keyword, key, syntax.name, start)
+        entry = Entry(cls, syntax, id, self._body, again)
+        if again:
+            line, _ = self.log.source.place(self.names.ids[cls.keyword][key])
+            end = end_of(syntax.tokens[syntax.items[0].end - 1])
+            self.log.add("duplicate-id", start, end, label=entry.label, line=line)
+        if cls.body:
+            self._body = (cls.keyword, key)
+        self.entries.append(entry)
+
+    def _enter_change(self, cls: type[Statement], syntax: Syntax) -> None:
+        """A command that changes the statement of its id, which must exist."""
+        id = 0 if cls.singleton else self._id(cls, syntax)
+        if id is None:
+            return
+        found = 0 if cls.singleton else self.names.find(cls.keyword, canonical(id))
+        tokens = syntax.tokens
+        if isinstance(found, list):
+            place = tokens[syntax.items[0].start][2], end_of(tokens[syntax.items[0].end - 1])
+            labels = ", ".join(f"{cls.keyword}/{key}" for key in found[:5])
+            self.log.add("ambiguous-name", *place, word=id, labels=labels)
+        elif found is not None:
+            self.entries.append(Entry(cls, syntax, found, None, changes=True))
+        elif cls.keyword not in self.deck.incomplete:
+            end = end_of(tokens[syntax.items[0].end - 1])
+            self.log.missing(self.names, cls.keyword, id, tokens[0][2], end)
+
+    def _id(self, cls: type[Statement], syntax: Syntax) -> Key | None:
+        """The id of a statement; None, with a message, when there is none."""
+        first = syntax.items[0] if syntax.items else None
+        if first is None or first.key >= 0:
+            if syntax.whole:
+                self.log.add("missing-id", *syntax.range, word=cls.keyword)
+            return None
+        tokens = syntax.tokens[first.start : first.end]
+        id = to_id(tokens)
+        if id is None or id == 0:
+            start, end = tokens[0][2], end_of(tokens[-1])
+            self.log.add("bad-id", start, end, text=self.log.source.text[start:end])
+            return None
+        return id
+
+    # ---- second pass --------------------------------------------------------------------------
+
+    def _second_pass(self) -> tuple[Any, ...]:
+        resolver = Resolver(self.names, self.log)
+        reader = Reader(self.names, resolver, self.log, self._ground)
+        givers = [cls for cls in STATEMENTS.values() if cls.constants is not Statement.constants]
+        made: dict[int, Statement | Redefinition | None] = {}
+        for number, entry in enumerate(self.entries):
+            if entry.cls in givers:
+                made[number] = self._statement(entry, reader)
+        for giver in givers:
+            given = [each for each in made.values() if type(each) is giver]
+            usual = self.deck.single(giver.keyword) if self.deck else giver()
+            resolver.constants |= (given[-1] if given else usual).constants()
+        for number, entry in enumerate(self.entries):
+            if number not in made:
+                made[number] = self._statement(entry, reader)
+        self.entries.clear()  # their tokens are most of what reading takes
+        return tuple(each for _, each in sorted(made.items()) if each is not None)
+
+    def _ground(self) -> Key | None:
+        """The id of the ground part, which may stand later in the deck."""
+        if self.deck:
+            return next((part.key for part in self.deck.of("PART") if part.ground), None)
+        for entry in self.entries:
+            if entry.cls.body and "ground" in entry.cls.arguments:
+                words = vocabulary(entry.cls)
+                for item in entry.syntax.items[1:]:
+                    word = entry.syntax.tokens[item.start][1]
+                    if item.key < 0 and words.look_up(word, False) == words.bare["GROUND"]:
+                        return canonical(entry.id)
+        return None
+
+    def _statement(self, entry: Entry, reader: Reader) -> Statement | Redefinition | None:
+        """The statement with its arguments; None when something is wrong with it."""
+        cls, syntax = entry.cls, entry.syntax
+        if cls.ignored or cls.ends:
+            values, ranges = {}, {}
+        else:
+            errors = self.log.errors
+            items = syntax.items if cls.singleton else syntax.items[1:]
+            values, ranges = read_arguments(cls, syntax, items, reader, entry.label, entry.changes)
+            if self.log.errors != errors or entry.again or not syntax.whole:
+                self.broken.add(cls.keyword)
+                return None
+        spans = Spans(self.log.source, syntax.range, ranges)
+        if entry.changes:
+            return Redefinition(of=cls, key=entry.id, changes=values, spans=spans)
+        values.update(cls.completed(values, entry.body))
+        values["id"] = entry.id
+        values["name"] = syntax.name
+        values["spans"] = spans
+        return cls(**values)

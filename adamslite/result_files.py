@@ -1,0 +1,79 @@
+"""Where a run writes, settled and looked at before it runs.
+
+A name in a deck or command file is a bare file name, and that file lies beside the results. Nothing
+that was read is written, neither by its name nor through a link.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from adamslite.checks.rule import say
+from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.outputs.whole_files import need_writable, same_file
+
+if TYPE_CHECKING:
+    from adamslite.scene import Scene
+
+KINDS = {"EIGENSOL": "modes.csv", "STATEMAT": "states.json"}
+
+
+def plan(scene: Scene, output: str | Path, asked: bool) -> list[Path]:
+    """The files that the LINEAR commands of a scene will fill, in their order.
+
+    EIGENSOL goes to ``<output>.modes.csv``, STATEMAT to its FILE or ``<output>.states.json``; a
+    second one of a kind is numbered.
+
+    Parameters
+    ----------
+    output : str or Path
+        The file of the time histories.
+    asked : bool
+        Whether the user gave that name.
+
+    Raises
+    ------
+    DeckError
+        When a FILE is a file of this run already.
+    OSError, UsageError
+        As :func:`~adamslite.outputs.whole_files.need_writable`, for the results and for each of
+        them.
+    """
+    need_writable(output, scene.read, asked)
+    commands = [each for each in scene.commands if getattr(each, "keyword", "") == "LINEAR"]
+    paths = list(_places(commands, Path(output)))
+    wrong = list(_taken(commands, paths, output, scene.read))
+    if wrong:
+        raise DeckError(wrong)
+    for path in paths:
+        need_writable(path, scene.read, asked=False)
+    return paths
+
+
+def _file(command: Any) -> str:
+    """The FILE of a command that has an effect."""
+    return command.file or "" if command.kind == "STATEMAT" else ""
+
+
+def _places(commands: Sequence[Any], output: Path) -> Iterator[Path]:
+    stem = output.with_suffix("").name
+    made = {output.name, *map(_file, commands)}
+    for each in commands:
+        name, number = _file(each) or f"{stem}.{KINDS[each.kind]}", 2
+        while not _file(each) and name in made:
+            name, number = f"{stem}.{number}.{KINDS[each.kind]}", number + 1
+        made.add(name)
+        yield output.with_name(name)
+
+
+def _taken(
+    commands: Sequence[Any], paths: Sequence[Path], output: str | Path, read: Iterable[Path]
+) -> Iterator[Diagnostic]:
+    for command, path in zip(commands, paths, strict=True):
+        word = _file(command)
+        if word and same_file(path, output):
+            yield say(command, "file-taken", "file", word=word, what="that of the results")
+        elif word and any(same_file(path, each) for each in read):
+            yield say(command, "file-taken", "file", word=word, what="read by this run")

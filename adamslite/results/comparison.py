@@ -1,0 +1,219 @@
+"""How far results are from a reference, channel by channel.
+
+Channel c is inside its tolerance when at every reference time t
+
+    |value_c(t) - reference_c(t)| <= A + R |reference_c(t)| + P max_t |reference_c|
+
+The reference may hold any few of the channels. Its times must be output times of the results unless
+an interpolation is asked for.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+
+import numpy as np
+
+from adamslite.results.results import Results
+
+#: Two times are the same when they differ by less than this part of the reference's time span.
+SAME_TIME = 1e-9
+
+INTERPOLATIONS = ("linear", "cubic")
+
+
+class Mismatch(ValueError):
+    """Results and reference that cannot be compared at all; says why."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tolerance:
+    """How far a channel may be off: A + R |reference| + P max|reference|, see the module."""
+
+    abs: float = 0.0
+    rel: float = 0.0
+    peak: float = 0.0
+
+    def allowed(self, reference: np.ndarray) -> np.ndarray:
+        """Return the allowed difference at each time, shape (nt,), for the (nt,) reference."""
+        size = np.abs(reference)
+        return self.abs + self.rel * size + self.peak * size.max(initial=0.0)
+
+    def __str__(self) -> str:
+        parts = (("abs", self.abs), ("rel", self.rel), ("peak", self.peak))
+        return " ".join(f"{name} {value:g}" for name, value in parts if value) or "exact"
+
+
+#: What `compare` allows when nothing is said.
+USUAL = Tolerance(abs=1e-6, peak=1e-6)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Difference:
+    """The worst a channel does, and when it first leaves its tolerance.
+
+    Parameters
+    ----------
+    name : str
+        Channel, or the text of a measure.
+    worst : float
+        |value - reference| where it is largest compared with what is allowed there.
+    allowed : float
+        What is allowed there.
+    time : float or None
+        When that is.
+    leaves : float or None
+        First reference time outside the tolerance; None when it never leaves.
+    inside : bool
+        Whether all differences are within the tolerance.
+    """
+
+    name: str
+    worst: float
+    allowed: float
+    time: float | None = None
+    leaves: float | None = None
+    inside: bool
+
+    @property
+    def severity(self) -> float:
+        """Part of the tolerance that is used up: above 1 (or not a number) is outside."""
+        if self.inside and self.worst == 0:
+            return 0.0
+        ratio = self.worst / self.allowed if self.allowed else np.inf
+        return float(ratio) if np.isfinite(ratio) else float("inf")
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All differences between results and a reference, in the order of the reference's columns."""
+
+    differences: tuple[Difference, ...]
+
+    @property
+    def inside(self) -> bool:
+        """Whether every channel is within its tolerance."""
+        return all(difference.inside for difference in self.differences)
+
+    @property
+    def worst(self) -> Difference | None:
+        """The difference that uses up most of its tolerance."""
+        return max(self.differences, key=lambda difference: difference.severity, default=None)
+
+    def __iter__(self) -> Iterator[Difference]:
+        return iter(self.differences)
+
+
+def compare(
+    results: Results,
+    reference: Results,
+    tolerance: Tolerance | Callable[[str], Tolerance] = USUAL,
+    interpolate: str | None = None,
+) -> Comparison:
+    """Compare `results` with the channels and times of `reference`.
+
+    Parameters
+    ----------
+    results, reference : Results
+        The channels of the reference may be a subset.
+    tolerance : Tolerance or function of a channel name that returns one
+        By default 1e-6, plus 1e-6 of the channel's largest reference value.
+    interpolate : {None, "linear", "cubic"}
+        How to get values at reference times that are not output times; None makes them an error.
+
+    Raises
+    ------
+    Mismatch
+        When the results lack a channel or a time of the reference.
+    """
+    tolerance_of = tolerance if callable(tolerance) else lambda _: tolerance
+    missing = [name for name in reference.names if name not in results]
+    if missing:
+        others = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+        raise Mismatch(f"the results have no channel '{missing[0]}'{others}")
+    sample = sampler(results, reference.time, interpolate)
+    return Comparison(
+        tuple(
+            _difference(
+                name, sample(results[name]), reference[name], reference.time, tolerance_of(name)
+            )
+            for name in reference.names
+        )
+    )
+
+
+def fits(pattern: str, name: str) -> bool:
+    """Whether channel `name` is meant by `pattern` (`PART/2.x`, `PART/*.x`), in any case."""
+    return fnmatchcase(name.casefold(), pattern.casefold())
+
+
+def sampler(
+    results: Results, times: np.ndarray, interpolate: str | None
+) -> Callable[[np.ndarray], np.ndarray]:
+    """Return the function from a history of `results`, shape (nt,), to its values at `times`."""
+    if times.size == 0:
+        return lambda history: history[:0]
+    if results.time.size == 0:
+        raise Mismatch("the results hold no output time at all")
+    slack = SAME_TIME * max(float(np.ptp(times)), abs(float(times[-1])))
+    _need_within(times, results.time, slack)
+    if interpolate == "linear":
+        return lambda history: np.interp(times, results.time, history)
+    if interpolate == "cubic":
+        return lambda history: _cubic(results.time, history, times)
+    return _at_output_times(results.time, times, slack)
+
+
+def _need_within(times: np.ndarray, covered: np.ndarray, slack: float) -> None:
+    if times.min() < covered[0] - slack or times.max() > covered[-1] + slack:
+        raise Mismatch(
+            f"the reference goes from t = {times.min():g} to {times.max():g}, "
+            f"the results only from {covered[0]:g} to {covered[-1]:g}"
+        )
+
+
+def _at_output_times(
+    covered: np.ndarray, times: np.ndarray, slack: float
+) -> Callable[[np.ndarray], np.ndarray]:
+    after = np.searchsorted(covered, times).clip(0, covered.size - 1)
+    before = (after - 1).clip(0)
+    nearest = np.where(
+        np.abs(covered[before] - times) < np.abs(covered[after] - times), before, after
+    )
+    off = np.abs(covered[nearest] - times) > slack
+    if off.any():
+        raise Mismatch(
+            f"t = {times[off][0]:.12g} is not an output time of the results "
+            f"(the nearest is {covered[nearest][off][0]:.12g}); "
+            "choose the same output step, or state an interpolation (linear, cubic)"
+        )
+    return lambda history: history[nearest]
+
+
+def _cubic(covered: np.ndarray, history: np.ndarray, times: np.ndarray) -> np.ndarray:
+    from scipy.interpolate import CubicSpline
+
+    return CubicSpline(covered, history)(times)
+
+
+def _difference(
+    name: str, value: np.ndarray, reference: np.ndarray, times: np.ndarray, tolerance: Tolerance
+) -> Difference:
+    off = np.abs(value - reference)
+    allowed = tolerance.allowed(reference)
+    # A value that is not a number is never inside, even where the reference is not one either.
+    outside = ~(off <= allowed)
+    if off.size == 0:
+        return Difference(name=name, worst=0.0, allowed=0.0, inside=True)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        used = np.where(outside & (allowed == 0), np.inf, np.nan_to_num(off / allowed, nan=0.0))
+    used[~np.isfinite(off)] = np.inf
+    worst = int(np.argmax(used))
+    return Difference(
+        name=name,
+        worst=float(off[worst]),
+        allowed=float(allowed[worst]),
+        time=float(times[worst]),
+        leaves=float(times[outside][0]) if outside.any() else None,
+        inside=not outside.any(),
+    )

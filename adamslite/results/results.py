@@ -1,0 +1,114 @@
+"""What a run gives back: time histories under their deck names, and how the run ended."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from functools import cached_property
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from adamslite.results.outcomes import Outcome
+
+
+class UnknownChannel(KeyError):
+    """A name that no column of the results has."""
+
+    def __str__(self) -> str:
+        return self.args[0]
+
+
+class Linearized(NamedTuple):
+    """One LINEAR command: ``kind`` EIGENSOL or STATEMAT, its FILE if it names one, the ``time`` of
+    the state, and the :class:`~adamslite.analyses.linearization.linear.Linearization`.
+    """
+
+    kind: str
+    file: str | None
+    time: float
+    model: Any
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Results:
+    """Time histories of one run.
+
+    Parameters
+    ----------
+    time : (nt,) array
+        Output times [time].
+    names : tuple of str, length nc
+        Result names in column order, without `time`: `PART/2.x`, `REQUEST/1.F2`, `JOINT/3.fx`, ...
+    values : (nt, nc) array
+        One row per output time, in the units of the deck (angles in radians).
+    meta : mapping of str to str
+        What the values belong to (deck, hash, units, integrator, ...): the comment lines of a file.
+    outcome : Outcome
+        How the run ended.
+    message : str
+        For an early end: statement, line, time, cause and remedy. Empty when the run is done.
+    summary : mapping
+        Counters of the run: outcome, t_end, dof, steps, rejected, newton, jacobians,
+        factorizations, setup_cpu_s, solve_cpu_s, max_violation.
+    linearizations : tuple of Linearized
+        What the LINEAR commands found, in their order.
+    balances : tuple of Balance
+        With an audit, the balance of energy of every dynamic analysis.
+    confirmation : Confirmation
+        What the witnesses of the run say, when they were asked
+        (:mod:`adamslite.analyses.confirmation`).
+    """
+
+    time: np.ndarray
+    names: tuple[str, ...]
+    values: np.ndarray
+    meta: Mapping[str, str] = field(default_factory=dict)
+    outcome: Outcome = Outcome.DONE
+    message: str = ""
+    summary: Mapping[str, Any] = field(default_factory=dict)
+    linearizations: tuple[Linearized, ...] = ()
+    balances: tuple[Any, ...] = ()
+    confirmation: Any = None
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """Return the (nt,) history called `name` (upper or lower case), or the times for "time"."""
+        key = name.casefold()
+        if key == "time":
+            return self.time
+        if key not in self._column:
+            raise UnknownChannel(self._unknown(name))
+        return self.values[:, self._column[key]]
+
+    def __contains__(self, name: str) -> bool:
+        return name.casefold() == "time" or name.casefold() in self._column
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def save(self, path: str | Path) -> None:
+        """Write the results to `path`; a failed write leaves an earlier file as it was."""
+        from adamslite.outputs import csv
+
+        csv.write(self, path)
+
+    @staticmethod
+    def load(path: str | Path) -> "Results":
+        """Read what `save` wrote; the comment lines come back in `meta`."""
+        from adamslite.outputs import csv
+
+        return csv.read(path).results
+
+    @cached_property
+    def _column(self) -> dict[str, int]:
+        return {name.casefold(): column for column, name in enumerate(self.names)}
+
+    def _unknown(self, name: str) -> str:
+        close = get_close_matches(name.casefold(), self._column, n=3, cutoff=0.6)
+        near = [self.names[self._column[key]] for key in close] or list(self.names[:3])
+        hint = (
+            f"; did you mean {' or '.join(near)}?"
+            if close
+            else f"; there are {', '.join(near)}, ..."
+        )
+        return f"no result is called '{name}'{hint if near else ' (the results are empty)'}"

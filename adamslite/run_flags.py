@@ -1,0 +1,93 @@
+"""The flags that change a run: the same on the command line and in a reference file.
+
+Only argparse is imported here, so that building the parser costs no start-up time.
+"""
+
+import argparse
+from collections.abc import Sequence
+from math import inf
+from typing import Any, NoReturn
+
+from adamslite.errors import UsageError
+
+
+class _RaisingParser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(message)
+
+
+def positive(text: str) -> float:
+    """Return the number written in `text`, which must be positive and finite."""
+    value = float(text)
+    if not 0 < value < inf:
+        raise argparse.ArgumentTypeError(f"'{text}' must be a positive number")
+    return value
+
+
+def instant(text: str) -> float:
+    """Return the time written in `text`, finite and not negative."""
+    value = float(text)
+    if not 0 <= value < inf:
+        raise argparse.ArgumentTypeError(f"'{text}' must be a time, zero or above")
+    return value
+
+
+def count(text: str) -> int:
+    """Return the whole number written in `text`, at least 1."""
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' must be at least 1")
+    return value
+
+
+def add_run_flags(parser: argparse.ArgumentParser) -> None:
+    """Declare the flags that win over what deck and command file say."""
+    flags = parser.add_argument_group("run", "these win over the deck and the command file")
+    flags.add_argument("--end", type=positive, metavar="T", help="end time")
+    flags.add_argument("--steps", type=count, metavar="N", help="number of output steps")
+    flags.add_argument("--integrator", type=str.upper, metavar="NAME", help="GSTIFF, ...")
+    flags.add_argument(
+        "--formulation", type=str.upper, choices=("I3", "SI2"), help="index 3 or stabilised index 2"
+    )
+    flags.add_argument("--error", type=positive, metavar="TOL", help="integration error per step")
+    flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
+    flags.add_argument(
+        "--no-reduction", action="append", metavar="RULE",
+        help="do without a reduction of the model: plane, points or variables; may be repeated",
+    )  # fmt: skip
+    flags.add_argument(
+        "--audit", action="store_true", default=None, help="follow the balance of energy and say it"
+    )
+    flags.add_argument(
+        "--confirm", action="store_true", default=None,
+        help="run again, more tightly and by another method, and say how many digits agree",
+    )  # fmt: skip
+
+
+def run_options(args: argparse.Namespace) -> dict[str, Any]:
+    """Return the run flags that were given, as keyword arguments of `simulate`."""
+    names = (
+        "end",
+        "steps",
+        "integrator",
+        "formulation",
+        "error",
+        "hmax",
+        "no_reduction",
+        "audit",
+        "confirm",
+    )
+    return {name: getattr(args, name) for name in names if getattr(args, name) is not None}
+
+
+def parse_flags(words: Sequence[str]) -> dict[str, Any]:
+    """Read run flags written as words; see `run_options`.
+
+    Raises
+    ------
+    UsageError
+        For an unknown flag or a value that does not fit.
+    """
+    parser = _RaisingParser(add_help=False, allow_abbrev=False)
+    add_run_flags(parser)
+    return run_options(parser.parse_args(words))

@@ -1,0 +1,111 @@
+"""From the files of a run to its results: what `solve` and `verify` share."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import adamslite
+from adamslite.errors import UsageError
+from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.progress import Progress
+
+if TYPE_CHECKING:  # numpy is not needed to check a deck
+    from adamslite.results.results import Results
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene:
+    """A deck and the commands of its run.
+
+    Parameters
+    ----------
+    deck : Deck
+        Without errors.
+    commands : tuple of Statement or Redefinition
+        What the command file says; empty when there is none.
+    warnings : tuple of Diagnostic
+        What `check` has to say about deck and commands.
+    deck_path : Path
+    commands_path : Path or None
+        The command file, and
+    beside : bool
+        whether it was taken because it lies beside the deck.
+    """
+
+    deck: Any
+    commands: tuple[Any, ...]
+    warnings: tuple[Diagnostic, ...]
+    deck_path: Path
+    commands_path: Path | None
+    beside: bool
+
+    @property
+    def read(self) -> tuple[Path, ...]:
+        """The files that were read."""
+        return (self.deck_path, *([self.commands_path] if self.commands_path else []))
+
+    @property
+    def title(self) -> str:
+        """The deck, with the command file that nobody asked for."""
+        if self.beside:
+            return f"{self.deck_path} with {self.commands_path} beside it"
+        return str(self.deck_path)
+
+
+def load_scene(deck_path: Path, commands_path: Path | None = None) -> Scene:
+    """Read and check a deck and its command file, by default the `.acf` of its name beside it.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong in the two files.
+    """
+    from adamslite.deck.deck import Commands, read_commands
+
+    wrong: list[Diagnostic] = []
+    try:
+        deck = adamslite.read(deck_path)
+    except DeckError as fault:
+        deck, wrong = fault.deck, [*fault.diagnostics]
+    chosen = commands_path or command_file_beside(deck_path)
+    try:
+        commands = read_commands(chosen, deck) if chosen and deck else Commands()
+    except DeckError as fault:
+        raise DeckError([*wrong, *fault.diagnostics], deck) from None
+    diagnostics = (*(wrong or adamslite.check(deck)), *commands.warnings)
+    if any(diagnostic.is_error for diagnostic in diagnostics):
+        raise DeckError(diagnostics, deck)
+    return Scene(
+        deck=deck, commands=commands, warnings=diagnostics, deck_path=deck_path,
+        commands_path=chosen, beside=commands_path is None and chosen is not None,
+    )  # fmt: skip
+
+
+def command_file_beside(deck_path: Path) -> Path | None:
+    """Return the command file that has the name of the deck, if there is one."""
+    candidates = (deck_path.with_suffix(suffix) for suffix in (".acf", ".ACF"))
+    return next((path for path in candidates if path.is_file()), None)
+
+
+def run_scene(
+    scene: Scene, options: Mapping[str, Any], progress: Progress | None = None
+) -> "Results":
+    """Simulate a scene; `options` are keyword arguments of `simulate`.
+
+    Raises
+    ------
+    UsageError
+        When there is no such integrator, or nothing says how long to run.
+    """
+    if "integrator" in options:
+        _need_integrator(options["integrator"])
+    return adamslite.simulate(scene.deck, commands=scene.commands, progress=progress, **options)
+
+
+def _need_integrator(name: str) -> None:
+    from adamslite.elements.integrator import Integrator
+
+    known = Integrator.arguments["method"].supported
+    if name not in known:
+        raise UsageError(f"--integrator {name}: there are {', '.join(known)}")

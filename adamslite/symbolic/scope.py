@@ -1,0 +1,281 @@
+"""What an expression sees of the model: the scope in which functions and elements write sympy.
+
+A marker is a *frame*: a small integer, its position in the shape's list of markers, or ``ORIGIN``
+for the global frame.  The scope hands out real symbols for the local kinematic inputs, always in
+ground axes, always as differences, because no deck function depends on anything else:
+
+===========  ===================================================  ==========================
+leaf         meaning                                              time derivative
+===========  ===================================================  ==========================
+d(i,j)       r_i - r_j                                            v(i,j)
+v(i,j)       d/dt of it in ground                                 a(i,j)
+a(i,j)       second derivative in ground                          (none)
+x(k,c)       axis c of marker k                                   w(k) cross x(k,c)
+w(i,j)       angular velocity of i less that of j                 al(i,j)
+al(i,j)      its derivative in ground                             (none)
+===========  ===================================================  ==========================
+
+Forces and constraint rows are written with these symbols; :mod:`adamslite.kernels.code`
+differentiates them and chains the result to body coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, NamedTuple
+
+from adamslite.symbolic.sympy_nodes import sp
+
+ORIGIN = -1
+Vector = tuple[Any, Any, Any]
+ZERO: Vector = (0, 0, 0)
+
+
+class Load(NamedTuple):
+    """A force and a torque on the body of ``frame`` at that marker's origin, in ground axes.
+
+    ``reaction`` names the frame whose body gets the opposite, at its own origin, or at the origin
+    of ``frame`` when ``follows`` is true (a floating marker); ``None`` means nothing reacts.
+    """
+
+    frame: int
+    force: Vector
+    torque: Vector = ZERO
+    reaction: int | None = None
+    follows: bool = False
+
+
+class Slot(NamedTuple):
+    """What a kernel must know of a marker; ``kind`` ground, point or part; ``body`` its slot."""
+
+    kind: str
+    body: int
+    offset: bool
+    turned: bool
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+def dot(a: Vector, b: Vector) -> Any:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def scale(factor: Any, a: Vector) -> Vector:
+    return (factor * a[0], factor * a[1], factor * a[2])
+
+
+def plus(a: Vector, b: Vector) -> Vector:
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def minus(a: Vector, b: Vector) -> Vector:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def _unbound(tree: Any) -> Any:
+    raise LookupError("this scope has no statement bound to it")
+
+
+def towards(d: Vector) -> Vector:
+    """The unit vector of d; undefined where d vanishes."""
+    return scale(1 / sp.sqrt(dot(d, d)), d)
+
+
+def along_axes(axes: tuple[Vector, Vector, Vector], components: Vector) -> Vector:
+    """Sum of component times axis."""
+    x, y, z = (scale(c, a) for c, a in zip(components, axes, strict=True))
+    return plus(plus(x, y), z)
+
+
+class Scope:
+    """Symbols for one shape; records which leaves the expressions asked for."""
+
+    def __init__(self, slots: list[Slot]) -> None:
+        self.slots = slots
+        self.leaves: dict[Any, tuple] = {}
+        self.symbols: dict[tuple, Any] = {}
+        self.angles: list[Any] = []
+        self.limits: list[Any] = []
+        self.elements: list[Any] = []
+        self._everything_moves = False
+        self.read: Callable[[Any], Any] = _unbound
+
+    def symbol(self, *leaf: Any) -> Any:
+        """The real symbol of one leaf."""
+        if leaf not in self.symbols:
+            symbol = sp.Symbol("_".join(map(str, leaf)), real=True)
+            self.symbols[leaf] = symbol
+            self.leaves[symbol] = leaf
+        return self.symbols[leaf]
+
+    def vector(self, *leaf: Any) -> Vector:
+        return tuple(self.symbol(*leaf, c) for c in range(3))
+
+    def is_ground(self, frame: int) -> bool:
+        """True when ``frame`` can never move."""
+        return frame == ORIGIN or self.slots[frame].kind == "ground"
+
+    def turns(self, frame: int) -> bool:
+        """True when the axes of ``frame`` can rotate."""
+        if frame == ORIGIN:
+            return False
+        return self._everything_moves or self.slots[frame].kind == "part"
+
+    @contextmanager
+    def everything_moves(self) -> Iterator[None]:
+        """Meanwhile markers that stand still are symbols as others are.
+
+        Their velocities evaluate to zero, but what depends on them shows what acts on them: the
+        reaction at a marker of the ground.
+        """
+        self._everything_moves = True
+        try:
+            yield
+        finally:
+            self._everything_moves = False
+
+    def _pair(self, name: str, i: int, j: int) -> Vector:
+        if i == j:
+            return ZERO
+        if j == ORIGIN or (i != ORIGIN and i < j):
+            return self.vector(name, i, j)
+        return scale(-1, self.vector(name, j, i))
+
+    def _moving(self, i: int) -> int:
+        return ORIGIN if self.is_ground(i) and not self._everything_moves else i
+
+    def _turning(self, i: int) -> int:
+        return i if self.turns(i) else ORIGIN
+
+    def position(self, i: int, j: int) -> Vector:
+        """r_i - r_j."""
+        return self._pair("d", i, j)
+
+    def velocity(self, i: int, j: int) -> Vector:
+        """Derivative of r_i - r_j in ground."""
+        return self._pair("v", self._moving(i), self._moving(j))
+
+    def acceleration(self, i: int, j: int) -> Vector:
+        """Second derivative of r_i - r_j in ground."""
+        return self._pair("a", self._moving(i), self._moving(j))
+
+    def omega(self, i: int, j: int = ORIGIN) -> Vector:
+        """Angular velocity of i less that of j."""
+        return self._pair("w", self._turning(i), self._turning(j))
+
+    def alpha(self, i: int, j: int = ORIGIN) -> Vector:
+        """Derivative of the angular velocity difference in ground."""
+        return self._pair("al", self._turning(i), self._turning(j))
+
+    def axes(self, k: int) -> tuple[Vector, Vector, Vector]:
+        """The x, y and z axes of marker k."""
+        if k == ORIGIN or not (self.turns(k) or self.slots[k].turned):
+            return ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+        return tuple(self.vector("x", k, c) for c in range(3))
+
+    @property
+    def time(self) -> Any:
+        return self.symbol("t")
+
+    @property
+    def mode(self) -> Any:
+        return self.symbol("mode")
+
+    def angle(self, sine: Any, cosine: Any) -> Any:
+        """atan2 counted over full turns: the branch nearest to the angle at the last accepted step.
+
+        The number of turns to add is locally constant, so the derivative is that of atan2.
+        """
+        wrapped = sp.atan2(sine, cosine)
+        if wrapped not in self.angles:
+            self.angles.append(wrapped)
+        return wrapped + self.symbol("turn", self.angles.index(wrapped))
+
+    def limit(self, expr: Any) -> None:
+        """The law that is being written means nothing once ``expr`` is below zero; the time of the
+        first accepted state where it is will be remembered.
+        """
+        if expr not in self.limits:
+            self.limits.append(expr)
+
+    def variable(self, tree: Any) -> Any:
+        """Value of a VARIABLE, given as its bound tree."""
+        return self.read(tree)
+
+    def multiplier(self, tree: Any) -> Any:
+        """Multiplier of a GCON, given as its bound tree."""
+        return self.read(tree)
+
+    def dif(self, tree: tuple) -> Any:
+        """State of a DIFF."""
+        return self.symbol("dif", tree[1])
+
+    def dif1(self, tree: tuple) -> Any:
+        """Time derivative of the state of a DIFF."""
+        return self.symbol("dif1", tree[1])
+
+    def load(self, kind: str, tree: tuple, jflag: int) -> tuple[Vector, Vector]:
+        """Force and torque of an element on marker I (``jflag`` 0) or J (1), in ground axes."""
+        return self.net_load(self.elements[tree[1]], jflag)
+
+    def net_load(self, view: Any, jflag: int) -> tuple[Vector, Vector]:
+        """What an element, seen as a view, does to its marker I or J."""
+        end, against = view.side(jflag)
+        force, torque = ZERO, ZERO
+        for load in view.own_loads(self):
+            if against not in (None, load.frame, load.reaction):
+                continue
+            sign = (load.frame == end) - (load.reaction == end)
+            force = plus(force, scale(sign, load.force))
+            torque = plus(torque, scale(sign, load.torque))
+        return force, torque
+
+    def derivative(self, expr: Any) -> Any:
+        """Total time derivative of an expression of these symbols."""
+        expr = sp.S.Zero + expr
+        total = sp.S.Zero
+        for symbol in sorted(expr.free_symbols, key=str):
+            leaf = self.leaves.get(symbol)
+            rate = self.rate(leaf) if leaf else 0
+            if rate != 0:
+                total = total + sp.diff(expr, symbol) * rate
+        return total
+
+    def rate(self, leaf: tuple) -> Any:
+        """Time derivative of one leaf."""
+        kind = leaf[0]
+        if kind == "d":
+            return self.velocity(leaf[1], leaf[2])[leaf[3]]
+        if kind == "v":
+            return self.acceleration(leaf[1], leaf[2])[leaf[3]]
+        if kind == "w":
+            return self.alpha(leaf[1], leaf[2])[leaf[3]]
+        if kind == "x":
+            return cross(self.omega(leaf[1]), self.vector("x", leaf[1], leaf[2]))[leaf[3]]
+        if kind == "t":
+            return 1
+        if kind == "sig" and leaf[2] < 2:
+            return self.symbol("sig", leaf[1], leaf[2] + 1)
+        if kind == "dif":
+            return self.symbol("dif1", leaf[1])
+        if kind in ("p", "turn", "mode", "nan"):
+            return 0
+        raise UndefinedRate(leaf)
+
+
+class UndefinedRate(Exception):
+    """A total time derivative was asked of something whose rate is not a known quantity.
+
+    ``leaf``: that something.
+    """
+
+    def __init__(self, leaf: tuple) -> None:
+        super().__init__(leaf)
+        self.leaf = leaf

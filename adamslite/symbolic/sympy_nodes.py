@@ -1,0 +1,151 @@
+"""The one door to sympy: ``sp`` imports it at the first use; reading a deck never pays for it.
+
+Beside it stand the few operations where the form sympy gives is not what a kernel needs: choices,
+floors, powers and lengths whose derivatives stay finite, explicit and quick to form; and values of
+tables.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+
+class _Sympy:
+    """Stands for the module; each name is fetched once and then lives in the instance."""
+
+    def __getattr__(self, name: str) -> Any:
+        import sympy
+
+        value = getattr(sympy, name)
+        setattr(self, name, value)
+        return value
+
+
+sp = _Sympy()
+
+
+@cache
+def _nodes(smooth: int | None = None) -> tuple[type, type]:
+    """Our Piecewise and floor, named as sympy's own because printers go by the name.
+
+    ``smooth`` stays with them as ``order``, in derivatives too.
+    """
+    from sympy.functions.elementary.piecewise import ExprCondPair
+
+    # sympy's folds a choice inside a condition into all combinations and asks every condition what
+    # it implies: seconds for a contact force.  This one only drops what is decided.
+    class Piecewise(sp.Expr):
+        is_commutative = True
+        is_extended_real = True
+        order = smooth
+
+        def __new__(cls, *pairs: Any) -> Any:
+            kept = []
+            for pair in pairs:
+                piece = ExprCondPair(*pair)
+                if piece.cond != sp.false:
+                    kept.append(piece)
+                if piece.cond == sp.true:
+                    break
+            if all(piece.expr == kept[-1].expr for piece in kept):
+                return kept[-1].expr
+            return sp.Expr.__new__(cls, *kept)
+
+        def _eval_derivative(self, symbol: Any) -> Any:
+            return self.func(*[(piece.expr.diff(symbol), piece.cond) for piece in self.args])
+
+    # sympy leaves d floor(x)/dx as an unevaluated Derivative; between its jumps it is zero.
+    class floor(sp.floor):  # noqa: N801  printers look rules up by this name
+        order = smooth
+
+        def _eval_derivative(self, symbol: Any) -> Any:
+            return sp.S.Zero
+
+    return Piecewise, floor
+
+
+def choose(*pieces: tuple[Any, Any], otherwise: Any, order: int | None = None) -> Any:
+    """The value of the first ``(value, condition)`` that holds, else ``otherwise``.
+
+    ``order``: where the choice changes, derivatives up to this order are continuous (-1: the value
+    jumps); ``None``: all that matter are, as when a formula is only kept from 0/0.  Decides where
+    a run stops and starts anew: :mod:`adamslite.symbolic.guards`.
+    """
+    return _nodes(order)[0](*pieces, (otherwise, True))
+
+
+def floor(x: Any, order: int | None = None) -> Any:
+    """Largest integer not above ``x``, with derivative zero; ``order`` as in :func:`choose`."""
+    return _nodes(order)[1](x)
+
+
+def magnitude(x: Any, order: int | None = 0) -> Any:
+    """|x|, with the derivative 1 at zero; ``order`` as in :func:`choose`."""
+    return choose((x, x >= 0), otherwise=-x, order=order)
+
+
+def power(base: Any, exponent: Any) -> Any:
+    """``base**exponent`` of real numbers; a whole or half exponent is kept as an exact fraction."""
+    exponent = sp.S.Zero + exponent
+    if exponent.is_Float and 2 * exponent == int(2 * exponent):
+        exponent = sp.Rational(int(2 * exponent), 2)
+    result = (sp.S.Zero + base) ** exponent
+    # sympy knows that sqrt(x**2) is |x|, whose derivative it can only call sign(x).
+    return result.replace(sp.Abs, magnitude) if result.has(sp.Abs) else result
+
+
+def root(x: Any) -> Any:
+    """Square root of ``x`` >= 0."""
+    return power(x, sp.S.Half)
+
+
+def norm(vector: tuple[Any, Any, Any]) -> Any:
+    """Length of a vector; at the zero vector the value and the derivative are 0.
+
+    A speed or a reaction is often exactly zero, where sqrt alone would have the derivative 0/0.
+    """
+    square = sum(component**2 for component in vector)
+    return choose((root(square), square > 0), otherwise=0)
+
+
+@cache
+def _lookups() -> tuple[type, type]:
+    """Values of tables, named by the rules that write them; whole numbers are their first
+    arguments: the table's number, for one argument the curve, orders of derivatives.
+    """
+
+    class Lookup(sp.Function):
+        """(table, curve, order, x)"""
+
+        is_extended_real = True
+
+        def fdiff(self, argindex: int = 4) -> Any:
+            table, curve, order, x = self.args
+            return self.func(table, curve, order + 1, x) if order < 3 else sp.S.Zero
+
+    class LookupBetween(sp.Function):
+        """(table, order by x, order by z, x, z)"""
+
+        is_extended_real = True
+
+        def fdiff(self, argindex: int = 4) -> Any:
+            table, order, z_order, x, z = self.args
+            if argindex == 4:
+                return self.func(table, order + 1, z_order, x, z) if order < 3 else sp.S.Zero
+            return self.func(table, order, z_order + 1, x, z) if z_order < 1 else sp.S.Zero
+
+    return Lookup, LookupBetween
+
+
+def lookup(table: int, x: Any, curve: int = 0, order: int = 0) -> Any:
+    """A curve of a table at ``x``, or its derivative; see :mod:`adamslite.kernels.code.lookup`.
+
+    ``table``: as a statement sees it that derives an interpolant.
+    """
+    return _lookups()[0](table, curve, order, x)
+
+
+def lookup_between(table: int, x: Any, z: Any, order: int = 0, z_order: int = 0) -> Any:
+    """A table of two arguments at ``x`` and ``z``, or its derivatives."""
+    return _lookups()[1](table, order, z_order, x, z)

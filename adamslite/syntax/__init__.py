@@ -1,0 +1,1 @@
+"""From text to syntax trees: tokens, statements and the forms of the grammar."""

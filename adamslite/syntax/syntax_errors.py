@@ -1,0 +1,194 @@
+"""What is wrong with a statement or an expression that has no form: which message, and where.
+
+A faulty item is cut out of its statement and the rest is read on, so that one slip does not hide
+the others.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from adamslite.syntax.forms import (
+    CLOSES,
+    OPERATORS,
+    Fault,
+    Item,
+    Lexeme,
+    Logical,
+    end_of,
+    expression_form,
+    spelled,
+    statement_form,
+)
+
+MOST_MISTAKES = 20
+"""After so many in one statement the rest of it is given up."""
+
+WRITTEN = {
+    "^": "a power is written **",
+    "÷": "a division is written /",
+    ">": "IF(x: a, b, c) is a below, b at and c above x = 0",
+    "<": "IF(x: a, b, c) is a below, b at and c above x = 0",
+    "{": "brackets are ( ) and [ ]",
+}
+"""What stands for characters that other languages have."""
+
+_SEPARATORS = ("COMMA", "BACKSLASH")
+
+
+class Mistake(NamedTuple):
+    """A message code, the numbers of the first and last token it is about, and its words."""
+
+    code: str
+    first: int
+    last: int
+    words: dict[str, str] = {}
+
+
+class Syntax(NamedTuple):
+    """A statement with its form; ``whole`` is false when faulty items were cut out."""
+
+    tokens: list[Lexeme]
+    items: tuple[Item, ...]
+    name: str | None
+    whole: bool
+
+    @property
+    def keyword(self) -> str:
+        return spelled(self.tokens[0][1]).upper()
+
+    @property
+    def range(self) -> tuple[int, int]:
+        return self.tokens[0][2], end_of(self.tokens[-1])
+
+
+def statement_syntax(logical: Logical) -> tuple[Syntax | None, list[tuple[Mistake, list[Lexeme]]]]:
+    """The syntax of a statement and the mistakes in it, each with the tokens it counts.
+
+    The syntax is ``None`` when not even the name of the statement can be told.
+    """
+    tokens, found = logical.tokens, []
+    while True:
+        form = statement_form(tuple([token[0] for token in tokens]))
+        if not isinstance(form, Fault):
+            return Syntax(tokens, form, logical.name, not found), found
+        mistake = _statement_mistake(tokens, form.at)
+        found.append((mistake, tokens))
+        if form.at < 2 or len(found) == MOST_MISTAKES:
+            return None, found
+        tokens = _without_item(tokens, form.at)
+
+
+def _kind(tokens: list[Lexeme], at: int) -> str:
+    return tokens[at][0] if at < len(tokens) else "END"
+
+
+def _open_brackets(tokens: list[Lexeme]) -> list[int]:
+    stack: list[int] = []
+    for number, token in enumerate(tokens):
+        if token[0] in CLOSES:
+            stack.append(number)
+        elif token[0] in CLOSES.values() and stack:
+            stack.pop()
+    return stack
+
+
+def _statement_mistake(tokens: list[Lexeme], at: int) -> Mistake:
+    here = min(at, len(tokens) - 1)
+    kind = _kind(tokens, at)
+    if at < 2:
+        return _header_mistake(tokens, at, kind)
+    opened = _open_brackets(tokens[:at])
+    if opened and kind in ("END", "EQUAL", "BACKSLASH"):
+        return Mistake("unclosed-bracket", opened[-1], opened[-1], {"word": tokens[opened[-1]][1]})
+    if kind in CLOSES.values():
+        if not opened:
+            return Mistake("unopened-bracket", here, here, {"word": tokens[here][1]})
+        words = {"word": tokens[here][1], "other": tokens[opened[-1]][1]}
+        return Mistake("wrong-bracket", opened[-1], here, words)
+    if tokens[at - 1][0] == "EQUAL":
+        return Mistake("missing-value", at - 2, at - 1, {"word": tokens[at - 2][1]})
+    if kind == "END":
+        return Mistake("trailing-comma", here, here)
+    if kind in _SEPARATORS:
+        return Mistake("empty-item", at - 1, here)
+    if kind == "EQUAL":
+        return Mistake("stray-equal", here, here)
+    if kind == "AMPERSAND":
+        return Mistake("stray-ampersand", here, here)
+    return _stray(tokens, here)
+
+
+def _stray(tokens: list[Lexeme], here: int) -> Mistake:
+    word = tokens[here][1]
+    return Mistake("stray-character", here, here, {"word": word, "hint": WRITTEN.get(word, "")})
+
+
+def _header_mistake(tokens: list[Lexeme], at: int, kind: str) -> Mistake:
+    if at == 0:
+        code = "stray-continuation" if kind == "COMMA" else "not-a-statement"
+        return Mistake(code, 0, 0, {"word": tokens[0][1]})
+    words = {"word": tokens[0][1]}
+    if kind == "EQUAL":
+        return Mistake("missing-leading-comma", 0, 1, words)
+    return Mistake("missing-slash", 0, 0, words)
+
+
+def _without_item(tokens: list[Lexeme], at: int) -> list[Lexeme]:
+    """The statement without the item that token number ``at`` spoils."""
+    opened = _open_brackets(tokens[:at])
+    kind = _kind(tokens, at)
+    if opened and kind in ("END", "EQUAL", "BACKSLASH"):
+        start = _item_start(tokens, opened[0])
+        end = at - 1 if kind == "EQUAL" else at
+    else:
+        start = _item_start(tokens, at)
+        end = at
+        while end < len(tokens) and tokens[end][0] not in _SEPARATORS:
+            end += 1
+    left, right = tokens[:start], tokens[max(end, start + 1) :]
+    while len(left) > 2 and left[-1][0] in _SEPARATORS:
+        left.pop()
+    while right and right[0][0] in _SEPARATORS:
+        right = right[1:]
+    if len(left) > 2 and right:
+        left.append(("COMMA", "", right[0][2]))
+    return left + right
+
+
+def _item_start(tokens: list[Lexeme], at: int) -> int:
+    """The number of the first token of the item that token number ``at`` is in."""
+    start, depth = 2, 0
+    for number in range(2, min(at, len(tokens))):
+        kind = tokens[number][0]
+        depth = max(0, depth + (kind in CLOSES) - (kind in CLOSES.values()))
+        if depth == 0 and kind in _SEPARATORS:
+            start = number + 1
+    return start
+
+
+def expression_mistake(tokens: list[Lexeme]) -> Mistake | None:
+    """What is wrong with the form of an expression; None when nothing is."""
+    form = expression_form(tuple([token[0] for token in tokens]))
+    if not isinstance(form, Fault):
+        return None
+    at = form.at
+    here = min(at, len(tokens) - 1)
+    kind = _kind(tokens, at)
+    before = tokens[at - 1][0] if at else "START"
+    if kind in ("NUMBER", "NAME", *CLOSES):
+        words = {"word": tokens[at - 1][1], "other": tokens[here][1]}
+        if before == "NUMBER" and kind != "NUMBER" and words["other"][0] not in "eE":
+            words["hint"] = f"a product is written {words['word']}*{words['other']}"
+        return Mistake("missing-operator", at - 1, here, words)
+    if before == "COMMA" or kind == "COMMA" and before in CLOSES:
+        return Mistake("empty-argument", at - 1, here)
+    if before in OPERATORS:
+        return Mistake("missing-operand", at - 1, here, {"word": tokens[at - 1][1]})
+    if kind in OPERATORS:
+        return Mistake("missing-operand", here, here, {"word": tokens[here][1]})
+    if kind in CLOSES.values():
+        return Mistake("empty-brackets", at - 1, here)
+    if kind in ("COMMA", "COLON"):
+        return Mistake("stray-comma", here, here, {"word": tokens[here][1]})
+    return _stray(tokens, here)

@@ -1,0 +1,1 @@
+"""Runs held against references: reference files, measures, verdicts, work against precision."""

@@ -1,0 +1,114 @@
+"""One number made from one channel: a plateau's mean, a peak, an arrival, a final value.
+
+    mean VARIABLE/tip from 0.004 to 0.009 = 214302 tol rel 1e-3
+    arrival SFORCE/240.f through -292810 from 0.02 = 0.080613 tol rel 5e-3
+    max SFORCE/240.f smoothed 0.004 = 371318 tol rel 2e-2
+
+Over the window [t0, t1]:  mean = integral of the channel / (t1 - t0), max, min,
+range = max - min, last = value at t1;  `arrival NAME through LEVEL` is the first time in the window
+at which the channel has that level, `value NAME at T` the value at T. `smoothed WIDTH` takes the
+centred moving average of the channel first. adamslite.verification.signals has the formulas.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from adamslite.results.comparison import SAME_TIME, Difference, Mismatch, Tolerance, sampler
+from adamslite.results.results import Results
+from adamslite.verification.signals import arrival, moving_average, plateau
+
+#: Word of a measure -> function of the (nt,) times and (nt,) values inside the window.
+KINDS: dict[str, Callable[[np.ndarray, np.ndarray], float]] = {
+    "mean": lambda times, history: plateau(times, history, times[0], times[-1]),
+    "max": lambda times, history: float(history.max()),
+    "min": lambda times, history: float(history.min()),
+    "range": lambda times, history: float(np.ptp(history)),
+    "last": lambda times, history: float(history[-1]),
+}
+
+#: The word that takes one time instead of a window, and the one that takes a level as well.
+VALUE, ARRIVAL = "value", "arrival"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measure:
+    """A number that a run must give.
+
+    Parameters
+    ----------
+    kind : str
+        A word of `KINDS`, `arrival` or `value`.
+    channel : str
+        Result name.
+    start, end : float or None
+        Window [time]; None is the first, the last output time. For `value` both are its time.
+    level : float or None
+        Of `arrival`, in the unit of the channel.
+    smoothed : float
+        Width of the moving average that is taken first [time].
+    value : float
+        What must come out, in the unit of the channel; for `arrival` [time].
+    tolerance : Tolerance
+        How far it may be off; `rel` and `peak` both refer to `value`.
+    """
+
+    kind: str
+    channel: str
+    start: float | None = None
+    end: float | None = None
+    level: float | None = None
+    smoothed: float = 0.0
+    value: float
+    tolerance: Tolerance
+
+    def difference(self, results: Results, interpolate: str | None = None) -> Difference:
+        """Compare the measure of `results` with its reference value."""
+        off = abs(self.measured(results, interpolate) - self.value)
+        allowed = float(self.tolerance.allowed(np.array([self.value]))[0])
+        return Difference(
+            name=f"{self.kind} {self.channel}",
+            worst=off,
+            allowed=allowed,
+            time=self.end if self.kind == VALUE else None,
+            inside=bool(off <= allowed),
+        )
+
+    def measured(self, results: Results, interpolate: str | None = None) -> float:
+        """Take the measure of `results`; `interpolate` is for `value` between output times."""
+        if self.channel not in results:
+            raise Mismatch(f"the results have no channel '{self.channel}'")
+        times, history = results.time, results[self.channel]
+        if self.smoothed and times.size:
+            history = moving_average(times, history, self.smoothed)
+        if self.kind == VALUE:
+            sample = sampler(results, np.array([self.end]), interpolate)
+            return float(sample(history)[0])
+        window = self._window(times)
+        if self.kind == ARRIVAL:
+            return self._arrival(times[window], history[window])
+        return KINDS[self.kind](times[window], history[window])
+
+    def _arrival(self, times: np.ndarray, history: np.ndarray) -> float:
+        when = arrival(times, history, self.level, times[0], times[-1])
+        if when is None:
+            raise Mismatch(
+                f"'{self.channel}' never passes {self.level:g} from t = {times[0]:g} to "
+                f"{times[-1]:g}: it stays in {history.min():g} to {history.max():g}"
+            )
+        return when
+
+    def _window(self, times: np.ndarray) -> np.ndarray:
+        if times.size == 0:
+            raise Mismatch("the results hold no output time at all")
+        slack = SAME_TIME * float(np.ptp(times))
+        start = times[0] if self.start is None else self.start
+        end = times[-1] if self.end is None else self.end
+        window = (times >= start - slack) & (times <= end + slack)
+        if not window.any() or start < times[0] - slack or end > times[-1] + slack:
+            raise Mismatch(
+                f"the window {start:g} to {end:g} of '{self.kind} {self.channel}' is not covered "
+                f"by the results, which go from t = {times[0]:g} to {times[-1]:g}"
+            )
+        return window

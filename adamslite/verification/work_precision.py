@@ -1,0 +1,348 @@
+"""What accuracy costs: a scene run by every integrator at several values of ERROR.
+
+The error of a run is that of ``run_error``, against a tight run that another method confirms; how
+much the tight run still changes with its own ERROR is not known any better.
+"""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from math import floor, inf, log10
+from statistics import median
+from typing import Any
+
+from adamslite.analyses.choose import AUTO, CONSTANT, METHODS
+from adamslite.analyses.dynamic import Settings
+from adamslite.elements.integrator import Integrator
+from adamslite.equations.engine import HHT, VERLET
+from adamslite.errors import RunFailed, UsageError
+from adamslite.progress import Progress
+from adamslite.results.comparison import fits
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results, UnknownChannel
+from adamslite.results.run_error import error_of
+
+#: ERROR of the charts, and of the reference.
+ERRORS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
+TIGHT, LESS_TIGHT = 1e-10, 1e-8
+#: Methods of second order, which would need too many steps at ``TIGHT``.
+SECOND_ORDER = (HHT, VERLET)
+#: A hundred times smaller ERROR leaves this much more than the change at most.
+EXPLAINED, ROUNDING = 3.0, 1e-12
+#: A reference that is not known better than this is none.
+USELESS = 1e-2
+#: Long runs are repeated less often: (CPU [s] from, at most this often).
+SHORTER = ((2.0, 1), (0.5, 2))
+
+Run = Callable[..., Results]
+
+
+@dataclass(frozen=True)
+class Variant:
+    """An integrator as a user asks for it.
+
+    formulation : empty where it makes no difference;  also : other names of the same
+    """
+
+    integrator: str
+    formulation: str = ""
+    also: tuple[str, ...] = ()
+
+    @property
+    def label(self) -> str:
+        """As in the INTEGRATOR statement."""
+        return " ".join(filter(None, (self.integrator, self.formulation)))
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """Keyword arguments of `simulate`."""
+        named = {"integrator": self.integrator, "formulation": self.formulation}
+        return {key: value for key, value in named.items() if value}
+
+
+@dataclass(kw_only=True)
+class Point:
+    """One setting of one program.
+
+    error : None where it is not known;  cpu : solve CPU [s], one per run
+    reason : why there is no result, else empty;  given_up : because it took too long
+    """
+
+    program: str
+    setting: str
+    error: float | None = None
+    steps: int = 0
+    cpu: list[float] = field(default_factory=list)
+    reason: str = ""
+    given_up: bool = False
+
+    @property
+    def ok(self) -> bool:
+        """Whether the run reached its end."""
+        return not self.reason
+
+    @property
+    def median(self) -> float:
+        """CPU [s] to expect."""
+        return median(self.cpu) if self.cpu else inf
+
+    @property
+    def least(self) -> float:
+        """CPU [s] of the quickest run."""
+        return min(self.cpu, default=inf)
+
+    @property
+    def digits(self) -> int:
+        """Digits that are right; 0 where that is not known."""
+        if not self.ok or self.error is None:
+            return 0
+        return max(0, floor(1e-9 - log10(max(self.error, 1e-16))))
+
+    def meets(self, target: float) -> bool:
+        """Whether the error is known and small enough."""
+        return self.ok and self.error is not None and self.error <= target
+
+
+@dataclass(frozen=True)
+class Truth:
+    """A reference run, how well it is known, and what it was, in words."""
+
+    results: Results
+    doubt: float
+    origin: str
+
+
+@dataclass(frozen=True)
+class Chart:
+    """All points of a scene, integrator after integrator from loose to tight, and their truth."""
+
+    points: list[Point]
+    truth: Truth
+
+    @property
+    def useless(self) -> bool:
+        """Whether the tight runs do not agree on anything."""
+        return not self.truth.doubt <= USELESS
+
+    def recommended(self, digits: int) -> Point | None:
+        """The cheapest point with so many digits, if tighter ones of its integrator have them too.
+
+        A single hit at a loose ERROR is luck.
+        """
+        sure = []
+        for mine in by_program(self.points).values():
+            for point in reversed([p for p in mine if not p.given_up]):
+                if point.digits < digits:
+                    break
+                sure.append(point)
+        return min(sure, key=lambda p: p.median, default=None)
+
+
+def by_program(points: Iterable[Any]) -> dict[str, list[Any]]:
+    """Points by the name of their program."""
+    found: dict[str, list[Any]] = {}
+    for point in points:
+        found.setdefault(point.program, []).append(point)
+    return found
+
+
+def variants() -> list[Variant]:
+    """Every integrator of the INTEGRATOR statement that ERROR steers, those that do the same once.
+
+    Formulations differ without constraints, too: I3 does not test the error of velocities.
+    """
+    arguments = Integrator.arguments
+    found: dict[Any, list[Variant]] = {}
+    for method in arguments["method"].supported:
+        if method in (AUTO, CONSTANT):
+            continue
+        forms = arguments["formulation"].supported
+        chosen = {Settings(method=method, formulation=form).form: form for form in forms}
+        for form in chosen.values():
+            settings = Settings(method=method, formulation=form)
+            does = METHODS[method], settings.form, settings.second_order
+            told = form if len(chosen) > 1 else ""
+            found.setdefault(does, []).append(Variant(method, told))
+    return [
+        replace(first, also=tuple(v.integrator for v in rest)) for first, *rest in found.values()
+    ]
+
+
+class Patience(Progress):
+    """Ends a run that takes more than ``seconds`` of CPU."""
+
+    def __init__(self, seconds: float, told: Progress | None = None) -> None:
+        self.seconds, self.told, self.over = seconds, told or Progress(), False
+        self._start = clock.process_time()
+
+    def __call__(self, time: float, end: float) -> None:
+        self.told(time, end)
+        if clock.process_time() - self._start > self.seconds:
+            self.over = True
+            raise KeyboardInterrupt
+
+    def say(self, sentence: str) -> None:
+        self.told.say(sentence)
+
+
+def patient(run: Run, seconds: float, told: Progress | None = None) -> Run:
+    """``run`` that gives up after ``seconds`` of CPU; a user's own interruption goes on."""
+
+    def runs(**options: Any) -> Results:
+        patience = Patience(seconds, told)
+        results = run(progress=patience, **options)
+        if results.outcome is not Outcome.INTERRUPTED:
+            return results
+        if not patience.over:
+            raise KeyboardInterrupt
+        return replace(results, message=f"it took more than {seconds:g} s and was given up")
+
+    return runs
+
+
+@dataclass(frozen=True)
+class Tight:
+    """A tight run, and how far a less tight one of the same method is from it."""
+
+    variant: Variant
+    results: Results
+    change: float
+
+
+def find_truth(run: Run, tried: Iterable[Variant], channels: Sequence[str] = ()) -> Truth:
+    """The tight run that changes least when its ERROR is made larger, if another method agrees.
+
+    Raises
+    ------
+    RunFailed
+        When no method reaches the end.
+    UsageError
+        When there is nothing to compare.
+    """
+    done: list[Tight] = []
+    told: list[str] = []
+    for variant in tried:
+        if METHODS[variant.integrator] in SECOND_ORDER:
+            continue
+        try:
+            tight, less = (run(error=error, **variant.options) for error in (TIGHT, LESS_TIGHT))
+        except UsageError as refusal:
+            told.append(str(refusal))
+            continue
+        if tight.outcome is Outcome.DONE is less.outcome:
+            _need_something(tight, channels)
+            done.append(Tight(variant, tight, error_of(less, tight, channels)))
+        else:
+            why = tight.message or less.message or Outcome.NOT_FINITE.value
+            told.append(f"{variant.label} ERROR={TIGHT:g}: {why}")
+    if not done:
+        raise RunFailed(f"there is no reference to chart against. {' '.join(told)}")
+    best, *others = sorted(done, key=lambda each: each.change)
+    return _checked(best, others, channels)
+
+
+def _checked(best: Tight, others: Sequence[Tight], channels: Sequence[str]) -> Truth:
+    """How sure the best run is: its own change, if another method comes to the same.
+
+    Another method does when it is no further away than its own change explains; otherwise nobody
+    knows which of them is right, and the distance is what is not known.
+    """
+    name = f"{best.variant.label} at ERROR={TIGHT:g}"
+    own = METHODS[best.variant.integrator]
+    rivals = [o for o in others if METHODS[o.variant.integrator] != own] or others
+    if not rivals:
+        told = f"{name}, which no other method checks"
+        return Truth(best.results, best.change or inf, told)
+    apart = [(error_of(o.results, best.results, channels), o) for o in rivals]
+    for distance, other in apart:
+        if distance <= EXPLAINED * max(other.change, best.change, ROUNDING):
+            told = f"{name}; {other.variant.label} agrees within {distance:.1e}"
+            # No change at all: HMAX decides on the steps, and ERROR says nothing of them.
+            return Truth(best.results, best.change or distance, told)
+    distance, other = min(apart, key=lambda pair: pair[0])
+    told = f"{name}; {other.variant.label} comes to something else"
+    return Truth(best.results, distance, told)
+
+
+def _need_something(results: Results, channels: Sequence[str]) -> None:
+    for channel in channels:
+        if not any(fits(channel, name) for name in results.names):
+            try:
+                results[channel]
+            except UnknownChannel as unknown:  # which says what names are near
+                raise UsageError(str(unknown)) from None
+    if not results.summary["steps"]:
+        raise UsageError(
+            "this run takes no integration steps (statics, kinematics, or no time at all): "
+            "there is nothing to choose"
+        )
+
+
+def climb(
+    run: Run, variant: Variant, errors: Iterable[float], truth: Truth, channels: Sequence[str] = ()
+) -> Iterator[Point]:
+    """One integrator from loose to tight; a refusal, or the first run given up, ends it."""
+    for error in errors:
+        point = Point(program=variant.label, setting=f"ERROR={error:g}")
+        try:
+            results = run(error=error, **variant.options)
+        except UsageError as refusal:
+            point.reason = str(refusal)
+            yield point
+            return
+        point.steps = results.summary["steps"]
+        point.cpu.append(results.summary["solve_cpu_s"])
+        if results.outcome is Outcome.DONE:
+            point.error = max(error_of(results, truth.results, channels), truth.doubt)
+        else:
+            point.reason = results.message or results.outcome.value
+        point.given_up = results.outcome is Outcome.INTERRUPTED
+        yield point
+        if point.given_up:
+            return
+
+
+def repeats_of(cpu: float, repeats: int) -> int:
+    """How often a run that took so many seconds is done in all: long ones less often."""
+    return next((min(repeats, k) for least, k in SHORTER if cpu > least), repeats)
+
+
+def measure(
+    run: Run,
+    tried: Sequence[Variant],
+    errors: Sequence[float] = ERRORS,
+    repeats: int = 3,
+    channels: Sequence[str] = (),
+) -> Chart:
+    """Chart a scene.
+
+    Parameters
+    ----------
+    run : function of keyword arguments of `simulate`, returns Results
+        INTERRUPTED is taken as given up; see `patient`.
+    tried : sequence of Variant
+    errors : sequence of float
+        From loose to tight.
+    repeats : int
+        Each setting is run so often, the settings taking turns.
+    channels : sequence of str
+        Names or patterns of the results that count; the motion of everything when empty.
+
+    Raises
+    ------
+    RunFailed, UsageError
+        When there is no reference, or nothing to choose.
+    """
+    truth = find_truth(run, tried, channels)
+    made = [
+        ({"error": error, **variant.options}, point)
+        for variant in tried
+        for error, point in zip(errors, climb(run, variant, errors, truth, channels), strict=False)
+    ]
+    for turn in range(1, repeats):
+        for options, point in made:
+            if point.ok and turn < repeats_of(point.cpu[0], repeats):
+                point.cpu.append(run(**options).summary["solve_cpu_s"])
+    return Chart([point for _, point in made], truth)
