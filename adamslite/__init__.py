@@ -30,11 +30,11 @@ _HOME = {
     "Outcome": "results.outcomes",
     "Results": "results.results",
     "assemble": "model.model",
-    "check": "checks.bodies_and_elements",
+    "check": "checks.rules",
     "compare": "results.comparison",
     "compile_model": "kernels.compile",
     "linearize": "analyses.simulation",
-    "read": "deck.deck",
+    "read": "reading.read",
     "simulate": "analyses.simulation",
 }
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from adamslite.checks.rule import say
+from adamslite.deck.statement_diagnostics import say
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.outputs.whole_files import need_writable, same_file
 

@@ -61,7 +61,7 @@ def load_scene(deck_path: Path, commands_path: Path | None = None) -> Scene:
     DeckError
         With everything that is wrong in the two files.
     """
-    from adamslite.deck.deck import Commands, read_commands
+    from adamslite.reading.read import Commands, read_commands
 
     wrong: list[Diagnostic] = []
     try:

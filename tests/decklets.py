@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from adamslite.checks.bodies_and_elements import check
-from adamslite.deck.deck import Deck, read
+from adamslite.checks.rules import check
+from adamslite.deck.deck import Deck
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.expression import Node
 from adamslite.language.messages import START
 from adamslite.language.statement import Statement
+from adamslite.reading.read import read
 
 
 def deck_with(statements: str) -> Deck:

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import adamslite
-from adamslite.deck.deck import Commands
 from adamslite.language.diagnostics import Diagnostic, Span
+from adamslite.reading.read import Commands
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
@@ -106,7 +106,7 @@ def install(monkeypatch: pytest.MonkeyPatch, pipeline: Pipeline) -> None:
     }
     for name, fake in fakes.items():
         monkeypatch.setitem(vars(adamslite), name, fake)
-    deck_module = ModuleType("adamslite.deck.deck")
+    deck_module = ModuleType("adamslite.reading.read")
     deck_module.read_commands = read_commands
     deck_module.Commands = Commands
-    monkeypatch.setitem(sys.modules, "adamslite.deck.deck", deck_module)
+    monkeypatch.setitem(sys.modules, "adamslite.reading.read", deck_module)

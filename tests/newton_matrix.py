@@ -9,12 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from adamslite.analyses.initial.conditions import constraint_gradient, initial_conditions
-from adamslite.deck.deck import read
 from adamslite.equations.system import System
 from adamslite.integrators import contract, motion_equations, newton
 from adamslite.integrators.bdf import corrector
 from adamslite.kernels.compile import compile_model
 from adamslite.model.model import PART, assemble
+from adamslite.reading.read import read
 
 H = 0.02
 STEP = 1e-6

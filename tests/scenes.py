@@ -9,9 +9,10 @@ import numpy as np
 
 import adamslite as al
 from adamslite.equations import operations
-from adamslite.equations.engine import INTEGRATORS, JACOBIAN, RESIDUAL
+from adamslite.equations.engine import INTEGRATORS
 from adamslite.equations.system import System
 from adamslite.integrators import contract, motion_equations
+from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.results.results import Results
 
 GROUND = "a scene\nPART/1, GROUND\nMARKER/1, PART=1\n"

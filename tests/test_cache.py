@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from adamslite.caching import entries, folder
+from adamslite.caching import contents, entries, folder
 from adamslite.caching.entries import Damaged, recall, sealed, unsealed
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
@@ -228,7 +228,7 @@ def fill(cache: Path, number: int, size: int = 1000) -> None:
 
 
 def kept(cache: Path) -> list[int]:
-    return sorted(int(entry.path.name[1:33], 16) for entry in entries.entries(cache))
+    return sorted(int(entry.path.name[1:33], 16) for entry in contents.entries(cache))
 
 
 def test_the_oldest_entries_go_first(cache, monkeypatch) -> None:
@@ -251,7 +251,7 @@ def test_the_bound_holds_while_one_process_adds(cache, monkeypatch) -> None:
     monkeypatch.setenv("ADAMSLITE_CACHE_SIZE", "0.005")
     for k in range(30):
         entries.store(cache / name(k), bytes(1000))
-        assert sum(entry.size for entry in entries.entries(cache)) <= 5000
+        assert sum(entry.size for entry in contents.entries(cache)) <= 5000
     assert 29 in kept(cache)
 
 
@@ -278,14 +278,14 @@ def test_the_usual_bound_is_512_megabytes(monkeypatch) -> None:
 
 WORKER = """\
 import sys
-from adamslite.caching import entries, folder
+from adamslite.caching import contents, entries, folder
 name = "k{:032x}.o".format
 for turn in range(60):
     for k in range(8):
         content = bytes([k]) * 2000
         assert entries.recall(name(k), lambda: content) == content
     if turn % 5 == 0:
-        entries.clear(folder.cache_folder())
+        contents.clear(folder.cache_folder())
 """
 
 

@@ -202,7 +202,7 @@ def test_check_tells_warnings_and_contents(pipeline, capsys) -> None:
     ("argv", "said"),
     [
         (["diff", "no.csv", "cable.adm"], "'no.csv': No such file"),
-        (["diff", "cable.adm", "cable.adm"], "cable.adm:1: the header row"),
+        (["diff", "cable.adm", "cable.adm"], "results cannot be read from cable.adm"),
         (["solve", "cable.adm", "-o", "no/out.csv"], "no such folder"),
         (["solve", "cable.adm", "-o", "."], "it is a folder"),
         (["verify", "nowhere"], "'nowhere': no such deck or folder"),
@@ -292,7 +292,8 @@ def test_ctrl_c_writes_what_is_computed(tmp_path: Path) -> None:
     # Interrupts itself at the first report of progress; a shell may have told it to ignore SIGINT.
     program = (
         "import signal, sys\n"
-        "from adamslite import cli, progress\n"
+        "from adamslite import progress\n"
+        "from adamslite.cli import main as cli\n"
         "def interrupt(self, time, end):\n"
         "    signal.raise_signal(signal.SIGINT)\n"
         "progress.TalkingProgress.__call__ = interrupt\n"

@@ -10,11 +10,12 @@ import pytest
 from test_deck import public_deck
 
 from adamslite.analyses.output_times import output_times
-from adamslite.deck.deck import Commands, Deck, read, read_commands
+from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.expression import Num, to_text
 from adamslite.language.messages import START
+from adamslite.reading.read import Commands, read, read_commands
 from adamslite.scene import load_scene
 
 RIG = (

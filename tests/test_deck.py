@@ -12,12 +12,12 @@ import pytest
 from decklets import codes, deck_with, function, last
 
 import adamslite
-from adamslite.checks.bodies_and_elements import check
-from adamslite.deck.deck import read, read_commands
+from adamslite.checks.rules import check
 from adamslite.language.diagnostics import DeckError
 from adamslite.language.expression import GROUND_FRAME, Call, Num, Op, Ref, to_text
 from adamslite.language.messages import START
 from adamslite.language.statement import STATEMENTS
+from adamslite.reading.read import read, read_commands
 
 PAPER = r"""the statements of the paper, as printed
 ACCGRAV/JGRAV=-9.81

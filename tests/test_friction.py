@@ -6,9 +6,10 @@ import pytest
 from decklets import codes
 
 from adamslite.analyses.simulation import simulate
-from adamslite.checks.bodies_and_elements import check
-from adamslite.deck.deck import Deck, read, read_commands
+from adamslite.checks.rules import check
+from adamslite.deck.deck import Deck
 from adamslite.model.model import assemble
+from adamslite.reading.read import read, read_commands
 from adamslite.results.results import Results
 
 # A slope of tan = 0.4 for a coefficient of 0.8: half of what friction can hold.

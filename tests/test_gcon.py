@@ -87,7 +87,7 @@ def test_a_force_that_depends_on_it() -> None:
 
 
 def test_nothing_is_left_of_one_that_is_switched_off() -> None:
-    from adamslite.deck.deck import read_commands
+    from adamslite.reading.read import read_commands
 
     deck = adamslite.read(PENDULUM)
     run = "DEACTIVATE/GCON, ID=1\nSIMULATE/DYNAMICS, END=0.1, STEPS=2\nSTOP\n"

@@ -19,8 +19,9 @@ from scenes import (
 
 import adamslite as al
 import adamslite.functions  # noqa: F401  fills the registry
-from adamslite.equations.engine import RESIDUAL, engine
+from adamslite.equations.engine import engine
 from adamslite.integrators import contract
+from adamslite.integrators.contract import RESIDUAL
 from adamslite.language.function import FUNCTIONS
 from adamslite.native import compiler
 

@@ -8,8 +8,8 @@ from constraint_decks import BODIES
 from newton_matrix import matrix_error
 
 from adamslite.analyses.simulation import simulate
-from adamslite.deck.deck import read
 from adamslite.model.model import Model, assemble, rotation_313
+from adamslite.reading.read import read
 from adamslite.results.results import Results
 
 FLOATING = "MARKER/39, PART=3, FLOATING\n"

@@ -7,10 +7,10 @@ import math
 import pytest
 from decklets import codes, deck_with, function, last
 
-from adamslite.deck.deck import read
 from adamslite.language.expression import to_text
 from adamslite.language.messages import START
-from adamslite.syntax.forms import spelled
+from adamslite.language.spelling import spelled
+from adamslite.reading.read import read
 
 DEGREE = math.pi / 180
 

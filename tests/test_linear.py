@@ -11,7 +11,7 @@ import pytest
 
 import adamslite
 from adamslite.cli.main import main
-from adamslite.deck.deck import read_commands
+from adamslite.reading.read import read_commands
 
 # m x'' + c x' + k x = w, tuned to omega = 10, zeta = 0.1; w is VARIABLE/1.
 OSCILLATOR = """\

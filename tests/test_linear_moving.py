@@ -9,7 +9,7 @@ import pytest
 
 import adamslite
 from adamslite.cli.main import main
-from adamslite.deck.deck import read_commands
+from adamslite.reading.read import read_commands
 
 
 def linearized(text: str, *arguments: str) -> list:

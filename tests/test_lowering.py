@@ -8,8 +8,9 @@ import math
 import pytest
 import sympy as sp
 
-from adamslite.kernels.code.sympy_to_llvm import Builder, Lowering
+from adamslite.kernels.code.sympy_to_llvm import Lowering
 from adamslite.native import compiler
+from adamslite.native.llvm_builder import Builder
 from adamslite.symbolic import sympy_nodes
 
 x, y, z = sp.symbols("x y z", real=True)

@@ -7,9 +7,9 @@ from decklets import told
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from adamslite.deck.deck import read, read_commands
 from adamslite.language.diagnostics import DeckError
 from adamslite.language.messages import MESSAGES, START
+from adamslite.reading.read import read, read_commands
 
 BROKEN = [(code, deck) for code, message in MESSAGES.items() for deck in message.broken]
 SECTION = "LENGTH=1, IXX=1, IYY=1, IZZ=1, AREA=1, EMODULUS=1, GMODULUS=1"

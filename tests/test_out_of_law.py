@@ -10,7 +10,7 @@ import pytest
 from scenes import GROUND, run
 
 from adamslite import read, simulate
-from adamslite.deck.deck import read_commands
+from adamslite.reading.read import read_commands
 
 TUMBLING = GROUND + (
     "PART/2, MASS=1, CM=2, IP=1,1,1, {spin}\nMARKER/2, PART=2\n"

@@ -1,6 +1,5 @@
-"""The package finds its grammar and decks wherever it is, and its verbs stay functions."""
+"""The package finds its grammar and decks wherever it is, and its stages are functions."""
 
-import importlib
 import runpy
 import shutil
 from pathlib import Path
@@ -25,13 +24,12 @@ def test_inside_the_package_first_then_next_to_it(tmp_path: Path, home: str) -> 
     shutil.copy(resources.__file__, package)
     for place in {home, "grammar"}:
         (tmp_path / place).mkdir()
-    find = runpy.run_path(str(package / "places.py"))["find"]
+    find = runpy.run_path(str(package / "resources.py"))["find"]
     assert find("grammar") == tmp_path / home
 
 
 @pytest.mark.parametrize("verb", VERBS)
-def test_importing_a_module_does_not_hide_the_verb_of_its_name(verb: str) -> None:
-    importlib.import_module(f"adamslite.{adamslite._HOME[verb]}")
+def test_every_stage_is_a_function_of_the_package(verb: str) -> None:
     assert callable(getattr(adamslite, verb))
 
 

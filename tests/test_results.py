@@ -82,7 +82,7 @@ def test_a_file_that_is_no_table_is_explained(tmp_path: Path, text: str, message
     path = tmp_path / "a.csv"
     path.write_text(text)
     with pytest.raises(FormatError) as fault:
-        csv.read(path)
+        csv.read_table(path)
     assert message in str(fault.value)
 
 

@@ -8,6 +8,7 @@ import re
 import sys
 import threading
 from math import floor, sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -75,9 +76,7 @@ def sample_everything(P: Small, r: Reals, n: Ints) -> float:
 
 def native_call(entry: str, arrays: list, result: type = ctypes.c_double):
     """Compile ``entry`` and call it on numpy arrays and records."""
-    address = code.addresses([(code.object_code(translate.translate(operations)), [operations])])[
-        operations
-    ]
+    address = code.addresses([(code.object_code(translate.translate(entry)), [entry])])[entry]
     places = [a.address if isinstance(a, Record) else a.ctypes.data for a in arrays]
     return ctypes.CFUNCTYPE(result, *[ctypes.c_void_p] * len(places))(address)(*places)
 
@@ -371,6 +370,12 @@ def run_of(name: str):
         return None
 
 
+# Rooms that hold native functions.
+NATIVE_ROOMS = tuple(
+    str(Path(al.__file__).parent / room) for room in ("integrators", "equations/operations.py")
+)
+
+
 @pytest.fixture(scope="module")
 def interpretations():
     """Every run by Python, and the names of the native functions that were called."""
@@ -378,7 +383,7 @@ def interpretations():
     before = sys.getprofile()
 
     def watch(frame, event, argument):
-        if event == "call" and "integrators" in frame.f_code.co_filename:
+        if event == "call" and frame.f_code.co_filename.startswith(NATIVE_ROOMS):
             called.add(frame.f_code.co_name)
 
     with pytest.MonkeyPatch.context() as patch, np.errstate(all="ignore"):

@@ -18,11 +18,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from adamslite.equations.engine import ACCELERATIONS, AUDIT
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.audit import path as at
 from adamslite.integrators.audit.work import POINTS, ROWS_OF_GUARDS
+from adamslite.integrators.contract import ACCELERATIONS, AUDIT
 
 # Standard deviations within which a sum of independent errors stays.
 CONFIDENCE = 3.0

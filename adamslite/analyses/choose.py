@@ -18,10 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.equations.engine import BDF, EXPLICIT, HHT, RADAU, SPECTRUM, VERLET
 from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
+from adamslite.integrators.contract import BDF, EXPLICIT, HHT, RADAU, SPECTRUM, VERLET
 from adamslite.model.model import PART
 from adamslite.symbolic.guards import JUMPS
 

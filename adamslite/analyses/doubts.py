@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from adamslite.analyses.choose import CONSTANT, METHODS
-from adamslite.equations.engine import BDF, HHT, VERLET
 from adamslite.integrators import contract
+from adamslite.integrators.contract import BDF, HHT, VERLET
 
 # ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do
 # not have to offer.

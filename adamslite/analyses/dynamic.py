@@ -13,9 +13,10 @@ from adamslite.analyses.choose import CONSTANT, METHODS
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.drives import first_jump
 from adamslite.analyses.clock.paces import timetable
-from adamslite.equations.engine import BDF, EXPLICIT, RADAU, ints
+from adamslite.equations.engine import ints
 from adamslite.equations.system import System
 from adamslite.integrators import contract
+from adamslite.integrators.contract import BDF, EXPLICIT, RADAU
 from adamslite.results.outcomes import Outcome
 
 # How a run may end before a motion that jumps, or gets ever faster.

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.equations.engine import JACOBIAN, RESIDUAL
 from adamslite.equations.system import System
 from adamslite.equations.unknown_names import equation, placed, tested, unknown
 from adamslite.integrators import contract
+from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.integrators.event_rows import CULPRIT
 from adamslite.integrators.verlet.method import LIMIT
 from adamslite.results.outcomes import Outcome
@@ -79,9 +79,11 @@ def _corrector(system: System) -> str:
     """The equation that stays open, the unknown that moves most."""
     report = system.report
     if not report[contract.ITERATION]:
-        return f"{tested(system, int(report[contract.WHERE]))}: {_when(system)}, no accelerations found"
-    said = f"{equation(system, int(report[contract.OPEN_ROW]))}: {_when(system)}, this equation is off by "
-    said += f"{report[contract.OPEN_BY]:.3g} after iteration {report[contract.ITERATION]:.0f}, more than all"
+        where = tested(system, int(report[contract.WHERE]))
+        return f"{where}: {_when(system)}, no accelerations found"
+    open_row = equation(system, int(report[contract.OPEN_ROW]))
+    said = f"{open_row}: {_when(system)}, this equation is off by {report[contract.OPEN_BY]:.3g} "
+    said += f"after iteration {report[contract.ITERATION]:.0f}, more than all"
     moving = unknown(system, int(report[contract.CHANGED]))
     told = f"{said} others. {moving}, changes most, by {report[contract.CHANGE]:.3g}"
     return told + _held_up(system)

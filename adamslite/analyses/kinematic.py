@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from adamslite.analyses.initial.conditions import Unclosed, initial_conditions, move
-from adamslite.equations.engine import ACCELERATIONS, RECORD
 from adamslite.equations.system import System
 from adamslite.integrators import contract
+from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.results.outcomes import Outcome
 
 

@@ -15,9 +15,9 @@ from collections.abc import Callable
 import numpy as np
 
 from adamslite.analyses.initial.conditions import constraint_gradient
-from adamslite.equations.engine import ACCELERATIONS
 from adamslite.equations.system import System
 from adamslite.integrators import contract
+from adamslite.integrators.contract import ACCELERATIONS
 from adamslite.model.model import PART
 from adamslite.results.outcomes import Outcome
 

@@ -36,11 +36,12 @@ from adamslite.analyses.kinematic import run_kinematic
 from adamslite.analyses.output_times import output_times
 from adamslite.analyses.plane import in_its_plane
 from adamslite.analyses.static import StaticSettings, run_static
-from adamslite.equations.engine import ACCELERATIONS, RECORD, engine
+from adamslite.equations.engine import engine
 from adamslite.equations.result_columns import columns
 from adamslite.equations.system import System
 from adamslite.gc_pause import uncollected
 from adamslite.integrators import contract
+from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.kernels.compile import Kernels, compile_model
 from adamslite.model.model import Model, assemble
 from adamslite.results.outcomes import Outcome

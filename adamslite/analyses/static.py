@@ -7,9 +7,9 @@ from math import pi
 
 import numpy as np
 
-from adamslite.equations.engine import EQUILIBRIUM
 from adamslite.equations.system import System
 from adamslite.integrators import contract
+from adamslite.integrators.contract import EQUILIBRIUM
 from adamslite.results.outcomes import Outcome
 
 

@@ -41,8 +41,8 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
 
 def parse(text: str, path: Path, faults: Faults) -> Node | None:
     """The expression; None after saying what is wrong with it."""
-    from adamslite.deck.deck import read
     from adamslite.language.diagnostics import DeckError
+    from adamslite.reading.read import read
 
     moved = path[-1] in ("force", "torque", "pull")
     names = "VARIABLE/S, FUNCTION=0\nVARIABLE/SD, FUNCTION=0\n" if moved else ""

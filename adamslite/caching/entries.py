@@ -15,23 +15,20 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import re
 import struct
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from itertools import count
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
+from adamslite.caching.contents import DRAFT, entries, found_files, remove
 from adamslite.caching.folder import cache_folder, say
 from adamslite.errors import UsageError
 
 HEAD = struct.Struct("<8sQ32s")
 MAGIC = b"alentry1"
-#: Names of entries, and of those being written. Nothing else in the folder is ever touched.
-ENTRY = re.compile(r"[a-z_]+[0-9a-f]{32}\.(?:o|json|parser)")
-DRAFT = re.compile(rf"\.{ENTRY.pattern}\.\d+-\d+\.part")
 
 BOUND = 512.0
 """Size of the folder [MB = 1e6 bytes] unless ``ADAMSLITE_CACHE_SIZE`` says another."""
@@ -41,14 +38,6 @@ HOUR = 3600.0
 """A draft older than this was left by a process that has died [s]."""
 DAY = 24 * HOUR
 """When an entry was last used is noted to a day [s]."""
-
-
-class Entry(NamedTuple):
-    """A file of the folder: its size [bytes] and when it was last used [s since 1970]."""
-
-    path: Path
-    size: int
-    used: float
 
 
 def recall(name: str, make: Callable[[], bytes]) -> bytes:
@@ -152,31 +141,18 @@ def bound() -> float:
     return 1e6 * size
 
 
-def entries(folder: Path) -> list[Entry]:
-    """What is kept in a folder, unused for longest first."""
-    return sorted(_found(folder, ENTRY), key=lambda entry: (entry.used, entry.path))
-
-
-def clear(folder: Path) -> list[Entry]:
-    """Remove every entry; returns those that there were."""
-    found = entries(folder)
-    for entry in (*found, *_found(folder, DRAFT)):
-        _remove(entry)
-    return found
-
-
 def trim(folder: Path, most: float) -> int:
     """Remove what has not been used for longest until ``most`` bytes are left, and dead drafts.
 
     Returns the bytes that are left.
     """
-    for draft in _found(folder, DRAFT):
+    for draft in found_files(folder, DRAFT):
         if time.time() - draft.used > HOUR:
-            _remove(draft)
+            remove(draft)
     kept = entries(folder)
     total = sum(entry.size for entry in kept)
     for entry in kept if total > most else ():
-        _remove(entry)
+        remove(entry)
         total -= entry.size
         if total <= SPARED * most:
             break
@@ -193,17 +169,3 @@ def _keep_bound(folder: Path, added: int) -> None:
         _totals[folder] = trim(folder, bound())
     else:
         _totals[folder] = known + added
-
-
-def _found(folder: Path, kind: re.Pattern[str]) -> Iterator[Entry]:
-    with suppress(OSError), os.scandir(folder) as files:
-        for file in files:
-            if kind.fullmatch(file.name):
-                with suppress(FileNotFoundError):
-                    facts = file.stat(follow_symlinks=False)
-                    yield Entry(Path(file.path), facts.st_size, facts.st_mtime)
-
-
-def _remove(entry: Entry) -> None:
-    with suppress(OSError):
-        entry.path.unlink(missing_ok=True)

@@ -16,6 +16,8 @@ import sys
 from functools import cache
 from pathlib import Path
 
+from adamslite.caching.contents import clear
+
 OTHERS = stat.S_IWGRP | stat.S_IWOTH
 ADMINISTRATOR = 0
 #: Unix: elsewhere the folders of a user are closed by the system, and modes say nothing.
@@ -114,8 +116,6 @@ def _doubt(folder: Path) -> str:
 
 def _taken_back(folder: Path) -> bool:
     """Close a folder of our own that was open to others, and drop what they may have put there."""
-    from adamslite.caching.entries import clear
-
     if folder.stat().st_uid != os.geteuid():
         return False
     folder.chmod(0o700)

@@ -1,10 +1,10 @@
 """Which source files shape what is kept, and a digest of their content.
 
 The files are found from the import graph: those of a module, of all it imports from this package,
-and so on. Importing a module runs the packages that it lies in, and a package may import what no
-statement names, so each stands for all its modules; of this one it is only `__init__.py`. The graph
-is read anew from the files themselves each time, so nothing about it can be out of date; that takes
-a few milliseconds and only what needs compiled code pays them.
+and so on. Importing a module runs the packages that it lies in; a package that imports what it
+finds in its folder covers all of its modules. The graph is read from the files themselves each
+time, so nothing about it can be out of date; that takes a few milliseconds and only what needs
+compiled code pays them.
 """
 
 from __future__ import annotations
@@ -22,6 +22,8 @@ PACKAGE = os.path.dirname(adamslite.__file__)
 #: An import from this package, as ruff formats it: its module, and the names taken from there.
 IMPORT = re.compile(rb"\n *(?:from|import) adamslite\.?([\w.]*)(?: import (\([^)]*\)|.*))?")
 NAME, DOT = re.compile(r"\w+"), re.compile(r"\.")
+#: In a package that imports whatever modules its folder holds.
+SEARCHES = b"iter_modules"
 
 
 @cache
@@ -54,8 +56,7 @@ def covered(package: str, *modules: str) -> dict[str, bytes]:
     while new:
         for path in _files(package, new.pop()):
             if path not in found:
-                with open(path, "rb") as file:
-                    found[path] = file.read()
+                found[path] = _content(path)
                 fresh = _with_packages(_imported(package, found[path])) - met
                 met |= fresh
                 new += fresh
@@ -84,10 +85,17 @@ def _files(package: str, module: str) -> list[str]:
     start = os.path.join(place, "__init__.py")
     if not os.path.isdir(place):
         return [f"{place}.py"] if os.path.isfile(f"{place}.py") else []
-    if not module or not os.path.isfile(start):
-        return [] if module else [start]
+    if not os.path.isfile(start):
+        return []
+    if SEARCHES not in _content(start):
+        return [start]
     inside = [os.path.join(at, file) for at, _, files in os.walk(place) for file in files]
     return [path for path in inside if path.endswith(".py")]
+
+
+def _content(path: str) -> bytes:
+    with open(path, "rb") as file:
+        return file.read()
 
 
 def _place(package: str, module: str) -> str:

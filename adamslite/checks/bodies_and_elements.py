@@ -8,28 +8,19 @@ time and runs in :func:`check` only.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
-from adamslite.checks.constraints import CONSTRAINT_RULES
-from adamslite.checks.effective_mass import effective_masses
 from adamslite.checks.posture import (
-    facing_markers,
-    inertia_at_mass_centre,
     is_plain,
     no_body,
-    orientations,
 )
-from adamslite.checks.rates import unformed_equations
-from adamslite.checks.rule import Rule, apply, needs, positive, say
-from adamslite.checks.runs import RUN_RULES
-from adamslite.language.diagnostics import Diagnostic, sort_by_place
+from adamslite.checks.rule import needs, positive
+from adamslite.deck.deck import Deck
+from adamslite.deck.names import RESERVED
+from adamslite.deck.statement_diagnostics import say
+from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Ref, walk
 from adamslite.language.messages import compose
 from adamslite.language.statement import Statement
-from adamslite.reading.resolver import RESERVED
-
-if TYPE_CHECKING:
-    from adamslite.deck.deck import Deck
 
 Key = int | str
 Body = tuple[str, Key]
@@ -39,11 +30,6 @@ POINT = "POINT_MASS"
 FOLLOWING = ("VFORCE", "VTORQUE", "GFORCE")
 COMPLIANT = ("BUSHING", "FIELD", "BEAM")
 BETWEEN = ("SFORCE", "SPRINGDAMPER", "JOINT", *COMPLIANT, *FOLLOWING)
-
-
-def check(deck: Deck) -> list[Diagnostic]:
-    """Everything to say about a deck that could be read: warnings and advice, in deck order."""
-    return sort_by_place([*deck.warnings, *apply(ADVICE, deck)])
 
 
 # ---- bodies -----------------------------------------------------------------------------------
@@ -329,36 +315,3 @@ def unit_system(deck: Deck) -> Iterator[Diagnostic]:
         elif 0 < len(named) < 4:
             yield say(units, "units-incomplete", word=", ".join(named).upper())
         yield from positive(units, "ucf")
-
-
-RULES: list[Rule] = [
-    one_ground,
-    ground_without_data,
-    masses,
-    inertia,
-    markers_of_bodies,
-    owners,
-    orientations,
-    floating_alone,
-    floating_use,
-    floating_unused,
-    reactions,
-    distinct_ends,
-    torques_on_points,
-    wrenches_on_points,
-    sections,
-    frictions,
-    idle_arguments,
-    held_states,
-    reserved_names,
-    requests,
-    unit_system,
-    *CONSTRAINT_RULES,
-    *RUN_RULES,
-]
-ADVICE: list[Rule] = [
-    inertia_at_mass_centre,
-    facing_markers,
-    effective_masses,
-    unformed_equations,
-]

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-from adamslite.checks.rule import Rule, needs, say
+from adamslite.checks.rule import Rule, needs
+from adamslite.deck.deck import Deck
+from adamslite.deck.statement_diagnostics import say
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Mode, Node, Ref, walk
 from adamslite.language.statement import Statement
-
-if TYPE_CHECKING:
-    from adamslite.deck.deck import Deck
 
 POINT = "POINT_MASS"
 TURNING = ("ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR")

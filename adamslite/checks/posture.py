@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import hypot
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from adamslite.checks.rule import say
+from adamslite.deck.deck import Deck
+from adamslite.deck.statement_diagnostics import say
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.statement import Statement
-
-if TYPE_CHECKING:
-    from adamslite.deck.deck import Deck
 
 # Sines below this are round-off.
 ROUND_OFF = 1e-10

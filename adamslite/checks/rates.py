@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from adamslite.deck.deck import Deck
 from adamslite.functions.forces import MEASURES, NET
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Mode, Node, Ref, calls, expressions, walk
 from adamslite.language.statement import Statement
-
-if TYPE_CHECKING:
-    from adamslite.deck.deck import Deck
 
 # Functions without a rate, or with one that depends on what they measure.
 RATELESS = (

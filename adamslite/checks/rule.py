@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
 
+from adamslite.deck.deck import Deck
+from adamslite.deck.statement_diagnostics import say
 from adamslite.language.diagnostics import Diagnostic
-from adamslite.language.messages import compose
 from adamslite.language.statement import Statement
 
-if TYPE_CHECKING:
-    from adamslite.deck.deck import Deck
-
-Rule = Callable[["Deck"], Iterator[Diagnostic]]
+Rule = Callable[[Deck], Iterator[Diagnostic]]
 
 
 def apply(rules: Sequence[Rule], deck: Deck) -> Iterator[Diagnostic]:
@@ -30,14 +27,6 @@ def needs(*keywords: str) -> Callable[[Rule], Rule]:
         return rule
 
     return mark
-
-
-def say(statement: Statement, code: str, field: str = "", **words: Any) -> Diagnostic:
-    """A message about a statement, or about one of its arguments."""
-    spans = statement.spans.home(field)
-    span = spans[field] if field in spans else spans.whole
-    source_line = spans.source.line(span.line) if spans.source else ""
-    return compose(code, span, source_line, label=statement.label, **words)
 
 
 def positive(statement: Statement, *fields: str) -> Iterator[Diagnostic]:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
-from adamslite.checks.rule import Rule, positive, say
+from adamslite.checks.rule import Rule, positive
+from adamslite.deck.deck import Deck
 from adamslite.deck.element_switch import Switch
+from adamslite.deck.redefinition import Redefinition
+from adamslite.deck.statement_diagnostics import say
 from adamslite.elements.simulate import MOST_STEPS, output_steps
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Node, Ref, calls, expressions, walk
 from adamslite.language.integrator_arguments import BACKWARD, FIXED, RUNGE_KUTTA, without_effect
 from adamslite.language.messages import did_you_mean
 from adamslite.language.statement import STATEMENTS, Statement
-
-if TYPE_CHECKING:
-    from adamslite.deck.deck import Deck
-    from adamslite.deck.redefinition import Redefinition
 
 # The highest order of the backward differences: 6 is unstable for all but strongly damped motion.
 HIGHEST = 5

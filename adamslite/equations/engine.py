@@ -9,13 +9,8 @@ import numpy as np
 
 from adamslite.caching.entries import recall
 from adamslite.caching.sources import version_of
+from adamslite.integrators.contract import BDF, EXPLICIT, HHT, RADAU, VERLET
 from adamslite.native import compiler
-
-(
-    RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
-    SPECTRUM, CLOCK, AUDIT,
-) = range(13)  # fmt: skip
-
 
 #: The integrators, each compiled by itself when a run first needs it; the rest is one piece.
 INTEGRATORS = {BDF: "bdf", HHT: "hht", RADAU: "radau", EXPLICIT: "explicit", VERLET: "verlet"}

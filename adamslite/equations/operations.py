@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from adamslite.equations.engine import (
+from adamslite.integrators.accelerations import accelerations, put_state
+from adamslite.integrators.audit.balance import start_balance
+from adamslite.integrators.bdf.method import bdf
+from adamslite.integrators.contract import (
     ACCELERATIONS,
     AUDIT,
+    BROKEN_START,
     CLOCK,
+    DONE,
     EQUILIBRIUM,
     RECORD,
     RESIDUAL,
     SPECTRUM,
+    Problem,
+    T,
 )
-from adamslite.integrators.accelerations import accelerations, put_state
-from adamslite.integrators.audit.balance import start_balance
-from adamslite.integrators.bdf.method import bdf
-from adamslite.integrators.contract import BROKEN_START, DONE, Plan, Problem, T
 from adamslite.integrators.equilibrium import equilibrium
 from adamslite.integrators.events.stops import sample_clock
 from adamslite.integrators.explicit.method import explicit
 from adamslite.integrators.hht.method import hht
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import jacobian, residual, track
 from adamslite.integrators.radau.method import radau
 from adamslite.integrators.records import write_record

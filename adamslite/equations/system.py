@@ -16,6 +16,7 @@ from adamslite.equations.engine import INTEGRATORS, engine, ints, reals
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
 from adamslite.integrators.event_rows import MARGIN_ROWS, PLACES
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.kernels.compile import Kernels
 from adamslite.model.model import PART, Model
 
@@ -278,12 +279,12 @@ class System(Elimination):
         problem, plan = self.records()
         return engine(operation)(problem.address, plan.address, *more)
 
-    def records(self) -> tuple[contract.Problem, contract.Plan]:
+    def records(self) -> tuple[contract.Problem, Plan]:
         """The arrays as native code takes them."""
-        problem, plan = contract.Problem.zeros(), contract.Plan.zeros()
+        problem, plan = contract.Problem.zeros(), Plan.zeros()
         for name in contract.Problem.fields:
             setattr(problem, name, getattr(self, name))
-        for name in contract.Plan.fields:
+        for name in Plan.fields:
             setattr(plan, name, self.plan[name])
         return problem, plan
 

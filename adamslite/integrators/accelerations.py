@@ -19,11 +19,11 @@ from adamslite.integrators.contract import (
     NZ,
     M,
     N,
-    Plan,
     Problem,
 )
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.linalg.blocks import factor, signature, solve
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
     jacobian,
     put_motion,

@@ -235,15 +235,7 @@ class Problem(Record):
     audit: Reals
 
 
-class Plan(Record):
-    """The order of elimination (:mod:`adamslite.equations.elimination_order`)."""
-
-    size: Ints
-    start: Ints
-    diagonal: Ints
-    first: Ints
-    node: Ints
-    lower: Ints
-    upper: Ints
-    target: Ints
-    place: Ints
+(
+    RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
+    SPECTRUM, CLOCK, AUDIT,
+) = range(13)  # fmt: skip

@@ -26,12 +26,12 @@ from adamslite.integrators.contract import (
     WAYS_TO_FALL,
     M,
     N,
-    Plan,
     Problem,
     T,
 )
 from adamslite.integrators.linalg.blocks import factor, signature, solve
 from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import BODY, PART, jacobian, put_pose, residual, spread
 from adamslite.integrators.newton import apply_increment
 from adamslite.native.translate import native

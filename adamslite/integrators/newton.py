@@ -14,19 +14,10 @@ ODE II, 1996, sections VI.7 and VII.2.
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import (
-    FACTORIZATIONS,
-    HOLONOMIC,
-    NB,
-    NS,
-    NV,
-    M,
-    N,
-    Plan,
-    Problem,
-)
+from adamslite.integrators.contract import FACTORIZATIONS, HOLONOMIC, NB, NS, NV, M, N, Problem
 from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
     BODY,
     PART,

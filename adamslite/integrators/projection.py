@@ -20,11 +20,11 @@ from adamslite.integrators.contract import (
     VELOCITY_ROWS,
     M,
     N,
-    Plan,
     Problem,
 )
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
     BODY,
     PART,

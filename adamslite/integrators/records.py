@@ -20,9 +20,9 @@ from adamslite.integrators.contract import (
     VIOLATION,
     M,
     N,
-    Plan,
     Problem,
 )
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import run_groups
 from adamslite.native.translate import Reals, native
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
-from adamslite.checks.rule import say
+from adamslite.deck.statement_diagnostics import say
 from adamslite.gc_pause import uncollected
 from adamslite.kernels.binding import Binder, Binding, ForceLoop, Tree
 from adamslite.kernels.view import Reader, reactions, symbolic_view

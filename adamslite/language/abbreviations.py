@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache
 from typing import Any, NamedTuple
 
+from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
-from adamslite.syntax.forms import spelled
 
 
 class Ambiguous(NamedTuple):

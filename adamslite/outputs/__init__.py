@@ -1,1 +1,7 @@
-"""One module per result format, each with `write(results, path)` and, if any, `read(path)`."""
+"""What is written: result formats, charts and tables of modes; an import registers the formats."""
+
+from importlib import import_module
+from pkgutil import iter_modules
+
+for _module in iter_modules(__path__):
+    import_module(f"{__name__}.{_module.name}")

@@ -21,6 +21,7 @@ import numpy as np
 import adamslite
 from adamslite.errors import FormatError
 from adamslite.outputs.whole_files import whole_file
+from adamslite.results.formats import register_format
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
@@ -52,8 +53,13 @@ def write_to(results: Results, stream: TextIO) -> None:
         stream.write(",".join(map(repr, (time, *row.tolist()))) + "\n")
 
 
-def read(path: str | Path) -> Table:
-    """Read a result file.
+def read(path: str | Path) -> Results:
+    """Read a result file; errors as for :func:`read_table`."""
+    return read_table(path).results
+
+
+def read_table(path: str | Path) -> Table:
+    """Read a result file with its comment lines.
 
     Raises
     ------
@@ -131,3 +137,6 @@ def _first_fault(lines: list[str], start: int, width: int, path: str | Path) -> 
             except ValueError:
                 return f"{place}: '{cell.strip()}' is not a number"
     return f"{path}: the table has an empty cell"
+
+
+register_format(".csv", write, read)

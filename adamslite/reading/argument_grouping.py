@@ -11,9 +11,10 @@ from typing import Any
 
 from adamslite.language.abbreviations import Ambiguous, vocabulary
 from adamslite.language.messages import did_you_mean
+from adamslite.language.spelling import spelled
 from adamslite.language.statement import STATEMENTS, Argument, Statement
 from adamslite.reading.argument_values import Reader, Refused
-from adamslite.syntax.forms import OPERATORS, Item, Lexeme, end_of, spelled
+from adamslite.syntax.forms import OPERATORS, Item, Lexeme, end_of
 from adamslite.syntax.syntax_errors import Syntax
 
 _LISTS = ("vector", "references", "ids", "texts")

@@ -7,12 +7,14 @@ import re
 from collections.abc import Callable
 from typing import Any
 
+from adamslite.deck.names import Key, Names, to_number
 from adamslite.language.abbreviations import match
 from adamslite.language.expression import Node
 from adamslite.language.messages import Log, did_you_mean
+from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
-from adamslite.reading.resolver import Key, Names, Resolver, Unresolved, to_number
-from adamslite.syntax.forms import CLOSES, Lexeme, end_of, spelled
+from adamslite.reading.resolver import Resolver, Unresolved
+from adamslite.syntax.forms import CLOSES, Lexeme, end_of
 
 GROUND = "GROUND"
 _LONGEST_ID = 18

@@ -10,6 +10,7 @@ import re
 from typing import Any, NamedTuple
 
 import adamslite.elements  # noqa: F401  registers the statements
+from adamslite.deck.names import Key, Names
 from adamslite.deck.redefinition import Redefinition
 from adamslite.language.abbreviations import Ambiguous, match, vocabulary
 from adamslite.language.diagnostics import Source, Spans
@@ -19,7 +20,7 @@ from adamslite.language.not_supported import STATEMENTS as PLANNED_STATEMENTS
 from adamslite.language.statement import STATEMENTS, Statement
 from adamslite.reading.argument_grouping import read_arguments
 from adamslite.reading.argument_values import Reader, to_id
-from adamslite.reading.resolver import Key, Names, Resolver
+from adamslite.reading.resolver import Resolver
 from adamslite.syntax.forms import end_of, join, scan
 from adamslite.syntax.syntax_errors import Syntax, statement_syntax
 

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from adamslite.results.formats import format_of
 from adamslite.results.outcomes import Outcome
 
 
@@ -87,17 +88,16 @@ class Results:
         return iter(self.names)
 
     def save(self, path: str | Path) -> None:
-        """Write the results to `path`; a failed write leaves an earlier file as it was."""
-        from adamslite.outputs import csv
+        """Write the results to `path` in the format of its suffix.
 
-        csv.write(self, path)
+        A failed write leaves an earlier file as it was.
+        """
+        format_of(path).write(self, path)
 
     @staticmethod
     def load(path: str | Path) -> "Results":
         """Read what `save` wrote; the comment lines come back in `meta`."""
-        from adamslite.outputs import csv
-
-        return csv.read(path).results
+        return format_of(path, to_read=True).read(path)
 
     @cached_property
     def _column(self) -> dict[str, int]:

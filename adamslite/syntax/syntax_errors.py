@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from adamslite.language.spelling import spelled
 from adamslite.syntax.forms import (
     CLOSES,
     OPERATORS,
@@ -17,7 +18,6 @@ from adamslite.syntax.forms import (
     Logical,
     end_of,
     expression_form,
-    spelled,
     statement_form,
 )
 

@@ -97,7 +97,7 @@ def read_reference(path: str | Path) -> Reference:
     FormatError
         When the table or an instruction cannot be understood; says file, line and why.
     """
-    table = csv.read(path)
+    table = csv.read_table(path)
     reference = Reference(path=Path(path), table=table.results)
     for line, comment in table.comments:
         try:

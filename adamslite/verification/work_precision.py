@@ -16,8 +16,8 @@ from typing import Any
 from adamslite.analyses.choose import AUTO, CONSTANT, METHODS
 from adamslite.analyses.dynamic import Settings
 from adamslite.elements.integrator import Integrator
-from adamslite.equations.engine import HHT, VERLET
 from adamslite.errors import RunFailed, UsageError
+from adamslite.integrators.contract import HHT, VERLET
 from adamslite.progress import Progress
 from adamslite.results.comparison import fits
 from adamslite.results.outcomes import Outcome

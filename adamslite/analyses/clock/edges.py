@@ -16,8 +16,8 @@ import numpy as np
 
 from adamslite.analyses.clock.changes import around_changes
 from adamslite.analyses.clock.clock import Clock
-from adamslite.equations.engine import CLOCK
 from adamslite.equations.system import System
+from adamslite.integrators.contract import CLOCK
 from adamslite.symbolic.guards import FLOOR, STRICT
 
 # Changes nearer to each other, or to an output time, than this share of the run are one; they are

@@ -17,9 +17,9 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.equations.engine import JACOBIAN, RESIDUAL
 from adamslite.equations.system import System
 from adamslite.integrators import contract
+from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.model.model import PART
 from adamslite.results.outcomes import Outcome
 

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from adamslite.analyses.initial.conditions import velocity_rows
-from adamslite.equations.engine import ACCELERATIONS, JACOBIAN
 from adamslite.equations.system import System
 from adamslite.integrators import contract
+from adamslite.integrators.contract import ACCELERATIONS, JACOBIAN
 from adamslite.model.model import PART
 
 PHASES = contract.LOADS | contract.REACTIONS | contract.ROWS

@@ -20,11 +20,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Show or clear; return the exit code."""
-    from adamslite.caching import entries
+    from adamslite.caching import contents, entries
     from adamslite.caching.folder import cache_folder
 
     folder = cache_folder()
-    found = entries.clear(folder) if args.clear else entries.entries(folder)
+    found = contents.clear(folder) if args.clear else contents.entries(folder)
     size = f"{sum(entry.size for entry in found) / MEGABYTE:.1f} MB"
     if args.clear:
         noun = "entry" if len(found) == 1 else "entries"

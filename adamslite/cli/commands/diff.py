@@ -33,11 +33,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print one line per channel; return the exit code."""
-    from adamslite.outputs import csv
     from adamslite.results.comparison import USUAL, Mismatch
+    from adamslite.results.results import Results
     from adamslite.verification.reference_file import read_reference
 
-    results = csv.read(args.a).results
+    results = Results.load(args.a)
     reference = read_reference(args.b)
     if args.tol:
         reference.tolerances = [("*", _tolerance(args.tol))]

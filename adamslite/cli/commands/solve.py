@@ -66,6 +66,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.errors import UsageError
     from adamslite.progress import Progress, TalkingProgress
     from adamslite.result_files import plan
+    from adamslite.results.formats import format_of
     from adamslite.results.outcomes import Outcome
     from adamslite.scene import load_scene, run_scene
 
@@ -75,7 +76,10 @@ def run(args: argparse.Namespace) -> int:
             "'-o -' and '--summary json' both want standard output; give -o a file name"
         )
     scene = load_scene(args.deck, args.commands)
-    files = plan(scene, output, bool(args.output)) if output != STDOUT else []
+    files = []
+    if output != STDOUT:
+        files = plan(scene, output, bool(args.output))
+        format_of(output)
     if not args.quiet:
         _tell_warnings(scene)
     progress = Progress() if args.quiet else TalkingProgress()

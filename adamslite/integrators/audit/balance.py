@@ -50,7 +50,8 @@ from adamslite.integrators.audit.path import (
     lay_path,
 )
 from adamslite.integrators.audit.work import MOST_PANELS, power_at, work_on_panel
-from adamslite.integrators.contract import ERROR, NB, NW, STORED_ENERGY, N, Plan, Problem, T
+from adamslite.integrators.contract import ERROR, NB, NW, STORED_ENERGY, N, Problem, T
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import BODY, PART, rotated_inertia, run_groups
 from adamslite.native.translate import native
 

@@ -13,8 +13,9 @@ Reference: Prenter, Splines and Variational Methods, 1975, section 3.2 (Hermite 
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import acceleration_matrix, settle
-from adamslite.integrators.contract import NB, NS, NV, M, N, Plan, Problem
+from adamslite.integrators.contract import NB, NS, NV, M, N, Problem
 from adamslite.integrators.linalg.blocks import factor
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import BODY, PART, attitude, put_motion, put_time
 from adamslite.native.translate import Reals, native
 

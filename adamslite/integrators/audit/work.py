@@ -32,19 +32,9 @@ from adamslite.integrators.audit.path import (
     put_on_path,
     solve_on_path,
 )
-from adamslite.integrators.contract import (
-    ELASTIC,
-    ERROR,
-    LOADS,
-    NB,
-    NW,
-    REACTIONS,
-    M,
-    N,
-    Plan,
-    Problem,
-)
+from adamslite.integrators.contract import ELASTIC, ERROR, LOADS, NB, NW, REACTIONS, M, N, Problem
 from adamslite.integrators.event_rows import CLOCK, STRICT, WATCH, WEAK
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import BODY, PART, guard_values, run_groups
 from adamslite.native.translate import Reals, native
 

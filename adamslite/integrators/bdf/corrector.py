@@ -11,21 +11,10 @@ Reference: Brenan, Campbell, Petzold, Numerical Solution of IVP in DAE, 1996, se
 from __future__ import annotations
 
 from adamslite.integrators.bdf.differences import predict
-from adamslite.integrators.bdf.state import (
-    AGE,
-    FACTORED,
-    FRESH,
-    H_LAST,
-    NOW,
-    RATE,
-    H,
-    K,
-    tests_velocities,
-)
+from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import (
     ADAPTIVITY,
     ALL_CONVERGE,
-    ERROR,
     FIXED_STEP,
     ITERATION,
     MAX_IT,
@@ -35,11 +24,12 @@ from adamslite.integrators.contract import (
     NZ,
     M,
     N,
-    Plan,
     Problem,
 )
+from adamslite.integrators.implicit.control import AGE, FACTORED, FRESH, H_LAST, NOW, RATE, H, K
+from adamslite.integrators.implicit.tolerance import asked
 from adamslite.integrators.linalg.blocks import solve
-from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
     project_on_constraints,
     put_motion,
@@ -61,8 +51,6 @@ from adamslite.native.translate import Reals, native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
 CORRECTOR_SHARE = 0.02
-# Fixed steps have no error test: a corrector looser than this would be all that errs.
-LOOSEST = 1e-3
 # Near a singular posture round-off keeps increments of velocities from shrinking further: with a
 # new matrix this share of ERROR is as good as it gets.
 STALL_SHARE = 0.2
@@ -148,12 +136,6 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
 
 
 @native
-def asked(P: Problem, fixed: float) -> float:
-    """ERROR; with ``fixed`` steps at most LOOSEST."""
-    return min(P.settings[ERROR], LOOSEST) if fixed > 0.0 else P.settings[ERROR]
-
-
-@native
 def further_change(P: Problem, cu: float, si2: bool) -> float:
     """What an increment changed besides positions: velocities in the stabilised form (those before
     stand in ``P.x``) and, with CORRECTOR=ORIGINAL, multipliers.
@@ -203,16 +185,3 @@ def start_try(P: Problem, w: int) -> None:
     for i in range(P.mu.size):
         P.mu[i] = 0.0
     put_time(P, C[NOW] + C[H])
-
-
-@native
-def wildest(P: Problem) -> int:
-    """The unknown with the largest last increment, numbered as in the error test."""
-    n, first, where, top = P.sizes[N], P.sizes[M] + P.sizes[NV], 0, -1.0
-    for i in range(n):
-        if exceeds(abs(P.F[i]), top * max(1.0, abs(P.q[i]))):
-            top, where = abs(P.F[i]) / max(1.0, abs(P.q[i])), i
-    for k in range(first, first + P.sizes[NS]):
-        if exceeds(abs(P.F[n + k]), top * max(1.0, abs(P.z[k]))):
-            top, where = abs(P.F[n + k]) / max(1.0, abs(P.z[k])), 2 * n + k - first
-    return where

@@ -10,22 +10,9 @@ taken from a straight line, for guards that depend on them.
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import accelerations, mass_signature, put_state
+from adamslite.integrators.accelerations import mass_signature, put_state
 from adamslite.integrators.bdf.order_cap import BAD, SUSPECT, TRAVELLED, TRIES
-from adamslite.integrators.bdf.state import (
-    EQUAL,
-    FACTORED,
-    H_LAST,
-    NOW,
-    RUNNING,
-    SIGNATURE,
-    H,
-    K,
-    first_step,
-    keep_algebraic,
-    restore_state,
-    start_values,
-)
+from adamslite.integrators.bdf.state import restore_state, start_values
 from adamslite.integrators.contract import (
     ERROR,
     HOLONOMIC,
@@ -39,19 +26,28 @@ from adamslite.integrators.contract import (
     STABILISED,
     M,
     N,
-    Plan,
     Problem,
 )
 from adamslite.integrators.event_rows import JUMP, OPEN, SHARE
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import judge, open_search
-from adamslite.integrators.motion_equations import vector_rates
+from adamslite.integrators.implicit.control import (
+    EQUAL,
+    FACTORED,
+    H_LAST,
+    NOW,
+    RUNNING,
+    SIGNATURE,
+    H,
+    K,
+    keep_algebraic,
+)
+from adamslite.integrators.implicit.step_size import LOOK_AHEAD, SMOOTH, first_step, jerk
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.step_back import UNDOABLE
 from adamslite.native.translate import native
 
-# Where accelerations are looked at behind an event, as a share of the step that is thought of.
-LOOK_AHEAD = 0.1
 # The first step behind an event in multiples of (ERROR/|a'|)^(1/2).
 CAREFUL = 0.8
 
@@ -84,45 +80,12 @@ def put_between(P: Problem, k: int, t: float, h: float, x: float) -> None:
 
 
 @native
-def jerk(P: Problem, L: Plan, t: float, ahead: float) -> float:
-    """|a'| against max(1, |u|) at the start of a history, from accelerations a little further on.
-
-    The state, accelerations and algebraic unknowns are the accepted ones (q, u, ra, rz).
-    """
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
-    w = 2 * n + ns
-    y, rates, top = P.trial[0:], P.trial[w:], 0.0
-    vector_rates(P, P.q, P.u, y)
-    for i in range(n):
-        y[i], y[n + i] = P.q[i] + ahead * y[i], P.u[i] + ahead * P.ra[i]
-    for k in range(ns):
-        rates[k] = P.rd[k]
-        P.z[first + k] = P.rz[first + k] + ahead * P.rd[k]
-    if accelerations(P, L, t + ahead, y, y[n:], P.a, P.z, P.rd):
-        for i in range(n):
-            top = max(top, abs(P.a[i] - P.ra[i]) / max(1.0, abs(P.u[i])))
-        for k in range(ns):
-            top = max(top, abs(P.rd[k] - rates[k]) / max(1.0, abs(P.rz[first + k])))
-    for i in range(n):
-        P.a[i] = P.ra[i]
-    for k in range(first + ns):
-        P.z[k] = P.rz[k]
-    for k in range(ns):
-        P.rd[k] = rates[k]
-    return top / ahead
-
-
-@native
 def restart_step(P: Problem, L: Plan, t: float, h: float) -> float:
     """``h``, or less where a step of order 1 would err too much in the velocities: h^2 |a'|/2."""
     change = jerk(P, L, t, LOOK_AHEAD * h)
     if not change > 0.0:
         return h
     return min(h, CAREFUL * (P.settings[ERROR] / change) ** 0.5)
-
-
-# A jump at a stop that moves velocities by less than this share of ERROR within a step is none.
-SMOOTH = 0.02
 
 
 @native

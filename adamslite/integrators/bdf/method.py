@@ -33,30 +33,7 @@ from adamslite.integrators.bdf.recovery import (
     near_singularity,
     stuck,
 )
-from adamslite.integrators.bdf.state import (
-    AGE,
-    EQUAL,
-    FRESH,
-    H_LAST,
-    K_TOP,
-    NEXT,
-    NOISY,
-    NORM,
-    NOW,
-    RATE,
-    RETRIES,
-    RUNNING,
-    SIGNATURE,
-    H,
-    K,
-    first_step,
-    keep_algebraic,
-    resize,
-    restore_state,
-    start_values,
-    tests_velocities,
-    too_small,
-)
+from adamslite.integrators.bdf.state import resize, restore_state, start_values, tests_velocities
 from adamslite.integrators.contract import (
     AT,
     BROKEN_START,
@@ -83,7 +60,6 @@ from adamslite.integrators.contract import (
     WATCHED,
     ZONES,
     N,
-    Plan,
     Problem,
     T,
 )
@@ -91,6 +67,26 @@ from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.search import ends_there, shorter, starts_there
 from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
+from adamslite.integrators.implicit.control import (
+    AGE,
+    EQUAL,
+    FRESH,
+    H_LAST,
+    K_TOP,
+    NEXT,
+    NOISY,
+    NORM,
+    NOW,
+    RATE,
+    RETRIES,
+    RUNNING,
+    SIGNATURE,
+    H,
+    K,
+    keep_algebraic,
+)
+from adamslite.integrators.implicit.step_size import first_step, too_small
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation, record_at
 from adamslite.integrators.step_back import make_undoable

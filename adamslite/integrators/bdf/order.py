@@ -9,21 +9,22 @@ from __future__ import annotations
 
 from adamslite.integrators.bdf.differences import MAX_ORDER
 from adamslite.integrators.bdf.order_cap import TRIES, suspect
-from adamslite.integrators.bdf.state import EQUAL, K_TOP, H, K, cut, resize, tests_velocities
+from adamslite.integrators.bdf.state import resize, tests_velocities
 from adamslite.integrators.contract import (
     ERROR,
     FIXED_STEP,
     K_MAX,
     NS,
     NV,
-    WHERE,
     M,
     N,
     Problem,
 )
 from adamslite.integrators.events.stops import longest_step
-from adamslite.integrators.linalg.norms import exceeds
-from adamslite.native.translate import Reals, native
+from adamslite.integrators.implicit.control import EQUAL, K_TOP, H, K
+from adamslite.integrators.implicit.step_size import cut
+from adamslite.integrators.implicit.tolerance import weighted
+from adamslite.native.translate import native
 
 # The next step aims at an estimated error below ERROR by these factors (at a higher order: more
 # caution).
@@ -32,26 +33,6 @@ SAFETY, SAFETY_UP = 3.0, 4.5
 LEAST_GROWTH, MOST_GROWTH = 1.2, 10.0
 # Steps that double again and again amplify the noise of higher orders.
 GROWING_ORDER = 3.0
-
-
-@native
-def weighted(
-    D: Reals, row: int, w: int, n: int, ns: int, y: Reals, si2: bool, report: Reals
-) -> float:
-    """Largest |D_row| against max(1, |y|) over the tested variables; remembers where."""
-    top, where = 0.0, 0
-    o = row * w
-    for i in range(2 * n if si2 else n):
-        # Compared before divided: few elements ever set a new maximum.
-        weight = max(1.0, abs(y[i]))
-        if exceeds(abs(D[o + i]), top * weight):
-            top, where = abs(D[o + i]) / weight, i
-    for i in range(2 * n, 2 * n + ns):
-        weight = max(1.0, abs(y[i]))
-        if exceeds(abs(D[o + i]), top * weight):
-            top, where = abs(D[o + i]) / weight, i
-    report[WHERE] = where
-    return top
 
 
 @native

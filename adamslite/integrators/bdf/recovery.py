@@ -3,26 +3,9 @@
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import mass_vanishes
-from adamslite.integrators.bdf.corrector import wildest
 from adamslite.integrators.bdf.order import SAFETY
 from adamslite.integrators.bdf.order_cap import BAD
-from adamslite.integrators.bdf.state import (
-    BLAMED,
-    FACTORED,
-    FRESH,
-    H_LAST,
-    NOISY,
-    NORM,
-    NOW,
-    RETRIES,
-    RUNNING,
-    SIGNATURE,
-    H,
-    K,
-    cut,
-    resize,
-    restore_state,
-)
+from adamslite.integrators.bdf.state import resize, restore_state
 from adamslite.integrators.contract import (
     CHATTERING,
     FAILURES,
@@ -39,19 +22,30 @@ from adamslite.integrators.contract import (
     STABILISED,
     STEP_TOO_SMALL,
     WHERE,
-    Plan,
     Problem,
 )
 from adamslite.integrators.event_rows import FREED
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.failure_notes import note_trouble
+from adamslite.integrators.implicit.control import (
+    BLAMED,
+    FACTORED,
+    FRESH,
+    NOISY,
+    NORM,
+    NOW,
+    RETRIES,
+    RUNNING,
+    SIGNATURE,
+    H,
+    K,
+)
+from adamslite.integrators.implicit.failures import SINGULAR_RESOLUTION, corrector_failed, wildest
+from adamslite.integrators.implicit.step_size import CUTS, cut, retry_factor
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.step_back import TROUBLE, before_trouble
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import native
 
-# A sign change of the effective mass is approached to this share of HMAX.
-SINGULAR_RESOLUTION = 1e-6
-# Cuts of the step after corrector failures before other lengths are tried.
-CUTS = 3
 # A step is noise, not truncation, when the error estimates of this many tries in turn keep more
 # than this share of the one before, although each was shorter.
 NOISY_TRIES, NOISY_SHARE = 2.0, 0.3
@@ -91,30 +85,6 @@ def land_elsewhere(P: Problem, w: int) -> bool:
     restore_state(P, P.history, w, C[NOW])
     resize(P, w, share)
     return True
-
-
-@native
-def retry_factor(C: Reals) -> float:
-    """Change of the step after a failed corrector: smaller at first.
-
-    Near a singular posture (dead centre, flattened parallelogram) ever smaller steps do not help,
-    but a step across does: after some cuts a few other lengths around the last good one are tried.
-    """
-    tried = int(C[RETRIES])
-    if tried == 1:
-        return 0.6
-    if C[H_LAST] > 0.0 and tried > CUTS and tried <= CUTS + 5:
-        leap = 0.7
-        if tried == CUTS + 1:
-            leap = 1.3
-        if tried == CUTS + 2:
-            leap = 1.9
-        if tried == CUTS + 3:
-            leap = 2.7
-        if tried == CUTS + 4:
-            leap = 4.0
-        return leap * C[H_LAST] / C[H]
-    return 0.25
 
 
 @native
@@ -164,9 +134,3 @@ def stuck(P: Problem, L: Plan, w: int) -> int:
     if P.search[FREED] > 0.0:
         return CHATTERING
     return NEWTON_FAILED if corrector_failed(P.control) else STEP_TOO_SMALL
-
-
-@native
-def corrector_failed(C: Reals) -> bool:
-    """Whether the last tries failed for the corrector, not for accuracy."""
-    return C[RETRIES] > 2.0 or (C[RETRIES] > 0.0 and C[NORM] == 0.0)

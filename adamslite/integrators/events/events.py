@@ -48,7 +48,7 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.audit.balance import audit_from
-from adamslite.integrators.contract import EVENTS, NS, N, Plan, Problem, T
+from adamslite.integrators.contract import EVENTS, NS, N, Problem, T
 from adamslite.integrators.event_rows import (
     END,
     FOUND,
@@ -70,6 +70,7 @@ from adamslite.integrators.events.guards import (
     turn_over,
 )
 from adamslite.integrators.events.stops import is_stop, next_stop, set_clock, set_pace
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.native.translate import native
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import CLOCKS, ERROR, NW, NZ, WATCHED, N, Plan, Problem
+from adamslite.integrators.contract import CLOCKS, ERROR, NW, NZ, WATCHED, N, Problem
 from adamslite.integrators.event_rows import BEFORE, END, HIGH, HUNT, INSIDE, NONE, TAKEN
 from adamslite.integrators.events.guards import (
     SAME_TIME,
@@ -15,6 +15,7 @@ from adamslite.integrators.events.guards import (
 )
 from adamslite.integrators.events.search import ends_beyond
 from adamslite.integrators.linalg.blocks import solve
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import residual
 from adamslite.native.translate import native
 

@@ -13,7 +13,7 @@ References: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6; Enright,
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import ERROR, Plan, Problem
+from adamslite.integrators.contract import ERROR, Problem
 from adamslite.integrators.explicit.dop853 import LATE, POWERS, ROW, TIMES
 from adamslite.integrators.explicit.stages import (
     add_combined,
@@ -33,6 +33,7 @@ from adamslite.integrators.explicit.state import (
     WIDTH,
     H,
 )
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.records import write_record
 from adamslite.native.translate import Reals, native
 

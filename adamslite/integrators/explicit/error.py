@@ -7,7 +7,7 @@ Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, sections II.4 (start) a
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import ERROR, H_INIT, H_MIN, T_END, WHERE, N, Plan, Problem
+from adamslite.integrators.contract import ERROR, H_INIT, H_MIN, T_END, WHERE, N, Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.explicit.dop853 import ERROR3, ERROR5
 from adamslite.integrators.explicit.stages import combine, rates_at
@@ -23,6 +23,7 @@ from adamslite.integrators.explicit.state import (
     H,
 )
 from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.native.translate import Reals, native
 
 # The next step aims at this share of what the error test allows; exponents of the present and the

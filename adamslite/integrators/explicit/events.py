@@ -15,7 +15,6 @@ from adamslite.integrators.contract import (
     RESTARTS,
     M,
     N,
-    Plan,
     Problem,
 )
 from adamslite.integrators.event_rows import JUMP, OPEN, SHARE
@@ -34,6 +33,7 @@ from adamslite.integrators.explicit.state import (
     keep_solution,
     stand_again,
 )
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.step_back import UNDOABLE
 from adamslite.native.translate import native
 

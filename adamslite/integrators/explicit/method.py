@@ -44,7 +44,6 @@ from adamslite.integrators.contract import (
     ZONES,
     M,
     N,
-    Plan,
     Problem,
     T,
 )
@@ -90,6 +89,7 @@ from adamslite.integrators.explicit.state import (
     keep_solution,
     stand_again,
 )
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.step_back import make_undoable

@@ -19,7 +19,6 @@ from adamslite.integrators.contract import (
     SINGULAR_MASS,
     STEP_TOO_SMALL,
     M,
-    Plan,
     Problem,
 )
 from adamslite.integrators.event_rows import FREED
@@ -35,6 +34,7 @@ from adamslite.integrators.explicit.state import (
     H,
     stand_again,
 )
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.step_back import TROUBLE, before_trouble
 from adamslite.native.translate import native
 

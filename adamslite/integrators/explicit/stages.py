@@ -13,7 +13,7 @@ from adamslite.integrators.accelerations import (
     put_state,
     settle,
 )
-from adamslite.integrators.contract import FACTORIZATIONS, NS, NV, M, N, Plan, Problem
+from adamslite.integrators.contract import FACTORIZATIONS, NS, NV, M, N, Problem
 from adamslite.integrators.explicit.dop853 import RESULT, ROW, TIMES
 from adamslite.integrators.explicit.state import (
     BODIES,
@@ -28,6 +28,7 @@ from adamslite.integrators.explicit.state import (
     H,
 )
 from adamslite.integrators.linalg.blocks import factor
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.projection import project
 from adamslite.integrators.unconstrained import free_accelerations, mass_accelerations

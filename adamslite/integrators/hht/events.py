@@ -3,18 +3,6 @@
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import mass_signature, put_state
-from adamslite.integrators.bdf.events import LOOK_AHEAD, SMOOTH, jerk
-from adamslite.integrators.bdf.state import (
-    EQUAL,
-    FACTORED,
-    H_LAST,
-    NOW,
-    RUNNING,
-    SIGNATURE,
-    H,
-    first_step,
-    keep_algebraic,
-)
 from adamslite.integrators.contract import (
     BETA,
     ERROR,
@@ -27,7 +15,6 @@ from adamslite.integrators.contract import (
     RESTARTS,
     M,
     N,
-    Plan,
     Problem,
 )
 from adamslite.integrators.event_rows import JUMP, OPEN, SHARE
@@ -35,6 +22,18 @@ from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import judge, open_search
 from adamslite.integrators.hht.newmark_formula import CU, back_to_accepted, bodies_between
+from adamslite.integrators.implicit.control import (
+    EQUAL,
+    FACTORED,
+    H_LAST,
+    NOW,
+    RUNNING,
+    SIGNATURE,
+    H,
+    keep_algebraic,
+)
+from adamslite.integrators.implicit.step_size import LOOK_AHEAD, SMOOTH, first_step, jerk
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.native.translate import native
 

@@ -35,31 +35,6 @@ from adamslite.integrators.accelerations import (
     put_state,
 )
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.bdf.corrector import asked, wildest
-from adamslite.integrators.bdf.recovery import (
-    SINGULAR_RESOLUTION,
-    corrector_failed,
-    retry_factor,
-)
-from adamslite.integrators.bdf.state import (
-    AGE,
-    BLAMED,
-    EQUAL,
-    FACTORED,
-    FRESH,
-    H_LAST,
-    NEXT,
-    NORM,
-    NOW,
-    RETRIES,
-    RUNNING,
-    SIGNATURE,
-    H,
-    cut,
-    first_step,
-    keep_algebraic,
-    too_small,
-)
 from adamslite.integrators.contract import (
     AT,
     BROKEN_START,
@@ -96,7 +71,6 @@ from adamslite.integrators.contract import (
     ZONES,
     M,
     N,
-    Plan,
     Problem,
     T,
 )
@@ -121,7 +95,27 @@ from adamslite.integrators.hht.newmark_formula import (
     second_order_matrix,
     start_from_here,
 )
+from adamslite.integrators.implicit.control import (
+    AGE,
+    BLAMED,
+    EQUAL,
+    FACTORED,
+    FRESH,
+    H_LAST,
+    NEXT,
+    NORM,
+    NOW,
+    RETRIES,
+    RUNNING,
+    SIGNATURE,
+    H,
+    keep_algebraic,
+)
+from adamslite.integrators.implicit.failures import SINGULAR_RESOLUTION, corrector_failed, wildest
+from adamslite.integrators.implicit.step_size import cut, first_step, retry_factor, too_small
+from adamslite.integrators.implicit.tolerance import asked
 from adamslite.integrators.linalg.blocks import solve
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import put_time, residual, track, vector_rates
 from adamslite.integrators.newton import renews
 from adamslite.integrators.records import note_violation, write_record

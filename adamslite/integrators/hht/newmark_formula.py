@@ -8,7 +8,6 @@ remembers in ``P.history`` q, u, b and, for DIFF, s, s', b of s', s' one step ea
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
-from adamslite.integrators.bdf.state import H_LAST, NEXT, NOW, H, keep_algebraic
 from adamslite.integrators.contract import (
     ALL_CONVERGE,
     ALPHA,
@@ -24,12 +23,13 @@ from adamslite.integrators.contract import (
     WHERE,
     M,
     N,
-    Plan,
     Problem,
 )
 from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
+from adamslite.integrators.implicit.control import H_LAST, NEXT, NOW, H, keep_algebraic
 from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
     BODY,
     PART,

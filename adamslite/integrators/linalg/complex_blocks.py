@@ -7,8 +7,8 @@ entry k is (A[2k], A[2k + 1]).  The blocks, their places and the formulas are th
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import Plan
 from adamslite.integrators.linalg.blocks import TINY
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.native.translate import Ints, Reals, native
 
 

@@ -7,9 +7,10 @@ Reference: Hairer, Wanner, Solving ODE II, 1996, section IV.8 (stopping criterio
 
 from __future__ import annotations
 
-from adamslite.integrators.bdf.corrector import wildest
-from adamslite.integrators.bdf.recovery import retry_factor
-from adamslite.integrators.bdf.state import (
+from adamslite.integrators.contract import ERROR, FAILURES, MAX_IT, NEWTON, NS, N, Problem
+from adamslite.integrators.events.guards import let_go
+from adamslite.integrators.failure_notes import note_trouble
+from adamslite.integrators.implicit.control import (
     AGE,
     BLAMED,
     FACTORED,
@@ -18,11 +19,10 @@ from adamslite.integrators.bdf.state import (
     RETRIES,
     RUNNING,
     H,
-    cut,
 )
-from adamslite.integrators.contract import ERROR, FAILURES, MAX_IT, NEWTON, NS, N, Plan, Problem
-from adamslite.integrators.events.guards import let_go
-from adamslite.integrators.failure_notes import note_trouble
+from adamslite.integrators.implicit.failures import wildest
+from adamslite.integrators.implicit.step_size import cut, retry_factor
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.newton import ROUND_OFF, renews
 from adamslite.integrators.radau.coefficients import REAL
 from adamslite.integrators.radau.stages import (

@@ -9,19 +9,11 @@ Reference: Hairer, Wanner, Solving ODE II, 1996, section IV.8 (eq. 8.19, 8.20).
 
 from __future__ import annotations
 
-from adamslite.integrators.bdf.order import weighted
-from adamslite.integrators.bdf.state import NOW, H
-from adamslite.integrators.contract import (
-    ERROR,
-    HOLONOMIC,
-    NS,
-    NV,
-    M,
-    N,
-    Plan,
-    Problem,
-)
+from adamslite.integrators.contract import ERROR, HOLONOMIC, NS, NV, M, N, Problem
+from adamslite.integrators.implicit.control import NOW, H
+from adamslite.integrators.implicit.tolerance import weighted
 from adamslite.integrators.linalg.blocks import solve
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
     project_on_constraints,
     put_motion,

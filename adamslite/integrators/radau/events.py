@@ -16,16 +16,6 @@ Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6 (discontin
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import mass_signature, put_state
-from adamslite.integrators.bdf.events import SMOOTH
-from adamslite.integrators.bdf.state import (
-    H_LAST,
-    NOW,
-    RUNNING,
-    SIGNATURE,
-    H,
-    first_step,
-    keep_algebraic,
-)
 from adamslite.integrators.contract import (
     ERROR,
     IMPLICIT_MASS,
@@ -36,7 +26,6 @@ from adamslite.integrators.contract import (
     WATCHED,
     M,
     N,
-    Plan,
     Problem,
 )
 from adamslite.integrators.event_rows import (
@@ -56,6 +45,16 @@ from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.guards import look
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import CLOSE, judge, open_search
+from adamslite.integrators.implicit.control import (
+    H_LAST,
+    NOW,
+    RUNNING,
+    SIGNATURE,
+    H,
+    keep_algebraic,
+)
+from adamslite.integrators.implicit.step_size import SMOOTH, first_step
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.coefficients import REAL
 from adamslite.integrators.radau.corrector import round_off
 from adamslite.integrators.radau.stages import (

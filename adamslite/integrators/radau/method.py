@@ -26,25 +26,6 @@ from adamslite.integrators.accelerations import (
     put_state,
 )
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.bdf.recovery import SINGULAR_RESOLUTION, corrector_failed
-from adamslite.integrators.bdf.state import (
-    AGE,
-    BLAMED,
-    FRESH,
-    H_LAST,
-    NEXT,
-    NORM,
-    NOW,
-    RATE,
-    RETRIES,
-    RUNNING,
-    SIGNATURE,
-    H,
-    cut,
-    first_step,
-    keep_algebraic,
-    too_small,
-)
 from adamslite.integrators.contract import (
     AT,
     BROKEN_START,
@@ -74,7 +55,6 @@ from adamslite.integrators.contract import (
     ZONES,
     M,
     N,
-    Plan,
     Problem,
     T,
 )
@@ -83,6 +63,24 @@ from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.search import ends_there, shorter, starts_there
 from adamslite.integrators.events.stops import horizon, longest_step, set_pace
+from adamslite.integrators.implicit.control import (
+    AGE,
+    BLAMED,
+    FRESH,
+    H_LAST,
+    NEXT,
+    NORM,
+    NOW,
+    RATE,
+    RETRIES,
+    RUNNING,
+    SIGNATURE,
+    H,
+    keep_algebraic,
+)
+from adamslite.integrators.implicit.failures import SINGULAR_RESOLUTION, corrector_failed
+from adamslite.integrators.implicit.step_size import cut, first_step, too_small
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.radau.corrector import QUICK, after_failed_stages, solve_stages
 from adamslite.integrators.radau.error import filtered_error

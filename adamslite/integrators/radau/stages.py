@@ -24,8 +24,6 @@ residuals and workspace of the complex system.
 
 from __future__ import annotations
 
-from adamslite.integrators.bdf.differences import count_anew
-from adamslite.integrators.bdf.state import NOW
 from adamslite.integrators.contract import (
     ALL_CONVERGE,
     FACTORIZATIONS,
@@ -40,12 +38,14 @@ from adamslite.integrators.contract import (
     STABILISED,
     M,
     N,
-    Plan,
     Problem,
 )
+from adamslite.integrators.implicit.control import NOW
+from adamslite.integrators.implicit.rotation_count import count_anew
 from adamslite.integrators.linalg.blocks import factor, solve
 from adamslite.integrators.linalg.complex_blocks import factor_complex, solve_complex
 from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
     BODY,
     PART,

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
-from adamslite.integrators.bdf.state import NOW, H
 from adamslite.integrators.contract import NB, NS, NV, M, N, Problem
+from adamslite.integrators.implicit.control import NOW, H
 from adamslite.integrators.motion_equations import BODY, PART
 from adamslite.integrators.radau.stages import ORIGIN, stage_z
 from adamslite.native.translate import native

@@ -43,7 +43,6 @@ from adamslite.integrators.contract import (
     UNSTABLE,
     WATCHED,
     N,
-    Plan,
     Problem,
 )
 from adamslite.integrators.events.events import start_events
@@ -56,6 +55,7 @@ from adamslite.integrators.events.stops import (
     set_pace,
 )
 from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import BODY, put_time, run_groups, track
 from adamslite.integrators.records import write_record
 from adamslite.integrators.unconstrained import divide_by_mass, put_free, radius

@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from adamslite.kernels.code.sympy_to_llvm import LIBRARY
+from adamslite.native.llvm_builder import LIBRARY
 from adamslite.symbolic.guards import CLOCK_LEAVES, FIXED_LEAVES
 from adamslite.symbolic.sympy_nodes import sp
 

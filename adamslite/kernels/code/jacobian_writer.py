@@ -11,7 +11,7 @@ from typing import Any
 from adamslite.kernels.code.kinematics import Columns, Vec
 from adamslite.kernels.code.residual_writer import Writer
 from adamslite.kernels.code.shape import Outputs, Shape
-from adamslite.kernels.code.sympy_to_llvm import Value
+from adamslite.native.llvm_builder import Value
 from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
 

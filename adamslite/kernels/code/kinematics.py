@@ -19,7 +19,7 @@ and ``ca`` for accelerations, so that one kernel serves every integration method
 
 from __future__ import annotations
 
-from adamslite.kernels.code.sympy_to_llvm import Builder, Value
+from adamslite.native.llvm_builder import Builder, Value
 from adamslite.symbolic.scope import ORIGIN, Slot
 
 Vec = list[Value]

@@ -7,7 +7,8 @@ from typing import Any
 
 from adamslite.kernels.code.kinematics import HEAD, MODE, TIME, Geometry, Vec
 from adamslite.kernels.code.shape import Outputs, Shape
-from adamslite.kernels.code.sympy_to_llvm import Builder, Lowering, Value
+from adamslite.kernels.code.sympy_to_llvm import Lowering
+from adamslite.native.llvm_builder import Builder, Value
 from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
 

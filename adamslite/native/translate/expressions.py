@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from adamslite.kernels.code.sympy_to_llvm import literal
+from adamslite.native.llvm_builder import literal
 from adamslite.native.translate.language import REGISTERED, llvm_type, name_of, signature
 from adamslite.native.translate.records import (
     ARRAYS,

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable
 from typing import Any
 
-from adamslite.kernels.code.sympy_to_llvm import FAST, literal
+from adamslite.native.llvm_builder import FAST, literal
 from adamslite.native.translate.language import Untranslatable, llvm_type, name_of, position
 from adamslite.native.translate.records import ARRAYS, SLOT, RowsOf, is_record
 

@@ -1,0 +1,51 @@
+"""What lies in the cache folder: entries, and drafts of entries being written."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import NamedTuple
+
+#: Names of entries, and of those being written. Nothing else in the folder is ever touched.
+ENTRY = re.compile(r"[a-z_]+[0-9a-f]{32}\.(?:o|json|parser)")
+
+
+DRAFT = re.compile(rf"\.{ENTRY.pattern}\.\d+-\d+\.part")
+
+
+class Entry(NamedTuple):
+    """A file of the folder: its size [bytes] and when it was last used [s since 1970]."""
+
+    path: Path
+    size: int
+    used: float
+
+
+def entries(folder: Path) -> list[Entry]:
+    """What is kept in a folder, unused for longest first."""
+    return sorted(found_files(folder, ENTRY), key=lambda entry: (entry.used, entry.path))
+
+
+def clear(folder: Path) -> list[Entry]:
+    """Remove every entry; returns those that there were."""
+    found = entries(folder)
+    for entry in (*found, *found_files(folder, DRAFT)):
+        remove(entry)
+    return found
+
+
+def found_files(folder: Path, kind: re.Pattern[str]) -> Iterator[Entry]:
+    with suppress(OSError), os.scandir(folder) as files:
+        for file in files:
+            if kind.fullmatch(file.name):
+                with suppress(FileNotFoundError):
+                    facts = file.stat(follow_symlinks=False)
+                    yield Entry(Path(file.path), facts.st_size, facts.st_mtime)
+
+
+def remove(entry: Entry) -> None:
+    with suppress(OSError):
+        entry.path.unlink(missing_ok=True)

@@ -1,0 +1,78 @@
+"""All rules about a deck, and `check`, which applies them."""
+
+from __future__ import annotations
+
+from adamslite.checks.bodies_and_elements import (
+    distinct_ends,
+    floating_alone,
+    floating_unused,
+    floating_use,
+    frictions,
+    ground_without_data,
+    held_states,
+    idle_arguments,
+    inertia,
+    markers_of_bodies,
+    masses,
+    one_ground,
+    owners,
+    reactions,
+    requests,
+    reserved_names,
+    sections,
+    torques_on_points,
+    unit_system,
+    wrenches_on_points,
+)
+from adamslite.checks.constraints import CONSTRAINT_RULES
+from adamslite.checks.effective_mass import effective_masses
+from adamslite.checks.posture import (
+    facing_markers,
+    inertia_at_mass_centre,
+    orientations,
+)
+from adamslite.checks.rates import unformed_equations
+from adamslite.checks.rule import Rule, apply
+from adamslite.checks.runs import RUN_RULES
+from adamslite.deck.deck import Deck
+from adamslite.language.diagnostics import Diagnostic, sort_by_place
+
+
+def check(deck: Deck) -> list[Diagnostic]:
+    """Everything to say about a deck that could be read: warnings and advice, in deck order."""
+    return sort_by_place([*deck.warnings, *apply(ADVICE, deck)])
+
+
+RULES: list[Rule] = [
+    one_ground,
+    ground_without_data,
+    masses,
+    inertia,
+    markers_of_bodies,
+    owners,
+    orientations,
+    floating_alone,
+    floating_use,
+    floating_unused,
+    reactions,
+    distinct_ends,
+    torques_on_points,
+    wrenches_on_points,
+    sections,
+    frictions,
+    idle_arguments,
+    held_states,
+    reserved_names,
+    requests,
+    unit_system,
+    *CONSTRAINT_RULES,
+    *RUN_RULES,
+]
+
+
+ADVICE: list[Rule] = [
+    inertia_at_mass_centre,
+    facing_markers,
+    effective_masses,
+    unformed_equations,
+]

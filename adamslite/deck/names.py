@@ -1,0 +1,85 @@
+"""Names of statements, and the constants of the language."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from adamslite.language.expression import MODE, NEGATE, TIME, Node, Num, Op
+from adamslite.language.spelling import spelled
+
+Key = int | str
+
+
+_ARITHMETIC: dict[str, Callable[..., float]] = {
+    "+": lambda a, b: a + b,
+    "-": lambda a, b: a - b,
+    "*": lambda a, b: a * b,
+    "/": lambda a, b: a / b,
+    "**": math.pow,
+    NEGATE: lambda a: -a,
+}
+
+
+RESERVED: dict[str, Node] = {
+    "TIME": TIME,
+    "MODE": MODE,
+    "PI": Num(math.pi),
+    "DTOR": Num(math.pi / 180),
+    "RTOD": Num(180 / math.pi),
+}
+
+
+class Names:
+    """The ids and view names of all statements, by keyword."""
+
+    def __init__(self) -> None:
+        self.ids: dict[str, dict[Key, Any]] = {}
+        self.views: dict[str, dict[str, list[Key]]] = {}
+
+    def add(self, kind: str, key: Key, view: str | None, thing: Any) -> bool:
+        """Enter a statement; False when its id is taken."""
+        ids = self.ids.setdefault(kind, {})
+        if view:
+            self.views.setdefault(kind, {}).setdefault(spelled(view).upper(), []).append(key)
+        if key in ids:
+            return False
+        ids[key] = thing
+        return True
+
+    def find(self, kind: str, word: Key) -> Key | list[Key] | None:
+        """The id that ``word`` (a number or a name in capitals) means; a list when several do."""
+        if word in self.ids.get(kind, ()):
+            return word
+        found = self.views.get(kind, {}).get(word, []) if isinstance(word, str) else []
+        return found[0] if len(found) == 1 else found or None
+
+    def known(self, kind: str) -> list[str]:
+        """Everything that may be written for a statement of this kind."""
+        return [*map(str, self.ids.get(kind, ())), *self.views.get(kind, ())]
+
+
+def to_number(text: str) -> float:
+    """The value of a number token: exponents with E or D, a bare D at the end means degrees."""
+    try:
+        return float(text)
+    except ValueError:
+        if text[-1] in "dD":
+            return math.radians(to_number(text[:-1]))
+        return float(text.upper().replace("D", "E"))
+
+
+def fold(node: Node) -> float | None:
+    """The value of an expression of numbers only; None for any other."""
+    if type(node) is Num:
+        return node.value
+    if type(node) is not Op:
+        return None
+    values = [fold(arg) for arg in node.args]
+    if None in values:
+        return None
+    try:
+        return float(_ARITHMETIC[node.op](*values))
+    except (ArithmeticError, ValueError):
+        return None

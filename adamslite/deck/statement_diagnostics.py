@@ -1,0 +1,17 @@
+"""A diagnostic about a statement or one of its arguments."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.messages import compose
+from adamslite.language.statement import Statement
+
+
+def say(statement: Statement, code: str, field: str = "", **words: Any) -> Diagnostic:
+    """A message about a statement, or about one of its arguments."""
+    spans = statement.spans.home(field)
+    span = spans[field] if field in spans else spans.whole
+    source_line = spans.source.line(span.line) if spans.source else ""
+    return compose(code, span, source_line, label=statement.label, **words)

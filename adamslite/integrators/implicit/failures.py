@@ -1,0 +1,39 @@
+"""Why the tries of a step failed, and which unknown is to blame."""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import (
+    NS,
+    NV,
+    M,
+    N,
+    Problem,
+)
+from adamslite.integrators.implicit.control import (
+    NORM,
+    RETRIES,
+)
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.native.translate import Reals, native
+
+# A sign change of the effective mass is approached to this share of HMAX.
+SINGULAR_RESOLUTION = 1e-6
+
+
+@native
+def corrector_failed(C: Reals) -> bool:
+    """Whether the last tries failed for the corrector, not for accuracy."""
+    return C[RETRIES] > 2.0 or (C[RETRIES] > 0.0 and C[NORM] == 0.0)
+
+
+@native
+def wildest(P: Problem) -> int:
+    """The unknown with the largest last increment, numbered as in the error test."""
+    n, first, where, top = P.sizes[N], P.sizes[M] + P.sizes[NV], 0, -1.0
+    for i in range(n):
+        if exceeds(abs(P.F[i]), top * max(1.0, abs(P.q[i]))):
+            top, where = abs(P.F[i]) / max(1.0, abs(P.q[i])), i
+    for k in range(first, first + P.sizes[NS]):
+        if exceeds(abs(P.F[n + k]), top * max(1.0, abs(P.z[k]))):
+            top, where = abs(P.F[n + k]) / max(1.0, abs(P.z[k])), 2 * n + k - first
+    return where

@@ -1,0 +1,150 @@
+"""Sizes of steps: the first one, a shorter one after a failure, one behind an event."""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import accelerations
+from adamslite.integrators.contract import (
+    ERROR,
+    FIXED_STEP,
+    H_INIT,
+    H_MIN,
+    HOLONOMIC,
+    NS,
+    NV,
+    SI2,
+    T_END,
+    M,
+    N,
+    Problem,
+    T,
+)
+from adamslite.integrators.events.stops import least_step, longest_step
+from adamslite.integrators.implicit.control import (
+    H_LAST,
+    NORM,
+    RETRIES,
+    H,
+)
+from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.motion_equations import vector_rates
+from adamslite.native.translate import Reals, native
+
+# Fixed steps begin with this part of the step, because order 1 starts.
+START_PARTS = 1024.0
+
+
+@native
+def first_step(P: Problem, w: int) -> float:
+    """A step whose first-order error is a tenth of ERROR, judged by the accelerations."""
+    n = P.sizes[N]
+    tol = P.settings[ERROR]
+    fastest, reach, speed = 0.0, 1.0, 1.0
+    for i in range(n):
+        reach, speed = max(reach, abs(P.q[i])), max(speed, abs(P.u[i]))
+        fastest = max(
+            fastest, abs(P.a[i]) / max(1.0, abs(P.u[i])), abs(P.u[i]) / max(1.0, abs(P.q[i]))
+        )
+    for k in range(P.sizes[NS]):
+        fastest = max(fastest, abs(P.rd[k]))
+    span = P.settings[T_END] - P.settings[T]
+    h = min(longest_step(P), span)
+    if P.settings[FIXED_STEP] > 0.0:
+        return P.settings[FIXED_STEP] / START_PARTS
+    if P.settings[H_INIT] > 0.0:
+        return min(h, P.settings[H_INIT])
+    if P.settings[H_MIN] >= 0.05 * h:
+        return min(h, P.settings[H_MIN])
+    # Constraints hand round-off of positions, 1e-14 of the longest, on to the velocities: reach/h
+    # times as much, which is below ERROR of the fastest for steps above this.  In other units of
+    # length both, reach and speed, are others: the step is the same.
+    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    noise = 1e-14 * reach / (tol * speed) if stabilised else 0.0
+    noise = max(noise, P.settings[H_MIN])
+    return min(0.05 * h, max(noise, tol**0.5 / max(fastest, 1e-12) * 0.3))
+
+
+@native
+def cut(P: Problem, factor: float) -> float:
+    """``factor`` of the step, but not below HMIN, unless a step of HMIN has failed."""
+    C, h, least = P.control, P.control[H], P.settings[H_MIN]
+    if h * factor >= least:
+        return factor
+    if h > least * 1.0000001:
+        return least / h
+    return factor if C[RETRIES] > 0.0 or C[NORM] > 0.0 else max(factor, 1.0)
+
+
+@native
+def too_small(P: Problem) -> bool:
+    """Whether failed tries have come down below HMIN; a step that only reaches a stop may be as
+    short.
+    """
+    C = P.control
+    failed = C[RETRIES] > 0.0 or C[NORM] > 0.0
+    # A step cut to HMIN is HMIN but for its last digit.
+    return C[H] < (1.0 - 1e-12) * (P.settings[H_MIN] if failed else least_step(P))
+
+
+# Cuts of the step after corrector failures before other lengths are tried.
+CUTS = 3
+
+
+@native
+def retry_factor(C: Reals) -> float:
+    """Change of the step after a failed corrector: smaller at first.
+
+    Near a singular posture (dead centre, flattened parallelogram) ever smaller steps do not help,
+    but a step across does: after some cuts a few other lengths around the last good one are tried.
+    """
+    tried = int(C[RETRIES])
+    if tried == 1:
+        return 0.6
+    if C[H_LAST] > 0.0 and tried > CUTS and tried <= CUTS + 5:
+        leap = 0.7
+        if tried == CUTS + 1:
+            leap = 1.3
+        if tried == CUTS + 2:
+            leap = 1.9
+        if tried == CUTS + 3:
+            leap = 2.7
+        if tried == CUTS + 4:
+            leap = 4.0
+        return leap * C[H_LAST] / C[H]
+    return 0.25
+
+
+# Where accelerations are looked at behind an event, as a share of the step that is thought of.
+LOOK_AHEAD = 0.1
+
+
+@native
+def jerk(P: Problem, L: Plan, t: float, ahead: float) -> float:
+    """|a'| against max(1, |u|) at the start of a history, from accelerations a little further on.
+
+    The state, accelerations and algebraic unknowns are the accepted ones (q, u, ra, rz).
+    """
+    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    w = 2 * n + ns
+    y, rates, top = P.trial[0:], P.trial[w:], 0.0
+    vector_rates(P, P.q, P.u, y)
+    for i in range(n):
+        y[i], y[n + i] = P.q[i] + ahead * y[i], P.u[i] + ahead * P.ra[i]
+    for k in range(ns):
+        rates[k] = P.rd[k]
+        P.z[first + k] = P.rz[first + k] + ahead * P.rd[k]
+    if accelerations(P, L, t + ahead, y, y[n:], P.a, P.z, P.rd):
+        for i in range(n):
+            top = max(top, abs(P.a[i] - P.ra[i]) / max(1.0, abs(P.u[i])))
+        for k in range(ns):
+            top = max(top, abs(P.rd[k] - rates[k]) / max(1.0, abs(P.rz[first + k])))
+    for i in range(n):
+        P.a[i] = P.ra[i]
+    for k in range(first + ns):
+        P.z[k] = P.rz[k]
+    for k in range(ns):
+        P.rd[k] = rates[k]
+    return top / ahead
+
+
+# A jump at a stop that moves velocities by less than this share of ERROR within a step is none.
+SMOOTH = 0.02

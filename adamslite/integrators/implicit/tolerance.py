@@ -1,0 +1,40 @@
+"""How exact a step must be: the error that is asked of it, and the sizes it is measured in."""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import (
+    ERROR,
+    WHERE,
+    Problem,
+)
+from adamslite.integrators.linalg.norms import exceeds
+from adamslite.native.translate import Reals, native
+
+# Fixed steps have no error test: a corrector looser than this would be all that errs.
+LOOSEST = 1e-3
+
+
+@native
+def asked(P: Problem, fixed: float) -> float:
+    """ERROR; with ``fixed`` steps at most LOOSEST."""
+    return min(P.settings[ERROR], LOOSEST) if fixed > 0.0 else P.settings[ERROR]
+
+
+@native
+def weighted(
+    D: Reals, row: int, w: int, n: int, ns: int, y: Reals, si2: bool, report: Reals
+) -> float:
+    """Largest |D_row| against max(1, |y|) over the tested variables; remembers where."""
+    top, where = 0.0, 0
+    o = row * w
+    for i in range(2 * n if si2 else n):
+        # Compared before divided: few elements ever set a new maximum.
+        weight = max(1.0, abs(y[i]))
+        if exceeds(abs(D[o + i]), top * weight):
+            top, where = abs(D[o + i]) / weight, i
+    for i in range(2 * n, 2 * n + ns):
+        weight = max(1.0, abs(y[i]))
+        if exceeds(abs(D[o + i]), top * weight):
+            top, where = abs(D[o + i]) / weight, i
+    report[WHERE] = where
+    return top

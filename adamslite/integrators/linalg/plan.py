@@ -1,0 +1,17 @@
+"""The plan of a block elimination: which blocks there are, and in which order they go."""
+
+from adamslite.native.translate import Ints, Record
+
+
+class Plan(Record):
+    """The order of elimination (:mod:`adamslite.equations.elimination_order`)."""
+
+    size: Ints
+    start: Ints
+    diagonal: Ints
+    first: Ints
+    node: Ints
+    lower: Ints
+    upper: Ints
+    target: Ints
+    place: Ints

@@ -1,0 +1,122 @@
+"""From the text of a deck or of a command file to statements, checked."""
+
+from __future__ import annotations
+
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from adamslite.checks.rule import apply
+from adamslite.checks.rules import RULES
+from adamslite.checks.runs import RUN_RULES, inputs_with_rates, late_start_values
+from adamslite.deck.deck import ANALYSES, Deck
+from adamslite.deck.names import Names
+from adamslite.deck.redefinition import Redefinition
+from adamslite.gc_pause import uncollected
+from adamslite.language.diagnostics import DeckError, Diagnostic, Source
+from adamslite.language.statement import Statement
+from adamslite.reading.statement_reader import Reading
+
+
+def read(source: str | Path) -> Deck:
+    """Read a deck.
+
+    Parameters
+    ----------
+    source : str or Path
+        A file, or the text of a deck (a string with more than one line).
+
+    Returns
+    -------
+    Deck
+        Its ``warnings`` hold what is legal but looks wrong.
+
+    Raises
+    ------
+    DeckError
+        With every mistake of the deck.
+    OSError
+        When the file cannot be read.
+    """
+
+    text, path = _load(source)
+    end_of_title = text.find("\n") if "\n" in text else len(text)
+    title = text[:end_of_title]
+    reading = Reading(Source(text, str(path or "<text>")), Names(), "deck")
+    reading.title(title)
+    with uncollected():
+        statements = reading.statements(end_of_title)
+        deck = Deck(reading.log.source, title, statements, reading.names, path)
+        deck.warnings = _judged(deck, reading, RULES)
+    return deck
+
+
+class Commands(tuple[Any, ...]):
+    """Commands in their order: statements, and :class:`Redefinition` for those that change one."""
+
+    warnings: tuple[Diagnostic, ...] = ()
+
+
+def read_commands(source: str | Path, deck: Deck) -> Commands:
+    """Read a command file (.acf) for a deck; parameters and errors as for :func:`read`.
+
+    The deck is checked as the commands leave it before each analysis and at the end.
+    """
+
+    text, path = _load(source)
+    reading = Reading(Source(text, str(path or "<commands>")), deck.names, "command", deck)
+    commands = Commands(reading.statements(0))
+    plain = tuple(each for each in commands if isinstance(each, Statement))
+    run = Deck(reading.log.source, "", plain, deck.names, path)
+    reading.log.diagnostics += [*_caused(deck, commands), *inputs_with_rates(deck, plain)]
+    commands.warnings = _judged(run, reading, RUN_RULES)
+    return commands
+
+
+def _caused(deck: Deck, commands: Iterable[Any]) -> list[Diagnostic]:
+    """What is wrong with the deck because of commands."""
+
+    if not any(isinstance(command, Redefinition) for command in commands):
+        return []
+    known = set(apply(RULES, deck))
+    found: dict[Diagnostic, None] = {}
+    unchecked = started = False
+    for command in (*commands, None):
+        if isinstance(command, Redefinition):
+            deck, unchecked = deck.redefined(command), True
+            if started:
+                found |= dict.fromkeys(late_start_values(command))
+        elif unchecked and (command is None or command.keyword in ANALYSES):
+            found |= dict.fromkeys(each for each in apply(RULES, deck) if each not in known)
+            unchecked = False
+        started = started or getattr(command, "keyword", "") == "SIMULATE"
+    return list(found)
+
+
+def _judged(deck: Deck, reading: Reading, rules: Sequence[Any]) -> tuple[Diagnostic, ...]:
+    """What reading and rules have to say; raises when there are errors."""
+
+    deck.incomplete |= reading.broken
+    diagnostics = [*reading.log.finish(), *apply(rules, deck)]
+    if any(diagnostic.is_error for diagnostic in diagnostics):
+        raise DeckError(diagnostics, deck)
+    return tuple(diagnostics)
+
+
+def decoded(data: bytes) -> str:
+    """The text of a file: UTF-16 where it begins as such, else UTF-8, else Latin-1."""
+    wide = data[:2] in (BOM_UTF16_LE, BOM_UTF16_BE)
+    try:
+        return data.decode("utf-16" if wide else "utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
+def _load(source: str | Path) -> tuple[str, Path | None]:
+    """Text with ``\\n`` line ends, and the file it came from."""
+    path = None
+    if isinstance(source, Path) or "\n" not in source:
+        path = Path(source)
+        source = decoded(path.read_bytes())
+    return source.replace("\r\n", "\n").replace("\r", "\n"), path

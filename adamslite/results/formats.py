@@ -1,0 +1,68 @@
+"""Formats of result files, found by the suffix of a name.
+
+A module of :mod:`adamslite.outputs` registers one with a call at its end::
+
+    register_format(".csv", write, read)
+
+with ``write(results, path)``, and ``read(path)`` that returns results if the format can be read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from adamslite.errors import FormatError, UsageError
+
+DEFAULT = ".csv"
+"""What a name without a suffix gets; the null device has none."""
+
+
+@dataclass(frozen=True)
+class Format:
+    """How files of one suffix are written and read."""
+
+    suffix: str
+    write: Callable[[Any, str | Path], None]
+    read: Callable[[str | Path], Any] | None = None
+
+
+_FORMATS: dict[str, Format] = {}
+
+
+def register_format(
+    suffix: str,
+    write: Callable[[Any, str | Path], None],
+    read: Callable[[str | Path], Any] | None = None,
+) -> None:
+    """Enter the format of a suffix, which begins with a dot."""
+    _FORMATS[suffix] = Format(suffix, write, read)
+
+
+@cache
+def formats() -> dict[str, Format]:
+    """Every format by its suffix."""
+    import_module("adamslite.outputs")
+    return _FORMATS
+
+
+def format_of(path: str | Path, to_read: bool = False) -> Format:
+    """The format that a file name asks for.
+
+    Raises
+    ------
+    UsageError, FormatError
+        When no format has its suffix: to write in, or to read from.
+    """
+    suffix = Path(path).suffix.lower() or DEFAULT
+    usable = {s: f for s, f in formats().items() if f.read or not to_read}
+    if suffix in usable:
+        return usable[suffix]
+    none_of = f"{path}: '{suffix}' is none of {', '.join(sorted(usable))}"
+    if to_read:
+        raise FormatError(f"results cannot be read from {none_of}")
+    raise UsageError(f"results cannot be written to {none_of}")

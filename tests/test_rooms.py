@@ -1,0 +1,127 @@
+"""The order of the stages: a module imports from its own room and from those below it."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import adamslite
+
+PACKAGE = Path(adamslite.__file__).parent
+
+#: Rooms and single modules from the ground up. A room in the same line as another neither imports
+#: it nor is imported by it.
+FLOORS = """
+errors resources gc_pause
+caching
+native
+native.translate symbolic
+language
+language.messages progress
+syntax
+deck
+functions
+elements.bases
+elements
+model
+kernels.code
+kernels
+checks
+reading
+cables
+integrators.linalg
+integrators
+integrators.audit
+integrators.events
+integrators.implicit
+integrators.bdf integrators.radau integrators.hht integrators.explicit integrators.verlet
+equations
+results
+outputs
+analyses.clock analyses.initial
+analyses.linearization
+analyses
+run_flags
+scene
+result_files
+verification
+manual
+cli.commands
+cli
+__main__
+"""
+FLOOR = {room: number for number, line in enumerate(FLOORS.split("\n")) for room in line.split()}
+MODULES = sorted(
+    ".".join(file.relative_to(PACKAGE).with_suffix("").parts)
+    for file in PACKAGE.rglob("*.py")
+    if file != PACKAGE / "__init__.py" and "decks" not in file.parts
+)
+ON_THE_GROUND = 12
+
+
+def room_of(module: str) -> str:
+    """The room of a module: its folder, or itself where it lies directly in the package."""
+    parts = module.split(".")
+    return ".".join(parts[:-1]) if len(parts) > 1 else module
+
+
+def is_room(name: str) -> bool:
+    return (PACKAGE.joinpath(*name.split(".")) / "__init__.py").is_file()
+
+
+def is_module(name: str) -> bool:
+    return PACKAGE.joinpath(*name.split(".")).with_suffix(".py").is_file() or is_room(name)
+
+
+def imported(module: str) -> set[str]:
+    """Modules of the package that a module imports, anywhere in its text."""
+    file = PACKAGE.joinpath(*module.split(".")).with_suffix(".py")
+    found = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and str(node.module).startswith("adamslite."):
+            base = node.module.removeprefix("adamslite.")
+            names = {f"{base}.{each.name}" for each in node.names}
+            found |= {name if is_module(name) else base for name in names}
+        elif isinstance(node, ast.ImportFrom) and node.module == "adamslite":
+            found |= {each.name for each in node.names if is_module(each.name)}
+    return {
+        f"{name}.__init__"
+        if (PACKAGE.joinpath(*name.split(".")) / "__init__.py").is_file()
+        else name
+        for name in found
+    }
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_no_import_goes_up_or_across(module: str) -> None:
+    """Rooms below, and the own one, are all that a module may know."""
+    room = room_of(module)
+    for name in imported(module):
+        other = room_of(name)
+        assert other == room or FLOOR[other] < FLOOR[room], f"{module} imports {name}"
+
+
+@pytest.mark.parametrize("room", FLOOR)
+def test_modules_of_a_room_do_not_import_each_other_in_a_circle(room: str) -> None:
+    inside = {module: imported(module) for module in MODULES if room_of(module) == room}
+    while inside:
+        ready = [module for module, names in inside.items() if not names & inside.keys() - {module}]
+        assert ready, f"a circle among {', '.join(inside)}"
+        for module in ready:
+            del inside[module]
+
+
+def test_every_room_has_a_floor_and_every_floor_a_room() -> None:
+    assert {room_of(module) for module in MODULES} == set(FLOOR)
+
+
+def test_few_modules_lie_directly_in_the_package() -> None:
+    assert len([*PACKAGE.glob("*.py")]) <= ON_THE_GROUND
+
+
+@pytest.mark.parametrize("room", [room for room in FLOOR if not (PACKAGE / f"{room}.py").is_file()])
+def test_every_room_says_what_it_holds(room: str) -> None:
+    start = PACKAGE.joinpath(*room.split(".")) / "__init__.py"
+    assert ast.get_docstring(ast.parse(start.read_text(encoding="utf-8")))
