@@ -23,27 +23,27 @@ from adamslite.results.outcomes import Outcome
 HEAD = "<!-- Written by docs/generate.py from the program itself: do not edit. -->\n"
 STATEMENTS_INTRO = """# Statements
 
-How a deck writes each statement, and what it means. Keywords may be shortened to any unambiguous
-beginning; `adamslite help NAME` prints a single page.
+The statements of a deck, their equations and arguments. Keywords may be shortened to any
+unambiguous beginning; `adamslite help NAME` prints a single page.
 """
 FUNCTIONS_INTRO = """# Functions
 
-What an expression may call. Arguments in brackets may be left out: an omitted marker is the ground
+The functions of expressions. Arguments in brackets may be left out: an omitted marker is the ground
 frame, an omitted number its default. `adamslite help NAME` prints a single entry.
 """
 MESSAGES_INTRO = """# Messages
 
-Everything the program says about a deck, each with the smallest deck that provokes it: statements
-added to a sound deck, or a whole deck where they begin with a title. Words in braces are filled in.
+Every message about a deck, each with the smallest deck that causes it: statements added to a
+correct deck, or a whole deck where they begin with a title. Words in braces are filled in.
 """
 INTEGRATORS_INTRO = """# Arguments of INTEGRATOR
 
-What each argument does with each method. Where it does nothing, `check` says so and so do the
-comments of the results; the reason stands in brackets.
+What each argument does with each method. Where it has no effect, `check` and the comments of the
+results report that; the reason is given in brackets.
 """
 OUTCOMES_INTRO = """## How a run can end
 
-The name of the outcome is in the summary and in the result file; the sentence is what is said.
+The summary and the result file contain the name of the outcome; the message contains its sentence.
 """
 LISTED = "`adamslite help` lists them"
 # Longer cells of a table stick out instead of widening their column.
@@ -71,7 +71,7 @@ def deck_functions() -> str:
 def messages() -> str:
     """The page of all messages and outcomes: docs/messages.md."""
     said = (message(code, each) for code, each in MESSAGES.items())
-    outcomes = table(("outcome", "what is said"), [(f"`{o.name}`", o.value) for o in Outcome])
+    outcomes = table(("outcome", "sentence"), [(f"`{o.name}`", o.value) for o in Outcome])
     return "\n".join([HEAD, MESSAGES_INTRO, *said, OUTCOMES_INTRO, outcomes])
 
 

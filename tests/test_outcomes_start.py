@@ -75,5 +75,5 @@ def test_no_equilibrium_names_the_balance_that_fails():
 
 
 def test_without_an_end_nothing_runs():
-    with pytest.raises(UsageError, match="Nothing says how long to run"):
+    with pytest.raises(UsageError, match="There is no end time"):
         al.simulate(al.read(FALLING + "END\n"))

@@ -21,7 +21,7 @@ MESSAGES: dict[str, Message] = {
         " on a loop: pulley, winch, bend",
     ),
     "run-to-run": Message(
-        "nothing is between two long runs", "a pulley or a mass that the cable meets"
+        "there is nothing between two long runs", "a pulley or a mass that the cable meets"
     ),
     "drive": Message("a winch needs one of payout, force and torque", 'payout = "0.5*TIME**2"'),
     "reel-between": Message(
@@ -39,7 +39,7 @@ MESSAGES: dict[str, Message] = {
         "leave mount out, or motion and mass",
     ),
     "reel-leans": Message(
-        "where the cable leaves a reel stays where it was", "leave {word} out, or reel"
+        "the place where the cable leaves a reel does not move", "leave {word} out, or reel"
     ),
     "no-carriage": Message("{word} is for a wheel that is free to move", "give it a mass"),
     "no-slide": Message("pull goes along slide", "slide = [1, 0, 0]"),
@@ -72,9 +72,9 @@ MESSAGES: dict[str, Message] = {
         "{word} makes {count} sections of one cable; it may have 1 to {most}",
         "fewer elements, or auto",
     ),
-    "form-has-level": Message("form {form} is one of level 3", "level = 3, or leave one out"),
+    "form-has-level": Message("form {form} belongs to level 3", "level = 3, or leave one out"),
     "needs-brute": Message(
-        "{why}: only sections that run over the rims can show that",
+        "{why}: only sections that run over the rims can represent that",
         'form = "brute"; a wheel may move where it and the wheels beside it lean: leans = true',
     ),
     "brute-no-wheel": Message(
@@ -86,7 +86,7 @@ MESSAGES: dict[str, Message] = {
     ),
     "brute-plane": Message(
         "sections round wheels and bends lie in one plane across their axes",
-        "axles, places, velocities, gravity and the plane; or another form",
+        "axles, places, velocities and gravity in that plane, or another form",
     ),
     "bend-too-tight": Message(
         "a section of {section:.4g} m does not fit round a bend of {radius:.4g} m",
@@ -96,7 +96,7 @@ MESSAGES: dict[str, Message] = {
         "a cable with ends does not run along itself", "closed = true, or velocity of a mass"
     ),
     "slides-between": Message(
-        "a weight slides between two points that its cable ends at",
+        "a weight slides between two points at which its cable ends",
         "beside it: fixed, free, or a mass or body that does not slide",
     ),
     "no-slider": Message("haul is for a weight that slides along its cable", "slides = true"),
@@ -108,11 +108,13 @@ MESSAGES: dict[str, Message] = {
         "2 R sin(pi/teeth) is one for all: radius = {radius:.8g}",
     ),
     "loop-of-links": Message(
-        "the loop is {links:.3f} links long", "a whole number: spacings that differ by {off:.4g} m"
+        "the loop is {links:.3f} links long", "a whole number: change the spacings by {off:.4g} m"
     ),
     "rigid-cannot": Message("level 1 is a rigid cable: {what}", "level = 2 or 3"),
     "stored-too-little": Message(
-        "the payout comes to {value:.4g} m and {held:.4g} m are stored", "store more, or less end"
+        "the payout reaches {value:.4g} m, and {held:.4g} m are stored",
+        "more cable stored, or an earlier end",
+        "more cable stored, or an earlier end",
     ),
     "level-2-pays-out": Message(
         "level 2 has sections of {section:.4g} m and {travel:.4g} m of cable go over a wheel",
@@ -136,12 +138,12 @@ MESSAGES: dict[str, Message] = {
         severity=WARNING,
     ),
     "paper-not-valid": Message(
-        "the paper's element is not good to {accuracy:g} here: {figures}",
+        "the paper's element is not accurate to {accuracy:g} here: {figures}",
         'form = "ale"',
         severity=WARNING,
     ),
     "pushed": Message(
-        "the winch pays out with {gain:.4g} m/s^2 at TIME = {time:.4g}, and the load comes after"
+        "the winch pays out with {gain:.4g} m/s^2 at TIME = {time:.4g}, and the load follows"
         " with {fall:.4g} m/s^2: the cable goes slack, and a slack section pushes",
         "pulls_only = true in [cable], at level 2 or 3: a slack section then carries nothing",
         severity=WARNING,

@@ -48,21 +48,21 @@ class Outcome(Enum):
         "logarithm of a negative number, or DM of coinciding markers in the named statement."
     )
     BROKEN_MOTION = (
-        "A motion that jumps asks for a force without bound. Let it rise within a time: STEP "
+        "A motion that jumps needs an unbounded force. Let it rise over some time: STEP "
         "instead of IF, powers of TIME from 2 on (of a velocity, from 1 on)."
     )
     INTERRUPTED = "The run was interrupted; everything computed until then is kept."
     UNSTABLE = (
-        "The steps asked for with HINIT are longer than an explicit integrator can take in this "
+        "The steps requested with HINIT are longer than an explicit integrator can take in this "
         "scene. Give a smaller HINIT or none, or use an implicit integrator (GSTIFF)."
     )
     CHATTERING = (
         "An expression keeps changing its branch: on both sides of the change the motion leads "
-        "back to it, as with dry friction written with SIGN or IF. Put a STEP of some width in the "
-        "place of the jump, or use FRICTION."
+        "back to it, as with dry friction written with SIGN or IF. Replace the "
+        "jump by a STEP of some width, or use FRICTION."
     )
     NO_END_TIME = (
-        "Nothing says how long to run. Give SIMULATE/DYNAMIC, END=..., STEPS=... in a command file "
+        "There is no end time. Give SIMULATE/DYNAMIC, END=..., STEPS=... in a command file "
         "(second argument, or a .acf of the deck's name beside it), or in the deck itself, "
         "or use the flags --end T --steps N."
     )
