@@ -7,22 +7,16 @@ compiled ones.
 from __future__ import annotations
 
 import numpy as np
+import scenes
 
 from adamslite.analyses.initial.conditions import constraint_gradient, initial_conditions
 from adamslite.equations.system import System
 from adamslite.integrators import contract, motion_equations, newton
 from adamslite.integrators.bdf import corrector
-from adamslite.kernels.compile import compile_model
-from adamslite.model.model import PART, assemble
-from adamslite.reading.read import read
+from adamslite.model.model import PART
 
 H = 0.02
 STEP = 1e-6
-
-
-def system_of(text: str, stabilised: bool = True) -> System:
-    """A deck ready to be run."""
-    return System(compile_model(assemble(read(text))), stabilised)
 
 
 def shaken(system: System, rng: np.random.Generator, size: float) -> None:
@@ -44,7 +38,7 @@ def _rotation(c: np.ndarray) -> np.ndarray:
 
 def rank_at_random_posture(text: str) -> tuple[int, int]:
     """Rows and rank of G at a consistent posture near a random one."""
-    system = system_of(text)
+    system = scenes.system(text)
     shaken(system, np.random.default_rng(3), 0.2)
     unclosed = initial_conditions(system)
     assert unclosed is None, unclosed
@@ -113,6 +107,6 @@ class Newton:
 
 def matrix_error(text: str, stabilised: bool) -> float:
     """Largest deviation of the Newton matrix from differences, relative to its column."""
-    work = Newton(system_of(text, stabilised))
+    work = Newton(scenes.system(text, stabilised))
     numeric = work.differences()
     return float((np.abs(work.exact() - numeric) / (1.0 + np.abs(numeric).max(axis=0))).max())

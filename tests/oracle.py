@@ -13,6 +13,7 @@ import numpy as np
 from frame_constraints import any_rotation
 from newton_euler import Frame
 from random_mechanisms import SYSTEMS, Mechanism, _add_body, _place, _start, text
+from scenes import quick
 
 import adamslite as al
 
@@ -73,7 +74,7 @@ class Flight:
         kept, made.lines = made.lines, list(statements)
         deck = text(made, end, steps, "RADAU, ERROR=1E-10")
         made.lines = kept
-        return al.simulate(al.read(deck))
+        return al.simulate(quick(deck))
 
     def accelerations(self, loads: list[tuple[int, Array, Array, Array]]) -> Array:
         """(BODIES, 6) a and alpha for loads (body, point, force, torque) in ground axes."""

@@ -13,6 +13,8 @@ from adamslite.equations.engine import INTEGRATORS
 from adamslite.equations.system import System
 from adamslite.integrators import contract, motion_equations
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
+from adamslite.kernels.compile import Kernels
+from adamslite.native import compiler
 from adamslite.results.results import Results
 
 GROUND = "a scene\nPART/1, GROUND\nMARKER/1, PART=1\n"
@@ -55,9 +57,14 @@ def done(deck: str, end: float, steps: int = 10, **options: Any) -> Results:
     return results
 
 
+def quick(deck: str) -> Kernels:
+    """A deck that is evaluated a few times only, compiled at the quick level."""
+    return al.compile_model(al.assemble(al.read(deck)), speed=compiler.QUICK)
+
+
 def system(deck: str, stabilised: bool = True) -> System:
-    """The numbered equations of a deck."""
-    return System(al.compile_model(al.assemble(al.read(deck))), stabilised)
+    """The numbered equations of a deck, to look at them."""
+    return System(quick(deck), stabilised)
 
 
 def added_mass(share: float) -> str:

@@ -18,6 +18,7 @@ from sample_scope import DIGITS, GROUND, SampleScope
 import adamslite.functions  # noqa: F401  fills the registry
 from adamslite.functions.forces import NET
 from adamslite.language.function import FUNCTIONS, Function
+from adamslite.symbolic.derivatives import Derivatives
 
 # What the native printer knows; anything else would only be noticed when a deck uses it.
 PRINTABLE = {
@@ -116,6 +117,14 @@ def beside_edge(gradient: Gradient, index: int, rng: random.Random) -> tuple[lis
             *start[moved + 1 :],
         ]
     raise AssertionError(f"no sample crosses {gradient.edges[index]}")
+
+
+@pytest.mark.parametrize(("name", "form"), CASES, ids=[f"{n}{f}" for n, f in CASES])
+def test_derivatives_are_formed_as_sympy_does(name, form):
+    """Kernels get theirs from :class:`Derivatives`, which must be the same tree."""
+    gradient, slope = Gradient(name, form), Derivatives()
+    assert [slope(gradient.expr, s) for s in gradient.symbols] == gradient.derivatives
+    assert slope.symbols(gradient.expr) == gradient.expr.free_symbols
 
 
 @pytest.mark.parametrize(("name", "form"), CASES, ids=[f"{n}{f}" for n, f in CASES])

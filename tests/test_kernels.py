@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from functools import partial
 
 import numpy as np
 import pytest
@@ -19,11 +18,8 @@ from scenes import (
 
 import adamslite as al
 import adamslite.functions  # noqa: F401  fills the registry
-from adamslite.equations.engine import engine
 from adamslite.integrators import contract
-from adamslite.integrators.contract import RESIDUAL
 from adamslite.language.function import FUNCTIONS
-from adamslite.native import compiler
 
 BODIES = (
     GROUND
@@ -63,13 +59,6 @@ NUMBERS = {
     8: (X, V, "0.9", "1.2", "2.5", "2.2", "0.3", "0.2"),
 }
 OWN_NUMBERS = {"SWEEP": (X, "2.0", "0.1", "0.3", "0.9", "0.7", "0.2")}
-
-
-@pytest.fixture(autouse=True)
-def unoptimised(monkeypatch):
-    """Kernels of these tests run a few times only: compile them, not the engine, quickly."""
-    engine(RESIDUAL)
-    monkeypatch.setattr(compiler, "object_code", partial(compiler.object_code, speed=1))
 
 
 def with_markers(name: str, markers: tuple[int, ...]) -> str:

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from constraint_decks import BODIES
 from newton_matrix import matrix_error
+from scenes import quick
 
 from adamslite.analyses.simulation import simulate
-from adamslite.model.model import Model, assemble, rotation_313
+from adamslite.model.model import Model, rotation_313
 from adamslite.reading.read import read
 from adamslite.results.results import Results
 
@@ -77,8 +78,8 @@ LAWS = {
 
 def start_of(statements: str) -> tuple[Model, Results]:
     """Two skew bodies in motion with these statements: the model and its state at t = 0."""
-    model = assemble(read(f"{MOVING}{statements}\nEND\n"))
-    return model, simulate(model, end=1e-4, steps=1)
+    kernels = quick(f"{MOVING}{statements}\nEND\n")
+    return kernels.model, simulate(kernels, end=1e-4, steps=1)
 
 
 def vector(found: Results, *names: str) -> np.ndarray:

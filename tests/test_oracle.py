@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from oracle import Flight, Marker, pair, projected_angles, reported, seen, velocity
+from scenes import quick
 
 import adamslite as al
 from adamslite.elements.bases.wrench import Wrench
@@ -264,7 +265,7 @@ def check_friction(kind: str, effect: str, vs: float, more: str, used: set[str])
     deck = RUBBING.format(
         kind=kind, vs=vs, more=f", EFFECT={effect}{more}", start=start, kgrav=kgrav
     )
-    results = al.simulate(al.read(deck))
+    results = al.simulate(quick(deck))
 
     def six_of(name: str) -> Array:
         return np.array([results[f"{name}.{c}"][0] for c in ("fx", "fy", "fz", "tx", "ty", "tz")])

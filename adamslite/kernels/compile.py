@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -37,6 +37,7 @@ class Group:
     instances: list[tuple[Statement, Binding]] = field(default_factory=list)
     code: bytes = b""
     meta: dict[str, Any] = field(default_factory=dict)
+    speed: int = compiler.FULL
 
 
 @dataclass
@@ -57,22 +58,26 @@ LEVELS = ("reactions", "position", "velocity", "acceleration")
 WITH_JACOBIAN = ("loads", "equation", *LEVELS)
 
 
-def compile_model(model: Model, progress: Any = None, audited: bool = False) -> Kernels:
+def compile_model(
+    model: Model, progress: Any = None, audited: bool = False, speed: int = compiler.FULL
+) -> Kernels:
     """Bind every statement, compile the shapes not seen before, link all of them.
 
-    ``audited``: what elastic elements store too.
+    ``audited``: what elastic elements store too.  ``speed``: :data:`compiler.QUICK` takes a third
+    of LLVM's time, and gives the same values but for round-off.
     """
     groups: dict[tuple, Group] = {}
+    add = partial(_add, groups, model, speed=speed)
     outputs = []
     with uncollected():
         for statement in model.deck.statements:
             for face in faces(statement, model):
-                _add(groups, model, statement, face)
+                add(statement, face)
             if audited and hasattr(statement, "stored") and model.acts(statement):
-                _add(groups, model, statement, "stored")
+                add(statement, "stored")
             for face in _output(statement):
                 outputs.append((statement, statement.result_names))
-                _add(groups, model, statement, face)
+                add(statement, face)
     fresh = sum(_compile(group, progress) for group in groups.values())
     addresses = compiler.addresses((group.code, _entry_points(group)) for group in groups.values())
     return Kernels(model, list(groups.values()), outputs, addresses, fresh)
@@ -98,7 +103,10 @@ def _output(statement: Statement) -> Iterator[str]:
         yield "output"
 
 
-def _add(groups: dict[tuple, Group], model: Model, statement: Statement, face: str) -> None:
+def _add(
+    groups: dict[tuple, Group], model: Model, statement: Statement, face: str,
+    speed: int = compiler.FULL,
+) -> None:  # fmt: skip
     binder = Binder(model, inline_signals=face == "signal")
     try:
         fields, own = _bound(binder, statement, face)
@@ -107,11 +115,13 @@ def _add(groups: dict[tuple, Group], model: Model, statement: Statement, face: s
     rate = (statement.keyword, statement.key) in model.held and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
     if key not in groups:
-        name = "k" + compiler.digest(repr(key), version_of("kernels.compile"), algebra())
+        name = "k" + compiler.digest(
+            repr(key), version_of("kernels.compile"), algebra(), f"O{speed}"
+        )
         level = LEVELS.index(face) - 1 if face in LEVELS else 0
         level -= level > 0 and rate
         write = FaceWriter(binder, statement.keyword, face, fields, own, level)
-        groups[key] = Group(face, name, write)
+        groups[key] = Group(face, name, write, speed=speed)
     groups[key].instances.append((statement, binder.instance))
 
 
@@ -208,7 +218,9 @@ def _compile(group: Group, progress: Any) -> bool:
         return made[0]
 
     group.meta = recall_json(f"{group.name}.json", lambda: text_and_meta()[1])
-    group.code = recall(f"{group.name}.o", lambda: compiler.object_code(text_and_meta()[0]))
+    group.code = recall(
+        f"{group.name}.o", lambda: compiler.object_code(text_and_meta()[0], group.speed)
+    )
     return bool(made)
 
 

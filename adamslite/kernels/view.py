@@ -68,10 +68,11 @@ def reactions(view: View, scope: Scope) -> list[Load]:
     for row, lam in zip(view.cls.constraints(view, scope), view.unknowns, strict=True):
         row = sp.S.Zero + row
         groups: dict[tuple, list[Any]] = {}
-        for symbol in sorted(row.free_symbols, key=str):
+        for symbol in sorted(scope.slope.symbols(row), key=str):
             leaf = scope.leaves[symbol]
             if leaf[0] in ("d", "x", "v", "w"):
-                groups.setdefault(leaf[:-1], [sp.S.Zero] * 3)[leaf[-1]] = sp.diff(row, symbol)
+                slope = groups.setdefault(leaf[:-1], [sp.S.Zero] * 3)
+                slope[leaf[-1]] = scope.slope(row, symbol)
         rates = any(leaf[0] in ("v", "w") for leaf in groups)
         for leaf, slope in groups.items():
             pull = scale(-lam, tuple(slope))

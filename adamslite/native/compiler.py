@@ -29,8 +29,12 @@ def digest(*parts: str) -> str:
 INLINED = 100
 
 
-def object_code(text: str, speed: int = 3) -> bytes:
-    """Compile LLVM assembly to object code at full optimisation."""
+#: Levels of optimisation: for code that runs often, and for code that runs a few times only.
+FULL, QUICK = 3, 1
+
+
+def object_code(text: str, speed: int = FULL) -> bytes:
+    """Compile LLVM assembly to object code at a level of optimisation."""
     import llvmlite.binding as llvm
 
     machine = processor.target_machine()

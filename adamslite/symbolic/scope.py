@@ -25,6 +25,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
+from adamslite.symbolic.derivatives import Derivatives
 from adamslite.symbolic.sympy_nodes import sp
 
 ORIGIN = -1
@@ -103,6 +104,7 @@ class Scope:
         self.symbols: dict[tuple, Any] = {}
         self.angles: list[Any] = []
         self.limits: list[Any] = []
+        self.slope = Derivatives()
         self.elements: list[Any] = []
         self._everything_moves = False
         self.read: Callable[[Any], Any] = _unbound
@@ -241,11 +243,11 @@ class Scope:
         """Total time derivative of an expression of these symbols."""
         expr = sp.S.Zero + expr
         total = sp.S.Zero
-        for symbol in sorted(expr.free_symbols, key=str):
+        for symbol in sorted(self.slope.symbols(expr), key=str):
             leaf = self.leaves.get(symbol)
             rate = self.rate(leaf) if leaf else 0
             if rate != 0:
-                total = total + sp.diff(expr, symbol) * rate
+                total = total + self.slope(expr, symbol) * rate
         return total
 
     def rate(self, leaf: tuple) -> Any:

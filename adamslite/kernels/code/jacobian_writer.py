@@ -86,13 +86,13 @@ class JacobianWriter(Writer):
         expr = sp.S.Zero + expr
         total = Columns(self.g)
         vectors: dict[tuple, Vec] = {}
-        for symbol in sorted(expr.free_symbols, key=str):
+        for symbol in sorted(self.scope.slope.symbols(expr), key=str):
             leaf = self.scope.leaves[symbol]
             if leaf[0] in ("p", "t", "mode", "sig", "turn", "nan"):
                 continue
             if self.rates_only and leaf[0] in ("d", "v", "x", "w", "dif"):
                 continue
-            slope = self.value(sp.diff(expr, symbol))
+            slope = self.value(self.scope.slope(expr, symbol))
             if leaf[0] in ("z", "dif", "dif1"):
                 self._scalar_column(total, leaf, slope)
             else:

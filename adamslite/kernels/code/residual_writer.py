@@ -30,7 +30,7 @@ class Writer:
     def value(self, expr: Any) -> Value:
         """Lower an expression, loading the leaves it uses first."""
         expr = sp.S.Zero + expr
-        for symbol in sorted(expr.free_symbols, key=str):
+        for symbol in sorted(self.scope.slope.symbols(expr), key=str):
             if symbol not in self.lower.leaves:
                 self.lower.leaves[symbol] = self.leaf(self.scope.leaves[symbol])
         return self.lower(expr)
