@@ -2,13 +2,10 @@
 
 import math
 from collections.abc import Callable, Mapping
-from operator import add, mul, neg, pow, sub, truediv
 
 from adamslite.cables.messages import Faults
 from adamslite.cables.toml_places import Path
-from adamslite.language.expression import Call, Node, Num, Op, Ref, Time
-
-OPERATORS = {"+": add, "-": sub, "*": mul, "/": truediv, "**": pow, "neg": neg}
+from adamslite.language.expression import Call, Node, Num, Op, Ref, Time, operate
 
 
 class Unknown(Exception):
@@ -76,15 +73,18 @@ def evaluate(node: Node, look: Callable[[Node], float]) -> float:
     if type(node) is Num:
         return node.value
     if type(node) is Op:
-        function = OPERATORS[node.op]
+        found = operate(node.op, [evaluate(arg, look) for arg in node.args])
     elif type(node) is Call and node.name in FUNCTIONS:
-        function = FUNCTIONS[node.name]
+        found = _called(node.name, [evaluate(arg, look) for arg in node.args])
     else:
         return look(node)
-    try:
-        found = function(*[evaluate(arg, look) for arg in node.args])
-    except (ArithmeticError, ValueError):
-        raise NoValue from None
-    if isinstance(found, complex):
+    if found is None:
         raise NoValue
     return found
+
+
+def _called(name: str, args: list[float]) -> float | None:
+    try:
+        return FUNCTIONS[name](*args)
+    except (ArithmeticError, ValueError):
+        return None

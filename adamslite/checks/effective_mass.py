@@ -24,6 +24,7 @@ from adamslite.language.expression import (
     Ref,
     Time,
     calls,
+    operate,
     to_text,
     walk,
 )
@@ -127,19 +128,8 @@ def _value(deck: Any, node: Node, time: float) -> float:
             own = any(isinstance(each, Ref) for each in walk(function))
             return 1.0 if own else _value(deck, function, time)
         case Op(op, args):
-            return _arithmetic(op, [_value(deck, arg, time) for arg in args])
+            return operate(op, [_value(deck, arg, time) for arg in args]) or 0.0
     return 1.0
-
-
-def _arithmetic(op: str, values: list[float]) -> float:
-    a, b = values[0], values[-1]
-    try:
-        return {
-            "+": lambda: a + b, "-": lambda: a - b, "*": lambda: a * b,
-            "/": lambda: a / b, "**": lambda: float(a**b), NEGATE: lambda: -a,
-        }[op]()  # fmt: skip
-    except (ArithmeticError, TypeError):
-        return 0.0
 
 
 def _warning(force: Statement, field: str, body: str, mass: float, slope: Node) -> Diagnostic:

@@ -3,23 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
-from adamslite.language.expression import MODE, NEGATE, TIME, Node, Num, Op
+from adamslite.language.expression import MODE, TIME, Node, Num
 from adamslite.language.spelling import spelled
 
 Key = int | str
-
-
-_ARITHMETIC: dict[str, Callable[..., float]] = {
-    "+": lambda a, b: a + b,
-    "-": lambda a, b: a - b,
-    "*": lambda a, b: a * b,
-    "/": lambda a, b: a / b,
-    "**": math.pow,
-    NEGATE: lambda a: -a,
-}
 
 
 RESERVED: dict[str, Node] = {
@@ -68,18 +57,3 @@ def to_number(text: str) -> float:
         if text[-1] in "dD":
             return math.radians(to_number(text[:-1]))
         return float(text.upper().replace("D", "E"))
-
-
-def fold(node: Node) -> float | None:
-    """The value of an expression of numbers only; None for any other."""
-    if type(node) is Num:
-        return node.value
-    if type(node) is not Op:
-        return None
-    values = [fold(arg) for arg in node.args]
-    if None in values:
-        return None
-    try:
-        return float(_ARITHMETIC[node.op](*values))
-    except (ArithmeticError, ValueError):
-        return None

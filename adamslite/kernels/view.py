@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import Any
 
 from adamslite.kernels.binding import Tree
+from adamslite.language.expression import OPERATORS
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.statement import STATEMENTS, Statement
 from adamslite.symbolic.scope import Load, Scope
@@ -147,14 +148,7 @@ class Reader:
     def _operation(self, op: str, args: list[Any]) -> Any:
         from adamslite.symbolic.sympy_nodes import power
 
-        if op == "neg":
-            return -args[0]
-        a, b = args
-        if op == "**":
-            return power(a, b)
-        return {"+": lambda: a + b, "-": lambda: a - b, "*": lambda: a * b, "/": lambda: a / b}[
-            op
-        ]()
+        return power(*args) if op == "**" else OPERATORS[op].function(*args)
 
 
 def _exact(value: float) -> Any:

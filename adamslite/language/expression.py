@@ -7,12 +7,30 @@ Nodes are immutable, hashable and compare by content.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import math
+import operator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 NEGATE = "neg"
-_LEVEL = {"+": 1, "-": 1, NEGATE: 1, "*": 2, "/": 2, "**": 3}
+
+
+class Operator(NamedTuple):
+    """``level``: how strongly it binds; ``function``: what it does."""
+
+    level: int
+    function: Callable[..., Any]
+
+
+OPERATORS = {
+    "+": Operator(1, operator.add),
+    "-": Operator(1, operator.sub),
+    NEGATE: Operator(1, operator.neg),
+    "*": Operator(2, operator.mul),
+    "/": Operator(2, operator.truediv),
+    "**": Operator(3, math.pow),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +73,7 @@ class Call:
 
 @dataclass(frozen=True, slots=True)
 class Op:
-    """Arithmetic: ``op`` is one of ``+ - * / ** neg``."""
+    """Arithmetic: ``op`` is one of :data:`OPERATORS`."""
 
     op: str
     args: tuple[Node, ...]
@@ -113,6 +131,24 @@ def rebuild(node: Node, change: Callable[[Node], Node]) -> Node:
     return change(node)
 
 
+def operate(op: str, values: Sequence[float]) -> float | None:
+    """The value of an operation on numbers; None where it has none (1/0, the root of -1)."""
+    try:
+        return float(OPERATORS[op].function(*values))
+    except (ArithmeticError, ValueError):
+        return None
+
+
+def fold(node: Node) -> float | None:
+    """The value of an expression of numbers only; None for any other."""
+    if type(node) is Num:
+        return node.value
+    if type(node) is not Op:
+        return None
+    values = [fold(arg) for arg in node.args]
+    return None if None in values else operate(node.op, values)
+
+
 def to_text(node: Node) -> str:
     """The expression in deck syntax; reading it again gives the same node."""
     return _text(node, 0)
@@ -134,12 +170,12 @@ def _text(node: Node, level: int) -> str:
             return f"{name}({', '.join(_text(arg, 0) for arg in args)})"
         case Op(op, args):
             text = _operation(op, args)
-            return f"({text})" if _LEVEL[op] < level else text
+            return f"({text})" if OPERATORS[op].level < level else text
     raise TypeError(f"not an expression node: {node!r}")
 
 
 def _operation(op: str, args: tuple[Node, ...]) -> str:
-    own = _LEVEL[op]
+    own = OPERATORS[op].level
     if op == NEGATE:
         return f"-{_text(args[0], own + 1)}"
     # Operators group to the left, ** to the right: the other side needs brackets at equal level.

@@ -8,7 +8,7 @@ force * UCF = mass * acceleration.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -17,7 +17,18 @@ import numpy as np
 
 from adamslite import elements  # noqa: F401  registers the statements
 from adamslite.functions.forces import NET
-from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time, expressions, walk
+from adamslite.language.expression import (
+    Call,
+    Mode,
+    Node,
+    Num,
+    Op,
+    Ref,
+    Time,
+    expressions,
+    operate,
+    walk,
+)
 from adamslite.language.statement import Statement
 from adamslite.model.net_force import written_out
 
@@ -331,25 +342,10 @@ def _clean(axes: np.ndarray) -> np.ndarray:
     return rounded if np.abs(axes - rounded).max() < 1e-15 else axes
 
 
-def folded(op: str, values: list[float]) -> float:
+def folded(op: str, values: Sequence[float]) -> float:
     """The value of an operation on numbers; not a number where it has none."""
-    a, b = values[0], values[-1]
-    try:
-        match op:
-            case "neg":
-                return -a
-            case "+":
-                return a + b
-            case "-":
-                return a - b
-            case "*":
-                return a * b
-            case "/":
-                return a / b
-        power = a**b
-    except (ZeroDivisionError, OverflowError):
-        return float("nan")
-    return float("nan") if isinstance(power, complex) else power
+    value = operate(op, values)
+    return float("nan") if value is None else value
 
 
 def _in_loops(uses: dict[Any, set[Any]]) -> set[Any]:

@@ -10,20 +10,17 @@ import math
 from typing import Any, NamedTuple
 
 from adamslite import functions  # noqa: F401  registers the functions
-from adamslite.deck.names import RESERVED, Key, Names, fold, to_number
-from adamslite.language.expression import NEGATE, Call, Node, Num, Op, Ref
+from adamslite.deck.names import RESERVED, Key, Names, to_number
+from adamslite.language.expression import NEGATE, Call, Node, Num, Op, Ref, fold
 from adamslite.language.function import FUNCTIONS, Function, Parameter
 from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.not_supported import FUNCTIONS as PLANNED
 from adamslite.language.spelling import spelled
-from adamslite.syntax.forms import Fault, Lexeme, Tree, end_of, expression_form
+from adamslite.syntax.forms import OPERATORS, Fault, Lexeme, Tree, end_of, expression_form
 from adamslite.syntax.syntax_errors import expression_mistake
 
 DEEPEST = 100
 LONGEST_CHAIN = 16
-_SYMBOLS = {"PLUS": "+", "MINUS": "-", "STAR": "*", "SLASH": "/", "POWER": "**"}
-
-
 _STAND_IN = Num(0.0)
 
 
@@ -120,7 +117,7 @@ class Resolver:
         return value
 
     def _operation(self, tree: Tree, depth: int) -> Node:
-        op = _SYMBOLS[self.tokens[tree[1]][0]]
+        op = OPERATORS[self.tokens[tree[1]][0]]
         left, right = tree[2], tree[3]
         if op in "+-" and left[0] == "operation":
             terms = self._terms(tree)
@@ -132,7 +129,7 @@ class Resolver:
         """The signed terms of a sum, the first one with a plus."""
         terms = []
         while tree[0] == "operation" and self.tokens[tree[1]][0] in ("PLUS", "MINUS"):
-            terms.append((_SYMBOLS[self.tokens[tree[1]][0]], tree[3]))
+            terms.append((OPERATORS[self.tokens[tree[1]][0]], tree[3]))
             tree = tree[2]
         return [("+", tree), *reversed(terms)]
 

@@ -40,7 +40,9 @@ Tree = tuple
 """An expression: ``(rule, number of its token, branch, branch ...)``."""
 
 CLOSES = {"LPAR": "RPAR", "LSQB": "RSQB"}
-OPERATORS = {"PLUS", "MINUS", "STAR", "SLASH", "POWER"}
+OPERATORS = {"PLUS": "+", "MINUS": "-", "STAR": "*", "SLASH": "/", "POWER": "**"}
+"""Kinds of tokens that are operators, and what these are called in an expression."""
+
 _JOINTS = {"LINE_END", "SEMICOLON", "AMPERSAND", "COMMENT", *CLOSES, *CLOSES.values()}
 
 
