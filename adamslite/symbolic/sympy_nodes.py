@@ -109,11 +109,13 @@ def norm(vector: tuple[Any, Any, Any]) -> Any:
     return choose((root(square), square > 0), otherwise=0)
 
 
+# Values of tables by the names of their nodes, whose first three arguments are whole numbers.
+LOOKUPS = ("Lookup", "LookupBetween")
+
+
 @cache
 def _lookups() -> tuple[type, type]:
-    """Values of tables, named by the rules that write them; whole numbers are their first
-    arguments: the table's number, for one argument the curve, orders of derivatives.
-    """
+    """The nodes of ``LOOKUPS``."""
 
     class Lookup(sp.Function):
         """(table, curve, order, x)"""

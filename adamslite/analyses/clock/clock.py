@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from adamslite.analyses.clock.enclosures import Instruction
+from adamslite.symbolic.sympy_nodes import LOOKUPS
 
 Program = tuple[Instruction, ...]
 
@@ -50,6 +51,9 @@ class Clock:
         for name, *given in code:
             if name == "p":
                 found.append(("number", binding.params[given[0]]))
+            elif name in LOOKUPS:
+                table = binding.tables[given[0]]
+                found.append(_moved((name, table, *given[1:]), place.__getitem__))
             elif name == "sig":
                 inner = self._rate(binding.signals[given[0]], given[1])
                 shift = len(found)
@@ -73,6 +77,8 @@ def _used(code: list[list[Any]], binding: Any) -> Iterator[Any]:
             yield binding.params[given[0]]
         elif name == "sig":
             yield binding.signals[given[0]]
+        elif name in LOOKUPS:
+            yield binding.tables[given[0]]
 
 
 def _moved(instruction: Instruction, place: Any) -> Instruction:
@@ -82,6 +88,8 @@ def _moved(instruction: Instruction, place: Any) -> Instruction:
         return instruction
     if name == "root":
         return name, place(given[0]), *given[1:]
+    if name in LOOKUPS:
+        return name, *given[:3], *map(place, given[3:])
     if name == "choose":
         return name, given[0], *map(place, given[1:])
     return name, *map(place, given)

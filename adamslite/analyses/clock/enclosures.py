@@ -16,6 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.clock.table_ranges import ranges
+from adamslite.symbolic.interpolant import Interpolant
+
 Span = tuple[Any, Any]
 Instruction = tuple[Any, ...]
 # The kind of analysis, as MODE gives it.
@@ -251,10 +254,69 @@ def _either(values: list[Any], *terms: int) -> Any:
     return may, may_not
 
 
+def _lookup(values: list[Any], table: Interpolant, curve: int, order: int, at: int) -> Any:
+    """A curve of a table; its rate is that of the argument times the next derivative."""
+    (low, high), rate = values[at]
+    here, slope = (_of_curve(table, curve, order + k, (low, high)) for k in range(2))
+    jumps = ranges(table, curve, order).jumps_within(*_arrays(low, high)) if order < 4 else False
+    return here, _unbounded(jumps, _times(slope, rate))
+
+
+def _lookup_between(
+    values: list[Any], table: Interpolant, order: int, z_order: int, x: int, z: int
+) -> Any:
+    """A table of two arguments: the sum of both slopes times the rates of their arguments."""
+    (at, its_rate), (across, z_rate) = values[x], values[z]
+    by_x = _times(_between(table, order + 1, z_order, at, across), its_rate)
+    by_z = _times(_between(table, order, z_order + 1, at, across), z_rate)
+    jumps = np.logical_or.reduce(
+        [ranges(table, k, order).jumps_within(*_arrays(*at)) for k in range(len(table.places))]
+    )
+    places = table.places[1:-1]
+    first, last = (np.searchsorted(places, side, side="right") for side in _arrays(*across))
+    jumps = jumps | ((first < last) & (z_order > 0))
+    return _between(table, order, z_order, at, across), _unbounded(jumps, _plus(by_x, by_z))
+
+
+def _between(table: Interpolant, order: int, z_order: int, x: Span, z: Span) -> Span:
+    """Values between all pairs of neighbouring curves that z meets."""
+    places, last = table.places, len(table.places) - 1
+    if last == 0:
+        return _of_curve(table, 0, order, x) if z_order == 0 else (np.float64(0.0),) * 2
+    total = (np.inf, -np.inf)
+    for k in range(last):
+        low, high = places[k] if k else -np.inf, places[k + 1] if k < last - 1 else np.inf
+        met = (z[0] <= high) & (z[1] >= low)
+        one, other = (_of_curve(table, c, order, x) for c in (k, k + 1))
+        rise = _plus(other, _minus(one))
+        slope = _times(rise, _both_ends(1.0 / (places[k + 1] - places[k])))
+        way = tuple(np.clip(end, low, high) - places[k] for end in z)
+        pieces = (_plus(one, _times(way, slope)), slope, _both_ends(0.0))
+        total = _joined(met, total, pieces[min(z_order, 2)])
+    return total
+
+
+def _of_curve(table: Interpolant, curve: int, order: int, x: Span) -> Span:
+    return ranges(table, curve, order).within(*_arrays(*x)) if order < 4 else _both_ends(0.0)
+
+
+def _arrays(low: Any, high: Any) -> tuple[np.ndarray, np.ndarray]:
+    return tuple(np.broadcast_arrays(np.atleast_1d(low), np.atleast_1d(high)))
+
+
+def _both_ends(x: float) -> Span:
+    return np.float64(x), np.float64(x)
+
+
+def _unbounded(where: Any, rate: Span) -> Span:
+    return np.where(where, -np.inf, rate[0]), np.where(where, np.inf, rate[1])
+
+
 # Conditions are (may be true, may be false).
 RULES: dict[str, Callable[..., Any]] = {
     "Add": _add, "Mul": _multiply, "root": _root, "Pow": _pow, "atan2": _atan2,
     "floor": _floor, "choose": _choose, "And": _both, "Or": _either,
+    "Lookup": _lookup, "LookupBetween": _lookup_between,
     "Not": lambda values, a: values[a][::-1],
     "decided": lambda values, holds: (np.bool_(holds), np.bool_(not holds)),
     "number": _number, "mode": lambda values: _number(values, DYNAMICS),

@@ -20,7 +20,7 @@ from typing import Any
 
 from adamslite.native.llvm_builder import LIBRARY
 from adamslite.symbolic.guards import CLOCK_LEAVES, FIXED_LEAVES
-from adamslite.symbolic.sympy_nodes import sp
+from adamslite.symbolic.sympy_nodes import LOOKUPS, sp
 
 CURVED = LIBRARY - {"floor"}
 
@@ -63,6 +63,8 @@ class ClockWriter:
             jumps = getattr(expr, "order", None) == -1
             pieces = [x for each in expr.args for x in (each.cond, each.expr)]
             return ["choose", jumps, *map(self.place, pieces)]
+        if name in LOOKUPS:
+            return [name, *map(int, expr.args[:3]), *map(self.place, expr.args[3:])]
         name = getattr(expr, "rel_op", name)
         return [name, *map(self.place, expr.args)]
 
@@ -86,6 +88,8 @@ class ClockWriter:
     def _first(instruction: list[Any]) -> int:
         """Where the operands of an instruction begin."""
         leaves = (*CLOCK_LEAVES, *FIXED_LEAVES, "number", "decided")
+        if instruction[0] in LOOKUPS:
+            return 4
         return len(instruction) if instruction[0] in leaves else 1 + (instruction[0] == "choose")
 
     def _operands(self, instruction: list[Any]) -> list[int]:
@@ -123,11 +127,17 @@ def clock_programs(
 def _curves(expression: Any, writer: ClockWriter) -> Iterator[Any]:
     """Functions of time in an expression that can change faster than their arguments."""
     for node in _below(expression):
-        bent = type(node).__name__ in CURVED
+        bent = type(node).__name__ in CURVED or _is_value_of_table(node)
         if node.is_Pow:
             bent = not (node.exp.is_Integer and node.exp > 0)
         if bent and writer.on_clock(node):
             yield node
+
+
+def _is_value_of_table(node: Any) -> bool:
+    """Not its derivatives: they change where it does, and may jump at every point."""
+    orders = {"Lookup": slice(2, 3), "LookupBetween": slice(1, 3)}.get(type(node).__name__)
+    return orders is not None and not any(node.args[orders])
 
 
 def _below(expression: Any) -> Iterator[Any]:
