@@ -9,7 +9,7 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import say
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Mode, Node, Ref, walk
-from adamslite.language.statement import Statement
+from adamslite.language.statement import STATEMENTS, Statement
 
 POINT = "POINT_MASS"
 TURNING = ("ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR")
@@ -171,7 +171,7 @@ def _not_of_time(deck: Deck, node: Node, inside: tuple[int | str, ...]) -> str |
         if not isinstance(each, Call):
             continue
         for ref in each.args:
-            if not isinstance(ref, Ref):
+            if not isinstance(ref, Ref) or STATEMENTS[ref.kind].data:
                 continue
             if ref.kind != "VARIABLE":
                 return each.name

@@ -29,7 +29,7 @@ from adamslite.language.expression import (
     operate,
     walk,
 )
-from adamslite.language.statement import Statement
+from adamslite.language.statement import STATEMENTS, Statement
 from adamslite.model.net_force import written_out
 
 POINT, PART = 3, 6
@@ -316,7 +316,7 @@ class Model:
         for each in walk(node):
             if isinstance(each, Mode):
                 return False
-            if isinstance(each, Ref):
+            if isinstance(each, Ref) and not STATEMENTS[each.kind].data:
                 if each.kind != "VARIABLE" or each.id in loops:
                     return False
                 if not self._time_only(self.variable(each.id).function, loops):

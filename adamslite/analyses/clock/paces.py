@@ -73,6 +73,10 @@ def timetable(
         else:
             paced += [statement] if len(curve.spans) else []
             spans.append(curve.spans)
+    for program, statement in clock.programs("slopes").items():
+        slope = time_scales(program, start, end, SHORT * longest)
+        kinks.append(slope.times)
+        overfull += [statement] if not slope.whole else []
     found = merged(np.concatenate(kinks), times)
     if len(found) == 1 and not any(map(len, spans)):
         return Timetable(found, np.array(contract.NO_PACE), paced, overfull)

@@ -5,7 +5,8 @@ needed.  A kernel therefore carries those of its subexpressions that depend on n
 instructions, one list for each, in which an operand is the number of an earlier instruction:
 
 ==========  =====================================================================================
-curves      functions that can change faster than their arguments: EXP, SIN, 1/x ...
+curves      functions that can change faster than their arguments: EXP, SIN, 1/x, tables ...
+slopes      of the tables among them, which may jump
 guards      what decides a branch of the clock: the gap of a relation
 floors      the argument of a floor
 driven      of a constraint: all of an equation that depends on time alone
@@ -109,8 +110,10 @@ def clock_programs(
     """The instructions that a kernel carries along."""
     writer, expressions = ClockWriter(leaves), list(expressions)
     curves = dict.fromkeys(x for e in expressions for x in _curves(e, writer))
+    slopes = dict.fromkeys(x for curve in curves for x in _slopes(curve))
     found = {
         "curves": [writer.place(x) for x in curves],
+        "slopes": [writer.place(x) for x in slopes],
         "guards": [writer.gap(g) for g in guards if hasattr(g, "rel_op")],
         "floors": [writer.place(g.args[0]) for g in guards if not hasattr(g, "rel_op")],
         "driven": [],
@@ -127,17 +130,24 @@ def clock_programs(
 def _curves(expression: Any, writer: ClockWriter) -> Iterator[Any]:
     """Functions of time in an expression that can change faster than their arguments."""
     for node in _below(expression):
-        bent = type(node).__name__ in CURVED or _is_value_of_table(node)
+        name = type(node).__name__
+        bent = name in CURVED or (name in LOOKUPS and not any(_orders(node)))
         if node.is_Pow:
             bent = not (node.exp.is_Integer and node.exp > 0)
         if bent and writer.on_clock(node):
             yield node
 
 
-def _is_value_of_table(node: Any) -> bool:
-    """Not its derivatives: they change where it does, and may jump at every point."""
-    orders = {"Lookup": slice(2, 3), "LookupBetween": slice(1, 3)}.get(type(node).__name__)
-    return orders is not None and not any(node.args[orders])
+def _orders(lookup: Any) -> tuple[Any, ...]:
+    """Of which derivative of a table it is the value."""
+    return lookup.args[2:3] if type(lookup).__name__ == "Lookup" else lookup.args[1:3]
+
+
+def _slopes(curve: Any) -> Iterator[Any]:
+    """The derivatives of a table by its arguments."""
+    if type(curve).__name__ in LOOKUPS:
+        for argument in range(4, len(curve.args) + 1):
+            yield curve.fdiff(argument)
 
 
 def _below(expression: Any) -> Iterator[Any]:
