@@ -31,7 +31,7 @@ from adamslite.analyses.initial.conditions import (
     settle_variables,
 )
 from adamslite.analyses.initial.joint_start import start_of_joints
-from adamslite.analyses.initial.redundancy import leave_out_redundant
+from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
 from adamslite.analyses.kinematic import run_kinematic
 from adamslite.analyses.output_times import output_times
 from adamslite.analyses.plane import in_its_plane
@@ -220,10 +220,11 @@ class Session:
             self.balances.append(balance(self._system))
 
     def _rank_changed(self) -> bool:
-        """Look again for redundant rows; True when they are others than before."""
-        before = list(self._system.dropped)
+        """Leave out other redundant rows when those kept have become redundant."""
+        if not badly_chosen(self._system):
+            return False
         leave_out_redundant(self._system)
-        return self._system.dropped != before
+        return True
 
     def _continue(self, times: np.ndarray) -> None:
         """Go on from where a run stalled to the rest of its output times."""

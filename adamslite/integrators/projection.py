@@ -33,6 +33,7 @@ from adamslite.integrators.motion_equations import (
     put_pose,
     run_groups,
 )
+from adamslite.integrators.step_back import GOLDEN
 from adamslite.native.translate import Reals, native
 
 SWEEPS = 8
@@ -115,3 +116,22 @@ def move(P: Problem, q: Reals) -> None:
                 q[i + k] -= P.F[i + k]
         for k in range(3):
             q[i + k] -= P.F[i + k]
+
+
+@native
+def sensitivity(P: Problem, L: Plan) -> float:
+    """The largest answer of positions when each constraint row is off by a value between 0.5 and
+    1.5 (no pattern that a mechanism could have): grows like 1/d towards a posture of lost rank.
+    """
+    n, top = P.sizes[N], 0.0
+    for i in range(P.sizes[NZ]):
+        P.F[i] = 0.0
+    for k in range(P.sizes[M]):
+        P.F[n + k] = 0.5 + GOLDEN * (k + 1) - int(GOLDEN * (k + 1))
+    for k in range(P.dead.size):
+        P.F[P.dead[k]] = 0.0
+    solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
+    for i in range(n):
+        if exceeds(abs(P.F[i]), top):
+            top = abs(P.F[i])
+    return top

@@ -14,15 +14,15 @@ from adamslite.analyses.initial.conditions import constraint_gradient, weights
 from adamslite.equations.system import System
 
 RANK = 1e-9
+# Rows kept that are nearer to dependence than all rows by this factor were the wrong choice.
+WORSE = 1e-3
 
 
 def redundant_rows(system: System) -> list[int]:
     """Numbers of the redundant rows at the present posture, counted from the first multiplier."""
     if system.m == 0:
         return []
-    g = constraint_gradient(system) / weights(system)
-    length = np.linalg.norm(g, axis=1)
-    scaled = g / np.where(length > 0.0, length, 1.0)[:, None]
+    scaled = _scaled_rows(system)
     if np.linalg.matrix_rank(scaled, tol=RANK) == system.m:
         return []
     from scipy.linalg import qr
@@ -31,6 +31,29 @@ def redundant_rows(system: System) -> list[int]:
     pivots = np.abs(np.diag(r))
     rank = int((pivots > RANK * pivots[0]).sum())
     return sorted(int(row) for row in order[rank:])
+
+
+def badly_chosen(system: System) -> bool:
+    """Whether the rows kept have become dependent at the present posture while others of those
+    left out have not.
+
+    The smallest singular value of the rows kept, against that of as many independent combinations
+    of all rows: where constraints lose rank (a flattened parallelogram) both vanish, and leaving
+    out another row there would let the mechanism come apart.
+    """
+    kept = system.m - len(system.dropped)
+    if kept in (0, system.m):
+        return False
+    scaled = _scaled_rows(system)
+    least = np.linalg.svd(np.delete(scaled, system.dropped, axis=0), compute_uv=False)[kept - 1]
+    return bool(least < WORSE * np.linalg.svd(scaled, compute_uv=False)[kept - 1])
+
+
+def _scaled_rows(system: System) -> np.ndarray:
+    """G W^-1/2 (m, n), its rows of unit length."""
+    g = constraint_gradient(system) / weights(system)
+    length = np.linalg.norm(g, axis=1)
+    return g / np.where(length > 0.0, length, 1.0)[:, None]
 
 
 def leave_out_redundant(system: System) -> list[str]:

@@ -14,7 +14,7 @@ HISTORY_ROWS = 22
 RUNNING = -1
 # Places in P.control.
 CLOCK, H, FOLLOWING, LAST_ERROR, FREE, CAUTIOUS, SIGNATURE, FAILED, WIDTH, STALE = range(10)
-TRIES, PULLED = 10, 11
+TRIES, PULLED, FIRMEST = 10, 11, 12
 # Kinds of scenes, in C[FREE]: tied, free bodies, point masses alone.
 BODIES, MASSES = 1.0, 2.0
 
