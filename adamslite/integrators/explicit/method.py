@@ -258,9 +258,9 @@ def pull_back(P: Problem, L: Plan, w: int) -> int:
 def is_loose(P: Problem, L: Plan) -> bool:
     """Whether constraints hold the new state so loosely that round-off decides its velocity.
 
-    With the lever d of :mod:`adamslite.integrators.step_back`, 1 in the best posture so far, round-off e
-    is an error e/d^2 of velocities: more than ERROR. Steps that become short walk into such places,
-    and leave them on any branch.
+    With the lever d of :mod:`adamslite.integrators.step_back`, 1 in the best posture so far,
+    round-off e is an error e/d^2 of velocities: more than ERROR. Steps that become short walk into
+    such places, and leave them on any branch.
     """
     C = P.control
     if P.sizes[M] == 0:
