@@ -19,7 +19,8 @@ from adamslite.caching.sources import version_of
 from adamslite.deck.statement_diagnostics import say
 from adamslite.gc_pause import uncollected
 from adamslite.kernels.binding import Binder, Binding, ForceLoop, Tree
-from adamslite.kernels.view import Reader, reactions, symbolic_view
+from adamslite.kernels.reactions import reactions
+from adamslite.kernels.reader import ExpressionReader, symbolic_view
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.statement import Statement
 from adamslite.model.model import Model
@@ -168,7 +169,7 @@ class FaceWriter:
     def __call__(self, scope: Scope) -> Any:
         from adamslite.kernels.code import Outputs
 
-        scope.read = Reader(scope, self.n_bodies)
+        scope.read = ExpressionReader(scope, self.n_bodies)
         widths = self.binder.model.node_width
         nodes = self.binder.instance.nodes
         for keyword, fields, node in self.binder.elements:
@@ -182,7 +183,8 @@ class FaceWriter:
         if self.face == "loads":
             return Outputs(loads=view.cls.loads(view, scope))
         if self.face == "reactions":
-            return Outputs(loads=reactions(view, scope))
+            rows = view.cls.constraints(view, scope)
+            return Outputs(loads=reactions(rows, view.unknowns, scope))
         if self.face == "stored":
             return Outputs(rows=[(row, 0, view.cls.stored(view, scope))])
         if self.face == "equation":

@@ -1,0 +1,39 @@
+"""Reactions: the loads by which a constraint keeps its rows at zero."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from adamslite.symbolic.scope import ZERO, Load, Scope, cross, scale
+
+
+def reactions(rows: Iterable[Any], multipliers: Sequence[Any], scope: Scope) -> list[Load]:
+    """-G^T lam as loads: what a constraint of rows g and multipliers lam exerts.
+
+    A row g gives the force -lam dg/dd on I of each relative position d(i,j), the opposite on J,
+    and the torque -lam sum x_c cross dg/dx_c on the part of each axis used; for velocity rows d
+    and x are replaced by v and w (Jourdain's principle).
+    """
+    from adamslite.symbolic.sympy_nodes import sp
+
+    loads = []
+    for row, lam in zip(rows, multipliers, strict=True):
+        row = sp.S.Zero + row
+        groups: dict[tuple, list[Any]] = {}
+        for symbol in sorted(scope.slope.symbols(row), key=str):
+            leaf = scope.leaves[symbol]
+            if leaf[0] in ("d", "x", "v", "w"):
+                slope = groups.setdefault(leaf[:-1], [sp.S.Zero] * 3)
+                slope[leaf[-1]] = scope.slope(row, symbol)
+        rates = any(leaf[0] in ("v", "w") for leaf in groups)
+        for leaf, slope in groups.items():
+            pull = scale(-lam, tuple(slope))
+            if leaf[0] == ("v" if rates else "d"):
+                loads.append(Load(leaf[1], pull, ZERO, leaf[2]))
+            elif leaf[0] == "w":
+                loads.append(Load(leaf[1], ZERO, pull, leaf[2]))
+            elif leaf[0] == "x" and not rates and scope.turns(leaf[1]):
+                axis = scope.vector("x", leaf[1], leaf[2])
+                loads.append(Load(leaf[1], ZERO, cross(axis, pull)))
+    return loads

@@ -1,0 +1,105 @@
+"""From bound trees to sympy: the reverse of :mod:`adamslite.kernels.binding`."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from adamslite.kernels.binding import Tree
+from adamslite.kernels.view import View
+from adamslite.language.expression import OPERATORS
+from adamslite.language.function import FUNCTIONS
+from adamslite.language.statement import STATEMENTS
+from adamslite.symbolic.scope import Scope
+
+
+class ExpressionReader:
+    """Turns bound trees into sympy with a scope."""
+
+    def __init__(self, scope: Scope, n_bodies: int) -> None:
+        self.scope = scope
+        self.n_bodies = n_bodies
+        self.memo: dict[Tree, Any] = {}
+
+    def __call__(self, tree: Tree) -> Any:
+        if tree[0] == "c":  # not remembered: 0.0 and False are one key
+            return self._read(tree)
+        if tree not in self.memo:
+            self.memo[tree] = self._defined(self._read(tree))
+        return self.memo[tree]
+
+    def _defined(self, value: Any) -> Any:
+        """What sympy knows to be undefined (a pole, a division by zero) becomes not-a-number."""
+        from adamslite.symbolic.sympy_nodes import sp
+
+        if isinstance(value, sp.Basic) and value.has(sp.zoo, sp.nan):
+            return self.scope.symbol("nan")
+        return value
+
+    def _read(self, tree: Tree) -> Any:
+        scope = self.scope
+        match tree:
+            case ("p", _) | ("sig", _, _):
+                return scope.symbol(*tree)
+            case ("c", value):
+                return _exact(value) if isinstance(value, float) else value
+            case ("t",) | ("mode",):
+                return scope.symbol(tree[0])
+            case ("m", number) | ("tab", number):
+                return number
+            case ("v", trees):
+                return tuple(self(t) for t in trees)
+            case ("s", keyword, fields):
+                return View(STATEMENTS[keyword], {name: self(t) for name, t in fields}, [])
+            case ("z", node, component):
+                return scope.symbol("z", self.n_bodies + node, component)
+            case ("o", op, args):
+                return self._operation(op, [self(t) for t in args])
+        return self._call(tree)
+
+    def _call(self, tree: Tree) -> Any:
+        function = FUNCTIONS[tree[1]]
+        args = []
+        for n, arg in enumerate(tree[2]):
+            statement = function.parameter(n).statement
+            if statement is None or statement == "MARKER":
+                args.append(self(arg))
+            else:
+                args.append(self._shifted(arg))
+        return function.body(self.scope, *args)
+
+    def _shifted(self, arg: Tree) -> Tree:
+        return ("dif", self.n_bodies + arg[1]) if arg[0] == "dif" else arg
+
+    def _operation(self, op: str, args: list[Any]) -> Any:
+        from adamslite.symbolic.sympy_nodes import power
+
+        return power(*args) if op == "**" else OPERATORS[op].function(*args)
+
+
+def _exact(value: float) -> Any:
+    from adamslite.symbolic.sympy_nodes import sp
+
+    doubled = 2.0 * value
+    if math.isfinite(doubled) and doubled == int(doubled) and abs(doubled) < 1e6:
+        return sp.Rational(int(doubled), 2)
+    return sp.Float(value, 17)
+
+
+def symbolic_view(
+    keyword: str, fields: Tree, node: int, width: int, scope: Scope, n_bodies: int
+) -> View:
+    """The statement of bound fields; ``node`` is the slot of its own unknowns or -1."""
+    cls = STATEMENTS[keyword]
+    values = {name: scope.read(tree) for name, tree in fields}
+
+    def anew() -> View:
+        """The same view read where everything moves."""
+        read = ExpressionReader(scope, n_bodies)
+        return View(cls, {name: read(tree) for name, tree in fields}, own)
+
+    if keyword == "DIFF" and node >= 0:
+        own = [scope.symbol(kind, n_bodies + node) for kind in ("dif", "dif1")]
+    else:
+        own = [scope.symbol("z", n_bodies + node, c) for c in range(width)] if node >= 0 else []
+    return View(cls, values, own, anew)
