@@ -9,7 +9,8 @@ from newton_matrix import matrix_error
 from scenes import quick
 
 from adamslite.analyses.simulation import simulate
-from adamslite.model.model import Model, rotation_313
+from adamslite.model.geometry import rotation_313
+from adamslite.model.model import Model
 from adamslite.reading.read import read
 from adamslite.results.results import Results
 

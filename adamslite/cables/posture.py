@@ -261,7 +261,7 @@ def _axes(statement: Any) -> tuple[Vector, Vector, Vector]:
         return AXES
     import numpy as np
 
-    from adamslite.model.model import frame_axes
+    from adamslite.model.geometry import frame_axes
 
     origin = statement.qp if hasattr(statement, "qp") else statement.qg
     return tuple(tuple(map(float, axis)) for axis in frame_axes(statement, np.asarray(origin)).T)

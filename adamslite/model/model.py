@@ -9,7 +9,7 @@ force * UCF = mass * acceleration.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -30,84 +30,10 @@ from adamslite.language.expression import (
     walk,
 )
 from adamslite.language.statement import STATEMENTS, Statement
+from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
 from adamslite.model.net_force import written_out
 
 POINT, PART = 3, 6
-IDENTITY = np.eye(3)
-IDENTITY.flags.writeable = False
-
-
-def rotation_313(angles: tuple[float, float, float]) -> np.ndarray:
-    """R = Rz(a) Rx(b) Rz(c), (3, 3): columns are the turned axes."""
-    a, b, c = angles
-    if a == b == c == 0.0:
-        return IDENTITY
-    return _about_z(a) @ _about_x(b) @ _about_z(c)
-
-
-def _about_z(angle: float) -> np.ndarray:
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-
-
-def _about_x(angle: float) -> np.ndarray:
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
-
-
-def axes_from_points(
-    origin: np.ndarray, z_point: Any, x_point: Any, x_exact: bool
-) -> np.ndarray | None:
-    """Axes through points: +z through one, +xz half-plane through the other (or x exact)."""
-    if z_point is None and x_point is None:
-        return None
-    along_z = None if z_point is None else np.asarray(z_point) - origin
-    along_x = None if x_point is None else np.asarray(x_point) - origin
-    if x_exact:
-        x = along_x / np.linalg.norm(along_x)
-        y = np.cross(along_z if along_z is not None else _aside(x), x)
-        y /= np.linalg.norm(y)
-        return np.column_stack([x, y, np.cross(x, y)])
-    if along_z is None:
-        along_z = _aside(along_x)
-        along_z -= along_x * (along_z @ along_x) / (along_x @ along_x)
-    z = along_z / np.linalg.norm(along_z)
-    y = np.cross(z, along_x if along_x is not None else _aside(z))
-    y /= np.linalg.norm(y)
-    return np.column_stack([np.cross(y, z), y, z])
-
-
-def _aside(v: np.ndarray) -> np.ndarray:
-    """The coordinate axis furthest from ``v``."""
-    return IDENTITY[int(np.argmin(np.abs(v)))].copy()
-
-
-def frame_axes(statement: Statement, origin: np.ndarray) -> np.ndarray:
-    """Axes of a body or marker statement from REULER or its points."""
-    z = getattr(statement, "zg", getattr(statement, "zp", None))
-    x = getattr(statement, "xg", getattr(statement, "xp", None))
-    axes = axes_from_points(origin, z, x, getattr(statement, "usexp", False))
-    return axes if axes is not None else rotation_313(statement.reuler)
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where a marker sits: ``p`` from the mass centre or ground origin, ``axes`` in body axes.
-
-    ``offset``, ``turned``: whether these differ from zero and from the axes of the body.
-    """
-
-    kind: str
-    body: int
-    p: np.ndarray
-    axes: np.ndarray
-    offset: bool = field(init=False)
-    turned: bool = field(init=False)
-
-    def __post_init__(self) -> None:
-        turned = self.axes is not IDENTITY and not np.array_equal(self.axes, IDENTITY)
-        object.__setattr__(self, "offset", bool(self.p.any()))
-        object.__setattr__(self, "turned", turned)
 
 
 @dataclass(frozen=True)
@@ -211,12 +137,12 @@ class Model:
         if body is None:
             part = self.deck.find(*owner)
             shift, base = np.asarray(part.qg, dtype=float), frame_axes(part, np.asarray(part.qg))
-            return Place("ground", -1, shift + _turned(base, origin), _clean(_turned(base, axes)))
+            return Place("ground", -1, shift + rotated(base, origin), rotated(base, axes))
         cm = self._marker_in_body(self.bodies[body].statement.cm)[0]
         if self.bodies[body].width == POINT:
             base = self.bodies[body].attitude
-            return Place("point", body, _turned(base, origin - cm), _clean(_turned(base, axes)))
-        return Place("part", body, origin - cm, _clean(axes))
+            return Place("point", body, rotated(base, origin - cm), rotated(base, axes))
+        return Place("part", body, origin - cm, axes)
 
     def body_width(self, body: int) -> int:
         return self.bodies[body].width
@@ -327,19 +253,6 @@ class Model:
     def dof(self) -> int:
         """Unknowns of the bodies less constraint rows."""
         return sum(b.width for b in self.bodies) - sum(c.n_rows for c in self.constraints)
-
-
-def _turned(base: np.ndarray, array: np.ndarray) -> np.ndarray:
-    """``base @ array``; nothing to do for axes like those of ground, the usual ones."""
-    return array if base is IDENTITY else base @ array
-
-
-def _clean(axes: np.ndarray) -> np.ndarray:
-    """Axes with round-off of right angles removed, so that aligned markers share a shape."""
-    if axes is IDENTITY:
-        return axes
-    rounded = np.round(axes)
-    return rounded if np.abs(axes - rounded).max() < 1e-15 else axes
 
 
 def folded(op: str, values: Sequence[float]) -> float:

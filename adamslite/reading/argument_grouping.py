@@ -13,9 +13,10 @@ from adamslite.language.abbreviations import Ambiguous, vocabulary
 from adamslite.language.messages import did_you_mean
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import STATEMENTS, Argument, Statement
-from adamslite.reading.argument_values import Reader, Refused
-from adamslite.syntax.forms import OPERATORS, Item, Lexeme, end_of
+from adamslite.reading.argument_values import Refused, ValueReader
+from adamslite.syntax.forms import Item
 from adamslite.syntax.syntax_errors import Syntax
+from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
 
 _LISTS = ("vector", "references", "ids", "texts")
 
@@ -40,7 +41,7 @@ class Pieces:
 class Grouping:
     """Collects the items of one statement under its arguments."""
 
-    def __init__(self, cls: type[Statement], syntax: Syntax, reader: Reader) -> None:
+    def __init__(self, cls: type[Statement], syntax: Syntax, reader: ValueReader) -> None:
         self.cls = cls
         self.tokens = syntax.tokens
         self.log = reader.log
@@ -185,7 +186,7 @@ def read_arguments(
     cls: type[Statement],
     syntax: Syntax,
     items: tuple[Item, ...],
-    reader: Reader,
+    reader: ValueReader,
     label: str,
     partial: bool = False,
 ) -> tuple[dict[str, Any], dict[str, tuple[int, int]]]:

@@ -14,7 +14,7 @@ from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
 from adamslite.reading.resolver import Resolver, Unresolved
-from adamslite.syntax.forms import CLOSES, Lexeme, end_of
+from adamslite.syntax.tokens import CLOSES, Lexeme, end_of
 
 GROUND = "GROUND"
 _LONGEST_ID = 18
@@ -75,7 +75,7 @@ def _has_no_angle(unit: str) -> bool:
     return bool(words) and words <= {"length", "mass", "time", "force"}
 
 
-class Reader:
+class ValueReader:
     """Reads values; knows the names of the deck.
 
     Parameters

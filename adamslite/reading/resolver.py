@@ -16,8 +16,9 @@ from adamslite.language.function import FUNCTIONS, Function, Parameter
 from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.not_supported import FUNCTIONS as PLANNED
 from adamslite.language.spelling import spelled
-from adamslite.syntax.forms import OPERATORS, Fault, Lexeme, Tree, end_of, expression_form
+from adamslite.syntax.forms import Fault, Tree, expression_form
 from adamslite.syntax.syntax_errors import expression_mistake
+from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
 
 DEEPEST = 100
 LONGEST_CHAIN = 16

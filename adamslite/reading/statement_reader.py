@@ -19,10 +19,11 @@ from adamslite.language.not_supported import COMMANDS as PLANNED_COMMANDS
 from adamslite.language.not_supported import STATEMENTS as PLANNED_STATEMENTS
 from adamslite.language.statement import STATEMENTS, Statement
 from adamslite.reading.argument_grouping import read_arguments
-from adamslite.reading.argument_values import Reader, to_id
+from adamslite.reading.argument_values import ValueReader, to_id
 from adamslite.reading.resolver import Resolver
-from adamslite.syntax.forms import end_of, join, scan
+from adamslite.syntax.lines import join
 from adamslite.syntax.syntax_errors import Syntax, statement_syntax
+from adamslite.syntax.tokens import end_of, scan
 
 Body = tuple[str, Key | None]
 # A line that begins as a statement does.
@@ -240,7 +241,7 @@ class Reading:
 
     def _second_pass(self) -> tuple[Any, ...]:
         resolver = Resolver(self.names, self.log)
-        reader = Reader(self.names, resolver, self.log, self._ground)
+        reader = ValueReader(self.names, resolver, self.log, self._ground)
         givers = [cls for cls in STATEMENTS.values() if cls.constants is not Statement.constants]
         made: dict[int, Statement | Redefinition | None] = {}
         for number, entry in enumerate(self.entries):
@@ -269,7 +270,7 @@ class Reading:
                         return canonical(entry.id)
         return None
 
-    def _statement(self, entry: Entry, reader: Reader) -> Statement | Redefinition | None:
+    def _statement(self, entry: Entry, reader: ValueReader) -> Statement | Redefinition | None:
         """The statement with its arguments; None when something is wrong with it."""
         cls, syntax = entry.cls, entry.syntax
         if cls.ignored or cls.ends:

@@ -1,28 +1,23 @@
-"""From text to syntax: tokens, statements, the form of a statement and of an expression.
+"""The grammars: the form of a statement and of an expression.
 
 ::
 
-    text --scan--> tokens --join--> statements --statement_form--> items
-                                                --expression_form--> tree of token numbers
+    kinds of tokens --statement_form--> items        kinds --expression_form--> tree
 
 The grammar files say what tokens and forms are.  A deck holds thousands of statements of few forms,
 so the parser sees each sequence of token *kinds* once; the form it returns refers to tokens by
-number and serves every statement written the same way.  Tokens carry their offset in the text, so
-joining continuation lines moves no column.
+number and serves every statement written the same way.
 """
 
 from __future__ import annotations
 
 import pickle
-import re
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from hashlib import sha256
 from io import BytesIO
-from itertools import accumulate
 from pathlib import Path
-from sys import intern
 from typing import Any, NamedTuple
 
 import lark
@@ -33,17 +28,8 @@ from lark.lexer import Lexer
 from adamslite import resources
 from adamslite.caching.entries import recall
 
-Lexeme = tuple[str, str, int]
-"""Kind, text and offset of a token."""
-
 Tree = tuple
 """An expression: ``(rule, number of its token, branch, branch ...)``."""
-
-CLOSES = {"LPAR": "RPAR", "LSQB": "RSQB"}
-OPERATORS = {"PLUS": "+", "MINUS": "-", "STAR": "*", "SLASH": "/", "POWER": "**"}
-"""Kinds of tokens that are operators, and what these are called in an expression."""
-
-_JOINTS = {"LINE_END", "SEMICOLON", "AMPERSAND", "COMMENT", *CLOSES, *CLOSES.values()}
 
 
 class Fault(NamedTuple):
@@ -62,21 +48,6 @@ class Item(NamedTuple):
     start: int
     end: int
     closed: bool
-
-
-class Logical(NamedTuple):
-    """The tokens of one statement, joined from its lines; ``name`` is its adams_view_name."""
-
-    tokens: list[Lexeme]
-    name: str | None
-
-
-def end_of(token: Lexeme) -> int:
-    """Offset one past the last character of a token."""
-    return token[2] + len(token[1])
-
-
-# ---- the parsers ------------------------------------------------------------------------------
 
 
 class _Replay(Lexer):
@@ -185,162 +156,8 @@ def expression_form(kinds: tuple[str, ...]) -> Tree | Fault:
     return _form(_parser("expression", "expression"), kinds)
 
 
-# ---- scanning ---------------------------------------------------------------------------------
-
-
-STRETCH = 1 << 15
-"""Characters that are scanned at once, at least."""
-
-_NEW_STATEMENT = re.compile(r"\n(?=[A-Za-z])")
-"""Where a text may be cut: a line that begins with a letter continues no other."""
-
-
 @cache
-def _terminals() -> dict[str, str]:
+def terminals() -> dict[str, str]:
     """Regular expressions of the terminals of the deck grammar, in the order of the file."""
     found = {t.name: t.pattern.to_regexp() for t in _parser("deck", "statement").terminals}
     return {"BLANK": found.pop("BLANK"), **found}
-
-
-@cache
-def _scanner() -> re.Pattern[str]:
-    """All terminals in one pattern, without groups, so that it finds whole tokens."""
-    one = "|".join(f"(?:{regexp})" for regexp in _terminals().values())
-    return re.compile(re.sub(r"(?<!\\)\((?!\?)", "(?:", one))
-
-
-@cache
-def _teller() -> re.Pattern[str]:
-    return re.compile("|".join(f"(?P<{name}>{regexp})" for name, regexp in _terminals().items()))
-
-
-class _Kinds(dict[str, str]):
-    """The kind of each token, which its text decides; found out once for equal texts."""
-
-    def __missing__(self, text: str) -> str:
-        kind = self[text] = _teller().match(text).lastgroup
-        return kind
-
-
-def scan(text: str, start: int = 0) -> Iterator[list[Lexeme]]:
-    """The tokens of ``text`` from offset ``start``; any character belongs to some token.
-
-    They come in stretches that end where a statement ends, so that they need not all be in memory.
-    """
-    kinds = _Kinds()
-    while start < len(text):
-        cut = _NEW_STATEMENT.search(text, start + STRETCH)
-        end = cut.end() if cut else len(text)
-        words = [*map(intern, _scanner().findall(text, start, end))]
-        offsets = accumulate(map(len, words), initial=start)
-        tokens = zip(map(kinds.__getitem__, words), words, offsets, strict=False)
-        yield [token for token in tokens if token[0] != "BLANK"]
-        start = end
-
-
-# ---- joining lines ----------------------------------------------------------------------------
-
-
-class _Joiner:
-    """Collects the tokens of a statement until it ends."""
-
-    def __init__(self, ampersand: bool) -> None:
-        self.ampersand = ampersand
-        self.tokens: list[Lexeme] = []
-        self.current: list[Lexeme] = []
-        self.depth = 0
-        self.name: str | None = None
-
-    def statements(self, stretches: Iterable[list[Lexeme]]) -> Iterator[Logical]:
-        for self.tokens in stretches:
-            yield from self._ended()
-        yield from self._finish()
-
-    def _ended(self) -> Iterator[Logical]:
-        """The statements that end in the present stretch."""
-        tokens, done = self.tokens, 0
-        for at in [n for n, token in enumerate(tokens) if token[0] in _JOINTS]:
-            if at < done:
-                continue
-            self.current += tokens[done:at]
-            kind, text, _ = tokens[at]
-            done = at + 1
-            if kind == "LINE_END" and self.current and self._kind(done) == "COMMA":
-                self._leading_comma(done)
-                done += 1
-            elif kind == "LINE_END" or kind == "SEMICOLON":
-                yield from self._finish()
-                self.name = view_name(text)
-            else:
-                done = self._joint(tokens[at], done)
-        self.current += tokens[done:]
-
-    def _kind(self, position: int) -> str:
-        return self.tokens[position][0] if position < len(self.tokens) else ""
-
-    def _joint(self, token: Lexeme, position: int) -> int:
-        """A bracket, an ampersand or a last comment; returns where to go on."""
-        kind = token[0]
-        if kind == "AMPERSAND" and self.ampersand and self._kind(position) == "LINE_END":
-            position += 1
-            if self.current and self._kind(position) == "COMMA":
-                self._leading_comma(position)
-                position += 1
-        elif kind != "COMMENT":
-            self.depth = max(0, self.depth + (kind in CLOSES) - (kind in CLOSES.values()))
-            self.current.append(token)
-        return position
-
-    def _leading_comma(self, position: int) -> None:
-        """The comma that begins a continuation line: a separator, or nothing but a mark."""
-        current, last = self.current, self.current[-1]
-        argument = self._kind(position + 1) == "NAME" and self._kind(position + 2) == "EQUAL"
-        if last[0] == "SLASH" and len(current) > 2 and argument:
-            current[-1] = ("BACKSLASH", *last[1:])
-        elif last[0] == "COMMA":
-            if len(current) > 1 and (current[-2][0] in OPERATORS or current[-2][0] in CLOSES):
-                current.pop()
-        elif last[0] != "EQUAL" and (self.depth == 0 or argument):
-            current.append(self.tokens[position])
-        if argument:
-            self.depth = 0
-
-    def _finish(self) -> Iterator[Logical]:
-        current, name = self.current, self.name
-        if len(current) > 2 and current[-1][0] == "SLASH":
-            current.pop()
-        self.current, self.depth, self.name = [], 0, None
-        if current:
-            yield Logical(current, name)
-
-
-def join(stretches: Iterable[list[Lexeme]], ampersand: bool = False) -> Iterator[Logical]:
-    """The statements in stretches of tokens.
-
-    A line that begins with a comma continues the statement above it.  In a list of arguments that
-    comma separates; inside brackets, and after a comma or an equal sign, it only marks the
-    continuation.  A comma at the end of a line vanishes too after an operator or an opening
-    bracket.  A slash at the end of a line that an argument or nothing follows is the old form of
-    the backslash.
-
-    Parameters
-    ----------
-    stretches : iterable of list of Lexeme
-        As :func:`scan` gives them.
-    ampersand : bool
-        Whether ``&`` at the end of a line continues it, as in command files.
-    """
-    return _Joiner(ampersand).statements(stretches)
-
-
-def view_name(comments: str) -> str | None:
-    """The name given by an ``! adams_view_name='...'`` comment on the lines before a statement."""
-    if "adams_view_name" not in comments.lower():
-        return None
-    for line in reversed(comments.splitlines()):
-        word, _, rest = line.strip("! \t").partition("=")
-        if word.strip().lower() == "adams_view_name" and rest.count("'") >= 2:
-            return rest.split("'")[1].strip() or None
-        if word and not word.lower().startswith("adams_view"):
-            return None
-    return None

@@ -9,17 +9,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from adamslite.language.spelling import spelled
-from adamslite.syntax.forms import (
-    CLOSES,
-    OPERATORS,
-    Fault,
-    Item,
-    Lexeme,
-    Logical,
-    end_of,
-    expression_form,
-    statement_form,
-)
+from adamslite.syntax.forms import Fault, Item, expression_form, statement_form
+from adamslite.syntax.lines import Logical
+from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme, end_of
 
 MOST_MISTAKES = 20
 """After so many in one statement the rest of it is given up."""
