@@ -10,12 +10,14 @@ from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.statement import Statement
 
 Rule = Callable[[Deck], Iterator[Diagnostic]]
+NEEDS: dict[Rule, tuple[str, ...]] = {}
+"""Keywords of the statements from whose absence a rule draws conclusions."""
 
 
 def apply(rules: Sequence[Rule], deck: Deck) -> Iterator[Diagnostic]:
     """What the rules say; those that need statements which could not be read are left out."""
     for rule in rules:
-        if not deck.incomplete.intersection(getattr(rule, "needs", ())):
+        if not deck.incomplete.intersection(NEEDS.get(rule, ())):
             yield from rule(deck)
 
 
@@ -23,7 +25,7 @@ def needs(*keywords: str) -> Callable[[Rule], Rule]:
     """Mark a rule that draws conclusions from what is absent."""
 
     def mark(rule: Rule) -> Rule:
-        rule.needs = keywords
+        NEEDS[rule] = keywords
         return rule
 
     return mark

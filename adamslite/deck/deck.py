@@ -12,14 +12,14 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.names import Key, Names
-from adamslite.deck.redefinition import Redefinition, settled
+from adamslite.deck.redefinition import Command, Redefinition, settled
 from adamslite.language.diagnostics import Diagnostic, Source
 from adamslite.language.expression import Node, Num, rebuild
-from adamslite.language.statement import STATEMENTS, Statement
+from adamslite.language.statement import STATEMENTS, S, Statement
 
 SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
 ANALYSES = ("SIMULATE", "LINEAR")
@@ -76,33 +76,54 @@ class Deck:
             self._of.setdefault(each.keyword, []).append(each)
             self._by_key.setdefault((each.keyword, each.key), each)
 
-    def of(self, keyword: str) -> list[Statement]:
-        """All statements of one kind, in the order of the deck."""
-        return self._of.get(keyword, [])
+    @overload
+    def of(self, kind: type[S]) -> list[S]: ...
+    @overload
+    def of(self, kind: str) -> list[Any]: ...
+    def of(self, kind: type[Statement] | str) -> list[Any]:
+        """All statements of one kind, in the order of the deck.
 
-    def find(self, keyword: str, id: Key) -> Statement | None:
+        A kind is a class or, where the class is not at hand, its keyword: then no type is known.
+        """
+        return self._of.get(_keyword(kind), [])
+
+    @overload
+    def find(self, kind: type[S], id: Key) -> S | None: ...
+    @overload
+    def find(self, kind: str, id: Key) -> Any: ...
+    def find(self, kind: type[Statement] | str, id: Key) -> Any:
         """The statement of that kind with that id or name; None when there is none."""
+        keyword = _keyword(kind)
         wanted = id.upper() if isinstance(id, str) else id
         found = self._by_key.get((keyword, wanted))
         if found is None and isinstance(wanted, str):
             key = self.names.find(keyword, wanted)
-            found = None if isinstance(key, list) else self._by_key.get((keyword, key))
+            found = self._by_key.get((keyword, key)) if isinstance(key, int | str) else None
         return found
 
-    def single(self, keyword: str) -> Statement:
+    @overload
+    def single(self, kind: type[S]) -> S: ...
+    @overload
+    def single(self, kind: str) -> Any: ...
+    def single(self, kind: type[Statement] | str) -> Any:
         """The only statement of that kind; with its defaults when the deck has none."""
-        found = self.of(keyword)
-        return found[-1] if found else STATEMENTS[keyword]()
+        found = self.of(_keyword(kind))
+        return found[-1] if found else STATEMENTS[_keyword(kind)]()
 
     def is_active(self, statement: Statement) -> bool:
         """Whether an element acts; everything does that DEACTIVATE has not named."""
         return (statement.keyword, statement.key) not in self.inactive
 
-    def settings(self, keyword: str) -> Statement:
+    @overload
+    def settings(self, kind: type[S]) -> S: ...
+    @overload
+    def settings(self, kind: str) -> Any: ...
+    def settings(self, kind: type[Statement] | str) -> Any:
         """INTEGRATOR, EQUILIBRIUM or KINEMATICS after all statements of that kind."""
+        keyword = _keyword(kind)
         return settled(STATEMENTS[keyword], self.of(keyword))
 
-    def after(self, command: Any) -> Deck:
+    def after(self, command: Command) -> Deck:
         """The deck once a command has been carried out; SIMULATE and LINEAR do not change it."""
         if isinstance(command, Redefinition):
             return self.redefined(command)
@@ -112,7 +133,7 @@ class Deck:
             return self._but(own=(*self.own, command))
         return self
 
-    def redefined(self, command: Redefinition) -> Deck:
+    def redefined(self, command: Redefinition[Any]) -> Deck:
         """The deck with one statement changed; what its constants name follows (KGRAV)."""
         old = self.find(command.keyword, command.key)
         if old is None and not command.of.singleton:
@@ -134,9 +155,14 @@ class Deck:
         named = {(keyword, id.upper() if isinstance(id, str) else id) for id in ids}
         return self._but(inactive=self.inactive - named if on else self.inactive | named)
 
-    def _but(self, **changes: Any) -> Deck:
-        facts = {"own": self.own, "inactive": self.inactive} | changes
-        deck = Deck(self.source, self.title, facts["own"], self.names, self.path, facts["inactive"])
+    def _but(
+        self,
+        own: tuple[Statement, ...] | None = None,
+        inactive: frozenset[tuple[str, Key]] | None = None,
+    ) -> Deck:
+        statements = self.own if own is None else own
+        switched_off = self.inactive if inactive is None else inactive
+        deck = Deck(self.source, self.title, statements, self.names, self.path, switched_off)
         deck.warnings, deck.incomplete = self.warnings, self.incomplete
         return deck
 
@@ -164,14 +190,19 @@ class Deck:
         return sha256(self.source.text.encode()).hexdigest()
 
 
+def _keyword(kind: type[Statement] | str) -> str:
+    return kind if isinstance(kind, str) else kind.keyword
+
+
 def _with_constants(statement: Statement, constants: dict[str, float]) -> Statement:
     """The statement with its named numbers brought up to date."""
 
     def renew(node: Node) -> Node:
-        known = type(node) is Num and node.name in constants
-        return Num(constants[node.name], node.name) if known else node
+        if isinstance(node, Num) and node.name in constants:
+            return Num(constants[node.name], node.name)
+        return node
 
-    changed = {
+    changed: dict[str, Any] = {
         field: rebuild(getattr(statement, field), renew)
         for field, argument in statement.arguments.items()
         if argument.kind == "expression" and getattr(statement, field) is not None

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from adamslite.deck.names import Names
+from adamslite.language.interfaces import Key
 from adamslite.language.statement import choice, ids, vector
 
 SWITCHABLE = (
@@ -13,17 +13,17 @@ SWITCHABLE = (
 )  # fmt: skip
 
 
-def element_kind() -> Any:
+def element_kind() -> str:
     """The keyword of the elements."""
     return choice(options=SWITCHABLE, required=True, help="a kind of element")
 
 
-def element_ids() -> Any:
+def element_ids() -> tuple[Key, ...]:
     """The elements one by one."""
     return ids("ID", help="ids or names of the elements")
 
 
-def element_range() -> Any:
+def element_range() -> tuple[float, float] | None:
     """The elements between two ids."""
     return vector("RANGE", size=2, unit="1", help="first and last id of a range of elements")
 
@@ -39,10 +39,10 @@ class Switch:
 
     on: bool
     kind: str
-    ids: tuple[int | str, ...]
+    ids: tuple[Key, ...]
     range: tuple[float, float] | None
 
-    def elements(self, names: Any) -> tuple[int | str, ...]:
+    def elements(self, names: Names) -> tuple[Key, ...]:
         """Keys of the elements that are meant and exist, by the names of the deck."""
         listed = [names.find(self.kind, key) for key in self.ids]
         keys = [key for key in listed if isinstance(key, int | str)]

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from adamslite.language.expression import MODE, TIME, Node, Num
+from adamslite.language.interfaces import Key
 from adamslite.language.spelling import spelled
-
-Key = int | str
 
 
 RESERVED: dict[str, Node] = {
@@ -24,17 +22,17 @@ class Names:
     """The ids and view names of all statements, by keyword."""
 
     def __init__(self) -> None:
-        self.ids: dict[str, dict[Key, Any]] = {}
+        self.ids: dict[str, dict[Key, int]] = {}
         self.views: dict[str, dict[str, list[Key]]] = {}
 
-    def add(self, kind: str, key: Key, view: str | None, thing: Any) -> bool:
-        """Enter a statement; False when its id is taken."""
+    def add(self, kind: str, key: Key, view: str | None, start: int) -> bool:
+        """Enter the statement at offset ``start`` of the text; False when its id is taken."""
         ids = self.ids.setdefault(kind, {})
         if view:
             self.views.setdefault(kind, {}).setdefault(spelled(view).upper(), []).append(key)
         if key in ids:
             return False
-        ids[key] = thing
+        ids[key] = start
         return True
 
     def find(self, kind: str, word: Key) -> Key | list[Key] | None:

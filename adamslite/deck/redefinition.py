@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Generic, TypeAlias
 
 from adamslite.language.diagnostics import MergedSpans, Span, Spans
-from adamslite.language.statement import Statement
+from adamslite.language.interfaces import Key
+from adamslite.language.statement import S, Statement
 
 
 @dataclass(frozen=True, kw_only=True)
-class Redefinition:
+class Redefinition(Generic[S]):
     """New values for some arguments of a statement.
 
     Parameters
@@ -26,9 +27,9 @@ class Redefinition:
         Their places in the command file.
     """
 
-    of: type[Statement]
-    key: int | str
-    changes: Mapping[str, Any]
+    of: type[S]
+    key: Key
+    changes: Mapping[str, object]
     spans: Spans
 
     @property
@@ -46,7 +47,7 @@ class Redefinition:
         """The place of the command."""
         return self.spans.whole
 
-    def applied_to(self, statement: Statement) -> Statement:
+    def applied_to(self, statement: S) -> S:
         """The statement with the changes made."""
         dropped = _excluded(self.of, self.changes)
         kept = {f: getattr(statement, f) for f in self.of.arguments if f not in dropped}
@@ -54,6 +55,10 @@ class Redefinition:
             **kept | dict(self.changes), id=statement.id, name=statement.name,
             spans=MergedSpans(statement.spans, self.spans, dropped),
         )  # fmt: skip
+
+
+Command: TypeAlias = Statement | Redefinition[Any]
+"""What a command file holds."""
 
 
 def _excluded(cls: type[Statement], changed: Iterable[str]) -> set[str]:
@@ -66,7 +71,7 @@ def _excluded(cls: type[Statement], changed: Iterable[str]) -> set[str]:
     return found
 
 
-def settled(cls: type[Statement], statements: Iterable[Any]) -> Statement:
+def settled(cls: type[S], statements: Iterable[Statement]) -> S:
     """The settings after several statements of a class that may stand more than once.
 
     Of each argument the last one given counts; DEFAULT takes back all that was given before.

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cache
-from typing import Any, NamedTuple
+from collections.abc import Mapping
+from typing import NamedTuple, TypeVar
 
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
+
+V = TypeVar("V")
 
 
 class Ambiguous(NamedTuple):
@@ -15,7 +17,7 @@ class Ambiguous(NamedTuple):
     choices: tuple[str, ...]
 
 
-def match(word: str, table: dict[str, Any]) -> Any:
+def match(word: str, table: Mapping[str, V]) -> V | Ambiguous | None:
     """What ``word`` means in ``table``: exactly, as a unique prefix, or as a longer form of a key.
 
     Returns the value, :class:`Ambiguous` or None.
@@ -37,7 +39,9 @@ class Vocabulary:
     def __init__(self, cls: type[Statement]) -> None:
         self.valued: dict[str, Argument | str] = {key: key for key in cls.planned}
         self.bare: dict[str, tuple[Argument, str]] = {}
-        self._seen: dict[bool, dict[str, Any]] = {True: {}, False: {}}
+        self.required = [each for each in cls.arguments.values() if each.required]
+        self._keyed: dict[str, Argument | str | Ambiguous | None] = {}
+        self._flags: dict[str, tuple[Argument, str] | Ambiguous | None] = {}
         for argument in cls.arguments.values():
             if argument.kind == "flag" or argument.bare:
                 for option in argument.keys or argument.options:
@@ -45,12 +49,17 @@ class Vocabulary:
             else:
                 self.valued.update(dict.fromkeys(argument.keys, argument))
 
-    def look_up(self, word: str, valued: bool) -> Any:
-        """The argument (or planned key) of ``WORD=``, or the (argument, option) of a bare word."""
-        seen = self._seen[valued]
-        if word not in seen:
-            seen[word] = match(spelled(word).upper(), self.valued if valued else self.bare)
-        return seen[word]
+    def keyed(self, word: str) -> Argument | str | Ambiguous | None:
+        """The argument (or planned key) of ``WORD=``."""
+        if word not in self._keyed:
+            self._keyed[word] = match(spelled(word).upper(), self.valued)
+        return self._keyed[word]
+
+    def flag(self, word: str) -> tuple[Argument, str] | Ambiguous | None:
+        """The argument and the option of a bare word."""
+        if word not in self._flags:
+            self._flags[word] = match(spelled(word).upper(), self.bare)
+        return self._flags[word]
 
     @property
     def known(self) -> list[str]:
@@ -58,4 +67,12 @@ class Vocabulary:
         return [*shown, *self.bare]
 
 
-vocabulary = cache(Vocabulary)
+_KNOWN: dict[type[Statement], Vocabulary] = {}
+
+
+def vocabulary(cls: type[Statement]) -> Vocabulary:
+    """The keywords of a statement class, collected once."""
+    found = _KNOWN.get(cls)
+    if found is None:
+        found = _KNOWN[cls] = Vocabulary(cls)
+    return found

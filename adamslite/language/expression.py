@@ -13,6 +13,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from adamslite.language.statement import Statement
+
 NEGATE = "neg"
 
 
@@ -105,7 +107,7 @@ def walk(node: Node) -> Iterator[Node]:
             pending.extend(reversed(top.args))
 
 
-def expressions(statement: Any) -> list[Node]:
+def expressions(statement: Statement) -> list[Node]:
     """The expressions among a statement's arguments."""
     values = (
         getattr(statement, name)

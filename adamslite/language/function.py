@@ -30,12 +30,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from inspect import cleandoc
-from typing import Any
+
+from adamslite.symbolic.types import Expr
 
 NUMERIC_KINDS = ("number", "constant")
 
 Mistake = tuple[int, str]
 Rule = Callable[..., Mistake | None]
+Body = Callable[..., Expr]
+Edges = Callable[..., tuple[Expr, ...]]
 
 
 @dataclass(frozen=True)
@@ -70,10 +73,10 @@ class Function:
 
     name: str
     parameters: tuple[Parameter, ...]
-    body: Callable[..., Any]
+    body: Body
     doc: str
     colon: bool = False
-    edges: Callable[..., tuple[Any, ...]] | None = None
+    edges: Edges | None = None
     order: int | None = None
     rule: Rule | None = None
 
@@ -138,15 +141,15 @@ def function(
     name: str,
     signature: str,
     *,
-    edges: Callable[..., tuple[Any, ...]] | None = None,
+    edges: Edges | None = None,
     order: int | None = None,
     rule: Rule | None = None,
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+) -> Callable[[Body], Body]:
     """Register the decorated body as deck function ``name``; see the module for the signature."""
     words = signature.split()
     colon = words[0].endswith(":")
 
-    def register(body: Callable[..., Any]) -> Callable[..., Any]:
+    def register(body: Body) -> Body:
         if name in FUNCTIONS:
             raise ValueError(f"function {name} is registered twice")
         parameters = tuple(_parameter(word.removesuffix(":")) for word in words)

@@ -13,13 +13,14 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import FrozenInstanceError, dataclass, field
-from functools import cache
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypedDict, TypeVar, Unpack
 
 from adamslite.language.diagnostics import Span, Spans
+from adamslite.language.interfaces import DrawnModel, Key, Lookup
 
 STATEMENTS: dict[str, type[Statement]] = {}
 NO_SPANS = Spans()
+S = TypeVar("S", bound="Statement")
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +35,7 @@ class Argument:
         The keyword and its aliases, in capitals.
     help, unit : str
         Meaning and physical unit, for the manual.
-    default : Any
+    default : object
         Value of the field when the argument is omitted.
     required : bool
         Whether omitting it is a mistake.
@@ -60,7 +61,7 @@ class Argument:
     keys: tuple[str, ...]
     help: str
     unit: str = ""
-    default: Any = None
+    default: object = None
     required: bool = False
     sizes: tuple[int, int] = (1, 1)
     to: str = ""
@@ -77,72 +78,89 @@ class Argument:
         return self.keys[0] if self.keys else " | ".join(self.options)
 
 
-def _declare(kind: str, keys: tuple[str, ...], **facts: Any) -> Any:
-    argument = Argument(kind=kind, keys=keys, **facts)
+class ListFacts(TypedDict, total=False):
+    """What any argument may have, see :class:`Argument`."""
+
+    required: bool
+    supported: tuple[str, ...]
+    discontinued: tuple[tuple[str, str], ...]
+    start: bool
+
+
+class Facts(ListFacts, total=False):
+    """The same of those that are not empty lists where they are omitted."""
+
+    default: object
+
+
+def _declare(argument: Argument) -> Any:
+    """In the body of a class, a field; for a type checker, the value it stands for: any."""
     return field(default=argument.default, metadata={"argument": argument})
 
 
-def number(*keys: str, help: str, unit: str, **facts: Any) -> Any:
+def number(*keys: str, help: str, unit: str, **facts: Unpack[Facts]) -> Any:
     """One real number (a constant expression is worked out)."""
-    return _declare("number", keys, help=help, unit=unit, **facts)
+    return _declare(Argument("number", keys, help=help, unit=unit, **facts))
 
 
-def vector(*keys: str, size: int, help: str, unit: str, most: int = 0, **facts: Any) -> Any:
+def vector(
+    *keys: str, size: int, help: str, unit: str, most: int = 0, **facts: Unpack[Facts]
+) -> Any:
     """``size`` real numbers, or from ``size`` to ``most``."""
     sizes = (size, most or size)
-    return _declare("vector", keys, help=help, unit=unit, sizes=sizes, **facts)
+    return _declare(Argument("vector", keys, help=help, unit=unit, sizes=sizes, **facts))
 
 
-def integer(*keys: str, help: str, unit: str = "", **facts: Any) -> Any:
+def integer(*keys: str, help: str, unit: str = "", **facts: Unpack[Facts]) -> Any:
     """One whole number."""
-    return _declare("integer", keys, help=help, unit=unit, **facts)
+    return _declare(Argument("integer", keys, help=help, unit=unit, **facts))
 
 
 def flag(*keys: str, help: str) -> Any:
     """A word without a value."""
-    return _declare("flag", keys, help=help, default=False)
+    return _declare(Argument("flag", keys, help=help, default=False))
 
 
-def choice(*keys: str, options: tuple[str, ...], help: str, **facts: Any) -> Any:
+def choice(*keys: str, options: tuple[str, ...], help: str, **facts: Unpack[Facts]) -> Any:
     """One word of several: ``KEY=WORD``, or just ``WORD`` when no key is given."""
-    return _declare("choice", keys, help=help, options=options, bare=not keys, **facts)
+    return _declare(Argument("choice", keys, help=help, options=options, bare=not keys, **facts))
 
 
-def reference(*keys: str, to: str, help: str, **facts: Any) -> Any:
+def reference(*keys: str, to: str, help: str, **facts: Unpack[Facts]) -> Any:
     """The id or name of another statement; a marker may also be written ``KEY_MARKER=``."""
     if to == "MARKER":
         keys += tuple(f"{key}_MARKER" for key in keys if not key.endswith("MARKER"))
-    return _declare("reference", keys, help=help, to=to, **facts)
+    return _declare(Argument("reference", keys, help=help, to=to, **facts))
 
 
-def references(*keys: str, to: str, help: str, **facts: Any) -> Any:
+def references(*keys: str, to: str, help: str, **facts: Unpack[ListFacts]) -> Any:
     """Ids or names of several statements."""
-    return _declare("references", keys, help=help, to=to, default=(), **facts)
+    return _declare(Argument("references", keys, help=help, to=to, default=(), **facts))
 
 
-def ids(*keys: str, help: str, **facts: Any) -> Any:
+def ids(*keys: str, help: str, **facts: Unpack[ListFacts]) -> Any:
     """Ids or names of several statements, of a kind that another argument tells."""
-    return _declare("ids", keys, help=help, default=(), **facts)
+    return _declare(Argument("ids", keys, help=help, default=(), **facts))
 
 
-def expression(*keys: str, help: str, unit: str = "", **facts: Any) -> Any:
+def expression(*keys: str, help: str, unit: str = "", **facts: Unpack[Facts]) -> Any:
     """A function expression; the last argument, or closed by a backslash."""
-    return _declare("expression", keys, help=help, unit=unit, **facts)
+    return _declare(Argument("expression", keys, help=help, unit=unit, **facts))
 
 
-def text(*keys: str, help: str, **facts: Any) -> Any:
+def text(*keys: str, help: str, **facts: Unpack[Facts]) -> Any:
     """Free text up to the next comma."""
-    return _declare("text", keys, help=help, **facts)
+    return _declare(Argument("text", keys, help=help, **facts))
 
 
-def texts(*keys: str, help: str, **facts: Any) -> Any:
+def texts(*keys: str, help: str, **facts: Unpack[ListFacts]) -> Any:
     """Several texts, separated by commas."""
-    return _declare("texts", keys, help=help, default=(), **facts)
+    return _declare(Argument("texts", keys, help=help, default=(), **facts))
 
 
-def words(*keys: str, options: tuple[str, ...], help: str, **facts: Any) -> Any:
+def words(*keys: str, options: tuple[str, ...], help: str, **facts: Unpack[ListFacts]) -> Any:
     """Words separated by colons, as in ``X:Y:PSI``."""
-    return _declare("words", keys, help=help, options=options, default=(), **facts)
+    return _declare(Argument("words", keys, help=help, options=options, default=(), **facts))
 
 
 @dataclass(init=False, repr=False, eq=False)
@@ -161,6 +179,7 @@ class Statement:
 
     keyword: ClassVar[str] = ""
     arguments: ClassVar[Mapping[str, Argument]] = {}
+    field_names: ClassVar[frozenset[str]] = frozenset()
     singleton: ClassVar[bool] = False
     repeatable: ClassVar[bool] = False
     place: ClassVar[str] = "deck"
@@ -173,7 +192,7 @@ class Statement:
     alternatives: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
     """Groups of fields that exclude each other: giving one in a command drops the other groups."""
 
-    id: int | str = 0
+    id: Key = 0
     name: str | None = None
     spans: Spans = field(default_factory=Spans)
 
@@ -188,21 +207,21 @@ class Statement:
         return self.keyword if self.singleton else f"{self.keyword}/{self.id}"
 
     @property
-    def key(self) -> int | str:
+    def key(self) -> Key:
         """The id as references to this statement hold it: a number or a name in capitals."""
         return self.id.upper() if isinstance(self.id, str) else self.id
 
-    def __init__(self, **values: Any) -> None:
+    def __init__(self, **values: object) -> None:
         # One initialiser for all classes, and the dictionary directly: generated ones cost more
         # than reading the deck.  Defaults stay with the class.
-        known = _fields(type(self))
+        known = self.field_names
         if not values.keys() <= known:
             unknown = ", ".join(sorted(values.keys() - known))
             raise TypeError(f"{type(self).__name__} has no field {unknown}")
         self.__dict__.update(values)
         self.__dict__.setdefault("spans", NO_SPANS)
 
-    def __setattr__(self, name: str, value: Any) -> None:
+    def __setattr__(self, name: str, value: object) -> None:
         raise FrozenInstanceError(f"cannot assign to field {name!r}")
 
     def __repr__(self) -> str:
@@ -211,16 +230,16 @@ class Statement:
 
     @classmethod
     def completed(
-        cls, values: dict[str, Any], body: tuple[str, int | str] | None
-    ) -> dict[str, Any]:
+        cls, values: dict[str, object], body: tuple[str, Key | None] | None
+    ) -> dict[str, object]:
         """Values that follow from keyword and id of the nearest body before the statement."""
         return {}
 
-    def companions(self, deck: Any) -> tuple[Statement, ...]:
+    def companions(self, deck: Lookup) -> tuple[Statement, ...]:
         """Statements this one brings with it; ``deck`` finds those it refers to."""
         return ()
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """Further values its physics need, from the model as drawn.
 
         Numbers and expressions become symbols; words decide the form; tuples may hold either.  An
@@ -238,11 +257,6 @@ class Statement:
         return field_name in self.spans
 
 
-@cache
-def _fields(cls: type[Statement]) -> frozenset[str]:
-    return frozenset(each.name for each in dataclasses.fields(cls))
-
-
 def statement(
     keyword: str,
     *,
@@ -255,7 +269,7 @@ def statement(
     body: bool = False,
     redefinable: bool = False,
     data: bool = False,
-) -> Callable[[type[Statement]], type[Statement]]:
+) -> Callable[[type[S]], type[S]]:
     """Register a class as the statement ``keyword``.
 
     Parameters
@@ -282,7 +296,7 @@ def statement(
         Its arguments are seen by no kernel, only what it derives from them: tables.
     """
 
-    def register(cls: type[Statement]) -> type[Statement]:
+    def register(cls: type[S]) -> type[S]:
         made = dataclass(init=False, repr=False, eq=False)(cls)
         made.keyword = keyword
         made.arguments = {
@@ -290,6 +304,7 @@ def statement(
             for f in dataclasses.fields(made)
             if "argument" in f.metadata
         }
+        made.field_names = frozenset(f.name for f in dataclasses.fields(made))
         made.singleton, made.repeatable, made.place = singleton, repeatable, place
         made.ends, made.ignored, made.planned, made.body = ends, ignored, planned, body
         made.data = data

@@ -6,9 +6,6 @@ the next ``KEY=``.  Keywords may be shortened to any prefix that fits one argume
 
 from __future__ import annotations
 
-from functools import cache
-from typing import Any
-
 from adamslite.language.abbreviations import Ambiguous, vocabulary
 from adamslite.language.messages import did_you_mean
 from adamslite.language.spelling import spelled
@@ -65,15 +62,15 @@ class Grouping:
 
     def _key(self, item: Item) -> None:
         token = self.tokens[item.key]
-        meaning = self.words.look_up(token[1], True)
+        meaning = self.words.keyed(token[1])
         self._warn_open(item.key)
         self.current, self.skipping = None, True
         if isinstance(meaning, str):
             self._planned(meaning, token)
             return
         if not isinstance(meaning, Argument):
-            meaning = self._unknown(token, meaning, True)
-        pieces = self._open(meaning, token) if meaning else None
+            meaning = self.words.valued.get(self._unknown(token, meaning, True))
+        pieces = self._open(meaning, token) if isinstance(meaning, Argument) else None
         if pieces:
             pieces.values.append(self.tokens[item.start : item.end])
             self.current, self.skipping = pieces, False
@@ -90,16 +87,16 @@ class Grouping:
         token = self.tokens[item.start]
         if item.end - item.start != 1 or token[0] != "NAME":
             return False
-        if self._inside_expression():
+        if self.current and self._inside_expression():
             complete = self.current.values[0][-1][0] not in OPERATORS
             if not complete or spelled(token[1]).upper() not in self.words.bare:
                 return False
             self._warn_open(item.start)
-        meaning = self.words.look_up(token[1], False)
-        if type(meaning) is not tuple:
+        meaning = self.words.flag(token[1])
+        if meaning is None or isinstance(meaning, Ambiguous):
             if self._takes_more() or self.skipping:
                 return False
-            meaning = self._unknown(token, meaning, False)
+            meaning = self.words.bare.get(self._unknown(token, meaning, False))
         if meaning:
             argument, option = meaning
             self.current, self.skipping = None, False
@@ -110,7 +107,7 @@ class Grouping:
 
     def _inside_expression(self) -> bool:
         current = self.current
-        return bool(current) and current.argument.kind == "expression" and not current.closed
+        return bool(current and current.argument.kind == "expression" and not current.closed)
 
     def _takes_more(self) -> bool:
         current = self.current
@@ -122,7 +119,11 @@ class Grouping:
     def _value(self, item: Item) -> None:
         piece = self.tokens[item.start : item.end]
         current = self.current
-        if self._takes_more() and not (current.closed and current.argument.kind != "text"):
+        if (
+            current
+            and self._takes_more()
+            and not (current.closed and current.argument.kind != "text")
+        ):
             if current.argument.kind in _LISTS:
                 current.values.append(piece)
             else:
@@ -148,21 +149,21 @@ class Grouping:
             word=key, keyword=keyword,
         )  # fmt: skip
 
-    def _unknown(self, token: Lexeme, meaning: Any, valued: bool) -> Any:
+    def _unknown(self, token: Lexeme, meaning: Ambiguous | None, valued: bool) -> str:
         """A keyword that fits nothing, or too much, or a flag with a value.
 
-        Returns what it was meant to be, when there is but one guess.
+        Returns the word it was meant to be, when there is but one guess.
         """
         word = spelled(token[1]).upper()
         place = token[2], end_of(token)
         if isinstance(meaning, Ambiguous):
             choices = " or ".join(meaning.choices)
             self.log.add("ambiguous-argument", *place, word=word, choices=choices)
-        elif valued and type(flag := self.words.look_up(token[1], False)) is tuple:
+        elif valued and (flag := self.words.flag(token[1])) and not isinstance(flag, Ambiguous):
             self.log.add("flag-with-value", *place, word=flag[1])
-        elif not valued and type(planned := self.words.look_up(token[1], True)) is str:
+        elif not valued and isinstance(planned := self.words.keyed(token[1]), str):
             self._planned(planned, token)
-        elif not valued and isinstance(bare := self.words.look_up(token[1], True), Argument):
+        elif not valued and isinstance(bare := self.words.keyed(token[1]), Argument):
             choices = " or ".join(bare.options) or bare.help
             self.log.add("argument-without-value", *place, word=bare.key, value=choices)
         else:
@@ -177,9 +178,8 @@ class Grouping:
                 "unknown-argument", *place, word=token[1], keyword=self.cls.keyword,
                 known=", ".join(self.words.known), hint=hint,
             )  # fmt: skip
-            guess = table.get(hint.removeprefix("did you mean ").rstrip("?"))
-            return None if isinstance(guess, str) else guess
-        return None
+            return hint.removeprefix("did you mean ").rstrip("?")
+        return ""
 
 
 def read_arguments(
@@ -189,14 +189,14 @@ def read_arguments(
     reader: ValueReader,
     label: str,
     partial: bool = False,
-) -> tuple[dict[str, Any], dict[str, tuple[int, int]]]:
+) -> tuple[dict[str, object], dict[str, tuple[int, int]]]:
     """The field values of a statement and where they are written.
 
     Fields with a mistake are left out of the values; ``partial`` statements need no argument.
     """
     grouping = Grouping(cls, syntax, reader)
     found = grouping.collect(items)
-    values: dict[str, Any] = {}
+    values: dict[str, object] = {}
     ranges: dict[str, tuple[int, int]] = {}
     for name, pieces in found.items():
         ranges[name] = pieces.range
@@ -205,9 +205,9 @@ def read_arguments(
         except Refused:
             continue
     if syntax.whole and not partial:
-        for name, argument in _required(cls):
+        for argument in grouping.words.required:
             unclear = argument.bare and grouping.unknown_flag
-            if name not in found and not unclear:
+            if argument.name not in found and not unclear:
                 hint = f"{argument.key}: {argument.help}"
                 if argument.bare:
                     hint = f"one of {', '.join(argument.options)}"
@@ -215,8 +215,3 @@ def read_arguments(
                 place = syntax.range
                 reader.log.add("missing-argument", *place, label=label, word=word, hint=hint)
     return values, ranges
-
-
-@cache
-def _required(cls: type[Statement]) -> list[tuple[str, Argument]]:
-    return [(name, argument) for name, argument in cls.arguments.items() if argument.required]

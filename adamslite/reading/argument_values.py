@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from typing import Any
+from typing import NoReturn
 
 from adamslite.deck.names import Key, Names, to_number
 from adamslite.language.abbreviations import match
@@ -94,7 +94,9 @@ class ValueReader:
         self.resolver = resolver
         self.log = log
         self.ground = ground
-        self._kinds: dict[str, Callable[[type[Statement], Argument, list[list[Lexeme]]], Any]] = {
+        self._kinds: dict[
+            str, Callable[[type[Statement], Argument, list[list[Lexeme]]], object]
+        ] = {
             "number": self._one_number,
             "vector": self._vector,
             "integer": self._integer,
@@ -109,12 +111,12 @@ class ValueReader:
             "words": self._words,
         }
 
-    def value(self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]) -> Any:
+    def value(self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]) -> object:
         """The value of ``argument``; raises :class:`Refused` after logging what is wrong."""
         return self._kinds[argument.kind](cls, argument, values)
 
-    def _refuse(self, code: str, tokens: list[Lexeme], **words: Any) -> None:
-        self.log.add(code, tokens[0][2], end_of(tokens[-1]), **words)
+    def _refuse(self, code: str, tokens: list[Lexeme], hint: str = "", **words: object) -> NoReturn:
+        self.log.add(code, tokens[0][2], end_of(tokens[-1]), hint, **words)
         raise Refused
 
     def _written(self, tokens: list[Lexeme]) -> str:
@@ -134,24 +136,27 @@ class ValueReader:
                     text=self._written(tokens), word=argument.key, unit=argument.unit,
                 )  # fmt: skip
         else:
-            value = self.resolver.constant(tokens)
-            if value is None:
+            constant = self.resolver.constant(tokens)
+            if constant is None:
                 self._refuse("not-a-number", tokens, text=self._written(tokens), word=argument.key)
+            value = constant
         if math.isinf(value):
             self._refuse("number-too-large", tokens, word=self._written(tokens))
         return value
 
-    def _one_number(self, cls: Any, argument: Argument, values: list[list[Lexeme]]) -> float:
+    def _one_number(
+        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+    ) -> float:
         return self._number(argument, values[0])
 
-    def _integer(self, cls: Any, argument: Argument, values: list[list[Lexeme]]) -> int:
+    def _integer(self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]) -> int:
         value = self._number(argument, values[0])
         if not value.is_integer():
             self._refuse("not-an-integer", values[0], word=argument.key)
         return int(value)
 
     def _vector(
-        self, cls: Any, argument: Argument, values: list[list[Lexeme]]
+        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
     ) -> tuple[float, ...]:
         if len(values) == 1 and values[0][0][0] in CLOSES:
             values = split(unwrapped(values[0]), "COMMA")
@@ -190,34 +195,44 @@ class ValueReader:
             )  # fmt: skip
         return found
 
-    def _words(self, cls: Any, argument: Argument, values: list[list[Lexeme]]) -> tuple[str, ...]:
+    def _words(
+        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+    ) -> tuple[str, ...]:
         parts = split(unwrapped(values[0]), "COLON")
         return tuple(self._option(argument, part or values[0]) for part in parts)
 
-    def _text(self, cls: Any, argument: Argument, values: list[list[Lexeme]]) -> str:
+    def _text(self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]) -> str:
         tokens = values[0]
         text = self.log.source.text[tokens[0][2] : end_of(tokens[-1])]
         return text[1:-1] if len(text) > 1 and text[0] == text[-1] == '"' else text
 
-    def _texts(self, cls: Any, argument: Argument, values: list[list[Lexeme]]) -> tuple[str, ...]:
+    def _texts(
+        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+    ) -> tuple[str, ...]:
         return tuple(self._text(cls, argument, [value]) for value in values)
 
     # ---- other statements ---------------------------------------------------------------------
 
-    def _reference(self, cls: Any, argument: Argument, values: list[list[Lexeme]]) -> Key:
+    def _reference(
+        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+    ) -> Key:
         return self._refer(argument, values[0])
 
     def _references(
-        self, cls: Any, argument: Argument, values: list[list[Lexeme]]
+        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
     ) -> tuple[Key, ...]:
         return tuple([self._refer(argument, tokens) for tokens in values])
 
-    def _ids(self, cls: Any, argument: Argument, values: list[list[Lexeme]]) -> tuple[Key, ...]:
-        found = [to_id(tokens) for tokens in values]
-        for key, tokens in zip(found, values, strict=True):
-            if not key:
-                self._refuse("bad-id", tokens, text=self._written(tokens))
-        return tuple([key.upper() if isinstance(key, str) else key for key in found])
+    def _ids(
+        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+    ) -> tuple[Key, ...]:
+        return tuple([self._id(tokens) for tokens in values])
+
+    def _id(self, tokens: list[Lexeme]) -> Key:
+        key = to_id(tokens)
+        if not key:
+            self._refuse("bad-id", tokens, text=self._written(tokens))
+        return key.upper() if isinstance(key, str) else key
 
     def _refer(self, argument: Argument, tokens: list[Lexeme]) -> Key:
         kind, key = argument.to, to_id(tokens)
@@ -237,7 +252,9 @@ class ValueReader:
             raise Refused
         return found
 
-    def _expression(self, cls: Any, argument: Argument, values: list[list[Lexeme]]) -> Node:
+    def _expression(
+        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+    ) -> Node:
         try:
             return self.resolver.expression(values[0])
         except Unresolved:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
 
-from adamslite.checks.rule import apply
+from adamslite.checks.rule import Rule, apply
 from adamslite.checks.rules import RULES
 from adamslite.checks.runs import RUN_RULES, inputs_with_rates, late_start_values
 from adamslite.deck.deck import ANALYSES, Deck
 from adamslite.deck.names import Names
-from adamslite.deck.redefinition import Redefinition
+from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.gc_pause import uncollected
 from adamslite.language.diagnostics import DeckError, Diagnostic, Source
 from adamslite.language.statement import Statement
@@ -46,13 +45,14 @@ def read(source: str | Path) -> Deck:
     reading = Reading(Source(text, str(path or "<text>")), Names(), "deck")
     reading.title(title)
     with uncollected():
-        statements = reading.statements(end_of_title)
+        read = reading.statements(end_of_title)
+        statements = tuple(each for each in read if isinstance(each, Statement))  # all of them
         deck = Deck(reading.log.source, title, statements, reading.names, path)
         deck.warnings = _judged(deck, reading, RULES)
     return deck
 
 
-class Commands(tuple[Any, ...]):
+class Commands(tuple[Command, ...]):
     """Commands in their order: statements, and :class:`Redefinition` for those that change one."""
 
     warnings: tuple[Diagnostic, ...] = ()
@@ -74,7 +74,7 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
     return commands
 
 
-def _caused(deck: Deck, commands: Iterable[Any]) -> list[Diagnostic]:
+def _caused(deck: Deck, commands: Iterable[Command]) -> list[Diagnostic]:
     """What is wrong with the deck because of commands."""
 
     if not any(isinstance(command, Redefinition) for command in commands):
@@ -94,7 +94,7 @@ def _caused(deck: Deck, commands: Iterable[Any]) -> list[Diagnostic]:
     return list(found)
 
 
-def _judged(deck: Deck, reading: Reading, rules: Sequence[Any]) -> tuple[Diagnostic, ...]:
+def _judged(deck: Deck, reading: Reading, rules: Sequence[Rule]) -> tuple[Diagnostic, ...]:
     """What reading and rules have to say; raises when there are errors."""
 
     deck.incomplete |= reading.broken

@@ -7,7 +7,7 @@ their arguments; every name in it was looked up here.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple, NoReturn
 
 from adamslite import functions  # noqa: F401  registers the functions
 from adamslite.deck.names import RESERVED, Key, Names, to_number
@@ -63,7 +63,7 @@ class Resolver:
         """The resolved expression; raises :class:`Unresolved` after logging what is wrong."""
         form = expression_form(tuple([token[0] for token in tokens]))
         if isinstance(form, Fault):
-            mistake = expression_mistake(tokens)
+            mistake = expression_mistake(tokens, form)
             self._refuse(mistake.code, tokens[mistake.first], tokens[mistake.last], **mistake.words)
         node = self._whole(form, tokens)
         if self.failed:
@@ -193,7 +193,7 @@ class Resolver:
             self._slots[function.name] = slots
         return slots
 
-    def _unknown_function(self, name: str, at: int) -> None:
+    def _unknown_function(self, name: str, at: int) -> NoReturn:
         token = self.tokens[at]
         if name in PLANNED:
             self.log.tally("planned-function", name, token[2], end_of(token), word=name)
@@ -284,15 +284,17 @@ class Resolver:
 
     # ---- messages -----------------------------------------------------------------------------
 
-    def _ambiguous(self, kind: str, at: int, found: list[Key]) -> None:
+    def _ambiguous(self, kind: str, at: int, found: list[Key]) -> NoReturn:
         labels = ", ".join(f"{kind}/{key}" for key in found[:5])
         self._refuse("ambiguous-name", self.tokens[at], word=self.tokens[at][1], labels=labels)
 
-    def _log(self, code: str, first: Lexeme, last: Lexeme, **words: Any) -> None:
-        self.log.add(code, first[2], end_of(last), **words)
+    def _log(self, code: str, first: Lexeme, last: Lexeme, hint: str = "", **words: object) -> None:
+        self.log.add(code, first[2], end_of(last), hint, **words)
 
-    def _refuse(self, code: str, first: Lexeme, last: Lexeme | None = None, **words: Any) -> None:
-        self._log(code, first, last or first, **words)
+    def _refuse(
+        self, code: str, first: Lexeme, last: Lexeme | None = None, hint: str = "", **words: object
+    ) -> NoReturn:
+        self._log(code, first, last or first, hint, **words)
         raise Unresolved
 
 

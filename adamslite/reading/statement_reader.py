@@ -7,11 +7,13 @@ reads arguments and expressions.
 from __future__ import annotations
 
 import re
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import adamslite.elements  # noqa: F401  registers the statements
+from adamslite.deck.deck import Deck
 from adamslite.deck.names import Key, Names
 from adamslite.deck.redefinition import Redefinition
+from adamslite.elements.part import Part
 from adamslite.language.abbreviations import Ambiguous, match, vocabulary
 from adamslite.language.diagnostics import Source, Spans
 from adamslite.language.messages import Log, did_you_mean
@@ -26,6 +28,7 @@ from adamslite.syntax.syntax_errors import Syntax, statement_syntax
 from adamslite.syntax.tokens import end_of, scan
 
 Body = tuple[str, Key | None]
+"""Keyword and id of a body; the id is None where it could not be read."""
 # A line that begins as a statement does.
 BEGINNING = re.compile(r"^[ \t]*(\w+)[ \t]*/", re.MULTILINE)
 
@@ -66,7 +69,7 @@ class Reading:
         The deck commands are for.
     """
 
-    def __init__(self, source: Source, names: Names, place: str, deck: Any = None) -> None:
+    def __init__(self, source: Source, names: Names, place: str, deck: Deck | None = None) -> None:
         self.log = Log(source)
         self.names = names
         self.place = place
@@ -77,11 +80,11 @@ class Reading:
         self._body: Body | None = None
         self._guesses: list[tuple[str, Syntax]] = []
         self._started: dict[str, int] = {}
-        self._meanings: dict[str, Any] = {}
+        self._meanings: dict[str, type[Statement] | str | Ambiguous | None] = {}
         commands = place == "command"
         here = {k: c for k, c in STATEMENTS.items() if commands or c.place != "command"}
         planned = PLANNED_STATEMENTS | PLANNED_COMMANDS if commands else PLANNED_STATEMENTS
-        self._table: dict[str, Any] = {name: name for name in planned} | here
+        self._table: dict[str, type[Statement] | str] = {name: name for name in planned} | here
 
     def title(self, line: str) -> None:
         """Warn of a first line that is not meant as a title."""
@@ -89,7 +92,7 @@ class Reading:
         if slash and keyword.strip().upper() in STATEMENTS:
             self.log.add("title-like-statement", 0, len(line))
 
-    def statements(self, start: int) -> tuple[Any, ...]:
+    def statements(self, start: int) -> tuple[Statement | Redefinition, ...]:
         """All statements from offset ``start`` on; those with mistakes are left out."""
         text = self.log.source.text
         for logical in join(scan(text, start), ampersand=self.place == "command"):
@@ -100,7 +103,7 @@ class Reading:
                 first, last = tokens[mistake.first], tokens[mistake.last]
                 self.log.add(mistake.code, first[2], end_of(last), **mistake.words)
             cls = self._class(syntax) if syntax else None
-            if cls is not None:
+            if syntax and cls is not None:
                 self._enter(cls, syntax)
                 if cls.ends:
                     self._behind_end(syntax.range[1])
@@ -218,7 +221,7 @@ class Reading:
             self.log.add("ambiguous-name", *place, word=id, labels=labels)
         elif found is not None:
             self.entries.append(Entry(cls, syntax, found, None, changes=True))
-        elif cls.keyword not in self.deck.incomplete:
+        elif self.deck and cls.keyword not in self.deck.incomplete:
             end = end_of(tokens[syntax.items[0].end - 1])
             self.log.missing(self.names, cls.keyword, id, tokens[0][2], end)
 
@@ -239,7 +242,7 @@ class Reading:
 
     # ---- second pass --------------------------------------------------------------------------
 
-    def _second_pass(self) -> tuple[Any, ...]:
+    def _second_pass(self) -> tuple[Statement | Redefinition, ...]:
         resolver = Resolver(self.names, self.log)
         reader = ValueReader(self.names, resolver, self.log, self._ground)
         givers = [cls for cls in STATEMENTS.values() if cls.constants is not Statement.constants]
@@ -260,13 +263,13 @@ class Reading:
     def _ground(self) -> Key | None:
         """The id of the ground part, which may stand later in the deck."""
         if self.deck:
-            return next((part.key for part in self.deck.of("PART") if part.ground), None)
+            return next((part.key for part in self.deck.of(Part) if part.ground), None)
         for entry in self.entries:
             if entry.cls.body and "ground" in entry.cls.arguments:
                 words = vocabulary(entry.cls)
                 for item in entry.syntax.items[1:]:
                     word = entry.syntax.tokens[item.start][1]
-                    if item.key < 0 and words.look_up(word, False) == words.bare["GROUND"]:
+                    if item.key < 0 and words.flag(word) == words.bare["GROUND"]:
                         return canonical(entry.id)
         return None
 
@@ -274,7 +277,8 @@ class Reading:
         """The statement with its arguments; None when something is wrong with it."""
         cls, syntax = entry.cls, entry.syntax
         if cls.ignored or cls.ends:
-            values, ranges = {}, {}
+            values: dict[str, object] = {}
+            ranges: dict[str, tuple[int, int]] = {}
         else:
             errors = self.log.errors
             items = syntax.items if cls.singleton else syntax.items[1:]

@@ -28,7 +28,7 @@ from lark.lexer import Lexer
 from adamslite import resources
 from adamslite.caching.entries import recall
 
-Tree = tuple
+Tree = tuple[Any, ...]
 """An expression: ``(rule, number of its token, branch, branch ...)``."""
 
 
@@ -53,19 +53,26 @@ class Item(NamedTuple):
 class _Replay(Lexer):
     """Hands token kinds to the parser; each token knows its number."""
 
-    def __init__(self, conf: Any) -> None:
+    def __init__(self, conf: object) -> None:
         pass
 
-    def lex(self, kinds: Sequence[str]) -> Iterator[Token]:
+    # A lexer that parses no text receives what the parser was given, whatever Lark's types say.
+    def lex(self, kinds: Sequence[str]) -> Iterator[Token]:  # type: ignore[override]
         for number, kind in enumerate(kinds):
             yield Token(kind, "", start_pos=number)
+
+
+def _number(token: Token) -> int:
+    """The number of a token of :class:`_Replay`."""
+    assert token.start_pos is not None
+    return token.start_pos
 
 
 class _Forms(Transformer):
     """Builds items and trees while parsing."""
 
     def item(self, tokens: list[Token]) -> Item:
-        first, last = tokens[0].start_pos, tokens[-1].start_pos
+        first, last = _number(tokens[0]), _number(tokens[-1])
         if len(tokens) > 1 and tokens[1].type == "EQUAL":
             return Item(first, first + 2, last + 1, False)
         return Item(-1, first, last + 1, False)
@@ -73,7 +80,7 @@ class _Forms(Transformer):
     def separator(self, tokens: list[Token]) -> Token:
         return tokens[0]
 
-    def statement(self, children: list[Any]) -> tuple[Item, ...]:
+    def statement(self, children: list[Item | Token]) -> tuple[Item, ...]:
         items: list[Item] = []
         for child in children:
             if isinstance(child, Item):
@@ -82,21 +89,21 @@ class _Forms(Transformer):
                 items[-1] = items[-1]._replace(closed=True)
         return tuple(items)
 
-    def operation(self, children: list[Any]) -> Tree:
+    def operation(self, children: tuple[Tree, Token, Tree]) -> Tree:
         left, token, right = children
-        return ("operation", token.start_pos, left, right)
+        return ("operation", _number(token), left, right)
 
-    def negation(self, children: list[Any]) -> Tree:
-        return ("negation", children[0].start_pos, children[1])
+    def negation(self, children: tuple[Token, Tree]) -> Tree:
+        return ("negation", _number(children[0]), children[1])
 
-    def same(self, children: list[Any]) -> Tree:
+    def same(self, children: tuple[Token, Tree, Token]) -> Tree:
         return children[1]
 
     def number(self, children: list[Token]) -> Tree:
-        return ("number", children[0].start_pos)
+        return ("number", _number(children[0]))
 
     def name(self, children: list[Token]) -> Tree:
-        return ("name", children[0].start_pos)
+        return ("name", _number(children[0]))
 
     def arguments(self, children: list[Any]) -> tuple[str, list[Tree]]:
         separators = "".join(":" if c.type == "COLON" else "," for c in children[1::2])
@@ -104,10 +111,10 @@ class _Forms(Transformer):
 
     def call(self, children: list[Any]) -> Tree:
         separators, branches = children[2] if len(children) == 4 else ("", [])
-        return ("call", children[0].start_pos, separators, *branches)
+        return ("call", _number(children[0]), separators, *branches)
 
 
-FORM = {"parser": "lalr", "lexer": _Replay, "keep_all_tokens": True}
+FORM: dict[str, Any] = {"parser": "lalr", "lexer": _Replay, "keep_all_tokens": True}
 
 
 @cache
@@ -137,6 +144,7 @@ def _grammars(folder: Path) -> str:
 
 
 def _form(parser: Lark, kinds: tuple[str, ...]) -> Any:
+    """What :class:`_Forms` makes of the whole, or where the kinds do not fit."""
     try:
         return parser.parse(kinds)
     except UnexpectedToken as unexpected:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from adamslite.language.spelling import spelled
-from adamslite.syntax.forms import Fault, Item, expression_form, statement_form
+from adamslite.syntax.forms import Fault, Item, statement_form
 from adamslite.syntax.lines import Logical
 from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme, end_of
 
@@ -59,7 +59,8 @@ def statement_syntax(logical: Logical) -> tuple[Syntax | None, list[tuple[Mistak
 
     The syntax is ``None`` when not even the name of the statement can be told.
     """
-    tokens, found = logical.tokens, []
+    tokens = logical.tokens
+    found: list[tuple[Mistake, list[Lexeme]]] = []
     while True:
         form = statement_form(tuple([token[0] for token in tokens]))
         if not isinstance(form, Fault):
@@ -159,12 +160,9 @@ def _item_start(tokens: list[Lexeme], at: int) -> int:
     return start
 
 
-def expression_mistake(tokens: list[Lexeme]) -> Mistake | None:
-    """What is wrong with the form of an expression; None when nothing is."""
-    form = expression_form(tuple([token[0] for token in tokens]))
-    if not isinstance(form, Fault):
-        return None
-    at = form.at
+def expression_mistake(tokens: list[Lexeme], fault: Fault) -> Mistake:
+    """What is wrong with an expression whose form breaks at ``fault``."""
+    at = fault.at
     here = min(at, len(tokens) - 1)
     kind = _kind(tokens, at)
     before = tokens[at - 1][0] if at else "START"

@@ -6,11 +6,12 @@ its code) and manual page.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Protocol
 
 from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
+from adamslite.language.interfaces import Key
 from adamslite.language.messages.arguments import ARGUMENTS
 from adamslite.language.messages.constraints import CONSTRAINTS
 from adamslite.language.messages.entry import Message
@@ -39,10 +40,12 @@ MARKER/3, POINT_MASS=3
 """
 
 
-def compose(code: str, span: Span, source_line: str = "", **words: Any) -> Diagnostic:
+def compose(
+    code: str, span: Span, source_line: str = "", hint: str = "", **words: object
+) -> Diagnostic:
     """The message ``code`` with its words filled in; ``hint=`` replaces the hint of the table."""
     message = MESSAGES[code]
-    hint = words.pop("hint", "") or message.hint.format(**words)
+    hint = hint or message.hint.format(**words)
     return Diagnostic(
         code, message.severity, message.sentence.format(**words), span, hint, source_line
     )
@@ -62,8 +65,22 @@ def did_you_mean(word: str, candidates: Iterable[str]) -> str:
 @dataclass
 class _Tally:
     first: tuple[int, int]
-    words: dict[str, Any]
+    hint: str
+    words: dict[str, object]
     count: int = 1
+
+
+class KnownNames(Protocol):
+    """Ids and names of the statements of a deck, :class:`adamslite.deck.names.Names`."""
+
+    @property
+    def ids(self) -> Mapping[str, Mapping[Key, object]]: ...
+
+    def find(self, kind: str, word: Key) -> Key | list[Key] | None:
+        """The id that a word means; a list when several do."""
+
+    def known(self, kind: str) -> list[str]:
+        """Everything that may be written for a statement of this kind."""
 
 
 class Log:
@@ -80,23 +97,22 @@ class Log:
         """How many errors there were so far; those told once per kind count each time."""
         return self._errors
 
-    def add(self, code: str, start: int, end: int, **words: Any) -> None:
+    def add(self, code: str, start: int, end: int, hint: str = "", **words: object) -> None:
         """Say ``code`` about the characters from ``start`` to ``end``."""
         span = self.source.span(start, end)
-        self.diagnostics.append(compose(code, span, self.source.line(span.line), **words))
+        self.diagnostics.append(compose(code, span, self.source.line(span.line), hint, **words))
         self._errors += MESSAGES[code].severity == ERROR
 
-    def tally(self, code: str, kind: str, start: int, end: int, **words: Any) -> None:
+    def tally(self, code: str, kind: str, start: int, end: int, **words: object) -> None:
         """Say ``code`` once for each ``kind``, at its first place, with the number of places."""
         self._errors += 1
         known = self._tallies.get((code, kind))
         if known:
             known.count += 1
         else:
-            hint = INSTEAD.get(kind, "")
-            self._tallies[code, kind] = _Tally((start, end), {"hint": hint} | words)
+            self._tallies[code, kind] = _Tally((start, end), INSTEAD.get(kind, ""), words)
 
-    def missing(self, names: Any, kind: str, key: int | str, start: int, end: int) -> None:
+    def missing(self, names: KnownNames, kind: str, key: Key, start: int, end: int) -> None:
         """Say that a statement is referred to and does not exist."""
         other = ALIKE.get(kind)
         if other and names.find(other, key) is not None:
@@ -112,6 +128,7 @@ class Log:
         """Every message, those told once per kind included."""
         for (code, _), tally in self._tallies.items():
             times = "" if tally.count == 1 else f" ({tally.count} times, first here)"
-            self.add(code, *tally.first, times=times, **tally.words)
+            start, end = tally.first
+            self.add(code, start, end, tally.hint, times=times, **tally.words)
         self._tallies = {}
         return self.diagnostics

@@ -1,0 +1,61 @@
+"""What statements may ask of the deck and of the model that are built from them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
+
+if TYPE_CHECKING:  # the modules that read a deck do without numpy
+    import numpy as np
+
+Key: TypeAlias = int | str
+"""An id as references hold it: a number, or a name in capitals."""
+T = TypeVar("T")
+
+
+class Lookup(Protocol):
+    """The deck, once the ids of all statements are known."""
+
+    def find(self, keyword: str, id: Key) -> Any:
+        """The statement of that kind with that id or name; None when there is none."""
+
+
+class Place(Protocol):
+    """Where a marker sits on its body, or on the ground."""
+
+    @property
+    def kind(self) -> str: ...
+    @property
+    def body(self) -> int: ...
+    @property
+    def p(self) -> np.ndarray: ...
+    @property
+    def axes(self) -> np.ndarray: ...
+
+
+class Body(Protocol):
+    """A moving body as the deck draws it: its mass centre and its attitude, in ground."""
+
+    @property
+    def x(self) -> np.ndarray: ...
+    @property
+    def attitude(self) -> np.ndarray: ...
+
+
+class DrawnModel(Protocol):
+    """The model in the posture that the deck draws, :class:`adamslite.model.model.Model`."""
+
+    @property
+    def bodies(self) -> Sequence[Body]: ...
+
+    def marker(self, marker_id: Key) -> Place | None:
+        """Where a marker sits."""
+
+    def element(self, keyword: str, element_id: Key) -> Any:
+        """The statement of that kind with that id."""
+
+    def variable(self, variable_id: Key) -> Any:
+        """The VARIABLE of that id."""
+
+    def once(self, what: Hashable, worked_out: Callable[[], T]) -> T:
+        """What is computed for this model when it is first asked for."""

@@ -1,0 +1,21 @@
+"""Names for the types of the symbolic part."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+Expr: TypeAlias = Any
+"""An expression of sympy, or a plain number in the place of one.  sympy has no types that a checker
+could read."""
+Symbol: TypeAlias = Any
+"""A symbol of sympy, for the same reason."""
+Frame: TypeAlias = int
+"""A marker as a scope knows it, see :mod:`adamslite.symbolic.scope`."""
+Leaf: TypeAlias = tuple[Any, ...]
+"""What a symbol stands for: a kind, then numbers that depend on the kind."""
+Tree: TypeAlias = tuple[Any, ...]
+"""A node of a bound expression, see :mod:`adamslite.kernels.binding`."""
+Seen: TypeAlias = Any
+"""A statement as its physics sees it, :class:`adamslite.kernels.view.View`.  Where the deck has an
+id, an expression or a number, its field is a frame, another such statement, an ``Expr``; what
+``derived`` returns is there too.  No class declares these types."""
