@@ -8,7 +8,6 @@ from adamslite.language.expression import MODE, TIME, Node, Num
 from adamslite.language.interfaces import Key
 from adamslite.language.spelling import spelled
 
-
 RESERVED: dict[str, Node] = {
     "TIME": TIME,
     "MODE": MODE,

@@ -147,8 +147,8 @@ def fold(node: Node) -> float | None:
         return node.value
     if type(node) is not Op:
         return None
-    values = [fold(arg) for arg in node.args]
-    return None if None in values else operate(node.op, values)
+    values = [value for value in map(fold, node.args) if value is not None]
+    return operate(node.op, values) if len(values) == len(node.args) else None
 
 
 def to_text(node: Node) -> str:

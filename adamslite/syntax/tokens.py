@@ -48,7 +48,8 @@ class _Kinds(dict[str, str]):
     """The kind of each token, which its text decides; found out once for equal texts."""
 
     def __missing__(self, text: str) -> str:
-        kind = self[text] = _classifier().match(text).lastgroup
+        found = _classifier().match(text)
+        kind = self[text] = str(found and found.lastgroup)
         return kind
 
 
