@@ -48,7 +48,7 @@ def table(kind: str, beyond: str = "parabola") -> Interpolant:
 @pytest.fixture(scope="module")
 def in_native_code() -> Callable[..., float]:
     """``lookup`` compiled: f(T, x, z, order, z_order)."""
-    code = compiler.object_code(translate("lookup"))
+    code = compiler.object_code(translate(in_python))
     address = compiler.addresses([(code, ["lookup"])])["lookup"]
     real, whole = ctypes.c_double, ctypes.c_int64
     call = ctypes.CFUNCTYPE(real, ctypes.c_void_p, real, real, whole, whole)(address)

@@ -62,4 +62,4 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
 
 def engine_text(name: str) -> str:
     """LLVM assembly of one of the entries."""
-    return translate(name)
+    return translate(globals()[name])

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from adamslite.kernels.code import lookup  # noqa: F401  registers what kernels call
 from adamslite.kernels.code.clock_program import clock_programs
 from adamslite.kernels.code.jacobian_writer import JacobianWriter
 from adamslite.kernels.code.residual_writer import Writer
 from adamslite.kernels.code.shape import Shape
-from adamslite.native.translate import METADATA, definitions
+from adamslite.native.translate import METADATA, REGISTERED, definitions
 from adamslite.symbolic.guards import guards
 from adamslite.symbolic.scope import Scope
 
@@ -96,7 +95,7 @@ def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tu
 
 def _module(bodies: list[tuple[str, str, Writer]], n_ints: int, n_reals: int) -> str:
     declared, parts = definitions(
-        sorted({name for *_, writer in bodies for name in writer.b.called})
+        REGISTERED[name] for name in sorted({name for *_, w in bodies for name in w.b.called})
     )
     for name, head, writer in bodies:
         prelude = "".join(

@@ -5,7 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from adamslite.kernels.code.lookup import on_piece, on_strip, piece_at, strip_at
 from adamslite.native.llvm_builder import LIBRARY, Builder, Value
+from adamslite.native.translate import symbol
 
 
 def joined(factors: tuple[Any, ...]) -> list[Any]:
@@ -108,18 +110,18 @@ class Lowering:
     def _Lookup(self, expr: Any) -> Value:
         number, curve, order, x = expr.args
         table, at = self._table(number), ("double", self(x))
-        piece = self.b.call_native("piece_at", "i64", table, at)
+        piece = self.b.call_native(symbol(piece_at), "i64", table, at)
         known = (table, ("i64", piece), ("i64", int(curve)))
-        return self.b.call_native("on_piece", "double", *known, at, ("i64", int(order)))
+        return self.b.call_native(symbol(on_piece), "double", *known, at, ("i64", int(order)))
 
     def _LookupBetween(self, expr: Any) -> Value:
         number, order, z_order, x, z = expr.args
         table, at, across = self._table(number), ("double", self(x)), ("double", self(z))
-        piece = self.b.call_native("piece_at", "i64", table, at)
-        strip = self.b.call_native("strip_at", "i64", table, across)
+        piece = self.b.call_native(symbol(piece_at), "i64", table, at)
+        strip = self.b.call_native(symbol(strip_at), "i64", table, across)
         known = (table, ("i64", piece), ("i64", strip), at, across)
         orders = (("i64", int(order)), ("i64", int(z_order)))
-        return self.b.call_native("on_strip", "double", *known, *orders)
+        return self.b.call_native(symbol(on_strip), "double", *known, *orders)
 
     def _table(self, number: Any) -> tuple[str, Value]:
         return "ptr", self.b.table_at(self.tables_at + int(number))

@@ -19,6 +19,7 @@ from adamslite.native.translate.language import (
     as_written,
     call_address,
     native,
+    symbol,
 )
 from adamslite.native.translate.records import Alone, Ints, Reals, Record, Rows, array
 from adamslite.native.translate.statements import definitions, translate
@@ -38,5 +39,6 @@ __all__ = [
     "call_address",
     "definitions",
     "native",
+    "symbol",
     "translate",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from adamslite.native.llvm_builder import literal
-from adamslite.native.translate.language import REGISTERED, llvm_type, name_of, signature
+from adamslite.native.translate.language import is_native, llvm_type, name_of, signature, symbol
 from adamslite.native.translate.records import (
     ARRAYS,
     Field,
@@ -259,10 +259,12 @@ class Expressions(Writer):
         return Value("", "void")
 
     def call_native(self, node: ast.Call, name: str, args: list[Value]) -> Value:
-        if self.globals.get(name) is not REGISTERED.get(name) or name not in REGISTERED:
+        function = self.globals.get(name)
+        if not is_native(function):
             raise self.fail(node, f"{name} is not a native function")
-        self.called.append(name)
-        arguments, result = signature(REGISTERED[name])
+        self.called.append(function)
+        name = symbol(function)
+        arguments, result = signature(function)
         pairs = zip(args, arguments, strict=True)
         operands = ", ".join(f"{llvm_type(k)} {self.convert(a, k).text}" for a, (_, k) in pairs)
         if result == "void":

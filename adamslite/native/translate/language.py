@@ -10,7 +10,11 @@ from typing import Any
 
 from adamslite.native.translate.records import RowsOf, is_record, resolve
 
-REGISTERED: dict[str, Callable[..., Any]] = {}
+Native = Callable[..., Any]
+"""A function marked for translation."""
+
+REGISTERED: dict[str, Native] = {}
+"""Every native function by its symbol."""
 
 
 class Untranslatable(Exception):
@@ -19,10 +23,19 @@ class Untranslatable(Exception):
 
 def native(function: Callable[..., Any]) -> Callable[..., Any]:
     """Mark a function for translation; it stays an ordinary Python function."""
-    if function.__name__ in REGISTERED:
-        raise Untranslatable(f"two native functions are called {function.__name__}")
-    REGISTERED[function.__name__] = function
+    if symbol(function) in REGISTERED:
+        raise Untranslatable(f"two native functions are called {symbol(function)}")
+    REGISTERED[symbol(function)] = function
     return function
+
+
+def symbol(function: Native) -> str:
+    """Its name in LLVM assembly: functions of two modules may have the same name in Python."""
+    return f"{function.__module__.removeprefix('adamslite.')}.{function.__name__}"
+
+
+def is_native(function: object) -> bool:
+    return callable(function) and REGISTERED.get(symbol(function)) is function
 
 
 def as_written(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -8,29 +8,35 @@ import textwrap
 from collections.abc import Iterable
 
 from adamslite.native.translate.expressions import Expressions
-from adamslite.native.translate.language import REGISTERED, signature
+from adamslite.native.translate.language import Native, Untranslatable, signature, symbol
 from adamslite.native.translate.writer import METADATA, Value
 
 
-def translate(entry: str) -> str:
-    """LLVM assembly of ``entry`` and every native function it reaches; the others are internal."""
+def translate(entry: Native) -> str:
+    """LLVM assembly of ``entry`` under its plain name, and of every native function that it
+    reaches, each internal under its :func:`symbol`.
+    """
     declared, texts = definitions([entry], public=entry)
     return "\n".join([*sorted(declared), *texts, METADATA])
 
 
-def definitions(names: Iterable[str], public: str = "") -> tuple[set[str], list[str]]:
-    """Declarations of the library functions and definitions of all native functions that ``names``
-    reach; all but ``public`` are internal to the module they become part of.
+def definitions(
+    functions: Iterable[Native], public: Native | None = None
+) -> tuple[set[str], list[str]]:
+    """Declarations of the library functions and definitions of all native functions that
+    ``functions`` reach; all but ``public`` are internal to the module they become part of.
     """
-    pending, done, texts = list(names), set(), []
+    pending, done, texts = list(functions), set(), []
     declared: set[str] = set()
     while pending:
-        name = pending.pop()
-        if name in done:
+        function = pending.pop()
+        if function in done:
             continue
-        done.add(name)
-        work = Translator(REGISTERED[name])
-        texts.append(work.define(internal=name != public))
+        done.add(function)
+        work = Translator(function)
+        texts.append(work.define(internal=function is not public))
+        if public in work.called:
+            raise Untranslatable(f"{symbol(function)} calls the entry {public.__name__}")
         declared |= work.declared
         pending.extend(work.called)
     return declared, texts
@@ -50,7 +56,7 @@ class Translator(Expressions):
         head = ", ".join(f"{self.passed(name, kind)} %arg.{name}" for name, kind in arguments)
         linkage = "internal " if internal else ""
         body = "\n".join(["entry:", *self.allocations, *self.lines])
-        name = self.function.__name__
+        name = symbol(self.function) if internal else self.function.__name__
         return f"define {linkage}{self.result} @{name}({head}) nounwind {{\n{body}\n}}"
 
     def block(self, body: list[ast.stmt]) -> None:

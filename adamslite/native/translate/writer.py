@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from adamslite.native.llvm_builder import FAST, literal
-from adamslite.native.translate.language import Untranslatable, llvm_type, name_of, position
+from adamslite.native.translate.language import Native, Untranslatable, llvm_type, name_of, position
 from adamslite.native.translate.records import ARRAYS, SLOT, RowsOf, is_record
 
 # Which accesses never meet: numbers of each kind, and the addresses in records.
@@ -40,7 +40,7 @@ class Writer:
         self.locals: dict[str, Any] = {}
         self.lines: list[str] = []
         self.allocations: list[str] = []
-        self.called: list[str] = []
+        self.called: list[Native] = []
         self.declared: set[str] = set()
         self.loops: list[tuple[str, str]] = []
         self.count = 0
