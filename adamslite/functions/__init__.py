@@ -1,14 +1,7 @@
-"""The deck functions, one Python function each, grouped by family; an import registers them."""
+"""The deck functions, grouped by family; importing this package registers them all."""
 
-from adamslite.functions import (
-    angles,
-    branches,
-    forces,
-    intrinsics,
-    motion,
-    series,
-    states,
-    steps,
-)
+from importlib import import_module
+from pkgutil import iter_modules
 
-__all__ = ["angles", "branches", "forces", "intrinsics", "motion", "series", "states", "steps"]
+for _module in iter_modules(__path__):
+    import_module(f"{__name__}.{_module.name}")
