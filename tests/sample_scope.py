@@ -7,6 +7,7 @@ hands out one symbol per number, as the real scope does, and remembers what each
 from __future__ import annotations
 
 from functools import cache
+from types import SimpleNamespace
 
 import mpmath as mp
 import sympy as sp
@@ -137,25 +138,19 @@ class SampleScope:
     def angle(self, sine, cosine):
         return sp.atan2(sine, cosine) + self.symbol("turns", 2 * mp.pi)
 
-    def load(self, kind: str, id, jflag: int) -> tuple:
-        self.loads.append((kind, id, jflag))
+    def load(self, id, jflag: int) -> tuple:
+        self.loads.append((id, jflag))
         sign = -1 if jflag else 1
         return tuple(
             tuple(sign * s for s in self.vector(name, values))
             for name, values in (("f", (3, -4, 12)), ("m", ("0.5", 2, -1)))
         )
 
-    def variable(self, id):
-        return self.symbol(f"variable_{id}", "1.5")
-
-    def multiplier(self, id):
-        return self.symbol(f"multiplier_{id}", "3.5")
-
-    def dif(self, id):
-        return self.symbol(f"dif_{id}", "2.5")
-
-    def dif1(self, id):
-        return self.symbol(f"dif1_{id}", "-0.5")
+    def statement(self, id) -> SimpleNamespace:
+        values = {"value": "1.5", "state": "2.5", "rate": "-0.5", "multiplier": "3.5"}
+        return SimpleNamespace(
+            **{name: self.symbol(f"{name}_{id}", value) for name, value in values.items()}
+        )
 
     def derivative(self, expr):
         return sum(

@@ -207,7 +207,7 @@ def test_components_of_a_reaction():
 def test_a_reaction_is_asked_of_its_own_statement():
     scope = SampleScope()
     FUNCTIONS["JOINT"].body(scope, 7, 1, 2, GROUND)
-    assert scope.loads == [("JOINT", 7, 1)]
+    assert scope.loads == [(7, 1)]
 
 
 def test_states():

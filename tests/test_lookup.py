@@ -177,12 +177,12 @@ def tables() -> Iterator[None]:
             return {"values": interpolant(self.x, curves, self.kind.lower(), places=self.places)}
 
     @function("TABLE1", "x:number id:table")
-    def one(scope, x, tree):
-        return lookup(scope.elements[tree[1]].values, x)
+    def one(scope, x, id):
+        return lookup(scope.statement(id).values, x)
 
     @function("TABLE2", "x:number z:number id:table")
-    def two(scope, x, z, tree):
-        return lookup_between(scope.elements[tree[1]].values, x, z)
+    def two(scope, x, z, id):
+        return lookup_between(scope.statement(id).values, x, z)
 
     yield
     for name in ("TABLE1", "TABLE2"):

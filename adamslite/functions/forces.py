@@ -28,7 +28,7 @@ def measured(name: str, what: str, keyword: str = "") -> None:
     """Register the function that measures ``what`` of the statements ``keyword`` (or ``name``)."""
 
     def measuring(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
-        return component(scope, name, id, jflag, comp, rm)
+        return component(scope, id, jflag, comp, rm)
 
     MEASURES[keyword or name] = name
     measuring.__doc__ = f"""Component comp of {what} {name} id, on marker I (jflag 0) or J (1).
@@ -42,9 +42,9 @@ def measured(name: str, what: str, keyword: str = "") -> None:
     )(measuring)
 
 
-def component(scope: Scope, name: str, id: Any, jflag: int, comp: int, rm: Any) -> Any:
+def component(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
     """One component of the force or torque of an element."""
-    vector = scope.load(name, id, jflag)[(comp - 1) // 4]
+    vector = scope.load(id, jflag)[(comp - 1) // 4]
     axis = (comp - 1) % 4
     return dot(vector, scope.axes(rm)[axis - 1]) if axis else norm(vector)
 
@@ -85,7 +85,7 @@ def gcon(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
     FUNCTION.
     Source: Adams/Solver C++ function GCON; the sign of L is that of this definition.
     """
-    return component(scope, "GCON", id, jflag, comp, rm) if comp else -scope.multiplier(id)
+    return component(scope, id, jflag, comp, rm) if comp else -scope.statement(id).multiplier
 
 
 measured("JOINT", "the reaction of")

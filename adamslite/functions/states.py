@@ -14,7 +14,7 @@ def varval(scope: Scope, id: Any) -> Any:
 
     Unit: that of the variable.  Source: Adams/Solver function VARVAL.
     """
-    return scope.variable(id)
+    return scope.statement(id).value
 
 
 @function("DIF", "id:diff")
@@ -23,7 +23,7 @@ def dif(scope: Scope, id: Any) -> Any:
 
     Unit: that of the state.  Source: Adams/Solver function DIF.
     """
-    return scope.dif(id)
+    return scope.statement(id).state
 
 
 @function("DIF1", "id:diff")
@@ -32,7 +32,7 @@ def dif1(scope: Scope, id: Any) -> Any:
 
     Unit: that of the state, per time.  Source: Adams/Solver function DIF1.
     """
-    return scope.dif1(id)
+    return scope.statement(id).rate
 
 
 @function("DDT", "id:variable")
@@ -41,4 +41,4 @@ def ddt(scope: Scope, id: Any) -> Any:
 
     Unit: that of the variable, per time.  Source: an extension; the meaning of VARVAL(d(id)/dt).
     """
-    return scope.derivative(scope.variable(id))
+    return scope.derivative(scope.statement(id).value)

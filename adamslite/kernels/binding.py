@@ -10,8 +10,8 @@ A bound tree is one of
     ("p", n) parameter    ("c", value) constant of the shape    ("t",) ("mode",)    ("m", frame)
     ("o", op, args)       ("f", function, args)    ("s", keyword, arguments) another statement
     ("v", trees)          ("z", node, component) unknown
-    ("dif", node)         ("sig", n, order) time-only variable  ("e", n) element    ("d", tree)
-    ("tab", n) table
+    ("dif", node)         ("dif1", node)         ("sig", n, order) time-only variable
+    ("e", n) element whose load is measured      ("tab", n) table
 """
 
 from __future__ import annotations
@@ -205,7 +205,8 @@ class Binder:
             node.name == "GCON" and not node.args[2].value
         ):  # its multiplier, and nothing of its kind
             strength = ("z", self.node_slot(("GCON", node.args[0].id)), 0)
-            return ("f", "GCON", (strength, ("c", 0), ("c", 0), self.marker(0)))
+            own = ("s", "GCON", (("multiplier", strength),))
+            return ("f", "GCON", (own, ("c", 0), ("c", 0), self.marker(0)))
         before = self.takes_rates
         self.takes_rates = before or node.name == "DDT"
         taken = tuple([self._taken(function, n, a) for n, a in enumerate(node.args)])
@@ -228,9 +229,10 @@ class Binder:
         if ref.kind == "MARKER":
             return self.marker(ref.id)
         if ref.kind == "VARIABLE":
-            return self.variable(ref.id)
+            return ("s", "VARIABLE", (("value", self.variable(ref.id)),))
         if ref.kind == "DIFF":
-            return ("dif", self.node_slot(("DIFF", ref.id)))
+            node = self.node_slot(("DIFF", ref.id))
+            return ("s", "DIFF", (("state", ("dif", node)), ("rate", ("dif1", node))))
         return self.element(ref)
 
     def variable(self, variable_id: Any) -> Tree:

@@ -49,27 +49,25 @@ class ExpressionReader:
                 return number
             case ("v", trees):
                 return tuple(self(t) for t in trees)
+            case ("e", number):
+                return scope.elements[number]
             case ("s", keyword, fields):
                 return View(STATEMENTS[keyword], {name: self(t) for name, t in fields}, [])
-            case ("z", node, component):
-                return scope.symbol("z", self.n_bodies + node, component)
+            case ("z" | "dif" | "dif1", node, *component):
+                return scope.symbol(tree[0], self.n_bodies + node, *component)
             case ("o", op, args):
                 return self._operation(op, [self(t) for t in args])
         return self._call(tree)
 
     def _call(self, tree: Tree) -> Any:
+        """A call of a deck function, which gets ids as they are bound: see Scope.statement."""
         function = FUNCTIONS[tree[1]]
-        args = []
-        for n, arg in enumerate(tree[2]):
-            statement = function.parameter(n).statement
-            if statement is None or statement == "MARKER":
-                args.append(self(arg))
-            else:
-                args.append(self._shifted(arg))
+        kinds = [function.parameter(n).statement for n in range(len(tree[2]))]
+        args = [
+            self(arg) if kind in (None, "MARKER") else arg
+            for arg, kind in zip(tree[2], kinds, strict=True)
+        ]
         return function.body(self.scope, *args)
-
-    def _shifted(self, arg: Tree) -> Tree:
-        return ("dif", self.n_bodies + arg[1]) if arg[0] == "dif" else arg
 
     def _operation(self, op: str, args: list[Any]) -> Any:
         from adamslite.symbolic.sympy_nodes import power

@@ -207,28 +207,17 @@ class Scope:
         if expr not in self.limits:
             self.limits.append(expr)
 
-    def variable(self, tree: Any) -> Any:
-        """Value of a VARIABLE, given as its bound tree."""
-        return self.read(tree)
+    def statement(self, id: Any) -> Any:
+        """The statement that an ``id`` argument of a function means, as its physics sees it.
 
-    def multiplier(self, tree: Any) -> Any:
-        """Multiplier of a GCON, given as its bound tree."""
-        return self.read(tree)
+        It has the arguments of the statement and what it derives, as in its own methods. Of a
+        VARIABLE it has the ``value`` alone, of a DIFF the ``state`` and its ``rate``.
+        """
+        return self.read(id)
 
-    def dif(self, tree: tuple) -> Any:
-        """State of a DIFF."""
-        return self.symbol("dif", tree[1])
-
-    def dif1(self, tree: tuple) -> Any:
-        """Time derivative of the state of a DIFF."""
-        return self.symbol("dif1", tree[1])
-
-    def load(self, kind: str, tree: tuple, jflag: int) -> tuple[Vector, Vector]:
+    def load(self, id: Any, jflag: int) -> tuple[Vector, Vector]:
         """Force and torque of an element on marker I (``jflag`` 0) or J (1), in ground axes."""
-        return self.net_load(self.elements[tree[1]], jflag)
-
-    def net_load(self, view: Any, jflag: int) -> tuple[Vector, Vector]:
-        """What an element, seen as a view, does to its marker I or J."""
+        view = self.statement(id)
         end, against = view.side(jflag)
         force, torque = ZERO, ZERO
         for load in view.own_loads(self):
