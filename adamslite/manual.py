@@ -1,7 +1,8 @@
-"""The manual, written by the registers it describes: statements, functions, messages, outcomes.
+"""The manual, written by the registers that it describes.
 
-A page is Markdown that reads as well in a terminal.  `adamslite help NAME` prints one; the files in
-docs/ are all of them together.
+They hold statements, functions, messages, outcomes, integrators and formats of result files. A page
+is Markdown that reads as well in a terminal. `adamslite help NAME` prints one; the files in docs/
+are all of them together.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from adamslite.language.integrator_arguments import FAMILIES, USES
 from adamslite.language.messages import MESSAGES, did_you_mean
 from adamslite.language.messages.entry import Message
 from adamslite.language.statement import STATEMENTS, Argument, Statement
+from adamslite.results.formats import formats
 from adamslite.results.outcomes import Outcome
 
 HEAD = "<!-- Written by docs/generate.py from the program itself: do not edit. -->\n"
@@ -36,10 +38,15 @@ MESSAGES_INTRO = """# Messages
 Every message about a deck, each with the smallest deck that causes it: statements added to a
 correct deck, or a whole deck where they begin with a title. Words in braces are filled in.
 """
-INTEGRATORS_INTRO = """# Arguments of INTEGRATOR
+INTEGRATORS_INTRO = """# Integrators and the arguments of INTEGRATOR
 
 What each argument does with each method. Where it has no effect, `check` and the comments of the
 results report that; the reason is given in brackets.
+"""
+FORMATS_INTRO = """# Formats of result files
+
+The suffix of a name decides: `adamslite solve DECK -o NAME.csv`. What can be read can be compared:
+`adamslite diff A B`.
 """
 OUTCOMES_INTRO = """## How a run can end
 
@@ -82,12 +89,25 @@ def integrator_arguments() -> str:
     return "\n".join([HEAD, INTEGRATORS_INTRO, table(head, rows)])
 
 
+def result_formats() -> str:
+    """The page of the formats of result files: docs/formats.md."""
+    rows = [
+        (f"`{suffix}`", each.what, "written, read" if each.read else "written")
+        for suffix, each in sorted(formats().items())
+    ]
+    return "\n".join([HEAD, FORMATS_INTRO, table(("suffix", "content", "can be"), rows)])
+
+
+#: Pages of registers that are looked up as a whole.
+TOPICS = {"INTEGRATORS": integrator_arguments, "FORMATS": result_formats}
+
+
 def _use(text: str) -> str:
     return f"({text[1:]})" if text.startswith("-") else text
 
 
 def pages(name: str) -> str:
-    """Everything of this name: a statement, a function, a message.
+    """Everything of this name: a statement, a function, a message, a topic.
 
     Raises
     ------
@@ -100,11 +120,12 @@ def pages(name: str) -> str:
             (STATEMENTS, name.upper(), statement),
             (FUNCTIONS, name.upper(), function),
             (MESSAGES, name.lower(), lambda each: message(name.lower(), each)),
+            (TOPICS, name.upper(), lambda page: page().removeprefix(HEAD).lstrip()),
         )
         if key in register
     ]
     if not found:
-        names = [*STATEMENTS, *FUNCTIONS, *MESSAGES]
+        names = [*STATEMENTS, *FUNCTIONS, *MESSAGES, *TOPICS]
         longer = [each for each in names if each.startswith(name.upper())]
         hint = did_you_mean(name, names) if len(longer) != 1 else f"did you mean {longer[0]}?"
         raise UsageError(f"there is no statement, function or message '{name}'; {hint or LISTED}")
@@ -116,6 +137,7 @@ def contents() -> str:
     titles = [sys.modules[cls.__module__].__doc__ for cls in STATEMENTS.values()]
     lines = ["Statements", *(f"  {_heading(title)}" for title in sorted(titles)), "", "Functions"]
     lines += [f"  {each.usage}: {_heading(each.doc)}" for each in FUNCTIONS.values()]
+    lines += ["", "Topics", *(f"  {name}" for name in TOPICS)]
     return "\n".join(lines) + "\n"
 
 

@@ -12,6 +12,7 @@ PAGES = {
     "functions.md": manual.deck_functions,
     "messages.md": manual.messages,
     "integrators.md": manual.integrator_arguments,
+    "formats.md": manual.result_formats,
 }
 
 

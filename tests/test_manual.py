@@ -30,11 +30,13 @@ def test_every_argument_of_a_statement_is_on_its_page(keyword: str) -> None:
         assert all(key in page for key in argument.keys)
 
 
-@pytest.mark.parametrize("register", [STATEMENTS, FUNCTIONS, MESSAGES], ids=["st", "fn", "msg"])
+@pytest.mark.parametrize(
+    "register", [STATEMENTS, FUNCTIONS, MESSAGES, manual.TOPICS], ids=["st", "fn", "msg", "topic"]
+)
 def test_help_knows_every_name(register: dict, capsys: pytest.CaptureFixture[str]) -> None:
     for name in register:
         assert main.main(["help", name.lower()]) == 0
-        assert name in capsys.readouterr().out
+        assert name.casefold() in capsys.readouterr().out.casefold()
 
 
 def test_a_name_may_be_a_statement_and_a_function() -> None:

@@ -139,4 +139,9 @@ def _first_fault(lines: list[str], start: int, width: int, path: str | Path) -> 
     return f"{path}: the table has an empty cell"
 
 
-register_format(".csv", write, read)
+register_format(
+    ".csv",
+    "a table: comment lines, a row of names, then a row of numbers with all digits per time",
+    write,
+    read,
+)

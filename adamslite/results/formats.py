@@ -2,9 +2,12 @@
 
 A module of :mod:`adamslite.outputs` registers one with a call at its end::
 
-    register_format(".csv", write, read)
+    register_format(".csv", "what such a file holds, in a sentence", write, read)
 
 with ``write(results, path)``, and ``read(path)`` that returns results if the format can be read.
+``write`` leaves the results as they are, and writes whole files or none
+(:mod:`adamslite.outputs.whole_files`); tests/test_formats.py checks every format that is
+registered.
 """
 
 from __future__ import annotations
@@ -24,9 +27,10 @@ DEFAULT = ".csv"
 
 @dataclass(frozen=True)
 class Format:
-    """How files of one suffix are written and read."""
+    """How files of one suffix are written and read, and a sentence about what they hold."""
 
     suffix: str
+    what: str
     write: Callable[[Any, str | Path], None]
     read: Callable[[str | Path], Any] | None = None
 
@@ -36,11 +40,14 @@ _FORMATS: dict[str, Format] = {}
 
 def register_format(
     suffix: str,
+    what: str,
     write: Callable[[Any, str | Path], None],
     read: Callable[[str | Path], Any] | None = None,
 ) -> None:
-    """Enter the format of a suffix, which begins with a dot."""
-    _FORMATS[suffix] = Format(suffix, write, read)
+    """Enter the format of a suffix, which begins with a dot and is in lower case."""
+    if suffix in _FORMATS:
+        raise ValueError(f"format {suffix} is registered twice")
+    _FORMATS[suffix] = Format(suffix, what, write, read)
 
 
 @cache

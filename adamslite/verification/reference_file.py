@@ -21,6 +21,7 @@ from typing import Any
 from adamslite.errors import FormatError, UsageError
 from adamslite.outputs import csv
 from adamslite.results.comparison import INTERPOLATIONS, Comparison, Tolerance, compare, fits
+from adamslite.results.formats import format_of
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.run_flags import parse_flags
@@ -90,13 +91,15 @@ class Reference:
 
 
 def read_reference(path: str | Path) -> Reference:
-    """Read a reference (or any result) file.
+    """Read a reference, or any result file; only tables (.csv) contain instructions.
 
     Raises
     ------
     FormatError
         When the table or an instruction cannot be understood; says file, line and why.
     """
+    if format_of(path, to_read=True).suffix != ".csv":
+        return Reference(path=Path(path), table=Results.load(path))
     table = csv.read_table(path)
     reference = Reference(path=Path(path), table=table.results)
     for line, comment in table.comments:

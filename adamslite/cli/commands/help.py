@@ -1,6 +1,6 @@
 """what a statement, a function or a message means
 
-Without a name it lists what there is.
+Without a name it lists what there is; `integrators` and `formats` print those there are.
 """
 
 import argparse

@@ -2,9 +2,9 @@
 
 How long to run: --end, else SIMULATE in COMMANDS.acf, else in the .acf of the deck's name beside
 the deck, else in the deck itself. The results go to DECK's name with .csv in the current directory,
-or to OUT; `-o -` writes them to standard output. Beside it LINEAR/EIGENSOL writes OUT.modes.csv,
-LINEAR/STATEMAT its FILE or OUT.states.json (matrices A, B, C, D). All the command says goes to
-standard error.
+or to OUT, in the format of its suffix (`adamslite help formats` lists them); `-o -` writes a table
+to standard output. Beside it LINEAR/EIGENSOL writes OUT.modes.csv, LINEAR/STATEMAT its FILE or
+OUT.states.json (matrices A, B, C, D). All the command says goes to standard error.
 """
 
 import argparse
@@ -49,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite solve`."""
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
     parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
-    parser.add_argument("-o", "--output", metavar="OUT.csv", help="result file, or - for stdout")
+    parser.add_argument("-o", "--output", metavar="OUT", help="result file, or - for stdout")
     add_run_flags(parser)
     talk = parser.add_argument_group("talk")
     talk.add_argument("--quiet", action="store_true", help="say nothing unless something is wrong")
