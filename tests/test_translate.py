@@ -576,5 +576,5 @@ def test_unsupported_python_is_refused_by_name(function):
 
 
 def test_a_name_is_registered_once():
-    with pytest.raises(Untranslatable, match="two native functions are called .*\.factor"):
+    with pytest.raises(Untranslatable, match=r"two native functions are called .*\.factor"):
         native(blocks.factor)
