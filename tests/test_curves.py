@@ -68,3 +68,12 @@ def test_the_nearest_point_is_found_on_long_and_short_pieces() -> None:
     curve = through(np.column_stack([x, 0 * x, 0 * x]), False)
     for at in (0.0005, 0.7, 3.0, 8.9, 9.5, -0.2):
         assert curve.nearest(np.array([at, 0.3, 0.0])) == pytest.approx(at / 9.0, abs=1e-12)
+
+
+def test_a_seam_is_closed_where_the_points_leave_it_open_by_round_off() -> None:
+    points = circle(12)
+    points[-1] = [1.0, 1e-8, 0.0]
+    s = np.array([0.0, 1.0])
+    first, last = through(points, True).table.at(s)
+    assert np.array_equal(first, [1.0, 0.0, 0.0])
+    assert last == pytest.approx(first, abs=1e-15)

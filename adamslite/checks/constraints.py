@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import dist
+from operator import ne
 
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
@@ -13,6 +15,8 @@ from adamslite.language.statement import STATEMENTS, Statement
 
 POINT = "POINT_MASS"
 TURNING = ("ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR")
+# The order of a curve, and the share of its size that a closed one may be open by.
+CUBIC, SEAM = 4, 1e-6
 SIZES = {"SCREW": "pitch", "RACKPIN": "pd"}
 # Freedoms of marker I seen from J that a joint already holds.
 HELD = {
@@ -192,19 +196,39 @@ def motion_starts(deck: Deck) -> Iterator[Diagnostic]:
                 yield say(motion, "no-effect", field, word=field.upper(), reason=reason)
 
 
-def curves(deck: Deck) -> Iterator[Diagnostic]:
+def matrices(deck: Deck) -> Iterator[Diagnostic]:
     for matrix in deck.of("MATRIX"):
         count, expected = len(matrix.values), matrix.rows * matrix.columns
         if count != expected:
             yield say(matrix, "matrix-size", "values", count=count, expected=expected)
+
+
+def curves(deck: Deck) -> Iterator[Diagnostic]:
     for curve in deck.of("CURVE"):
+        if curve.order != CUBIC:
+            yield say(curve, "curve-order", "order", order=curve.order)
         if curve.matrix is None:
             yield say(curve, "missing-argument", word="MATRIX")
             continue
         matrix = deck.find("MATRIX", curve.matrix)
-        least = 4 if curve.form == "CLOSED" else 2
-        if matrix and (matrix.columns != 3 or matrix.rows < least):
-            yield say(curve, "curve-points", "matrix", matrix=matrix.label, least=least)
+        if matrix and len(matrix.values) == matrix.rows * matrix.columns:
+            yield from _points(curve, matrix)
+
+
+def _points(curve: Statement, matrix: Statement) -> Iterator[Diagnostic]:
+    """Whether the points are enough, and whether a closed curve ends where it begins."""
+    closed = curve.form == "CLOSED"
+    points, least = matrix.table, 4 if closed else 2
+    different = 1 + sum(map(ne, points, points[1:]))
+    if matrix.columns != 3 or different < least:
+        yield say(curve, "curve-points", "matrix", matrix=matrix.label, least=least)
+    elif closed:
+        gap = dist(points[0], points[-1])
+        if gap > SEAM * max(dist(points[0], point) for point in points):
+            yield say(curve, "curve-open", "matrix", matrix=matrix.label, gap=f"{gap:.3g}")
+
+
+def floating_markers(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.of("PTCV"):
         floats, lies = _owner(deck, each.jfloat), _owner(deck, each.j)
         if floats and lies and floats != lies:
@@ -213,7 +237,9 @@ def curves(deck: Deck) -> Iterator[Diagnostic]:
 
 
 CONSTRAINT_RULES: list[Rule] = [
+    matrices,
     curves,
+    floating_markers,
     pairs,
     joint_sizes,
     couplers,

@@ -58,11 +58,25 @@ CONSTRAINTS: dict[str, Message] = {
     ),
     "curve-points": Message(
         "{label} cannot pass through the points of {matrix}",
-        "its rows are points x, y, z; at least {least} of them",
+        "its rows are points x, y, z; at least {least}, each different from the one before",
         (
+            "MATRIX/1, ROWS=2, COLUMNS=3, VALUES=1,2,3,1,2,3\nCURVE/1, OPEN, MATRIX=1",
             "MATRIX/1, ROWS=2, COLUMNS=2, VALUES=1,2,3,4\nCURVE/1, OPEN, MATRIX=1",
             "MATRIX/1, ROWS=2, COLUMNS=3, VALUES=1,2,3,1,2,3\nCURVE/1, CLOSED, MATRIX=1",
         ),
+    ),
+    "curve-open": Message(
+        "{label} is CLOSED, and the last point of {matrix} is {gap} away from the first one",
+        "repeat the first point as the last row",
+        (
+            "MATRIX/1, ROWS=4, COLUMNS=3, VALUES=1,0,0,0,1,0,-1,0,0,0,-1,0\n"
+            "CURVE/1, CLOSED, MATRIX=1",
+        ),
+    ),
+    "curve-order": Message(
+        "{label} has ORDER={order}; curves can only be of order 4",
+        "of order 4 are pieces of degree 3, with continuous slopes and bends",
+        (LINE + "CURVE/2, OPEN, MATRIX=1, ORDER=2",),
     ),
     "motion-nowhere": Message(
         "{label} does not specify what it drives",
