@@ -26,7 +26,7 @@ sys.path.append(str(find("decks") / "cables"))
 #: Modules of tests in which no number is computed that a processor could round otherwise.
 TEXTUAL = {
     "test_cable_messages", "test_chart", "test_commands", "test_compare", "test_deck",
-    "test_doubts", "test_lexical", "test_lowering", "test_manual", "test_messages",
+    "test_doubts", "test_lexical", "test_lowering", "test_manual", "test_messages", "test_pages",
     "test_reference", "test_results", "test_statement", "test_style",
 }  # fmt: skip
 
