@@ -11,7 +11,7 @@ import adamslite as al
 from adamslite.equations import operations
 from adamslite.equations.engine import INTEGRATORS
 from adamslite.equations.system import System
-from adamslite.integrators import contract, motion_equations
+from adamslite.integrators import motion_equations
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.kernels.compile import Kernels
 from adamslite.native import compiler
@@ -161,7 +161,7 @@ def random_state(scene: System, seed: int = 1) -> None:
     scene.q[:n] += 0.3 * some.standard_normal(n)
     for array in (scene.u, scene.a, scene.z, scene.rd):
         array[:] = some.standard_normal(array.size)
-    scene.settings[contract.T] = 0.3
+    scene.settings.t = 0.3
     settle(scene)
 
 

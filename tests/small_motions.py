@@ -22,7 +22,6 @@ from scipy.spatial.transform import Rotation
 from adamslite.analyses.dynamic import run_dynamic
 from adamslite.analyses.initial.conditions import initial_conditions, move
 from adamslite.analyses.session import Session
-from adamslite.integrators import contract
 from adamslite.model.model import PART
 from adamslite.results.outcomes import Outcome
 
@@ -68,7 +67,7 @@ class Flow:
         for name, values in self.start.items():
             getattr(system, name)[:] = values
         self._count_anew()
-        system.settings[contract.T] = t
+        system.settings.t = t
         move(system, -change[:n])
         system.u[:n] += change[n : 2 * n] * 5.0
         first = system.m + system.nv

@@ -12,7 +12,6 @@ from scenes import GROUND, PENDULUM, SPRING, chain, options, run
 
 from adamslite.cli.main import main
 from adamslite.equations.system import System
-from adamslite.integrators import contract
 from adamslite.results.results import Results
 
 METHODS = ("GSTIFF", "GSTIFF I3", "HHT", "RADAU", "RKF45")
@@ -80,7 +79,7 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
     def without_watch(system: System) -> None:
         tables(system)
-        system.sizes[contract.WATCHED] = system.sizes[contract.ZONES] = 0
+        system.sizes.watched = system.sizes.zones = 0
 
     monkeypatch.setattr(System, "_tables", without_watch)
     yield

@@ -106,7 +106,7 @@ def test_ordinary_expressions_leave_the_steps_alone():
 
 def test_paces_begin_before_the_pulse_and_end_behind_it():
     table = _table("EXP(-((TIME-5.03)/1E-5)**2)", 10)
-    when, longest, fence = table.paces.reshape(-1, contract.PACE).T
+    when, longest, fence = table.paces.reshape(-1, contract.Pace.slots).T
     shortest = np.flatnonzero(longest == longest.min())
     assert when[shortest[0]] < 5.03 - 3e-5
     assert when[shortest[-1] + 1] > 5.03 + 3e-5

@@ -7,7 +7,7 @@ import pytest
 from scenes import GROUND, done
 
 from adamslite.integrators.bdf import order_cap
-from adamslite.integrators.bdf.order_cap import CAP, CAPPED, TRAVELLED, TRIES, TRYING, WATCHING
+from adamslite.integrators.bdf.order_cap import CAPPED, TRYING, WATCHING, OrderCap
 
 LENGTH, MASSES, STIFFNESS = 10.0, 20, 1e7
 
@@ -48,17 +48,17 @@ def test_a_swing_without_stiffness_keeps_its_order():
     )
 
 
-def watched(pace: float, suspicious: bool, C: np.ndarray, top: float) -> float:
+def watched(pace: float, suspicious: bool, C: OrderCap, top: float) -> float:
     """The highest order after one window of steps of this length."""
     if suspicious:
         order_cap.suspect(C, 5, 1e-4, 0.5e-4, 1e-4, order_cap.WINDOW)
-    C[TRIES], C[TRAVELLED] = order_cap.WINDOW, order_cap.WINDOW * pace
+    C.tries, C.travelled = order_cap.WINDOW, order_cap.WINDOW * pace
     return order_cap.highest_order(C, top, 5.0, 1.0)
 
 
 @pytest.fixture
-def control() -> np.ndarray:
-    C = np.zeros(32)
+def control() -> OrderCap:
+    C = OrderCap.zeros()
     order_cap.start_watch(C)
     return C
 
@@ -66,12 +66,12 @@ def control() -> np.ndarray:
 def test_a_trial_that_pays_stays_while_it_pays(control):
     assert watched(1e-4, False, control, 5.0) == 5.0
     assert watched(1e-4, True, control, 5.0) == 2.0
-    assert control[CAP] == TRYING
+    assert control.state == TRYING
     assert watched(0.5e-4, False, control, 2.0) == 2.0
     assert watched(10e-4, False, control, 2.0) == 2.0
-    assert control[CAP] == CAPPED
+    assert control.state == CAPPED
     assert watched(2e-4, False, control, 2.0) == 5.0
-    assert control[CAP] == WATCHING
+    assert control.state == WATCHING
 
 
 def test_a_trial_in_vain_is_ended_and_not_repeated_soon(control):
@@ -79,7 +79,7 @@ def test_a_trial_in_vain_is_ended_and_not_repeated_soon(control):
     assert watched(1e-4, True, control, 5.0) == 2.0
     orders = [watched(1e-4, False, control, 2.0) for _ in range(int(order_cap.TRIAL_WINDOWS))]
     assert orders[-1] == 5.0
-    assert control[CAP] == WATCHING
+    assert control.state == WATCHING
     assert watched(1e-4, True, control, 5.0) == 5.0
 
 

@@ -18,9 +18,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from adamslite.equations.engine import ints
 from adamslite.equations.system import System
-from adamslite.integrators import contract
-from adamslite.integrators.audit import path as at
 from adamslite.integrators.audit.work import POINTS, ROWS_OF_GUARDS
 from adamslite.integrators.contract import ACCELERATIONS, AUDIT
 
@@ -104,44 +103,38 @@ class Balance:
         return told
 
 
-def start_audit(system: System) -> np.ndarray:
-    """The memory of an audit, with the state at the start in it."""
+def start_audit(system: System, audited: bool) -> None:
+    """Begin a balance with the state at the start, or none."""
+    system.audit.on = False
+    if not audited:
+        return
     kept = [(name, getattr(system, name).copy()) for name in ("a", "z", "rd", "count", "report")]
-    system.audit = np.zeros(0)
     system.run(ACCELERATIONS)
-    system.audit = _memory(system)
+    _make_room(system)
     system.run(AUDIT)
     for name, values in kept:
         getattr(system, name)[:] = values
-    return system.audit
 
 
-def _memory(system: System) -> np.ndarray:
-    n, m = system.n, system.m
+def _make_room(system: System) -> None:
+    A, n, m = system.audit, system.n, system.m
     rest, guards = m + system.nv + system.ns, system.guard.size - system.nw
-    sizes = {
-        at.AT_PREVIOUS: system.W.size, at.AT_PRESENT: system.W.size, at.AT_CURVE: 6 * n,
-        at.AT_VECTORS: 2 * n + rest + system.ns,
-        at.AT_POINTS: POINTS + (ROWS_OF_GUARDS + 1) * guards, at.AT_MOVING: m,
-        at.AT_SPARE: at.HEAD + system.W.size,
-        at.AT_KEPT: system.LA.size + system.pivots_a.size + system.count.size,
-    }  # fmt: skip
-    memory = np.zeros(at.HEAD + sum(sizes.values()) + 1)
-    first = at.HEAD
-    for place, size in sizes.items():
-        memory[place], first = first, first + size
+    A.on, A.solved = True, _needs_solving(system)
+    A.elastic = any(g.face == "stored" for g in system.kernels.groups)
+    A.now[:] = A.before[:] = 0
+    A.previous, A.previous_before, A.present = (np.zeros(system.W.size) for _ in range(3))
+    A.curve, A.vectors = np.zeros(6 * n), np.zeros(2 * n + rest + system.ns)
+    A.points = np.zeros(POINTS + (ROWS_OF_GUARDS + 1) * guards)
+    A.matrix, A.pivots = np.zeros(system.LA.size), ints([0] * system.pivots_a.size)
+    A.moving = np.zeros(m)
     for node, start, width in zip(system.nodes, system.starts, system.widths, strict=True):
         if node[0] in DRIVING:
-            row = int(memory[at.AT_MOVING]) + start - n
-            memory[row : row + width] = 1.0
-    memory[at.SOLVED] = _needs_solving(system)
-    memory[at.ELASTIC_THERE] = any(g.face == "stored" for g in system.kernels.groups)
-    return memory
+            A.moving[start - n : start - n + width] = 1.0
 
 
 def _needs_solving(system: System) -> bool:
     """Whether a load depends on multipliers, variables or accelerations, or a constraint drives."""
-    if any(node[0] in DRIVING for node in system.nodes) or system.sizes[contract.IMPLICIT_MASS]:
+    if any(node[0] in DRIVING for node in system.nodes) or system.sizes.implicit_mass:
         return True
     loads = [g for g in system.kernels.groups if g.face == "loads"]
     return any(
@@ -151,23 +144,23 @@ def _needs_solving(system: System) -> bool:
 
 def balance(system: System) -> Balance:
     """What the audit of the last run found."""
-    A, steps = system.audit, int(system.count[contract.STEPS])
-    explained = CONFIDENCE * float(np.sqrt(A[at.SQUARES])) + float(A[at.QUADRATURE])
-    explained += ROUND_OFF * (steps + 1) * float(A[at.LARGEST])
+    A, steps = system.audit.now, system.count.steps
+    explained = CONFIDENCE * float(np.sqrt(A.squares)) + float(A.quadrature)
+    explained += ROUND_OFF * (steps + 1) * float(A.largest)
     return Balance(
-        gap=float(A[at.WORST]), time=float(A[at.WORST_AT]), explained=explained,
-        energy=float(A[at.LARGEST]), created=float(A[at.MOST_CREATED]),
-        created_at=float(A[at.CREATED_AT]), momenta=_momenta(system), missed=int(A[at.MISSED]),
+        gap=float(A.worst), time=float(A.worst_at), explained=explained,
+        energy=float(A.largest), created=float(A.most_created),
+        created_at=float(A.created_at), momenta=_momenta(system), missed=A.missed,
     )  # fmt: skip
 
 
 def _momenta(system: System) -> tuple[tuple[float, float], ...]:
     """Drift and explained drift of both momenta; empty when something external acts."""
-    A = system.audit
-    if system.gravity.any() or _is_held(system) or A[at.EXTERNAL] > INTERNAL:
+    A = system.audit.now
+    if system.gravity.any() or _is_held(system) or A.external > INTERNAL:
         return ()
-    pairs = ((at.DRIFT, at.PUSHES), (at.SPIN_DRIFT, at.TURNS))
-    return tuple((float(A[d]), CONFIDENCE * float(np.sqrt(A[s]))) for d, s in pairs)
+    pairs = ((A.drift, A.pushes), (A.spin_drift, A.turns))
+    return tuple((float(drift), CONFIDENCE * float(np.sqrt(s))) for drift, s in pairs)
 
 
 def _is_held(system: System) -> bool:

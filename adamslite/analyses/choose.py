@@ -79,7 +79,7 @@ def what_is_unfit(system: System, settings: Any) -> str:
         obstacle := what_ties(system) or what_turns(system) or what_changes(system, settings.error)
     ):
         return f"{obstacle}. Use ABAM (explicit) or GSTIFF (implicit)."
-    if METHODS.get(settings.method) == HHT and system.sizes[contract.M]:
+    if METHODS.get(settings.method) == HHT and system.sizes.m:
         _, beta, gamma = settings.second_order
         if echo(beta, gamma) > LOUDEST:
             return (
@@ -111,7 +111,7 @@ def what_is_solved(system: System) -> str:
     for node in system.nodes:
         if node[0] in SOLVED:
             return f"{node[0]}/{node[1]} {SOLVED[node[0]]}"
-    if system.sizes[contract.IMPLICIT_MASS]:
+    if system.sizes.implicit_mass:
         return "a force depends on accelerations"
     return ""
 
@@ -149,10 +149,10 @@ def what_changes(system: System, error: float) -> str:
 
 def fastest(system: System, time: float) -> float:
     """Largest circular frequency or rate [rad/time] of the linearised scene, damping included."""
-    system.settings[contract.T] = time
+    system.settings.t = time
     if system.run(SPECTRUM) != contract.DONE:
         return float("inf")
-    stiff, damp = (float(x) for x in system.control[:2])
+    stiff, damp = float(system.report.stiffness), float(system.report.damping)
     return max(sqrt(stiff), damp)
 
 

@@ -38,7 +38,7 @@ MOVING = 0.1
 
 
 def doubts(
-    system: Any, settings: Any, counts: np.ndarray, names: tuple[str, ...], values: np.ndarray
+    system: Any, settings: Any, counts: contract.Counts, names: tuple[str, ...], values: np.ndarray
 ) -> str:
     """What ERROR does not say about the accuracy of a run, in sentences; empty when it does.
 
@@ -46,22 +46,22 @@ def doubts(
     ----------
     system : System
         Behind the run.
-    counts : (len(base.COUNTS),)
+    counts : Counts
         Steps, restarts and the like of all of it.
     names, values
         Columns of the results.
     """
     if settings.method == CONSTANT:
         return "equal steps without error test: a run with half of HINIT tells how far off they are"
-    report, steps = system.report, int(counts[contract.STEPS])
-    shifted = 1.0 + float(counts[contract.RESTARTS]) / SHIFTED
+    report, steps = system.report, counts.steps
+    shifted = 1.0 + float(counts.restarts) / SHIFTED
     way, reach = longest_way(names, values)
-    spent = float(report[contract.SPENT]) * settings.error * shifted
+    spent = float(report.spent) * settings.error * shifted
     off = spent * max(1.0, reach)
     found = [*_of_method(settings, steps, report, off), *_added_up(settings, steps, off, way)]
     found += _of_small_states(settings, spent, names, values)
     index_3 = METHODS[settings.method] == BDF and settings.form == "I3"
-    if index_3 and system.sizes[contract.HOLONOMIC]:
+    if index_3 and system.sizes.holonomic:
         found.append("I3 does not test velocities, so that their errors add up; SI2 does")
     return "; ".join(found)
 
@@ -81,7 +81,7 @@ def longest_way(names: tuple[str, ...], values: np.ndarray) -> tuple[float, floa
 def _of_method(settings: Any, steps: int, report: np.ndarray, off: float) -> Iterator[str]:
     """What belongs to a formula."""
     kind, (alpha, _, gamma) = METHODS[settings.method], settings.second_order
-    rough, divided = int(report[contract.ROUGH_STEPS]), int(report[contract.DIVIDED])
+    rough, divided = report.rough_steps, report.divided
     if kind == HHT and abs(gamma + alpha - 0.5) > FIRST_ORDER:
         yield (
             f"with GAMMA={gamma:g} the formula is of order 1, and a run is off by the root of ERROR"
@@ -97,11 +97,11 @@ def _of_method(settings: Any, steps: int, report: np.ndarray, off: float) -> Ite
             f"steps were divided {divided} times, because the corrector did not converge with the "
             f"{settings.hinit:g} asked for: a shorter HINIT, or none, for an error test"
         )
-    most = contract.STABLE * report[contract.STABLE_STEP]
+    most = contract.STABLE * report.stable_step
     if kind == VERLET and settings.hinit and settings.hinit > most:
         yield (
             f"HINIT={settings.hinit:g} is close to the longest stable step, "
-            f"{report[contract.STABLE_STEP]:.3g} by estimate: above it vibrations grow without "
+            f"{report.stable_step:.3g} by estimate: above it vibrations grow without "
             f"bound; stay below {most:.3g}"
         )
     if kind in (HHT, VERLET) and settings.error <= FINE:

@@ -17,6 +17,7 @@ from adamslite.equations.engine import ints
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import BDF, EXPLICIT, RADAU
+from adamslite.native.translate import Rows
 from adamslite.results.outcomes import Outcome
 
 # How a run may end before a motion that jumps, or gets ever faster.
@@ -133,31 +134,30 @@ def run_dynamic(
     output_step = float(np.diff(times).max()) if len(times) > 1 else end - start
     fixed = settings.fixed_step(output_step)
     hmax = fixed or settings.hmax or output_step
-    system.settings[:8] = (
-        start, end, settings.error, hmax, settings.least_step(end, hmax),
-        settings.hinit or 0.0, settings.kmax, settings.maxit,
-    )  # fmt: skip
-    system.settings[contract.STOP] = system.report[contract.TORN] = 0.0
-    system.settings[contract.FIXED_STEP] = fixed
-    system.settings[contract.ALPHA : contract.GAMMA + 1] = settings.second_order
-    system.settings[contract.INTERPOLATE] = settings.interpolates
-    system.settings[contract.ADAPTIVITY] = settings.adaptivity
-    system.settings[contract.ALL_CONVERGE] = settings.corrector in EVERYTHING
+    asked = system.settings
+    asked.t, asked.t_end, asked.error = start, end, settings.error
+    asked.h_max, asked.h_min = hmax, settings.least_step(end, hmax)
+    asked.h_init, asked.fixed_step = settings.hinit or 0.0, fixed
+    asked.k_max, asked.max_it = settings.kmax, settings.maxit
+    asked.alpha, asked.beta, asked.gamma = settings.second_order
+    asked.interpolate, asked.adaptivity = settings.interpolates, settings.adaptivity
+    asked.all_converge = settings.corrector in EVERYTHING
+    asked.stop, system.report.torn = False, 0
     system.pattern = ints([word == "T" for word in settings.pattern])
     method = METHODS[settings.method]
     times = _scheduled(system, times, settings, hmax)
-    system.settings[contract.T_END] = end = float(system.stops[-1])
+    system.settings.t_end = end = float(system.stops[-1])
     if method == EXPLICIT:
         system.prepare_explicit(settings.scale)
     if method == RADAU:
         system.prepare_radau()
-    system.audit = start_audit(system) if audited else np.zeros(0)
+    start_audit(system, audited)
     system.start_record(times)
     code = _watched(system, method, watch, end)
     system.release_guards()
     outcome = _named(system, code)
     if system.broken and outcome in CLOSE:
-        near = system.report[contract.AT] >= system.broken.time - hmax
+        near = system.report.t >= system.broken.time - hmax
         return Outcome.BROKEN_MOTION if near else outcome
     return outcome
 
@@ -167,7 +167,7 @@ def _scheduled(system: System, times: np.ndarray, settings: Settings, hmax: floa
     clock, fine = Clock(system.kernels), not settings.tests_velocities(system.holonomic > 0)
     table = timetable(system, clock, times, hmax, fine)
     equal = settings.equal_steps(hmax)
-    system.paces = np.array(contract.NO_PACE) if equal else table.paces
+    system.paces = Rows(contract.Pace, np.array(contract.NO_PACE) if equal else table.paces)
     system.hurried += table.overfull + (table.paced if equal else [])
     system.stops = table.stops
     system.broken = first_jump(clock, table.stops, float(times[0]), settings.error)
@@ -184,16 +184,16 @@ def _named(system: System, code: int) -> Outcome:
     converge, nor an error that is too large; and no force cancels a mass where none depends on
     accelerations.
     """
-    report, cancels = system.report, bool(system.sizes[contract.IMPLICIT_MASS])
+    report, cancels = system.report, bool(system.sizes.implicit_mass)
     if code == contract.BROKEN_START or (code == contract.SINGULAR_MASS and not cancels):
         if not (np.isfinite(system.F).all() and np.isfinite(system.LA).all()):
             return Outcome.NOT_FINITE
         return Outcome.SINGULAR_ACCELERATION if cancels else Outcome.UNDETERMINED
-    if code == contract.INTERRUPTED and report[contract.TORN]:
+    if code == contract.INTERRUPTED and report.torn:
         return Outcome.TORN
-    if code == contract.NEWTON_FAILED and np.isnan(report[contract.OPEN_BY]):
+    if code == contract.NEWTON_FAILED and np.isnan(report.open_by):
         return Outcome.NOT_FINITE
-    if code == contract.STEP_TOO_SMALL and not report[contract.HOW_MUCH] < OVERFLOW:
+    if code == contract.STEP_TOO_SMALL and not report.error < OVERFLOW:
         return Outcome.NOT_FINITE
     return OUTCOMES[code]
 
@@ -208,7 +208,7 @@ def _watched(
             try:
                 wait([running], timeout=0.1)
                 if watch and not running.done():
-                    watch(float(system.report[contract.AT]), end)
+                    watch(float(system.report.t), end)
             except KeyboardInterrupt:
-                system.settings[contract.STOP] = 1.0
+                system.settings.stop = True
         return running.result()

@@ -11,7 +11,6 @@ from adamslite.equations.system import System
 from adamslite.equations.unknown_names import equation, placed, tested, unknown
 from adamslite.integrators import contract
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
-from adamslite.integrators.event_rows import CULPRIT
 from adamslite.integrators.verlet.method import LIMIT
 from adamslite.results.outcomes import Outcome
 
@@ -48,44 +47,44 @@ def _contradiction(unclosed: Any) -> str:
 def _when(system: System) -> str:
     """Time, number and size of the last step tried, its order."""
     report = system.report
-    step = int(system.count[contract.STEPS]) + 1
-    text = f"at t = {report[contract.AT]:.9g}, in step {step} of size {report[contract.STEP]:.3g}"
+    step = system.count.steps + 1
+    text = f"at t = {report.t:.9g}, in step {step} of size {report.h:.3g}"
     text += " (HMIN)" if _is_least(system) else ""
-    return text + (f" and order {report[contract.ORDER]:.0f}" if report[contract.ORDER] else "")
+    return text + (f" and order {report.order:.0f}" if report.order else "")
 
 
 def _is_least(system: System) -> bool:
     """Whether the last step tried was as small as an HMIN that was asked for."""
-    step, least = system.report[contract.STEP], system.settings[contract.H_MIN]
-    return 0.0 < step <= 1.01 * least and least > ROUND_OFF * system.settings[contract.T_END]
+    step, least = system.report.h, system.settings.h_min
+    return 0.0 < step <= 1.01 * least and least > ROUND_OFF * system.settings.t_end
 
 
 def _where(system: System) -> str:
     """Only the time, for analyses without steps."""
-    return f"at t = {system.report[contract.AT]:.9g}"
+    return f"at t = {system.report.t:.9g}"
 
 
 def _error(system: System) -> str:
     """What the error test fails for, and by how much."""
     report = system.report
-    if not report[contract.STEP]:
+    if not report.h:
         return f"{_where(system)}, HMAX is too short a step to change the time"
-    found = f"{tested(system, int(report[contract.WHERE]))}: {_when(system)}"
-    told = f"{found}, the estimated error is {report[contract.HOW_MUCH]:.3g} times ERROR"
+    found = f"{tested(system, report.where)}: {_when(system)}"
+    told = f"{found}, the estimated error is {report.error:.3g} times ERROR"
     return told + _held_up(system)
 
 
 def _corrector(system: System) -> str:
     """The equation that stays open, the unknown that moves most."""
     report = system.report
-    if not report[contract.ITERATION]:
-        where = tested(system, int(report[contract.WHERE]))
+    if not report.iteration:
+        where = tested(system, report.where)
         return f"{where}: {_when(system)}, no accelerations found"
-    open_row = equation(system, int(report[contract.OPEN_ROW]))
-    said = f"{open_row}: {_when(system)}, this equation is off by {report[contract.OPEN_BY]:.3g} "
-    said += f"after iteration {report[contract.ITERATION]:.0f}, more than all"
-    moving = unknown(system, int(report[contract.CHANGED]))
-    told = f"{said} others. {moving}, changes most, by {report[contract.CHANGE]:.3g}"
+    open_row = equation(system, report.open_row)
+    said = f"{open_row}: {_when(system)}, this equation is off by {report.open_by:.3g} "
+    said += f"after iteration {report.iteration}, more than all"
+    moving = unknown(system, report.changed)
+    told = f"{said} others. {moving}, changes most, by {report.change:.3g}"
     return told + _held_up(system)
 
 
@@ -134,10 +133,7 @@ def _acceleration_matrix(system: System) -> tuple[np.ndarray, list[int]]:
     """The matrix of accelerations, multipliers and variables where the run stands, and the numbers
     of its unknowns.
     """
-    system.coef[:5], system.settings[contract.T] = (
-        (0.0, 0.0, 1.0, 1.0, 1.0),
-        system.report[contract.AT],
-    )
+    system.coef[:5], system.settings.t = (0.0, 0.0, 1.0, 1.0, 1.0), system.report.t
     system.run(JACOBIAN, contract.ACCELERATION)
     count = system.n + system.m + system.nv + system.ns
     kept = [k for k in range(count) if k - system.n not in system.dropped]
@@ -173,10 +169,10 @@ def _not_finite(system: System) -> str:
     """
     start, report = system.q.copy(), system.report
     system.a[:], system.z[:] = 0.0, np.nan_to_num(system.z)
-    ahead = [0.0, *(report[contract.STEP] * np.exp2(range(DOUBLINGS)))]
+    ahead = [0.0, *(report.h * np.exp2(range(DOUBLINGS)))]
     far = float(np.diff(system.times).max(initial=0.0))
-    for way in (each for each in ahead if each <= max(far, report[contract.STEP])):
-        system.settings[contract.T] = report[contract.AT] + way
+    for way in (each for each in ahead if each <= max(far, report.h)):
+        system.settings.t = report.t + way
         system.q[: system.n] = start[: system.n] + way * system.u[: system.n]
         guilty = _without_value(system)
         if guilty is not None:
@@ -184,14 +180,14 @@ def _not_finite(system: System) -> str:
     system.q[:] = start
     if guilty is not None:
         return f"{placed(guilty)}: {_when(system)}"
-    told = f"{tested(system, int(report[contract.WHERE]))}: {_when(system)}"
+    told = f"{tested(system, report.where)}: {_when(system)}"
     return f"{told}, though no statement by itself lacks a value. Look at END, HMAX and ERROR too"
 
 
 def _without_value(system: System) -> Any:
     """The first statement that brings not-a-number or infinity into the equations."""
-    groups, count = system.group, system.sizes[contract.NG]
-    system.sizes[contract.NG] = 1
+    groups, count = system.group, system.sizes.ng
+    system.sizes.ng = 1
     guilty = None
     for k, group in enumerate(system.kernels.groups):
         for instance, (statement, _) in enumerate(group.instances):
@@ -199,7 +195,7 @@ def _without_value(system: System) -> Any:
             system.run(RESIDUAL, contract.ACCELERATION)
             if guilty is None and not np.isfinite(system.F[: system.nz]).all():
                 guilty = statement
-    system.group, system.sizes[contract.NG] = groups, count
+    system.group, system.sizes.ng = groups, count
     return guilty
 
 
@@ -213,13 +209,13 @@ def _static(system: System) -> str:
 
 
 def _chattering(system: System) -> str:
-    guilty = system.guarded["watch"][int(system.search[CULPRIT])][0]
+    guilty = system.guarded["watch"][system.search.culprit][0]
     return f"{placed(guilty)}: {_when(system)}"
 
 
 def _torn(system: System) -> str:
     """The row that was left out and opens."""
-    return f"{equation(system, int(system.report[contract.TORN]))}: {_where(system)}, it opens"
+    return f"{equation(system, system.report.torn)}: {_where(system)}, it opens"
 
 
 def _broken_motion(system: System) -> str:

@@ -22,15 +22,15 @@ def run_kinematic(system: System, times: np.ndarray) -> tuple[Outcome, Unclosed 
     for row, time in enumerate(times):
         if row:
             _predict(system, float(time) - float(times[row - 1]))
-        system.settings[contract.T] = time
-        system.report[contract.AT] = time
+        system.settings.t = time
+        system.report.t = time
         unclosed = initial_conditions(system)
         if unclosed:
             return unclosed.outcome, unclosed
         if system.run(ACCELERATIONS) != contract.DONE:
             return Outcome.UNDETERMINED, None
         system.run(RECORD, row)
-        system.count[contract.COUNTS.index("steps")] += row > 0
+        system.count.steps += 1 if row else 0
     return Outcome.DONE, None
 
 

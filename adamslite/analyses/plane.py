@@ -35,7 +35,7 @@ def in_its_plane(system: System, run: Callable[[], Outcome]) -> Outcome:
     before = {name: getattr(system, name).copy() for name in STATE}
     memories = [(whose, values.copy()) for whose, values in system.memories()]
     outcome = run()
-    if not system.report[contract.LEFT_PLANE]:
+    if not system.report.left_plane:
         return outcome
     for name, values in before.items():
         getattr(system, name)[:] = values
@@ -52,7 +52,7 @@ def fold(system: System) -> bool:
     turning = any(body.width == PART for body in system.model.bodies)
     if not (system.m and turning) or system.run(ACCELERATIONS) != contract.DONE:
         return False
-    system.report[contract.LEFT_PLANE] = 0.0
+    system.report.left_plane = False
     for normal in range(3):
         out = _out_of_plane(system, normal)
         if _is_still(system.u, out) and _is_still(system.a, out):

@@ -98,7 +98,7 @@ class Session:
         self.unclosed: Unclosed | None = None
         self.linearizations: list[Linearized] = []
         self.balances: list[Any] = []
-        self.counts = np.zeros(len(contract.COUNTS), dtype=np.int64)
+        self.counts = contract.Counts.zeros()
         self.ways_to_fall = 0
         self.out_of_law: dict[str, str] = {}
         self.assembled: list[str] = []
@@ -191,13 +191,13 @@ class Session:
                 self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
                 return
         self.chosen = choose(system, times, self.settings)
-        if system.sizes[contract.SI2] and system.holonomic and self.chosen.settings.form != "SI2":
+        if system.sizes.si2 and system.holonomic and self.chosen.settings.form != "SI2":
             system = self._system = self._renumbered(system, system.pivoting)
         began = clock.process_time()
         engine(METHODS[self.chosen.settings.method], self.progress)
         self.late_setup += clock.process_time() - began
         self.outcome = self._integrated(times)
-        self.time = float(system.report[contract.AT])
+        self.time = float(system.report.t)
         self._keep(times, False)
         if self.outcome in STALLED and self._rank_changed():
             self._continue(times)
@@ -234,7 +234,7 @@ class Session:
             self._system, rest, self.chosen.settings, self.progress, self.audited
         )
         self._note_balance()
-        self.time = float(self._system.report[contract.AT])
+        self.time = float(self._system.report.t)
         self._keep(rest, False, own_start=False)
 
     def _statics(self, times: np.ndarray) -> None:
@@ -242,11 +242,11 @@ class Session:
         for time in times if len(times) > 1 else [self.time]:
             if self.outcome is not Outcome.DONE:
                 return
-            system.settings[contract.T] = time
+            system.settings.t = time
             system.start_record(np.array([time]))
             self.outcome = self._at_rest(system)
             self.time = float(time)
-            system.report[contract.AT] = time
+            system.report.t = time
             if self.outcome is Outcome.DONE:
                 system.run(RECORD, 0)
                 self._keep(np.array([time]), True)
@@ -257,7 +257,7 @@ class Session:
             self.outcome = Outcome.NOT_KINEMATIC
             return
         self.outcome, self.unclosed = run_kinematic(system, times)
-        self.time = float(system.report[contract.AT])
+        self.time = float(system.report.t)
         self._keep(times, False)
 
     def _initial(self, times: np.ndarray) -> None:
@@ -265,7 +265,7 @@ class Session:
 
     def _kinematics_free(self, system: System) -> None:
         """Record the assembled state with its accelerations."""
-        system.settings[contract.T] = self.time
+        system.settings.t = self.time
         system.start_record(np.array([self.time]))
         if system.run(ACCELERATIONS) != contract.DONE:
             self.outcome = Outcome.UNDETERMINED
@@ -289,7 +289,7 @@ class Session:
         with uncollected():
             stabilised = (form or self.settings.form) == "SI2"
             system = System(self.kernels, stabilised, pivoting)
-        system.settings[contract.T] = self.time
+        system.settings.t = self.time
         return system
 
     def _is_driven(self) -> bool:
@@ -297,7 +297,7 @@ class Session:
         self._system.broken = without_value(Clock(self.kernels), self.time)
         if self._system.broken:
             self.outcome = Outcome.BROKEN_MOTION
-            self._system.report[contract.AT] = self.time
+            self._system.report.t = self.time
         return self._system.broken is None
 
     def _assemble(self) -> None:
@@ -312,7 +312,7 @@ class Session:
             self.speeds = system.changed_speeds()
         settle_variables(system)
         leave_out_redundant(system)
-        system.settings[contract.T] = self.time
+        system.settings.t = self.time
         small = system.nz <= PIVOTING and not system.pivoting
         if small and system.run(ACCELERATIONS) != contract.DONE and np.isfinite(system.F).all():
             self._system = self._renumbered(system, True)
@@ -334,16 +334,16 @@ class Session:
         """
         start = [(x, x.copy()) for x in (system.q, system.z, system.base)]
         outcome = run_static(system, self.statics)
-        self.ways_to_fall = int(system.report[contract.WAYS_TO_FALL])
+        self.ways_to_fall = system.report.ways_to_fall
         if outcome is Outcome.DONE or system.pivoting or system.nz > PIVOTING:
             return outcome
         for array, before in start:
             array[:] = before
         spare = self._renumbered(system, True)
         outcome = run_static(spare, self.statics)
-        self.ways_to_fall = int(spare.report[contract.WAYS_TO_FALL])
+        self.ways_to_fall = spare.report.ways_to_fall
         system.adopt(spare)
-        system.count += spare.count
+        system.count.add(spare.count)
         return outcome
 
     def _keep(self, times: np.ndarray, static: bool, own_start: bool = True) -> None:
@@ -353,8 +353,8 @@ class Session:
         """
         system = self._system
         self.out_of_law = system.out_of_law() | self.out_of_law
-        made = int(system.count[contract.RECORDS])
-        row = system.nw + int(system.sizes[contract.N_OUT])
+        made = system.count.records
+        row = system.nw + system.sizes.n_out
         self.names, values = columns(system, system.record[: made * row].reshape(made, row))
         times = times[:made].copy()
         if not own_start:
@@ -368,7 +368,7 @@ class Session:
                 times, values = times[1:], values[1:]
         self._began_static = static
         self.pieces.append((times, values))
-        self.counts += system.count
+        self.counts.add(system.count)
 
 
 def _updated(settings: Any, command: Any) -> Any:

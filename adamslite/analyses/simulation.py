@@ -19,7 +19,6 @@ from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
 from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
-from adamslite.integrators import contract
 from adamslite.kernels.compile import Kernels
 from adamslite.language.integrator_arguments import without_effect
 from adamslite.language.messages import did_you_mean
@@ -214,11 +213,11 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
     values = (
         np.concatenate([v for _, v in session.pieces]) if session.pieces else np.zeros((0, width))
     )
-    counts = dict(zip(contract.COUNTS, map(int, session.counts), strict=True))
+    counts = session.counts.values()
     summary = {
         "outcome": session.outcome.name, "t_end": session.time, "dof": system.dof,
         **{name: counts[name] for name in COUNTED}, "setup_cpu_s": cpu[0], "solve_cpu_s": cpu[1],
-        "max_violation": float(system.report[contract.VIOLATION]),
+        "max_violation": float(system.report.violation),
     }  # fmt: skip
     if session.balances:
         worst = _worst(session.balances)
@@ -284,11 +283,11 @@ def _notes(session: Session) -> dict[str, str]:
     if session.ways_to_fall:
         ways = "one way" if session.ways_to_fall == 1 else f"{session.ways_to_fall} ways"
         found["equilibrium"] = f"unstable in {ways}: the least disturbance makes it leave"
-    if session.system.report[contract.ORDER_CAPPED]:
+    if session.system.report.order_capped:
         found["order"] = CAPPED
     if session.balances:
         found["energy"] = str(_worst(session.balances))
-    steps = int(session.counts[contract.STEPS])
+    steps = session.counts.steps
     if steps and (doubt := _doubt(session)):
         found["accuracy"] = doubt
     told = {each.model.note: each.time for each in reversed(session.linearizations)}

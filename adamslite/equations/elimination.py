@@ -10,6 +10,7 @@ from adamslite.equations.elimination_order import analyse
 from adamslite.equations.engine import ints
 from adamslite.equations.instances import Instances
 from adamslite.equations.spanning_tree import prerequisites
+from adamslite.integrators.motion_equations import WORK
 from adamslite.kernels.compile import Kernels
 from adamslite.model.model import PART
 
@@ -113,7 +114,7 @@ class Elimination(Instances):
         )
         self.LV, self.LA = np.zeros(found.size + 1), np.zeros(found.size + 1)
         self.pivots, self.pivots_a = ints([0] * (self.nz + 1)), ints([0] * (self.nz + 1))
-        self.work = np.zeros(max(80, found.widest**2))
+        self.work = np.zeros(max(WORK, found.widest**2))
         self.parts = np.zeros(1)  # those of RADAU are made for the new plan when it needs them
 
     def _places(self, place: np.ndarray) -> np.ndarray:

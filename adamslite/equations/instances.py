@@ -11,8 +11,10 @@ import numpy as np
 from adamslite.equations.engine import ints
 from adamslite.equations.numbering import Numbering
 from adamslite.integrators import contract
+from adamslite.integrators.contract import KernelGroup
 from adamslite.kernels.binding import Binding
 from adamslite.kernels.compile import Group, Kernels
+from adamslite.native.translate import Rows
 
 PHASES = {
     "loads": contract.LOADS,
@@ -46,7 +48,7 @@ class Instances(Numbering):
             self.out_at[statement] = self._out_next(names)
         for group in self.kernels.groups:
             rows += self._group(group)
-        self.group = ints(rows)
+        self.group = Rows(KernelGroup, ints(rows))
 
     def _out_next(self, names: tuple[str, ...]) -> int:
         first = getattr(self, "n_out", 0)
@@ -76,16 +78,15 @@ class Instances(Numbering):
         data = [len(group.instances), ints.ctypes.data, reals.ctypes.data]
         return [phase, *entry[:3], *data, *entry[3:]]
 
-    def one_instance(self, groups: np.ndarray, k: int, instance: int) -> np.ndarray:
+    def one_instance(self, groups: Rows[KernelGroup], k: int, instance: int) -> Rows[KernelGroup]:
         """The row of ``groups`` of group ``k``, with one of its instances only."""
-        row, count = (
-            groups[contract.GROUP * k : contract.GROUP * (k + 1)].copy(),
-            groups[contract.GROUP * k + 4],
-        )
+        row = Rows(KernelGroup, 1)
+        one, count = row[0], groups[k].count
+        one[:] = groups[k]
         of_ints, of_reals = self.keep[2 * k].size, self.keep[2 * k + 1].size - 1
-        row[4] = 1
-        row[5] += 8 * instance * (of_ints // count)
-        row[6] += 8 * instance * (of_reals // count)
+        one.count = 1
+        one.ints += 8 * instance * (of_ints // count)
+        one.reals += 8 * instance * (of_reals // count)
         return row
 
     def memories(self) -> Iterator[tuple[tuple[Any, ...], np.ndarray]]:

@@ -16,7 +16,6 @@ from adamslite.integrators.contract import (
     RESIDUAL,
     SPECTRUM,
     Problem,
-    T,
 )
 from adamslite.integrators.equilibrium import equilibrium
 from adamslite.integrators.events.stops import sample_clock
@@ -43,9 +42,9 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     if operation == EQUILIBRIUM:
         return equilibrium(P, L)
     if operation == ACCELERATIONS:
-        good = accelerations(P, L, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
+        good = accelerations(P, L, P.settings.t, P.q, P.u, P.a, P.z, P.rd)
         return DONE if good else BROKEN_START
-    put_state(P, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
+    put_state(P, P.settings.t, P.q, P.u, P.a, P.z, P.rd)
     if operation == SPECTRUM:
         return spectrum(P)
     if operation == RECORD:

@@ -15,10 +15,12 @@ from adamslite.equations.elimination import Elimination
 from adamslite.equations.engine import INTEGRATORS, engine, ints, reals
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
-from adamslite.integrators.event_rows import MARGIN_ROWS, PLACES
+from adamslite.integrators.bdf import differences
+from adamslite.integrators.event_rows import MARGIN_ROWS
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.kernels.compile import Kernels
 from adamslite.model.model import PART, Model
+from adamslite.native.translate import Rows
 
 # Moves of the assembly below this are round-off.
 MOVED = 1e-9
@@ -29,7 +31,7 @@ LEVER = 0.1
 class System(Elimination):
     """Arrays of one model in one formulation, and the operations on them.
 
-    Every field of ``Problem`` is an attribute of that name.
+    Every field of ``Problem`` is an attribute of that name; arrays may be replaced between runs.
     """
 
     def __init__(self, kernels: Kernels, stabilised: bool, pivoting: bool = False) -> None:
@@ -49,6 +51,9 @@ class System(Elimination):
     def _allocate(self) -> None:
         n, nz = self.n, self.nz
         rest = self.m + self.nv + self.ns
+        self.problem, self.order = contract.Problem.zeros(), Plan.zeros()
+        for name in contract.Problem.fields.keys() - set(contract.Problem.references):
+            setattr(self, name, getattr(self.problem, name))
         w = 2 * n + self.ns
         for name in ("q", "u", "a", "ra"):
             setattr(self, name, np.zeros(n + 1))
@@ -61,20 +66,15 @@ class System(Elimination):
         self.guard = np.zeros(self.W.size)
         self.margin = np.zeros(MARGIN_ROWS * len(self.guarded["watch"]))
         self.zone = np.zeros(5 * len(self.guarded["zone"]))
-        self.stops, self.search, self.pattern = np.zeros(1), np.zeros(PLACES), ints([])
+        self.stops, self.pattern = np.zeros(1), ints([])
         self.broken, self.hurried = None, []
-        self.paces = np.array(contract.NO_PACE)
+        self.paces = Rows(contract.Pace, np.array(contract.NO_PACE))
         self.pivot0 = np.zeros(nz + 1)
-        self.history, self.trial = np.zeros(9 * w + 160), np.zeros(3 * w + 3)
-        self.control, self.tableau = np.zeros(48), np.zeros(1)
+        self.history, self.trial = np.zeros(differences.room(w)), np.zeros(3 * w + 3)
+        self.control, self.tableau = np.zeros(contract.CONTROL), np.zeros(1)
         self.parts, self.LC, self.pivots_c = np.zeros(1), np.zeros(1), ints([0])
-        self.coef, self.report = np.zeros(16), np.zeros(len(contract.REPORT))
-        self.settings, self.count = (
-            np.zeros(len(contract.SETTINGS)),
-            ints([0] * len(contract.COUNTS)),
-        )
+        self.coef = np.zeros(contract.COEFFICIENTS)
         self.times, self.record, self.undo = np.zeros(1), np.zeros(1), np.zeros(0)
-        self.audit = np.zeros(0)
         self.gravity = np.asarray(self.model.deck.gravity, dtype=float)
 
     def _bodies(self) -> None:
@@ -109,18 +109,19 @@ class System(Elimination):
     def _tables(self) -> None:
         body = []
         for b in range(len(self.model.bodies)):
-            body += [self.widths[b], self.starts[b], self.w_at["BODY", b], self.blocks[b, b], 0]
-        self.body = ints(body)
+            body += [self.widths[b], self.starts[b], self.w_at["BODY", b], self.blocks[b, b]]
+        self.body = Rows(contract.BodyRow, ints(body))
         mass = any(g.meta["mass"] for g in self.kernels.groups if g.face in ("loads", "equation"))
         facts = {
             "nb": len(self.model.bodies), "n": self.n, "m": self.m, "nv": self.nv, "ns": self.ns,
-            "nw": self.nw, "ng": self.group.size // contract.GROUP, "si2": int(self.stabilised),
-            "implicit_mass": int(mass), "n_out": getattr(self, "n_out", 0), "nz": self.nz,
+            "nw": self.nw, "ng": self.group.size, "si2": self.stabilised,
+            "implicit_mass": mass, "n_out": getattr(self, "n_out", 0), "nz": self.nz,
             "holonomic": self.holonomic, "n_head": self.n_head,
             "clocks": len(self.guarded["clock"]), "watched": len(self.guarded["watch"]),
             "zones": len(self.guarded["zone"]),
         }  # fmt: skip
-        self.sizes = ints([facts[name] for name in contract.SIZES])
+        for name in contract.Sizes.fields:
+            setattr(self.sizes, name, facts[name])
 
     def adopt(self, other: System) -> None:
         """Take over the state of another system of (almost) the same model."""
@@ -259,7 +260,7 @@ class System(Elimination):
             When there is not so much room.
         """
         self.times = np.ascontiguousarray(times, dtype=float)
-        row = self.nw + int(self.sizes[contract.N_OUT])
+        row = self.nw + self.sizes.n_out
         try:
             self.record = np.zeros(len(times) * row + 1)
         except MemoryError:
@@ -269,7 +270,7 @@ class System(Elimination):
                 "not there: fewer STEPS, a longer DTOUT."
             ) from None
         if self.m:
-            kept = (self.history, self.control, self.base, self.ra, self.rz, self.pz, self.audit)
+            kept = (self.history, self.control, self.base, self.ra, self.rz, self.pz)
             self.undo = np.zeros(sum(each.size for each in kept))
         self.count[:] = 0
 
@@ -281,12 +282,11 @@ class System(Elimination):
 
     def records(self) -> tuple[contract.Problem, Plan]:
         """The arrays as native code takes them."""
-        problem, plan = contract.Problem.zeros(), Plan.zeros()
-        for name in contract.Problem.fields:
-            setattr(problem, name, getattr(self, name))
+        for name in contract.Problem.references:
+            setattr(self.problem, name, getattr(self, name))
         for name in Plan.fields:
-            setattr(plan, name, self.plan[name])
-        return problem, plan
+            setattr(self.order, name, self.plan[name])
+        return self.problem, self.order
 
 
 def _turns_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -8,19 +8,7 @@ inertia; :func:`mass_signature` sees that between two steps.
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import (
-    ACCELERATION,
-    FACTORIZATIONS,
-    IMPLICIT_MASS,
-    ITERATION,
-    MODE_DYNAMICS,
-    NS,
-    NV,
-    NZ,
-    M,
-    N,
-    Problem,
-)
+from adamslite.integrators.contract import ACCELERATION, MODE_DYNAMICS, Problem
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.linalg.blocks import factor, signature, solve
 from adamslite.integrators.linalg.plan import Plan
@@ -63,7 +51,7 @@ def acceleration_matrix(P: Problem) -> None:
     spread(P, P.LA)
     for k in range(P.unit.size):
         P.LA[P.unit[k]] = 1.0
-    P.count[FACTORIZATIONS] += 1
+    P.count.factorizations += 1
 
 
 @native
@@ -83,10 +71,10 @@ def settle(P: Problem, L: Plan, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool
     """Newton at the workspace's state with the matrix that is factored, renewed when it is slow."""
     last = 1e300
     for iteration in range(MAX_ITERATIONS):
-        P.report[ITERATION] = iteration + 1.0
+        P.report.iteration = iteration + 1
         residual(P, ACCELERATION, P.F)
-        for k in range(P.sizes[NZ] - P.sizes[N] - P.sizes[M] - P.sizes[NV] - P.sizes[NS]):
-            P.F[P.sizes[NZ] - 1 - k] = 0.0
+        for k in range(P.sizes.nz - P.sizes.n - P.sizes.m - P.sizes.nv - P.sizes.ns):
+            P.F[P.sizes.nz - 1 - k] = 0.0
         solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
         size = correct_rates(P, a, z, sd)
         if not size < 1e300:
@@ -100,14 +88,14 @@ def settle(P: Problem, L: Plan, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool
             if not factor(L, P.LA, P.pivots_a, P.work):
                 return False
         last = size
-    note_trouble(P, ACCELERATION, P.report[ITERATION])
+    note_trouble(P, ACCELERATION, P.report.iteration)
     return False
 
 
 @native
 def correct_rates(P: Problem, a: Reals, z: Reals, sd: Reals) -> float:
     """Subtract the increment in ``P.F``; returns its size against the largest unknown of a kind."""
-    n, algebraic = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    n, algebraic = P.sizes.n, P.sizes.m + P.sizes.nv
     change, top = 0.0, 0.0
     for k in range(n):
         a[k] -= P.F[k]
@@ -117,11 +105,11 @@ def correct_rates(P: Problem, a: Reals, z: Reals, sd: Reals) -> float:
     for k in range(algebraic):
         z[k] -= P.F[n + k]
         change, top = max(change, abs(P.F[n + k])), max(top, abs(z[k]))
-    for k in range(P.sizes[NS]):
+    for k in range(P.sizes.ns):
         sd[k] -= P.F[n + algebraic + k]
         change, top = max(change, abs(P.F[n + algebraic + k])), max(top, abs(sd[k]))
     size = max(size, change / max(1.0, top))
-    for k in range(n + algebraic + P.sizes[NS]):
+    for k in range(n + algebraic + P.sizes.ns):
         if not abs(P.F[k]) < 1e300:
             return 1e301
     return size
@@ -139,11 +127,11 @@ def mass_vanishes(P: Problem, L: Plan, before: int) -> bool:
     """Whether the acceleration matrix at the workspace's state has lost a pivot since the start, or
     is close to it; ``before`` is its last signature.
     """
-    if P.sizes[IMPLICIT_MASS] == 0:
+    if not P.sizes.implicit_mass:
         return False
     if mass_signature(P, L, P.x) != before:
         return True
-    for k in range(P.sizes[NZ]):
+    for k in range(P.sizes.nz):
         if not abs(P.x[k]) >= VANISHING * abs(P.pivot0[k]):
             return True
     return False

@@ -10,24 +10,25 @@ workspace);
 converge to;
 5. ends a step at every stop and behind every crossing and starts anew there, as
 :mod:`adamslite.integrators.events.events` says;
-6. counts what it does in ``P.count`` (names in ``COUNTS``);
+6. counts what it does in ``P.count``;
 7. leaves the last accepted state behind, whatever the outcome;
 8. returns one of ``OUTCOMES``.
 
-Fields of :class:`Problem`, all one-dimensional; nb bodies, n body unknowns, m multipliers, nv
+Fields of :class:`Problem`; arrays have one dimension; nb bodies, n body unknowns, m multipliers, nv
 variables, ns states of DIFF, nw workspace entries:
 
 ==============  =================================================================================
-sizes           ``SIZES``
-body            per body: kind (3 or 6), first unknown, workspace offset, its own block, spare
+sizes settings  :class:`Sizes`, :class:`RunSettings`
+count report    :class:`Counts`, :class:`Report`
+search          the location of events (:class:`Search`);  undoing: :class:`Undoing`
+body            (nb,) of :class:`BodyRow`
 mass            (nb,) [mass]
 inertia         (9 nb,) about the mass centre in part axes
 weight          (nb,) of rotations in W G^T mu
 gravity         (3,) in ground axes
 base            (9 nb,) attitude from which the rotation vector is counted
 scalar          workspace offset of each multiplier, variable and DIFF state
-group           per group: phase, addresses of residual, Jacobian and track, number of instances,
-                addresses of their integers and reals, addresses of clock and watch
+group           (ng,) of :class:`KernelGroup`
 copies          per block: Jacobian offset, rows, columns, factor offset, leading dimension
 product         per block between bodies: Jacobian offset, rows, columns, first row, first column
 turning         per block with a rotating column: Jacobian offset, rows, body
@@ -35,9 +36,7 @@ mixed           per product D W G^T: target, its width, D, rows, columns, G, bod
 unit            places of the diagonal of mu, one in the acceleration matrix
 dead            unknowns left out of the matrix, whose equations are not solved
 held loose      those among them that hold a model in its plane, and what they may be off by
-settings        ``SETTINGS``;  count: ``COUNTS``;  report: ``REPORT``;  times (nt,) asked times
-                spent: sum of the estimated errors over ERROR; divided: fixed steps that were;
-                stable: the longest stable step anywhere, for equal steps; moved: by a projection
+times           (nt,) asked times
 q u a           (n,) positions and rotation vectors, velocities, accelerations
 z mu            (m + nv + ns,) multipliers, variables, states; multipliers of velocity rows
 ra rz rd pz     accepted accelerations and z, derivatives of the states, z one step earlier
@@ -48,80 +47,23 @@ pivots pivots_a row orders of LV and LA;  pivot0: pivots of the first accelerati
 history trial   what the method remembers of accepted states; three vectors (q, u, s)
 tableau         coefficients of the Runge-Kutta formula
 parts           of the Newton matrix of the Radau formula;  LC pivots_c: its complex factors
-control         the integrator's own numbers
+control         the integrator's own numbers, its ``Control``
 undo            the state before the last accepted one; empty without constraints
 record          (nt, nw + n_out) workspace and outputs at the asked times
 kind guard      of guards: how they are read; their values, numbered as the workspace
 margin zone     how far guards are from changing; where the state is within zones
 stops           times at which guards of the clock change
-paces           ``PACE``: how long steps may be from when on
-search          the location of events (:mod:`adamslite.integrators.events.events`)
-audit           balance of energy (:mod:`adamslite.integrators.audit.balance`); empty without
+paces           of :class:`Pace`
+audit           balance of energy (:class:`Audit`);  uncounted: counts before it was drawn up
 pattern         per iteration whether it renews the Newton matrix, repeated; empty: as needed
 ==============  =================================================================================
 """
 
-from adamslite.native.translate import Ints, Reals, Record
+from __future__ import annotations
 
-SIZES = (
-    "nb",
-    "n",
-    "m",
-    "nv",
-    "ns",
-    "nw",
-    "ng",
-    "si2",
-    "implicit_mass",
-    "n_out",
-    "nz",
-    "holonomic",
-    "n_head",
-    "clocks",
-    "watched",
-    "zones",
-)
-(
-    NB, N, M, NV, NS, NW, NG, SI2, IMPLICIT_MASS, N_OUT, NZ, HOLONOMIC, N_HEAD, CLOCKS, WATCHED,
-    ZONES,
-) = range(len(SIZES))  # fmt: skip
-
-SETTINGS = (
-    "t", "t_end", "error", "h_max", "h_min", "h_init", "k_max", "max_it", "stop",
-    "alpha", "beta", "gamma", "interpolate", "fixed_step", "adaptivity", "all_converge",
-)  # fmt: skip
-(
-    T, T_END, ERROR, H_MAX, H_MIN, H_INIT, K_MAX, MAX_IT, STOP, ALPHA, BETA, GAMMA, INTERPOLATE,
-    FIXED_STEP, ADAPTIVITY, ALL_CONVERGE,
-) = range(len(SETTINGS))  # fmt: skip
-
-REPORT = (
-    "t", "h", "order", "violation", "where", "size", "capped", "ways_to_fall", "rough",
-    "iteration", "changed", "change", "open_row", "open_by", "left_plane", "torn",
-    "spent", "divided", "stable", "moved",
-)  # fmt: skip
-(
-    AT, STEP, ORDER, VIOLATION, WHERE, HOW_MUCH, ORDER_CAPPED, WAYS_TO_FALL, ROUGH_STEPS,
-    ITERATION, CHANGED, CHANGE, OPEN_ROW, OPEN_BY, LEFT_PLANE, TORN,
-    SPENT, DIVIDED, STABLE_STEP, MOVED,
-) = range(len(REPORT))  # fmt: skip
-
-COUNTS = (
-    "steps",
-    "rejected",
-    "newton",
-    "jacobians",
-    "factorizations",
-    "residuals",
-    "failures",
-    "records",
-    "events",
-    "restarts",
-)
-(
-    STEPS, REJECTED, NEWTON, JACOBIANS, FACTORIZATIONS, RESIDUALS, FAILURES, RECORDS, EVENTS,
-    RESTARTS,
-) = range(len(COUNTS))  # fmt: skip
+from adamslite.integrators.audit_record import Audit
+from adamslite.integrators.event_rows import Search
+from adamslite.native.translate import Ints, Reals, Record, Rows
 
 # What the groups of kernels contribute, one bit each.
 (
@@ -142,9 +84,12 @@ STABILISED = INDEX3 | VELOCITY_ROWS
 STATIC = LOADS | REACTIONS | POSITION_ROWS | ROWS
 ACCELERATION = LOADS | REACTIONS | ACCELERATION_ROWS | ROWS
 
-# A pace: from when on it holds, the longest step, and the time that no step of it may pass because
-# steps must be shorter behind it.
-SINCE_WHEN, LONGEST, FENCE, PACE = range(4)
+# Coefficients of a Jacobian: of its derivatives by q, u, a, (lam, V) and s'.
+COEFFICIENTS = 5
+# Room for the numbers of any integrator.
+CONTROL = 48
+
+# The one pace of a run whose steps are not held back.
 NO_PACE = (-1e300, 1e300, 1e300)
 
 # Share of the limit of stability that equal steps of VERLET may take: the power iteration comes to
@@ -166,22 +111,169 @@ MODE_STATICS = 5.0
     CHATTERING,
 ) = range(10)
 
-# Columns of P.group.
-GROUP = 9
+
+class Sizes(Record):
+    """How many of what a model has.
+
+    ``si2``: the stabilised form; ``implicit_mass``: loads depend on accelerations; ``n_head``:
+    entries of the workspace before those of bodies.
+    """
+
+    nb: int
+    n: int
+    m: int
+    nv: int
+    ns: int
+    nw: int
+    ng: int
+    si2: bool
+    implicit_mass: bool
+    n_out: int
+    nz: int
+    holonomic: int
+    n_head: int
+    clocks: int
+    watched: int
+    zones: int
+
+
+class RunSettings(Record):
+    """What a run is asked for; ``stop`` ends it, from outside too."""
+
+    t: float
+    t_end: float
+    error: float
+    h_max: float
+    h_min: float
+    h_init: float
+    k_max: int
+    max_it: int
+    stop: bool
+    alpha: float
+    beta: float
+    gamma: float
+    interpolate: bool
+    fixed_step: float
+    adaptivity: float
+    all_converge: bool
+
+
+class Report(Record):
+    """What a run leaves to be read.
+
+    ``t h order``: of the present try; ``violation``: the largest of a constraint; ``error``: the
+    last estimate over ERROR, ``where`` it is largest; ``iteration changed change open_row
+    open_by``: of a corrector that failed (:mod:`adamslite.integrators.failure_notes`); ``torn``: a
+    redundant row that opened; ``spent``: sum of the estimated errors over ERROR; ``divided``: fixed
+    steps that were; ``stable_step``: the longest stable step anywhere, for equal steps; ``moved``:
+    by a projection; ``stiffness damping``: spectral radii of M^-1 K and M^-1 C.
+    """
+
+    t: float
+    h: float
+    order: int
+    violation: float
+    where: int
+    error: float
+    order_capped: bool
+    ways_to_fall: int
+    rough_steps: int
+    iteration: int
+    changed: int
+    change: float
+    open_row: int
+    open_by: float
+    left_plane: bool
+    torn: int
+    spent: float
+    divided: int
+    stable_step: float
+    moved: float
+    stiffness: float
+    damping: float
+
+
+class Counts(Record):
+    """How often a run did what."""
+
+    steps: int
+    rejected: int
+    newton: int
+    jacobians: int
+    factorizations: int
+    residuals: int
+    failures: int
+    records: int
+    events: int
+    restarts: int
+
+    def add(self, other: Counts) -> None:
+        """Count what another run did, too."""
+        self._ints += other._ints
+
+
+class BodyRow(Record):
+    """A body: 3 or 6 unknowns, the first of them, its workspace, its block of the Jacobian."""
+
+    width: int
+    first: int
+    at: int
+    block: int
+
+
+class KernelGroup(Record):
+    """Instances of one kernel: in which phases it works, addresses of its functions (0: none), how
+    many instances there are, addresses of their integers and reals.
+    """
+
+    phases: int
+    residual: int
+    jacobian: int
+    track: int
+    count: int
+    ints: int
+    reals: int
+    clock: int
+    watch: int
+
+
+class Pace(Record):
+    """How long steps may be from a time on, and the time that no step of this pace may pass because
+    steps must be shorter behind it.
+    """
+
+    since: float
+    longest: float
+    fence: float
+
+
+class Undoing(Record):
+    """What is known of the state that is kept (:mod:`adamslite.integrators.step_back`).
+
+    Whether one is, how often it was returned to, the time behind which the trouble is over, the
+    angle turned since, tries in vain, and how many of them there were when it was kept.
+    """
+
+    undoable: bool
+    backs: int
+    passed: float
+    turned: float
+    trouble: float
+    trouble_then: float
 
 
 class Problem(Record):
     """The data of a model, as above."""
 
-    sizes: Ints
-    body: Ints
+    sizes: Sizes
+    body: Rows[BodyRow]
     mass: Reals
     inertia: Reals
     weight: Reals
     gravity: Reals
     base: Reals
     scalar: Ints
-    group: Ints
+    group: Rows[KernelGroup]
     copies: Ints
     product: Ints
     turning: Ints
@@ -190,10 +282,10 @@ class Problem(Record):
     dead: Ints
     held: Ints
     loose: Reals
-    settings: Reals
-    count: Ints
+    settings: RunSettings
+    count: Counts
     times: Reals
-    report: Reals
+    report: Report
     q: Reals
     u: Reals
     a: Reals
@@ -229,10 +321,12 @@ class Problem(Record):
     margin: Reals
     zone: Reals
     stops: Reals
-    paces: Reals
-    search: Reals
+    paces: Rows[Pace]
+    search: Search
+    undoing: Undoing
     pattern: Ints
-    audit: Reals
+    audit: Audit
+    uncounted: Counts
 
 
 (

@@ -14,25 +14,11 @@ References: Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508 (continuation); Da
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
-from adamslite.integrators.contract import (
-    DONE,
-    FACTORIZATIONS,
-    MODE_STATICS,
-    NB,
-    NEWTON,
-    NOT_SETTLED,
-    NV,
-    STATIC,
-    WAYS_TO_FALL,
-    M,
-    N,
-    Problem,
-    T,
-)
+from adamslite.integrators.contract import DONE, MODE_STATICS, NOT_SETTLED, STATIC, Problem
 from adamslite.integrators.linalg.blocks import factor, signature, solve
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import BODY, PART, jacobian, put_pose, residual, spread
+from adamslite.integrators.motion_equations import PART, jacobian, put_pose, residual, spread
 from adamslite.integrators.newton import apply_increment
 from adamslite.native.translate import native
 
@@ -101,7 +87,7 @@ def relaxed(P: Problem, L: Plan) -> bool:
 @native
 def noted(P: Problem, L: Plan) -> int:
     """DONE, with the number of ways in which the equilibrium is unstable in the report."""
-    P.report[WAYS_TO_FALL] = float(unstable_ways(P, L))
+    P.report.ways_to_fall = unstable_ways(P, L)
     imbalance(P)
     return DONE
 
@@ -128,8 +114,8 @@ def back_to_start(P: Problem) -> None:
 def wandered(P: Problem) -> bool:
     """Whether the posture is far from the one the search began with."""
     n, away = P.q.size, 0.0
-    for b in range(P.sizes[NB]):
-        i = P.body[BODY * b + 1]
+    for b in range(P.sizes.nb):
+        i = P.body[b].first
         for k in range(3):
             away = max(away, abs(P.q[i + k] - P.history[i + k]) / P.control[LENGTH])
         for k in range(9):
@@ -159,7 +145,7 @@ def pivot_signs(P: Problem, L: Plan, stiffness: float, mass: float) -> int:
     spread(P, P.LV)
     for k in range(P.unit.size):
         P.LV[P.unit[k]] = 1.0
-    P.count[FACTORIZATIONS] += 1
+    P.count.factorizations += 1
     return signature(L, P.LV, P.pivots, P.work, P.x)
 
 
@@ -168,8 +154,8 @@ def first_sigma(P: Problem) -> float:
     """1/h^2 for a step that moves the most accelerated body by a hundredth of the model."""
     imbalance(P)
     fastest = 1e-12
-    for b in range(P.sizes[NB]):
-        i = P.body[BODY * b + 1]
+    for b in range(P.sizes.nb):
+        i = P.body[b].first
         if P.mass[b] > 0.0:
             for k in range(3):
                 fastest = max(fastest, abs(P.F[i + k]) / P.mass[b])
@@ -179,13 +165,13 @@ def first_sigma(P: Problem) -> float:
 @native
 def imbalance(P: Problem) -> None:
     """Residual at rest; the largest force left over goes to C[WORST]."""
-    n = P.sizes[N]
+    n = P.sizes.n
     for i in range(n):
         P.u[i] = 0.0
         P.a[i] = 0.0
     for i in range(P.rd.size):
         P.rd[i] = 0.0
-    put_state(P, P.settings[T], P.q, P.u, P.a, P.z, P.rd)
+    put_state(P, P.settings.t, P.q, P.u, P.a, P.z, P.rd)
     P.W[1] = MODE_STATICS
     residual(P, STATIC, P.F)
     worst = 0.0
@@ -207,8 +193,8 @@ def static_step(P: Problem, L: Plan) -> bool:
     spread(P, P.LV)
     for k in range(P.unit.size):
         P.LV[P.unit[k]] = 1.0
-    P.count[FACTORIZATIONS] += 1
-    P.count[NEWTON] += 1
+    P.count.factorizations += 1
+    P.count.newton += 1
     if not factor(L, P.LV, P.pivots, P.work):
         return False
     solve(L, P.LV, P.pivots, P.F, P.x, P.work)
@@ -221,8 +207,8 @@ def limited_move(P: Problem) -> bool:
     new ones.
     """
     C, shrink, moved = P.control, 1.0, 0.0
-    for b in range(P.sizes[NB]):
-        i, kind = P.body[BODY * b + 1], P.body[BODY * b]
+    for b in range(P.sizes.nb):
+        i, kind = P.body[b].first, P.body[b].width
         for k in range(kind):
             size = abs(P.F[i + k])
             moved = max(moved, size / max(1.0, abs(P.q[i + k])))
@@ -232,17 +218,17 @@ def limited_move(P: Problem) -> bool:
             shrink = min(shrink, limit / max(size, 1e-300))
     C[MOVED] = moved
     if shrink < 1.0:
-        for i in range(P.sizes[N]):
+        for i in range(P.sizes.n):
             P.F[i] *= shrink
     apply_increment(P, P.F, P.q, P.z, P.mu, False)
     put_pose(P, P.q)
-    for b in range(P.sizes[NB]):
-        if P.body[BODY * b] == PART:
-            o = P.body[BODY * b + 2]
+    for b in range(P.sizes.nb):
+        if P.body[b].width == PART:
+            o = P.body[b].at
             for k in range(9):
                 P.base[9 * b + k] = P.W[o + 15 + k]
             for k in range(3, 6):
-                P.q[P.body[BODY * b + 1] + k] = 0.0
+                P.q[P.body[b].first + k] = 0.0
     return True
 
 
@@ -251,8 +237,8 @@ def settled(P: Problem) -> bool:
     """Small correction, and small residual of forces and constraints after it."""
     C = P.control
     imbalance(P)
-    first = P.sizes[N] + P.sizes[M] + P.sizes[NV]
-    for k in range(P.sizes[N], first):
+    first = P.sizes.n + P.sizes.m + P.sizes.nv
+    for k in range(P.sizes.n, first):
         if not abs(P.F[k]) <= C[CHANGE] * 1e-3 * max(1.0, C[LENGTH]):
             return False
     return C[WORST] <= C[IMBALANCE] and C[MOVED] <= C[CHANGE]

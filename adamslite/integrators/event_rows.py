@@ -1,9 +1,9 @@
-"""Where events keep their numbers: rows of ``P.margin`` and places in ``P.search``."""
+"""Where events keep their numbers: rows of ``P.margin`` and the record of a search."""
 
 from __future__ import annotations
 
-# Columns of P.group.
-CLOCK, WATCH = 7, 8
+from adamslite.native.translate import Record
+
 # How guards are read, and the bit of those at which a value jumps.
 STRICT, WEAK, JUMPS = 0, 1, 4
 # What a branch adds to the gap of its relation.
@@ -18,13 +18,61 @@ LEFT, RIGHT, LEFT_RATE, RIGHT_RATE, PAST, PAST_RATE, MARGIN_ROWS = range(11, 18)
 ZONE_EARLY, ZONE_LATE = 3, 4
 # A share of the step that says that there is none.
 NONE = 2.0
-# Places in P.search.
-(
-    STOP_AT, OPEN, LOW, HIGH, SHARE, FOUND, SIZE, TOLERANCE, BUDGET, JUMP, FREED, CULPRIT, HUNT,
-    LOOSE, LET_GO, AGAIN, CRAWL, HUNT_END, WHOLE, LOOKS, LOOKED, KNOWN, RATED, CUT, TAKEN, STAGE,
-    SPAN, PACE_AT, WINDOW_LOW, WINDOW_HIGH, PAST_SIZE,
-) = range(31)  # fmt: skip
-PLACES = 31
-# What the look at the present share is for, in S[STAGE]: the rates at the end and the start, the
-# middle of the window, the rate at its right side, a dip in it, the bracket of a crossing.
+# What the look at the present share is for: the rates at the end and the start, the middle of the
+# window, the rate at its right side, a dip in it, the bracket of a crossing.
 RATE_BEHIND, RATE_BEFORE, MIDDLE, RATE_RIGHT, DIP, BRACKET = range(6)
+
+
+class Search(Record):
+    """The location of events in one step; shares are of that step.
+
+    stop_at, pace_at     the present stop and pace
+    open                 whether the search goes on, with a look at ``share``; ``stage``: what for
+    low, high, budget    the bracket of a crossing, and how far ITP may leave its middle
+    found, cut           the share of the crossing and of a zone, ``NONE`` without
+    size, tolerance      of the step; how near to the crossing it has to end
+    jump                 how much accelerations changed at an event
+    freed, culprit       how many guards were let go for good, the last of them
+    hunt                 whether a crossing found in a step of size ``whole`` that ended at
+                         ``hunt_end`` is still ahead
+    loose, let_go        guards are evaluated as they are: always, for one try; ``again``: for this
+    crawl                tiny steps after a guard was let go
+    looks, looked        looks in this step, the last share that was looked at for a dip
+    known, rated         whether the rates at the start and at the end are known
+    taken                whether guards were turned over because that makes no difference
+    span                 share of a zone that a step may cross
+    window_low, window_high   the window that is looked at
+    past_size            size of the step before, 0 when its rates are not known
+    """
+
+    stop_at: int
+    open: bool
+    low: float
+    high: float
+    share: float
+    found: float
+    size: float
+    tolerance: float
+    budget: float
+    jump: float
+    freed: int
+    culprit: int
+    hunt: bool
+    loose: bool
+    let_go: bool
+    again: bool
+    crawl: int
+    hunt_end: float
+    whole: float
+    looks: int
+    looked: float
+    known: bool
+    rated: bool
+    cut: float
+    taken: bool
+    stage: int
+    span: float
+    pace_at: int
+    window_low: float
+    window_high: float
+    past_size: float

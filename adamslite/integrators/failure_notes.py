@@ -6,13 +6,6 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import (
     ACCELERATION,
-    CHANGE,
-    CHANGED,
-    ITERATION,
-    NZ,
-    OPEN_BY,
-    OPEN_ROW,
-    N,
     Problem,
 )
 from adamslite.integrators.linalg.norms import exceeds
@@ -21,13 +14,13 @@ from adamslite.native.translate import native
 
 
 @native
-def note_trouble(P: Problem, phases: int, iteration: float) -> None:
+def note_trouble(P: Problem, phases: int, iteration: int) -> None:
     """Keep the unknown with the largest last increment (in ``P.F``), against max(1, |value|), and
     the equation with the largest residual at the workspace's state; overwrites ``P.F``.
     """
-    n, where, top = P.sizes[N], 0, -1.0
+    n, where, top = P.sizes.n, 0, -1.0
     solved = P.a if phases == ACCELERATION else P.q
-    for k in range(P.sizes[NZ]):
+    for k in range(P.sizes.nz):
         value = 0.0
         if k < n:
             value = solved[k]
@@ -36,10 +29,10 @@ def note_trouble(P: Problem, phases: int, iteration: float) -> None:
         weight = max(1.0, abs(value))
         if exceeds(abs(P.F[k]), top * weight):
             where, top = k, abs(P.F[k]) / weight
-    P.report[CHANGED], P.report[CHANGE], P.report[ITERATION] = float(where), top, iteration
+    P.report.changed, P.report.change, P.report.iteration = where, top, iteration
     residual(P, phases, P.F)
     where, top = 0, -1.0
-    for k in range(P.sizes[NZ]):
+    for k in range(P.sizes.nz):
         if exceeds(abs(P.F[k]), top):
             where, top = k, abs(P.F[k])
-    P.report[OPEN_ROW], P.report[OPEN_BY] = float(where), top
+    P.report.open_row, P.report.open_by = where, top

@@ -13,30 +13,14 @@ Reference: O. A. Bauchau, Flexible Multibody Dynamics, 2011, section 13.6.
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import (
-    GROUP,
-    HOLONOMIC,
-    JACOBIANS,
-    LEFT_PLANE,
-    N_HEAD,
-    NB,
-    NG,
-    NS,
-    NV,
-    NW,
-    NZ,
-    REACTIONS,
-    RESIDUALS,
-    SIGNALS,
-    STOP,
-    M,
-    N,
-    Problem,
-)
+from adamslite.integrators.contract import REACTIONS, SIGNALS, Problem
 from adamslite.native.translate import Reals, call_address, native
 
 POINT, PART = 3, 6
-BODY = 5
+# Numbers of ``P.work`` that this module uses.
+WORK = 54
+# Guards of the clock and of the watch.
+CLOCK, WATCH = 0, 1
 
 
 @native
@@ -58,10 +42,10 @@ def attitude(c0: float, c1: float, c2: float, base: Reals, r0: int, W: Reals, o:
 def put_pose(P: Problem, q: Reals) -> None:
     """Positions and attitudes into the workspace."""
     W, body = P.W, P.body
-    for b in range(P.sizes[NB]):
-        i, o = body[BODY * b + 1], body[BODY * b + 2]
+    for b in range(P.sizes.nb):
+        i, o = body[b].first, body[b].at
         W[o], W[o + 1], W[o + 2] = q[i], q[i + 1], q[i + 2]
-        if body[BODY * b] == PART:
+        if body[b].width == PART:
             attitude(q[i + 3], q[i + 4], q[i + 5], P.base, 9 * b, W, o + 15)
 
 
@@ -69,12 +53,12 @@ def put_pose(P: Problem, q: Reals) -> None:
 def put_motion(P: Problem, u: Reals, a: Reals) -> None:
     """Velocities and accelerations into the workspace."""
     W, body = P.W, P.body
-    for b in range(P.sizes[NB]):
-        i, o = body[BODY * b + 1], body[BODY * b + 2]
+    for b in range(P.sizes.nb):
+        i, o = body[b].first, body[b].at
         for k in range(3):
             W[o + 3 + k] = u[i + k]
             W[o + 6 + k] = a[i + k]
-        if body[BODY * b] == PART:
+        if body[b].width == PART:
             for k in range(3):
                 W[o + 9 + k] = u[i + 3 + k]
                 W[o + 12 + k] = a[i + 3 + k]
@@ -84,10 +68,10 @@ def put_motion(P: Problem, u: Reals, a: Reals) -> None:
 def put_scalars(P: Problem, z: Reals, sd: Reals) -> None:
     """Multipliers, variables and DIFF states (with derivatives ``sd``) into the workspace."""
     W = P.W
-    first = P.sizes[M] + P.sizes[NV]
-    for k in range(first + P.sizes[NS]):
+    first = P.sizes.m + P.sizes.nv
+    for k in range(first + P.sizes.ns):
         W[P.scalar[k]] = z[k]
-    for k in range(P.sizes[NS]):
+    for k in range(P.sizes.ns):
         W[P.scalar[first + k] + 1] = sd[k]
 
 
@@ -95,13 +79,13 @@ def put_scalars(P: Problem, z: Reals, sd: Reals) -> None:
 def run_groups(P: Problem, phases: int, target: Reals) -> None:
     """Every group of the phases adds to ``target``."""
     g = P.group
-    for k in range(P.sizes[NG]):
-        if g[GROUP * k] & phases:
+    for k in range(P.sizes.ng):
+        if g[k].phases & phases:
             call_address(
-                g[GROUP * k + 1],
-                g[GROUP * k + 4],
-                g[GROUP * k + 5],
-                g[GROUP * k + 6],
+                g[k].residual,
+                g[k].count,
+                g[k].ints,
+                g[k].reals,
                 P.W,
                 target,
             )
@@ -112,7 +96,7 @@ def put_time(P: Problem, t: float) -> None:
     """Time and the time-only variables into the workspace."""
     W = P.W
     W[0] = t
-    for k in range(2, P.sizes[N_HEAD]):
+    for k in range(2, P.sizes.n_head):
         W[k] = 0.0
     run_groups(P, SIGNALS, W)
 
@@ -121,33 +105,34 @@ def put_time(P: Problem, t: float) -> None:
 def track(P: Problem) -> None:
     """Let every kernel with a memory remember its angles at the accepted state."""
     g = P.group
-    for k in range(P.sizes[NG]):
-        if g[GROUP * k + 3]:
+    for k in range(P.sizes.ng):
+        if g[k].track:
             call_address(
-                g[GROUP * k + 3],
-                g[GROUP * k + 4],
-                g[GROUP * k + 5],
-                g[GROUP * k + 6],
+                g[k].track,
+                g[k].count,
+                g[k].ints,
+                g[k].reals,
                 P.W,
                 P.W,
             )
 
 
 @native
-def guard_values(P: Problem, column: int) -> None:
-    """Values of the guards whose kernels stand in a column of ``P.group``, behind the workspace's
-    size in ``P.guard``.
+def guard_values(P: Problem, which: int) -> None:
+    """Values of the guards of the clock or of the watch, behind the workspace's size in
+    ``P.guard``.
     """
     g = P.group
-    for k in range(P.sizes[NW], P.guard.size):
+    for k in range(P.sizes.nw, P.guard.size):
         P.guard[k] = 0.0
-    for k in range(P.sizes[NG]):
-        if g[GROUP * k + column]:
+    for k in range(P.sizes.ng):
+        address = g[k].clock if which == CLOCK else g[k].watch
+        if address:
             call_address(
-                g[GROUP * k + column],
-                g[GROUP * k + 4],
-                g[GROUP * k + 5],
-                g[GROUP * k + 6],
+                address,
+                g[k].count,
+                g[k].ints,
+                g[k].reals,
                 P.W,
                 P.guard,
             )
@@ -173,12 +158,12 @@ def inertia_forces(P: Problem, F: Reals) -> None:
     """F = M (a - gravity) and J al + w x J w."""
     W, body, work = P.W, P.body, P.work
     gx, gy, gz = P.gravity[0], P.gravity[1], P.gravity[2]
-    for b in range(P.sizes[NB]):
-        i, o, m = body[BODY * b + 1], body[BODY * b + 2], P.mass[b]
+    for b in range(P.sizes.nb):
+        i, o, m = body[b].first, body[b].at, P.mass[b]
         F[i] = m * (W[o + 6] - gx)
         F[i + 1] = m * (W[o + 7] - gy)
         F[i + 2] = m * (W[o + 8] - gz)
-        if body[BODY * b] == PART:
+        if body[b].width == PART:
             rotated_inertia(P, b, o, work)
             wx, wy, wz = W[o + 9], W[o + 10], W[o + 11]
             hx = work[0] * wx + work[1] * wy + work[2] * wz
@@ -196,17 +181,17 @@ def residual(P: Problem, phases: int, F: Reals) -> None:
 
     What would drive the model out of its plane ends the run: see :mod:`adamslite.analyses.plane`.
     """
-    for k in range(P.sizes[N], P.sizes[NZ]):
+    for k in range(P.sizes.n, P.sizes.nz):
         F[k] = 0.0
     inertia_forces(P, F)
     run_groups(P, phases, F)
     for k in range(P.held.size):
         if abs(F[P.held[k]]) > P.loose[k]:
-            P.report[LEFT_PLANE] = 1.0
-            P.settings[STOP] = 1.0
+            P.report.left_plane = True
+            P.settings.stop = True
     for k in range(P.dead.size):
         F[P.dead[k]] = 0.0
-    P.count[RESIDUALS] += 1
+    P.count.residuals += 1
 
 
 @native
@@ -258,12 +243,12 @@ def rotation_block(
 def inertia_blocks(P: Problem, cq: float, cu: float, ca: float, J: Reals) -> None:
     """Derivative of the inertia forces, each in its body's own block."""
     body = P.body
-    for b in range(P.sizes[NB]):
-        kind, at = body[BODY * b], body[BODY * b + 3]
+    for b in range(P.sizes.nb):
+        kind, at = body[b].width, body[b].block
         for k in range(3):
             J[at + k * (kind + 1)] += ca * P.mass[b]
         if kind == PART:
-            rotation_block(P, b, body[BODY * b + 2], cq, cu, ca, J, at)
+            rotation_block(P, b, body[b].at, cq, cu, ca, J, at)
 
 
 @native
@@ -273,18 +258,18 @@ def jacobian(P: Problem, phases: int, c: Reals, J: Reals) -> None:
         J[k] = 0.0
     inertia_blocks(P, c[0], c[1], c[2], J)
     g = P.group
-    for k in range(P.sizes[NG]):
-        if g[GROUP * k] & phases and g[GROUP * k + 2]:
+    for k in range(P.sizes.ng):
+        if g[k].phases & phases and g[k].jacobian:
             call_address(
-                g[GROUP * k + 2],
-                g[GROUP * k + 4],
-                g[GROUP * k + 5],
-                g[GROUP * k + 6],
+                g[k].jacobian,
+                g[k].count,
+                g[k].ints,
+                g[k].reals,
                 P.W,
                 c,
                 J,
             )
-    P.count[JACOBIANS] += 1
+    P.count.jacobians += 1
 
 
 @native
@@ -320,10 +305,10 @@ def spin(P: Problem, q: Reals, v: Reals, b: int, i: int, x: Reals) -> None:
 def velocities(P: Problem, q: Reals, v: Reals, u: Reals) -> None:
     """u from the derivatives ``v`` of q."""
     body = P.body
-    for b in range(P.sizes[NB]):
-        i = body[BODY * b + 1]
+    for b in range(P.sizes.nb):
+        i = body[b].first
         u[i], u[i + 1], u[i + 2] = v[i], v[i + 1], v[i + 2]
-        if body[BODY * b] == PART:
+        if body[b].width == PART:
             spin(P, q, v, b, i, u)
 
 
@@ -331,11 +316,11 @@ def velocities(P: Problem, q: Reals, v: Reals, u: Reals) -> None:
 def vector_rates(P: Problem, q: Reals, u: Reals, v: Reals) -> None:
     """v = derivatives of q from u: c' = (I - [c]/2 + c c^T/4) w."""
     body = P.body
-    for b in range(P.sizes[NB]):
-        i = body[BODY * b + 1]
+    for b in range(P.sizes.nb):
+        i = body[b].first
         for k in range(3):
             v[i + k] = u[i + k]
-        if body[BODY * b] == PART:
+        if body[b].width == PART:
             back_rotate(q, u, i, v)
 
 
@@ -354,14 +339,14 @@ def back_rotate(q: Reals, u: Reals, i: int, v: Reals) -> None:
 def project_on_constraints(P: Problem, mu: Reals, target: Reals) -> None:
     """target = weight * G^T mu at the workspace's pose."""
     W = P.W
-    m = P.sizes[M]
-    for k in range(P.sizes[N]):
+    m = P.sizes.m
+    for k in range(P.sizes.n):
         target[k] = 0.0
     for k in range(m):
-        W[P.scalar[k]] = mu[k] if k < P.sizes[HOLONOMIC] else 0.0
+        W[P.scalar[k]] = mu[k] if k < P.sizes.holonomic else 0.0
     run_groups(P, REACTIONS, target)
-    for b in range(P.sizes[NB]):
-        i = P.body[BODY * b + 1]
-        if P.body[BODY * b] == PART:
+    for b in range(P.sizes.nb):
+        i = P.body[b].first
+        if P.body[b].width == PART:
             for k in range(3, 6):
                 target[i + k] *= P.weight[b]

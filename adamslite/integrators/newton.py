@@ -14,17 +14,11 @@ ODE II, 1996, sections VI.7 and VII.2.
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import FACTORIZATIONS, HOLONOMIC, NB, NS, NV, M, N, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import (
-    BODY,
-    PART,
-    back_rotate,
-    jacobian,
-    spread,
-)
+from adamslite.integrators.motion_equations import PART, back_rotate, jacobian, spread
 from adamslite.native.translate import Reals, native
 
 # Increments of positions below this share of the largest position are round-off.
@@ -47,7 +41,7 @@ def newton_matrix(
         for k in range(0, P.mixed.size, 7):
             add_mixed_product(P, k, P.J, P.D, P.J)
     spread(P, P.LV)
-    P.count[FACTORIZATIONS] += 1
+    P.count.factorizations += 1
     return factor(L, P.LV, P.pivots, P.work)
 
 
@@ -61,7 +55,7 @@ def add_attitude_part(
     fixed c', and dc = (I - [c]/2 + c c^T/4) dphi.
     """
     at, rows = P.turning[entry], P.turning[entry + 1]
-    i = P.body[BODY * P.turning[entry + 2] + 1]
+    i = P.body[P.turning[entry + 2]].first
     c0, c1, c2 = q[i + 3], q[i + 4], q[i + 5]
     d0, d1, d2 = v[i + 3], v[i + 4], v[i + 5]
     w0, w1, w2 = u[i + 3], u[i + 4], u[i + 5]
@@ -102,20 +96,20 @@ def add_mixed_product(P: Problem, k: int, J: Reals, D: Reals, G: Reals) -> None:
 def apply_increment(P: Problem, dz: Reals, q: Reals, z: Reals, mu: Reals, si2: bool) -> None:
     """Subtract the Newton increment from the unknowns."""
     body = P.body
-    n = P.sizes[N]
-    for b in range(P.sizes[NB]):
-        i = body[BODY * b + 1]
-        if body[BODY * b] == PART:
+    n = P.sizes.n
+    for b in range(P.sizes.nb):
+        i = body[b].first
+        if body[b].width == PART:
             back_rotate(q, dz, i, dz)
             for k in range(3, 6):
                 q[i + k] -= dz[i + k]
         for k in range(3):
             q[i + k] -= dz[i + k]
-    rest = P.sizes[M] + P.sizes[NV] + P.sizes[NS]
+    rest = P.sizes.m + P.sizes.nv + P.sizes.ns
     for k in range(rest):
         z[k] -= dz[n + k]
     if si2:
-        for k in range(P.sizes[HOLONOMIC]):
+        for k in range(P.sizes.holonomic):
             mu[k] -= dz[n + rest + k]
 
 
@@ -129,7 +123,7 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
     those at the round-off of positions count as none, because at small steps they are all there
     is.
     """
-    n, q, u, z = P.sizes[N], P.q, P.u, P.z
+    n, q, u, z = P.sizes.n, P.q, P.u, P.z
     reach = 1.0
     for i in range(n):
         reach = max(reach, abs(q[i]))
@@ -143,8 +137,8 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
             # Compared before divided: few elements ever set a new maximum.
             if exceeds(change, largest * wq) or exceeds(cu * change, largest * wu):
                 largest = max(change / wq, cu * change / wu)
-    first = P.sizes[M]
-    for k in range(first, first + P.sizes[NV] + P.sizes[NS]):
+    first = P.sizes.m
+    for k in range(first, first + P.sizes.nv + P.sizes.ns):
         size = abs(dz[n + k]) / max(1.0, abs(z[k]))
         if exceeds(size, largest):
             largest = size
@@ -168,13 +162,13 @@ def multiplier_change(P: Problem, dz: Reals, z: Reals, ca: float) -> float:
     What round-off of positions does to inertia forces, ca m |q|, is none.
     """
     reach, heaviest, largest = 1.0, 0.0, 0.0
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         reach = max(reach, abs(P.q[i]))
-    for b in range(P.sizes[NB]):
+    for b in range(P.sizes.nb):
         heaviest = max(heaviest, P.mass[b])
     noise = ROUND_OFF * reach * ca * heaviest
-    for k in range(P.sizes[M]):
-        change, weight = abs(dz[P.sizes[N] + k]), max(1.0, abs(z[k]))
+    for k in range(P.sizes.m):
+        change, weight = abs(dz[P.sizes.n + k]), max(1.0, abs(z[k]))
         if not change <= noise and exceeds(change, largest * weight):
             largest = change / weight
     return largest
@@ -187,7 +181,7 @@ def velocity_change(P: Problem, before: Reals, cu: float) -> float:
     mu itself tells little: its share W G^T mu of the velocities may be a hundred times larger.
     """
     reach, largest = 1.0, 0.0
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         reach = max(reach, abs(P.q[i]))
         change = abs(P.u[i] - before[i])
         if exceeds(change, largest):

@@ -9,24 +9,11 @@ is the effective mass.  Reference: Hairer, Wanner, Solving ODE II, 1996, section
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import (
-    HOLONOMIC,
-    MOVED,
-    NB,
-    NZ,
-    POSITION_ROWS,
-    RATE_ROWS,
-    SI2,
-    VELOCITY_ROWS,
-    M,
-    N,
-    Problem,
-)
+from adamslite.integrators.contract import POSITION_ROWS, RATE_ROWS, VELOCITY_ROWS, Problem
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
-    BODY,
     PART,
     back_rotate,
     put_motion,
@@ -47,13 +34,13 @@ RATES = VELOCITY_ROWS | RATE_ROWS
 def project(P: Problem, L: Plan, q: Reals, u: Reals) -> bool:
     """Move q and u onto the constraints; False when positions do not come nearer.
 
-    ``P.report[MOVED]`` is the largest change of a position, rotation or velocity, against
+    ``P.report.moved`` is the largest change of a position, rotation or velocity, against
     max(1, |value|).
     """
     last = 1e300
     reach = 1.0
-    P.report[MOVED] = 0.0
-    for i in range(P.sizes[N]):
+    P.report.moved = 0.0
+    for i in range(P.sizes.n):
         reach = max(reach, abs(q[i]))
     for _sweep in range(SWEEPS):
         put_pose(P, q)
@@ -63,7 +50,7 @@ def project(P: Problem, L: Plan, q: Reals, u: Reals) -> bool:
             violation(P, RATES)
             solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
             note_move(P, u)
-            for i in range(P.sizes[N]):
+            for i in range(P.sizes.n):
                 u[i] -= P.F[i]
             return True
         if not size < 10.0 * last:
@@ -78,24 +65,24 @@ def project(P: Problem, L: Plan, q: Reals, u: Reals) -> bool:
 @native
 def note_move(P: Problem, value: Reals) -> None:
     """The largest entry of the increment in F, against max(1, |value|), into the report."""
-    top = P.report[MOVED]
-    for i in range(P.sizes[N]):
+    top = P.report.moved
+    for i in range(P.sizes.n):
         if exceeds(abs(P.F[i]), top * max(1.0, abs(value[i]))):
             top = abs(P.F[i]) / max(1.0, abs(value[i]))
-    P.report[MOVED] = top
+    P.report.moved = top
 
 
 @native
 def violation(P: Problem, phases: int) -> float:
     """The rows of ``phases`` at the places of their multipliers in F; returns the largest."""
-    n, m, holonomic = P.sizes[N], P.sizes[M], P.sizes[HOLONOMIC]
-    for i in range(P.sizes[NZ]):
+    n, m, holonomic = P.sizes.n, P.sizes.m, P.sizes.holonomic
+    for i in range(P.sizes.nz):
         P.F[i] = 0.0
     run_groups(P, phases, P.F)
-    if P.sizes[SI2] == 1 and phases & VELOCITY_ROWS:
+    if P.sizes.si2 and phases & VELOCITY_ROWS:
         for k in range(holonomic):
-            P.F[n + k] = P.F[P.sizes[NZ] - holonomic + k]
-            P.F[P.sizes[NZ] - holonomic + k] = 0.0
+            P.F[n + k] = P.F[P.sizes.nz - holonomic + k]
+            P.F[P.sizes.nz - holonomic + k] = 0.0
     for k in range(P.dead.size):
         P.F[P.dead[k]] = 0.0
     largest = 0.0
@@ -108,9 +95,9 @@ def violation(P: Problem, phases: int) -> float:
 @native
 def move(P: Problem, q: Reals) -> None:
     """q <- q - dq with the turns of dq in ground axes."""
-    for b in range(P.sizes[NB]):
-        i = P.body[BODY * b + 1]
-        if P.body[BODY * b] == PART:
+    for b in range(P.sizes.nb):
+        i = P.body[b].first
+        if P.body[b].width == PART:
             back_rotate(q, P.F, i, P.F)
             for k in range(3, 6):
                 q[i + k] -= P.F[i + k]
@@ -123,10 +110,10 @@ def sensitivity(P: Problem, L: Plan) -> float:
     """The largest answer of positions when each constraint row is off by a value between 0.5 and
     1.5 (no pattern that a mechanism could have): grows like 1/d towards a posture of lost rank.
     """
-    n, top = P.sizes[N], 0.0
-    for i in range(P.sizes[NZ]):
+    n, top = P.sizes.n, 0.0
+    for i in range(P.sizes.nz):
         P.F[i] = 0.0
-    for k in range(P.sizes[M]):
+    for k in range(P.sizes.m):
         P.F[n + k] = 0.5 + GOLDEN * (k + 1) - int(GOLDEN * (k + 1))
     for k in range(P.dead.size):
         P.F[P.dead[k]] = 0.0

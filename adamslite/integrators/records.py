@@ -3,25 +3,7 @@
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations
-from adamslite.integrators.contract import (
-    AT,
-    ERROR,
-    HOLONOMIC,
-    N_OUT,
-    NS,
-    NV,
-    NW,
-    NZ,
-    OUTPUTS,
-    POSITION_ROWS,
-    RECORDS,
-    STOP,
-    TORN,
-    VIOLATION,
-    M,
-    N,
-    Problem,
-)
+from adamslite.integrators.contract import OUTPUTS, POSITION_ROWS, Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import run_groups
 from adamslite.native.translate import Reals, native
@@ -52,11 +34,11 @@ def record_at(
     Positions, velocities and states are interpolated; accelerations, multipliers and variables
     are then solved for, so that reactions are as exact as the motion.
     """
-    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     while following < P.times.size and P.times[following] <= t + 1e-9 * h:
         y = P.trial[0:]
         interpolate(D, w, k, t, h, P.times[following], y)
-        for i in range(P.sizes[NS]):
+        for i in range(P.sizes.ns):
             P.z[first + i] = y[2 * n + i]
         if not accelerations(P, L, P.times[following], y, y[n:], P.a, P.z, P.rd):
             return -1
@@ -68,7 +50,7 @@ def record_at(
 @native
 def write_record(P: Problem, row: int) -> None:
     """Workspace and outputs into one row of the record."""
-    nw, n_out = P.sizes[NW], P.sizes[N_OUT]
+    nw, n_out = P.sizes.nw, P.sizes.n_out
     o = row * (nw + n_out)
     for i in range(nw):
         P.record[o + i] = P.W[i]
@@ -76,7 +58,7 @@ def write_record(P: Problem, row: int) -> None:
     for i in range(n_out):
         out[i] = 0.0
     run_groups(P, OUTPUTS, out)
-    P.count[RECORDS] = row + 1
+    P.count.records = row + 1
 
 
 @native
@@ -86,18 +68,18 @@ def note_violation(P: Problem, t: float) -> None:
     A row left out as redundant that opens did not follow from the others but in one posture: the
     run ends there, as a mechanism that locks would otherwise run on torn apart.
     """
-    if P.sizes[HOLONOMIC] == 0:
+    if P.sizes.holonomic == 0:
         return
-    for i in range(P.sizes[NZ]):
+    for i in range(P.sizes.nz):
         P.F[i] = 0.0
     run_groups(P, POSITION_ROWS, P.F)
-    for i in range(P.sizes[N], P.sizes[N] + P.sizes[M]):
-        P.report[VIOLATION] = max(P.report[VIOLATION], abs(P.F[i]))
+    for i in range(P.sizes.n, P.sizes.n + P.sizes.m):
+        P.report.violation = max(P.report.violation, abs(P.F[i]))
     reach = 1.0
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         reach = max(reach, abs(P.q[i]))
     for k in range(P.dead.size):
         i = P.dead[k]
-        if i < P.sizes[N] + P.sizes[M] and abs(P.F[i]) > (LOOSE + 10.0 * P.settings[ERROR]) * reach:
-            P.report[TORN], P.report[AT] = float(i), t
-            P.settings[STOP] = 1.0
+        if i < P.sizes.n + P.sizes.m and abs(P.F[i]) > (LOOSE + 10.0 * P.settings.error) * reach:
+            P.report.torn, P.report.t = i, t
+            P.settings.stop = True

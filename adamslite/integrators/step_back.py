@@ -10,15 +10,12 @@ section 5.
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import NB, Problem
-from adamslite.integrators.motion_equations import BODY, PART
+from adamslite.integrators.contract import Problem
+from adamslite.integrators.motion_equations import PART
 from adamslite.native.translate import Reals, native
 
-# Places in P.control, above those of every method: whether a state is kept, how often it was
-# returned to, the time behind which the trouble is over, the angle turned since, tries in vain.
-UNDOABLE, BACKS, PASSED, TURNED, TROUBLE = range(40, 45)
 # Accepted steps taken back in one place.
-MOST_BACKS = 24.0
+MOST_BACKS = 24
 # The golden ratio spreads the lengths of repeated steps evenly over a range without multiples.
 GOLDEN, SHORTEST = 0.6180339887498949, 0.4
 # A state is not kept for longer than parts turn by this angle: AZ and the like count turns by the
@@ -34,17 +31,17 @@ def make_undoable(P: Problem, now: float, h: float, clean: bool) -> None:
     Steps that shrink towards a singular posture are accepted one by one, each after a rejection:
     the state before the first of them is the one to return to.
     """
-    C = P.control
+    U = P.undoing
     if clean:
-        C[TROUBLE] = max(0.0, C[TROUBLE] - 1.0)
+        U.trouble = max(0.0, U.trouble - 1.0)
     if P.undo.size > 0:
         angle = turning(P, h)
-        C[TURNED] += angle
-        clear = C[TROUBLE] == 0.0 and now >= C[PASSED]
-        if C[UNDOABLE] == 0.0 or clear or C[TURNED] > MOST_TURNED:
-            C[UNDOABLE], C[BACKS], C[TURNED] = 1.0, 0.0, 0.0
+        U.turned += angle
+        clear = U.trouble == 0.0 and now >= U.passed
+        if not U.undoable or clear or U.turned > MOST_TURNED:
+            U.undoable, U.backs, U.turned = True, 0, angle
+            U.trouble_then = U.trouble
             remember(P)
-            C[TURNED] = angle
 
 
 @native
@@ -52,22 +49,22 @@ def before_trouble(P: Problem, tried: float) -> float:
     """Back to the state kept before the trouble, which lies before the time ``tried``; the share of
     its step to take there, 0 when that was done often enough or there is no such state.
     """
-    C = P.control
-    if C[UNDOABLE] == 0.0 or C[BACKS] >= MOST_BACKS:
+    U = P.undoing
+    if not U.undoable or U.backs >= MOST_BACKS:
         return 0.0
-    backs, passed = C[BACKS] + 1.0, max(C[PASSED], tried)
+    U.backs, U.passed = U.backs + 1, max(U.passed, tried)
+    U.turned, U.trouble = 0.0, U.trouble_then
     bring_back(P)
-    C[BACKS], C[PASSED] = backs, passed
-    return SHORTEST + (1.0 - SHORTEST) * (GOLDEN * backs - int(GOLDEN * backs))
+    return SHORTEST + (1.0 - SHORTEST) * (GOLDEN * U.backs - int(GOLDEN * U.backs))
 
 
 @native
 def turning(P: Problem, h: float) -> float:
     """The largest angle by which a part turns in a time h at its present speed."""
     top = 0.0
-    for b in range(P.sizes[NB]):
-        if P.body[BODY * b] == PART:
-            w = P.u[P.body[BODY * b + 1] + 3 :]
+    for b in range(P.sizes.nb):
+        if P.body[b].width == PART:
+            w = P.u[P.body[b].first + 3 :]
             top = max(top, w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
     return h * top**0.5
 
@@ -81,7 +78,7 @@ def remember(P: Problem) -> None:
     at = copied(P.ra.size, P.ra, P.undo, at)
     at = copied(P.rz.size, P.rz, P.undo, at)
     at = copied(P.pz.size, P.pz, P.undo, at)
-    at = copied(P.audit.size, P.audit, P.undo, at)
+    keep_audit(P)
 
 
 @native
@@ -93,7 +90,7 @@ def bring_back(P: Problem) -> None:
     at = taken(P.ra.size, P.ra, P.undo, at)
     at = taken(P.rz.size, P.rz, P.undo, at)
     at = taken(P.pz.size, P.pz, P.undo, at)
-    at = taken(P.audit.size, P.audit, P.undo, at)
+    bring_audit_back(P)
 
 
 @native
@@ -110,3 +107,21 @@ def taken(n: int, x: Reals, y: Reals, at: int) -> int:
     for i in range(n):
         x[i] = y[at + i]
     return at + n
+
+
+@native
+def keep_audit(P: Problem) -> None:
+    """Remember the balance before steps that may have to be taken back."""
+    if P.audit.on:
+        P.audit.before[:] = P.audit.now
+        for k in range(P.W.size):
+            P.audit.previous_before[k] = P.audit.previous[k]
+
+
+@native
+def bring_audit_back(P: Problem) -> None:
+    """What :func:`keep_audit` kept."""
+    if P.audit.on:
+        P.audit.now[:] = P.audit.before
+        for k in range(P.W.size):
+            P.audit.previous[k] = P.audit.previous_before[k]

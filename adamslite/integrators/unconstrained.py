@@ -8,28 +8,9 @@ accelerations; nothing is factored.  tau is about the mass centre, in ground axe
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import (
-    BROKEN_START,
-    DONE,
-    IMPLICIT_MASS,
-    LOADS,
-    NB,
-    NS,
-    NV,
-    RESIDUALS,
-    M,
-    N,
-    Problem,
-)
+from adamslite.integrators.contract import BROKEN_START, DONE, LOADS, Problem
 from adamslite.integrators.linalg.blocks import invert3
-from adamslite.integrators.motion_equations import (
-    BODY,
-    PART,
-    attitude,
-    jacobian,
-    put_time,
-    run_groups,
-)
+from adamslite.integrators.motion_equations import PART, attitude, jacobian, put_time, run_groups
 from adamslite.native.translate import Reals, native
 
 # A part's inertia below this share of its largest entry is singular.
@@ -40,9 +21,9 @@ POWERS = 30
 @native
 def is_free(P: Problem) -> bool:
     """Whether accelerations follow body by body."""
-    if P.sizes[M] + P.sizes[NV] + P.sizes[NS] + P.sizes[IMPLICIT_MASS] > 0:
+    if P.sizes.implicit_mass or P.sizes.m + P.sizes.nv + P.sizes.ns > 0:
         return False
-    for b in range(P.sizes[NB]):
+    for b in range(P.sizes.nb):
         if not P.mass[b] > 0.0:
             return False
     return True
@@ -51,8 +32,8 @@ def is_free(P: Problem) -> bool:
 @native
 def invert_inertia(P: Problem, inverse: Reals) -> bool:
     """I^-1 of every part into ``inverse`` (9 nb,); False when one is singular."""
-    for b in range(P.sizes[NB]):
-        if P.body[BODY * b] == PART:
+    for b in range(P.sizes.nb):
+        if P.body[b].width == PART:
             top = 0.0
             for k in range(9):
                 inverse[9 * b + k] = P.inertia[9 * b + k]
@@ -69,14 +50,14 @@ def put_free(P: Problem, t: float, q: Reals, u: Reals) -> None:
     W, F, body = P.W, P.F, P.body
     gx, gy, gz = P.gravity[0], P.gravity[1], P.gravity[2]
     put_time(P, t)
-    for b in range(P.sizes[NB]):
-        i, o, m = body[BODY * b + 1], body[BODY * b + 2], P.mass[b]
+    for b in range(P.sizes.nb):
+        i, o, m = body[b].first, body[b].at, P.mass[b]
         x, y, z = q[i], q[i + 1], q[i + 2]
         vx, vy, vz = u[i], u[i + 1], u[i + 2]
         W[o], W[o + 1], W[o + 2] = x, y, z
         W[o + 3], W[o + 4], W[o + 5] = vx, vy, vz
         F[i], F[i + 1], F[i + 2] = -m * gx, -m * gy, -m * gz
-        if body[BODY * b] == PART:
+        if body[b].width == PART:
             attitude(q[i + 3], q[i + 4], q[i + 5], P.base, 9 * b, W, o + 15)
             for k in range(3):
                 W[o + 9 + k] = u[i + 3 + k]
@@ -88,15 +69,15 @@ def free_accelerations(P: Problem, t: float, q: Reals, u: Reals, inverse: Reals,
     """a (n,) at positions q, velocities u."""
     put_free(P, t, q, u)
     run_groups(P, LOADS, P.F)
-    P.count[RESIDUALS] += 1
+    P.count.residuals += 1
     divide_by_mass(P, P.F, inverse, 1.0, a)
 
 
 @native
 def mass_tables(P: Problem, inverse: Reals, weight: Reals) -> bool:
     """-1/m and -m g of every unknown; False when a body turns."""
-    for b in range(P.sizes[NB]):
-        if P.body[BODY * b] == PART:
+    for b in range(P.sizes.nb):
+        if P.body[b].width == PART:
             return False
         for k in range(3):
             inverse[3 * b + k] = -1.0 / P.mass[b]
@@ -109,9 +90,9 @@ def mass_accelerations(
     P: Problem, t: float, q: Reals, u: Reals, inverse: Reals, weight: Reals, a: Reals
 ) -> None:
     """a (n,) of point masses, with the tables made before; unknowns and workspace are in a row."""
-    n, W, F = P.sizes[N], P.W[P.body[2] :], P.F
+    n, W, F = P.sizes.n, P.W[P.body[0].at :], P.F
     put_time(P, t)
-    for b in range(P.sizes[NB]):
+    for b in range(P.sizes.nb):
         i, o = 3 * b, 9 * b
         x, y, z = q[i], q[i + 1], q[i + 2]
         vx, vy, vz = u[i], u[i + 1], u[i + 2]
@@ -119,7 +100,7 @@ def mass_accelerations(
     for i in range(n):
         F[i] = weight[i]
     run_groups(P, LOADS, F)
-    P.count[RESIDUALS] += 1
+    P.count.residuals += 1
     for i in range(n):
         a[i] = inverse[i] * F[i]
 
@@ -128,18 +109,18 @@ def mass_accelerations(
 def divide_by_mass(P: Problem, F: Reals, inverse: Reals, turning: float, a: Reals) -> None:
     """a = -M^-1 F, for parts with ``turning`` times the gyroscopic torque of the workspace."""
     body = P.body
-    for b in range(P.sizes[NB]):
-        i, w = body[BODY * b + 1], -1.0 / P.mass[b]
+    for b in range(P.sizes.nb):
+        i, w = body[b].first, -1.0 / P.mass[b]
         a[i], a[i + 1], a[i + 2] = w * F[i], w * F[i + 1], w * F[i + 2]
-        if body[BODY * b] == PART:
+        if body[b].width == PART:
             turn(P, b, F[i + 3 :], inverse[9 * b :], turning, a[i + 3 :])
 
 
 @native
 def turn(P: Problem, b: int, F: Reals, inverse: Reals, turning: float, a: Reals) -> None:
     """Angular acceleration of part b under the torque -F."""
-    R, tensor, s = P.W[P.body[BODY * b + 2] + 15 :], P.inertia[9 * b :], P.work
-    w = P.W[P.body[BODY * b + 2] + 9 :]
+    R, tensor, s = P.W[P.body[b].at + 15 :], P.inertia[9 * b :], P.work
+    w = P.W[P.body[b].at + 9 :]
     for k in range(3):
         s[k] = R[k] * w[0] + R[3 + k] * w[1] + R[6 + k] * w[2]
     for k in range(3):
@@ -157,19 +138,19 @@ def turn(P: Problem, b: int, F: Reals, inverse: Reals, turning: float, a: Reals)
 
 @native
 def spectrum(P: Problem) -> int:
-    """Spectral radii of M^-1 K and M^-1 C of the forces at the workspace's state, into P.control;
-    constraints only lower them.
+    """Spectral radii of M^-1 K and M^-1 C of the forces at the workspace's state, into the
+    report; constraints only lower them.
     """
     if not invert_inertia(P, P.history):
         return BROKEN_START
-    P.control[0], P.control[1] = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
+    P.report.stiffness, P.report.damping = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
     return DONE
 
 
 @native
 def radius(P: Problem, cq: float, cu: float) -> float:
     """Spectral radius of M^-1 (cq dF/dq + cu dF/du) by power iteration (Golub, Van Loan, 7.3.1)."""
-    n, c = P.sizes[N], P.coef
+    n, c = P.sizes.n, P.coef
     x, y, inverse = P.trial[0:], P.trial[n:], P.history[0:]
     c[0], c[1], c[2], c[3], c[4] = cq, cu, 0.0, 0.0, 0.0
     jacobian(P, LOADS, c, P.J)

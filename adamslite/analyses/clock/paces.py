@@ -43,7 +43,7 @@ class Timetable:
     """What is known of time before a run.
 
     ``stops`` (k,): where steps end and branches may change, the end last.  ``paces`` (3 n,): see
-    ``base.PACE``.  ``paced``: statements that change within less than the longest step;
+    :class:`base.Pace`.  ``paced``: statements that change within less than the longest step;
     ``overfull``: those that change too often to follow all of it.
     """
 

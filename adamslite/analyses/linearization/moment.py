@@ -68,20 +68,20 @@ def present(system: System) -> Moment:
 def neighbours(system: System, h: float) -> tuple[Moment, Moment] | None:
     """The moments h before and after; None where accelerations are not determined."""
     kept = {name: getattr(system, name).copy() for name in STATE}
-    time, attitude = float(system.settings[contract.T]), _attitudes(system)
+    time, attitude = float(system.settings.t), _attitudes(system)
     jerk, curve = np.zeros_like(system.a), np.zeros_like(system.rd)
     try:
         for _correction in range(2):
             found = []
             for step in (-h, h):
                 _advance(system, kept, attitude, step, jerk, curve)
-                system.settings[contract.T] = time + step
+                system.settings.t = time + step
                 if system.run(ACCELERATIONS) != contract.DONE:
                     return None
                 found.append((system.a.copy(), system.rd.copy(), _moment(system)))
             jerk, curve = ((found[1][k] - found[0][k]) / (2.0 * h) for k in range(2))
     finally:
-        system.settings[contract.T] = time
+        system.settings.t = time
         for name, values in kept.items():
             getattr(system, name)[:] = values
     return found[0][2], found[1][2]

@@ -13,128 +13,87 @@ An integrator calls :func:`audit` at every accepted step, with its end in the wo
 
 from __future__ import annotations
 
-from adamslite.integrators.audit.path import (
-    AT_KEPT,
-    AT_POINTS,
-    AT_PRESENT,
-    AT_PREVIOUS,
-    AT_SPARE,
-    AT_VECTORS,
-    BUDGET,
-    CREATED,
-    CREATED_AT,
-    DRIFT,
-    ELASTIC_THERE,
-    FIRST_MOMENTUM,
-    FORCES,
-    GAP,
-    HEAD,
-    KINETIC,
-    LARGEST,
-    LEAST_CREATED,
-    MOMENTUM,
-    MOST_CREATED,
-    PUSH,
-    PUSHES,
-    SIZE,
-    SPAN,
-    SPIN,
-    SPIN_DRIFT,
-    SQUARES,
-    STORED,
-    TIME,
-    TURN,
-    TURNS,
-    WORST,
-    WORST_AT,
-    lay_path,
-)
+from adamslite.integrators.audit.path import lay_path
 from adamslite.integrators.audit.work import MOST_PANELS, power_at, work_on_panel
-from adamslite.integrators.contract import ERROR, NB, NW, STORED_ENERGY, N, Problem, T
+from adamslite.integrators.contract import STORED_ENERGY, Problem
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import BODY, PART, rotated_inertia, run_groups
+from adamslite.integrators.motion_equations import PART, rotated_inertia, run_groups
 from adamslite.native.translate import native
 
 
 @native
 def audit(P: Problem, L: Plan, t: float) -> None:
     """Add the step to ``t``, whose accepted end stands in the workspace, to the balance."""
-    A = P.audit
-    if P.audit.size < HEAD or not t > A[TIME]:
+    A, old, new = P.audit.now, P.audit.previous, P.audit.present
+    if not P.audit.on or not t > A.t:
         return
-    old, new = A[int(A[AT_PREVIOUS]) :], A[int(A[AT_PRESENT]) :]
     for k in range(P.W.size):
         new[k] = P.W[k]
-    for k in range(P.sizes[NW], P.W.size):
+    for k in range(P.sizes.nw, P.W.size):
         P.W[k] = 0.0
     weight = lifted(P)
-    before, kept = A[KINETIC], A[STORED]
-    A[SPAN] = t - A[TIME]
+    before, kept = A.kinetic, A.stored[0]
+    A.span = t - A.t
     take_stock(P)
-    lay_path(P, A[SPAN])
+    lay_path(P, A.span)
     keep_matrix(P)
-    if A[FORCES] == 0.0:
-        power_at(P, L, 0.5, A[int(A[AT_POINTS]) :])
-    A[SIZE] = (A[SIZE] + A[FORCES]) ** 0.5
-    A[BUDGET], A[FORCES] = MOST_PANELS, 0.0
+    if A.forces == 0.0:
+        power_at(P, L, 0.5, P.audit.points)
+    A.size = (A.size + A.forces) ** 0.5
+    A.budget, A.forces = MOST_PANELS, 0.0
     work = work_on_panel(P, L, 0.0, 1.0)
     bring_matrix_back(P)
-    A[GAP] += A[KINETIC] - before - weight - work
-    A[PUSHES] += A[PUSH] * P.settings[ERROR] * P.settings[ERROR]
-    A[TURNS] += A[TURN] * P.settings[ERROR] * P.settings[ERROR]
-    A[SQUARES] += (P.settings[ERROR] * A[SIZE]) * (P.settings[ERROR] * A[SIZE])
-    if not abs(A[GAP]) <= A[WORST]:
-        A[WORST], A[WORST_AT] = abs(A[GAP]), t
-    note_creation(P, A[STORED] - kept, t)
+    A.gap += A.kinetic - before - weight - work
+    A.pushes += A.push * P.settings.error * P.settings.error
+    A.turns += A.turn * P.settings.error * P.settings.error
+    A.squares += (P.settings.error * A.size) * (P.settings.error * A.size)
+    if not abs(A.gap) <= A.worst:
+        A.worst, A.worst_at = abs(A.gap), t
+    note_creation(P, A.stored[0] - kept, t)
     for k in range(P.W.size):
         P.W[k], old[k] = new[k], new[k]
-    A[TIME] = t
+    A.t = t
 
 
 @native
 def start_balance(P: Problem) -> None:
     """The workspace's state is the first."""
-    audit_from(P, P.settings[T])
+    audit_from(P, P.settings.t)
+    A = P.audit.now
     for k in range(6):
-        P.audit[FIRST_MOMENTUM + k] = P.audit[MOMENTUM + k]
-    P.audit[DRIFT], P.audit[SPIN_DRIFT] = 0.0, 0.0
+        A.first_momenta[k] = A.momenta[k]
+    A.drift, A.spin_drift = 0.0, 0.0
 
 
 @native
 def audit_from(P: Problem, t: float) -> None:
     """Go on from the workspace's state: accelerations or velocities have changed there."""
-    A = P.audit
-    if P.audit.size < HEAD:
+    if not P.audit.on:
         return
-    old = A[int(A[AT_PREVIOUS]) :]
     for k in range(P.W.size):
-        old[k] = P.W[k]
-    A[TIME] = t
+        P.audit.previous[k] = P.W[k]
+    P.audit.now.t = t
     take_stock(P)
 
 
 @native
 def keep_matrix(P: Problem) -> None:
     """Remember the acceleration matrix and the counts: an audit changes nothing."""
-    kept, m = P.audit[int(P.audit[AT_KEPT]) :], P.LA.size
-    for k in range(m):
-        kept[k] = P.LA[k]
+    for k in range(P.LA.size):
+        P.audit.matrix[k] = P.LA[k]
     for k in range(P.pivots_a.size):
-        kept[m + k] = float(P.pivots_a[k])
-    for k in range(P.count.size):
-        kept[m + P.pivots_a.size + k] = float(P.count[k])
+        P.audit.pivots[k] = P.pivots_a[k]
+    P.uncounted[:] = P.count
 
 
 @native
 def bring_matrix_back(P: Problem) -> None:
     """What :func:`keep_matrix` kept."""
-    kept, m = P.audit[int(P.audit[AT_KEPT]) :], P.LA.size
-    for k in range(m):
-        P.LA[k] = kept[k]
+    for k in range(P.LA.size):
+        P.LA[k] = P.audit.matrix[k]
     for k in range(P.pivots_a.size):
-        P.pivots_a[k] = int(kept[m + k])
-    for k in range(P.count.size):
-        P.count[k] = int(kept[m + P.pivots_a.size + k])
+        P.pivots_a[k] = P.audit.pivots[k]
+    P.count[:] = P.uncounted
 
 
 @native
@@ -143,11 +102,11 @@ def audit_leap(P: Problem, L: Plan, t: float, h: float) -> None:
     its forces, in ``P.F``, are those of ``t``, the end of a step of size ``h``; the start of the
     first for ``h`` of zero.
     """
-    if P.audit.size < HEAD:
+    if not P.audit.on:
         return
-    W, F, n, spare = P.W, P.x, P.sizes[N], P.audit[int(P.audit[AT_VECTORS]) :]
-    for b in range(P.sizes[NB]):
-        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+    W, F, n, spare = P.W, P.x, P.sizes.n, P.audit.vectors
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
         for k in range(3):
             F[i + k], spare[n + i + k] = P.F[i + k], W[o + 3 + k]
             W[o + 6 + k] = 0.0 - P.F[i + k] / P.mass[b]
@@ -156,47 +115,28 @@ def audit_leap(P: Problem, L: Plan, t: float, h: float) -> None:
         audit(P, L, t)
     else:
         audit_from(P, t)
-    for b in range(P.sizes[NB]):
-        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
         for k in range(3):
             P.F[i + k], W[o + 3 + k] = F[i + k], spare[n + i + k]
 
 
 @native
-def keep_audit(P: Problem) -> None:
-    """Remember the balance before steps that may have to be taken back."""
-    if P.audit.size > HEAD:
-        spare = P.audit[int(P.audit[AT_SPARE]) :]
-        for k in range(HEAD + P.W.size):
-            spare[k] = P.audit[k]
-
-
-@native
-def bring_audit_back(P: Problem) -> None:
-    """What :func:`keep_audit` kept."""
-    if P.audit.size > HEAD:
-        spare = P.audit[int(P.audit[AT_SPARE]) :]
-        for k in range(HEAD + P.W.size):
-            P.audit[k] = spare[k]
-
-
-@native
 def note_creation(P: Problem, growth: float, t: float) -> None:
     """What elastic elements delivered and stored beyond the least that it was so far."""
-    A = P.audit
-    A[CREATED] += growth
-    A[LEAST_CREATED] = min(A[LEAST_CREATED], A[CREATED])
-    if A[CREATED] - A[LEAST_CREATED] > A[MOST_CREATED]:
-        A[MOST_CREATED], A[CREATED_AT] = A[CREATED] - A[LEAST_CREATED], t
+    A = P.audit.now
+    A.created += growth
+    A.least_created = min(A.least_created, A.created)
+    if A.created - A.least_created > A.most_created:
+        A.most_created, A.created_at = A.created - A.least_created, t
 
 
 @native
 def lifted(P: Problem) -> float:
     """The work of gravity from one end of the step to the other."""
-    A, total = P.audit, 0.0
-    old, new = A[int(A[AT_PREVIOUS]) :], A[int(A[AT_PRESENT]) :]
-    for b in range(P.sizes[NB]):
-        o = P.body[BODY * b + 2]
+    old, new, total = P.audit.previous, P.audit.present, 0.0
+    for b in range(P.sizes.nb):
+        o = P.body[b].at
         for k in range(3):
             total += P.mass[b] * P.gravity[k] * (new[o + k] - old[o + k])
     return total
@@ -206,27 +146,27 @@ def lifted(P: Problem) -> float:
 def take_stock(P: Problem) -> None:
     """Kinetic and stored energy and momenta of the workspace.
 
-    Into ``SIZE``, ``PUSH`` and ``TURN`` the squares of what an error of 1 in every component,
+    Into ``size``, ``push`` and ``turn`` the squares of what an error of 1 in every component,
     weighted with max(1, |y|), does to energy, momentum and angular momentum.
     """
-    A, W, J = P.audit, P.W, P.work
-    kinetic, squares, A[PUSH], A[TURN] = 0.0, 0.0, 0.0, 0.0
+    A, W, J = P.audit.now, P.W, P.work
+    kinetic, squares, A.push, A.turn = 0.0, 0.0, 0.0, 0.0
     for k in range(6):
-        A[MOMENTUM + k] = 0.0
-    for b in range(P.sizes[NB]):
-        o, m = P.body[BODY * b + 2], P.mass[b]
+        A.momenta[k] = 0.0
+    for b in range(P.sizes.nb):
+        o, m = P.body[b].at, P.mass[b]
         for k in range(3):
             n, p, v = (k + 1) % 3, (k + 2) % 3, W[o + 3 + k]
             kinetic += 0.5 * m * v * v
             c, d = m * max(1.0, abs(v)), m * max(1.0, abs(W[o + k]))
             squares += c * v * c * v
-            A[PUSH] += c * c
+            A.push += c * c
             for j in range(3):
                 if j != k:
-                    A[TURN] += c * c * W[o + j] * W[o + j] + d * d * W[o + 3 + j] * W[o + 3 + j]
-            A[MOMENTUM + k] += m * v
-            A[SPIN + k] += m * (W[o + n] * W[o + 3 + p] - W[o + p] * W[o + 3 + n])
-        if P.body[BODY * b] == PART:
+                    A.turn += c * c * W[o + j] * W[o + j] + d * d * W[o + 3 + j] * W[o + 3 + j]
+            A.momenta[k] += m * v
+            A.momenta[3 + k] += m * (W[o + n] * W[o + 3 + p] - W[o + p] * W[o + 3 + n])
+        if P.body[b].width == PART:
             rotated_inertia(P, b, o, J)
             for k in range(3):
                 w = W[o + 9 + k]
@@ -234,21 +174,21 @@ def take_stock(P: Problem) -> None:
                 kinetic += 0.5 * turn * w
                 c = max(1.0, abs(w))
                 squares += c * turn * c * turn
-                A[TURN] += turn * turn + 3.0 * (J[4 * k] * c) * (J[4 * k] * c)
-                A[SPIN + k] += turn
-    A[KINETIC], A[SIZE] = kinetic, squares
-    A[STORED] = 0.0
-    if A[ELASTIC_THERE] != 0.0:
-        run_groups(P, STORED_ENERGY, A[STORED:])
-    A[LARGEST] = max(A[LARGEST], kinetic, A[STORED])
+                A.turn += turn * turn + 3.0 * (J[4 * k] * c) * (J[4 * k] * c)
+                A.momenta[3 + k] += turn
+    A.kinetic, A.size = kinetic, squares
+    A.stored[0] = 0.0
+    if P.audit.elastic:
+        run_groups(P, STORED_ENERGY, A.stored)
+    A.largest = max(A.largest, kinetic, A.stored[0])
     note_momenta(P)
 
 
 @native
 def note_momenta(P: Problem) -> None:
     """How far the momenta of all bodies have moved from the first."""
-    A, drift, spin_drift = P.audit, 0.0, 0.0
+    A, drift, spin_drift = P.audit.now, 0.0, 0.0
     for k in range(3):
-        drift = max(drift, abs(A[MOMENTUM + k] - A[FIRST_MOMENTUM + k]))
-        spin_drift = max(spin_drift, abs(A[SPIN + k] - A[FIRST_MOMENTUM + 3 + k]))
-    A[DRIFT], A[SPIN_DRIFT] = max(A[DRIFT], drift), max(A[SPIN_DRIFT], spin_drift)
+        drift = max(drift, abs(A.momenta[k] - A.first_momenta[k]))
+        spin_drift = max(spin_drift, abs(A.momenta[3 + k] - A.first_momenta[3 + k]))
+    A.drift, A.spin_drift = max(A.drift, drift), max(A.spin_drift, spin_drift)

@@ -13,40 +13,25 @@ Reference: Prenter, Splines and Variational Methods, 1975, section 3.2 (Hermite 
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import acceleration_matrix, settle
-from adamslite.integrators.contract import NB, NS, NV, M, N, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import BODY, PART, attitude, put_motion, put_time
+from adamslite.integrators.motion_equations import PART, attitude, put_motion, put_time
 from adamslite.native.translate import Reals, native
-
-# Places in P.audit: numbers of the present step and of the run so far, where its arrays begin (both
-# ends of the step as workspaces; the curve, 6 numbers for each unknown of a body; vectors u, a, z,
-# s'; values at the points of a panel; 1 for each constraint row that moves;
-# what may be taken back: header and first workspace; what integrators go on with: acceleration
-# matrix, its pivots, counts), momenta.
-(
-    TIME, SPAN, KINETIC, STORED, FORCES, SIZE, BUDGET,
-    GAP, WORST, WORST_AT, SQUARES, QUADRATURE, LARGEST, CREATED, LEAST_CREATED, MOST_CREATED,
-    CREATED_AT, MISSED, SPLITS,
-    SOLVED, ELASTIC_THERE, AT_PREVIOUS, AT_PRESENT, AT_CURVE, AT_VECTORS, AT_POINTS, AT_MOVING,
-    DRIFT, SPIN_DRIFT, PUSH, TURN, PUSHES, TURNS, EXTERNAL, AT_SPARE, AT_KEPT,
-) = range(36)  # fmt: skip
-MOMENTUM, SPIN, FIRST_MOMENTUM, HEAD = 36, 39, 42, 48
 
 
 @native
 def lay_path(P: Problem, h: float) -> None:
     """The coefficients of the curve between the two ends kept in ``P.audit``."""
-    A = P.audit
-    old, new = A[int(A[AT_PREVIOUS]) :], A[int(A[AT_PRESENT]) :]
-    for b in range(P.sizes[NB]):
-        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+    old, new = P.audit.previous, P.audit.present
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
         for k in range(3):
-            curve = A[int(A[AT_CURVE]) + 6 * (i + k) :]
+            curve = P.audit.curve[6 * (i + k) :]
             c = o + k
             fit_curve(curve, h, new[c] - old[c], old[c + 3], new[c + 3], old[c + 6], new[c + 6])
-        if P.body[BODY * b] == PART:
-            lay_turn(P, h, old[o + 9 :], new[o + 9 :], A[int(A[AT_CURVE]) + 6 * i + 18 :])
+        if P.body[b].width == PART:
+            lay_turn(P, h, old[o + 9 :], new[o + 9 :], P.audit.curve[6 * i + 18 :])
 
 
 @native
@@ -88,14 +73,13 @@ def fit_curve(c: Reals, h: float, way: float, v0: float, v1: float, a0: float, a
 @native
 def put_on_path(P: Problem, s: float) -> None:
     """The share ``s`` of the step into the workspace; velocities also into the vectors."""
-    A, W = P.audit, P.W
-    old, base, h = A[int(A[AT_PREVIOUS]) :], int(A[AT_CURVE]), A[SPAN]
-    u, x = A[int(A[AT_VECTORS]) :], P.work
-    put_time(P, A[TIME] + s * h)
-    for b in range(P.sizes[NB]):
-        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
-        for k in range(P.body[BODY * b]):
-            c = A[base + 6 * (i + k) :]
+    W, old, h = P.W, P.audit.previous, P.audit.now.span
+    u, x = P.audit.vectors, P.work
+    put_time(P, P.audit.now.t + s * h)
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
+        for k in range(P.body[b].width):
+            c = P.audit.curve[6 * (i + k) :]
             x[k] = s * (c[1] + s * (c[2] + s * (c[3] + s * (c[4] + s * c[5]))))
             x[6 + k] = c[1] + s * (
                 2.0 * c[2] + s * (3.0 * c[3] + s * (4.0 * c[4] + s * 5.0 * c[5]))
@@ -103,7 +87,7 @@ def put_on_path(P: Problem, s: float) -> None:
         for k in range(3):
             W[o + k], u[i + k] = old[o + k] + x[k], x[6 + k] / h
             W[o + 3 + k] = u[i + k]
-        if P.body[BODY * b] == PART:
+        if P.body[b].width == PART:
             attitude(x[3], x[4], x[5], old, o + 15, W, o + 15)
             n = 1.0 / (h * (1.0 + 0.25 * (x[3] * x[3] + x[4] * x[4] + x[5] * x[5])))
             u[i + 3] = n * (x[9] + 0.5 * (x[4] * x[11] - x[5] * x[10]))
@@ -117,12 +101,12 @@ def put_on_path(P: Problem, s: float) -> None:
 @native
 def put_scalars_between(P: Problem, s: float) -> None:
     """Multipliers and variables on straight lines, states of DIFF on cubics."""
-    A, W, first = P.audit, P.W, P.sizes[M] + P.sizes[NV]
-    old, new, h = A[int(A[AT_PREVIOUS]) :], A[int(A[AT_PRESENT]) :], A[SPAN]
+    W, first = P.W, P.sizes.m + P.sizes.nv
+    old, new, h = P.audit.previous, P.audit.present, P.audit.now.span
     for k in range(first):
         o = P.scalar[k]
         W[o] = old[o] + s * (new[o] - old[o])
-    for k in range(P.sizes[NS]):
+    for k in range(P.sizes.ns):
         o = P.scalar[first + k]
         w0, w1 = h * s * (1.0 - s) * (1.0 - s), h * s * s * (s - 1.0)
         along = s * s * (3.0 - 2.0 * s) * (new[o] - old[o])
@@ -132,14 +116,14 @@ def put_scalars_between(P: Problem, s: float) -> None:
 @native
 def solve_on_path(P: Problem, L: Plan, s: float) -> bool:
     """Accelerations, multipliers and variables of the workspace's positions and velocities."""
-    A, W, n = P.audit, P.W, P.sizes[N]
-    first, ns = P.sizes[M] + P.sizes[NV], P.sizes[NS]
-    u = A[int(A[AT_VECTORS]) :]
+    W, n = P.W, P.sizes.n
+    first, ns = P.sizes.m + P.sizes.nv, P.sizes.ns
+    u = P.audit.vectors
     a, z, rates = u[n:], u[2 * n :], u[2 * n + first + ns :]
-    old, new = A[int(A[AT_PREVIOUS]) :], A[int(A[AT_PRESENT]) :]
-    for b in range(P.sizes[NB]):
-        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
-        for k in range(P.body[BODY * b]):
+    old, new = P.audit.previous, P.audit.present
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
+        for k in range(P.body[b].width):
             at = o + 6 + k if k < 3 else o + 9 + k
             a[i + k] = old[at] + s * (new[at] - old[at])
     for k in range(first + ns):

@@ -14,28 +14,11 @@ from __future__ import annotations
 
 from math import floor
 
-from adamslite.integrators.audit.path import (
-    AT_MOVING,
-    AT_POINTS,
-    AT_VECTORS,
-    BUDGET,
-    CREATED,
-    ELASTIC_THERE,
-    EXTERNAL,
-    FORCES,
-    MISSED,
-    QUADRATURE,
-    SIZE,
-    SOLVED,
-    SPAN,
-    SPLITS,
-    put_on_path,
-    solve_on_path,
-)
-from adamslite.integrators.contract import ELASTIC, ERROR, LOADS, NB, NW, REACTIONS, M, N, Problem
-from adamslite.integrators.event_rows import CLOCK, STRICT, WATCH, WEAK
+from adamslite.integrators.audit.path import put_on_path, solve_on_path
+from adamslite.integrators.contract import ELASTIC, LOADS, REACTIONS, Problem
+from adamslite.integrators.event_rows import STRICT, WEAK
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import BODY, PART, guard_values, run_groups
+from adamslite.integrators.motion_equations import CLOCK, PART, WATCH, guard_values, run_groups
 from adamslite.native.translate import Reals, native
 
 # Nodes and weights of Gauss's formula on (-1, 1), and weights of the formula on three of them.
@@ -49,7 +32,7 @@ POINTS, ROWS_OF_GUARDS = 10, 7
 # looked at within, where they have left it.
 SAME_PLACE = 1e-9
 # Panels of one step, their least size, and the share of what ERROR explains that is given to them.
-MOST_PANELS, LEAST_PANEL, SHARE_OF_ERROR = 400.0, 1e-7, 0.01
+MOST_PANELS, LEAST_PANEL, SHARE_OF_ERROR = 400, 1e-7, 0.01
 
 
 @native
@@ -68,9 +51,9 @@ def gauss_place(i: int) -> float:
 @native
 def work_on_panel(P: Problem, L: Plan, a: float, b: float) -> float:
     """Work between the shares ``a`` and ``b`` of the step."""
-    A, points = P.audit, P.audit[int(P.audit[AT_POINTS]) :]
-    count, half, top = P.guard.size - P.sizes[NW], 0.5 * (b - a), 0.0
-    A[BUDGET] -= 1.0
+    A, points = P.audit.now, P.audit.points
+    count, half, top = P.guard.size - P.sizes.nw, 0.5 * (b - a), 0.0
+    A.budget -= 1
     for i in range(ROWS_OF_GUARDS):
         s = a + half * (1.0 + gauss_place(i))
         s = min(max(s, a + 2.0 * SAME_PLACE), b - 2.0 * SAME_PLACE)
@@ -82,32 +65,32 @@ def work_on_panel(P: Problem, L: Plan, a: float, b: float) -> float:
             put_on_path(P, s)
         if count > 0:
             look_at_guards(P, i)
-    if count > 0 and A[BUDGET] > 0.0:
+    if count > 0 and A.budget > 0:
         s = first_change(P, a, b)
         if s > a + SAME_PLACE and s < b - SAME_PLACE:
-            A[SPLITS] += 1.0
+            A.splits += 1
             return work_on_panel(P, L, a, s) + work_on_panel(P, L, s, b)
     fine = OUTER * (points[0] + points[4]) + INNER * (points[1] + points[3]) + MIDDLE * points[2]
     rough = ROUGH_OUTER * (points[0] + points[4]) + ROUGH_MIDDLE * points[2]
-    size, width = 2.0 * top, half * A[SPAN]
+    size, width = 2.0 * top, half * A.span
     # Orders 10 and 4: the square of the relative difference is a safe estimate of the better one.
     error = width * abs(fine - rough) * min(1.0, abs(fine - rough) / max(size, 1e-300))
-    if error > SHARE_OF_ERROR * P.settings[ERROR] * A[SIZE] and b - a > LEAST_PANEL:
-        if A[BUDGET] > 0.0:
+    if error > SHARE_OF_ERROR * P.settings.error * A.size and b - a > LEAST_PANEL:
+        if A.budget > 0:
             s = 0.5 * (a + b)
             return work_on_panel(P, L, a, s) + work_on_panel(P, L, s, b)
-        A[MISSED] += 1.0
-    A[QUADRATURE] += error
+        A.missed += 1
+    A.quadrature += error
     elastic = OUTER * (points[5] + points[9]) + INNER * (points[6] + points[8])
-    A[CREATED] += width * (elastic + MIDDLE * points[7])
+    A.created += width * (elastic + MIDDLE * points[7])
     return width * fine
 
 
 @native
 def look_at_guards(P: Problem, row: int) -> None:
     """Guards and places in zones at the workspace's state, into a row behind the points."""
-    first, count = P.sizes[NW], P.guard.size - P.sizes[NW]
-    kept = P.audit[int(P.audit[AT_POINTS]) + POINTS + row * count :]
+    first, count = P.sizes.nw, P.guard.size - P.sizes.nw
+    kept = P.audit.points[POINTS + row * count :]
     guard_values(P, CLOCK)
     for k in range(count):
         kept[k] = P.guard[first + k]
@@ -129,8 +112,8 @@ def branch_side(kind: int, value: float) -> float:
 @native
 def first_change(P: Problem, a: float, b: float) -> float:
     """A place inside the panel where a guard changes its side, ``b`` when there is none."""
-    count, half = P.guard.size - P.sizes[NW], 0.5 * (b - a)
-    rows = P.audit[int(P.audit[AT_POINTS]) + POINTS :]
+    count, half = P.guard.size - P.sizes.nw, 0.5 * (b - a)
+    rows = P.audit.points[POINTS:]
     for i in range(ROWS_OF_GUARDS - 1):
         low, high = a + half * (1.0 + gauss_place(i)), a + half * (1.0 + gauss_place(i + 1))
         for k in range(count):
@@ -145,7 +128,7 @@ def first_change(P: Problem, a: float, b: float) -> float:
 @native
 def place_of_change(P: Problem, k: int, before: float, a: float, b: float) -> float:
     """By halving: where guard ``k`` leaves the side on which it is at ``a``."""
-    rows, count = P.audit[int(P.audit[AT_POINTS]) + POINTS :], P.guard.size - P.sizes[NW]
+    rows, count = P.audit.points[POINTS:], P.guard.size - P.sizes.nw
     low, high = a, b
     while high - low > 0.1 * SAME_PLACE:
         s = 0.5 * (low + high)
@@ -162,31 +145,31 @@ def place_of_change(P: Problem, k: int, before: float, a: float, b: float) -> fl
 def power_at(P: Problem, L: Plan, s: float, elastic: Reals) -> float:
     """Power of loads and of constraints that move at the share ``s`` of the step.
 
-    Into ``elastic`` goes that of elastic elements, into ``FORCES`` the largest sum of
+    Into ``elastic`` goes that of elastic elements, into ``forces`` the largest sum of
     (f max(1, |x|))^2 seen.
     """
-    A, W, F, n = P.audit, P.W, P.F, P.sizes[N]
+    A, W, F, n = P.audit, P.W, P.F, P.sizes.n
     put_on_path(P, s)
-    if A[SOLVED] != 0.0 and not solve_on_path(P, L, s):
-        A[MISSED] += 1.0
-    u = A[int(A[AT_VECTORS]) :]
-    if A[ELASTIC_THERE] != 0.0:
+    if A.solved and not solve_on_path(P, L, s):
+        A.now.missed += 1
+    u = A.vectors
+    if A.elastic:
         elastic[0] = delivered(P, ELASTIC, u)
     for i in range(n):
         F[i] = 0.0
     run_groups(P, LOADS, F)
     note_external(P)
     squares = 0.0
-    for b in range(P.sizes[NB]):
-        i, o, m = P.body[BODY * b + 1], P.body[BODY * b + 2], P.mass[b]
-        for k in range(P.body[BODY * b]):
+    for b in range(P.sizes.nb):
+        i, o, m = P.body[b].first, P.body[b].at, P.mass[b]
+        for k in range(P.body[b].width):
             size = F[i + k] - m * P.gravity[k] if k < 3 else F[i + k]
             reach = max(1.0, abs(W[o + k])) if k < 3 else 1.0
             squares += size * size * reach * reach
-    A[FORCES] = max(A[FORCES], squares)
-    if A[SOLVED] != 0.0 and P.sizes[M] > 0:
-        for k in range(P.sizes[M]):
-            W[P.scalar[k]] *= A[int(A[AT_MOVING]) + k]
+    A.now.forces = max(A.now.forces, squares)
+    if A.solved and P.sizes.m > 0:
+        for k in range(P.sizes.m):
+            W[P.scalar[k]] *= A.moving[k]
         run_groups(P, REACTIONS, F)
     total = 0.0
     for i in range(n):
@@ -200,29 +183,29 @@ def note_external(P: Problem) -> None:
     F, W, net, size = P.F, P.W, P.work, 0.0
     for k in range(8):
         net[k] = 0.0
-    for b in range(P.sizes[NB]):
-        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
         for k in range(3):
             n, p = (k + 1) % 3, (k + 2) % 3
             net[k] += F[i + k]
             net[3 + k] += W[o + n] * F[i + p] - W[o + p] * F[i + n]
             net[6] += abs(F[i + k])
             net[7] += (abs(W[o + n]) + abs(W[o + p])) * abs(F[i + k])
-            if P.body[BODY * b] == PART:
+            if P.body[b].width == PART:
                 net[3 + k] += F[i + 3 + k]
                 net[7] += abs(F[i + 3 + k])
     for k in range(3):
         size = max(size, abs(net[k]) / max(net[6], 1e-300), abs(net[3 + k]) / max(net[7], 1e-300))
-    P.audit[EXTERNAL] = max(P.audit[EXTERNAL], size)
+    P.audit.now.external = max(P.audit.now.external, size)
 
 
 @native
 def delivered(P: Problem, phases: int, u: Reals) -> float:
     """Power of some loads at the workspace's state."""
     F, total = P.F, 0.0
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         F[i] = 0.0
     run_groups(P, phases, F)
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         total -= F[i] * u[i]
     return total

@@ -12,20 +12,7 @@ from __future__ import annotations
 
 from adamslite.integrators.bdf.differences import predict
 from adamslite.integrators.bdf.state import tests_velocities
-from adamslite.integrators.contract import (
-    ADAPTIVITY,
-    ALL_CONVERGE,
-    FIXED_STEP,
-    ITERATION,
-    MAX_IT,
-    NEWTON,
-    NS,
-    NV,
-    NZ,
-    M,
-    N,
-    Problem,
-)
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.control import AGE, FACTORED, FRESH, H_LAST, NOW, RATE, H, K
 from adamslite.integrators.implicit.tolerance import asked
 from adamslite.integrators.linalg.blocks import solve
@@ -70,8 +57,8 @@ def motion_from_increments(P: Problem, cu: float, yp: Reals, psi: Reals, si2: bo
 
     q - q_p would do in place of e but for the round-off of q, which small steps divide by h.
     """
-    n = P.sizes[N]
-    w = 2 * n + P.sizes[NS]
+    n = P.sizes.n
+    w = 2 * n + P.sizes.ns
     q, u, a, v, e = P.q, P.u, P.a, P.trial[2 * w :], P.trial[2 * w + n :]
     for i in range(n):
         v[i] = (psi[i] + e[i]) * cu
@@ -84,8 +71,8 @@ def motion_from_increments(P: Problem, cu: float, yp: Reals, psi: Reals, si2: bo
     for i in range(n):
         a[i] = (psi[n + i] + u[i] - yp[n + i]) * cu
     put_motion(P, u, a)
-    first = P.sizes[M] + P.sizes[NV]
-    for k in range(P.sizes[NS]):
+    first = P.sizes.m + P.sizes.nv
+    for k in range(P.sizes.ns):
         P.rd[k] = (psi[2 * n + k] + P.z[first + k] - yp[2 * n + k]) * cu
     put_scalars(P, P.z, P.rd)
 
@@ -93,16 +80,16 @@ def motion_from_increments(P: Problem, cu: float, yp: Reals, psi: Reals, si2: bo
 @native
 def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     """Newton iterations from the predictor; True when converged."""
-    n, C = P.sizes[N], P.control
-    w = 2 * n + P.sizes[NS]
+    n, C = P.sizes.n, P.control
+    w = 2 * n + P.sizes.ns
     yp, psi, v, e = P.trial[0:], P.trial[w:], P.trial[2 * w :], P.trial[2 * w + n :]
-    error = asked(P, P.settings[FIXED_STEP])
-    tolerance = CORRECTOR_SHARE * error + P.settings[ADAPTIVITY] / C[H]
+    error = asked(P, P.settings.fixed_step)
+    tolerance = CORRECTOR_SHARE * error + P.settings.adaptivity / C[H]
     tested = cu if tests_velocities(P) else 0.0
     last = 0.0
     motion_from_increments(P, cu, yp, psi, si2)
-    for iteration in range(int(P.settings[MAX_IT])):
-        P.report[ITERATION] = iteration + 1.0
+    for iteration in range(P.settings.max_it):
+        P.report.iteration = iteration + 1
         if not fits_step(C, cu) or renews(P, iteration, C[AGE] < KEEP_STEPS):
             if not newton_matrix(P, L, phases, cu, P.q, v, P.u):
                 C[FACTORED] = 0.0
@@ -120,7 +107,7 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
             P.q[i] = P.history[i] + (yp[i] + e[i])
         motion_from_increments(P, cu, yp, psi, si2)
         size = max(size, further_change(P, cu, si2))
-        P.count[NEWTON] += 1
+        P.count.newton += 1
         if iteration > 0:
             C[RATE] = max(LEAST_RATE, size / last)
         if iteration > 1 and C[RATE] > 0.5 and C[FRESH] == 1.0 and size <= STALL_SHARE * error:
@@ -141,7 +128,7 @@ def further_change(P: Problem, cu: float, si2: bool) -> float:
     stand in ``P.x``) and, with CORRECTOR=ORIGINAL, multipliers.
     """
     size = velocity_change(P, P.x, cu) if si2 else 0.0
-    if P.settings[ALL_CONVERGE] != 0.0:
+    if P.settings.all_converge:
         size = max(size, multiplier_change(P, P.F, P.z, cu * cu))
     return size
 
@@ -162,15 +149,15 @@ def fits_step(C: Reals, cu: float) -> bool:
 def scale_increment(P: Problem, ratio: float) -> None:
     """Correct the increment for a matrix factored with another cu (Brenan et al., eq. 5.2.12)."""
     if ratio != 1.0:
-        for k in range(P.sizes[NZ]):
+        for k in range(P.sizes.nz):
             P.F[k] *= ratio
 
 
 @native
 def start_try(P: Problem, w: int) -> None:
     """Predicted values of all unknowns at the end of the step; of q only the change is kept."""
-    n, ns, C = P.sizes[N], P.sizes[NS], P.control
-    first = P.sizes[M] + P.sizes[NV]
+    n, ns, C = P.sizes.n, P.sizes.ns, P.control
+    first = P.sizes.m + P.sizes.nv
     yp, e = P.trial[0:], P.trial[2 * w + n :]
     predict(P.history, w, int(C[K]), yp, P.trial[w:])
     for i in range(n, w):

@@ -10,9 +10,9 @@ nanoseconds, velocities and differences do not (Higham, Accuracy and Stability, 
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import NB, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.rotation_count import count_anew
-from adamslite.integrators.motion_equations import BODY, PART, put_pose
+from adamslite.integrators.motion_equations import PART, put_pose
 from adamslite.native.translate import Reals, as_written, native
 
 MAX_ORDER = 5
@@ -20,6 +20,12 @@ ROWS = MAX_ORDER + 3
 LOST = ROWS
 # Rotation vectors are counted anew from the present attitude beyond this length (squared).
 REBASE = 0.0025
+
+
+def room(w: int) -> int:
+    """Numbers of a history of rows of ``w``, with the matrices of :func:`change_step` behind it."""
+    size = MAX_ORDER + 1
+    return (LOST + 1) * w + 3 * size * size + size
 
 
 @native
@@ -120,14 +126,14 @@ def rebase(P: Problem, D: Reals, w: int, k: int) -> None:
     cay(a) cay(b) = cay((a + b + a x b/2)/(1 - a.b/4)), here with b = -c.
     """
     rows = min(k + 3, ROWS)
-    for b in range(P.sizes[NB]):
-        i = P.body[BODY * b + 1] + 3
-        if P.body[BODY * b] != PART:
+    for b in range(P.sizes.nb):
+        i = P.body[b].first + 3
+        if P.body[b].width != PART:
             continue
         c0, c1, c2 = D[i], D[i + 1], D[i + 2]
         if c0 * c0 + c1 * c1 + c2 * c2 < REBASE:
             continue
-        o = P.body[BODY * b + 2]
+        o = P.body[b].at
         for c in range(3):
             P.q[i + c], D[LOST * w + i + c] = D[i + c], 0.0
         put_pose(P, P.q)

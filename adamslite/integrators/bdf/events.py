@@ -11,24 +11,9 @@ taken from a straight line, for guards that depend on them.
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import mass_signature, put_state
-from adamslite.integrators.bdf.order_cap import BAD, SUSPECT, TRAVELLED, TRIES
+from adamslite.integrators.bdf.order_cap import CAP, OrderCap
 from adamslite.integrators.bdf.state import restore_state, start_values
-from adamslite.integrators.contract import (
-    ERROR,
-    HOLONOMIC,
-    IMPLICIT_MASS,
-    INDEX3,
-    NEWTON_FAILED,
-    NS,
-    NV,
-    RESTARTS,
-    SI2,
-    STABILISED,
-    M,
-    N,
-    Problem,
-)
-from adamslite.integrators.event_rows import JUMP, OPEN, SHARE
+from adamslite.integrators.contract import INDEX3, NEWTON_FAILED, STABILISED, Problem
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import judge, open_search
@@ -45,7 +30,6 @@ from adamslite.integrators.implicit.control import (
 )
 from adamslite.integrators.implicit.step_size import LOOK_AHEAD, SMOOTH, first_step, jerk
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.step_back import UNDOABLE
 from adamslite.native.translate import native
 
 # The first step behind an event in multiples of (ERROR/|a'|)^(1/2).
@@ -57,7 +41,7 @@ def put_between(P: Problem, k: int, t: float, h: float, x: float) -> None:
     """The tried step from ``t`` of size ``h`` at the share ``x`` into the workspace; d stands in
     the second part of ``P.trial``.
     """
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w = 2 * n + ns
     D, d, y = P.history, P.trial[w:], P.trial[2 * w :]
     for i in range(w):
@@ -85,7 +69,7 @@ def restart_step(P: Problem, L: Plan, t: float, h: float) -> float:
     change = jerk(P, L, t, LOOK_AHEAD * h)
     if not change > 0.0:
         return h
-    return min(h, CAREFUL * (P.settings[ERROR] / change) ** 0.5)
+    return min(h, CAREFUL * (P.settings.error / change) ** 0.5)
 
 
 @native
@@ -93,11 +77,11 @@ def locate(P: Problem, L: Plan, cu: float) -> None:
     """Look for the first change of a branch within the step that has passed its test."""
     C = P.control
     t, h = C[NOW], C[H]
-    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    stabilised = P.sizes.si2 and P.sizes.holonomic > 0
     open_search(P, t, h)
     take_harmless(P, L, STABILISED if stabilised else INDEX3, cu)
-    while P.search[OPEN] != 0.0:
-        put_between(P, int(C[K]), t, h, P.search[SHARE])
+    while P.search.open:
+        put_between(P, int(C[K]), t, h, P.search.share)
         judge(P)
     put_state(P, t + h, P.q, P.u, P.a, P.z, P.rd)
 
@@ -105,9 +89,9 @@ def locate(P: Problem, L: Plan, cu: float) -> None:
 @native
 def switch_at_start(P: Problem, L: Plan, w: int) -> int:
     """A branch changes just behind the start of the step: change it there and begin anew."""
-    P.control[UNDOABLE] = 0.0
+    P.undoing.undoable = False
     restore_state(P, P.history, w, P.control[NOW])
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         P.a[i] = P.ra[i]
     if not change_here(P, L, P.control[NOW]):
         return NEWTON_FAILED
@@ -120,17 +104,17 @@ def pass_on(P: Problem, L: Plan, w: int) -> int:
     """Behind an event: the history goes on when nothing jumped, else a new one begins."""
     C = P.control
     # A step that is taken back must not lead across an event.
-    C[UNDOABLE] = 0.0
+    P.undoing.undoable = False
     restore_state(P, P.history, w, C[NOW])
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         P.a[i] = P.ra[i]
     if not pass_event(P, L, C[NOW]):
         return NEWTON_FAILED
-    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+    if P.search.jump * C[H_LAST] > SMOOTH * P.settings.error:
         begin_anew(P, L, w)
         return RUNNING
     C[FACTORED] = 0.0
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         P.ra[i] = P.a[i]
     keep_algebraic(P)
     restore_state(P, P.history, w, C[NOW])
@@ -141,16 +125,17 @@ def pass_on(P: Problem, L: Plan, w: int) -> int:
 def begin_anew(P: Problem, L: Plan, w: int) -> None:
     """A history of order 1 from the state and the accelerations in place."""
     C = P.control
-    P.count[RESTARTS] += 1
-    for i in range(P.sizes[N]):
+    P.count.restarts += 1
+    for i in range(P.sizes.n):
         P.ra[i] = P.a[i]
     keep_algebraic(P)
     for i in range(P.z.size):
         P.pz[i] = P.rz[i]
     C[H], C[K], C[EQUAL] = restart_step(P, L, C[NOW], first_step(P, w)), 1.0, 0.0
     C[H_LAST], C[FACTORED] = 0.0, 0.0
-    C[TRAVELLED], C[BAD], C[TRIES], C[SUSPECT] = 0.0, 0.0, 0.0, 0.0
+    cap = OrderCap(P.control[CAP:])
+    cap.travelled, cap.bad, cap.tries, cap.suspect = 0.0, 0.0, 0.0, 0.0
     start_values(P, P.history, w, C[H])
     put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
-    if P.sizes[IMPLICIT_MASS]:
+    if P.sizes.implicit_mass:
         C[SIGNATURE] = float(mass_signature(P, L, P.x))

@@ -25,7 +25,7 @@ from adamslite.integrators.bdf.corrector import correct, start_try
 from adamslite.integrators.bdf.differences import extend_history, gamma, rebase
 from adamslite.integrators.bdf.events import locate, pass_on, switch_at_start
 from adamslite.integrators.bdf.order import adapt_order, local_error, most_order
-from adamslite.integrators.bdf.order_cap import CAP, CAPPED, TRAVELLED, highest_order, start_watch
+from adamslite.integrators.bdf.order_cap import CAP, CAPPED, OrderCap, highest_order, start_watch
 from adamslite.integrators.bdf.recovery import (
     after_failure,
     after_rejection,
@@ -35,33 +35,13 @@ from adamslite.integrators.bdf.recovery import (
 )
 from adamslite.integrators.bdf.state import resize, restore_state, start_values, tests_velocities
 from adamslite.integrators.contract import (
-    AT,
     BROKEN_START,
     DONE,
-    FIXED_STEP,
-    H_MAX,
-    HOLONOMIC,
-    HOW_MUCH,
-    IMPLICIT_MASS,
     INDEX3,
-    INTERPOLATE,
     INTERRUPTED,
-    NS,
-    ORDER,
-    ORDER_CAPPED,
-    SI2,
     SINGULAR_MASS,
-    SPENT,
     STABILISED,
-    STEP,
-    STEPS,
-    STOP,
-    T_END,
-    WATCHED,
-    ZONES,
-    N,
     Problem,
-    T,
 )
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
@@ -102,21 +82,22 @@ def bdf(P: Problem, L: Plan) -> int:
     outcome = begin(P, L)
     while outcome == RUNNING:
         outcome = advance(P, L)
-    restore_state(P, P.history, 2 * P.sizes[N] + P.sizes[NS], P.control[NOW])
-    P.report[AT] = P.control[NOW]
+    restore_state(P, P.history, 2 * P.sizes.n + P.sizes.ns, P.control[NOW])
+    P.report.t = P.control[NOW]
     return outcome
 
 
 @native
 def begin(P: Problem, L: Plan) -> int:
     """Accelerations at the start, history of order 1, first record."""
-    C, t = P.control, P.settings[T]
-    w = 2 * P.sizes[N] + P.sizes[NS]
+    C, t = P.control, P.settings.t
+    w = 2 * P.sizes.n + P.sizes.ns
     for i in range(P.control.size):
         C[i] = 0.0
     C[NOW], C[RATE], C[K], C[K_TOP] = t, 1.0, 1.0, most_order(P)
-    start_watch(C)
-    P.report[ORDER_CAPPED] = 0.0
+    P.undoing[:] = 0
+    start_watch(OrderCap(P.control[CAP:]))
+    P.report.order_capped = False
     start_events(P, True, tests_velocities(P))
     started = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
@@ -125,12 +106,12 @@ def begin(P: Problem, L: Plan) -> int:
     start_values(P, P.history, w, h)
     if not started:
         return BROKEN_START
-    if P.sizes[IMPLICIT_MASS]:
+    if P.sizes.implicit_mass:
         C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
     keep_algebraic(P)
     for i in range(P.z.size):
         P.pz[i] = P.rz[i]
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         P.ra[i] = P.a[i]
     track(P)
     C[NEXT] = float(record_at(P, L, P.history, w, 0, t, h, 0))
@@ -142,26 +123,26 @@ def begin(P: Problem, L: Plan) -> int:
 def advance(P: Problem, L: Plan) -> int:
     """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
     C = P.control
-    n, ns = P.sizes[N], P.sizes[NS]
+    n, ns = P.sizes.n, P.sizes.ns
     w = 2 * n + ns
-    if C[NOW] >= P.settings[T_END]:
+    if C[NOW] >= P.settings.t_end:
         return DONE
-    if P.settings[STOP] != 0.0:
+    if P.settings.stop:
         return INTERRUPTED
     limit_step(P, w)
     if too_small(P) or crawls(P, C[H]):
         return RUNNING if land_elsewhere(P, w) else stuck(P, L, w)
-    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], C[K]
-    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    P.report.t, P.report.h, P.report.order = C[NOW], C[H], int(C[K])
+    stabilised = P.sizes.si2 and P.sizes.holonomic > 0
     cu = gamma(int(C[K])) / C[H]
     start_try(P, w)
     if not correct(P, L, STABILISED if stabilised else INDEX3, cu, stabilised):
         return after_failure(P, w)
     norm = local_error(P, w)
-    P.report[HOW_MUCH] = norm
-    if not norm <= 1.0 and not (P.settings[FIXED_STEP] > 0.0 and norm < 1e12):
+    P.report.error = norm
+    if not norm <= 1.0 and not (P.settings.fixed_step > 0.0 and norm < 1e12):
         return after_rejection(P, w, norm)
-    if P.sizes[IMPLICIT_MASS]:
+    if P.sizes.implicit_mass:
         if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
             return near_singularity(P, w)
     return finish(P, L, w, cu, norm)
@@ -171,7 +152,7 @@ def advance(P: Problem, L: Plan) -> int:
 def finish(P: Problem, L: Plan, w: int, cu: float, norm: float) -> int:
     """The step has passed its tests: accept it, or take it again to end at the first crossing."""
     C = P.control
-    if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
+    if P.sizes.watched + P.sizes.zones > 0:
         locate(P, L, cu)
         if not ends_there(P):
             if starts_there(P):
@@ -190,14 +171,14 @@ def limit_step(P: Problem, w: int) -> None:
     if C[H] > longest * 1.0000001:
         resize(P, w, longest / C[H])
     left = horizon(P) - C[NOW]
-    if P.settings[INTERPOLATE] == 0.0 and P.settings[FIXED_STEP] == 0.0:
+    if not P.settings.interpolate and P.settings.fixed_step == 0.0:
         fit = fitted(P, C[H], step_limit(P, int(C[NEXT])) - C[NOW]) / C[H]
         # Equal steps keep their history.
         if abs(fit - 1.0) > EQUAL_STEPS:
             resize(P, w, fit)
     elif C[H] * 1.0000001 > left:
         resize(P, w, left / C[H])
-    elif 2.0 * C[H] > left and horizon(P) < P.settings[T_END]:
+    elif 2.0 * C[H] > left and horizon(P) < P.settings.t_end:
         resize(P, w, 0.5 * left / C[H])
 
 
@@ -206,21 +187,21 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     """Move the history on, write records, choose the next order and step."""
     C, D = P.control, P.history
     k = int(C[K])
-    P.count[STEPS] += 1
-    P.report[SPENT] += norm
+    P.count.steps += 1
+    P.report.spent += norm
     make_undoable(P, C[NOW], C[H], C[RETRIES] == 0.0 and C[NORM] == 0.0)
     C[RETRIES], C[FRESH], C[NORM], C[NOISY] = 0.0, 0.0, 0.0, 0.0
     C[AGE] += 1.0
     extend_history(D, P.trial[w:], w, k)
     t, h = C[NOW] + C[H], C[H]
-    limit = horizon(P) if P.settings[FIXED_STEP] > 0.0 else step_limit(P, int(C[NEXT]))
+    limit = horizon(P) if P.settings.fixed_step > 0.0 else step_limit(P, int(C[NEXT]))
     if t + 1e-7 * h > limit:
         t = limit
     C[NOW], C[H_LAST] = t, h
     for i in range(P.z.size):
         P.pz[i] = P.rz[i]
     keep_algebraic(P)
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         P.ra[i] = P.a[i]
     note_violation(P, t)
     audit(P, L, t)
@@ -233,9 +214,10 @@ def accept(P: Problem, L: Plan, w: int, norm: float) -> int:
     track(P)
     rebase(P, D, w, k)
     C[EQUAL] += 1.0
-    C[TRAVELLED] += h
-    C[K_TOP] = highest_order(C, C[K_TOP], most_order(P), P.settings[H_MAX])
-    P.report[ORDER_CAPPED] = 1.0 if C[CAP] == CAPPED else 0.0
+    cap = OrderCap(P.control[CAP:])
+    cap.travelled += h
+    C[K_TOP] = highest_order(cap, C[K_TOP], most_order(P), P.settings.h_max)
+    P.report.order_capped = cap.state == CAPPED
     if happened(P, t):
         return pass_on(P, L, w)
     keep_margins(P)

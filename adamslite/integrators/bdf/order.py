@@ -8,18 +8,9 @@ Reference: Shampine, Reichelt, SIAM J. Sci. Comput. 18 (1997) 1, section 2.
 from __future__ import annotations
 
 from adamslite.integrators.bdf.differences import MAX_ORDER
-from adamslite.integrators.bdf.order_cap import TRIES, suspect
+from adamslite.integrators.bdf.order_cap import CAP, OrderCap, suspect
 from adamslite.integrators.bdf.state import resize, tests_velocities
-from adamslite.integrators.contract import (
-    ERROR,
-    FIXED_STEP,
-    K_MAX,
-    NS,
-    NV,
-    M,
-    N,
-    Problem,
-)
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.implicit.control import EQUAL, K_TOP, H, K
 from adamslite.integrators.implicit.step_size import cut
@@ -36,10 +27,19 @@ GROWING_ORDER = 3.0
 
 
 @native
+def difference(P: Problem, row: int, w: int, si2: bool) -> float:
+    """Largest |D_row|, weighted; what is reported of the tested error stays."""
+    where = P.report.where
+    size = weighted(P.history, row, w, P.sizes.n, P.sizes.ns, P.history, si2, P.report)
+    P.report.where = where
+    return size
+
+
+@native
 def local_error(P: Problem, w: int) -> float:
     """Estimated error over ERROR; leaves d in psi's place and y in the prediction's."""
-    n, ns, C = P.sizes[N], P.sizes[NS], P.control
-    first = P.sizes[M] + P.sizes[NV]
+    n, ns, C = P.sizes.n, P.sizes.ns, P.control
+    first = P.sizes.m + P.sizes.nv
     y, d, e = P.trial[0:], P.trial[w:], P.trial[2 * w + n :]
     for i in range(n):
         d[i], d[n + i] = e[i], P.u[i] - y[n + i]
@@ -47,16 +47,17 @@ def local_error(P: Problem, w: int) -> float:
     for i in range(2 * n, w):
         d[i] = P.z[first + i - 2 * n] - y[i]
         y[i] = P.z[first + i - 2 * n]
-    C[TRIES] += 1.0
+    cap = OrderCap(P.control[CAP:])
+    cap.tries += 1.0
     size = weighted(d, 0, 0, n, ns, y, tests_velocities(P), P.report)
-    return size / ((C[K] + 1.0) * P.settings[ERROR])
+    return size / ((C[K] + 1.0) * P.settings.error)
 
 
 @native
 def adapt_order(P: Problem, w: int, norm: float) -> None:
     """Order and size of the next step."""
     C = P.control
-    if P.settings[FIXED_STEP] > 0.0:
+    if P.settings.fixed_step > 0.0:
         approach_fixed_step(P, w)
     elif C[K] > C[K_TOP]:
         drop_order(P, w)
@@ -67,17 +68,17 @@ def adapt_order(P: Problem, w: int, norm: float) -> None:
 @native
 def most_order(P: Problem) -> float:
     """KMAX, as far as there are formulas."""
-    return min(float(MAX_ORDER), P.settings[K_MAX])
+    return min(float(MAX_ORDER), P.settings.k_max)
 
 
 @native
 def drop_order(P: Problem, w: int) -> None:
     """Down to the highest order allowed, with the step that suits it."""
-    C, D, si2 = P.control, P.history, tests_velocities(P)
+    C, si2 = P.control, tests_velocities(P)
     k = int(C[K_TOP])
-    size = weighted(D, k + 1, w, P.sizes[N], P.sizes[NS], D, si2, P.coef)
+    size = difference(P, k + 1, w, si2)
     C[K] = C[K_TOP]
-    norm = size / ((k + 1) * P.settings[ERROR])
+    norm = size / ((k + 1) * P.settings.error)
     resize(P, w, min(1.0, max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))))
 
 
@@ -86,7 +87,7 @@ def approach_fixed_step(P: Problem, w: int) -> None:
     """Raise the order to GROWING_ORDER, the step to FIXED_STEP, then the order to KMAX; each only
     after as many equal steps as the formula looks back.
     """
-    C, growth = P.control, min(2.0, P.settings[FIXED_STEP] / P.control[H])
+    C, growth = P.control, min(2.0, P.settings.fixed_step / P.control[H])
     if C[EQUAL] <= C[K]:
         return
     grown = growth <= 1.0000001
@@ -104,18 +105,18 @@ def choose_order(P: Problem, w: int, norm: float) -> None:
     When HMAX caps the step, the present order is kept unless a higher one is more accurate, because
     "largest step" would always pick the lowest.
     """
-    C, D, n, ns = P.control, P.history, P.sizes[N], P.sizes[NS]
-    k, si2, tol, room = int(C[K]), tests_velocities(P), P.settings[ERROR], longest_step(P) / C[H]
+    C = P.control
+    k, si2, tol, room = int(C[K]), tests_velocities(P), P.settings.error, longest_step(P) / C[H]
     same = max(SAFETY * norm, 1e-10) ** (-1.0 / (k + 1))
     best, factor = k, same
     if k > 1:
-        low = weighted(D, k, w, n, ns, D, si2, P.coef)
-        suspect(C, k, low, norm * (k + 1) * tol, tol, C[EQUAL])
+        low = difference(P, k, w, si2)
+        suspect(OrderCap(P.control[CAP:]), k, low, norm * (k + 1) * tol, tol, C[EQUAL])
         f = max(SAFETY * low / (k * tol), 1e-10) ** (-1.0 / k)
         if f > factor and min(f, same) < room:
             best, factor = k - 1, f
     if k < int(C[K_TOP]):
-        high = weighted(D, k + 2, w, n, ns, D, si2, P.coef) / ((k + 2) * tol)
+        high = difference(P, k + 2, w, si2) / ((k + 2) * tol)
         f = max(SAFETY_UP * high, 1e-10) ** (-1.0 / (k + 2))
         if f > factor or (min(f, factor) >= room and high < norm):
             best, factor = k + 1, f

@@ -16,7 +16,7 @@ Avoiding BDF stability barriers, LLNL UCRL-ID-120480, 1995 (the same trouble, se
 
 from __future__ import annotations
 
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Record, native
 
 # Tries of a step in a window.
 WINDOW = 50.0
@@ -38,58 +38,74 @@ HOPELESS = 0.3
 PATIENCE, MORE_PATIENCE = 500.0, 4.0
 
 WATCHING, TRYING, CAPPED = 0.0, 1.0, 2.0
-# Places in the integrator's control.
-(
-    CAP, TRIES, TRAVELLED, SUSPECT, BAD, PACE, WINDOWS, REST, NEXT_REST,
-) = range(20, 29)  # fmt: skip
+# Its place in P.control.
+CAP = 20
+
+
+class OrderCap(Record):
+    """The cap and what is known of the present window of tries.
+
+    ``tries`` of steps, ``travelled``: the time that they took the run on, ``suspect`` steps among
+    them, ``bad``: rejections; ``pace``: time per try before the trial, ``windows`` of the trial,
+    ``rest``: tries until the next one, ``next_rest`` after that.
+    """
+
+    state: float
+    tries: float
+    travelled: float
+    suspect: float
+    bad: float
+    pace: float
+    windows: float
+    rest: float
+    next_rest: float
 
 
 @native
-def start_watch(C: Reals) -> None:
+def start_watch(C: OrderCap) -> None:
     """Nothing suspected yet."""
-    for k in range(CAP, NEXT_REST + 1):
-        C[k] = 0.0
-    C[NEXT_REST] = PATIENCE
+    C[:] = 0
+    C.next_rest = PATIENCE
 
 
 @native
-def suspect(C: Reals, order: int, low: float, high: float, error: float, steps: float) -> None:
+def suspect(C: OrderCap, order: int, low: float, high: float, error: float, steps: float) -> None:
     """Judge by |D_k| and |D_(k+1)| what set the last ``steps`` steps."""
     if order < 3 or not (low > 0.0 and high > 0.0):
         return
     if high * (low / high) ** (order + 1.0) < SUSPECT_AMPLITUDE * error:
-        C[SUSPECT] += steps
+        C.suspect += steps
 
 
 @native
-def highest_order(C: Reals, top: float, most: float, h_max: float) -> float:
+def highest_order(C: OrderCap, top: float, most: float, h_max: float) -> float:
     """The highest order from now on, after an accepted step; ``top`` is that until now."""
-    if C[TRIES] < WINDOW:
+    if C.tries < WINDOW:
         return top
-    pace, tries = C[TRAVELLED] / C[TRIES], C[TRIES]
-    suspected = C[SUSPECT] >= SUSPECT_SHARE * WINDOW or C[BAD] >= REJECTED_SHARE * WINDOW
-    C[TRIES], C[TRAVELLED], C[SUSPECT], C[BAD] = 0.0, 0.0, 0.0, 0.0
-    if C[CAP] != WATCHING:
+    pace, tries = C.travelled / C.tries, C.tries
+    suspected = C.suspect >= SUSPECT_SHARE * WINDOW or C.bad >= REJECTED_SHARE * WINDOW
+    C.tries, C.travelled, C.suspect, C.bad = 0.0, 0.0, 0.0, 0.0
+    if C.state != WATCHING:
         return after_window(C, pace, most)
-    growing = pace > STEADY * C[PACE]
-    C[PACE] = pace
-    C[REST] -= tries
-    if growing or C[REST] > 0.0 or pace * ROOM > h_max or not suspected:
+    growing = pace > STEADY * C.pace
+    C.pace = pace
+    C.rest -= tries
+    if growing or C.rest > 0.0 or pace * ROOM > h_max or not suspected:
         return top
-    C[CAP], C[WINDOWS] = TRYING, 0.0
+    C.state, C.windows = TRYING, 0.0
     return 2.0
 
 
 @native
-def after_window(C: Reals, pace: float, most: float) -> float:
+def after_window(C: OrderCap, pace: float, most: float) -> float:
     """The highest order after a window of a trial, or of steps under the cap."""
-    C[WINDOWS] += 1.0
-    if pace > PAYS * C[PACE]:
-        C[CAP] = CAPPED
-    if C[CAP] == CAPPED and pace > STILL_PAYS * C[PACE]:
+    C.windows += 1.0
+    if pace > PAYS * C.pace:
+        C.state = CAPPED
+    if C.state == CAPPED and pace > STILL_PAYS * C.pace:
         return 2.0
-    if C[CAP] == TRYING and C[WINDOWS] < TRIAL_WINDOWS and pace > HOPELESS * C[PACE]:
+    if C.state == TRYING and C.windows < TRIAL_WINDOWS and pace > HOPELESS * C.pace:
         return 2.0
-    C[CAP], C[REST] = WATCHING, C[NEXT_REST]
-    C[NEXT_REST] *= MORE_PATIENCE
+    C.state, C.rest = WATCHING, C.next_rest
+    C.next_rest *= MORE_PATIENCE
     return most

@@ -8,12 +8,6 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.bdf.differences import change_step
 from adamslite.integrators.contract import (
-    HOLONOMIC,
-    NS,
-    NV,
-    SI2,
-    M,
-    N,
     Problem,
 )
 from adamslite.integrators.implicit.control import EQUAL, H, K
@@ -24,8 +18,8 @@ from adamslite.native.translate import Reals, native
 @native
 def start_values(P: Problem, D: Reals, w: int, h: float) -> None:
     """Order 1: D_0 = y, D_1 = h y'."""
-    n = P.sizes[N]
-    first = P.sizes[M] + P.sizes[NV]
+    n = P.sizes.n
+    first = P.sizes.m + P.sizes.nv
     for k in range(P.history.size):
         D[k] = 0.0
     rates = P.trial[0:]
@@ -33,7 +27,7 @@ def start_values(P: Problem, D: Reals, w: int, h: float) -> None:
     for i in range(n):
         D[i], D[n + i] = P.q[i], P.u[i]
         D[w + i], D[w + n + i] = h * rates[i], h * P.a[i]
-    for k in range(P.sizes[NS]):
+    for k in range(P.sizes.ns):
         D[2 * n + k] = P.z[first + k]
         D[w + 2 * n + k] = h * P.rd[k]
 
@@ -51,17 +45,17 @@ def tests_velocities(P: Problem) -> bool:
     """Whether errors of velocities are tested: they are not in index 3, where those of constrained
     directions are round-off over the step.
     """
-    return P.sizes[SI2] == 1 or P.sizes[HOLONOMIC] == 0
+    return P.sizes.si2 or P.sizes.holonomic == 0
 
 
 @native
 def restore_state(P: Problem, D: Reals, w: int, t: float) -> None:
     """The accepted state back into q, u, z and the workspace after records were made."""
-    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     for i in range(n):
         P.q[i], P.u[i] = D[i], D[n + i]
     for i in range(first):
         P.z[i] = P.rz[i]
-    for i in range(P.sizes[NS]):
+    for i in range(P.sizes.ns):
         P.z[first + i] = D[2 * n + i]
     put_state(P, t, P.q, P.u, P.ra, P.z, P.rd)

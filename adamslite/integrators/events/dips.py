@@ -18,24 +18,8 @@ special event location problems for ODEs".
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import (
-    ERROR,
-    FIXED_STEP,
-    H_MAX,
-    WATCHED,
-    ZONES,
-    Problem,
-)
-from adamslite.integrators.event_rows import (
-    END,
-    INSIDE,
-    NONE,
-    SIZE,
-    SPAN,
-    START,
-    ZONE_EARLY,
-    ZONE_LATE,
-)
+from adamslite.integrators.contract import Problem
+from adamslite.integrators.event_rows import END, INSIDE, NONE, START, ZONE_EARLY, ZONE_LATE
 from adamslite.native.translate import native
 
 # Rates are differences over this share of the step.
@@ -58,8 +42,8 @@ HALVINGS = 50
 @native
 def rates(P: Problem, row: int, target: int, zone_target: int) -> None:
     """Rates between the end of the step in ``row`` and what was looked at inside, per time."""
-    count, zones = P.sizes[WATCHED], P.sizes[ZONES]
-    w = 1.0 / (LITTLE * P.search[SIZE])
+    count, zones = P.sizes.watched, P.sizes.zones
+    w = 1.0 / (LITTLE * P.search.size)
     if row == START:
         w = 0.0 - w
     for k in range(count):
@@ -119,14 +103,14 @@ def share_of_zone(P: Problem, tested: bool) -> float:
     """Share of a zone that a step may cross; ``tested``: errors of velocities are."""
     if tested:
         return SHARE_OF_ZONE
-    return min(SHARE_OF_ZONE, UNTESTED * P.settings[ERROR] ** (1.0 / 3.0))
+    return min(SHARE_OF_ZONE, UNTESTED * P.settings.error ** (1.0 / 3.0))
 
 
 @native
 def share_into_zones(P: Problem) -> float:
     """The share of the step that crosses no zone too quickly; ``NONE`` when the whole does not."""
-    count, h, span, least = P.sizes[ZONES], P.search[SIZE], P.search[SPAN], NONE
-    if count == 0 or P.settings[FIXED_STEP] > 0.0:
+    count, h, span, least = P.sizes.zones, P.search.size, P.search.span, NONE
+    if count == 0 or P.settings.fixed_step > 0.0:
         return NONE
     for k in range(count):
         a, b = P.zone[START * count + k], P.zone[END * count + k]
@@ -138,7 +122,7 @@ def share_into_zones(P: Problem) -> float:
             # Downwards is upwards in 1 - D.
             least = min(least, share_into(a, b, r, s, span))
             least = min(least, share_into(1.0 - a, 1.0 - b, 0.0 - r, 0.0 - s, span))
-    return least if least * h > LEAST_CUT * P.settings[H_MAX] else NONE
+    return least if least * h > LEAST_CUT * P.settings.h_max else NONE
 
 
 @native

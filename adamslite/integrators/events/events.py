@@ -23,11 +23,11 @@ An integrator
    workspace::
 
        open_search(P, t, h)
-       while P.search[OPEN] != 0.0:
-           (the state at the share P.search[SHARE] of the step into the workspace)
+       while P.search.open:
+           (the state at the share P.search.share of the step into the workspace)
            judge(P)
 
-   and afterwards puts the end back.  Above 1, ``P.search[FOUND]`` says that there was none.  Where
+   and afterwards puts the end back.  Above 1, ``P.search.found`` says that there was none.  Where
    ``ends_beyond(P)`` right after ``open_search``, branches differ at the end; when they make no
    difference there (:func:`take_harmless`) they are changed without a search;
    A try that fails because nothing is defined behind a branch is done again after
@@ -37,7 +37,7 @@ An integrator
    :func:`shorter`, or, when :func:`starts_there`, changes branches where it stands;
 5. accepts the step, writes the records of the time until then, and calls :func:`keep_margins`
    unless something :func:`happened`, else :func:`pass_event`; that leaves accelerations of the new
-   branches, and in ``P.search[JUMP]`` how much they changed.  After a jump what is remembered of
+   branches, and in ``P.search.jump`` how much they changed.  After a jump what is remembered of
    the past is worthless: it starts anew.  Behind the end of a STEP in time it may go on.
 
 Reference: Shampine, Thompson, Appl. Math. Comput. 2000, "Event location for ODEs"; Oliveira,
@@ -48,18 +48,8 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.audit.balance import audit_from
-from adamslite.integrators.contract import EVENTS, NS, N, Problem, T
-from adamslite.integrators.event_rows import (
-    END,
-    FOUND,
-    HIGH_ROW,
-    HUGE,
-    HUNT,
-    JUMP,
-    LOOSE,
-    NONE,
-    SPAN,
-)
+from adamslite.integrators.contract import Problem
+from adamslite.integrators.event_rows import END, HIGH_ROW, HUGE, NONE
 from adamslite.integrators.events.dips import share_of_zone
 from adamslite.integrators.events.guards import (
     hold_watch,
@@ -81,15 +71,14 @@ def start_events(P: Problem, located: bool, tested: bool) -> None:
     ``located``: crossings are looked for; else watched guards are evaluated as they are.
     ``tested``: so are errors of velocities.
     """
-    for k in range(P.search.size):
-        P.search[k] = 0.0
-    P.search[FOUND], P.search[LOOSE] = NONE, 0.0 if located else 1.0
-    P.search[SPAN] = share_of_zone(P, tested)
+    P.search[:] = 0
+    P.search.found, P.search.loose = NONE, not (located)
+    P.search.span = share_of_zone(P, tested)
     for k in range(P.margin.size):
         P.margin[k] = 0.0
     release_watch(P)
-    set_clock(P, P.settings[T])
-    set_pace(P, P.settings[T])
+    set_clock(P, P.settings.t)
+    set_pace(P, P.settings.t)
 
 
 @native
@@ -101,7 +90,7 @@ def happened(P: Problem, t: float) -> bool:
 @native
 def met(P: Problem) -> bool:
     """Whether the accepted step ends at a crossing."""
-    return P.search[FOUND] <= 1.0
+    return P.search.found <= 1.0
 
 
 @native
@@ -112,8 +101,8 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
     remember_branches(P)
     turn_over(P, HIGH_ROW, 1.0)
     note_changes(P, t, HIGH_ROW)
-    P.count[EVENTS] += 1
-    P.search[HUNT] = 0.0
+    P.count.events += 1
+    P.search.hunt = False
     if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return False
     look_at_start(P)
@@ -125,16 +114,16 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
 def pass_event(P: Problem, L: Plan, t: float) -> bool:
     """Behind a stop or a crossing at ``t``: branches and accelerations of the other side.
 
-    The state stands in q, u, z, rd and P.a and in the workspace; ``P.search[JUMP]``: the largest
+    The state stands in q, u, z, rd and P.a and in the workspace; ``P.search.jump``: the largest
     change at a stop of an acceleration or of the rate of a state, against max(1, |u|) or
     max(1, |s|); at a crossing it is beyond all bounds.  False when the equations have no solution.
     """
-    n, ns, S, old = P.sizes[N], P.sizes[NS], P.search, P.trial
-    P.count[EVENTS] += 1
-    S[HUNT], S[JUMP] = 0.0, 0.0
+    n, ns, S, old = P.sizes.n, P.sizes.ns, P.search, P.trial
+    P.count.events += 1
+    S.hunt, S.jump = False, 0.0
     if met(P):
         note_changes(P, t, END)
-        S[JUMP] = HUGE
+        S.jump = HUGE
     elif not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return False
     for i in range(n):
@@ -148,9 +137,9 @@ def pass_event(P: Problem, L: Plan, t: float) -> bool:
         return False
     hold_watch(P)
     for i in range(n):
-        S[JUMP] = max(S[JUMP], abs(P.a[i] - old[i]) / max(1.0, abs(P.u[i])))
+        S.jump = max(S.jump, abs(P.a[i] - old[i]) / max(1.0, abs(P.u[i])))
     for k in range(ns):
         size = max(1.0, abs(P.z[P.z.size - 1 - ns + k]))
-        S[JUMP] = max(S[JUMP], abs(P.rd[k] - old[n + k]) / size)
+        S.jump = max(S.jump, abs(P.rd[k] - old[n + k]) / size)
     audit_from(P, t)
     return True

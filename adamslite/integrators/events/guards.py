@@ -9,37 +9,26 @@ from __future__ import annotations
 
 from math import floor
 
-from adamslite.integrators.contract import CLOCKS, H_MAX, NW, WATCHED, ZONES, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.event_rows import (
     BEFORE,
     CHANGES,
-    CRAWL,
-    CULPRIT,
     EARLY,
     END,
-    FREED,
     HELD,
     HUGE,
     JUMPS,
-    KNOWN,
     LATE,
-    LET_GO,
-    LOOSE,
     PAST,
     PAST_RATE,
-    PAST_SIZE,
-    RATED,
     SINCE,
-    SIZE,
     START,
     STRICT,
-    TAKEN,
-    WATCH,
     WEAK,
     ZONE_EARLY,
     ZONE_LATE,
 )
-from adamslite.integrators.motion_equations import guard_values
+from adamslite.integrators.motion_equations import WATCH, guard_values
 from adamslite.native.translate import native
 
 # A guard that changes this often within this share of HMAX is chattering: it is no longer held.
@@ -48,7 +37,7 @@ CHATTER, CHATTER_SPAN = 10.0, 1e-3
 # slides along it, and the equations as they are do not say how.
 SLIDING_SPAN = 1e-4
 # After that, this many steps below this share of HMAX show that nothing else helps.
-CRAWLING, MOST_CRAWLED = 1e-4, 500.0
+CRAWLING, MOST_CRAWLED = 1e-4, 500
 # Changes nearer than this share of a step are one.
 SAME_TIME = 1e-6
 
@@ -82,18 +71,18 @@ def margin_of(kind: int, branch: float, value: float) -> float:
 @native
 def release_watch(P: Problem) -> None:
     """Evaluate watched guards as they are."""
-    first = P.sizes[NW] + P.sizes[CLOCKS]
-    for k in range(P.sizes[WATCHED]):
+    first = P.sizes.nw + P.sizes.clocks
+    for k in range(P.sizes.watched):
         P.W[first + k] = 0.0
 
 
 @native
 def hold_watch(P: Problem) -> None:
     """Hold the branches of the workspace's state from now on."""
-    clocks, count = P.sizes[CLOCKS], P.sizes[WATCHED]
-    if count + P.sizes[ZONES] == 0 or P.search[LOOSE] != 0.0:
+    clocks, count = P.sizes.clocks, P.sizes.watched
+    if count + P.sizes.zones == 0 or P.search.loose:
         return
-    first = P.sizes[NW] + clocks
+    first = P.sizes.nw + clocks
     release_watch(P)
     guard_values(P, WATCH)
     for k in range(count):
@@ -108,10 +97,10 @@ def let_go(P: Problem) -> bool:
     expression is defined (the root of a length that IF keeps positive); False when they are not
     held.
     """
-    S, first, count = P.search, P.sizes[NW] + P.sizes[CLOCKS], P.sizes[WATCHED]
-    if count == 0 or S[LOOSE] != 0.0 or S[LET_GO] != 0.0:
+    S, first, count = P.search, P.sizes.nw + P.sizes.clocks, P.sizes.watched
+    if count == 0 or S.loose or S.let_go:
         return False
-    S[LET_GO] = 1.0
+    S.let_go = True
     for k in range(count):
         P.margin[HELD * count + k] = P.W[first + k]
         P.W[first + k] = 0.0
@@ -121,9 +110,9 @@ def let_go(P: Problem) -> bool:
 @native
 def take_up(P: Problem) -> None:
     """Hold the guards again that were let go for a try."""
-    first, count = P.sizes[NW] + P.sizes[CLOCKS], P.sizes[WATCHED]
-    if P.search[LET_GO] != 0.0:
-        P.search[LET_GO] = 0.0
+    first, count = P.sizes.nw + P.sizes.clocks, P.sizes.watched
+    if P.search.let_go:
+        P.search.let_go = False
         for k in range(count):
             P.W[first + k] = P.margin[HELD * count + k]
 
@@ -131,8 +120,8 @@ def take_up(P: Problem) -> None:
 @native
 def margins(P: Problem, row: int) -> int:
     """Margins at the workspace's state into a row of ``P.margin``; how many are negative."""
-    clocks, count, found = P.sizes[CLOCKS], P.sizes[WATCHED], 0
-    first = P.sizes[NW] + clocks
+    clocks, count, found = P.sizes.clocks, P.sizes.watched, 0
+    first = P.sizes.nw + clocks
     guard_values(P, WATCH)
     for k in range(count):
         margin = margin_of(P.kind[clocks + k], P.W[first + k], P.guard[first + k])
@@ -145,8 +134,8 @@ def margins(P: Problem, row: int) -> int:
 @native
 def is_taken(P: Problem, k: int) -> bool:
     """Whether a guard was turned over in this step because that makes no difference."""
-    branch = P.W[P.sizes[NW] + P.sizes[CLOCKS] + k]
-    return P.search[TAKEN] != 0.0 and branch != P.margin[BEFORE * P.sizes[WATCHED] + k]
+    branch = P.W[P.sizes.nw + P.sizes.clocks + k]
+    return P.search.taken and branch != P.margin[BEFORE * P.sizes.watched + k]
 
 
 @native
@@ -154,10 +143,10 @@ def look(P: Problem, row: int) -> int:
     """Margins and places within zones at the workspace's state into a row; how many are
     negative.
     """
-    count = P.sizes[ZONES]
-    if P.sizes[WATCHED] + count == 0:
+    count = P.sizes.zones
+    if P.sizes.watched + count == 0:
         return 0
-    first = P.sizes[NW] + P.sizes[CLOCKS] + P.sizes[WATCHED]
+    first = P.sizes.nw + P.sizes.clocks + P.sizes.watched
     found = margins(P, row)
     for k in range(count):
         P.zone[row * count + k] = P.guard[first + k]
@@ -167,40 +156,40 @@ def look(P: Problem, row: int) -> int:
 @native
 def look_at_start(P: Problem) -> None:
     """The workspace's state is the start of the next step, with rates that are not known."""
-    P.search[TAKEN], P.search[KNOWN], P.search[PAST_SIZE] = 0.0, 0.0, 0.0
+    P.search.taken, P.search.known, P.search.past_size = False, False, 0.0
     look(P, START)
 
 
 @native
 def copy_margins(P: Problem, source: int, target: int) -> None:
-    for k in range(P.sizes[WATCHED]):
-        P.margin[target * P.sizes[WATCHED] + k] = P.margin[source * P.sizes[WATCHED] + k]
+    for k in range(P.sizes.watched):
+        P.margin[target * P.sizes.watched + k] = P.margin[source * P.sizes.watched + k]
 
 
 @native
 def keep_margins(P: Problem) -> None:
     """The step is accepted: its end is the next start."""
-    S, zones = P.search, P.sizes[ZONES]
-    if P.sizes[WATCHED] + zones == 0:
+    S, zones = P.search, P.sizes.zones
+    if P.sizes.watched + zones == 0:
         return
     copy_margins(P, START, PAST)
     copy_margins(P, EARLY, PAST_RATE)
-    S[PAST_SIZE] = S[SIZE] if S[KNOWN] != 0.0 else 0.0
+    S.past_size = S.size if S.known else 0.0
     copy_margins(P, END, START)
     copy_margins(P, LATE, EARLY)
     for k in range(zones):
         P.zone[START * zones + k] = P.zone[END * zones + k]
         P.zone[ZONE_EARLY * zones + k] = P.zone[ZONE_LATE * zones + k]
-    S[KNOWN], S[RATED] = S[RATED], 0.0
+    S.known, S.rated = S.rated, False
 
 
 @native
 def crawls(P: Problem, h: float) -> bool:
     """Whether the run has come down to tiny steps after a guard was let go for good."""
     S = P.search
-    if S[FREED] > 0.0 and h < CRAWLING * P.settings[H_MAX]:
-        S[CRAWL] += 1.0
-    return S[CRAWL] > MOST_CRAWLED
+    if S.freed > 0 and h < CRAWLING * P.settings.h_max:
+        S.crawl += 1
+    return S.crawl > MOST_CRAWLED
 
 
 @native
@@ -208,8 +197,8 @@ def turn_over(P: Problem, row: int, share: float) -> None:
     """Change the branch of every guard that is negative in a row of margins, the last looked at;
     with ``share`` below 1 only of those that change before it.
     """
-    clocks, count = P.sizes[CLOCKS], P.sizes[WATCHED]
-    first = P.sizes[NW] + clocks
+    clocks, count = P.sizes.clocks, P.sizes.watched
+    first = P.sizes.nw + clocks
     for k in range(count):
         branch = P.margin[BEFORE * count + k]
         if P.margin[row * count + k] < 0.0 and (
@@ -224,7 +213,7 @@ def turn_over(P: Problem, row: int, share: float) -> None:
 @native
 def remember_branches(P: Problem) -> None:
     """Keep the branches so that they can be turned back."""
-    first, count = P.sizes[NW] + P.sizes[CLOCKS], P.sizes[WATCHED]
+    first, count = P.sizes.nw + P.sizes.clocks, P.sizes.watched
     for k in range(count):
         P.margin[BEFORE * count + k] = P.W[first + k]
 
@@ -232,7 +221,7 @@ def remember_branches(P: Problem) -> None:
 @native
 def turn_back(P: Problem) -> None:
     """Branches as they were before they were turned over."""
-    first, count = P.sizes[NW] + P.sizes[CLOCKS], P.sizes[WATCHED]
+    first, count = P.sizes.nw + P.sizes.clocks, P.sizes.watched
     for k in range(count):
         P.W[first + k] = P.margin[BEFORE * count + k]
 
@@ -240,7 +229,7 @@ def turn_back(P: Problem) -> None:
 @native
 def crossing_share(P: Problem, k: int) -> float:
     """Where the straight line between the margins of a guard at both ends is zero."""
-    count = P.sizes[WATCHED]
+    count = P.sizes.watched
     before, after = max(0.0, P.margin[START * count + k]), P.margin[END * count + k]
     return before / (before - after)
 
@@ -248,17 +237,17 @@ def crossing_share(P: Problem, k: int) -> float:
 @native
 def note_changes(P: Problem, t: float, row: int) -> None:
     """Count the changes of guards that are negative in a row; one that chatters is let go."""
-    count, first = P.sizes[WATCHED], P.sizes[NW] + P.sizes[CLOCKS]
+    count, first = P.sizes.watched, P.sizes.nw + P.sizes.clocks
     for k in range(count):
         often, since = CHANGES * count + k, SINCE * count + k
         if P.margin[row * count + k] < 0.0 and P.margin[often] >= 0.0:
-            if P.margin[often] == 0.0 or t - P.margin[since] > CHATTER_SPAN * P.settings[H_MAX]:
+            if P.margin[often] == 0.0 or t - P.margin[since] > CHATTER_SPAN * P.settings.h_max:
                 P.margin[often], P.margin[since] = 0.0, t
             P.margin[often] += 1.0
             if P.margin[often] > CHATTER:
-                slides = t - P.margin[since] <= SLIDING_SPAN * P.settings[H_MAX]
-                if P.kind[P.sizes[CLOCKS] + k] >= JUMPS and slides:
-                    P.search[CRAWL] = MOST_CRAWLED + 1.0
+                slides = t - P.margin[since] <= SLIDING_SPAN * P.settings.h_max
+                if P.kind[P.sizes.clocks + k] >= JUMPS and slides:
+                    P.search.crawl = MOST_CRAWLED + 1
                 P.margin[often], P.W[first + k] = -1.0, 0.0
-                P.search[FREED] += 1.0
-                P.search[CULPRIT] = float(k)
+                P.search.freed += 1
+                P.search.culprit = k

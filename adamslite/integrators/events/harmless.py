@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import CLOCKS, ERROR, NW, NZ, WATCHED, N, Problem
-from adamslite.integrators.event_rows import BEFORE, END, HIGH, HUNT, INSIDE, NONE, TAKEN
+from adamslite.integrators.contract import Problem
+from adamslite.integrators.event_rows import BEFORE, END, INSIDE, NONE
 from adamslite.integrators.events.guards import (
     SAME_TIME,
     crossing_share,
@@ -34,7 +34,7 @@ def take_harmless(P: Problem, L: Plan, phases: int, cu: float) -> None:
     Branches are changed one after another as they were met: two that cancel at the end (a force
     that acts only in a thin layer) need not have cancelled on the way.
     """
-    if not ends_beyond(P) or P.search[HUNT] != 0.0:
+    if not ends_beyond(P) or P.search.hunt:
         return
     share, groups, harmless = -1.0, 0, True
     remember_branches(P)
@@ -53,7 +53,7 @@ def take_harmless(P: Problem, L: Plan, phases: int, cu: float) -> None:
 @native
 def next_change(P: Problem, share: float) -> float:
     """Estimated share of the step of the first change after ``share``; 1 for the last one."""
-    count, found, last = P.sizes[WATCHED], 1.0, 0.0
+    count, found, last = P.sizes.watched, 1.0, 0.0
     for k in range(count):
         if P.margin[END * count + k] < 0.0:
             at = crossing_share(P, k)
@@ -69,13 +69,13 @@ def small_change(P: Problem, L: Plan, phases: int, cu: float) -> bool:
     residual(P, phases, P.F)
     solve(L, P.LV, P.pivots, P.F, P.x, P.work)
     largest = 0.0
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         size = abs(P.F[i])
         largest = max(largest, size / max(1.0, abs(P.q[i])), cu * size / max(1.0, abs(P.u[i])))
-    for k in range(P.sizes[NZ]):
+    for k in range(P.sizes.nz):
         if not abs(P.F[k]) < 1e300:
             return False
-    return largest <= HARMLESS * P.settings[ERROR]
+    return largest <= HARMLESS * P.settings.error
 
 
 @native
@@ -83,7 +83,7 @@ def exposes(P: Problem) -> bool:
     """Whether the branches that were turned over move the margin of another guard: what that one
     decides may have changed on the way (MAX(ABS(x) - a, 0): with the branch of ABS that of MAX).
     """
-    count, first = P.sizes[WATCHED], P.sizes[NW] + P.sizes[CLOCKS]
+    count, first = P.sizes.watched, P.sizes.nw + P.sizes.clocks
     margins(P, INSIDE)
     for k in range(count):
         same = P.W[first + k] == P.margin[BEFORE * count + k]
@@ -96,5 +96,5 @@ def exposes(P: Problem) -> bool:
 def forget(P: Problem) -> None:
     """The branches that were turned over are those of the end; others are still looked at."""
     note_changes(P, P.W[0], END)
-    P.search[TAKEN], P.search[HIGH] = 1.0, NONE
+    P.search.taken, P.search.high = True, NONE
     margins(P, END)

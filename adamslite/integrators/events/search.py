@@ -9,43 +9,21 @@ Reference: Oliveira, Takahashi, ACM Trans. Math. Softw. 47 (2021) 5 (ITP, the br
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import ERROR, WATCHED, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.event_rows import (
-    AGAIN,
     BRACKET,
-    BUDGET,
-    CUT,
     DIP,
     EARLY,
     END,
-    FOUND,
-    HIGH,
     HIGH_ROW,
-    HUNT,
-    HUNT_END,
     INSIDE,
-    KNOWN,
     LATE,
-    LET_GO,
-    LOOKED,
-    LOOKS,
-    LOW,
     LOW_ROW,
     NONE,
-    OPEN,
     RATE_BEFORE,
     RATE_BEHIND,
     RATE_RIGHT,
-    RATED,
-    SHARE,
-    SIZE,
-    STAGE,
     START,
-    TAKEN,
-    TOLERANCE,
-    WHOLE,
-    WINDOW_HIGH,
-    WINDOW_LOW,
     ZONE_EARLY,
     ZONE_LATE,
 )
@@ -75,36 +53,36 @@ TIME_ROUND_OFF = 4e-15
 def open_search(P: Problem, t: float, h: float) -> None:
     """Look at the end of the step from ``t``, which stands in the workspace."""
     S = P.search
-    S[OPEN], S[SHARE], S[STAGE], S[TAKEN] = 1.0, 1.0 - LITTLE, RATE_BEHIND, 0.0
-    S[FOUND], S[CUT], S[SIZE], S[LOW], S[HIGH] = NONE, NONE, h, 0.0, NONE
-    S[LOOKS], S[WINDOW_LOW] = 0.0, 0.0
-    S[AGAIN] = S[LET_GO]
+    S.open, S.share, S.stage, S.taken = True, 1.0 - LITTLE, RATE_BEHIND, False
+    S.found, S.cut, S.size, S.low, S.high = NONE, NONE, h, 0.0, NONE
+    S.looks, S.window_low = 0, 0.0
+    S.again = S.let_go
     take_up(P)
-    if S[HUNT] != 0.0 and t >= S[HUNT_END]:
-        S[HUNT] = 0.0
-    if S[HUNT] == 0.0:
-        S[HUNT_END], S[WHOLE] = t + h, h
-        share = min(CLOSE, CLOSE_ERROR * P.settings[ERROR])
-        S[TOLERANCE] = max(share * h + TIME_ROUND_OFF * abs(t), least_step(P))
+    if S.hunt and t >= S.hunt_end:
+        S.hunt = False
+    if not S.hunt:
+        S.hunt_end, S.whole = t + h, h
+        share = min(CLOSE, CLOSE_ERROR * P.settings.error)
+        S.tolerance = max(share * h + TIME_ROUND_OFF * abs(t), least_step(P))
     if look(P, END) > 0:
-        S[HIGH] = 1.0
+        S.high = 1.0
 
 
 @native
 def open_bracket(P: Problem, share: float, row: int) -> None:
     """A branch has changed somewhere before ``share``, where margins stand in a row."""
     S = P.search
-    S[HIGH], S[FOUND], S[BUDGET], S[STAGE] = share, share, share - S[WINDOW_LOW], BRACKET
-    S[LOW] = S[WINDOW_LOW]
+    S.high, S.found, S.budget, S.stage = share, share, share - S.window_low, BRACKET
+    S.low = S.window_low
     copy_margins(P, left_row(P), LOW_ROW)
     copy_margins(P, row, HIGH_ROW)
-    S[SHARE] = next_share(P)
+    S.share = next_share(P)
 
 
 @native
 def ends_beyond(P: Problem) -> bool:
     """Whether the end of the step is on other branches."""
-    return P.search[HIGH] == 1.0
+    return P.search.high == 1.0
 
 
 @native
@@ -112,50 +90,50 @@ def judge(P: Problem) -> None:
     """Look at the guards at the workspace's state, and choose another share or close the search."""
     S = P.search
     found = look(P, INSIDE) > 0
-    if S[STAGE] == RATE_BEHIND:
+    if S.stage == RATE_BEHIND:
         rates(P, END, LATE, ZONE_LATE)
-        S[RATED], S[STAGE], S[SHARE] = 1.0, RATE_BEFORE, LITTLE
-        if S[KNOWN] != 0.0:
+        S.rated, S.stage, S.share = True, RATE_BEFORE, LITTLE
+        if S.known:
             choose(P)
-    elif S[STAGE] == RATE_BEFORE:
+    elif S.stage == RATE_BEFORE:
         rates(P, START, EARLY, ZONE_EARLY)
-        S[KNOWN] = 1.0
+        S.known = True
         choose(P)
-    elif S[STAGE] == BRACKET:
+    elif S.stage == BRACKET:
         narrow(P, found)
     else:
-        S[LOOKS] += 1.0
+        S.looks += 1
         if found:
-            open_bracket(P, S[SHARE], INSIDE)
+            open_bracket(P, S.share, INSIDE)
         else:
             look_further(P)
-    if S[OPEN] == 0.0 and S[TAKEN] != 0.0 and min(S[FOUND], S[CUT]) <= 1.0:
+    if not S.open and S.taken and min(S.found, S.cut) <= 1.0:
         turn_back(P)
 
 
 @native
 def choose(P: Problem) -> None:
     """Rates are known: a shorter step where a zone asks for it, else a look at the guards."""
-    P.search[CUT] = share_into_zones(P)
-    if P.search[CUT] > 1.0 and P.sizes[WATCHED] > 0:
+    P.search.cut = share_into_zones(P)
+    if P.search.cut > 1.0 and P.sizes.watched > 0:
         open_window(P)
         if is_expected(P):
             pass_window(P)
     else:
-        P.search[OPEN] = 0.0
+        P.search.open = False
 
 
 @native
 def look_further(P: Problem) -> None:
     """Nothing is below zero at the present share: where to look next, or the end of the search."""
     S = P.search
-    if S[STAGE] == RATE_RIGHT:
+    if S.stage == RATE_RIGHT:
         rates_at_right(P)
     elif not is_trusted(P):
         end_window_here(P)
     else:
-        if S[STAGE] == DIP:
-            S[LOOKED] = S[SHARE]
+        if S.stage == DIP:
+            S.looked = S.share
         pass_window(P)
 
 
@@ -166,13 +144,13 @@ def pass_window(P: Problem) -> None:
     """
     S, share = P.search, next_dip(P)
     if share < 1.0:
-        S[SHARE], S[STAGE] = share, DIP
-    elif S[WINDOW_HIGH] < 1.0 and S[LOOKS] < MOST_LOOKS:
+        S.share, S.stage = share, DIP
+    elif S.window_high < 1.0 and S.looks < MOST_LOOKS:
         next_window(P)
-    elif S[HIGH] == 1.0:
+    elif S.high == 1.0:
         open_bracket(P, 1.0, END)
     else:
-        S[OPEN] = 0.0
+        S.open = False
 
 
 @native
@@ -180,14 +158,14 @@ def narrow(P: Problem, found: bool) -> None:
     """Move one end of the bracket to the present share."""
     S = P.search
     if found:
-        S[HIGH], S[FOUND] = S[SHARE], S[SHARE]
+        S.high, S.found = S.share, S.share
         copy_margins(P, INSIDE, HIGH_ROW)
     else:
-        S[LOW] = S[SHARE]
+        S.low = S.share
         copy_margins(P, INSIDE, LOW_ROW)
-    S[BUDGET] *= 0.5
-    S[OPEN] = 1.0 if (S[HIGH] - S[LOW]) * S[SIZE] > 0.5 * S[TOLERANCE] else 0.0
-    S[SHARE] = next_share(P)
+    S.budget *= 0.5
+    S.open = (S.high - S.low) * S.size > 0.5 * S.tolerance
+    S.share = next_share(P)
 
 
 @native
@@ -195,18 +173,18 @@ def next_share(P: Problem) -> float:
     """Where to look next: the earliest secant root in the bracket, kept near enough to the middle
     that bisection would not be faster (ITP).
     """
-    S, count = P.search, P.sizes[WATCHED]
-    low, width = S[LOW], S[HIGH] - S[LOW]
-    middle, secant = low + 0.5 * width, S[HIGH]
+    S, count = P.search, P.sizes.watched
+    low, width = S.low, S.high - S.low
+    middle, secant = low + 0.5 * width, S.high
     for k in range(count):
         after = P.margin[HIGH_ROW * count + k]
         if after < 0.0:
             before = max(0.0, P.margin[LOW_ROW * count + k])
             secant = min(secant, low + width * before / (before - after))
     towards = 1.0 if middle >= secant else -1.0
-    nudge = max(0.2 * width * width, 0.1 * S[TOLERANCE] / S[SIZE])
+    nudge = max(0.2 * width * width, 0.1 * S.tolerance / S.size)
     share = secant + towards * nudge if nudge <= abs(middle - secant) else middle
-    reach = max(2.0 * S[BUDGET] - 0.5 * width, 0.0)
+    reach = max(2.0 * S.budget - 0.5 * width, 0.0)
     return share if abs(share - middle) <= reach else middle - towards * reach
 
 
@@ -214,16 +192,16 @@ def next_share(P: Problem) -> float:
 def ends_there(P: Problem) -> bool:
     """Whether the step can stay: no crossing, or one just before its end."""
     S = P.search
-    if S[CUT] < 1.0:
+    if S.cut < 1.0:
         return False
-    return S[FOUND] > 1.0 or (1.0 - S[FOUND]) * S[SIZE] <= S[TOLERANCE]
+    return S.found > 1.0 or (1.0 - S.found) * S.size <= S.tolerance
 
 
 @native
 def starts_there(P: Problem) -> bool:
     """Whether the crossing is so near to the start of the step that branches change there."""
     S = P.search
-    return S[CUT] > 1.0 and S[FOUND] * S[SIZE] <= S[TOLERANCE]
+    return S.cut > 1.0 and S.found * S.size <= S.tolerance
 
 
 @native
@@ -232,9 +210,9 @@ def shorter(P: Problem) -> float:
     a share of it.
     """
     S = P.search
-    if S[AGAIN] != 0.0:
+    if S.again:
         let_go(P)
-    if S[CUT] < 1.0:
-        return S[CUT] * S[SIZE]
-    S[HUNT] = 1.0
-    return S[FOUND] * S[SIZE] + 0.5 * S[TOLERANCE]
+    if S.cut < 1.0:
+        return S.cut * S.size
+    S.hunt = True
+    return S.found * S.size + 0.5 * S.tolerance

@@ -12,7 +12,7 @@ middle; others may err by a multiple of that.
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import WATCHED, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.event_rows import (
     EARLY,
     END,
@@ -20,22 +20,14 @@ from adamslite.integrators.event_rows import (
     LATE,
     LEFT,
     LEFT_RATE,
-    LOOKED,
-    LOOKS,
     MIDDLE,
     NONE,
     PAST,
     PAST_RATE,
-    PAST_SIZE,
     RATE_RIGHT,
     RIGHT,
     RIGHT_RATE,
-    SHARE,
-    SIZE,
-    STAGE,
     START,
-    WINDOW_HIGH,
-    WINDOW_LOW,
 )
 from adamslite.integrators.events.dips import DEEPEST, LITTLE, NEAR, cubic, dip
 from adamslite.integrators.events.guards import copy_margins, is_taken
@@ -56,22 +48,22 @@ SHALLOW = 0.1
 @native
 def open_window(P: Problem) -> None:
     """The window is the whole step."""
-    P.search[WINDOW_LOW] = 0.0
+    P.search.window_low = 0.0
     extend_window(P)
 
 
 @native
 def extend_window(P: Problem) -> None:
     """The window reaches to the end of the step."""
-    P.search[WINDOW_HIGH] = 1.0
+    P.search.window_high = 1.0
     look_at_middle(P)
 
 
 @native
 def look_at_middle(P: Problem) -> None:
     S = P.search
-    S[LOOKED], S[STAGE] = S[WINDOW_LOW], MIDDLE
-    S[SHARE] = 0.5 * (S[WINDOW_LOW] + S[WINDOW_HIGH])
+    S.looked, S.stage = S.window_low, MIDDLE
+    S.share = 0.5 * (S.window_low + S.window_high)
 
 
 @native
@@ -79,14 +71,14 @@ def next_window(P: Problem) -> None:
     """The present window is done with: the next one begins at its right side."""
     copy_margins(P, RIGHT, LEFT)
     copy_margins(P, RIGHT_RATE, LEFT_RATE)
-    P.search[WINDOW_LOW] = P.search[WINDOW_HIGH]
+    P.search.window_low = P.search.window_high
     extend_window(P)
 
 
 @native
 def left_row(P: Problem) -> int:
     """Row of the margins at the left side of the window."""
-    return LEFT if P.search[WINDOW_LOW] > 0.0 else START
+    return LEFT if P.search.window_low > 0.0 else START
 
 
 @native
@@ -97,7 +89,7 @@ def is_expected(P: Problem) -> bool:
     Beyond the step before a function of order 4 is off by f''''/24 x^2 (x - 1)^2 h^4, for equal
     steps by 64 times what the cubic of the present step is off in its middle.
     """
-    count, h, past = P.sizes[WATCHED], P.search[SIZE], P.search[PAST_SIZE]
+    count, h, past = P.sizes.watched, P.search.size, P.search.past_size
     if past == 0.0:
         return False
     x = 1.0 + h / past
@@ -119,15 +111,15 @@ def end_window_here(P: Problem) -> None:
     """The window ends where was looked last; look for the rates there."""
     S = P.search
     copy_margins(P, INSIDE, RIGHT)
-    S[WINDOW_HIGH], S[STAGE] = S[SHARE], RATE_RIGHT
-    S[SHARE] -= LITTLE * (S[SHARE] - S[WINDOW_LOW])
+    S.window_high, S.stage = S.share, RATE_RIGHT
+    S.share -= LITTLE * (S.share - S.window_low)
 
 
 @native
 def rates_at_right(P: Problem) -> None:
     """Rates between the right side of the window and what was looked at inside, per time."""
-    count, S = P.sizes[WATCHED], P.search
-    w = 1.0 / ((S[WINDOW_HIGH] - S[SHARE]) * S[SIZE])
+    count, S = P.sizes.watched, P.search
+    w = 1.0 / ((S.window_high - S.share) * S.size)
     for k in range(count):
         P.margin[RIGHT_RATE * count + k] = w * (
             P.margin[RIGHT * count + k] - P.margin[INSIDE * count + k]
@@ -138,15 +130,15 @@ def rates_at_right(P: Problem) -> None:
 @native
 def is_trusted(P: Problem) -> bool:
     """Whether the cubics through both sides of the window say what was found inside of it."""
-    S, count = P.search, P.sizes[WATCHED]
-    if S[LOOKS] >= MOST_LOOKS:
+    S, count = P.search, P.sizes.watched
+    if S.looks >= MOST_LOOKS:
         return True
-    left, early = left_row(P), LEFT_RATE if S[WINDOW_LOW] > 0.0 else EARLY
+    left, early = left_row(P), LEFT_RATE if S.window_low > 0.0 else EARLY
     right, late = END, LATE
-    if S[WINDOW_HIGH] < 1.0:
+    if S.window_high < 1.0:
         right, late = RIGHT, RIGHT_RATE
-    width = S[WINDOW_HIGH] - S[WINDOW_LOW]
-    x, h, at_dip = (S[SHARE] - S[WINDOW_LOW]) / width, width * S[SIZE], S[STAGE] != MIDDLE
+    width = S.window_high - S.window_low
+    x, h, at_dip = (S.share - S.window_low) / width, width * S.size, S.stage != MIDDLE
     for k in range(count):
         a, b = P.margin[left * count + k], P.margin[right * count + k]
         r, s = h * P.margin[early * count + k], h * P.margin[late * count + k]
@@ -166,19 +158,19 @@ def next_dip(P: Problem) -> float:
     """Share of the step of the first dip behind those looked at in the window; ``NONE`` where there
     is none.
     """
-    S, count, first = P.search, P.sizes[WATCHED], NONE
-    if S[LOOKS] >= MOST_LOOKS:
+    S, count, first = P.search, P.sizes.watched, NONE
+    if S.looks >= MOST_LOOKS:
         return NONE
-    left, early = left_row(P), LEFT_RATE if S[WINDOW_LOW] > 0.0 else EARLY
+    left, early = left_row(P), LEFT_RATE if S.window_low > 0.0 else EARLY
     right, late = END, LATE
-    if S[WINDOW_HIGH] < 1.0:
+    if S.window_high < 1.0:
         right, late = RIGHT, RIGHT_RATE
-    width = S[WINDOW_HIGH] - S[WINDOW_LOW]
-    h, behind = width * S[SIZE], (S[LOOKED] - S[WINDOW_LOW]) / width
+    width = S.window_high - S.window_low
+    h, behind = width * S.size, (S.looked - S.window_low) / width
     for k in range(count):
         a, b = P.margin[left * count + k], P.margin[right * count + k]
         r, s = h * P.margin[early * count + k], h * P.margin[late * count + k]
         swing = abs(r) + abs(s)
         if min(a, b) < DEEPEST * swing and (b >= 0.0 or s < 0.0) and not is_taken(P, k):
             first = min(first, dip(a, b, r, s, behind))
-    return S[WINDOW_LOW] + width * first if first < 1.0 else NONE
+    return S.window_low + width * first if first < 1.0 else NONE

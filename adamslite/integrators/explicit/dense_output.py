@@ -13,7 +13,7 @@ References: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6; Enright,
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import ERROR, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.explicit.dop853 import LATE, POWERS, ROW, TIMES
 from adamslite.integrators.explicit.stages import (
     add_combined,
@@ -59,7 +59,7 @@ def write_dense(P: Problem, L: Plan, w: int, t: float) -> bool:
                 slope(P, w, h, x, K[SLOPE * w :])
                 if not exact_rates(P, L, at, y, P.trial):
                     return False
-                apart = defect(P, w, h) > DEFECT * P.settings[ERROR]
+                apart = defect(P, w, h) > DEFECT * P.settings.error
             if apart and not step_to(P, L, w, at, x * h):
                 return False
         elif ready and not exact_rates(P, L, at, K[NEXT_STATE * w :], P.trial):

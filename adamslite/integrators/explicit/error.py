@@ -7,7 +7,7 @@ Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, sections II.4 (start) a
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import ERROR, H_INIT, H_MIN, T_END, WHERE, N, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.explicit.dop853 import ERROR3, ERROR5
 from adamslite.integrators.explicit.stages import combine, rates_at
@@ -42,8 +42,8 @@ def distance(P: Problem, a: Reals, y: Reals, scales: Reals, w: int) -> float:
         weight = scales[i] * max(1.0, abs(y[i]))
         if exceeds(abs(a[i]), top * weight):
             top, where = abs(a[i]) / weight, i
-    P.report[WHERE] = where
-    return top / P.settings[ERROR]
+    P.report.where = where
+    return top / P.settings.error
 
 
 @native
@@ -52,9 +52,9 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
     II.4).
     """
     t = P.control[CLOCK]
-    room = min(longest_step(P), P.settings[T_END] - t)
-    if P.settings[H_INIT] > 0.0:
-        return min(room, P.settings[H_INIT])
+    room = min(longest_step(P), P.settings.t_end - t)
+    if P.settings.h_init > 0.0:
+        return min(room, P.settings.h_init)
     y, new, width = P.history[OLD * w :], P.history[NEXT_STATE * w :], int(P.control[WIDTH])
     h = euler(P, w, 1.0)
     scales = P.history[SCALES * w :]
@@ -64,12 +64,12 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
     k = P.history[width:]
     if not rates_at(P, L, t + h, new, k):
         return 0.01 * h
-    d2, n = d1, P.sizes[N]
+    d2, n = d1, P.sizes.n
     for i in range(w - n):
         k[i] = k[width - w + n + i] - P.history[width - w + n + i]
     d2 = max(d2, distance(P, k, y[n:], scales[n:], w - n) / h)
     later = (0.01 / d2) ** 0.125 if d2 > 1e-15 else max(1e-6, 1e-3 * h)
-    return min(room, max(P.settings[H_MIN], min(100.0 * h, later)))
+    return min(room, max(P.settings.h_min, min(100.0 * h, later)))
 
 
 @native
@@ -122,7 +122,7 @@ def choose_explicit_step(P: Problem, error: float) -> None:
 @native
 def cut_step(P: Problem, factor: float) -> None:
     """``factor`` times the step, but not below HMIN, unless a step of HMIN has failed."""
-    C, h, least = P.control, P.control[H], P.settings[H_MIN]
+    C, h, least = P.control, P.control[H], P.settings.h_min
     if h * factor >= least:
         C[H] = h * factor
     elif h > least * 1.0000001:

@@ -7,17 +7,7 @@ branch changes first and about where, because the step is taken again to end the
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import mass_signature, put_state
-from adamslite.integrators.contract import (
-    IMPLICIT_MASS,
-    NEWTON_FAILED,
-    NS,
-    NV,
-    RESTARTS,
-    M,
-    N,
-    Problem,
-)
-from adamslite.integrators.event_rows import JUMP, OPEN, SHARE
+from adamslite.integrators.contract import NEWTON_FAILED, Problem
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.search import judge, open_search
 from adamslite.integrators.explicit.error import starting_step
@@ -34,7 +24,6 @@ from adamslite.integrators.explicit.state import (
     stand_again,
 )
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.step_back import UNDOABLE
 from adamslite.native.translate import native
 
 
@@ -46,8 +35,8 @@ def locate_between(P: Problem, t: float, h: float, width: int, old: int, late: i
     end, the state at the start from ``old`` and behind it the one at the end.
     """
     open_search(P, t, h)
-    while P.search[OPEN] != 0.0:
-        put_cubic(P, t, h, P.search[SHARE], width, old, late)
+    while P.search.open:
+        put_cubic(P, t, h, P.search.share, width, old, late)
         judge(P)
     put_state(P, t + h, P.q, P.u, P.a, P.z, P.rd)
 
@@ -57,7 +46,7 @@ def put_cubic(P: Problem, t: float, h: float, x: float, width: int, old: int, la
     """The tried step at the share ``x`` into the workspace, with straight lines for accelerations,
     multipliers and variables.
     """
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w = 2 * n + ns
     y0, y1, k0, k1 = P.history[old:], P.history[old + w :], P.history, P.history[late * width :]
     y, a, z = P.trial, P.x, P.F
@@ -92,20 +81,20 @@ def pass_by(P: Problem, L: Plan, w: int) -> int:
     """Behind an event: rates of the new branches, another step when something jumped."""
     if not pass_event(P, L, P.control[CLOCK]):
         return NEWTON_FAILED
-    return rates_anew(P, L, w, P.search[JUMP] > 0.0)
+    return rates_anew(P, L, w, P.search.jump > 0.0)
 
 
 @native
 def rates_anew(P: Problem, L: Plan, w: int, restart: bool) -> int:
     """The first stage again; with ``restart`` the step is chosen as at the start of a run."""
     C, y, k = P.control, P.history[OLD * w :], P.history[0:]
-    C[UNDOABLE] = 0.0
+    P.undoing.undoable = False
     if not exact_rates(P, L, C[CLOCK], y, k):
         return NEWTON_FAILED
     if restart:
-        P.count[RESTARTS] += 1
+        P.count.restarts += 1
         keep_solution(P)
-        if P.sizes[IMPLICIT_MASS]:
+        if P.sizes.implicit_mass:
             # What it leaves in P.LA is no factored matrix: the next rates make one of their own.
             C[SIGNATURE], C[STALE] = float(mass_signature(P, L, P.x)), 1.0
         C[H], C[LAST_ERROR] = starting_step(P, L, w), 1e-4

@@ -19,34 +19,7 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations, mass_signature, put_state
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.contract import (
-    AT,
-    BROKEN_START,
-    DONE,
-    ERROR,
-    H_MAX,
-    H_MIN,
-    HOW_MUCH,
-    IMPLICIT_MASS,
-    INTERPOLATE,
-    INTERRUPTED,
-    MOVED,
-    NS,
-    NV,
-    ORDER,
-    SINGULAR_MASS,
-    SPENT,
-    STEP,
-    STEPS,
-    STOP,
-    T_END,
-    WATCHED,
-    ZONES,
-    M,
-    N,
-    Problem,
-    T,
-)
+from adamslite.integrators.contract import BROKEN_START, DONE, INTERRUPTED, SINGULAR_MASS, Problem
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins, let_go
 from adamslite.integrators.events.search import ends_there, shorter, starts_there
@@ -58,11 +31,7 @@ from adamslite.integrators.events.stops import (
     step_limit,
 )
 from adamslite.integrators.explicit.dense_output import write_dense
-from adamslite.integrators.explicit.error import (
-    choose_explicit_step,
-    estimate,
-    starting_step,
-)
+from adamslite.integrators.explicit.error import choose_explicit_step, estimate, starting_step
 from adamslite.integrators.explicit.events import change_where_it_stands, locate_between, pass_by
 from adamslite.integrators.explicit.recovery import reject, shorten, why_stuck
 from adamslite.integrators.explicit.stages import exact_rates, run_stages
@@ -112,16 +81,17 @@ def explicit(P: Problem, L: Plan) -> int:
     outcome = begin_explicit(P, L)
     while outcome == RUNNING:
         outcome = try_step(P, L)
-    P.report[AT] = P.control[CLOCK]
+    P.report.t = P.control[CLOCK]
     return outcome
 
 
 @native
 def begin_explicit(P: Problem, L: Plan) -> int:
     """Rates at the start, first record, first step."""
-    C, t = P.control, P.settings[T]
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    C, t = P.control, P.settings.t
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w = 2 * n + ns
+    P.undoing[:] = 0
     for i in range(P.control.size):
         C[i] = 0.0
     C[CLOCK], C[LAST_ERROR] = t, 1e-4
@@ -139,12 +109,12 @@ def begin_explicit(P: Problem, L: Plan) -> int:
         C[FREE] = BODIES
     elif not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return BROKEN_START
-    if P.sizes[IMPLICIT_MASS]:
+    if P.sizes.implicit_mass:
         C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
     if not exact_rates(P, L, t, y, k):
         return BROKEN_START
     hold_watch(P)
-    P.report[ORDER] = 8.0
+    P.report.order = 8
     C[H] = starting_step(P, L, w)
     if not exact_rates(P, L, t, y, k):
         return BROKEN_START
@@ -160,28 +130,28 @@ def begin_explicit(P: Problem, L: Plan) -> int:
 def try_step(P: Problem, L: Plan) -> int:
     """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
     C = P.control
-    w = 2 * P.sizes[N] + P.sizes[NS]
-    if C[CLOCK] >= P.settings[T_END]:
+    w = 2 * P.sizes.n + P.sizes.ns
+    if C[CLOCK] >= P.settings.t_end:
         return DONE
-    if P.settings[STOP] != 0.0:
+    if P.settings.stop:
         return INTERRUPTED
     set_pace(P, C[CLOCK])
     C[H] = min(C[H], longest_step(P))
     left = step_limit(P, int(C[FOLLOWING])) - C[CLOCK]
-    if P.settings[INTERPOLATE] == 0.0:
+    if not P.settings.interpolate:
         C[H] = fitted(P, C[H], left)
     if C[H] * 1.0000001 > left:
         C[H] = left
-    least = P.settings[H_MIN] if C[CAUTIOUS] != 0.0 else least_step(P)
+    least = P.settings.h_min if C[CAUTIOUS] != 0.0 else least_step(P)
     if C[H] < least or crawls(P, C[H]):
         return why_stuck(P, L, w)
-    P.report[AT], P.report[STEP] = C[CLOCK], C[H]
+    P.report.t, P.report.h = C[CLOCK], C[H]
     if not run_stages(P, L, w, C[H]):
         if let_go(P):
             return RUNNING
         return shorten(P, w, 0.25)
     error = estimate(P, w, C[H])
-    P.report[HOW_MUCH] = error
+    P.report.error = error
     if not error <= 1.0:
         return reject(P, w, error)
     return accept_step(P, L, w, error)
@@ -196,14 +166,14 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
     if t + 1e-7 * h > limit:
         t = limit
     new, width = K[NEXT_STATE * w :], int(C[WIDTH])
-    if P.sizes[IMPLICIT_MASS] and changed_signature(P, L, t, new):
+    if P.sizes.implicit_mass and changed_signature(P, L, t, new):
         return shorten(P, w, 0.25)
-    P.report[MOVED] = 0.0
+    P.report.moved = 0.0
     if not exact_rates(P, L, t, new, K[K_NEW * width :]):
         return shorten(P, w, 0.25)
-    if P.report[MOVED] > FAR * P.settings[ERROR] or is_loose(P, L):
+    if P.report.moved > FAR * P.settings.error or is_loose(P, L):
         return pull_back(P, L, w)
-    if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
+    if P.sizes.watched + P.sizes.zones > 0:
         locate_between(P, C[CLOCK], h, width, OLD * w, K_NEW)
         if not ends_there(P):
             if starts_there(P):
@@ -218,8 +188,8 @@ def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
     """Write records up to ``t``, take over the new state, choose the next step."""
     C, K, width = P.control, P.history, int(P.control[WIDTH])
     new = K[NEXT_STATE * w :]
-    P.count[STEPS] += 1
-    P.report[SPENT] += error
+    P.count.steps += 1
+    P.report.spent += error
     make_undoable(P, C[CLOCK], C[H], C[TRIES] == 0.0)
     C[FAILED], C[TRIES] = 0.0, 0.0
     note_violation(P, t)
@@ -246,7 +216,7 @@ def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
 def pull_back(P: Problem, L: Plan, w: int) -> int:
     """The step left its branch, or ended where it may be left: a shorter one, another start."""
     C = P.control
-    if C[H] < TINY * P.settings[H_MAX]:
+    if C[H] < TINY * P.settings.h_max:
         C[PULLED] += 1.0
     if C[PULLED] <= MOST_PULLED:
         return shorten(P, w, 0.5)
@@ -263,16 +233,16 @@ def is_loose(P: Problem, L: Plan) -> bool:
     such places, and leave them on any branch.
     """
     C = P.control
-    if P.sizes[M] == 0:
+    if P.sizes.m == 0:
         return False
     now = sensitivity(P, L)
     C[FIRMEST] = min(C[FIRMEST], now) if C[FIRMEST] > 0.0 else now
-    return EPSILON * now * now > P.settings[ERROR] * C[FIRMEST] * C[FIRMEST]
+    return EPSILON * now * now > P.settings.error * C[FIRMEST] * C[FIRMEST]
 
 
 @native
 def changed_signature(P: Problem, L: Plan, t: float, y: Reals) -> bool:
     """Whether the acceleration matrix became singular within the step."""
-    n = P.sizes[N]
+    n = P.sizes.n
     put_state(P, t, y, y[n:], P.a, P.z, P.rd)
     return mass_signature(P, L, P.x) != int(P.control[SIGNATURE])

@@ -11,17 +11,11 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import mass_vanishes
 from adamslite.integrators.contract import (
     CHATTERING,
-    FAILURES,
-    H_MAX,
-    IMPLICIT_MASS,
     NEWTON_FAILED,
-    REJECTED,
     SINGULAR_MASS,
     STEP_TOO_SMALL,
-    M,
     Problem,
 )
-from adamslite.integrators.event_rows import FREED
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.explicit.error import NOW_POWER, SAFETY, SHRINK, cut_step
 from adamslite.integrators.explicit.state import (
@@ -35,7 +29,7 @@ from adamslite.integrators.explicit.state import (
     stand_again,
 )
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.step_back import TROUBLE, before_trouble
+from adamslite.integrators.step_back import before_trouble
 from adamslite.native.translate import native
 
 SINGULAR_RESOLUTION = 1e-6
@@ -63,13 +57,13 @@ def start_elsewhere(P: Problem, w: int) -> bool:
 def shorten(P: Problem, w: int, factor: float) -> int:
     """Accelerations could not be solved for within the step: a shorter one."""
     C = P.control
-    P.count[FAILURES] += 1
+    P.count.failures += 1
     C[FAILED], C[TRIES] = C[FAILED] + 1.0, C[TRIES] + 1.0
-    if P.sizes[M] > 0 and C[FAILED] >= FEW_FAILURES and start_elsewhere(P, w):
+    if P.sizes.m > 0 and C[FAILED] >= FEW_FAILURES and start_elsewhere(P, w):
         return RUNNING
     C[CAUTIOUS] = 1.0
     cut_step(P, factor)
-    if P.sizes[IMPLICIT_MASS] and C[H] < SINGULAR_RESOLUTION * P.settings[H_MAX]:
+    if P.sizes.implicit_mass and C[H] < SINGULAR_RESOLUTION * P.settings.h_max:
         return SINGULAR_MASS
     return RUNNING
 
@@ -78,11 +72,12 @@ def shorten(P: Problem, w: int, factor: float) -> int:
 def reject(P: Problem, w: int, error: float) -> int:
     """The error was too large: a smaller step."""
     C = P.control
-    P.count[REJECTED] += 1
+    P.count.rejected += 1
     if not error < 1e150 and let_go(P):
         return RUNNING
-    C[TROUBLE], C[TRIES] = C[TROUBLE] + 1.0, C[TRIES] + 1.0
-    if P.sizes[M] > 0 and C[TROUBLE] >= FEW_REJECTIONS and start_elsewhere(P, w):
+    P.undoing.trouble += 1.0
+    C[TRIES] += 1.0
+    if P.sizes.m > 0 and P.undoing.trouble >= FEW_REJECTIONS and start_elsewhere(P, w):
         return RUNNING
     C[CAUTIOUS] = 1.0
     cut_step(P, max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK)
@@ -97,6 +92,6 @@ def why_stuck(P: Problem, L: Plan, w: int) -> int:
     stand_again(P, w)
     if mass_vanishes(P, L, int(P.control[SIGNATURE])):
         return SINGULAR_MASS
-    if P.search[FREED] > 0.0:
+    if P.search.freed > 0:
         return CHATTERING
     return NEWTON_FAILED if P.control[FAILED] > 0.0 else STEP_TOO_SMALL

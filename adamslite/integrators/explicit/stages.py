@@ -13,7 +13,7 @@ from adamslite.integrators.accelerations import (
     put_state,
     settle,
 )
-from adamslite.integrators.contract import FACTORIZATIONS, NS, NV, M, N, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.explicit.dop853 import RESULT, ROW, TIMES
 from adamslite.integrators.explicit.state import (
     BODIES,
@@ -31,7 +31,6 @@ from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.projection import project
-from adamslite.integrators.step_back import BACKS
 from adamslite.integrators.unconstrained import free_accelerations, mass_accelerations
 from adamslite.native.translate import Alone, Reals, native
 
@@ -40,7 +39,7 @@ from adamslite.native.translate import Alone, Reals, native
 def combine(P: Problem, row: int, w: int, h: float, x: Reals, y: Reals) -> None:
     """y = x + h sum (weight k) over one row of the tableau."""
     if P.control[FREE] == MASSES:
-        n, s = P.sizes[N], h * P.tableau[ROW * row + 1]
+        n, s = P.sizes.n, h * P.tableau[ROW * row + 1]
         for i in range(n):
             y[n + i] = x[n + i]
             y[i] = x[i] + s * x[n + i]
@@ -57,7 +56,7 @@ def add_combined(P: Problem, row: int, w: int, h: float, y: Reals) -> None:
     Masses keep no rates of positions: those of stage i are u + h sum a_ij a_j, so that positions
     get h^2 sum (weight A)_j a_j.
     """
-    K, o, n = P.history, ROW * row, P.sizes[N]
+    K, o, n = P.history, ROW * row, P.sizes.n
     for g in range(0, int(P.tableau[o]), 4):
         V = P.tableau[o + 2 + 3 * g :]
         if P.control[FREE] == MASSES:
@@ -99,7 +98,7 @@ def add_twice(
 @native
 def rates_at(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
     """k = f(t, y); False when the accelerations cannot be solved for."""
-    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     inverse = P.history[INVERSE * (2 * n) :]
     if P.control[FREE] == MASSES:
         mass_accelerations(P, t, y, y[n:], inverse, inverse[n:], k)
@@ -108,16 +107,16 @@ def rates_at(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
         free_accelerations(P, t, y, y[n:], inverse, k[n:])
         vector_rates(P, y, y[n:], k)
         return True
-    for i in range(P.sizes[NS]):
+    for i in range(P.sizes.ns):
         P.z[first + i] = y[2 * n + i]
     # Once the matrix of the step's start was too old for a stage, each of the rest gets its own.
-    before = P.count[FACTORIZATIONS]
+    before = P.count.factorizations
     if P.control[STALE] == 1.0:
         good = accelerations(P, L, t, y, y[n:], P.a, P.z, P.rd)
     else:
         put_state(P, t, y, y[n:], P.a, P.z, P.rd)
         good = settle(P, L, y[n:], P.a, P.z, P.rd)
-        P.control[STALE] = 1.0 if P.count[FACTORIZATIONS] > before else 0.0
+        P.control[STALE] = 1.0 if P.count.factorizations > before else 0.0
     keep_rates(P, y, k)
     return good
 
@@ -125,11 +124,11 @@ def rates_at(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
 @native
 def keep_rates(P: Problem, y: Reals, k: Reals) -> None:
     """k = (T^-1 u, a, s') from what was solved for."""
-    n = P.sizes[N]
+    n = P.sizes.n
     vector_rates(P, y, y[n:], k)
     for i in range(n):
         k[n + i] = P.a[i]
-    for i in range(P.sizes[NS]):
+    for i in range(P.sizes.ns):
         k[2 * n + i] = P.rd[i]
 
 
@@ -138,7 +137,7 @@ def exact_rates(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
     """Rates at a state that is kept: projected onto the constraints, with a new matrix; writes
     q, u, a and the workspace.
     """
-    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     good = True
     if P.control[FREE] != 0.0:
         rates_at(P, L, t, y, k)
@@ -147,12 +146,12 @@ def exact_rates(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
             P.a[i] = k[first + i]
         put_state(P, t, y, y[n:], P.a, P.z, P.rd)
     else:
-        for i in range(P.sizes[NS]):
+        for i in range(P.sizes.ns):
             P.z[first + i] = y[2 * n + i]
         put_state(P, t, y, y[n:], P.a, P.z, P.rd)
         acceleration_matrix(P)
         good = factor(L, P.LA, P.pivots_a, P.work)
-        if good and P.sizes[M] > 0:
+        if good and P.sizes.m > 0:
             good = project(P, L, y, y[n:])
         if good:
             put_state(P, t, y, y[n:], P.a, P.z, P.rd)
@@ -173,7 +172,7 @@ def run_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
     K, t = P.history, P.control[CLOCK]
     y, new = K[OLD * w :], K[NEXT_STATE * w :]
     P.control[STALE] = 0.0
-    projected = P.sizes[M] > 0 and P.control[BACKS] > 0.0
+    projected = P.sizes.m > 0 and P.undoing.backs > 0
     for i in range(1, RESULT + 1):
         combine(P, i - 1, w, h, y, new)
         at, k = t + h * P.tableau[ROW * TIMES + i], K[i * int(P.control[WIDTH]) :]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
-from adamslite.integrators.contract import NB, NS, NV, M, N, Problem
-from adamslite.integrators.motion_equations import BODY, PART
+from adamslite.integrators.contract import Problem
+from adamslite.integrators.motion_equations import PART
 from adamslite.native.translate import native
 
 # Rows of the history: stages from 0, then the accepted state, the new one, one in between, the
@@ -22,7 +22,7 @@ BODIES, MASSES = 1.0, 2.0
 @native
 def keep_solution(P: Problem) -> None:
     """Remember accelerations, multipliers and variables of the new state."""
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         P.ra[i] = P.a[i]
     for i in range(P.z.size):
         P.rz[i] = P.z[i]
@@ -31,13 +31,13 @@ def keep_solution(P: Problem) -> None:
 @native
 def stand_again(P: Problem, w: int) -> None:
     """The accepted state back into q, u, a, z and the workspace after records were made."""
-    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
+    n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     y = P.history[OLD * w :]
     for i in range(n):
         P.q[i], P.u[i], P.a[i] = y[i], y[n + i], P.ra[i]
     for i in range(first):
         P.z[i] = P.rz[i]
-    for i in range(P.sizes[NS]):
+    for i in range(P.sizes.ns):
         P.z[first + i], P.rd[i] = y[2 * n + i], P.history[2 * n + i]
     put_state(P, P.control[CLOCK], P.q, P.u, P.a, P.z, P.rd)
 
@@ -45,10 +45,10 @@ def stand_again(P: Problem, w: int) -> None:
 @native
 def base_here(P: Problem, w: int) -> None:
     """Count rotation vectors from the accepted attitude."""
-    n, y, k = P.sizes[N], P.history[OLD * w :], P.history[0:]
-    for b in range(P.sizes[NB]):
-        if P.body[BODY * b] == PART:
-            i, o = P.body[BODY * b + 1] + 3, P.body[BODY * b + 2] + 15
+    n, y, k = P.sizes.n, P.history[OLD * w :], P.history[0:]
+    for b in range(P.sizes.nb):
+        if P.body[b].width == PART:
+            i, o = P.body[b].first + 3, P.body[b].at + 15
             for m in range(9):
                 P.base[9 * b + m] = P.W[o + m]
             for c in range(3):

@@ -3,21 +3,7 @@
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import mass_signature, put_state
-from adamslite.integrators.contract import (
-    BETA,
-    ERROR,
-    H_MAX,
-    IMPLICIT_MASS,
-    INDEX3,
-    NEWTON_FAILED,
-    NS,
-    NV,
-    RESTARTS,
-    M,
-    N,
-    Problem,
-)
-from adamslite.integrators.event_rows import JUMP, OPEN, SHARE
+from adamslite.integrators.contract import INDEX3, NEWTON_FAILED, Problem
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import judge, open_search
@@ -44,13 +30,13 @@ CAREFUL = 0.02
 @native
 def locate_in_step(P: Problem, L: Plan) -> None:
     """Look for the first change of a branch within the step that has passed its test."""
-    C, n = P.control, P.sizes[N]
+    C, n = P.control, P.sizes.n
     t, h, end = C[NOW], C[H], P.trial[0:]
     open_search(P, t, h)
     take_harmless(P, L, INDEX3, C[CU])
     vector_rates(P, P.q, P.u, end[n:])
-    while P.search[OPEN] != 0.0:
-        put_share(P, t, h, P.search[SHARE])
+    while P.search.open:
+        put_share(P, t, h, P.search.share)
         judge(P)
     put_state(P, t + h, P.q, P.u, P.a, P.z, P.rd)
 
@@ -63,7 +49,7 @@ def put_share(P: Problem, t: float, h: float, x: float) -> None:
     Velocities have a cubic of their own: in steps that end at an event the derivative of that of
     positions is round-off over the step.
     """
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     D, y, a, z = P.history, P.trial[2 * n + ns :], P.x, P.F
     bodies_between(P, h, x, P.trial[0:], y)
     along, w0, w1 = x * x * (3.0 - 2.0 * x), h * x * (1.0 - x) * (1.0 - x), h * x * x * (x - 1.0)
@@ -92,10 +78,10 @@ def change_at_start(P: Problem, L: Plan) -> int:
 @native
 def step_on(P: Problem, L: Plan) -> int:
     """Behind an event: go on when nothing jumped, else start over."""
-    C, n, ns = P.control, P.sizes[N], P.sizes[NS]
+    C, n, ns = P.control, P.sizes.n, P.sizes.ns
     if not pass_event(P, L, C[NOW]):
         return NEWTON_FAILED
-    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+    if P.search.jump * C[H_LAST] > SMOOTH * P.settings.error:
         start_over(P, L)
         return RUNNING
     C[FACTORED] = 0.0
@@ -110,8 +96,8 @@ def step_on(P: Problem, L: Plan) -> int:
 @native
 def start_over(P: Problem, L: Plan) -> None:
     """Forget earlier accelerations: those in place are the first."""
-    C, D, n, ns = P.control, P.history, P.sizes[N], P.sizes[NS]
-    P.count[RESTARTS] += 1
+    C, D, n, ns = P.control, P.history, P.sizes.n, P.sizes.ns
+    P.count.restarts += 1
     C[H_LAST], C[EQUAL], C[FACTORED] = 0.0, 0.0, 0.0
     for i in range(n):
         P.ra[i], D[2 * n + i] = P.a[i], P.a[i]
@@ -120,10 +106,10 @@ def start_over(P: Problem, L: Plan) -> None:
             D[4 * n + row * ns + k] = P.rd[k]
     keep_algebraic(P)
     h = first_step(P, 0)
-    change = abs(P.settings[BETA] - 1.0 / 6.0) * jerk(P, L, C[NOW], LOOK_AHEAD * h)
-    C[H] = P.settings[H_MAX]
+    change = abs(P.settings.beta - 1.0 / 6.0) * jerk(P, L, C[NOW], LOOK_AHEAD * h)
+    C[H] = P.settings.h_max
     if change > 0.0:
-        C[H] = min(C[H], (CAREFUL * P.settings[ERROR] / change) ** (1.0 / 3.0))
+        C[H] = min(C[H], (CAREFUL * P.settings.error / change) ** (1.0 / 3.0))
     put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
-    if P.sizes[IMPLICIT_MASS]:
+    if P.sizes.implicit_mass:
         C[SIGNATURE] = float(mass_signature(P, L, P.x))

@@ -36,45 +36,17 @@ from adamslite.integrators.accelerations import (
 )
 from adamslite.integrators.audit.balance import audit
 from adamslite.integrators.contract import (
-    AT,
     BROKEN_START,
     CHATTERING,
-    DIVIDED,
     DONE,
-    FAILURES,
-    H_INIT,
-    H_MAX,
-    H_MIN,
-    HOW_MUCH,
-    IMPLICIT_MASS,
     INDEX3,
     INTERRUPTED,
-    ITERATION,
-    MAX_IT,
-    NEWTON,
     NEWTON_FAILED,
     NOT_FINITE,
-    NS,
-    NV,
-    ORDER,
-    REJECTED,
-    ROUGH_STEPS,
     SINGULAR_MASS,
-    SPENT,
-    STEP,
     STEP_TOO_SMALL,
-    STEPS,
-    STOP,
-    T_END,
-    WATCHED,
-    WHERE,
-    ZONES,
-    M,
-    N,
     Problem,
-    T,
 )
-from adamslite.integrators.event_rows import FREED
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins, let_go
 from adamslite.integrators.events.search import ends_there, shorter, starts_there
@@ -145,24 +117,24 @@ def hht(P: Problem, L: Plan) -> int:
     while outcome == RUNNING:
         outcome = attempt(P, L)
     back_to_accepted(P)
-    P.report[AT] = P.control[NOW]
+    P.report.t = P.control[NOW]
     return outcome
 
 
 @native
 def start_hht(P: Problem, L: Plan) -> int:
     """Accelerations at the start, the first record, attitudes counted from here."""
-    C, D, s, n, ns = P.control, P.history, P.settings, P.sizes[N], P.sizes[NS]
+    C, D, s, n, ns = P.control, P.history, P.settings, P.sizes.n, P.sizes.ns
     for i in range(P.control.size):
         C[i] = 0.0
-    C[NOW] = s[T]
-    if s[H_INIT] > 0.0 and s[H_INIT] == s[H_MAX] and s[H_INIT] == s[H_MIN]:
-        C[FIXED] = s[H_INIT]
+    C[NOW] = s.t
+    if s.h_init > 0.0 and s.h_init == s.h_max and s.h_init == s.h_min:
+        C[FIXED] = s.h_init
     start_events(P, C[FIXED] == 0.0, first_order_share(P) > 0.0)
-    good = accelerations(P, L, s[T], P.q, P.u, P.a, P.z, P.rd)
+    good = accelerations(P, L, s.t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
     C[H] = first_step(P, 0)
-    P.report[ROUGH_STEPS] = 0.0
+    P.report.rough_steps = 0
     for i in range(n):
         P.ra[i], D[2 * n + i], D[3 * n + i] = P.a[i], P.a[i], P.a[i]
     for i in range(ns):
@@ -170,9 +142,9 @@ def start_hht(P: Problem, L: Plan) -> int:
             D[4 * n + row * ns + i] = P.rd[i]
     keep_algebraic(P)
     if good:
-        if P.sizes[IMPLICIT_MASS]:
+        if P.sizes.implicit_mass:
             C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
-        while int(C[NEXT]) < P.times.size and P.times[int(C[NEXT])] <= s[T]:
+        while int(C[NEXT]) < P.times.size and P.times[int(C[NEXT])] <= s.t:
             write_record(P, int(C[NEXT]))
             C[NEXT] += 1.0
         track(P)
@@ -184,29 +156,29 @@ def start_hht(P: Problem, L: Plan) -> int:
 def attempt(P: Problem, L: Plan) -> int:
     """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
     C = P.control
-    if C[NOW] >= P.settings[T_END]:
+    if C[NOW] >= P.settings.t_end:
         return DONE
-    if P.settings[STOP] != 0.0:
+    if P.settings.stop:
         return INTERRUPTED
     choose_coefficients(P)
     if C[H] < LEAST_SHARE * C[FIXED] or (C[FIXED] == 0.0 and too_small(P)) or crawls(P, C[H]):
         return why_too_small(P, L)
-    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 2.0
+    P.report.t, P.report.h, P.report.order = C[NOW], C[H], 2
     if not correct_step(P, L):
         return after_no_convergence(P)
     norm = position_error(P)
-    P.report[HOW_MUCH] = norm
+    P.report.error = norm
     if not norm < 1e12:
         return NOT_FINITE
     if norm > 1.0 and C[FIXED] == 0.0:
-        P.count[REJECTED] += 1
+        P.count.rejected += 1
         C[EQUAL], C[NORM] = 0.0, norm
         C[H] *= cut(P, max(0.2, (SAFETY * norm) ** (-1.0 / 3.0)))
         return RUNNING
-    if P.sizes[IMPLICIT_MASS]:
+    if P.sizes.implicit_mass:
         if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
             C[H] *= 0.25
-            return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings[H_MAX] else SINGULAR_MASS
+            return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings.h_max else SINGULAR_MASS
     return finish_attempt(P, L, norm)
 
 
@@ -214,7 +186,7 @@ def attempt(P: Problem, L: Plan) -> int:
 def finish_attempt(P: Problem, L: Plan, norm: float) -> int:
     """The step has passed its tests: accept it, or take it again to end at the first crossing."""
     C = P.control
-    if P.sizes[WATCHED] + P.sizes[ZONES] > 0 and C[FIXED] == 0.0:
+    if P.sizes.watched + P.sizes.zones > 0 and C[FIXED] == 0.0:
         locate_in_step(P, L)
         if not ends_there(P):
             if starts_there(P):
@@ -238,7 +210,7 @@ def correct_step(P: Problem, L: Plan) -> bool:
     C[FRESH] = 0.0
     put_time(P, C[NOW] + C[H])
     predict_step(P)
-    while tries < int(P.settings[MAX_IT]):
+    while tries < P.settings.max_it:
         if full or not matrix_fits(C) or renews(P, tries, C[AGE] < KEEP_STEPS):
             C[FACTORED], C[FRESH], C[AGE] = C[H], 1.0, 0.0
             if not second_order_matrix(P, L):
@@ -247,9 +219,9 @@ def correct_step(P: Problem, L: Plan) -> bool:
         residual(P, INDEX3, P.F)
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
         size = move_all(P, P.F)
-        P.count[NEWTON] += 1
+        P.count.newton += 1
         tries += 1
-        P.report[ITERATION] = float(tries)
+        P.report.iteration = tries
         rate = min(size / last, 0.999) if tries > 1 else 0.5
         left = size * rate / (1.0 - rate) if tries > 1 else size / QUIET
         if left <= tolerance:
@@ -277,15 +249,15 @@ def matrix_fits(C: Reals) -> bool:
 def after_no_convergence(P: Problem) -> int:
     """A shorter step with a new matrix; near a singular posture also longer ones."""
     C = P.control
-    P.count[FAILURES] += 1
+    P.count.failures += 1
     C[FACTORED], C[EQUAL] = 0.0, 0.0
     if C[FIXED] > 0.0:
-        P.report[DIVIDED] += 1.0
+        P.report.divided += 1
     if let_go(P):
         return RUNNING
     C[RETRIES] += 1.0
     C[BLAMED] = float(wildest(P))
-    note_trouble(P, INDEX3, P.report[ITERATION])
+    note_trouble(P, INDEX3, P.report.iteration)
     C[H] *= cut(P, retry_factor(C)) if C[FIXED] == 0.0 else retry_factor(C)
     return RUNNING
 
@@ -294,14 +266,14 @@ def after_no_convergence(P: Problem) -> int:
 def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
     """Move on, write records, choose the next step."""
     C, h = P.control, P.control[H]
-    P.count[STEPS] += 1
-    P.report[SPENT] += norm
+    P.count.steps += 1
+    P.report.spent += norm
     t = C[NOW] + h
     limit = step_limit(P, int(C[NEXT])) if C[FIXED] == 0.0 else horizon(P)
     if t + 1e-7 * h > limit:
         t = limit
     keep_second_order(P)
-    P.report[ROUGH_STEPS] += C[ROUGH]
+    P.report.rough_steps += int(C[ROUGH])
     note_violation(P, t)
     audit(P, L, t)
     C[NOW], C[H_LAST], C[RETRIES], C[NORM] = t, h, 0.0, 0.0
@@ -335,7 +307,7 @@ def record_between(P: Problem, L: Plan, t: float, h: float) -> bool:
     Positions and states are interpolated by cubics, velocities are the derivatives of those;
     accelerations, multipliers and variables are solved for.
     """
-    C, n, ns, first = P.control, P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    C, n, ns, first = P.control, P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     row, good = int(C[NEXT]), True
     if row >= P.times.size or P.times[row] > t + 1e-9 * h:
         return True
@@ -369,7 +341,7 @@ def why_too_small(P: Problem, L: Plan) -> int:
     if mass_vanishes(P, L, int(C[SIGNATURE])):
         return SINGULAR_MASS
     if C[RETRIES] > 0.0:
-        P.report[WHERE] = C[BLAMED]
-    if P.search[FREED] > 0.0:
+        P.report.where = int(C[BLAMED])
+    if P.search.freed > 0:
         return CHATTERING
     return NEWTON_FAILED if corrector_failed(C) else STEP_TOO_SMALL

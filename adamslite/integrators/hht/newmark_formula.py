@@ -8,30 +8,13 @@ remembers in ``P.history`` q, u, b and, for DIFF, s, s', b of s', s' one step ea
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
-from adamslite.integrators.contract import (
-    ALL_CONVERGE,
-    ALPHA,
-    BETA,
-    ERROR,
-    FACTORIZATIONS,
-    GAMMA,
-    INDEX3,
-    INTERPOLATE,
-    NB,
-    NS,
-    NV,
-    WHERE,
-    M,
-    N,
-    Problem,
-)
+from adamslite.integrators.contract import INDEX3, Problem
 from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
 from adamslite.integrators.implicit.control import H_LAST, NEXT, NOW, H, keep_algebraic
 from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
-    BODY,
     PART,
     attitude,
     back_rotate,
@@ -64,21 +47,21 @@ def choose_coefficients(P: Problem) -> None:
     set_pace(P, C[NOW])
     left = horizon(P) - C[NOW]
     C[H] = min(C[H], longest_step(P))
-    if s[INTERPOLATE] == 0.0 and C[FIXED] == 0.0:
+    if not s.interpolate and C[FIXED] == 0.0:
         C[H] = fitted(P, C[H], step_limit(P, int(C[NEXT])) - C[NOW])
     elif C[H] * 1.0000001 > left:
         C[H] = left
     elif C[FIXED] == 0.0 and 2.0 * C[H] > left:
         C[H] = 0.5 * left
-    h, beta, gamma, one = C[H], s[BETA], s[GAMMA], 1.0 + s[ALPHA]
+    h, beta, gamma, one = C[H], s.beta, s.gamma, 1.0 + s.alpha
     C[CU], C[CA], C[CS] = gamma / (beta * h), 1.0 / (beta * h * h * one), 1.0 / (gamma * h * one)
 
 
 @native
 def predict_step(P: Problem) -> None:
     """Unknowns at the end of the step with a+ = a and s'+ = s'; writes the workspace."""
-    C, D, s, n, ns = P.control, P.history, P.settings, P.sizes[N], P.sizes[NS]
-    h, beta, gamma, first = C[H], s[BETA], s[GAMMA], P.sizes[M] + P.sizes[NV]
+    C, D, s, n, ns = P.control, P.history, P.settings, P.sizes.n, P.sizes.ns
+    h, beta, gamma, first = C[H], s.beta, s.gamma, P.sizes.m + P.sizes.nv
     stretch = h / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
     q, u, a, U, B, A = P.q, P.u, P.a, D[n:], D[2 * n :], P.ra
     reach = 1.0
@@ -89,9 +72,9 @@ def predict_step(P: Problem) -> None:
         a[i] = A[i]
         reach = max(reach, abs(q[i]))
     C[REACH] = reach
-    for body in range(P.sizes[NB]):
-        if P.body[BODY * body] == PART:
-            turn_from_start(P, P.body[BODY * body + 1])
+    for body in range(P.sizes.nb):
+        if P.body[body].width == PART:
+            turn_from_start(P, P.body[body].first)
     for k in range(first):
         P.z[k] = P.rz[k]
     for k in range(ns):
@@ -112,8 +95,8 @@ def turn_from_start(P: Problem, i: int) -> None:
     theta = h w + h^2 ((1/2 - beta) b + beta b+) + h^3/12 w' x w is the rotation vector of the step,
     w' x w because w turns: Magnus' series.  tan(x)/x by its continued fraction, exact to round-off.
     """
-    C, D, s, n, q, a, A = P.control, P.history, P.settings, P.sizes[N], P.q, P.a, P.ra
-    h, beta, alpha = C[H], s[BETA], s[ALPHA]
+    C, D, s, n, q, a, A = P.control, P.history, P.settings, P.sizes.n, P.q, P.a, P.ra
+    h, beta, alpha = C[H], s.beta, s.alpha
     U, B = D[n:], D[2 * n :]
     stretch = h / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
     for k in range(i + 3, i + 6):
@@ -146,7 +129,7 @@ def second_order_matrix(P: Problem, L: Plan) -> bool:
     spread(P, P.LV)
     for k in range(P.unit.size):
         P.LV[P.unit[k]] = 1.0
-    P.count[FACTORIZATIONS] += 1
+    P.count.factorizations += 1
     return factor(L, P.LV, P.pivots, P.work)
 
 
@@ -154,17 +137,17 @@ def second_order_matrix(P: Problem, L: Plan) -> bool:
 def largest_turn(P: Problem) -> float:
     """Largest component of the rotation vectors within this step."""
     top = 0.0
-    for b in range(P.sizes[NB]):
-        if P.body[BODY * b] == PART:
+    for b in range(P.sizes.nb):
+        if P.body[b].width == PART:
             for k in range(3, 6):
-                top = max(top, abs(P.q[P.body[BODY * b + 1] + k]))
+                top = max(top, abs(P.q[P.body[b].first + k]))
     return top
 
 
 @native
 def turn_columns(P: Problem, at: int, rows: int, b: int) -> None:
     """J[:, 3:6] += D[:, 3:6] (T - I) on one block."""
-    J, D, i = P.J, P.D, P.body[BODY * b + 1]
+    J, D, i = P.J, P.D, P.body[b].first
     x, y, z = P.q[i + 3], P.q[i + 4], P.q[i + 5]
     for r in range(rows):
         o = at + 6 * r + 3
@@ -184,8 +167,8 @@ def move_all(P: Problem, dz: Reals) -> float:
     """
     C, W, q, u, a = P.control, P.W, P.q, P.u, P.a
     cu, ca, noise, largest = C[CU], C[CA], ROUND_OFF * C[REACH], 0.0
-    for b in range(P.sizes[NB]):
-        kind, i, o = P.body[BODY * b], P.body[BODY * b + 1], P.body[BODY * b + 2]
+    for b in range(P.sizes.nb):
+        kind, i, o = P.body[b].width, P.body[b].first, P.body[b].at
         for k in range(3):
             d = dz[i + k]
             x, v, w = q[i + k] - d, u[i + k] - cu * d, a[i + k] - ca * d
@@ -213,7 +196,7 @@ def move_all(P: Problem, dz: Reals) -> float:
 @native
 def move_scalars(P: Problem, dz: Reals) -> float:
     """The share of multipliers, variables and states in :func:`move_all`, the same round-off."""
-    n, m, ns, first, largest = P.sizes[N], P.sizes[M], P.sizes[NS], P.sizes[M] + P.sizes[NV], 0.0
+    n, m, ns, first, largest = P.sizes.n, P.sizes.m, P.sizes.ns, P.sizes.m + P.sizes.nv, 0.0
     for k in range(first + ns):
         P.z[k] -= dz[n + k]
         if k >= m and not abs(dz[n + k]) <= max(largest, ROUND_OFF) * max(1.0, abs(P.z[k])):
@@ -221,7 +204,7 @@ def move_scalars(P: Problem, dz: Reals) -> float:
     for k in range(ns):
         P.rd[k] -= P.control[CS] * dz[n + first + k]
     put_scalars(P, P.z, P.rd)
-    if P.settings[ALL_CONVERGE] != 0.0:
+    if P.settings.all_converge:
         largest = max(largest, multiplier_change(P, dz, P.z, P.control[CA]))
     return largest
 
@@ -233,42 +216,42 @@ def position_error(P: Problem) -> float:
     Velocities have one of (gamma + alpha - 1/2) h |b+ - b|, which is nothing but in a NEWMARK of
     order 1.  States: a share of the distance from the explicit formula of order 2.
     """
-    C, D, s, n, ns = P.control, P.history, P.settings, P.sizes[N], P.sizes[NS]
+    C, D, s, n, ns = P.control, P.history, P.settings, P.sizes.n, P.sizes.ns
     stretch = C[H] / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
-    scale = abs(s[BETA] - 1.0 / 6.0) * C[H] * C[H]
+    scale = abs(s.beta - 1.0 / 6.0) * C[H] * C[H]
     fast = first_order_share(P) * C[H]
     A, B, top, where = P.ra, D[2 * n :], 0.0, 0
     size, jump = 0.0, 0.0
     for i in range(n):
         # b+ - b with b moved to this step's place.
-        change = (1.0 + s[ALPHA]) * (P.a[i] - A[i]) - stretch * (B[i] - A[i])
+        change = (1.0 + s.alpha) * (P.a[i] - A[i]) - stretch * (B[i] - A[i])
         size, jump = max(size, abs(P.a[i])), max(jump, abs(change))
         if exceeds(scale * abs(change), top * max(1.0, abs(P.q[i]))):
             top, where = scale * abs(change) / max(1.0, abs(P.q[i])), i
         if exceeds(fast * abs(change), top * max(1.0, abs(P.u[i]))):
             top, where = fast * abs(change) / max(1.0, abs(P.u[i])), i
-    for b in range(P.sizes[NB]):
-        if P.body[BODY * b] == PART:
-            i = P.body[BODY * b + 1]
+    for b in range(P.sizes.nb):
+        if P.body[b].width == PART:
+            i = P.body[b].first
             bend = bend_of(P.u[i + 3], P.u[i + 4], P.u[i + 5], C[H])
             if exceeds(bend, top):
                 top, where = bend, i + 3
-    C[ROUGH] = 1.0 if jump > HALF * size and top > FELT * s[ERROR] else 0.0
-    first = P.sizes[M] + P.sizes[NV]
+    C[ROUGH] = 1.0 if jump > HALF * size and top > FELT * s.error else 0.0
+    first = P.sizes.m + P.sizes.nv
     for k in range(ns):
         o = 4 * n + k
         rate, value = D[o + ns], P.z[first + k]
         explicit = D[o] + C[H] * (rate + 0.5 * stretch * (rate - D[o + 3 * ns]))
         if exceeds(0.5 * abs(value - explicit), top * max(1.0, abs(value))):
             top, where = 0.5 * abs(value - explicit) / max(1.0, abs(value)), 2 * n + k
-    P.report[WHERE] = where
-    return top / s[ERROR]
+    P.report.where = where
+    return top / s.error
 
 
 @native
 def first_order_share(P: Problem) -> float:
     """|gamma + alpha - 1/2|: zero for formulas of order 2."""
-    share = abs(P.settings[GAMMA] + P.settings[ALPHA] - 0.5)
+    share = abs(P.settings.gamma + P.settings.alpha - 0.5)
     return share if share > FIRST_ORDER else 0.0
 
 
@@ -284,7 +267,7 @@ def bend_of(x: float, y: float, z: float, h: float) -> float:
 @native
 def keep_second_order(P: Problem) -> None:
     """b, accelerations, multipliers and derivatives of the states at the accepted state."""
-    D, n, ns, alpha = P.history, P.sizes[N], P.sizes[NS], P.settings[ALPHA]
+    D, n, ns, alpha = P.history, P.sizes.n, P.sizes.ns, P.settings.alpha
     A, B = P.ra, D[2 * n :]
     for i in range(n):
         B[i] = (1.0 + alpha) * P.a[i] - alpha * A[i]
@@ -300,24 +283,24 @@ def keep_second_order(P: Problem) -> None:
 @native
 def start_from_here(P: Problem) -> None:
     """The workspace's state starts the next step; its attitudes become the base."""
-    D, n, first = P.history, P.sizes[N], P.sizes[M] + P.sizes[NV]
-    for b in range(P.sizes[NB]):
-        if P.body[BODY * b] == PART:
-            i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+    D, n, first = P.history, P.sizes.n, P.sizes.m + P.sizes.nv
+    for b in range(P.sizes.nb):
+        if P.body[b].width == PART:
+            i, o = P.body[b].first, P.body[b].at
             for k in range(9):
                 P.base[9 * b + k] = P.W[o + 15 + k]
             for k in range(3, 6):
                 P.q[i + k] = 0.0
     for i in range(n):
         D[i], D[n + i] = P.q[i], P.u[i]
-    for k in range(P.sizes[NS]):
+    for k in range(P.sizes.ns):
         D[4 * n + k] = P.z[first + k]
 
 
 @native
 def back_to_accepted(P: Problem) -> None:
     """The last accepted state into the unknowns and the workspace."""
-    D, n, ns, first = P.history, P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    D, n, ns, first = P.history, P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     for i in range(n):
         P.q[i], P.u[i], P.a[i] = D[i], D[n + i], P.ra[i]
     for k in range(first):
@@ -330,7 +313,7 @@ def back_to_accepted(P: Problem) -> None:
 @native
 def between(P: Problem, h: float, x: float, end: Reals, y: Reals) -> None:
     """Cubics at the share x of the step: q and u into ``y``, states into z; ``end`` holds q', s."""
-    D, n, ns, first = P.history, P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    D, n, ns, first = P.history, P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w = x * x * (3.0 - 2.0 * x)
     w0, w1 = h * x * (1.0 - x) * (1.0 - x), h * x * x * (x - 1.0)
     bodies_between(P, h, x, end, y)
@@ -343,7 +326,7 @@ def between(P: Problem, h: float, x: float, end: Reals, y: Reals) -> None:
 @native
 def bodies_between(P: Problem, h: float, x: float, end: Reals, y: Reals) -> None:
     """q and u at the share x of the step; q is at its end, ``end`` holds q' of that."""
-    D, n = P.history, P.sizes[N]
+    D, n = P.history, P.sizes.n
     w = x * x * (3.0 - 2.0 * x)
     w0, w1 = h * x * (1.0 - x) * (1.0 - x), h * x * x * (x - 1.0)
     d, d0, d1 = 6.0 * x * (1.0 - x) / h, (1.0 - x) * (1.0 - 3.0 * x), x * (3.0 * x - 2.0)

@@ -4,19 +4,7 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.contract import (
-    ERROR,
-    FIXED_STEP,
-    H_INIT,
-    H_MIN,
-    HOLONOMIC,
-    NS,
-    NV,
-    SI2,
-    T_END,
-    M,
-    N,
     Problem,
-    T,
 )
 from adamslite.integrators.events.stops import least_step, longest_step
 from adamslite.integrators.implicit.control import (
@@ -36,37 +24,37 @@ START_PARTS = 1024.0
 @native
 def first_step(P: Problem, w: int) -> float:
     """A step whose first-order error is a tenth of ERROR, judged by the accelerations."""
-    n = P.sizes[N]
-    tol = P.settings[ERROR]
+    n = P.sizes.n
+    tol = P.settings.error
     fastest, reach, speed = 0.0, 1.0, 1.0
     for i in range(n):
         reach, speed = max(reach, abs(P.q[i])), max(speed, abs(P.u[i]))
         fastest = max(
             fastest, abs(P.a[i]) / max(1.0, abs(P.u[i])), abs(P.u[i]) / max(1.0, abs(P.q[i]))
         )
-    for k in range(P.sizes[NS]):
+    for k in range(P.sizes.ns):
         fastest = max(fastest, abs(P.rd[k]))
-    span = P.settings[T_END] - P.settings[T]
+    span = P.settings.t_end - P.settings.t
     h = min(longest_step(P), span)
-    if P.settings[FIXED_STEP] > 0.0:
-        return P.settings[FIXED_STEP] / START_PARTS
-    if P.settings[H_INIT] > 0.0:
-        return min(h, P.settings[H_INIT])
-    if P.settings[H_MIN] >= 0.05 * h:
-        return min(h, P.settings[H_MIN])
+    if P.settings.fixed_step > 0.0:
+        return P.settings.fixed_step / START_PARTS
+    if P.settings.h_init > 0.0:
+        return min(h, P.settings.h_init)
+    if P.settings.h_min >= 0.05 * h:
+        return min(h, P.settings.h_min)
     # Constraints hand round-off of positions, 1e-14 of the longest, on to the velocities: reach/h
     # times as much, which is below ERROR of the fastest for steps above this.  In other units of
     # length both, reach and speed, are others: the step is the same.
-    stabilised = P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    stabilised = P.sizes.si2 and P.sizes.holonomic > 0
     noise = 1e-14 * reach / (tol * speed) if stabilised else 0.0
-    noise = max(noise, P.settings[H_MIN])
+    noise = max(noise, P.settings.h_min)
     return min(0.05 * h, max(noise, tol**0.5 / max(fastest, 1e-12) * 0.3))
 
 
 @native
 def cut(P: Problem, factor: float) -> float:
     """``factor`` of the step, but not below HMIN, unless a step of HMIN has failed."""
-    C, h, least = P.control, P.control[H], P.settings[H_MIN]
+    C, h, least = P.control, P.control[H], P.settings.h_min
     if h * factor >= least:
         return factor
     if h > least * 1.0000001:
@@ -82,7 +70,7 @@ def too_small(P: Problem) -> bool:
     C = P.control
     failed = C[RETRIES] > 0.0 or C[NORM] > 0.0
     # A step cut to HMIN is HMIN but for its last digit.
-    return C[H] < (1.0 - 1e-12) * (P.settings[H_MIN] if failed else least_step(P))
+    return C[H] < (1.0 - 1e-12) * (P.settings.h_min if failed else least_step(P))
 
 
 # Cuts of the step after corrector failures before other lengths are tried.
@@ -123,7 +111,7 @@ def jerk(P: Problem, L: Plan, t: float, ahead: float) -> float:
 
     The state, accelerations and algebraic unknowns are the accepted ones (q, u, ra, rz).
     """
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w = 2 * n + ns
     y, rates, top = P.trial[0:], P.trial[w:], 0.0
     vector_rates(P, P.q, P.u, y)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from adamslite.integrators.contract import (
-    ERROR,
-    WHERE,
     Problem,
+    Report,
 )
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.native.translate import Reals, native
@@ -17,12 +16,12 @@ LOOSEST = 1e-3
 @native
 def asked(P: Problem, fixed: float) -> float:
     """ERROR; with ``fixed`` steps at most LOOSEST."""
-    return min(P.settings[ERROR], LOOSEST) if fixed > 0.0 else P.settings[ERROR]
+    return min(P.settings.error, LOOSEST) if fixed > 0.0 else P.settings.error
 
 
 @native
 def weighted(
-    D: Reals, row: int, w: int, n: int, ns: int, y: Reals, si2: bool, report: Reals
+    D: Reals, row: int, w: int, n: int, ns: int, y: Reals, si2: bool, report: Report
 ) -> float:
     """Largest |D_row| against max(1, |y|) over the tested variables; remembers where."""
     top, where = 0.0, 0
@@ -36,5 +35,5 @@ def weighted(
         weight = max(1.0, abs(y[i]))
         if exceeds(abs(D[o + i]), top * weight):
             top, where = abs(D[o + i]) / weight, i
-    report[WHERE] = where
+    report.where = where
     return top

@@ -7,7 +7,7 @@ Reference: Hairer, Wanner, Solving ODE II, 1996, section IV.8 (stopping criterio
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import ERROR, FAILURES, MAX_IT, NEWTON, NS, N, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.implicit.control import (
@@ -67,7 +67,7 @@ def ready(P: Problem, L: Plan, turn: int) -> bool:
 def solve_stages(P: Problem, L: Plan) -> bool:
     """Newton from the prediction; True when converged."""
     C, h, last = P.control, P.control[H], 0.0
-    tolerance, most = CORRECTOR_SHARE * P.settings[ERROR], int(P.settings[MAX_IT])
+    tolerance, most = CORRECTOR_SHARE * P.settings.error, P.settings.max_it
     C[RATE], C[THETA] = max(C[RATE], LEAST_RATE) ** 0.8, 0.0
     for turn in range(most):
         if not ready(P, L, turn):
@@ -75,7 +75,7 @@ def solve_stages(P: Problem, L: Plan) -> bool:
         stage_residuals(P, h)
         stage_increments(P, L)
         size = move_stages(P, h)
-        P.count[NEWTON] += 1
+        P.count.newton += 1
         C[TURNS] = turn + 1.0
         if not size < 1e12:
             return False
@@ -96,8 +96,8 @@ def solve_stages(P: Problem, L: Plan) -> bool:
 @native
 def round_off(P: Problem) -> float:
     """Changes of velocities that come from the last digits of positions."""
-    w, reach = 2 * P.sizes[N] + P.sizes[NS], 1.0
-    for i in range(P.sizes[N]):
+    w, reach = 2 * P.sizes.n + P.sizes.ns, 1.0
+    for i in range(P.sizes.n):
         reach = max(reach, abs(P.history[ORIGIN * w + i]))
     return ROUND_OFF * reach * P.tableau[REAL] / P.control[H]
 
@@ -106,13 +106,13 @@ def round_off(P: Problem) -> float:
 def after_failed_stages(P: Problem) -> int:
     """Newton failed: new derivatives when they were old, else another step."""
     C = P.control
-    P.count[FAILURES] += 1
+    P.count.failures += 1
     old = C[FRESH] == 0.0 and C[KNOWN] != 0.0
     C[KNOWN], C[FACTORED], C[RATE], C[CAUTIOUS] = 0.0, 0.0, 1.0, 1.0
     if not old and not let_go(P):
         C[RETRIES] += 1.0
         C[BLAMED] = float(wildest(P))
         put_stage(P, 3, C[H])
-        note_trouble(P, equations_kept(P), C[TURNS])
+        note_trouble(P, equations_kept(P), int(C[TURNS]))
         C[H] *= cut(P, retry_factor(C))
     return RUNNING

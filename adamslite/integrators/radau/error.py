@@ -9,7 +9,7 @@ Reference: Hairer, Wanner, Solving ODE II, 1996, section IV.8 (eq. 8.19, 8.20).
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import ERROR, HOLONOMIC, NS, NV, M, N, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.control import NOW, H
 from adamslite.integrators.implicit.tolerance import weighted
 from adamslite.integrators.linalg.blocks import solve
@@ -31,7 +31,7 @@ from adamslite.native.translate import Reals, native
 @native
 def filtered_error(P: Problem, L: Plan, cautious: bool) -> float:
     """Estimated error over ERROR."""
-    n, ns, first, h = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV], P.control[H]
+    n, ns, first, h = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, P.control[H]
     w = 2 * n + ns
     base, error = P.trial[0:], P.trial[w:]
     for i in range(w):
@@ -49,14 +49,14 @@ def filtered_error(P: Problem, L: Plan, cautious: bool) -> float:
 @native
 def newton_error(P: Problem, L: Plan, h: float, base: Reals, error: Reals) -> float:
     """One Newton step from ``base`` with y' = (g error - sum_i e_i (y_i - y_0))/h; over ERROR."""
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y, cu, v = 2 * n + ns, P.history, P.tableau[REAL] / h, P.trial[2 * (2 * n + ns) :]
     a, b, c = P.tableau[WEIGHT] / h, P.tableau[WEIGHT + 1] / h, P.tableau[WEIGHT + 2] / h
     for i in range(w):
         y = Y[i]
         v[i] = -a * (Y[w + i] - y) - b * (Y[2 * w + i] - y) - c * (Y[3 * w + i] - y)
         error[i] = 0.0
-    for k in range(P.sizes[HOLONOMIC]):
+    for k in range(P.sizes.holonomic):
         P.mu[k] = 0.0
     for k in range(ns):
         P.z[first + k] = base[2 * n + k]
@@ -68,7 +68,7 @@ def newton_error(P: Problem, L: Plan, h: float, base: Reals, error: Reals) -> fl
     for k in range(ns):
         error[2 * n + k] = P.z[first + k] - base[2 * n + k]
     error_motion(P, cu, base, error, v)
-    return weighted(P.trial, 1, w, n, ns, Y[ORIGIN * w :], True, P.report) / P.settings[ERROR]
+    return weighted(P.trial, 1, w, n, ns, Y[ORIGIN * w :], True, P.report) / P.settings.error
 
 
 @native
@@ -76,7 +76,7 @@ def error_motion(P: Problem, cu: float, base: Reals, error: Reals, v: Reals) -> 
     """Velocities and accelerations that belong to the error of q, into the workspace and
     ``error``.
     """
-    n = P.sizes[N]
+    n = P.sizes.n
     for i in range(n):
         P.a[i] = v[i] + cu * error[i]
         P.q[i] = base[i] + error[i]

@@ -16,31 +16,8 @@ Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6 (discontin
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import mass_signature, put_state
-from adamslite.integrators.contract import (
-    ERROR,
-    IMPLICIT_MASS,
-    NEWTON_FAILED,
-    NS,
-    NV,
-    RESTARTS,
-    WATCHED,
-    M,
-    N,
-    Problem,
-)
-from adamslite.integrators.event_rows import (
-    CUT,
-    END,
-    FOUND,
-    HUNT,
-    INSIDE,
-    JUMP,
-    NONE,
-    OPEN,
-    SHARE,
-    SIZE,
-    TOLERANCE,
-)
+from adamslite.integrators.contract import NEWTON_FAILED, Problem
+from adamslite.integrators.event_rows import END, INSIDE, NONE
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.guards import look
 from adamslite.integrators.events.harmless import take_harmless
@@ -88,8 +65,8 @@ def locate_in_stages(P: Problem, L: Plan) -> None:
     put_end(P)
     open_search(P, t, h)
     take_harmless(P, L, equations_kept(P), P.tableau[REAL] / h)
-    while P.search[OPEN] != 0.0:
-        put_inside(P, t, h, P.search[SHARE])
+    while P.search.open:
+        put_inside(P, t, h, P.search.share)
         judge(P)
     put_end(P)
 
@@ -97,7 +74,7 @@ def locate_in_stages(P: Problem, L: Plan) -> None:
 @native
 def put_inside(P: Problem, t: float, h: float, x: float) -> None:
     """The tried step from ``t`` at the share ``x`` into the workspace."""
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y, y, a, z = 2 * n + ns, P.history, P.trial[0:], P.x, P.F
     collocated(P, Y, w, x, y)
     quadratic(P, x, Y[(RATES + 1) * w + n :], w, n, a)
@@ -118,8 +95,8 @@ def falls_short(P: Problem) -> bool:
     spoils velocities.  What is lacking is read from the guards at the end and a little beyond,
     where the polynomial of the step goes on.
     """
-    S, C, count, share = P.search, P.control, P.sizes[WATCHED], NONE
-    if S[HUNT] == 0.0 or min(S[FOUND], S[CUT]) <= 1.0 or C[LENGTHENED] >= MOST_LENGTHENED:
+    S, C, count, share = P.search, P.control, P.sizes.watched, NONE
+    if not S.hunt or min(S.found, S.cut) <= 1.0 or C[LENGTHENED] >= MOST_LENGTHENED:
         return False
     put_inside(P, C[NOW], C[H], 1.0 + BEYOND)
     look(P, INSIDE)
@@ -130,7 +107,7 @@ def falls_short(P: Problem) -> bool:
             share = min(share, before / (before - after))
     if share > 1.0:
         return False
-    C[H] += BEYOND * share * C[H] + 0.5 * S[TOLERANCE]
+    C[H] += BEYOND * share * C[H] + 0.5 * S.tolerance
     C[LENGTHENED] += 1.0
     return True
 
@@ -141,9 +118,9 @@ def is_at_crossing(P: Problem, norm: float) -> bool:
     error, though a longer one from the same start has passed the test: the crossing is here.
     """
     S, C = P.search, P.control
-    if C[H] > CLOSE * C[PASSED] or S[FOUND] > 1.0 or S[FOUND] * S[SIZE] > C[H]:
+    if C[H] > CLOSE * C[PASSED] or S.found > 1.0 or S.found * S.size > C[H]:
         return False
-    return norm * P.settings[ERROR] <= round_off(P)
+    return norm * P.settings.error <= round_off(P)
 
 
 @native
@@ -164,7 +141,7 @@ def move_past(P: Problem, L: Plan) -> int:
     if not pass_event(P, L, C[NOW]):
         return NEWTON_FAILED
     C[KNOWN] = 0.0
-    if P.search[JUMP] * C[H_LAST] > SMOOTH * P.settings[ERROR]:
+    if P.search.jump * C[H_LAST] > SMOOTH * P.settings.error:
         predict_anew(P, L)
     else:
         take_accelerations(P)
@@ -174,7 +151,7 @@ def move_past(P: Problem, L: Plan) -> int:
 @native
 def take_accelerations(P: Problem) -> None:
     """Accelerations and algebraic unknowns in place are those of the accepted state."""
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         P.ra[i] = P.a[i]
     keep_algebraic(P)
 
@@ -183,9 +160,9 @@ def take_accelerations(P: Problem) -> None:
 def predict_anew(P: Problem, L: Plan) -> None:
     """The next step is predicted from the accelerations in place, and chosen like the first."""
     C = P.control
-    P.count[RESTARTS] += 1
+    P.count.restarts += 1
     take_accelerations(P)
     C[H_LAST], C[LAST_SIZE], C[KNOWN], C[CAUTIOUS] = 0.0, 0.0, 0.0, 1.0
     C[H] = first_step(P, 0)
-    if P.sizes[IMPLICIT_MASS]:
+    if P.sizes.implicit_mass:
         C[SIGNATURE] = float(mass_signature(P, L, P.x))

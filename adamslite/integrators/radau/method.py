@@ -27,38 +27,16 @@ from adamslite.integrators.accelerations import (
 )
 from adamslite.integrators.audit.balance import audit
 from adamslite.integrators.contract import (
-    AT,
     BROKEN_START,
     CHATTERING,
     DONE,
-    ERROR,
-    H_MAX,
-    HOW_MUCH,
-    IMPLICIT_MASS,
-    INTERPOLATE,
     INTERRUPTED,
     NEWTON_FAILED,
     NOT_FINITE,
-    NS,
-    NV,
-    ORDER,
-    REJECTED,
     SINGULAR_MASS,
-    SPENT,
-    STEP,
     STEP_TOO_SMALL,
-    STEPS,
-    STOP,
-    T_END,
-    WATCHED,
-    WHERE,
-    ZONES,
-    M,
-    N,
     Problem,
-    T,
 )
-from adamslite.integrators.event_rows import CUT, FREED, HUNT
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.search import ends_there, shorter, starts_there
@@ -129,15 +107,16 @@ def radau(P: Problem, L: Plan) -> int:
     while outcome == RUNNING:
         outcome = try_radau(P, L)
     stand_at_start(P)
-    P.report[AT] = P.control[NOW]
+    P.report.t = P.control[NOW]
     return outcome
 
 
 @native
 def start_radau(P: Problem, L: Plan) -> int:
     """Accelerations at the start, the first record, attitudes counted from here."""
-    C, Y, t = P.control, P.history, P.settings[T]
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    C, Y, t = P.control, P.history, P.settings.t
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
+    P.undoing[:] = 0
     for i in range(P.control.size):
         C[i] = 0.0
     for i in range(P.history.size):
@@ -148,7 +127,7 @@ def start_radau(P: Problem, L: Plan) -> int:
     hold_watch(P)
     C[H] = first_step(P, 0)
     if good:
-        if P.sizes[IMPLICIT_MASS]:
+        if P.sizes.implicit_mass:
             C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
         while int(C[NEXT]) < P.times.size and P.times[int(C[NEXT])] <= t:
             write_record(P, int(C[NEXT]))
@@ -168,20 +147,20 @@ def start_radau(P: Problem, L: Plan) -> int:
 def try_radau(P: Problem, L: Plan) -> int:
     """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
     C = P.control
-    if C[NOW] >= P.settings[T_END]:
+    if C[NOW] >= P.settings.t_end:
         return DONE
-    if P.settings[STOP] != 0.0:
+    if P.settings.stop:
         return INTERRUPTED
     fit_step(P)
     if too_small(P) or crawls(P, C[H]):
         return why_no_step(P, L)
-    P.report[AT], P.report[STEP], P.report[ORDER] = C[NOW], C[H], 5.0
+    P.report.t, P.report.h, P.report.order = C[NOW], C[H], 5
     predict_stages(P, C[H], C[H_LAST])
     stage_motion(P, C[H])
     if not solve_stages(P, L):
         return after_failed_stages(P)
     norm = filtered_error(P, L, C[CAUTIOUS] != 0.0)
-    P.report[HOW_MUCH] = norm
+    P.report.error = norm
     if not norm < 1e12:
         return NOT_FINITE
     if norm > 1.0:
@@ -189,11 +168,11 @@ def try_radau(P: Problem, L: Plan) -> int:
             return switch_behind(P, L)
         take_shorter(P, norm)
         return RUNNING
-    if P.sizes[IMPLICIT_MASS]:
+    if P.sizes.implicit_mass:
         put_end(P)
         if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
             C[H] *= 0.25
-            return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings[H_MAX] else SINGULAR_MASS
+            return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings.h_max else SINGULAR_MASS
     return finish_stages(P, L, norm)
 
 
@@ -203,24 +182,24 @@ def take_shorter(P: Problem, norm: float) -> None:
     these may be all that is wrong with the estimate.
     """
     C = P.control
-    P.count[REJECTED] += 1
+    P.count.rejected += 1
     C[CAUTIOUS], C[NORM] = 1.0, norm
     if C[FRESH] == 0.0:
         C[KNOWN] = 0.0
     C[H] *= cut(P, step_factor(C, norm))
-    if C[H] > 1e-9 * P.settings[H_MAX]:
-        C[BLAMED] = P.report[WHERE]
+    if C[H] > 1e-9 * P.settings.h_max:
+        C[BLAMED] = P.report.where
 
 
 @native
 def finish_stages(P: Problem, L: Plan, norm: float) -> int:
     """The step has passed its tests: accept it, or take it again to end at the first crossing."""
-    if P.sizes[WATCHED] + P.sizes[ZONES] > 0:
+    if P.sizes.watched + P.sizes.zones > 0:
         locate_in_stages(P, L)
         if not ends_there(P):
             if starts_there(P):
                 return switch_behind(P, L)
-            if P.search[CUT] > 1.0:
+            if P.search.cut > 1.0:
                 P.control[PASSED] = max(P.control[PASSED], P.control[H])
             P.control[H] = shorter(P)
             return RUNNING
@@ -236,11 +215,11 @@ def fit_step(P: Problem) -> None:
     """
     set_pace(P, P.control[NOW])
     C, target, row = P.control, horizon(P), int(P.control[NEXT])
-    if P.settings[INTERPOLATE] == 0.0 and row < P.times.size:
+    if not P.settings.interpolate and row < P.times.size:
         target = min(target, P.times[row])
     C[H] = min(C[H], longest_step(P))
     left = target - C[NOW]
-    if P.search[HUNT] != 0.0:
+    if P.search.hunt:
         C[H] = min(C[H], left)
         return
     C[TO_TARGET] = floor(left / C[H] + 1.0 - 1e-7)
@@ -259,9 +238,9 @@ def step_factor(C: Reals, norm: float) -> float:
 def accept_stages(P: Problem, L: Plan, norm: float) -> int:
     """Move on, write records, choose the next step."""
     C, h = P.control, P.control[H]
-    P.count[STEPS] += 1
+    P.count.steps += 1
     # The formula is of order 5, its estimate of order 3.
-    P.report[SPENT] += norm * (norm * P.settings[ERROR]) ** 0.5
+    P.report.spent += norm * (norm * P.settings.error) ** 0.5
     t, row = C[NOW] + h, int(C[NEXT])
     if t + 1e-7 * h > horizon(P):
         t = horizon(P)
@@ -269,7 +248,7 @@ def accept_stages(P: Problem, L: Plan, norm: float) -> int:
         t = P.times[row]
     put_end(P)
     keep_algebraic(P)
-    for i in range(P.sizes[N]):
+    for i in range(P.sizes.n):
         P.ra[i] = P.a[i]
     note_violation(P, t)
     audit(P, L, t)
@@ -324,8 +303,8 @@ def resume(P: Problem) -> None:
 @native
 def record_within(P: Problem, L: Plan, t: float, h: float) -> bool:
     """Write every asked time of the accepted step; False when accelerations are not determined."""
-    C, n, ns, first = P.control, P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
-    row, y, w = int(C[NEXT]), P.trial[0:], 2 * P.sizes[N] + P.sizes[NS]
+    C, n, ns, first = P.control, P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
+    row, y, w = int(C[NEXT]), P.trial[0:], 2 * P.sizes.n + P.sizes.ns
     while row < P.times.size and P.times[row] <= t + 1e-9 * h:
         collocated(P, P.history, w, min(1.0, 1.0 + (P.times[row] - t) / h), y)
         for i in range(n):
@@ -349,7 +328,7 @@ def why_no_step(P: Problem, L: Plan) -> int:
     stand_at_start(P)
     if mass_vanishes(P, L, int(C[SIGNATURE])):
         return SINGULAR_MASS
-    P.report[WHERE] = C[BLAMED]
-    if P.search[FREED] > 0.0:
+    P.report.where = int(C[BLAMED])
+    if P.search.freed > 0:
         return CHATTERING
     return NEWTON_FAILED if corrector_failed(C) else STEP_TOO_SMALL

@@ -24,22 +24,7 @@ residuals and workspace of the complex system.
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import (
-    ALL_CONVERGE,
-    FACTORIZATIONS,
-    HOLONOMIC,
-    INDEX3,
-    JACOBIANS,
-    NB,
-    NS,
-    NV,
-    NZ,
-    SI2,
-    STABILISED,
-    M,
-    N,
-    Problem,
-)
+from adamslite.integrators.contract import INDEX3, STABILISED, Problem
 from adamslite.integrators.implicit.control import NOW
 from adamslite.integrators.implicit.rotation_count import count_anew
 from adamslite.integrators.linalg.blocks import factor, solve
@@ -47,7 +32,6 @@ from adamslite.integrators.linalg.complex_blocks import factor_complex, solve_co
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
-    BODY,
     PART,
     jacobian,
     project_on_constraints,
@@ -86,15 +70,15 @@ Z_ROWS = 6
 @native
 def stage_z(P: Problem, row: int) -> int:
     """Where a row of z begins."""
-    first = P.sizes[M] + P.sizes[NV]
-    w, e = 2 * P.sizes[N] + P.sizes[NS], first + P.sizes[NS] + P.sizes[HOLONOMIC]
+    first = P.sizes.m + P.sizes.nv
+    w, e = 2 * P.sizes.n + P.sizes.ns, first + P.sizes.ns + P.sizes.holonomic
     return Y_ROWS * w + row * e
 
 
 @native
 def is_tied(P: Problem) -> bool:
     """Whether constraints are kept on positions and velocities."""
-    return P.sizes[SI2] == 1 and P.sizes[HOLONOMIC] > 0
+    return P.sizes.si2 and P.sizes.holonomic > 0
 
 
 @native
@@ -106,8 +90,8 @@ def equations_kept(P: Problem) -> int:
 @native
 def radau_jacobian(P: Problem, L: Plan, h: float) -> None:
     """J_0, J_1, J_2 at the middle stage, one after the other in ``P.parts``."""
-    n, size, c, K = P.sizes[N], P.J.size, P.coef, P.parts
-    y, d = P.history[2 * (2 * n + P.sizes[NS]) :], P.history[5 * (2 * n + P.sizes[NS]) :]
+    n, size, c, K = P.sizes.n, P.J.size, P.coef, P.parts
+    y, d = P.history[2 * (2 * n + P.sizes.ns) :], P.history[5 * (2 * n + P.sizes.ns) :]
     put_stage(P, 2, h)
     for part in range(3):
         for k in range(5):
@@ -118,7 +102,7 @@ def radau_jacobian(P: Problem, L: Plan, h: float) -> None:
         if part == 1:
             c[4] = 1.0
         jacobian(P, equations_kept(P), c, K[part * size :])
-    P.count[JACOBIANS] -= 2
+    P.count.jacobians -= 2
     # Products with F_u and F_a as they are: of each pair of blocks the lower power comes first, and
     # the columns of mu before those of the attitude change F_u.
     for part in range(2):
@@ -146,7 +130,7 @@ def radau_matrices(P: Problem, L: Plan, h: float) -> bool:
     add_up(P, 1.0, x, x * x - y * y, P.LV)
     for k in range(P.LV.size):
         P.LC[2 * k], P.LC[2 * k + 1] = P.LV[k], P.LA[k]
-    P.count[FACTORIZATIONS] += 2
+    P.count.factorizations += 2
     if not factor_complex(L, P.LC, P.pivots_c, P.work):
         return False
     x = P.tableau[REAL] / h
@@ -157,8 +141,8 @@ def radau_matrices(P: Problem, L: Plan, h: float) -> bool:
 @native
 def put_counted(P: Problem, y: Reals) -> None:
     """Positions counted from the start of the step into ``P.q`` and the workspace."""
-    n = P.sizes[N]
-    origin = P.history[ORIGIN * (2 * n + P.sizes[NS]) :]
+    n = P.sizes.n
+    origin = P.history[ORIGIN * (2 * n + P.sizes.ns) :]
     for i in range(n):
         P.q[i] = origin[i] + y[i]
     put_pose(P, P.q)
@@ -167,7 +151,7 @@ def put_counted(P: Problem, y: Reals) -> None:
 @native
 def stage_velocities(P: Problem, stage: int, h: float) -> None:
     """q', u and s' of a stage."""
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y = 2 * n + ns, P.history
     y, d, z = Y[stage * w :], Y[(RATES + stage) * w :], Y[stage_z(P, stage - 1) :]
     row = INVERSE + 3 * (stage - 1)
@@ -192,7 +176,7 @@ def stage_velocities(P: Problem, stage: int, h: float) -> None:
 @native
 def stage_motion(P: Problem, h: float) -> None:
     """Velocities, then accelerations of all stages."""
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y = 2 * n + ns, P.history
     for stage in range(1, 4):
         for k in range(ns):
@@ -210,7 +194,7 @@ def stage_motion(P: Problem, h: float) -> None:
 @native
 def stage_residuals(P: Problem, h: float) -> None:
     """The equations at the three stages."""
-    nz, at = P.sizes[NZ], stage_z(P, Z_ROWS)
+    nz, at = P.sizes.nz, stage_z(P, Z_ROWS)
     for stage in range(1, 4):
         put_stage(P, stage, h)
         residual(P, equations_kept(P), P.F)
@@ -221,8 +205,8 @@ def stage_residuals(P: Problem, h: float) -> None:
 @native
 def put_stage(P: Problem, stage: int, h: float) -> None:
     """A stage into the workspace."""
-    n, Y = P.sizes[N], P.history
-    y, d = Y[stage * (2 * n + P.sizes[NS]) :], Y[(RATES + stage) * (2 * n + P.sizes[NS]) :]
+    n, Y = P.sizes.n, P.history
+    y, d = Y[stage * (2 * n + P.sizes.ns) :], Y[(RATES + stage) * (2 * n + P.sizes.ns) :]
     put_time(P, P.control[NOW] + P.tableau[NODE + stage - 1] * h)
     put_counted(P, y)
     put_motion(P, y[n:], d[n:])
@@ -232,7 +216,7 @@ def put_stage(P: Problem, stage: int, h: float) -> None:
 @native
 def stage_increments(P: Problem, L: Plan) -> None:
     """Newton increments of the three stages in the place of their residuals."""
-    nz, X = P.sizes[NZ], P.tableau
+    nz, X = P.sizes.nz, P.tableau
     R = P.history[stage_z(P, Z_ROWS) :]
     pair, spare = R[3 * nz :], R[5 * nz :]
     for k in range(nz):
@@ -256,14 +240,14 @@ def move_stages(P: Problem, h: float) -> float:
     Positions, rotations and velocities against max(1, |value|), where constraints tie them together
     as they are (see :func:`adamslite.integrators.newton.increment_norm`); variables and states.
     """
-    n, ns, nz, first = P.sizes[N], P.sizes[NS], P.sizes[NZ], P.sizes[M] + P.sizes[NV]
+    n, ns, nz, first = P.sizes.n, P.sizes.ns, P.sizes.nz, P.sizes.m + P.sizes.nv
     w, Y, tied, largest = 2 * n + ns, P.history, is_tied(P), 0.0
     R, origin = Y[stage_z(P, Z_ROWS) :], Y[ORIGIN * w :]
     for stage in range(3):
         y, z, dz = Y[(1 + stage) * w :], Y[stage_z(P, stage) :], R[stage * nz :]
-        for k in range(P.sizes[M], first + ns):
+        for k in range(P.sizes.m, first + ns):
             largest = larger(largest, dz[n + k], z[k])
-        if P.settings[ALL_CONVERGE] != 0.0:
+        if P.settings.all_converge:
             largest = max(largest, multiplier_change(P, dz, z, (P.tableau[REAL] / h) ** 2.0))
         for i in range(n):
             P.trial[stage * n + i] = y[n + i]
@@ -292,7 +276,7 @@ def predict_stages(P: Problem, h: float, before: float) -> None:
     """First values of the stages: the polynomial of the step before (of size ``before``) goes on,
     or without one accelerations stay.
     """
-    n, ns, first, X = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV], P.tableau
+    n, ns, first, X = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, P.tableau
     w, Y, e = 2 * n + ns, P.history, stage_z(P, 1) - stage_z(P, 0)
     for stage in range(3):
         y, z, c = Y[(1 + stage) * w :], Y[stage_z(P, stage) :], X[NODE + stage] * h
@@ -308,7 +292,7 @@ def predict_stages(P: Problem, h: float, before: float) -> None:
                 z[k] = P.rz[k]
         for k in range(ns):
             z[first + k] = y[2 * n + k]
-        for k in range(P.sizes[HOLONOMIC]):
+        for k in range(P.sizes.holonomic):
             z[first + ns + k] = 0.0
 
 
@@ -338,19 +322,19 @@ def quadratic(P: Problem, x: float, rows: Reals, lead: int, count: int, z: Reals
 @native
 def keep_stages(P: Problem) -> None:
     """Remember the accepted stages with positions counted from the end of the step."""
-    w, e = 2 * P.sizes[N] + P.sizes[NS], stage_z(P, 1) - stage_z(P, 0)
-    Y, n = P.history, P.sizes[N]
+    w, e = 2 * P.sizes.n + P.sizes.ns, stage_z(P, 1) - stage_z(P, 0)
+    Y, n = P.history, P.sizes.n
     for i in range(n):
         Y[ORIGIN * w + i] += Y[3 * w + i]
         Y[ORIGIN * w + n + i] = Y[3 * w + n + i]
-    for k in range(P.sizes[NS]):
+    for k in range(P.sizes.ns):
         Y[ORIGIN * w + 2 * n + k] = Y[3 * w + 2 * n + k]
     for k in range(4 * w):
         Y[BEFORE * w + k] = Y[k]
     old = stage_z(P, 0)
     for k in range(3 * e):
         Y[old + 3 * e + k] = Y[old + k]
-    for b in range(P.sizes[NB]):
+    for b in range(P.sizes.nb):
         count_from_end(P, b, w)
     for k in range(w):
         Y[k] = Y[(BEFORE + 3) * w + k]
@@ -359,11 +343,11 @@ def keep_stages(P: Problem) -> None:
 @native
 def count_from_end(P: Problem, b: int, w: int) -> None:
     """Positions of a body in the step before, counted from its end."""
-    Y, i = P.history, P.body[BODY * b + 1]
+    Y, i = P.history, P.body[b].first
     for k in range(3):
         for row in range(4):
             Y[(BEFORE + row) * w + i + k] -= Y[3 * w + i + k]
-    if P.body[BODY * b] == PART:
+    if P.body[b].width == PART:
         c0, c1, c2 = Y[3 * w + i + 3], Y[3 * w + i + 4], Y[3 * w + i + 5]
         for row in range(4):
             count_anew(Y, (BEFORE + row) * w + i + 3, c0, c1, c2)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
-from adamslite.integrators.contract import NB, NS, NV, M, N, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.control import NOW, H
-from adamslite.integrators.motion_equations import BODY, PART
+from adamslite.integrators.motion_equations import PART
 from adamslite.integrators.radau.stages import ORIGIN, stage_z
 from adamslite.native.translate import native
 
@@ -18,9 +18,9 @@ THETA, TURNS, LAST_NORM, LAST_SIZE, CAUTIOUS, KNOWN, TO_TARGET, PASSED, LENGTHEN
 @native
 def count_from_here(P: Problem) -> None:
     """The workspace's attitudes become the base of rotation vectors."""
-    for b in range(P.sizes[NB]):
-        if P.body[BODY * b] == PART:
-            i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+    for b in range(P.sizes.nb):
+        if P.body[b].width == PART:
+            i, o = P.body[b].first, P.body[b].at
             for k in range(9):
                 P.base[9 * b + k] = P.W[o + 15 + k]
             for k in range(3, 6):
@@ -30,13 +30,13 @@ def count_from_here(P: Problem) -> None:
 @native
 def stand_at_start(P: Problem) -> None:
     """The last accepted state into the unknowns and the workspace."""
-    n, first = P.sizes[N], P.sizes[M] + P.sizes[NV]
-    Y = P.history[ORIGIN * (2 * n + P.sizes[NS]) :]
+    n, first = P.sizes.n, P.sizes.m + P.sizes.nv
+    Y = P.history[ORIGIN * (2 * n + P.sizes.ns) :]
     for i in range(n):
         P.q[i], P.u[i], P.a[i] = Y[i], Y[n + i], P.ra[i]
     for k in range(first):
         P.z[k] = P.rz[k]
-    for k in range(P.sizes[NS]):
+    for k in range(P.sizes.ns):
         P.z[first + k] = Y[2 * n + k]
     put_state(P, P.control[NOW], P.q, P.u, P.a, P.z, P.rd)
 
@@ -44,7 +44,7 @@ def stand_at_start(P: Problem) -> None:
 @native
 def put_end(P: Problem) -> None:
     """The end of the tried step into the unknowns and the workspace."""
-    n, ns, first = P.sizes[N], P.sizes[NS], P.sizes[M] + P.sizes[NV]
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y, z = 2 * n + ns, P.history, P.history[stage_z(P, 2) :]
     y, d = Y[3 * w :], Y[6 * w :]
     for i in range(n):

@@ -17,32 +17,14 @@ from __future__ import annotations
 from math import floor
 
 from adamslite.integrators.accelerations import put_state
-from adamslite.integrators.audit.balance import audit_leap, bring_audit_back, keep_audit
+from adamslite.integrators.audit.balance import audit_leap
 from adamslite.integrators.contract import (
-    AT,
     DONE,
-    ERROR,
-    EVENTS,
-    H_INIT,
-    H_MAX,
-    H_MIN,
-    HOW_MUCH,
     INTERRUPTED,
     LOADS,
-    NB,
-    ORDER,
-    REJECTED,
-    RESIDUALS,
-    SPENT,
     STABLE,
-    STABLE_STEP,
-    STEP,
     STEP_TOO_SMALL,
-    STEPS,
-    STOP,
     UNSTABLE,
-    WATCHED,
-    N,
     Problem,
 )
 from adamslite.integrators.events.events import start_events
@@ -56,8 +38,9 @@ from adamslite.integrators.events.stops import (
 )
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import BODY, put_time, run_groups, track
+from adamslite.integrators.motion_equations import put_time, run_groups, track
 from adamslite.integrators.records import write_record
+from adamslite.integrators.step_back import bring_audit_back, keep_audit
 from adamslite.integrators.unconstrained import divide_by_mass, put_free, radius
 from adamslite.native.translate import native
 
@@ -81,23 +64,23 @@ LIMIT, WANTED, SINCE, SUM = range(4)
 @native
 def verlet(P: Problem, L: Plan) -> int:
     """Integrate over the output times; returns an outcome."""
-    C, fixed = P.control, P.settings[H_INIT] > 0.0
+    C, fixed = P.control, P.settings.h_init > 0.0
     for i in range(P.control.size):
         C[i] = 0.0
-    P.report[ORDER] = 2.0
+    P.report.order = 2
     start_events(P, False, False)
-    P.report[STABLE_STEP] = 1e300
+    P.report.stable_step = 1e300
     synchronise(P, P.times[0], 0)
-    P.report[AT] = P.times[0]
+    P.report.t = P.times[0]
     C[SINCE] = WORTH
-    C[WANTED] = P.settings[H_INIT] if fixed else P.settings[H_MAX]
+    C[WANTED] = P.settings.h_init if fixed else P.settings.h_max
     for row in range(1, P.times.size):
-        if P.settings[STOP] != 0.0:
+        if P.settings.stop:
             return INTERRUPTED
         look_at_stability(P)
         outcome = reach(P, L, P.times[row - 1], P.times[row], fixed)
         if outcome != DONE:
-            stand(P, P.report[AT])
+            stand(P, P.report.t)
             return outcome
         synchronise(P, P.times[row], row)
         track(P)
@@ -113,9 +96,9 @@ def reach(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
         to = min(end, present_stop(P), end_of_pace(P))
         outcome = cross(P, L, at, to, fixed)
         if outcome == DONE:
-            P.report[AT], at = to, to
+            P.report.t, at = to, to
             if is_stop(P, to):
-                P.count[EVENTS] += 1
+                P.count.events += 1
                 next_stop(P, to)
     return outcome
 
@@ -146,34 +129,34 @@ def look_at_stability(P: Problem) -> None:
     kappa, c = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
     bottom = c + (c * c + 4.0 * kappa) ** 0.5
     C[LIMIT] = 4.0 * STABLE / bottom if bottom > 0.0 else 1e300
-    P.report[STABLE_STEP] = min(P.report[STABLE_STEP], C[LIMIT] / STABLE)
+    P.report.stable_step = min(P.report.stable_step, C[LIMIT] / STABLE)
 
 
 @native
 def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
     """From one output time or stop to the next; returns an outcome."""
-    C, n = P.control, P.sizes[N]
+    C, n = P.control, P.sizes.n
     old = P.trial[0:]
     for i in range(n):
         old[i], old[n + i] = P.q[i], P.u[i]
     keep_audit(P)
     wanted, blown = min(C[WANTED], longest_step(P)), 0
-    while P.settings[STOP] == 0.0:
+    while not P.settings.stop:
         if not fixed:
             wanted = min(wanted, C[LIMIT])
         h = (end - t) / max(1.0, 0.0 - floor(1e-9 - (end - t) / wanted))
-        P.report[STEP] = h
-        if wanted < P.settings[H_MIN] or blown == MOST_BLOWN:
+        P.report.h = h
+        if wanted < P.settings.h_min or blown == MOST_BLOWN:
             return STEP_TOO_SMALL
         if fixed and STABLE * h > C[LIMIT]:
             return UNSTABLE
         error = march(P, L, t, h, int((end - t) / h + 0.5), fixed)
-        P.report[HOW_MUCH] = error
+        P.report.error = error
         if error <= 1.0:
-            P.report[SPENT] += C[SUM]
+            P.report.spent += C[SUM]
             C[WANTED] = following(P, error, h, wanted, fixed)
             return DONE
-        P.count[REJECTED] += 1
+        P.count.rejected += 1
         if fixed:
             return UNSTABLE
         blown = 0 if error < 1e300 else blown + 1
@@ -187,7 +170,7 @@ def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
 @native
 def following(P: Problem, error: float, h: float, wanted: float, fixed: bool) -> float:
     """The step to try next: what was before, when these were short for the sake of a pulse."""
-    if longest_step(P) < P.settings[H_MAX]:
+    if longest_step(P) < P.settings.h_max:
         return P.control[WANTED]
     if fixed or error >= 0.5:
         return wanted
@@ -198,7 +181,7 @@ def following(P: Problem, error: float, h: float, wanted: float, fixed: bool) ->
 def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> float:
     """``count`` steps; returns the largest local error seen against ERROR, 1e300 for a blow-up."""
     top, every, P.control[SUM] = 0.0, FIXED_SAMPLE if fixed else 1, 0.0
-    if not fixed and P.sizes[WATCHED] == 0 and 2.0 * h > P.control[LIMIT]:
+    if not fixed and P.sizes.watched == 0 and 2.0 * h > P.control[LIMIT]:
         every = SAMPLE
     put_free(P, t, P.q, P.u)
     for s in range(count + 1):
@@ -219,8 +202,8 @@ def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> f
         leap(P, kick, h if s < count else 0.0)
     if not take_over(P):
         return 1e300
-    P.count[STEPS] += count
-    P.count[RESIDUALS] += count + 1
+    P.count.steps += count
+    P.count.residuals += count + 1
     P.control[SINCE] += float(count)
     return 0.0 if fixed else top
 
@@ -230,8 +213,8 @@ def leap(P: Problem, kick: float, drift: float) -> None:
     """u -= kick M^-1 F, q += drift u in the workspace; minus the weights into F."""
     W, F, body = P.W, P.F, P.body
     gx, gy, gz = P.gravity[0], P.gravity[1], P.gravity[2]
-    for b in range(P.sizes[NB]):
-        i, o, m = body[BODY * b + 1], body[BODY * b + 2], P.mass[b]
+    for b in range(P.sizes.nb):
+        i, o, m = body[b].first, body[b].at, P.mass[b]
         p = kick / m
         u, v, w = W[o + 3] - p * F[i], W[o + 4] - p * F[i + 1], W[o + 5] - p * F[i + 2]
         W[o + 3], W[o + 4], W[o + 5] = u, v, w
@@ -243,8 +226,8 @@ def leap(P: Problem, kick: float, drift: float) -> None:
 def sampled_error(P: Problem, h: float) -> float:
     """h^2 |a - earlier a|/6 against ERROR max(1, |q|)."""
     top = 0.0
-    for b in range(P.sizes[NB]):
-        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
         for k in range(3):
             change = abs(P.a[i + k] - P.ra[i + k])
             weight = max(1.0, abs(P.W[o + k]))
@@ -252,14 +235,14 @@ def sampled_error(P: Problem, h: float) -> float:
                 top = change / weight
     if not top < 1e200:
         return 1e300
-    return top * h * h / (6.0 * P.settings[ERROR])
+    return top * h * h / (6.0 * P.settings.error)
 
 
 @native
 def take_over(P: Problem) -> bool:
     """Positions and velocities of the workspace into q and u; False when they are not numbers."""
-    for b in range(P.sizes[NB]):
-        i, o = P.body[BODY * b + 1], P.body[BODY * b + 2]
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
         for k in range(3):
             P.q[i + k], P.u[i + k] = P.W[o + k], P.W[o + 3 + k]
             if not abs(P.W[o + k]) + abs(P.W[o + 3 + k]) < 1e200:

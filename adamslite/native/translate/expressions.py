@@ -8,10 +8,10 @@ from adamslite.native.llvm_builder import literal
 from adamslite.native.translate.language import is_native, llvm_type, name_of, signature, symbol
 from adamslite.native.translate.records import (
     ARRAYS,
-    Field,
+    ByReference,
     Inside,
     Nested,
-    Reference,
+    RecordField,
     RowsOf,
     Scalar,
     is_record,
@@ -64,7 +64,7 @@ class Expressions(Writer):
                 return self.shifted(array, self.expression(node.slice)), ARRAYS[array.kind]
         raise self.fail(node, "only numbers in arrays and records can be assigned")
 
-    def field(self, node: ast.Attribute) -> tuple[Value, Field]:
+    def field(self, node: ast.Attribute) -> tuple[Value, RecordField]:
         """The record and its field that ``record.field`` means."""
         owner = self.expression(node.value)
         if not is_record(owner.kind):
@@ -95,7 +95,7 @@ class Expressions(Writer):
             owner, field = self.field(node.value)
             if isinstance(field, Inside):
                 return Value(str(field.slots), "i64")
-            if isinstance(field, Reference):
+            if isinstance(field, ByReference):
                 at = self.place(owner, field.at + 1)
                 return self.value("i64", f"load i64, ptr {at}, {ADDRESS}")
         owner, field = self.field(node)

@@ -53,7 +53,7 @@ ARRAYS = {"Ints": "i64", "Reals": "double"}
 TYPES = {"i64": np.int64, "double": np.float64}
 
 
-class Field:
+class RecordField:
     """One field: its kind, its first slot and how many it takes; what Python reads and sets."""
 
     slots = 1
@@ -63,7 +63,7 @@ class Field:
         self.at = at
 
 
-class Scalar(Field):
+class Scalar(RecordField):
     """An ``int``, ``float`` or ``bool``."""
 
     def __get__(self, record: Record | None, owner: Any = None) -> Any:
@@ -81,7 +81,7 @@ class Scalar(Field):
             record._ints[self.at] = bool(value) if self.kind == "i1" else operator.index(value)
 
 
-class Nested(Field):
+class Nested(RecordField):
     """Another record inside of this one."""
 
     def __init__(self, kind: type[Record], at: int) -> None:
@@ -99,7 +99,7 @@ class Nested(Field):
         self.__get__(record)[:] = value
 
 
-class Inside(Field):
+class Inside(RecordField):
     """An array of fixed size inside of a record."""
 
     def __init__(self, kind: str, at: int, length: int) -> None:
@@ -116,7 +116,7 @@ class Inside(Field):
         self.__get__(record)[:] = value
 
 
-class Reference(Field):
+class ByReference(RecordField):
     """An array, or rows, by address and length; the record keeps it alive."""
 
     slots = 2
@@ -128,6 +128,8 @@ class Reference(Field):
 
     def __set__(self, record: Record, value: Any) -> None:
         numbers = value
+        if record._kept.get(self.at) is value:
+            return
         if isinstance(self.kind, RowsOf):
             if not (isinstance(value, Rows) and value.kind is self.kind.record):
                 raise TypeError(f"rows of {self.kind.record.__name__} are needed, not {value!r}")
@@ -141,8 +143,10 @@ class Reference(Field):
 class Record:
     """Fields at fixed places of memory; see above."""
 
-    fields: ClassVar[dict[str, Field]] = {}
+    fields: ClassVar[dict[str, RecordField]] = {}
     slots: ClassVar[int] = 0
+    #: Names of the arrays and rows that it holds by reference.
+    references: ClassVar[tuple[str, ...]] = ()
     #: Whether it holds addresses: such a record is not copied or cleared as a whole.
     refers: ClassVar[bool] = False
 
@@ -160,10 +164,9 @@ class Record:
             cls.fields[name], at = field, at + field.slots
             setattr(cls, name, field)
         cls.slots = at
-        cls.refers = any(
-            isinstance(f, Reference) or isinstance(f, Nested) and f.kind.refers
-            for f in cls.fields.values()
-        )
+        cls.references = tuple(n for n, f in cls.fields.items() if isinstance(f, ByReference))
+        inside = (f.kind for f in cls.fields.values() if isinstance(f, Nested))
+        cls.refers = bool(cls.references) or any(record.refers for record in inside)
 
     def __init__(self, room: np.ndarray) -> None:
         """The first slots of an array of 64-bit numbers (``slots``,) or more."""
@@ -184,7 +187,7 @@ class Record:
         for name, field in self.fields.items():
             if isinstance(field, Nested):
                 getattr(self, name)._empty()
-            elif isinstance(field, Reference):
+            elif isinstance(field, ByReference):
                 if isinstance(field.kind, RowsOf):
                     setattr(self, name, Rows(field.kind.record, 0))
                 else:
@@ -293,12 +296,12 @@ def is_record(kind: Any) -> bool:
     return isinstance(kind, type) and issubclass(kind, Record)
 
 
-def _field(kind: Any, at: int, given: Any) -> Field | None:
+def _field(kind: Any, at: int, given: Any) -> RecordField | None:
     """The field of a kind at a slot; ``given``: what its annotation was set to."""
     if kind is None:
         return None
     if isinstance(given, array):
         return Inside(kind, at, given.length) if kind in ARRAYS else None
     if kind in ARRAYS or isinstance(kind, RowsOf):
-        return Reference(kind, at)
+        return ByReference(kind, at)
     return Nested(kind, at) if is_record(kind) else Scalar(kind, at)

@@ -106,6 +106,7 @@ class Writer:
 
     def shifted(self, array: Value, index: Value) -> str:
         """Address of an element of an array."""
+        index = self.convert(index, "i64")
         if isinstance(array.kind, RowsOf):
             element = f"[{array.kind.record.slots} x i64]"
         else:

@@ -1,0 +1,83 @@
+"""What an audit of energy keeps: the balance, and the step whose work is counted."""
+
+from __future__ import annotations
+
+from adamslite.native.translate import Ints, Reals, Record, array
+
+
+class EnergyBalance(Record):
+    """The balance at an accepted state, and what explains its gap.
+
+    t, span                 time of the state; size of the present step
+    kinetic, stored         energies of the state; momenta (6,) of all bodies, linear and angular,
+                            those at the start
+    forces, size            largest sum of squares of weighted loads in the step; what an error of 1
+                            in every component does to the energy, with those loads
+    budget                  panels that the step may still be divided into
+    gap, worst, worst_at    of the balance: now, the largest, when that was
+    squares, quadrature     what explains a gap: errors of the steps, of the panels
+    largest                 the largest energy
+    created ...             what elastic elements delivered and stored, the least and the most
+    missed, splits          points without accelerations; panels that ended where a guard changed
+    push, turn              squares of what an error of 1 does to both momenta; their sums
+    external                the share of loads that does not add up to nothing
+    """
+
+    t: float
+    span: float
+    kinetic: float
+    stored: Reals = array(1)
+    forces: float
+    size: float
+    budget: int
+    gap: float
+    worst: float
+    worst_at: float
+    squares: float
+    quadrature: float
+    largest: float
+    created: float
+    least_created: float
+    most_created: float
+    created_at: float
+    missed: int
+    splits: int
+    drift: float
+    spin_drift: float
+    push: float
+    turn: float
+    pushes: float
+    turns: float
+    external: float
+    momenta: Reals = array(6)
+    first_momenta: Reals = array(6)
+
+
+class Audit(Record):
+    """A balance with what it needs.
+
+    on                   whether the run is audited
+    solved, elastic      whether loads depend on what has to be solved for; elements store energy
+    now, before          the balance, and the one to which steps may be taken back
+    previous, present    (W.size,) workspaces at both ends of the step; ``previous_before``
+    curve                (6 n,) coefficients of every unknown of a body
+    vectors              (2 n + m + nv + 2 ns,) u, a, z, s'
+    points               values at the points of a panel, rows of guards
+    moving               (m,) 1 for each constraint row that moves
+    matrix, pivots       what integrators go on with: acceleration matrix, its row order
+    """
+
+    on: bool
+    solved: bool
+    elastic: bool
+    now: EnergyBalance
+    before: EnergyBalance
+    previous: Reals
+    previous_before: Reals
+    present: Reals
+    curve: Reals
+    vectors: Reals
+    points: Reals
+    moving: Reals
+    matrix: Reals
+    pivots: Ints
