@@ -1,4 +1,4 @@
-"""What can be wrong besides the deck: the command, or a file that should hold results."""
+"""Errors that are not mistakes of a deck: wrong use of a command, or of a file."""
 
 
 class UsageError(ValueError):

@@ -1,4 +1,4 @@
-"""Stretches of work that only make things: looking for garbage would find none."""
+"""Suspends garbage collection during work that only creates objects."""
 
 from __future__ import annotations
 

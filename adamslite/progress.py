@@ -1,4 +1,4 @@
-"""What a running simulation tells, and to whom.
+"""Progress reports of a running simulation.
 
 `simulate(..., progress=p)` calls `p(time, end)` after each output step and `p.say(sentence)` before
 something that takes long, such as compiling the engine the first time.

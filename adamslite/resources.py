@@ -1,4 +1,4 @@
-"""Where the grammar and the reference decks lie.
+"""The locations of the grammar and of the reference decks.
 
 In a wheel they are inside the package; in a checkout (installed in editable mode or not at all)
 they stand next to it.

@@ -1,4 +1,4 @@
-"""Where a run writes, settled and looked at before it runs.
+"""The files that a run writes, determined and checked before it starts.
 
 A name in a deck or command file is a bare file name, and that file lies beside the results. Nothing
 that was read is written, neither by its name nor through a link.

@@ -1,4 +1,4 @@
-"""The flags that change a run: the same on the command line and in a reference file.
+"""The flags that change a run, shared by the command line and reference files.
 
 Only argparse is imported here, so that building the parser costs no start-up time.
 """

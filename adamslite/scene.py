@@ -1,4 +1,4 @@
-"""From the files of a run to its results: what `solve` and `verify` share."""
+"""A scene: the files of a run, and its results; shared by `solve` and `verify`."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,1 +1,1 @@
-"""What can be asked of a model: initial conditions, a dynamic run."""
+"""The analyses of a model: initial conditions, dynamics, statics, kinematics, small motions."""

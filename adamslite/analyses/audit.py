@@ -1,4 +1,4 @@
-"""The balance of energy of a run: made ready before it, read behind it.
+"""The balance of energy of a run: set up before the run, evaluated after it.
 
 A step whose error is ERROR max(1, |y|) in every component, positions and velocities alike, moves
 the energy by the root of

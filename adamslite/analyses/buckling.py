@@ -1,4 +1,4 @@
-"""Whether lines of masses were pushed along themselves, which no stiffness against bending holds.
+"""Detects lines of masses that were pushed along themselves and amplified round-off.
 
 A force P that pushes two masses apart along their distance l has the stiffness -P/l across it, so
 that whatever they are off the line grows as exp(s t), for masses in a row in the zigzag with

@@ -1,4 +1,4 @@
-"""Which integrator a run gets: what the model proves, and what the statement asks for.
+"""The choice of the integrator: from the INTEGRATOR statement and the properties of the model.
 
 AUTO, with rho the largest circular frequency of the linearised scene and dt the output step:
 

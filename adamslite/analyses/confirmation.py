@@ -1,4 +1,4 @@
-"""Whether a run can be believed: the same deck again, more tightly and by an unrelated method.
+"""`--confirm`: the same deck again, with a smaller ERROR and with an unrelated method.
 
 With r the run, s the same method at ERROR/100 and w a method of another family at ERROR/100, both
 with a balance of energy, steps of a quarter of the output step at most and at least ``LEAST_STEPS``

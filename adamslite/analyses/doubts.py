@@ -1,4 +1,4 @@
-"""What a run says about its own accuracy: where ERROR, which bounds a step, does not tell it.
+"""What a run reports of its own accuracy where ERROR, which bounds a step, does not cover it.
 
 Every method adds up the errors that it estimated for its accepted steps.  Where nothing amplifies
 or damps them, their sum bounds what the end is off by; it is compared with the longest way of a

@@ -1,4 +1,4 @@
-"""A dynamic run: native integration in a worker thread, so that it can be watched and stopped."""
+"""A dynamic run: native integration in a worker thread that can be watched and interrupted."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Why a run ended early: statement, line, equation, time, step, iteration, cause and remedy."""
+"""The report of an early end: statement, equation, time, step, iteration, cause and remedy."""
 
 from __future__ import annotations
 

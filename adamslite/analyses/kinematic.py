@@ -1,5 +1,4 @@
-"""Kinematic analysis: positions, velocities and accelerations of a model that motions fully
-determine.
+"""Kinematic analysis: positions, velocities and accelerations that motions fully determine.
 
 At each output time  g(t, q) = 0,  G u = -g_t,  G a = -gamma,  and the multipliers that carry the
 forces.

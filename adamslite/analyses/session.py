@@ -1,4 +1,4 @@
-"""One run: a model, its present state, and the commands carried out on it one after another.
+"""A session: a model, its present state, and the commands executed on it in turn.
 
 ::
 

@@ -1,4 +1,4 @@
-"""A deck in, results out."""
+"""`simulate` and `linearize`: from a deck, a model or kernels to results."""
 
 from __future__ import annotations
 

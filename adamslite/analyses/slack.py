@@ -1,4 +1,4 @@
-"""Whether the sections of a cable pushed, which a cable that goes slack does not do."""
+"""Detects cable sections that were pushed, which a real cable does not support."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Static equilibrium of the model as it stands."""
+"""Static equilibrium of the model from its present state."""
 
 from __future__ import annotations
 

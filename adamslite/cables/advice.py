@@ -1,4 +1,4 @@
-"""How a cable would be modelled for a wanted accuracy, and what that costs.
+"""The advised model of a cable for a required accuracy, and its cost.
 
 ERROR is a length: the error e of a place makes one of EA e/H in a tension T, so e = p T H/EA.
 

@@ -1,4 +1,4 @@
-"""Where the sections of a cable lie at the start, that runs over wheels from end to end.
+"""The initial positions of the sections of a cable that runs over wheels.
 
 The way of the cable is made of lines and arcs. A section is a chord: the next node is the point of
 the way at the distance h = L (1 + T/EA) from the last one, with the tension T there; the free

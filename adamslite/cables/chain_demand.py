@@ -1,4 +1,4 @@
-"""What a deck asks of one of its cables: the chain as a :class:`Demand`."""
+"""The :class:`Demand` of a cable that was found in a deck."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

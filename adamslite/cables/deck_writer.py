@@ -1,4 +1,4 @@
-"""The deck of a cable scene: head, wheels, cable, run."""
+"""Writes the deck of a cable scene: head, wheels, cable, run."""
 
 from adamslite.cables.estimate import Moves
 from adamslite.cables.geometry import Span

@@ -1,4 +1,4 @@
-"""What is asked of one span of cable, and how much model that takes: the estimates.
+"""The demands on one span of cable, and the estimates of the model that they require.
 
 l length, T tension, c = sqrt(EA/rho) axial and c_t = sqrt(T/rho) transverse wave, s payout, tau =
 max s'/max s" the time in which it changes, M what the span carries or moves, H = l/N a section.

@@ -1,4 +1,4 @@
-"""What holds the ends of a cable, and the weights on it."""
+"""The supports of the ends of a cable, and the weights on it."""
 
 from adamslite.cables.statements import AXES, number, point
 from adamslite.cables.vocabulary import Spec

@@ -1,4 +1,4 @@
-"""How far, how fast and under what load the cable moves, were it rigid.
+"""Estimates of travel, speed and load of a cable, as if it were rigid.
 
 Payout by a law is what the law says.  Else one coordinate q, the travel of the cable along the
 route, payout where an engine holds it back:

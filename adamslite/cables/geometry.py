@@ -1,4 +1,4 @@
-"""Where the cable touches its wheels, and whether it gets in its own way.
+"""The tangent points of the cable on its wheels, and intersections of the route with itself.
 
 A wheel of radius R about C with the axis a turns with the cable, in the direction of the route
 positively (turn = 1) or negatively (-1). Where the cable has the direction d it touches at

@@ -1,4 +1,4 @@
-"""Where the cable touches a wheel that it may leave in any direction: on a link about the axle.
+"""The point of contact on a wheel that the cable leaves in any direction: a link about the axle.
 
                   o next point of the cable         link m   PART/m about the axle, turned by b;
                  /                                           MARKER/m+900 is on the axle

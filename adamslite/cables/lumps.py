@@ -1,4 +1,4 @@
-"""Brute force: all of the cable as sections of fixed length that run over the rims of the wheels.
+"""Form brute: the whole cable as sections of fixed length that run over the rims of the wheels.
 
 A node that meets a wheel is pressed outwards by IMPACT and dragged along by Coulomb friction, mu N
 times a STEP of the sliding speed. Nothing tells it where it is: it runs on, leaves the wheel, and

@@ -1,4 +1,4 @@
-"""What can be wrong with the description of a cable, each with a description that provokes it."""
+"""Messages about the description of a cable, each with a description that causes it."""
 
 from adamslite.cables.toml_places import Path, Places
 from adamslite.language.diagnostics import WARNING, Diagnostic

@@ -1,5 +1,6 @@
-"""The model a description asks for, or what its wanted accuracy needs by the estimates of
-:mod:`adamslite.cables.demand`, and why.
+"""The choice of the model of a description: level, form, sections, integrator, and the reasons.
+
+The estimates are those of :mod:`adamslite.cables.demand`.
 
 Sections that run over a rim of radius R need (h/R)**2/24 < p/50 besides: the payout of a drum with
 h = R/10, R/14, R/20 and R/28 swings by 1.5, 0.9, 0.25 and 0.12 % of the tension.

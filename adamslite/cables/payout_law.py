@@ -1,4 +1,4 @@
-"""A payout law or an engine's force: an expression of the deck, worked out here as well."""
+"""A payout law or the force of an engine: an expression of the deck, also evaluated here."""
 
 import math
 from collections.abc import Callable, Mapping

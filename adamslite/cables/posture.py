@@ -1,4 +1,4 @@
-"""Numbers of a deck's expressions as the deck places its bodies, without compiling anything.
+"""Values of expressions in the posture of the deck, without compiling anything.
 
 Everything is at rest in the posture of the deck: rates and accelerations are zero. What a run would
 have to find (reactions, forces that are measured) is :class:`Unknown`; what a constraint prescribes

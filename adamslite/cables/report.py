@@ -1,4 +1,4 @@
-"""What `adamslite check` says about cables: their figures, and the model it would choose."""
+"""The report of `adamslite check` on cables: their figures, and the model that they need."""
 
 from collections.abc import Iterable
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What the deck of levels 1 to 3 reports besides its states."""
+"""The requests in the decks of levels 1 to 3."""
 
 from adamslite.cables.geometry import Span, wrap
 from adamslite.cables.links import wrapped

@@ -1,4 +1,4 @@
-"""Which stations may stand where, and which of their keys go together."""
+"""Rules about the stations of a route: their order, and which of their keys go together."""
 
 from math import inf
 from typing import Any

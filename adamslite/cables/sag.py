@@ -1,4 +1,4 @@
-"""Where the nodes of a span hang at the start, and how long the span is without its tension."""
+"""The initial shape of a sagging span, and its unstretched length."""
 
 from itertools import accumulate, pairwise
 from math import sqrt

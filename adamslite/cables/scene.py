@@ -1,4 +1,4 @@
-"""The whole way from the text of a description to the text of a deck."""
+"""From the text of a description to the text of a deck."""
 
 from adamslite.cables.brute_force_layout import length, stretches, way
 from adamslite.cables.deck_writer import write

@@ -1,4 +1,4 @@
-"""Weights that slide along their cable without a wheel: the cable runs through them.
+"""Weights that slide along their cable without a wheel.
 
 S is the cable that has come through along the route, a state of its own. On either side, e points
 along the cable away from the weight at x_0, H is a section, x_S = (x_1 - x_0)/H and S grows into

@@ -1,4 +1,4 @@
-"""From the text of a description to a Spec; everything that is wrong with it is said at once."""
+"""From the text of a description to a Spec, with all its mistakes."""
 
 import tomllib
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Where the keys of a TOML file stand: tomllib says what they hold, not where."""
+"""Line and column of the keys of a TOML file, which tomllib does not report."""
 
 from adamslite.language.diagnostics import Source, Span
 

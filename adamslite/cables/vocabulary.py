@@ -1,4 +1,4 @@
-"""What the description of a cable scene consists of: its keys, and what they hold."""
+"""The vocabulary of the description of a cable scene: keys and the kinds of their values."""
 
 from dataclasses import dataclass, field
 from functools import cached_property

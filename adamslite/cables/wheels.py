@@ -1,4 +1,4 @@
-"""Wheels on their bearings, what carries and what drives them.
+"""Wheels, their bearings, supports and drives.
 
 Station i of the route is MARKER/n, n = 10 i (from 1); a wheel is PART/n on the bearing MARKER/n+1,
 z along the axle. A carriage that moves is PART/n+2 with MARKER/n+2; MARKER/n+3 is where it starts,

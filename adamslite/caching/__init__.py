@@ -1,4 +1,4 @@
-"""What is kept between runs: where it lies, how an entry is sealed, and what its name covers.
+"""The cache between runs: its folder, the seal of an entry, and the source of its name.
 
 sources   a digest of every file that shapes an entry: part of the entry's name
 folder    where entries lie; nobody else may write there

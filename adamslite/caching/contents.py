@@ -1,4 +1,4 @@
-"""What lies in the cache folder: entries, and drafts of entries being written."""
+"""The contents of the cache folder: entries, and drafts of entries that are being written."""
 
 from __future__ import annotations
 

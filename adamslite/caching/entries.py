@@ -1,4 +1,4 @@
-"""Entries: bytes kept under a name that says what they were made from.
+"""Entries: bytes stored under a name that identifies their source.
 
 An entry is verified before anything of it is used, and made again when it fails::
 

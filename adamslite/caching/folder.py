@@ -1,4 +1,4 @@
-"""Where entries lie: a folder that nobody else may write to.
+"""The cache folder: private to its user, and verified to be so.
 
 Whoever can write an entry can have this program run what he likes, so a folder is used only when
 the user (or the administrator) owns it and no one else may change it:

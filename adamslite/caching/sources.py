@@ -1,4 +1,4 @@
-"""Which source files shape what is kept, and a digest of their content.
+"""The source files that influence an entry, and a digest of their content.
 
 The files are found from the import graph: those of a module, of all it imports from this package,
 and so on. Importing a module runs the packages that it lies in; a package that imports what it

@@ -1,1 +1,1 @@
-"""Rules about what the statements of a deck mean together; each yields diagnostics."""
+"""Rules about several statements of a deck together; each yields diagnostics."""

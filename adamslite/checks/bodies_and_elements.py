@@ -1,4 +1,4 @@
-"""What the statements of a deck must mean together: a list of small rules.
+"""Rules about bodies, markers and force elements.
 
 A rule takes a deck and yields diagnostics; statements with mistakes of their own are not in the
 deck it gets.  :data:`RULES` are quick and run whenever a deck is read; :data:`ADVICE` may take its

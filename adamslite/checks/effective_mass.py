@@ -1,4 +1,4 @@
-"""Forces that depend on the acceleration of their own body: what they make of its mass.
+"""Forces that depend on the acceleration of their own body: its effective mass.
 
 A component F = e(..., A) with A the acceleration of the loaded body along that component gives
 

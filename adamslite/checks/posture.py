@@ -1,4 +1,4 @@
-"""Rules about the model as drawn: axes, moments of inertia, the way markers face."""
+"""Rules about the posture of the deck: axes, moments of inertia, directions of markers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A rule about equations that cannot be formed: rates of what has none, forces of themselves."""
+"""Rules about equations that cannot be formed: rates that do not exist, forces of themselves."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What rules are made of: a rule takes a deck and yields diagnostics."""
+"""The type of a rule: it takes a deck and yields diagnostics."""
 
 from __future__ import annotations
 

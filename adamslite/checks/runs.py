@@ -1,4 +1,4 @@
-"""Rules about the statements that run a deck; they hold in decks and in command files."""
+"""Rules about the statements that run a deck, in decks and in command files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ACTIVATE and DEACTIVATE share: which elements are meant."""
+"""The part that ACTIVATE and DEACTIVATE share: the selection of elements."""
 
 from __future__ import annotations
 

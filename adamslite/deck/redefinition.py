@@ -1,4 +1,4 @@
-"""A command that changes a statement of the deck: only the arguments given count."""
+"""A command that changes a statement of the deck: only the given arguments change."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers of unknowns: nodes of the elimination, first unknowns, places in the workspace."""
+"""The numbering of unknowns: nodes of the elimination, first unknowns, offsets in the workspace."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The native entries, tables of addresses in, an outcome out: the integrators and the rest."""
+"""The native entry points: tables of addresses in, an outcome out."""
 
 from __future__ import annotations
 

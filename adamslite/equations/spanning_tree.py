@@ -1,4 +1,4 @@
-"""Which constraint holds which body: the spanning tree of a mechanism and what closes its loops.
+"""The spanning tree of a mechanism, and the constraints that close its loops.
 
 A multiplier's pivot block is -G X G^T with X what the bodies eliminated so far can move.  It is
 regular when the constraint carries its child in the tree, or, for a constraint that closes a loop,

@@ -1,4 +1,4 @@
-"""Names for the user of unknowns and equations that the program counts.
+"""Names of unknowns and equations for messages.
 
 PART/3 (scene.adm:12:1), x                       an unknown
 JOINT/2 (scene.adm:20:1), rotation about y_J     the equation of a constraint

@@ -1,4 +1,4 @@
-"""Where events keep their numbers: rows of ``P.margin`` and the record of a search."""
+"""The rows of ``P.margin`` and the slots of ``P.search`` that events use."""
 
 from __future__ import annotations
 

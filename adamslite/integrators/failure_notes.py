@@ -1,6 +1,4 @@
-"""What is kept of a corrector that failed, for the message: which unknown moved, which equation is
-open.
-"""
+"""Notes on a failed corrector, for the message: the unknown that moved, the open equation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Back onto the constraints, by the shortest way in the mass metric.
+"""Projection onto the constraints, along the shortest path in the mass metric.
 
     [M, G^T; G, 0] (dq, .) = (0, g(q)),    q <- q - dq    until |g| is round-off
     [M, G^T; G, 0] (du, .) = (0, G u + g_t),   u <- u - du

@@ -1,4 +1,4 @@
-"""What is kept of a run: records at the asked times, the largest constraint violation."""
+"""The records of a run at the output times, and the largest constraint violation."""
 
 from __future__ import annotations
 

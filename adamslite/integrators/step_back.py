@@ -1,4 +1,4 @@
-"""Taking an accepted step back.
+"""A step back: the return to an earlier accepted state from which no try failed.
 
 Close to a posture in which constraints lose rank (dead centre, flattened parallelogram) they hold
 the motion on its branch with a lever d, the distance from that posture: round-off e of positions

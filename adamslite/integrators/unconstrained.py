@@ -1,4 +1,4 @@
-"""Accelerations of bodies that nothing ties together: M^-1 f, body by body.
+"""Accelerations of bodies without constraints: M^-1 f, body by body.
 
     x'' = f/m + g,        w' = R I^-1 (R^T tau - w_b x I w_b),    w_b = R^T w
 

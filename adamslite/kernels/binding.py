@@ -1,4 +1,4 @@
-"""From a statement to its shape and back: what 1000 equal statements share.
+"""From a statement to its shape and its numbers, so that equal statements share one kernel.
 
 :class:`Binder` walks a statement's declared arguments and replaces every id, number and marker by
 a slot. What remains, written as text, is the *key* of the shape; what was taken out is the

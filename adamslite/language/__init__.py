@@ -1,1 +1,1 @@
-"""The words of the language: what a statement, an argument, a function and a message are."""
+"""The definition of the language: statements, arguments, functions, messages."""

@@ -1,4 +1,4 @@
-"""Keywords and their abbreviations: any beginning that fits one keyword only."""
+"""Keywords and their abbreviations: any beginning that fits only one keyword."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where something stands in a deck, and what is said about it.
+"""Diagnostics: a message about a deck, with file, line and column.
 
 A mistake of the user is data: a :class:`Diagnostic` with a code, one sentence, a place and a hint.
 All of them are collected and raised once, as :class:`DeckError`.

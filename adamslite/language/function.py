@@ -1,4 +1,4 @@
-"""Deck functions: what a call may look like, and which Python function answers it.
+"""Deck functions: the signature of a call, and the Python function that evaluates it.
 
 A deck function is one Python function under a signature::
 

@@ -1,4 +1,4 @@
-"""What each argument of INTEGRATOR does with each method, and why it does nothing with some.
+"""The effect of each argument of INTEGRATOR with each method.
 
 The same table answers `check`, the comments of a run and the page docs/integrators.md.
 """

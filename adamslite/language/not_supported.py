@@ -1,4 +1,4 @@
-"""Names of the ADAMS/Solver language that cannot be run yet.
+"""Names of the ADAMS/Solver language that are not supported yet.
 
 They exist, so a deck that uses them is told "not supported yet" and not "unknown".  A name that is
 registered elsewhere is supported, whether or not it still stands here.

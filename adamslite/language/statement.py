@@ -1,4 +1,4 @@
-"""What a statement is: a frozen dataclass whose fields declare how they are written in a deck.
+"""The definition of a statement: a frozen dataclass whose fields declare its arguments.
 
 >>> @statement("SFORCE")
 ... class Sforce(Statement):

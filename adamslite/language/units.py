@@ -1,4 +1,4 @@
-"""Units of force, mass, length and time, and the factor that joins them.
+"""Units of force, mass, length and time, and the factor UCF that relates them.
 
 Equation::
 

@@ -1,4 +1,4 @@
-"""Geometry of bodies and markers: their axes from angles or points, and where a marker sits.
+"""Geometry of bodies and markers: axes from angles or points, positions of markers.
 
 Axes are (3, 3), in columns.
 """

@@ -1,4 +1,4 @@
-"""What all elements together do at a marker: the functions FM, FX ... TZ written out.
+"""The net force of all elements at a marker: the functions FM, FX ... TZ.
 
     FX(i, j, k) = sum of  NAME(id, 0 or 1, 2, k)  over the elements NAME/id between i and j
 

@@ -1,4 +1,4 @@
-"""What is left out of a model because the scene does not need it, each by a rule with a name.
+"""Reductions of the model to what its scene needs, each a rule with a name.
 
     plane      what moves in a plane is solved in the plane (analyses/plane.py)
     points     a point mass has three unknowns and no attitude

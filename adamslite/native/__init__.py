@@ -1,1 +1,1 @@
-"""Native code: a typed part of Python or LLVM text in, callable addresses out."""
+"""Native code: from a typed part of Python or LLVM text to callable addresses."""

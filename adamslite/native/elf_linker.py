@@ -1,4 +1,4 @@
-"""Links object code into this process.
+"""A linker for object code: places it in this process without LLVM.
 
 Compiled for x86-64 under Linux it is ELF in the large code model: code, constants and functions of
 the C library may lie anywhere, so an instruction holds each address as a whole word and one kind of

@@ -1,4 +1,4 @@
-"""Straight-line LLVM assembly: the value builder.
+"""A builder of straight-line LLVM assembly.
 
 A value is a Python ``float`` (known now) or an SSA name (known at run time).  Every operation folds
 constants and is numbered by its operands, so equal subexpressions are computed once and a symbolic

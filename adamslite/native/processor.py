@@ -1,4 +1,4 @@
-"""The processor that native code is made for: this one, or a level of x86-64 that others have too.
+"""The target processor of native code: this one, or a common level of x86-64.
 
 ``ADAMSLITE_CPU`` is ``host`` (default: all that this processor can) or a level of the x86-64 psABI
 (section 3.1.1, "Micro-Architecture Levels"), so that a run can be repeated as an older processor

@@ -1,4 +1,4 @@
-"""What is written: result formats, charts and tables of modes; an import registers the formats."""
+"""Output files: formats of results, charts and tables of modes; an import registers the formats."""
 
 from importlib import import_module
 from pkgutil import iter_modules

@@ -1,4 +1,4 @@
-"""Charts of cost against accuracy, or against size: lines with their names at their ends.
+"""Charts of cost against accuracy, or against size, with labels at the ends of the lines.
 
 matplotlib draws them; it is imported when the first chart is drawn and is an optional extra.
 """

@@ -1,4 +1,4 @@
-"""What a linearisation says, for people and for files.
+"""Results of a linearisation, as tables and as files.
 
 A conjugate pair of eigenvalues is one mode; modes are numbered by undamped frequency.
 """

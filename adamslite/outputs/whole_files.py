@@ -1,4 +1,4 @@
-"""Files are written whole or not at all: a half-written result never replaces a good one."""
+"""Files are written whole or not at all: a partial result never replaces a complete one."""
 
 import os
 from collections.abc import Iterable, Iterator

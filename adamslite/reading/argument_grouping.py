@@ -1,4 +1,4 @@
-"""The arguments of a statement: which item is which field, and its value.
+"""The arguments of a statement: groups its items by argument.
 
 Bare values belong to the argument before them; an expression takes everything up to a backslash or
 the next ``KEY=``.  Keywords may be shortened to any prefix that fits one argument only.

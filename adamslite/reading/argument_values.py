@@ -1,4 +1,4 @@
-"""The value of an argument from its tokens, by the kind its field declares."""
+"""The value of an argument from its tokens, by the kind that its field declares."""
 
 from __future__ import annotations
 

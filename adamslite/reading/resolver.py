@@ -1,4 +1,4 @@
-"""From names to things: ids of statements, and expressions without open names.
+"""Resolves names: ids of statements, and the names in expressions.
 
 A resolved expression (:mod:`adamslite.language.expression`) holds numbers, ids and calls with all
 their arguments; every name in it was looked up here.

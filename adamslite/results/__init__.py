@@ -1,1 +1,1 @@
-"""What a run gives back: time histories, outcomes, and how two of them differ."""
+"""The results of a run: time histories, outcomes, and comparison."""

@@ -1,4 +1,4 @@
-"""How far results are from a reference, channel by channel.
+"""The difference of results from a reference, channel by channel.
 
 Channel c is inside its tolerance when at every reference time t
 

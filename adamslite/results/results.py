@@ -1,4 +1,4 @@
-"""What a run gives back: time histories under their deck names, and how the run ended."""
+"""The results of a run: time histories under the names of the deck, and the outcome."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field

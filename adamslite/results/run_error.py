@@ -1,4 +1,4 @@
-"""How far a run is from a reference: one number.
+"""The error of a run against a reference, as one number.
 
 The largest, over all output times, of::
 

@@ -1,1 +1,1 @@
-"""Expressions in sympy: the scope that elements see, nodes of the language, guards."""
+"""Expressions in sympy: the scope of elements, nodes of the language, guards."""

@@ -1,4 +1,4 @@
-"""Where choices change: guards, and whether their branch is a matter of time or of the state.
+"""Guards of an expression: where its branches change, with time or with the state.
 
 A *guard* is a relation that decides a choice in an expression (IF, MAX, ABS, IMPACT, STEP ...), or
 a floor (MOD, AINT).  Within one step of an integrator its branch stays what it was, so that the

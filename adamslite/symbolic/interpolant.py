@@ -1,5 +1,4 @@
-"""Tables of interpolated curves, as data that native code evaluates
-(:mod:`adamslite.kernels.code.lookup`).
+"""Tables of interpolated curves, as data for :mod:`adamslite.kernels.code.lookup`.
 
 ==============  ==================================================================================
 linear          straight lines from point to point

@@ -1,4 +1,4 @@
-"""What an expression sees of the model: the scope in which functions and elements write sympy.
+"""The scope in which functions and elements write sympy expressions of markers and states.
 
 A marker is a *frame*: a small integer, its position in the shape's list of markers, or ``ORIGIN``
 for the global frame.  The scope hands out real symbols for the local kinematic inputs, always in

@@ -1,4 +1,4 @@
-"""The one door to sympy: ``sp`` imports it at the first use; reading a deck never pays for it.
+"""Access to sympy, imported at its first use, and the nodes that adamslite adds to it.
 
 Beside it stand the few operations where the form sympy gives is not what a kernel needs: choices,
 floors, powers and lengths whose derivatives stay finite, explicit and quick to form; and values of

@@ -1,4 +1,4 @@
-"""From lines to statements: what continues a statement, what ends it, what names it."""
+"""Splits a text into statements: continuation lines, ends and keywords."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is wrong with a statement or an expression that has no form: which message, and where.
+"""Messages and positions for statements and expressions without a valid form.
 
 A faulty item is cut out of its statement and the rest is read on, so that one slip does not hide
 the others.

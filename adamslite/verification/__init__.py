@@ -1,1 +1,1 @@
-"""Runs held against references: reference files, measures, verdicts, work against precision."""
+"""Comparison of runs with references: reference files, measures, verdicts, work and precision."""

@@ -1,4 +1,4 @@
-"""One number made from one channel: a plateau's mean, a peak, an arrival, a final value.
+"""Measures: one number from one channel, such as a mean, a peak or an arrival time.
 
     mean VARIABLE/tip from 0.004 to 0.009 = 214302 tol rel 1e-3
     arrival SFORCE/240.f through -292810 from 0.02 = 0.080613 tol rel 5e-3

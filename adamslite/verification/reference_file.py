@@ -1,4 +1,4 @@
-"""A reference file: a table of results below lines that say how close a run must come to it.
+"""A reference file: a table of results and the tolerances that a run has to meet.
 
     # tolerance: abs 1e-7
     # tolerance PART/2.vx: rel 1e-5 abs 1e-8

@@ -1,4 +1,4 @@
-"""What is read off a signal: the mean of a plateau, the time of an arrival, a peak without ringing.
+"""Quantities of a signal: the mean of a plateau, the time of an arrival, a peak without ringing.
 
 Equations, for samples f(t_0) .. f(t_n) joined by straight lines:
 

@@ -1,4 +1,4 @@
-"""Solve every deck that has a reference, and say how well each reference is met.
+"""Solves every deck that has a reference, and compares.
 
 A case is one reference file and the deck it belongs to: `reference*.csv` in a folder with one deck,
 `<deck>.reference*.csv` in a folder with several. decks/README.md is the manual.

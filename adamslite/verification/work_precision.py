@@ -1,4 +1,4 @@
-"""What accuracy costs: a scene run by every integrator at several values of ERROR.
+"""The cost of accuracy: a scene solved by every integrator at several values of ERROR.
 
 The error of a run is that of ``run_error``, against a tight run that another method confirms; how
 much the tight run still changes with its own ERROR is not known any better.

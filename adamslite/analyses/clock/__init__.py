@@ -1,1 +1,1 @@
-"""What of a model depends on time alone: its values, its jumps, and where steps must be short."""
+"""Expressions of time alone: their values, their jumps, and limits of the step size."""

@@ -1,4 +1,4 @@
-"""Where expressions of time change, found by bisection that excludes and does not guess.
+"""Places where expressions of time change, found by bisection of enclosures.
 
 Over a span of time an enclosure (:mod:`adamslite.analyses.clock.enclosures`) says what a value and
 its rate can be.  A span in which the answer is plain is done, every other one is divided.

@@ -1,4 +1,4 @@
-"""What of a model depends on time alone: the programs of its kernels with their numbers."""
+"""Expressions of time alone: the clock programs of the kernels, with their numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Motions that nothing can follow: a displacement or a velocity that jumps with time.
+"""Motions whose displacement or velocity jumps with time, which no mechanism can follow.
 
 What drives a constraint is compared on both sides of every stop, at a distance e and nearer,
 

@@ -1,4 +1,4 @@
-"""Stops of a run: the times at which a guard of the clock changes its branch.
+"""Stops of a run: the times at which a guard of time changes its branch.
 
 Guards of the clock (:mod:`adamslite.symbolic.guards`) are functions of time alone, so their changes
 are found before the run:

@@ -1,4 +1,4 @@
-"""Interval arithmetic: what an expression of time and its rate can be within a span of time.
+"""Interval arithmetic: bounds of an expression of time and of its rate over a span of time.
 
 An instruction (:mod:`adamslite.kernels.code.clock_program`) becomes an *enclosure* over n spans at
 once: the least and the largest value, the least and the largest rate, each (n,) or a number.  Every

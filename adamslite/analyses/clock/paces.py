@@ -1,4 +1,4 @@
-"""How long steps may be where expressions of time change within less than a step.
+"""Limits of the step size where expressions of time change within less than a step.
 
 An error test compares the ends of a step: a pulse between them is not there.  Where a curve has a
 time scale s (:mod:`adamslite.analyses.clock.changes`) below the longest step, or where two stops

@@ -1,4 +1,4 @@
-"""Initial conditions of joints and motions: IC, ICTRAN, ICROT, ICDISP hold at the start only.
+"""Initial conditions of joints and motions: IC, ICTRAN, ICROT, ICDISP.
 
 A displacement asked for is what a MOTION with FUNCTION = d demands of the positions, a speed what a
 MOTION/VELOCITY with FUNCTION = v demands of the velocities.  The model with these motions added is

@@ -1,4 +1,4 @@
-"""Redundant constraint rows: found by a rank-revealing factorisation, named, left out.
+"""Redundant constraint rows: found by a rank-revealing factorisation, named and left out.
 
 Rows of G W^-1/2 scaled to unit length; QR with column pivoting of the transpose orders them by
 independence, and those with |R_kk| <= RANK |R_11| are combinations of the others.  Their

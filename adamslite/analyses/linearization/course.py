@@ -1,4 +1,4 @@
-"""Whether small motions keep their equations while the motion they are about goes on.
+"""Whether the equations of small motions stay constant along the motion that they are about.
 
 The first-order system of this moment is compared with those just before and after, on the same
 trajectory.  Where neither its basis nor its matrices change the state is steady for the observer:

@@ -1,4 +1,4 @@
-"""Who sees small motions: somebody on the ground, or on the body of a marker.
+"""The observer of small motions: on the ground, or on the body of a marker.
 
 Small motions in ground axes are dx of mass centres and rotation vectors phi (dR = [phi] R).  An
 observer on body b, whose axes E turn with it, sees of another body, at r = x - x_b from b,

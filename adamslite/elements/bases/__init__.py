@@ -1,1 +1,1 @@
-"""What families of statements share: constraints, wrenches, joint coordinates, curves."""
+"""Bases of families of statements: constraints, wrenches, joint coordinates, curves."""

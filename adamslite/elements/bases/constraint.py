@@ -1,4 +1,4 @@
-"""What all constraint statements share.
+"""The base of all constraint statements.
 
 Equation::
 

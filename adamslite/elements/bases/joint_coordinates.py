@@ -1,4 +1,4 @@
-"""Coordinates of I relative to J: slides along and turns about an axis, in symbols and as built.
+"""Coordinates of I relative to J: slides along and rotations about an axis.
 
 Equations (``d = r_I - r_J``)::
 

@@ -1,4 +1,4 @@
-"""The path of an accepted step, for its audit: the curve of order 6 through both of its ends.
+"""The path of an accepted step, for its audit: a curve of order 6 through both ends.
 
     x(s) = sum_{j=0..5} c_j s^j,    x, x', x'' as accepted at s = 0 and s = 1;    u = x'/h
 

@@ -1,4 +1,4 @@
-"""Backward differences of the past: what a multistep method remembers.
+"""Backward differences of past values: the history of a multistep method.
 
 D_0 = y, D_i = D_{i-1} less D_{i-1} one step earlier, on steps of equal size h; a new step size
 maps the differences by the matrices of Shampine and Reichelt (SIAM J. Sci. Comput. 18 (1997) 1,

@@ -1,4 +1,4 @@
-"""Backward differences at events: the search in a tried step, the state and the step behind it.
+"""The BDF at events: the search within a tried step, and the restart after it.
 
 Within the tried step, at the share x of it, with pi_j = prod_{m=0..j-1} (x + m)/(m + 1)
 

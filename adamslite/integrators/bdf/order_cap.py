@@ -1,4 +1,4 @@
-"""When orders above 2 cost more than they bring: the cap on the order of BDF.
+"""The cap on the order of BDF where orders above 2 cost more than they gain.
 
 Orders 3 to 5 are unstable for undamped vibrations of some `h omega`.  In a stiff scene without
 much damping they feed a vibration that the motion does not have until the error test holds it: it

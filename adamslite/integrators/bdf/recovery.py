@@ -1,4 +1,4 @@
-"""When a try of a step fails: another matrix, length or start, or the end of the run."""
+"""Recovery from a failed try of a BDF step: another matrix, length or start, or the end."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a method remembers from step to step: its own numbers, the history and the accepted state.
+"""The state of the BDF between steps: control numbers, history, last accepted state.
 
 D_0 = y and D_1 = h y' start a history of order 1, on a first step with h^2 |y''| = 0.09 ERROR.
 """

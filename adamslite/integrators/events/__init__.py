@@ -1,1 +1,1 @@
-"""Where an expression changes its branch, and how a step ends there."""
+"""Events: where an expression changes its branch, and how a step ends there."""

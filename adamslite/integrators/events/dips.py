@@ -1,4 +1,4 @@
-"""What a guard does between the ends of a step: the cubic through its values and rates there.
+"""A guard between the ends of a step: the cubic through its values and rates.
 
 At the share x of a step, with values a, b and rates r, s per step,
 

@@ -1,4 +1,4 @@
-"""Guards: the branch that each holds, and how far it is from leaving it.
+"""Guards: the current branch of each, and its margin to the next.
 
 A branch is stored as a number: +-HUGE for the two sides of a relation, n + 1/2 between two steps of
 a whole number, 0 for a guard that is evaluated as it is.  The margin is negative where the guard

@@ -1,4 +1,4 @@
-"""Branches that differ at the end of a step and change nothing there: taken without a search."""
+"""Branches that differ at the end of a step without changing a value: no search is needed."""
 
 from __future__ import annotations
 

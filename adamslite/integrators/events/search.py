@@ -1,4 +1,4 @@
-"""The first crossing within a tried step: seen from its ends, bracketed and located.
+"""The first crossing within a tried step: detected from its ends, bracketed and located.
 
 Guards and their rates are taken at both ends; where the cubic through them
 (:mod:`adamslite.integrators.events.dips`) comes near zero in between, the dense output is looked

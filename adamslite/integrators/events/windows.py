@@ -1,4 +1,4 @@
-"""The windows of a step in which the cubic through values and rates of guards can be trusted.
+"""The part of a step in which the cubic through values and rates of guards is trusted.
 
 The first window is the whole step.  Where a guard that may dip below zero is in the middle of the
 window, or at the dip, elsewhere than its cubic says, the window ends there instead, with the rate

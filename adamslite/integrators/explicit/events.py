@@ -1,4 +1,4 @@
-"""The explicit formula at events: the tried step in between, and the start behind a crossing.
+"""The explicit formula at events: dense output of the tried step, and the restart.
 
 Within the tried step a cubic goes through both ends with their rates; it only has to say which
 branch changes first and about where, because the step is taken again to end there.

@@ -1,4 +1,4 @@
-"""When a try of the explicit formula fails: a shorter step, another start, or the end of the run.
+"""Recovery from a failed try of an explicit step: a shorter step, another start, or the end.
 
 Near a posture in which constraints lose rank shorter steps do not help, because the state they
 start from is spoilt by round-off (:mod:`adamslite.integrators.step_back`): after a few failures the

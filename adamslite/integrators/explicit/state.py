@@ -1,4 +1,4 @@
-"""What the explicit formula remembers: its numbers, rows of the history, the accepted state."""
+"""The state of the explicit formula between steps: control numbers, history, accepted state."""
 
 from __future__ import annotations
 

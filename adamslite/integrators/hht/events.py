@@ -1,4 +1,4 @@
-"""HHT and NEWMARK at events: the tried step in between, and the start behind a jump."""
+"""HHT and NEWMARK at events: dense output of the tried step, and the restart after a jump."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What the implicit methods share: control numbers, sizes of steps, and what a failure leaves."""
+"""The part that implicit methods share: control numbers, step sizes, failures."""

@@ -1,4 +1,4 @@
-"""Numbers of an implicit method that last from step to step, and its last accepted multipliers."""
+"""Control numbers of an implicit method between steps, and its last accepted multipliers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Why the tries of a step failed, and which unknown is to blame."""
+"""Why the tries of a step failed, and the unknown with the largest error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rotation vectors counted from another attitude."""
+"""Rotation vectors relative to a new reference attitude."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sizes of steps: the first one, a shorter one after a failure, one behind an event."""
+"""Step sizes: at the start, after a failure, after an event."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How exact a step must be: the error that is asked of it, and the sizes it is measured in."""
+"""The error test of a step: its tolerance, and the sizes against which it is measured."""
 
 from __future__ import annotations
 

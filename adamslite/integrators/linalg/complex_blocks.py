@@ -1,4 +1,4 @@
-"""Block elimination in complex numbers, with the plan and in the order of the real one.
+"""Block elimination in complex numbers, with the plan and the order of the real one.
 
 A complex array holds the real and the imaginary part of each entry one after the other, so that its
 entry k is (A[2k], A[2k + 1]).  The blocks, their places and the formulas are those of

@@ -1,4 +1,4 @@
-"""The largest of many sizes, when one may be not-a-number.
+"""Maximum norms that keep not-a-number.
 
 A norm that forgets it calls a state good whose worst component has no value.
 """

@@ -1,4 +1,4 @@
-"""The plan of a block elimination: which blocks there are, and in which order they go."""
+"""The plan of a block elimination: its blocks, and their order."""
 
 from adamslite.native.translate import Ints, Record
 

@@ -1,4 +1,4 @@
-"""The Radau formula at events: the search in a tried step, the state and the step behind it.
+"""The Radau formula at events: the search within a tried step, and the restart after it.
 
 Within the tried step, at the share x of it, positions, velocities and states follow the cubic
 through the start and the stages,

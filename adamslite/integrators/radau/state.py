@@ -1,4 +1,4 @@
-"""What the Radau formula remembers: its numbers, the accepted state, the end of a tried step."""
+"""The state of the Radau formula between steps: control numbers, accepted state, tried step."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""VERLET: the explicit leapfrog formula for free point masses."""
+"""VERLET: the explicit leapfrog formula for point masses without constraints."""

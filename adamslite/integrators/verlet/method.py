@@ -1,4 +1,4 @@
-"""VERLET: half a kick, drift, half a kick; for point masses that nothing ties together.
+"""VERLET: half a kick, drift, half a kick; for point masses without constraints.
 
     u+ = u- + h M^-1 f(t, q, u-),     q <- q + h u+         (u half a step away from q)
 

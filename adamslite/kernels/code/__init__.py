@@ -1,4 +1,4 @@
-"""Native kernels of one expression shape: residual, Jacobian, angle memory, guards.
+"""Code generation for one expression shape: residual, Jacobian, angle memory, guards.
 
 A *shape* is a statement with every id, number and marker replaced by a slot.  Its sympy loads and
 rows are differentiated once with respect to the local inputs of

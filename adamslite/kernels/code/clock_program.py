@@ -1,4 +1,4 @@
-"""Expressions of time alone, written down so that they can be evaluated on whole intervals.
+"""Expressions of time alone as instructions that can be evaluated on whole intervals.
 
 Compiled code gives values; to be sure that nothing happens between two times an expression is
 needed.  A kernel therefore carries those of its subexpressions that depend on nothing but time as

@@ -1,4 +1,4 @@
-"""Geometry of bodies and markers over builder values: local inputs and how they vary.
+"""Geometry of bodies and markers in generated code: local inputs and their derivatives.
 
 Everything is in ground axes.  A body has a mass centre x with velocity u and acceleration a; a part
 also has an attitude R, angular velocity w and angular acceleration al.  A marker has a lever

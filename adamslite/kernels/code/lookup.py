@@ -1,4 +1,4 @@
-"""A table as native code reads it: curves over common knots, piece by piece a cubic.
+"""Tables in native code: piecewise cubic curves over common knots.
 
 Equation (knots x_1 < ... < x_n, piece p between x_p and x_(p+1), b its origin, z_1 < ... < z_m the
 places of the curves)::

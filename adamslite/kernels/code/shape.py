@@ -1,4 +1,4 @@
-"""What the instances of a shape share, and what is evaluated for each."""
+"""A shape: what its instances share, and what is evaluated for each."""
 
 from __future__ import annotations
 

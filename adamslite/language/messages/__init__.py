@@ -1,4 +1,4 @@
-"""Everything the program says about a deck: one table of sentences, hints and broken decks.
+"""All messages about a deck: one table of sentences, hints and broken decks.
 
 The same table is behaviour (:class:`Log` looks messages up in it), test (every broken deck yields
 its code) and manual page.

@@ -1,4 +1,4 @@
-"""Messages about what the statements mean together."""
+"""Messages about several statements together."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Messages about lines and statements as such."""
+"""Messages about lines and whole statements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Native code from a small, typed part of Python: what the integrators are written in.
+"""The translator from a small, typed part of Python to native code.
 
 A function marked :func:`native` may use ``int`` (64 bit), ``float``, ``bool``, arrays (``Ints``,
 ``Reals``), records (:mod:`adamslite.native.translate.records`) and their ``Rows``, ``if``,

@@ -1,4 +1,4 @@
-"""The words of the native language, and the functions marked for translation."""
+"""The types and decorators of the native language."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Typed records: places in memory that native code and plain Python know by name.
+"""Typed records: fields at fixed slots, for native code and for plain Python.
 
 A record is a row of slots of eight bytes.  Its annotations are its fields, in order::
 

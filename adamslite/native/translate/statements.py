@@ -1,4 +1,4 @@
-"""Statements of the native language, whole functions, and a function with all that it calls."""
+"""Statements and functions of the native language."""
 
 from __future__ import annotations
 
