@@ -77,3 +77,17 @@ def test_a_seam_is_closed_where_the_points_leave_it_open_by_round_off() -> None:
     first, last = through(points, True).table.at(s)
     assert np.array_equal(first, [1.0, 0.0, 0.0])
     assert last == pytest.approx(first, abs=1e-15)
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_no_point_of_a_curve_is_nearer_than_the_nearest(closed: bool) -> None:
+    """Also across the seam, and where the squared distance is not convex."""
+    random = np.random.default_rng(3)
+    grid = np.linspace(0.0, 1.0, 5001)
+    for n in (4, 7, 40):
+        for _ in range(20):
+            points = random.normal(size=(n, 3)).cumsum(axis=0)
+            points[-1] = points[0] if closed else points[-1]
+            curve, point = through(points, closed), 3.0 * random.normal(size=3)
+            found = np.linalg.norm(curve.at(np.array([curve.nearest(point)])) - point)
+            assert found <= np.linalg.norm(curve.at(grid) - point, axis=1).min() + 1e-9

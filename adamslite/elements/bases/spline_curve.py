@@ -12,46 +12,70 @@ Reference: de Boor, A Practical Guide to Splines, 2001, chapter IV.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from adamslite.symbolic.interpolant import Interpolant, interpolant
 
-# How finely the nearest point is looked for before it is polished, per piece.
-SAMPLES = 20
+# How finely the nearest point is looked for before it is polished, per piece; steps of that.
+SAMPLES, POLISHED = 20, 20
 
 
 @dataclass(frozen=True, eq=False)
 class SplineCurve:
-    """``table``: x, y and z over s; ``length`` of all chords."""
+    """``table``: x, y and z over s; ``length`` of all chords; ``closed``: s begins again at 1."""
 
     table: Interpolant
     length: float
+    closed: bool
+
+    def at(self, s: Any, order: int = 0) -> Any:
+        """Points (n, 3) or derivatives at ``s`` (n,)."""
+        import numpy as np
+
+        return self.table.at(s - np.floor(s) if self.closed else s, order)
 
     def nearest(self, point: Any) -> float:
-        """Parameter of the curve's point nearest to ``point`` (3,)."""
+        """Parameter of the curve's point nearest to ``point`` (3,): Newton from the nearest sample,
+        never to a point that is further away.
+        """
         s = self._nearest_sample(point)
-        for _ in range(20):
-            gap, slope, bend = (self.table.at(s, n) for n in range(3))
-            gap = gap - point
+        for _ in range(POLISHED):
+            gap, slope, bend = self.at(s) - point, self.at(s, 1), self.at(s, 2)
             down = (slope * slope + gap * bend).sum()
             if down <= 0.0:
                 break
-            s = s - (gap * slope).sum() / down
+            step = (gap * slope).sum() / down
+            while ((self.at(s - step) - point) ** 2).sum() > (gap * gap).sum():
+                step *= 0.5
+            if s - step == s:
+                break
+            s = s - step
         return float(s[0])
 
     def _nearest_sample(self, point: Any) -> Any:
-        """Parameter (1,) of the nearest of all samples, looked at one on each piece at a time."""
+        """Parameter (1,) of the nearest of all samples, on the pieces that may come nearest."""
         import numpy as np
 
         first, span = self.table.knots[:-1], np.diff(self.table.knots)
+        away = np.linalg.norm(self.table.pieces[1:-1, :, 0] - point, axis=1)
+        near = np.flatnonzero(away - self._reach <= away.min())
         least, best = np.inf, first[:1]
         for share in np.linspace(0.0, 1.0, SAMPLES + 1):
-            s = first + share * span
+            s = first[near] + share * span[near]
             away = ((self.table.at(s) - point) ** 2).sum(axis=1)
             nearest = int(np.argmin(away))
             if away[nearest] < least:
                 least, best = away[nearest], s[nearest : nearest + 1]
         return best
+
+    @cached_property
+    def _reach(self) -> Any:
+        """How far a piece goes from its first point at most, (n - 1,)."""
+        import numpy as np
+
+        span, inner = np.diff(self.table.knots), self.table.pieces[1:-1]
+        return sum(np.linalg.norm(inner[:, :, k], axis=1) * span**k for k in (1, 2, 3))
 
 
 def through(points: Any, closed: bool) -> SplineCurve:
@@ -65,7 +89,7 @@ def through(points: Any, closed: bool) -> SplineCurve:
     length = float(chords.sum())
     s = np.append(np.cumsum(np.append(0.0, chords[:-1])) / length, 1.0)
     if not closed:
-        return SplineCurve(interpolant(s, points, "not-a-knot", "piece"), length)
+        return SplineCurve(interpolant(s, points, "not-a-knot", "piece"), length, False)
     ring = points.copy()
     ring[-1] = ring[0]
-    return SplineCurve(interpolant(s, ring, "periodic", "piece"), length)
+    return SplineCurve(interpolant(s, ring, "periodic", "piece"), length, True)
