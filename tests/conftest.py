@@ -1,13 +1,16 @@
-"""What all tests share: one folder of compiled code, so that a shape is compiled only once, and the
-closed forms and decks of cables, which are modules in decks/cables.
+"""What all tests share: two tiers, one folder of compiled code, so that a shape is compiled only
+once, and the closed forms and decks of cables, which are modules in decks/cables.
 
-Tests are in two tiers: those marked `numerical` may depend on how a processor rounds, and are run
-for several; the others read, check and write texts.
+Tests marked `slow` are left out unless they are asked for (``-m ""``, ``-m slow``, or by name); the
+others are the fast tier, in which no test may need more than ``MOST`` seconds of CPU.  Tests marked
+`numerical` may depend on how a processor rounds, and are run for several; the others read, check
+and write texts.
 """
 
 from __future__ import annotations
 
 import os
+import resource
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -22,6 +25,8 @@ if TYPE_CHECKING:
     from fakes import Pipeline
 
 sys.path.append(str(find("decks") / "cables"))
+# Tests run side by side, one on a processor; numpy reads this when it is first imported.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 #: Modules of tests in which no number is computed that a processor could round otherwise.
 TEXTUAL = {
@@ -29,6 +34,76 @@ TEXTUAL = {
     "test_doubts", "test_lexical", "test_lowering", "test_manual", "test_messages", "test_pages",
     "test_reference", "test_results", "test_statement", "test_style",
 }  # fmt: skip
+
+
+#: CPU that a test of the fast tier may need, from an empty cache and without the engine, which is
+#: compiled once for all [s]. What needs more than a third of it on the machine at hand is marked
+#: `slow`: processors differ, and a busy one is slower.
+MOST = 5.0
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """A test that is named is run in whatever tier it is."""
+    if config.option.markexpr == "not slow" and all("::" in name for name in config.args):
+        config.option.markexpr = ""
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
+    """One file is run in this process: starting others takes longer than most files do."""
+    alone = len(config.args) == 1 and config.args[0].partition("::")[0].endswith(".py")
+    return 0 if alone else None
+
+
+class Engine:
+    """CPU that compiling the engine has taken in this process [s]."""
+
+    spent = 0.0
+
+
+def cpu() -> float:
+    """CPU of this process and of those it has waited for, without compiling the engine [s]."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(each.ru_utime + each.ru_stime for each in used) - Engine.spent
+
+
+STARTED = pytest.StashKey[float]()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Note when a test starts."""
+    item.stash[STARTED] = cpu()
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
+    """Fail a test of the fast tier that is not fast."""
+    result = yield
+    used = cpu() - item.stash[STARTED]
+    if used > MOST and item.get_closest_marker("slow") is None:
+        pytest.fail(
+            f"{used:.1f} s of CPU, more than {MOST:g} s: mark it with @pytest.mark.slow", False
+        )
+    return result
+
+
+@pytest.fixture(scope="session", autouse=True)
+def engine_apart() -> Iterator[None]:
+    """Compiling the engine is not counted as CPU of the test that is the first to use it."""
+    from adamslite.equations import engine
+
+    build = engine._build
+
+    def counted(name: str, progress: object) -> object:
+        start = cpu()
+        built = build(name, progress)
+        Engine.spent += cpu() - start
+        return built
+
+    engine._build = counted
+    yield
+    engine._build = build
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -39,24 +114,30 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 @pytest.fixture(scope="session", autouse=True)
-def compiled_code(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """The cache folder of this session; the user's own is neither read nor written.
+def compiled_code(
+    pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Path]:
+    """The cache folder of the tests; the user's own is neither read nor written.
 
-    Workers of one session share it: an entry is written whole and then renamed.
+    It is kept between runs. Workers of one session share it: an entry is written whole and then
+    renamed.
     """
     given = os.environ.get("ADAMSLITE_CACHE")
-    folder = Path(given) if given else _own_folder(tmp_path_factory)
+    folder = Path(given) if given else _own_folder(pytestconfig, tmp_path_factory)
     os.environ["ADAMSLITE_CACHE"] = str(folder)
     yield folder
     if given is None:
         del os.environ["ADAMSLITE_CACHE"]
 
 
-def _own_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    base = tmp_path_factory.getbasetemp()
-    session = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
-    folder = session / "compiled"
-    folder.mkdir(mode=0o700, exist_ok=True)
+def _own_folder(config: pytest.Config, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    try:
+        folder = config.cache.mkdir("compiled")
+        folder.chmod(0o700)
+    except (AttributeError, OSError):  # pytest keeps nothing, or must not write here
+        base = tmp_path_factory.getbasetemp()
+        folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "compiled"
+        folder.mkdir(mode=0o700, exist_ok=True)
     return folder
 
 

@@ -77,6 +77,7 @@ def test_lumps_and_ends_weigh_what_the_cable_does(elements: int) -> None:
     assert len(masses) > 2 * elements
 
 
+@pytest.mark.slow
 def test_a_belt_slides_on_its_driven_pulley() -> None:
     """tau1/tau2 of a lumped belt that slides: g(x d) g(d)^m g(y d) with x + m + y = pi/d.
 
@@ -129,6 +130,7 @@ def test_a_belt_slides_on_its_driven_pulley() -> None:
     assert (load + difference) / (load - difference) == pytest.approx(expected, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_a_chain_keeps_its_teeth() -> None:
     """Sprockets of z1 = 8 and z2 = 12 teeth: z2 of one and z1 of the other turn together.
 

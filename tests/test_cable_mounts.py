@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tiers import fast, slow
 
 import adamslite
 from adamslite.cables.scene import deck
@@ -48,7 +49,7 @@ def solve(gives: str = "", model: str = "level = 1", mass: float = 5, velocity: 
 FORMS = ["level = 1", "level = 2\nelements = 2", 'level = 3\nelements = 2\nform = "ale"']
 
 
-@pytest.mark.parametrize("model", FORMS)
+@pytest.mark.parametrize("model", fast(FORMS, FORMS[0]))
 def test_a_mount_carries_what_hangs_on_its_wheel(model: str) -> None:
     """Two equal weights at rest: 32.5 g on the ground, and 30 g about a foot 0.3 m to the right.
 
@@ -64,7 +65,7 @@ def test_a_mount_carries_what_hangs_on_its_wheel(model: str) -> None:
     np.testing.assert_allclose(results["REQUEST/20.F7"], np.pi, atol=1e-6)
 
 
-@pytest.mark.parametrize("model", [FORMS[0], FORMS[-1]])
+@pytest.mark.parametrize("model", [FORMS[0], slow(FORMS[-1])])
 def test_a_mount_gives_way(model: str) -> None:
     """The whole weight of 32.5 kg bounces on 5e4 N/m: y = -(m g/k) (1 - cos w t), w^2 = k/m.
 
@@ -102,6 +103,7 @@ def test_a_swinging_weight_keeps_its_energy() -> None:
     np.testing.assert_allclose(energy, energy[0], atol=5e-4)
 
 
+@pytest.mark.slow
 def test_cable_that_runs_presses_less() -> None:
     """A weight is hoisted at U = 12 m/s over a pulley on a mount: load 2 (M + rho l) g - 2 rho U^2.
 

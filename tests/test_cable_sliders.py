@@ -111,6 +111,7 @@ def test_a_weight_that_nothing_pulls_slides_on_and_leaves_the_rope_at_rest() -> 
         np.testing.assert_allclose(results[f"REQUEST/{span}.F2"], 500, atol=1e5 / 0.5 * 1e-5)
 
 
+@pytest.mark.slow
 def test_a_light_rope_is_an_ellipse() -> None:
     """Level 3 against level 1, DM + DM = l, for a rope of rho l/M = 3 %.
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from descriptions import solve
 from formulas import Cable, Impact
+from tiers import slow
 
 import adamslite
 
@@ -52,7 +53,7 @@ def test_a_kink_meets_a_free_running_sheave(form: str) -> None:
     assert np.mean(tension[behind]) == pytest.approx(impact.free_running, rel=0.01)
 
 
-@pytest.mark.parametrize("level", [2, 3])
+@pytest.mark.parametrize("level", [2, slow(3)])
 def test_a_cable_slips_on_a_locked_pulley(level: int) -> None:
     """T1/T2 = exp(mu pi); the tensions at the wheel differ from it by the friction's full value,
     reached to 1e-12 once the sliding speed is above 1e-3 m/s, and by the mass of the half sections
@@ -95,7 +96,7 @@ def test_a_cable_slips_on_a_locked_pulley(level: int) -> None:
     assert np.all(results["REQUEST/20.F3"][late] < 0)
 
 
-@pytest.mark.parametrize("level", [1, 2, 3])
+@pytest.mark.parametrize("level", [1, 2, slow(3)])
 def test_an_axle_may_lie_anywhere(level: int) -> None:
     """Atwood's machine with the axle along x: the same numbers as along z.
 

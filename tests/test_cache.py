@@ -133,6 +133,7 @@ def solve(cache: Path, tmp_path: Path) -> subprocess.CompletedProcess:
     )
 
 
+@pytest.mark.slow
 def test_each_kind_of_entry_survives_damage_in_a_real_run(cache, tmp_path) -> None:
     """Tables of the parser (pickle), facts of kernels (JSON), object code: all files at once.
 

@@ -108,6 +108,7 @@ def test_the_exit_code_is_that_of_the_verdict(shown, code, tmp_path, monkeypatch
 
 
 @pytest.mark.parametrize("name", ("screw-jack/screw-jack", "atwood/atwood-coupler"))
+@pytest.mark.slow
 def test_round_off_and_angles_that_mean_nothing_are_no_objections(name):
     """theta = 0; places of 1e-28."""
     deck = find("decks") / name.split("/")[0] / f"{name.split('/')[-1]}.adm"

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import itertools
 import random
+from collections.abc import Callable
+from functools import cached_property
 
 import mpmath as mp
 import numpy as np
@@ -63,10 +65,22 @@ class Gradient:
         given = sorted(self.expr.free_symbols - set(self.numbers), key=str)
         self.symbols = self.numbers + given
         self.derivatives = [sp.diff(self.expr, s) for s in self.symbols]
-        self.value_of = sp.lambdify(self.symbols, self.expr, "mpmath")
-        self.slopes_of = sp.lambdify(self.symbols, self.derivatives, "mpmath")
-        self.edges_of = sp.lambdify(self.numbers, self.edges, "mpmath")
         self.given = [self.scope.values[s] for s in given]
+
+    @cached_property
+    def value_of(self) -> Callable:
+        """The value at many digits."""
+        return sp.lambdify(self.symbols, self.expr, "mpmath")
+
+    @cached_property
+    def slopes_of(self) -> Callable:
+        """The derivatives."""
+        return sp.lambdify(self.symbols, self.derivatives, "mpmath")
+
+    @cached_property
+    def edges_of(self) -> Callable:
+        """What changes sign at the places to look at closely."""
+        return sp.lambdify(self.numbers, self.edges, "mpmath")
 
     def check(self, numbers: list) -> bool:
         """Compare at one point; false where the function has no real value."""

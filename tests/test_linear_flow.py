@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from small_motions import Flow, distance
+from tiers import slow
 
 import adamslite
 from adamslite.analyses.linearization.linear import linear
@@ -122,7 +123,13 @@ def differs(mechanism: Mechanism, observer: int | None, seed: int) -> float:
 
 @pytest.mark.parametrize(
     ("seed", "unit", "observer"),
-    [(0, "METER", 20), (1, "METER", 30), (2, "METER", 20), (2, "METER", 40), (4, "CENTIMETER", 20)],
+    [
+        slow(0, "METER", 20),
+        slow(1, "METER", 30),
+        slow(2, "METER", 20),
+        (2, "METER", 40),
+        (4, "CENTIMETER", 20),
+    ],
 )
 def test_mechanisms_on_turntables(seed: int, unit: str, observer: int) -> None:
     """Seen from the table or from a part on it; the ground and the rotor are told to go there."""

@@ -378,31 +378,17 @@ NATIVE_ROOMS = tuple(
 )
 
 
-@pytest.fixture(scope="module")
-def interpretations():
-    """Every run by Python, and the names of the native functions that were called."""
-    called: set[str] = set()
-    before = sys.getprofile()
-
-    def watch(frame, event, argument):
-        if event == "call" and frame.f_code.co_filename.startswith(NATIVE_ROOMS):
-            module = frame.f_globals["__name__"].removeprefix("adamslite.")
-            called.add(f"{module}.{frame.f_code.co_name}")
-
+def interpreted_run_of(name: str):
+    """The same by Python."""
     with pytest.MonkeyPatch.context() as patch, np.errstate(all="ignore"):
         interpreted(patch)
-        sys.setprofile(watch)
-        threading.setprofile(watch)
-        found = {name: run_of(name) for name in RUNS}
-        threading.setprofile(None)
-        sys.setprofile(before)
-    return found, called
+        return run_of(name)
 
 
 @pytest.mark.parametrize("name", RUNS)
-def test_the_engine_runs_the_same_interpreted_and_native(name, interpretations):
+def test_the_engine_runs_the_same_interpreted_and_native(name):
     """Same steps, same iterations, same results to round-off."""
-    by_python, native_run = interpretations[0][name], run_of(name)
+    by_python, native_run = interpreted_run_of(name), run_of(name)
     if by_python is None or native_run is None:
         assert by_python is native_run
         return
@@ -420,11 +406,32 @@ def defined(text: str) -> set[str]:
     return set(re.findall(r"^define internal \w+ @([\w.]+)\(", text, re.MULTILINE))
 
 
-def test_those_runs_reach_every_native_function(interpretations):
+@pytest.fixture
+def called():
+    """Names of the native functions that Python calls during a test."""
+    names: set[str] = set()
+    before = sys.getprofile()
+
+    def watch(frame, event, argument):
+        if event == "call" and frame.f_code.co_filename.startswith(NATIVE_ROOMS):
+            module = frame.f_globals["__name__"].removeprefix("adamslite.")
+            names.add(f"{module}.{frame.f_code.co_name}")
+
+    sys.setprofile(watch)
+    threading.setprofile(watch)
+    yield names
+    threading.setprofile(None)
+    sys.setprofile(before)
+
+
+@pytest.mark.slow
+def test_those_runs_reach_every_native_function(called):
     """All that the registered entries call."""
+    for name in RUNS:
+        interpreted_run_of(name)
     reached = set().union(*(defined(operations.engine_text(name)) for name in ENTRIES))
     assert "integrators.records.write_record" in reached
-    assert reached <= interpretations[1]
+    assert reached <= called
 
 
 def test_the_entries_are_translated_whole():

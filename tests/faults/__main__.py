@@ -86,7 +86,8 @@ def copy(folder: Path) -> Path:
 def passes(root: Path, tests: Sequence[str], cache: Path) -> bool:
     """Whether these tests pass below ``root``."""
     # Hypothesis and pytest keep notes of failures, which would follow from one fault to the next.
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests]
+    command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-m", "", "-p",
+               "no:cacheprovider", *tests]  # fmt: skip
     environment = {**os.environ, "PYTHONPATH": str(root), "ADAMSLITE_CACHE": str(cache),
                    "PYTHONDONTWRITEBYTECODE": "1"}  # fmt: skip
     try:
