@@ -25,9 +25,8 @@ Source: Adams/Solver statement BEAM; J. S. Przemieniecki, Theory of Matrix Struc
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.elements.bases.wrench import NOTHING, Compliance, Row, symmetric, times
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, number, reference, statement, vector
 
 
@@ -82,7 +81,7 @@ class Beam(Compliance, Statement):
         soft = rigidity / (1.0 + shear)
         return 12.0 * soft / length**3, 6.0 * soft / length**2, (4.0 + shear) * soft / length
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """The matrices of the law."""
         stiffness = self.matrix
         damping = symmetric(self.cmatrix)

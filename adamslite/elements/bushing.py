@@ -14,9 +14,8 @@ Source: Adams/Solver statement BUSHING, Adams/View "Constitutive Equations for B
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.elements.bases.wrench import NOTHING, Compliance, diagonal
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, reference, statement, vector
 
 NONE = (0.0, 0.0, 0.0)
@@ -41,7 +40,7 @@ class Bushing(Compliance, Statement):
     ct: tuple[float, ...] = _three("CT", "torque time/angle", "torsional damping about")
     torque: tuple[float, ...] = _three("TORQUE", "torque", "torque at zero rotation about")
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """The matrices of the law."""
         return {
             "stiffness": diagonal((*self.k, *self.kt)),

@@ -11,8 +11,6 @@ The reaction reported acts on I of the first joint.
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.bases.joint_coordinates import (
     angle_since,
@@ -21,8 +19,10 @@ from adamslite.elements.bases.joint_coordinates import (
     slide,
     turn,
 )
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, references, statement, vector, words
 from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("COUPLER", planned=("FUNCTION",))
@@ -59,7 +59,7 @@ class Coupler(Constraint, Statement):
             return word if word in freedoms else None
         return freedoms[0] if len(freedoms) == 1 else None
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """The freedom used of each joint, its factor and where it counts from."""
         chosen, since = [], []
         for number, key in enumerate(self.joints):
@@ -69,7 +69,7 @@ class Coupler(Constraint, Statement):
             since.append(built(model, joint.i, joint.j))
         return {"chosen": tuple(chosen), "since": tuple(since), "factors": self.factors}
 
-    def constraints(self, scope: Scope) -> list[Any]:
+    def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """The row that vanishes."""
         row = 0
         for joint, name, since, factor in zip(

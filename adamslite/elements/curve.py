@@ -9,9 +9,8 @@ Equation (s from 0 at the first point to 1 at the last, proportional to the leng
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.elements.bases.spline_curve import SplineCurve, through
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, integer, reference, statement
 
 
@@ -27,13 +26,14 @@ class Curve(Statement):
     )  # fmt: skip
     order: int = integer("ORDER", default=4, help="degree of the pieces plus one; always 4")
 
-    def spline(self, model: Any) -> SplineCurve:
+    def spline(self, model: DrawnModel) -> SplineCurve:
         """The curve itself."""
+        assert self.matrix is not None  # a rule asks for it
         points = model.element("MATRIX", self.matrix)
         closed = self.form == "CLOSED"
         return model.once(("CURVE", self.key), lambda: through(points.table, closed))
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """The curve as a table, and the length of its chords."""
         spline = self.spline(model)
         return {

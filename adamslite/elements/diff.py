@@ -8,11 +8,11 @@ Equation::
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.expression import Call, Node, Ref
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, expression, flag, statement, vector
 from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("DIFF", planned=("ROUTINE",))
@@ -32,7 +32,7 @@ class Diff(Statement):
         "FUNCTION", required=True, unit="that of y per time", help="dy/dt, or the residual"
     )
 
-    def equation(self, scope: Scope) -> Any:
+    def equation(self: Seen, scope: Scope) -> Expr:
         """dy/dt - FUNCTION, or FUNCTION itself."""
         return self.function if self.implicit else self.unknowns[1] - self.function
 
@@ -41,6 +41,6 @@ class Diff(Statement):
         """The state itself has no suffix."""
         return ("",)
 
-    def outputs(self, model: Any) -> list[Node]:
+    def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
         return [Call("DIF", (Ref("DIFF", self.key),))]

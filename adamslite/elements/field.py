@@ -15,9 +15,8 @@ Source: Adams/Solver statement FIELD.
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.elements.bases.wrench import NOTHING, Compliance, by_columns, times
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, number, reference, statement, vector
 
 
@@ -46,7 +45,7 @@ class Field(Compliance, Statement):
         "FORCE", size=6, unit="force, torque", default=NOTHING, help="force and torque at LENGTH"
     )
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """The matrices of the law."""
         stiffness = by_columns(self.kmatrix)
         damping = by_columns(self.cmatrix)

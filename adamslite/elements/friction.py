@@ -54,11 +54,13 @@ Determination"; P. Dupont, V. Hayward, B. Armstrong, F. Altpeter, IEEE Trans. Au
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from adamslite.elements.bases.joint_coordinates import relative_velocity, spin
 from adamslite.elements.bases.wrench import Wrench
+from adamslite.elements.joint import Joint
 from adamslite.language.expression import COMPONENTS, MODE, Call, Node, Num, Op, Ref, measure
+from adamslite.language.interfaces import DrawnModel, Lookup
 from adamslite.language.statement import (
     STATEMENTS,
     Statement,
@@ -68,8 +70,9 @@ from adamslite.language.statement import (
     statement,
     words,
 )
-from adamslite.symbolic.scope import ZERO, Load, Scope, dot, minus, scale
+from adamslite.symbolic.scope import ZERO, Load, Scope, Vector, dot, minus, scale
 from adamslite.symbolic.sympy_nodes import choose, magnitude, norm, root
+from adamslite.symbolic.types import Expr, Seen
 
 BLEND = 1.5
 # Share of the bristle's deflection over which it begins to slip.
@@ -143,12 +146,12 @@ class Friction(Wrench, Statement):
         """The bristle's deflection as an expression."""
         return Call("DIF", (Ref("DIFF", self.state),))
 
-    def sticks(self, joint: Any) -> bool:
+    def sticks(self, joint: Joint | None) -> bool:
         """Whether a bristle holds the joint at rest."""
         wanted = self.max_stiction_deformation is not None and self.effect != "SLIDING"
         return wanted and joint is not None and joint.kind in self.held
 
-    def companions(self, deck: Any) -> tuple[Statement, ...]:
+    def companions(self, deck: Lookup) -> tuple[Statement, ...]:
         """The bristle's deflection over MAX_STICTION_DEFORMATION."""
         joint = deck.find("JOINT", self.joint)
         if not self.sticks(joint):
@@ -156,7 +159,7 @@ class Friction(Wrench, Statement):
         rate = bristle_rate(self, joint)
         return (STATEMENTS["DIFF"](id=self.state, function=rate, spans=self.spans),)
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """Force and torque of the joint on I, and which of them count."""
         joint = Ref("JOINT", self.joint)
         joint_found = model.element("JOINT", self.joint)
@@ -169,7 +172,7 @@ class Friction(Wrench, Statement):
             "bristle": self.deflection if self.sticks(joint_found) else None,
         }
 
-    def loads(self, scope: Scope) -> list[Load]:
+    def loads(self: Seen, scope: Scope) -> list[Load]:
         """Friction on I and its reaction on J."""
         joint = self.joint
         if self.bristle is not None:
@@ -183,7 +186,7 @@ class Friction(Wrench, Statement):
         ]
 
 
-def slip(scope: Scope, friction: Any) -> tuple[Any, Any]:
+def slip(scope: Scope, friction: Seen) -> tuple[Vector, Vector]:
     """Slip as two vectors: of the sliding, and of the turning, both speeds of the surface."""
     i, j, kind = friction.joint.i, friction.joint.j, friction.joint.kind
     axis = scope.axes(j)[2]
@@ -194,7 +197,7 @@ def slip(scope: Scope, friction: Any) -> tuple[Any, Any]:
     return (ZERO if kind == "REVOLUTE" else along), (ZERO if kind == "TRANSLATIONAL" else around)
 
 
-def normal_load(scope: Scope, friction: Any) -> Any:
+def normal_load(scope: Scope, friction: Seen) -> Expr:
     """N of the table above."""
     kind, used = friction.joint.kind, friction.used
     force = friction.reaction[:3] if "REACTION_FORCE" in used else ZERO
@@ -213,16 +216,17 @@ def normal_load(scope: Scope, friction: Any) -> Any:
     return across + bending / friction.initial_overlap
 
 
-def bristle_rate(friction: Any, joint: Any) -> Node:
+def bristle_rate(friction: Friction, joint: Joint) -> Node:
     """db/dt as an expression; in statics the bristle straightens."""
     i, j = Ref("MARKER", joint.i), Ref("MARKER", joint.j)
     if joint.kind == "REVOLUTE":
-        slip = Op("*", (Num(friction.pin_radius), Call("WZ", (i, j, j))))
+        slip: Node = Op("*", (Num(friction.pin_radius), Call("WZ", (i, j, j))))
     else:
         slip = Call("VZ", (i, j, j, j))
     b = friction.deflection
     ahead = _product(Call("MAX", (slip, Num(0.0))), _yield(Op("-", (Num(1.0), b))))
     back = _product(Call("MIN", (slip, Num(0.0))), _yield(Op("+", (Num(1.0), b))))
+    assert friction.max_stiction_deformation is not None
     rate = Op("/", (Op("+", (ahead, back)), Num(friction.max_stiction_deformation)))
     return Call("IF", (Op("-", (MODE, Num(STATICS))), rate, Op("neg", (b,)), rate))
 
@@ -237,7 +241,7 @@ def _yield(left: Node) -> Node:
     return Call("MIN", (Call("MAX", (share, Num(0.0))), Num(1.0)))
 
 
-def held(scope: Scope, friction: Any) -> Load:
+def held(scope: Scope, friction: Seen) -> Load:
     """Friction of a joint with a bristle."""
     i, j = friction.joint.i, friction.joint.j
     axis = scope.axes(j)[2]
@@ -249,7 +253,7 @@ def held(scope: Scope, friction: Any) -> Load:
     return Load(i, ZERO, scale(-push * friction.pin_radius, axis), j, follows=True)
 
 
-def friction_by_bristle(friction: Any, speed: Any, load: Any) -> Any:
+def friction_by_bristle(friction: Seen, speed: Expr, load: Expr) -> Expr:
     """Friction at the surface against a slip of ``speed``."""
     rest, moving = coefficients(friction)
     edge, b = friction.stiction_transition_velocity, friction.bristle
@@ -270,7 +274,7 @@ def friction_by_bristle(friction: Any, speed: Any, load: Any) -> Any:
     return (mu * load + preload(friction)) * (b + (1 - magnitude(b, None)) * share)
 
 
-def friction_by_speed(friction: Any, square: Any, load: Any) -> Any:
+def friction_by_speed(friction: Seen, square: Expr, load: Expr) -> Expr:
     """Friction over slip at the surface, by the slip's square: even and smooth."""
     rest, moving = coefficients(friction)
     own = preload(friction)
@@ -284,7 +288,7 @@ def friction_by_speed(friction: Any, square: Any, load: Any) -> Any:
     )
 
 
-def coefficients(friction: Any) -> tuple[Any, Any]:
+def coefficients(friction: Seen) -> tuple[Expr, Expr]:
     """At rest and in motion, by EFFECT."""
     return {
         "ALL": (friction.mu_static, friction.mu_dynamic),
@@ -293,14 +297,14 @@ def coefficients(friction: Any) -> tuple[Any, Any]:
     }[friction.effect]
 
 
-def blended(friction: Any, speed: Any) -> Any:
+def blended(friction: Seen, speed: Expr) -> Expr:
     """The coefficient between vs and 1.5 vs."""
     rest, moving = coefficients(friction)
     passed = (speed / friction.stiction_transition_velocity - 1) / (BLEND - 1)
     return rest + (moving - rest) * passed**2 * (3 - 2 * passed)
 
 
-def preload(friction: Any) -> Any:
+def preload(friction: Seen) -> Expr:
     """Friction force without load at the surface."""
     if "PRELOAD" not in friction.used:
         return 0

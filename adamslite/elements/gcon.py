@@ -11,12 +11,12 @@ include it, GCON(id, 0, comp) is what acts on the first of them.
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.expression import Call, Node, Ref, measure, walk
 from adamslite.language.function import FUNCTIONS
+from adamslite.language.interfaces import DrawnModel, Key
 from adamslite.language.statement import Statement, expression, statement
 from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.types import Expr, Seen
 
 # Measures of velocity: a GCON that uses one constrains velocities only.
 RATES = frozenset(("VM", "VR", "VX", "VY", "VZ", "WM", "WX", "WY", "WZ"))
@@ -40,7 +40,7 @@ class Gcon(Statement):
         """What the row keeps at zero."""
         return ("FUNCTION",)
 
-    def is_rate(self, model: Any) -> bool:
+    def is_rate(self, model: DrawnModel) -> bool:
         """Whether FUNCTION measures velocities, itself or through variables."""
         pending, seen = [self.function], set()
         while pending:
@@ -52,11 +52,11 @@ class Gcon(Statement):
                     pending.append(model.variable(node.id).function)
         return False
 
-    def pairs(self, model: Any) -> list[tuple[Any, Any]]:
+    def pairs(self, model: DrawnModel) -> list[tuple[Key, Key]]:
         """Markers (i, j) of the measures in FUNCTION, itself and through variables, both ways
         round.
         """
-        found: dict[tuple[Any, Any], None] = {}
+        found: dict[tuple[Key, Key], None] = {}
         pending, seen = [self.function], set()
         while pending:
             for node in walk(pending.pop()):
@@ -66,30 +66,29 @@ class Gcon(Statement):
                 if isinstance(node, Call):
                     ends = _ends(node)
                     if len(ends) == 2 and ends[0] != ends[1]:
-                        found |= dict.fromkeys((ends, ends[::-1]))
+                        found |= dict.fromkeys(((ends[0], ends[1]), (ends[1], ends[0])))
         return list(found)
 
-    def sides(self, model: Any) -> list[tuple[Any, Any]]:
+    def sides(self, model: DrawnModel) -> list[tuple[Key, Key | None]]:
         """What the function GCON measures by its jflag: (marker, what it is measured against).
 
         First the pairs, where ``None`` stands for the only partner of a marker; then each marker
         of several pairs with all of them.
         """
         pairs = self.pairs(model)
-        partners: dict[Any, list[Any]] = {}
+        partners: dict[Key, list[Key]] = {}
         for at, against in pairs:
             partners.setdefault(at, []).append(against)
         several = [at for at, others in partners.items() if len(others) > 1]
         return [(a, b if a in several else None) for a, b in pairs] + [(a, None) for a in several]
 
-    def flags(self, model: Any, i: Any, j: Any) -> list[int]:
+    def flags(self, model: DrawnModel, i: Key, j: Key) -> list[int]:
         """The jflag of what acts at marker i, from marker j or (j = 0) from all."""
-        pairs, sides = self.pairs(model), self.sides(model)
         if j == 0:
-            return [n for n, side in enumerate(sides) if side == (i, None)]
-        return [n for n, pair in enumerate(pairs) if pair == (i, j)]
+            return [n for n, side in enumerate(self.sides(model)) if side == (i, None)]
+        return [n for n, pair in enumerate(self.pairs(model)) if pair == (i, j)]
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """The markers of ``sides`` as frames."""
         return {
             "sides": tuple(
@@ -98,7 +97,7 @@ class Gcon(Statement):
             )
         }
 
-    def constraints(self, scope: Scope) -> list[Any]:
+    def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """The row that vanishes."""
         return [self.function]
 
@@ -107,12 +106,16 @@ class Gcon(Statement):
         """``f``: the strength of the constraint, see the function GCON."""
         return ("f",)
 
-    def outputs(self, model: Any) -> list[Node]:
+    def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
         return [measure("GCON", Ref("GCON", self.key), 0)]
 
 
-def _ends(call: Call) -> tuple[Any, ...]:
+def _ends(call: Call) -> tuple[Key, ...]:
     """The markers i and j of a measure."""
     taken = zip(call.args, FUNCTIONS[call.name].parameters, strict=False)
-    return tuple(each.id for each, parameter in taken if parameter.name in ("i", "j"))
+    return tuple(
+        each.id
+        for each, parameter in taken
+        if parameter.name in ("i", "j") and isinstance(each, Ref)
+    )

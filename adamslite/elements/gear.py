@@ -15,7 +15,7 @@ Sign: the reaction reported acts on I of the first joint.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.bases.joint_coordinates import (
@@ -25,8 +25,13 @@ from adamslite.elements.bases.joint_coordinates import (
     slide,
     turn,
 )
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, reference, references, statement
 from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:  # reading a deck does without numpy
+    import numpy as np
 
 
 @statement("GEAR")
@@ -45,7 +50,7 @@ class Gear(Constraint, Statement):
         """What the row keeps at zero."""
         return ("travel of one gear past the other along z of CV",)
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """For each joint (factor, built value) of its translation and of its rotation."""
         pitch = model.marker(self.cv)
         along = pitch.axes[:, 2]
@@ -61,7 +66,7 @@ class Gear(Constraint, Statement):
             turns.append((lever, *built_turn(model, joint.i, joint.j)))
         return {"slides": tuple(slides), "turns": tuple(turns)}
 
-    def constraints(self, scope: Scope) -> list[Any]:
+    def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """The row that vanishes."""
         row = 0
         for sign, joint, (shift, slid), (lever, *turned) in zip(
@@ -75,7 +80,7 @@ class Gear(Constraint, Statement):
         return [row]
 
 
-def _cross(a: Any, b: Any) -> Any:
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     from numpy import cross
 
     return cross(a, b)

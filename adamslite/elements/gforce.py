@@ -19,6 +19,7 @@ from adamslite.elements.bases.wrench import Wrench
 from adamslite.language.expression import Node, Num
 from adamslite.language.statement import Statement, expression, reference, statement
 from adamslite.symbolic.scope import Load, Scope, along_axes
+from adamslite.symbolic.types import Seen
 
 
 def _component(key: str, unit: str) -> Node:
@@ -50,7 +51,7 @@ class Gforce(Wrench, Statement):
     ty: Node = _component("TY", "torque")
     tz: Node = _component("TZ", "torque")
 
-    def loads(self, scope: Scope) -> list[Load]:
+    def loads(self: Seen, scope: Scope) -> list[Load]:
         """Force and torque on I; the reaction follows I."""
         axes = scope.axes(self.rm)
         force = along_axes(axes, (self.fx, self.fy, self.fz))

@@ -32,7 +32,7 @@ the line of shafts; which of its two forms applies is decided by the drawn z axe
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from adamslite.elements.bases.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
 from adamslite.elements.bases.joint_coordinates import (
@@ -46,9 +46,11 @@ from adamslite.elements.bases.joint_coordinates import (
     turn,
     turn_on_rack,
 )
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, number, reference, statement, vector
 from adamslite.symbolic.scope import Scope, dot
 from adamslite.symbolic.sympy_nodes import sp
+from adamslite.symbolic.types import Expr, Seen
 
 Initial = tuple[str, str, float | None, float | None]
 
@@ -128,7 +130,7 @@ class Joint(Constraint, Statement):
         given = ((field, freedom, getattr(self, field)) for field, freedom in asked.items())
         return [(field, name, *(*values, None)[:2]) for field, name, values in given if values]
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """From the posture the deck draws: where SCREW and RACKPIN start, how CONVEL faces."""
         if self.kind == "SCREW":
             found = built_turn(model, self.i, self.j)
@@ -139,7 +141,7 @@ class Joint(Constraint, Statement):
             return {"opposed": "yes" if away else None}
         return {"slid": built_slide(model, self.i, self.j), "turned": found}
 
-    def constraints(self, scope: Scope) -> list[Any]:
+    def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """Rows that vanish: positions first, then directions."""
         i, j = self.i, self.j
         if self.kind == "SCREW":
@@ -148,7 +150,7 @@ class Joint(Constraint, Statement):
         if self.kind == "RACKPIN":
             angle = angle_since(scope, turn_on_rack(scope, i, j), self.turned)
             return [self.slid - slide(scope, i, j) - self.pd / 2 * angle]
-        together = list(scope.position(i, j))
+        together = scope.position(i, j)
         (xi, _, zi), (xj, yj, zj) = scope.axes(i), scope.axes(j)
         on_line = [dot(together, xj), dot(together, yj)]
         parallel = [dot(zi, xj), dot(zi, yj)]
@@ -156,11 +158,11 @@ class Joint(Constraint, Statement):
         return {
             "CONVEL": [*together, equal_speed(scope, i, j, bool(self.opposed))],
             "CYLINDRICAL": on_line + parallel,
-            "FIXED": together + parallel + same_turn,
-            "HOOKE": together + same_turn,
+            "FIXED": [*together, *parallel, *same_turn],
+            "HOOKE": [*together, *same_turn],
             "PLANAR": [slide(scope, i, j), *parallel],
-            "REVOLUTE": together + parallel,
-            "SPHERICAL": together,
+            "REVOLUTE": [*together, *parallel],
+            "SPHERICAL": [*together],
             "TRANSLATIONAL": on_line + parallel + same_turn,
             "UNIVERSAL": [*together, dot(zi, zj)],
         }[self.kind]

@@ -14,11 +14,12 @@ Sign: the reaction reported is the force and torque on I.
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from adamslite.elements.bases.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
 from adamslite.language.statement import Statement, choice, reference, statement
 from adamslite.symbolic.scope import Scope, dot
+from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("JPRIM")
@@ -54,7 +55,7 @@ class Jprim(Constraint, Statement):
             "PERPENDICULAR": ("right angle (z_I . z_J)",),
         }[self.kind]
 
-    def constraints(self, scope: Scope) -> list[Any]:
+    def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """Rows that vanish."""
         d = scope.position(self.i, self.j)
         xi, _, zi = scope.axes(self.i)

@@ -7,8 +7,7 @@ Equation (position and axes in ground of a marker on a body at ``r`` with attitu
 
 from __future__ import annotations
 
-from typing import Any
-
+from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement, flag, reference, statement, vector
 
 
@@ -46,8 +45,8 @@ class Marker(Statement):
 
     @classmethod
     def completed(
-        cls, values: dict[str, Any], body: tuple[str, int | str] | None
-    ) -> dict[str, Any]:
+        cls, values: dict[str, object], body: tuple[str, Key | None] | None
+    ) -> dict[str, object]:
         """The nearest body before it owns a marker that names none."""
         if body is None or "part" in values or "point_mass" in values:
             return {}

@@ -21,11 +21,11 @@ Sign: I relative to J; the reaction reported is the force and torque on I that m
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.bases.joint_coordinates import Turn, angle_to, relative_velocity, spin, turn
+from adamslite.elements.joint import Joint
 from adamslite.language.expression import Call, Node, Ref
+from adamslite.language.interfaces import DrawnModel, Lookup
 from adamslite.language.statement import (
     STATEMENTS,
     Statement,
@@ -37,6 +37,7 @@ from adamslite.language.statement import (
 from adamslite.language.statement import statement as register
 from adamslite.symbolic.scope import Scope, dot
 from adamslite.symbolic.sympy_nodes import root
+from adamslite.symbolic.types import Expr, Seen
 
 AXES = ("X", "Y", "Z")
 ANGLES = ("B1", "B2", "B3")
@@ -75,7 +76,7 @@ class Motion(Constraint, Statement):
         """Name of the DIFF that integrates an acceleration."""
         return f"MOTION_{self.key}"
 
-    def companions(self, deck: Any) -> tuple[Statement, ...]:
+    def companions(self, deck: Lookup) -> tuple[Statement, ...]:
         """The DIFF of an acceleration."""
         if self.level != "ACCELERATION":
             return ()
@@ -84,11 +85,11 @@ class Motion(Constraint, Statement):
             STATEMENTS["DIFF"](id=self.state, ic=start, function=self.function, spans=self.spans),
         )
 
-    def is_rate(self, model: Any) -> bool:
+    def is_rate(self, model: DrawnModel) -> bool:
         """Whether FUNCTION is a velocity or an acceleration."""
         return self.level != "DISPLACEMENT"
 
-    def driven(self, joint: Statement | None) -> str | None:
+    def driven(self, joint: Joint | None) -> str | None:
         """The freedom: AXIS, or the only one of the joint; None when there is no such one."""
         if joint is None:
             return self.axis if self.axis in (*AXES, *ANGLES) else None
@@ -110,7 +111,7 @@ class Motion(Constraint, Statement):
             return (f"{self.axis} of I from J",)
         return (f"{(self.axis or 'freedom').lower()} of JOINT/{self.joint}",)
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """The freedom, and the expression its value or rate follows."""
         joint = None if self.joint is None else model.element("JOINT", self.joint)
         followed = self.function
@@ -118,7 +119,7 @@ class Motion(Constraint, Statement):
             followed = Call("DIF", (Ref("DIFF", self.state.upper()),))
         return {"freedom": self.driven(joint), "followed": followed}
 
-    def constraints(self, scope: Scope) -> list[Any]:
+    def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """The row that vanishes."""
         at = self if self.joint is None else self.joint
         name = {"TRANSLATION": "Z", "ROTATION": "turn"}.get(self.freedom, self.freedom)
@@ -146,7 +147,7 @@ def body_123(scope: Scope, i: int, j: int, name: str) -> Turn:
     return dot(zi, xj), root(dot(zi, yj) ** 2 + dot(zi, zj) ** 2)
 
 
-def _rate(scope: Scope, rotation: Turn) -> Any:
+def _rate(scope: Scope, rotation: Turn) -> Expr:
     """Rate of the angle of a turn."""
     s, c = rotation
     return (c * scope.derivative(s) - s * scope.derivative(c)) / (s**2 + c**2)

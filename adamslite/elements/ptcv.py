@@ -17,14 +17,14 @@ torque about RM's origin::
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.bases.joint_coordinates import pose
 from adamslite.language.expression import Ref
+from adamslite.language.interfaces import DrawnModel, Lookup
 from adamslite.language.statement import STATEMENTS, Statement, reference, statement
 from adamslite.symbolic.scope import ORIGIN, Scope, along_axes, minus
 from adamslite.symbolic.sympy_nodes import floor, lookup
+from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("PTCV", planned=("DISPLACEMENT", "VELOCITY", "IC"))
@@ -54,23 +54,23 @@ class Ptcv(Constraint, Statement):
         """Name of the massless point that carries the parameter."""
         return f"PTCV_{self.key}"
 
-    def companions(self, deck: Any) -> tuple[Statement, ...]:
+    def companions(self, deck: Lookup) -> tuple[Statement, ...]:
         """The massless point and a marker on it."""
         point = STATEMENTS["POINT_MASS"](id=self.slider, mass=0.0, spans=self.spans)
         marker = STATEMENTS["MARKER"](id=self.slider, point_mass=point.key, spans=self.spans)
         return (point, marker)
 
-    def derived(self, model: Any) -> dict[str, Any]:
+    def derived(self, model: DrawnModel) -> dict[str, object]:
         """The parameter of the drawn posture, and what carries it."""
         start = model.once(("PTCV", self.key), lambda: self._nearest(model))
         return {"path": Ref("MARKER", self.slider.upper()), "start": start}
 
-    def _nearest(self, model: Any) -> float:
+    def _nearest(self, model: DrawnModel) -> float:
         """Parameter of the curve's point that is nearest to I."""
         (r, _), (origin, axes) = pose(model, self.i), pose(model, self.j)
         return model.element("CURVE", self.curve).spline(model).nearest((r - origin) @ axes)
 
-    def constraints(self, scope: Scope) -> list[Any]:
+    def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """Rows that vanish."""
         p, *unused = scope.position(self.path, ORIGIN)
         s = self.start + p / self.curve.length

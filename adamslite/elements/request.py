@@ -11,10 +11,9 @@ Values (components F1 ... F8; I relative to J, along the axes of RM, ground when
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.expression import GROUND_FRAME, Call, Node, Num, Ref
 from adamslite.language.function import FUNCTIONS
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import (
     Statement,
     choice,
@@ -35,7 +34,7 @@ MEASURES = {
 SIZES = ("DM", "VM", "ACCM", "WM", "WDTM")
 
 
-def _component(number: int) -> Any:
+def _component(number: int) -> Node | None:
     return expression(f"F{number}", unit="the user's", help=f"component {number}")
 
 
@@ -77,10 +76,11 @@ class Request(Statement):
         given = [self.kind is not None or f is not None for f in self.functions]
         return tuple(f"F{n}" for n, is_there in enumerate(given, 1) if is_there)
 
-    def outputs(self, model: Any) -> list[Node]:
+    def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
         if self.kind is None:
             return [f for f in self.functions if f is not None]
+        assert self.i is not None  # a rule asks for it
         frames = (Ref("MARKER", self.i), Ref("MARKER", self.j), Ref("MARKER", self.rm))
         return [self._measure(name, frames) for name in MEASURES[self.kind]]
 

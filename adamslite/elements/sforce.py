@@ -13,11 +13,11 @@ Sign: positive pushes I and J apart, so a spring is ``-k*(DM(I,J)-L0)``::
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.expression import Node
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, expression, flag, reference, statement
 from adamslite.symbolic.scope import ZERO, Load, Scope, scale, towards
+from adamslite.symbolic.types import Seen
 
 
 @statement("SFORCE", planned=("ROUTINE",))
@@ -39,7 +39,7 @@ class Sforce(Statement):
         "FUNCTION", required=True, unit="force, or torque", help="the force on I"
     )
 
-    def loads(self, scope: Scope) -> list[Load]:
+    def loads(self: Seen, scope: Scope) -> list[Load]:
         """The force on I and its reaction on J."""
         reaction = None if self.actiononly else self.j
         if self.kind == "ROTATIONAL":
@@ -55,6 +55,6 @@ class Sforce(Statement):
         """f: the value of FUNCTION."""
         return ("f",)
 
-    def outputs(self, model: Any) -> list[Node]:
+    def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
         return [self.function]

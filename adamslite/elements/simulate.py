@@ -50,7 +50,10 @@ class Simulate(Statement):
         """The time at which it ends [time] when it begins at ``start``."""
         if self.at_once:
             return start
-        return self.end if self.duration is None else start + self.duration
+        if self.duration is not None:
+            return start + self.duration
+        assert self.end is not None  # a rule asks for one of the two
+        return self.end
 
 
 def output_steps(span: float, steps: int | None, dtout: float | None) -> float:

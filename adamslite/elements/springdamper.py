@@ -12,12 +12,12 @@ with ``u = (r_I - r_J)/|r_I - r_J|``; the opposite acts on J.  Sign: positive pu
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.expression import COMPONENTS, GROUND_FRAME, Call, Node, Op, Ref, measure
 from adamslite.language.function import FUNCTIONS
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, number, reference, statement
 from adamslite.symbolic.scope import ORIGIN, ZERO, Load, Scope, scale, towards
+from adamslite.symbolic.types import Seen
 
 
 @statement("SPRINGDAMPER")
@@ -39,7 +39,7 @@ class Springdamper(Statement):
     torque: float = number("TORQUE", unit="torque", default=0.0, help="torque at ANGLE")
     angle: float = number("ANGLE", unit="angle", default=0.0, help="angle at which it is TORQUE")
 
-    def loads(self, scope: Scope) -> list[Load]:
+    def loads(self: Seen, scope: Scope) -> list[Load]:
         """The force or torque on I and its reaction on J."""
         i, j = self.i, self.j
         if self.kind == "ROTATIONAL":
@@ -56,7 +56,7 @@ class Springdamper(Statement):
         """f: the force or torque on I, positive when it pushes apart."""
         return ("f",)
 
-    def outputs(self, model: Any) -> list[Node]:
+    def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``: the load on I along the line, or about z of J."""
         own, i, j = (Ref("SPRINGDAMPER", self.key), Ref("MARKER", self.i), Ref("MARKER", self.j))
         if self.kind == "ROTATIONAL":

@@ -37,8 +37,9 @@ class Units(Statement):
         """Units of force, mass, length and time; None when the deck does not name them."""
         if self.system in units.SYSTEMS:
             return units.SYSTEMS[self.system]
-        four = (self.force, self.mass, self.length, self.time)
-        return four if all(four) else None
+        if self.force and self.mass and self.length and self.time:
+            return self.force, self.mass, self.length, self.time
+        return None
 
     @property
     def factor(self) -> float:

@@ -7,11 +7,11 @@ Equation::
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.expression import Call, Node, Ref
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, expression, number, statement
 from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("VARIABLE", planned=("ROUTINE",))
@@ -32,7 +32,7 @@ class Variable(Statement):
         "FUNCTION", required=True, unit="the user's", help="what the variable equals"
     )
 
-    def equation(self, scope: Scope) -> Any:
+    def equation(self: Seen, scope: Scope) -> Expr:
         """V - FUNCTION, for a variable that has to be solved for."""
         return self.unknowns[0] - self.function
 
@@ -41,6 +41,6 @@ class Variable(Statement):
         """The variable itself has no suffix."""
         return ("",)
 
-    def outputs(self, model: Any) -> list[Node]:
+    def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
         return [Call("VARVAL", (Ref("VARIABLE", self.key),))]

@@ -11,11 +11,11 @@ The opposite force acts on the part of JFLOAT at the present place of I::
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.expression import Node, Num
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, expression, reference, statement
 from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes
+from adamslite.symbolic.types import Seen
 
 
 @statement("VFORCE", planned=("FXYZ", "FUNCTION", "ROUTINE"))
@@ -41,7 +41,7 @@ class Vforce(Statement):
     fy: Node = expression("FY", unit="force", default=Num(0.0), help="component along y of RM")
     fz: Node = expression("FZ", unit="force", default=Num(0.0), help="component along z of RM")
 
-    def loads(self, scope: Scope) -> list[Load]:
+    def loads(self: Seen, scope: Scope) -> list[Load]:
         """The force on I; the reaction follows I."""
         force = along_axes(scope.axes(self.rm), (self.fx, self.fy, self.fz))
         reaction = self.jfloat if self.jfloat is not None else self.j_part
@@ -52,6 +52,6 @@ class Vforce(Statement):
         """Components along the axes of RM."""
         return ("fx", "fy", "fz")
 
-    def outputs(self, model: Any) -> list[Node]:
+    def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
         return [self.fx, self.fy, self.fz]

@@ -17,6 +17,7 @@ from adamslite.elements.bases.wrench import Wrench
 from adamslite.language.expression import Node, Num
 from adamslite.language.statement import Statement, expression, reference, statement
 from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes
+from adamslite.symbolic.types import Seen
 
 
 @statement("VTORQUE", planned=("TXYZ", "FUNCTION", "ROUTINE"))
@@ -40,7 +41,7 @@ class Vtorque(Wrench, Statement):
     ty: Node = expression("TY", unit="torque", default=Num(0.0), help="torque about y of RM")
     tz: Node = expression("TZ", unit="torque", default=Num(0.0), help="torque about z of RM")
 
-    def loads(self, scope: Scope) -> list[Load]:
+    def loads(self: Seen, scope: Scope) -> list[Load]:
         """The torque on I and its reaction."""
         torque = along_axes(scope.axes(self.rm), (self.tx, self.ty, self.tz))
         reaction = self.jfloat if self.jfloat is not None else self.j_part

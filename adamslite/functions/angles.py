@@ -10,11 +10,10 @@ Where the middle angle lines the first axis up with the last, only their sum cou
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.function import Mistake, function
 from adamslite.symbolic.scope import Scope, dot
 from adamslite.symbolic.sympy_nodes import choose, norm, root, sp
+from adamslite.symbolic.types import Expr, Frame
 
 SEQUENCES = (
     *((0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (1, 0, 2), (2, 1, 0)),
@@ -26,14 +25,14 @@ EULER_PARAMETERS = 27
 # Square of the sine below which rounding, not the attitude, would decide the outer angles.
 ALIGNED = 1e-20
 
-Matrix = tuple[tuple[Any, ...], ...]
+Matrix = tuple[tuple[Expr, ...], ...]
 
 
-def _attitude(scope: Scope, i: Any, j: Any) -> Matrix:
+def _attitude(scope: Scope, i: Frame, j: Frame) -> Matrix:
     return tuple(tuple(dot(a, b) for b in scope.axes(i)) for a in scope.axes(j))
 
 
-def _sequence_angle(r: Matrix, sequence: tuple[int, int, int], component: int) -> Any:
+def _sequence_angle(r: Matrix, sequence: tuple[int, int, int], component: int) -> Expr:
     """Angle 1, 2 or 3 of ``sequence``, from the row and the column of R that hold but two."""
     a, b, c = sequence
     other = 3 - a - b
@@ -53,7 +52,7 @@ def _sequence_angle(r: Matrix, sequence: tuple[int, int, int], component: int) -
     return choose((sp.atan2(sine, cosine), sine**2 + cosine**2 > ALIGNED), otherwise=together)
 
 
-def _euler_parameter(r: Matrix, component: int) -> Any:
+def _euler_parameter(r: Matrix, component: int) -> Expr:
     """P0..P3 for ``component`` 1..4, from the largest of them and signed so that P0 >= 0.
 
     Row n of the table holds 4 P_n (P0, P1, P2, P3).
@@ -77,14 +76,16 @@ def _euler_parameter(r: Matrix, component: int) -> Any:
     )
 
 
-def _components_fit(system: float | None, component: float | None, *_: Any) -> Mistake | None:
+def _components_fit(
+    system: float | None, component: float | None, *_: float | None
+) -> Mistake | None:
     if component == 4 and system not in (None, EULER_PARAMETERS):
         return 1, "only system 27 (Euler parameters) of ORIENT has a component 4"
     return None
 
 
 @function("AX", "i:marker j:marker=0")
-def ax(scope: Scope, i: Any, j: Any) -> Any:
+def ax(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Rotation of i about the x axis of j: atan2(-z_i . y_j, z_i . z_j), full turns counted.
 
     Unit: rad.  Meant for attitudes whose other two rotations are small.
@@ -95,7 +96,7 @@ def ax(scope: Scope, i: Any, j: Any) -> Any:
 
 
 @function("AY", "i:marker j:marker=0")
-def ay(scope: Scope, i: Any, j: Any) -> Any:
+def ay(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Rotation of i about the y axis of j: atan2(z_i . x_j, z_i . z_j), full turns counted.
 
     Unit: rad.  Meant for attitudes whose other two rotations are small.
@@ -106,7 +107,7 @@ def ay(scope: Scope, i: Any, j: Any) -> Any:
 
 
 @function("AZ", "i:marker j:marker=0")
-def az(scope: Scope, i: Any, j: Any) -> Any:
+def az(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Rotation of i about the z axis of j: atan2(x_i . y_j, x_i . x_j), full turns counted.
 
     Unit: rad.  Meant for attitudes whose other two rotations are small.
@@ -117,7 +118,7 @@ def az(scope: Scope, i: Any, j: Any) -> Any:
 
 
 @function("PSI", "i:marker j:marker=0")
-def psi(scope: Scope, i: Any, j: Any) -> Any:
+def psi(scope: Scope, i: Frame, j: Frame) -> Expr:
     """First angle of the body-fixed 3-1-3 sequence that turns j into i, in -pi..pi.
 
     Unit: rad.  Where THETA is 0 or pi the whole turn about z is PSI and PHI is 0.
@@ -127,7 +128,7 @@ def psi(scope: Scope, i: Any, j: Any) -> Any:
 
 
 @function("THETA", "i:marker j:marker=0")
-def theta(scope: Scope, i: Any, j: Any) -> Any:
+def theta(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Second angle of the body-fixed 3-1-3 sequence that turns j into i, in 0..pi.
 
     Unit: rad.  Its derivative at 0 and pi does not exist and is taken as 0.
@@ -137,7 +138,7 @@ def theta(scope: Scope, i: Any, j: Any) -> Any:
 
 
 @function("PHI", "i:marker j:marker=0")
-def phi(scope: Scope, i: Any, j: Any) -> Any:
+def phi(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Third angle of the body-fixed 3-1-3 sequence that turns j into i, in -pi..pi.
 
     Unit: rad.  Where THETA is 0 or pi it is 0.  Source: Adams/Solver function PHI.
@@ -146,7 +147,7 @@ def phi(scope: Scope, i: Any, j: Any) -> Any:
 
 
 @function("YAW", "i:marker j:marker=0")
-def yaw(scope: Scope, i: Any, j: Any) -> Any:
+def yaw(scope: Scope, i: Frame, j: Frame) -> Expr:
     """First angle (about z) of the body-fixed 3-2-1 sequence that turns j into i, in -pi..pi.
 
     Unit: rad.  Source: Adams/Solver function YAW.
@@ -155,7 +156,7 @@ def yaw(scope: Scope, i: Any, j: Any) -> Any:
 
 
 @function("PITCH", "i:marker j:marker=0")
-def pitch(scope: Scope, i: Any, j: Any) -> Any:
+def pitch(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Second angle (about y) of the body-fixed 3-2-1 sequence, with its sign reversed.
 
     Unit: rad; positive when the x axis of i points along +z of j.
@@ -165,7 +166,7 @@ def pitch(scope: Scope, i: Any, j: Any) -> Any:
 
 
 @function("ROLL", "i:marker j:marker=0")
-def roll(scope: Scope, i: Any, j: Any) -> Any:
+def roll(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Third angle (about x) of the body-fixed 3-2-1 sequence that turns j into i, in -pi..pi.
 
     Unit: rad.  Where PITCH is a quarter turn it is 0.  Source: Adams/Solver function ROLL.
@@ -178,7 +179,7 @@ def roll(scope: Scope, i: Any, j: Any) -> Any:
     "system:constant{1..12,27} component:constant{1..4} i:marker j:marker=0",
     rule=_components_fit,
 )
-def orient(scope: Scope, system: int, component: int, i: Any, j: Any) -> Any:
+def orient(scope: Scope, system: int, component: int, i: Frame, j: Frame) -> Expr:
     """Component of the attitude of i seen from j, in a numbered system of coordinates.
 
     1 to 12 are the body-fixed sequences 1-2-3, 2-3-1, 3-1-2, 1-3-2, 2-1-3, 3-2-1, 1-2-1, 1-3-1,

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import choose
+from adamslite.symbolic.types import Expr
 
 
 @function("IF", "e:number: a:number b:number c:number", edges=lambda e, a, b, c: (e,), order=-1)
-def if_(scope: Scope, e: Any, a: Any, b: Any, c: Any) -> Any:
+def if_(scope: Scope, e: Expr, a: Expr, b: Expr, c: Expr) -> Expr:
     """a where e < 0, b where e = 0, c where e > 0.
 
     Unit: that of a, b and c.  Source: Adams/Solver function IF.

@@ -12,11 +12,10 @@ comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, components along the axes 
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope, dot
 from adamslite.symbolic.sympy_nodes import norm
+from adamslite.symbolic.types import Expr, Frame, Tree
 
 MEASURES: dict[str, str] = {}
 """Keyword of a statement -> the function that measures what it does."""
@@ -27,7 +26,7 @@ NET: dict[str, int] = {}
 def measured(name: str, what: str, keyword: str = "") -> None:
     """Register the function that measures ``what`` of the statements ``keyword`` (or ``name``)."""
 
-    def measuring(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
+    def measuring(scope: Scope, id: Tree, jflag: int, comp: int, rm: Frame) -> Expr:
         return component(scope, id, jflag, comp, rm)
 
     MEASURES[keyword or name] = name
@@ -42,7 +41,7 @@ def measured(name: str, what: str, keyword: str = "") -> None:
     )(measuring)
 
 
-def component(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
+def component(scope: Scope, id: Tree, jflag: int, comp: int, rm: Frame) -> Expr:
     """One component of the force or torque of an element."""
     vector = scope.load(id, jflag)[(comp - 1) // 4]
     axis = (comp - 1) % 4
@@ -54,7 +53,7 @@ def net(name: str, comp: int) -> None:
     what = ("force", "torque")[comp > 4]
     sized = comp in (1, 5)
 
-    def unwritten(scope: Scope, i: Any, j: Any, k: Any = None) -> Any:
+    def unwritten(scope: Scope, i: Frame, j: Frame, k: Frame | None = None) -> Expr:
         raise LookupError(f"{name} is written out before it is evaluated")
 
     along = "its magnitude" if sized else f"its {name[1].lower()} component along the axes of k"
@@ -71,7 +70,7 @@ MEASURES["GCON"] = "GCON"
 
 
 @function("GCON", "id:gcon jflag:constant{0,1}=0 comp:constant{0..8}=0 rm:marker=0")
-def gcon(scope: Scope, id: Any, jflag: int, comp: int, rm: Any) -> Any:
+def gcon(scope: Scope, id: Tree, jflag: int, comp: int, rm: Frame) -> Expr:
     """Component comp of the reaction of GCON id, on marker I (jflag 0) or J (1), or its strength L.
 
     I is the first marker of FUNCTION, J the one it is measured against; L is meant without comp.

@@ -4,31 +4,31 @@ from __future__ import annotations
 
 import math
 from functools import reduce
-from typing import Any
 
 from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import choose, floor, magnitude, root, sp
+from adamslite.symbolic.types import Expr
 
 
-def _truncated(x: Any) -> Any:
+def _truncated(x: Expr) -> Expr:
     return choose((floor(x, -1), x >= 0), otherwise=-floor(-x, -1), order=-1)
 
 
-def _larger(a: Any, b: Any) -> Any:
+def _larger(a: Expr, b: Expr) -> Expr:
     return choose((a, a >= b), otherwise=b, order=0)
 
 
-def _smaller(a: Any, b: Any) -> Any:
+def _smaller(a: Expr, b: Expr) -> Expr:
     return choose((a, a <= b), otherwise=b, order=0)
 
 
-def _against_first(*a: Any) -> tuple[Any, ...]:
+def _against_first(*a: Expr) -> tuple[Expr, ...]:
     return tuple(x - y for index, x in enumerate(a) for y in a[index + 1 :])
 
 
 @function("ABS", "x:number", edges=lambda x: (x,), order=0)
-def abs_(scope: Scope, x: Any) -> Any:
+def abs_(scope: Scope, x: Expr) -> Expr:
     """Absolute value |x|.
 
     Unit: that of x.  Source: FORTRAN intrinsic ABS.
@@ -37,7 +37,7 @@ def abs_(scope: Scope, x: Any) -> Any:
 
 
 @function("MAX", "*x1:number[2..]", edges=_against_first, order=0)
-def max_(scope: Scope, *a: Any) -> Any:
+def max_(scope: Scope, *a: Expr) -> Expr:
     """The largest of its arguments.
 
     Unit: theirs.  Source: FORTRAN intrinsic MAX.
@@ -46,7 +46,7 @@ def max_(scope: Scope, *a: Any) -> Any:
 
 
 @function("MIN", "*x1:number[2..]", edges=_against_first, order=0)
-def min_(scope: Scope, *a: Any) -> Any:
+def min_(scope: Scope, *a: Expr) -> Expr:
     """The smallest of its arguments.
 
     Unit: theirs.  Source: FORTRAN intrinsic MIN.
@@ -55,7 +55,7 @@ def min_(scope: Scope, *a: Any) -> Any:
 
 
 @function("DIM", "a:number b:number", edges=lambda a, b: (a - b,), order=0)
-def dim(scope: Scope, a: Any, b: Any) -> Any:
+def dim(scope: Scope, a: Expr, b: Expr) -> Expr:
     """Positive difference: a - b where a > b, else 0.
 
     Unit: that of a and b.  Source: FORTRAN intrinsic DIM.
@@ -64,7 +64,7 @@ def dim(scope: Scope, a: Any, b: Any) -> Any:
 
 
 @function("SIGN", "a:number b:number", edges=lambda a, b: (a, b), order=-1)
-def sign(scope: Scope, a: Any, b: Any) -> Any:
+def sign(scope: Scope, a: Expr, b: Expr) -> Expr:
     """|a| where b >= 0, -|a| where b < 0.
 
     Unit: that of a.  Source: FORTRAN intrinsic SIGN.
@@ -74,7 +74,7 @@ def sign(scope: Scope, a: Any, b: Any) -> Any:
 
 
 @function("MOD", "a:number b:number", edges=lambda a, b: (sp.sin(math.pi * a / b),), order=-1)
-def mod(scope: Scope, a: Any, b: Any) -> Any:
+def mod(scope: Scope, a: Expr, b: Expr) -> Expr:
     """Remainder a - AINT(a/b) b; it has the sign of a.
 
     Unit: that of a and b.  Source: FORTRAN intrinsic MOD.
@@ -83,7 +83,7 @@ def mod(scope: Scope, a: Any, b: Any) -> Any:
 
 
 @function("AINT", "x:number", edges=lambda x: (sp.sin(math.pi * x),), order=-1)
-def aint(scope: Scope, x: Any) -> Any:
+def aint(scope: Scope, x: Expr) -> Expr:
     """x without its fraction (towards 0).
 
     Unit: none.  Source: FORTRAN intrinsic AINT.
@@ -92,7 +92,7 @@ def aint(scope: Scope, x: Any) -> Any:
 
 
 @function("ANINT", "x:number", edges=lambda x: (sp.cos(math.pi * x),), order=-1)
-def anint(scope: Scope, x: Any) -> Any:
+def anint(scope: Scope, x: Expr) -> Expr:
     """The whole number nearest to x, halves away from 0.
 
     Unit: none.  Source: FORTRAN intrinsic ANINT.
@@ -101,7 +101,7 @@ def anint(scope: Scope, x: Any) -> Any:
 
 
 @function("SQRT", "x:number")
-def sqrt(scope: Scope, x: Any) -> Any:
+def sqrt(scope: Scope, x: Expr) -> Expr:
     """Square root of x >= 0.  Its derivative at 0 does not exist.
 
     Source: FORTRAN intrinsic SQRT.
@@ -110,7 +110,7 @@ def sqrt(scope: Scope, x: Any) -> Any:
 
 
 @function("EXP", "x:number")
-def exp(scope: Scope, x: Any) -> Any:
+def exp(scope: Scope, x: Expr) -> Expr:
     """e to the power x.
 
     Unit: none.  Source: FORTRAN intrinsic EXP.
@@ -119,7 +119,7 @@ def exp(scope: Scope, x: Any) -> Any:
 
 
 @function("LOG", "x:number")
-def log(scope: Scope, x: Any) -> Any:
+def log(scope: Scope, x: Expr) -> Expr:
     """Natural logarithm of x > 0.
 
     Unit: none.  Source: FORTRAN intrinsic LOG.
@@ -128,7 +128,7 @@ def log(scope: Scope, x: Any) -> Any:
 
 
 @function("LOG10", "x:number")
-def log10(scope: Scope, x: Any) -> Any:
+def log10(scope: Scope, x: Expr) -> Expr:
     """Logarithm of x > 0 to base 10.
 
     Unit: none.  Source: FORTRAN intrinsic LOG10.
@@ -137,7 +137,7 @@ def log10(scope: Scope, x: Any) -> Any:
 
 
 @function("SIN", "x:number")
-def sin(scope: Scope, x: Any) -> Any:
+def sin(scope: Scope, x: Expr) -> Expr:
     """Sine of x radians.
 
     Source: FORTRAN intrinsic SIN.
@@ -146,7 +146,7 @@ def sin(scope: Scope, x: Any) -> Any:
 
 
 @function("COS", "x:number")
-def cos(scope: Scope, x: Any) -> Any:
+def cos(scope: Scope, x: Expr) -> Expr:
     """Cosine of x radians.
 
     Source: FORTRAN intrinsic COS.
@@ -155,7 +155,7 @@ def cos(scope: Scope, x: Any) -> Any:
 
 
 @function("TAN", "x:number")
-def tan(scope: Scope, x: Any) -> Any:
+def tan(scope: Scope, x: Expr) -> Expr:
     """Tangent of x radians.
 
     Source: FORTRAN intrinsic TAN.
@@ -164,7 +164,7 @@ def tan(scope: Scope, x: Any) -> Any:
 
 
 @function("ASIN", "x:number")
-def asin(scope: Scope, x: Any) -> Any:
+def asin(scope: Scope, x: Expr) -> Expr:
     """Angle in -pi/2..pi/2 radians whose sine is x, |x| <= 1.
 
     Source: FORTRAN intrinsic ASIN.
@@ -173,7 +173,7 @@ def asin(scope: Scope, x: Any) -> Any:
 
 
 @function("ACOS", "x:number")
-def acos(scope: Scope, x: Any) -> Any:
+def acos(scope: Scope, x: Expr) -> Expr:
     """Angle in 0..pi radians whose cosine is x, |x| <= 1.
 
     Source: FORTRAN intrinsic ACOS.
@@ -182,7 +182,7 @@ def acos(scope: Scope, x: Any) -> Any:
 
 
 @function("ATAN", "x:number")
-def atan(scope: Scope, x: Any) -> Any:
+def atan(scope: Scope, x: Expr) -> Expr:
     """Angle in -pi/2..pi/2 radians whose tangent is x.
 
     Source: FORTRAN intrinsic ATAN.
@@ -191,7 +191,7 @@ def atan(scope: Scope, x: Any) -> Any:
 
 
 @function("ATAN2", "y:number x:number")
-def atan2(scope: Scope, y: Any, x: Any) -> Any:
+def atan2(scope: Scope, y: Expr, x: Expr) -> Expr:
     """Angle in -pi..pi radians of the point (x, y); it jumps by a full turn across y = 0, x < 0.
 
     Source: FORTRAN intrinsic ATAN2.
@@ -200,7 +200,7 @@ def atan2(scope: Scope, y: Any, x: Any) -> Any:
 
 
 @function("SINH", "x:number")
-def sinh(scope: Scope, x: Any) -> Any:
+def sinh(scope: Scope, x: Expr) -> Expr:
     """Hyperbolic sine of x.
 
     Source: FORTRAN intrinsic SINH.
@@ -209,7 +209,7 @@ def sinh(scope: Scope, x: Any) -> Any:
 
 
 @function("COSH", "x:number")
-def cosh(scope: Scope, x: Any) -> Any:
+def cosh(scope: Scope, x: Expr) -> Expr:
     """Hyperbolic cosine of x.
 
     Source: FORTRAN intrinsic COSH.
@@ -218,7 +218,7 @@ def cosh(scope: Scope, x: Any) -> Any:
 
 
 @function("TANH", "x:number")
-def tanh(scope: Scope, x: Any) -> Any:
+def tanh(scope: Scope, x: Expr) -> Expr:
     """Hyperbolic tangent of x.
 
     Source: FORTRAN intrinsic TANH.

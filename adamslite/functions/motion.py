@@ -13,21 +13,20 @@ are the ground frame.  Accelerations are purely kinematic: gravity is not part o
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope, Vector, cross, dot, minus, scale
 from adamslite.symbolic.sympy_nodes import norm, root
+from adamslite.symbolic.types import Expr, Frame
 
 
-def _velocity(scope: Scope, i: Any, j: Any, frame: Any) -> Vector:
+def _velocity(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Vector:
     velocity = scope.velocity(i, j)
     if scope.is_ground(frame):
         return velocity
     return minus(velocity, cross(scope.omega(frame), scope.position(i, j)))
 
 
-def _acceleration(scope: Scope, i: Any, j: Any, frame: Any) -> Vector:
+def _acceleration(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Vector:
     acceleration = scope.acceleration(i, j)
     if scope.is_ground(frame):
         return acceleration
@@ -38,7 +37,7 @@ def _acceleration(scope: Scope, i: Any, j: Any, frame: Any) -> Vector:
     return minus(minus(minus(acceleration, euler), coriolis), centripetal)
 
 
-def _spin_rate(scope: Scope, i: Any, j: Any, frame: Any) -> Vector:
+def _spin_rate(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Vector:
     rate = scope.alpha(i, j)
     if scope.is_ground(frame):
         return rate
@@ -46,7 +45,7 @@ def _spin_rate(scope: Scope, i: Any, j: Any, frame: Any) -> Vector:
 
 
 @function("DM", "i:marker j:marker=0")
-def dm(scope: Scope, i: Any, j: Any) -> Any:
+def dm(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Distance of marker i from marker j: |r_i - r_j|.
 
     Unit: length; never negative.  Where the markers coincide its derivative does not exist.
@@ -57,7 +56,7 @@ def dm(scope: Scope, i: Any, j: Any) -> Any:
 
 
 @function("DX", "i:marker j:marker=0 k:marker=0")
-def dx(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+def dx(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
     """Displacement of i from j along the x axis of k: (r_i - r_j) . x_k.
 
     Unit: length.  Without k the axes are those of ground, not those of j.
@@ -67,7 +66,7 @@ def dx(scope: Scope, i: Any, j: Any, k: Any) -> Any:
 
 
 @function("DY", "i:marker j:marker=0 k:marker=0")
-def dy(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+def dy(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
     """Displacement of i from j along the y axis of k: (r_i - r_j) . y_k.
 
     Unit: length.  Without k the axes are those of ground, not those of j.
@@ -77,7 +76,7 @@ def dy(scope: Scope, i: Any, j: Any, k: Any) -> Any:
 
 
 @function("DZ", "i:marker j:marker=0 k:marker=0")
-def dz(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+def dz(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
     """Displacement of i from j along the z axis of k: (r_i - r_j) . z_k.
 
     Unit: length.  Without k the axes are those of ground, not those of j.
@@ -87,7 +86,7 @@ def dz(scope: Scope, i: Any, j: Any, k: Any) -> Any:
 
 
 @function("VM", "i:marker j:marker=0 l:marker=0")
-def vm(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
+def vm(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Expr:
     """Speed of i against j: the length of d/dt(r_i - r_j) taken in frame l.
 
     Unit: length/time; never negative.  At rest its derivative is taken as 0.
@@ -97,7 +96,7 @@ def vm(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
 
 
 @function("VR", "i:marker j:marker=0 l:marker=0")
-def vr(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
+def vr(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Expr:
     """Separation speed of i and j: d/dt(r_i - r_j) along the unit vector from j to i.
 
     Unit: length/time; positive when the markers move apart.  w_l x r is square to r, so frame l
@@ -109,7 +108,7 @@ def vr(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
 
 
 @function("VX", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def vx(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+def vx(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
     """Velocity of i against j along the x axis of k: d/dt(r_i - r_j) in frame l, times x_k.
 
     Unit: length/time.  Source: Adams/Solver function VX.
@@ -118,7 +117,7 @@ def vx(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
 
 
 @function("VY", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def vy(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+def vy(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
     """Velocity of i against j along the y axis of k: d/dt(r_i - r_j) in frame l, times y_k.
 
     Unit: length/time.  Source: Adams/Solver function VY.
@@ -127,7 +126,7 @@ def vy(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
 
 
 @function("VZ", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def vz(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+def vz(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
     """Velocity of i against j along the z axis of k: d/dt(r_i - r_j) in frame l, times z_k.
 
     Unit: length/time.  Source: Adams/Solver function VZ.
@@ -136,7 +135,7 @@ def vz(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
 
 
 @function("ACCM", "i:marker j:marker=0 l:marker=0")
-def accm(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
+def accm(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Expr:
     """Length of the acceleration of i against j: d2/dt2(r_i - r_j) taken in frame l.
 
     Unit: length/time**2; never negative; without gravity.  At 0 its derivative is taken as 0.
@@ -146,7 +145,7 @@ def accm(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
 
 
 @function("ACCX", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def accx(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+def accx(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
     """Acceleration of i against j along the x axis of k: d2/dt2(r_i - r_j) in frame l, times x_k.
 
     Unit: length/time**2; without gravity.  Source: Adams/Solver function ACCX.
@@ -155,7 +154,7 @@ def accx(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
 
 
 @function("ACCY", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def accy(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+def accy(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
     """Acceleration of i against j along the y axis of k: d2/dt2(r_i - r_j) in frame l, times y_k.
 
     Unit: length/time**2; without gravity.  Source: Adams/Solver function ACCY.
@@ -164,7 +163,7 @@ def accy(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
 
 
 @function("ACCZ", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def accz(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+def accz(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
     """Acceleration of i against j along the z axis of k: d2/dt2(r_i - r_j) in frame l, times z_k.
 
     Unit: length/time**2; without gravity.  Source: Adams/Solver function ACCZ.
@@ -173,7 +172,7 @@ def accz(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
 
 
 @function("WM", "i:marker j:marker=0")
-def wm(scope: Scope, i: Any, j: Any) -> Any:
+def wm(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Length of the angular velocity of i against j: |w_i - w_j|.
 
     Unit: rad/time; never negative.  At rest its derivative is taken as 0.
@@ -183,7 +182,7 @@ def wm(scope: Scope, i: Any, j: Any) -> Any:
 
 
 @function("WX", "i:marker j:marker=0 k:marker=0")
-def wx(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+def wx(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
     """Angular velocity of i against j along the x axis of k: (w_i - w_j) . x_k.
 
     Unit: rad/time.  Source: Adams/Solver function WX.
@@ -192,7 +191,7 @@ def wx(scope: Scope, i: Any, j: Any, k: Any) -> Any:
 
 
 @function("WY", "i:marker j:marker=0 k:marker=0")
-def wy(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+def wy(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
     """Angular velocity of i against j along the y axis of k: (w_i - w_j) . y_k.
 
     Unit: rad/time.  Source: Adams/Solver function WY.
@@ -201,7 +200,7 @@ def wy(scope: Scope, i: Any, j: Any, k: Any) -> Any:
 
 
 @function("WZ", "i:marker j:marker=0 k:marker=0")
-def wz(scope: Scope, i: Any, j: Any, k: Any) -> Any:
+def wz(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
     """Angular velocity of i against j along the z axis of k: (w_i - w_j) . z_k.
 
     Unit: rad/time.  Source: Adams/Solver function WZ.
@@ -210,7 +209,7 @@ def wz(scope: Scope, i: Any, j: Any, k: Any) -> Any:
 
 
 @function("WDTM", "i:marker j:marker=0 l:marker=0")
-def wdtm(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
+def wdtm(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Expr:
     """Length of the angular acceleration of i against j: d/dt(w_i - w_j) taken in frame l.
 
     Unit: rad/time**2; never negative.  At 0 its derivative is taken as 0.
@@ -220,7 +219,7 @@ def wdtm(scope: Scope, i: Any, j: Any, frame: Any) -> Any:
 
 
 @function("WDTX", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def wdtx(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+def wdtx(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
     """Angular acceleration of i against j along the x axis of k: d/dt(w_i - w_j) in l, times x_k.
 
     Unit: rad/time**2.  Source: Adams/Solver function WDTX.
@@ -229,7 +228,7 @@ def wdtx(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
 
 
 @function("WDTY", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def wdty(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+def wdty(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
     """Angular acceleration of i against j along the y axis of k: d/dt(w_i - w_j) in l, times y_k.
 
     Unit: rad/time**2.  Source: Adams/Solver function WDTY.
@@ -238,7 +237,7 @@ def wdty(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
 
 
 @function("WDTZ", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def wdtz(scope: Scope, i: Any, j: Any, k: Any, frame: Any) -> Any:
+def wdtz(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
     """Angular acceleration of i against j along the z axis of k: d/dt(w_i - w_j) in l, times z_k.
 
     Unit: rad/time**2.  Source: Adams/Solver function WDTZ.

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from adamslite.functions.steps import step5
 from adamslite.language.function import ascending, function
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import choose, sp
+from adamslite.symbolic.types import Expr
 
 
 @function("SHF", "x:number x0:number a:number w:number phi:number=0 b:number=0")
-def shf(scope: Scope, x: Any, x0: Any, a: Any, w: Any, phi: Any = 0, b: Any = 0) -> Any:
+def shf(scope: Scope, x: Expr, x0: Expr, a: Expr, w: Expr, phi: Expr = 0, b: Expr = 0) -> Expr:
     """Simple harmonic: a sin(w (x - x0) - phi) + b.
 
     phi and w (x - x0) in radians.  Unit: that of a and b.  Source: Adams/Solver function SHF.
@@ -21,7 +21,7 @@ def shf(scope: Scope, x: Any, x0: Any, a: Any, w: Any, phi: Any = 0, b: Any = 0)
 
 
 @function("FORCOS", "x:number x0:number w:number *a0:number[1..31]")
-def forcos(scope: Scope, x: Any, x0: Any, w: Any, *a: Any) -> Any:
+def forcos(scope: Scope, x: Expr, x0: Expr, w: Expr, *a: Expr) -> Expr:
     """Cosine series: a0 + sum a_j cos(j w (x - x0)), j = 1..30; a0 is not halved.
 
     Unit: that of the a_j.  Source: Adams/Solver function FORCOS.
@@ -30,7 +30,7 @@ def forcos(scope: Scope, x: Any, x0: Any, w: Any, *a: Any) -> Any:
 
 
 @function("FORSIN", "x:number x0:number w:number *a0:number[1..31]")
-def forsin(scope: Scope, x: Any, x0: Any, w: Any, *a: Any) -> Any:
+def forsin(scope: Scope, x: Expr, x0: Expr, w: Expr, *a: Expr) -> Expr:
     """Sine series: a0 + sum a_j sin(j w (x - x0)), j = 1..30.
 
     Unit: that of the a_j.  Source: Adams/Solver function FORSIN.
@@ -39,7 +39,7 @@ def forsin(scope: Scope, x: Any, x0: Any, w: Any, *a: Any) -> Any:
 
 
 @function("POLY", "x:number x0:number *a0:number[1..31]")
-def poly(scope: Scope, x: Any, x0: Any, *a: Any) -> Any:
+def poly(scope: Scope, x: Expr, x0: Expr, *a: Expr) -> Expr:
     """Polynomial: sum a_j (x - x0)**j, j = 0..30.
 
     Unit: that of a0.  Source: Adams/Solver function POLY.
@@ -51,7 +51,7 @@ def poly(scope: Scope, x: Any, x0: Any, *a: Any) -> Any:
 
 
 @function("CHEBY", "x:number x0:number *a0:number[1..31]")
-def cheby(scope: Scope, x: Any, x0: Any, *a: Any) -> Any:
+def cheby(scope: Scope, x: Expr, x0: Expr, *a: Expr) -> Expr:
     """Chebyshev series: sum a_j T_j(x - x0), T_0 = 1, T_1 = u, T_j = 2 u T_(j-1) - T_(j-2).
 
     Unit: that of the a_j.  Source: Adams/Solver function CHEBY.
@@ -71,7 +71,7 @@ def cheby(scope: Scope, x: Any, x0: Any, *a: Any) -> Any:
     order=1,
     rule=ascending(2, 4, "the sweep must begin below its end: x0 < x1"),
 )
-def sweep(scope: Scope, x: Any, a: Any, x0: Any, f0: Any, x1: Any, f1: Any, dx: Any) -> Any:
+def sweep(scope: Scope, x: Expr, a: Expr, x0: Expr, f0: Expr, x1: Expr, f1: Expr, dx: Expr) -> Expr:
     """Sine of amplitude a whose frequency goes from f0 at x0 to f1 at x1, constant outside.
 
     a sin(2 pi p) STEP5(x, x0, 0, x0 + dx, 1), with the phase p(x) = f0 x up to x0,

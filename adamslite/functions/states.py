@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.types import Expr, Tree
 
 
 @function("VARVAL", "id:variable")
-def varval(scope: Scope, id: Any) -> Any:
+def varval(scope: Scope, id: Tree) -> Expr:
     """Present value of VARIABLE id.
 
     Unit: that of the variable.  Source: Adams/Solver function VARVAL.
@@ -18,7 +17,7 @@ def varval(scope: Scope, id: Any) -> Any:
 
 
 @function("DIF", "id:diff")
-def dif(scope: Scope, id: Any) -> Any:
+def dif(scope: Scope, id: Tree) -> Expr:
     """State of DIFF id.
 
     Unit: that of the state.  Source: Adams/Solver function DIF.
@@ -27,7 +26,7 @@ def dif(scope: Scope, id: Any) -> Any:
 
 
 @function("DIF1", "id:diff")
-def dif1(scope: Scope, id: Any) -> Any:
+def dif1(scope: Scope, id: Tree) -> Expr:
     """Time derivative of the state of DIFF id.
 
     Unit: that of the state, per time.  Source: Adams/Solver function DIF1.
@@ -36,7 +35,7 @@ def dif1(scope: Scope, id: Any) -> Any:
 
 
 @function("DDT", "id:variable")
-def ddt(scope: Scope, id: Any) -> Any:
+def ddt(scope: Scope, id: Tree) -> Expr:
     """Total time derivative of VARIABLE id, formed from its expression.
 
     Unit: that of the variable, per time.  Source: an extension; the meaning of VARVAL(d(id)/dt).

@@ -11,29 +11,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 from adamslite.language.function import Mistake, ascending, function
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import choose, power, sp
+from adamslite.symbolic.types import Expr
 
 STEP_SIGNATURE = "x:number x0:number h0:number x1:number h1:number"
 STEP5_ENDS = ascending(1, 3, "STEP5 must begin below its end: x0 < x1")
 
 
-def _apart(x: Any, x0: float | None, h0: Any, x1: float | None, h1: Any) -> Mistake | None:
+def _apart(x: Expr, x0: float | None, h0: Expr, x1: float | None, h1: Expr) -> Mistake | None:
     if x0 is not None and x0 == x1:
         return 3, "a step needs a width: x1 must differ from x0"
     return None
 
 
-def _edges(x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> tuple[Any, ...]:
+def _edges(x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr) -> tuple[Expr, ...]:
     return (x - x0, x - x1)
 
 
 def _blend(
-    order: int, shape: Callable[[Any], Any], x: Any, x0: Any, h0: Any, x1: Any, h1: Any
-) -> Any:
+    order: int, shape: Callable[[Expr], Expr], x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr
+) -> Expr:
     # The conditions are D <= 0 and D >= 1 without the division: x1 < x0 is a step to the left, and
     # x1 = x0 (a contact without damping depth) stays finite.
     width = x1 - x0
@@ -43,7 +43,7 @@ def _blend(
 
 
 @function("STEP", STEP_SIGNATURE, edges=_edges, order=1, rule=_apart)
-def step(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
+def step(scope: Scope, x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr) -> Expr:
     """Cubic step from h0 (x <= x0) to h1 (x >= x1): h0 + (h1 - h0) D**2 (3 - 2 D).
 
     D = (x - x0)/(x1 - x0); with x1 < x0 the step goes to the left.
@@ -53,7 +53,7 @@ def step(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
 
 
 @function("STEP5", STEP_SIGNATURE, edges=_edges, order=2, rule=STEP5_ENDS)
-def step5(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
+def step5(scope: Scope, x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr) -> Expr:
     """Quintic step from h0 (x <= x0) to h1 (x >= x1): h0 + (h1 - h0) D**3 (10 - 15 D + 6 D**2).
 
     D = (x - x0)/(x1 - x0).  Unit: that of h0 and h1.  Source: Adams/Solver function STEP5.
@@ -62,7 +62,7 @@ def step5(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
 
 
 @function("HAVSIN", STEP_SIGNATURE, edges=_edges, order=1, rule=_apart)
-def havsin(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
+def havsin(scope: Scope, x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr) -> Expr:
     """Haversine step from h0 (x <= x0) to h1 (x >= x1): h0 + (h1 - h0) (1 - cos(pi D))/2.
 
     D = (x - x0)/(x1 - x0).  Unit: that of h0 and h1.  Source: Adams/Solver function HAVSIN.
@@ -76,7 +76,7 @@ def havsin(scope: Scope, x: Any, x0: Any, h0: Any, x1: Any, h1: Any) -> Any:
     edges=lambda x, v, x1, k, e, cmax, d: (x - x1, x - (x1 - d)),
     order=0,
 )
-def impact(scope: Scope, x: Any, v: Any, x1: Any, k: Any, e: Any, cmax: Any, d: Any) -> Any:
+def impact(scope: Scope, x: Expr, v: Expr, x1: Expr, k: Expr, e: Expr, cmax: Expr, d: Expr) -> Expr:
     """One-sided contact where x < x1: max(0, k (x1 - x)**e - v STEP(x, x1 - d, cmax, x1, 0)).
 
     v is the time derivative of x; the damping grows to cmax over the depth d.  Never negative: it
@@ -87,7 +87,7 @@ def impact(scope: Scope, x: Any, v: Any, x1: Any, k: Any, e: Any, cmax: Any, d: 
     return choose((force, sp.And(touching, force > 0)), otherwise=0, order=0)
 
 
-def _spring(k: Any, depth: Any, e: Any) -> Any:
+def _spring(k: Expr, depth: Expr, e: Expr) -> Expr:
     """k depth**e, continued as an odd function: a step that ends just behind the contact stays
     finite.
     """
@@ -104,8 +104,8 @@ def _spring(k: Any, depth: Any, e: Any) -> Any:
     rule=ascending(2, 3, "the lower stop must lie below the upper one: x1 < x2"),
 )
 def bistop(
-    scope: Scope, x: Any, v: Any, x1: Any, x2: Any, k: Any, e: Any, cmax: Any, d: Any
-) -> Any:
+    scope: Scope, x: Expr, v: Expr, x1: Expr, x2: Expr, k: Expr, e: Expr, cmax: Expr, d: Expr
+) -> Expr:
     """Stops at x1 and x2: IMPACT up from x1, its mirror image down from x2, 0 between them.
 
     x < x1: max(0, k (x1 - x)**e - v STEP(x, x1 - d, cmax, x1, 0));

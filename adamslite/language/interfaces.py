@@ -48,7 +48,7 @@ class DrawnModel(Protocol):
     @property
     def bodies(self) -> Sequence[Body]: ...
 
-    def marker(self, marker_id: Key) -> Place | None:
+    def marker(self, marker_id: Key) -> Place:
         """Where a marker sits."""
 
     def element(self, keyword: str, element_id: Key) -> Any:

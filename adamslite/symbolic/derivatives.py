@@ -11,19 +11,18 @@ once, and differentiated once by each symbol.
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.symbolic.sympy_nodes import sp
+from adamslite.symbolic.types import Expr, Symbol
 
 
 class Derivatives:
     """Differentiates expressions that share parts; remembers what it has found."""
 
     def __init__(self) -> None:
-        self._symbols: dict[Any, frozenset] = {}
-        self._found: dict[tuple[Any, Any], Any] = {}
+        self._symbols: dict[Expr, frozenset[Symbol]] = {}
+        self._found: dict[tuple[Expr, Symbol], Expr] = {}
 
-    def symbols(self, expr: Any) -> frozenset:
+    def symbols(self, expr: Expr) -> frozenset[Symbol]:
         """The symbols in an expression."""
         found = self._symbols.get(expr)
         if found is None:
@@ -32,7 +31,7 @@ class Derivatives:
             self._symbols[expr] = found
         return found
 
-    def __call__(self, expr: Any, symbol: Any) -> Any:
+    def __call__(self, expr: Expr, symbol: Symbol) -> Expr:
         """d(expr)/d(symbol)."""
         if expr == symbol:
             return sp.S.One
@@ -43,7 +42,7 @@ class Derivatives:
             self._found[key] = self._derivative(expr, symbol)
         return self._found[key]
 
-    def _derivative(self, expr: Any, symbol: Any) -> Any:
+    def _derivative(self, expr: Expr, symbol: Symbol) -> Expr:
         if expr.is_Add:
             return expr.func(*[self(term, symbol) for term in expr.args])
         if expr.is_Mul:
@@ -60,7 +59,7 @@ class Derivatives:
             return sp.Add(*parts)
         return sp.diff(expr, symbol)
 
-    def _of_product(self, factors: tuple, symbol: Any) -> Any:
+    def _of_product(self, factors: tuple[Expr, ...], symbol: Symbol) -> Expr:
         terms = []
         for n, factor in enumerate(factors):
             slope = self(factor, symbol)

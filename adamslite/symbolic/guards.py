@@ -20,7 +20,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
+
+from adamslite.symbolic.types import Expr, Leaf, Symbol
 
 # How a guard is read: a relation > 0, a relation >= 0, a floor; a place within a zone.  Added to
 # that of a relation of the state where the value itself jumps, not only its slope.
@@ -35,10 +36,10 @@ RELATIONS = ("<", ">", "<=", ">=")
 class Guards:
     """The guards of one shape, in the order of their branches, and its zones."""
 
-    clock: list[Any] = field(default_factory=list)
-    watch: list[Any] = field(default_factory=list)
-    zone: list[Any] = field(default_factory=list)
-    jumps: set[Any] = field(default_factory=set)
+    clock: list[Expr] = field(default_factory=list)
+    watch: list[Expr] = field(default_factory=list)
+    zone: list[Expr] = field(default_factory=list)
+    jumps: set[Expr] = field(default_factory=set)
 
     def __bool__(self) -> bool:
         return bool(self.clock or self.watch or self.zone)
@@ -53,10 +54,10 @@ class Guards:
         }
 
 
-def guards(expressions: Iterable[Any], leaves: dict[Any, tuple]) -> Guards:
+def guards(expressions: Iterable[Expr], leaves: dict[Symbol, Leaf]) -> Guards:
     """The guards in expressions; ``leaves``: what their symbols stand for."""
-    found: dict[Any, int] = {}
-    zones: dict[Any, None] = {}
+    found: dict[Expr, int] = {}
+    zones: dict[Expr, None] = {}
     for expression in expressions:
         _collect(expression, found, zones)
     result = Guards()
@@ -75,12 +76,12 @@ def guards(expressions: Iterable[Any], leaves: dict[Any, tuple]) -> Guards:
     return result
 
 
-def _changing(expression: Any, leaves: dict[Any, tuple]) -> set[str]:
+def _changing(expression: Expr, leaves: dict[Symbol, Leaf]) -> set[str]:
     """Kinds of what an expression depends on and what is not fixed for a run."""
     return {leaves[symbol][0] for symbol in expression.free_symbols} - set(FIXED_LEAVES)
 
 
-def _collect(expression: Any, found: dict[Any, int], zones: dict[Any, None]) -> None:
+def _collect(expression: Expr, found: dict[Expr, int], zones: dict[Expr, None]) -> None:
     """Guards below ``expression`` with the least order of the choices they decide; its zones."""
     pending, seen = [expression], set()
     while pending:
@@ -100,7 +101,7 @@ def _collect(expression: Any, found: dict[Any, int], zones: dict[Any, None]) -> 
         pending.extend(reversed(node.args))
 
 
-def _zone(piecewise: Any) -> Any:
+def _zone(piecewise: Expr) -> Expr:
     """The place within the zone between ``(x - x0) w <= 0`` and ``(x - x1) w >= 0``, w = x1 - x0:
     0 at x0 and 1 at x1; None where a choice is none between two borders.
     """
@@ -111,7 +112,7 @@ def _zone(piecewise: Any) -> Any:
     return before / (before - behind)
 
 
-def _relations(piecewise: Any) -> list[Any]:
+def _relations(piecewise: Expr) -> list[Expr]:
     """The relations in the conditions of a choice, not those inside their sides."""
     found, pending = [], [piece.cond for piece in piecewise.args]
     while pending:
@@ -123,7 +124,7 @@ def _relations(piecewise: Any) -> list[Any]:
     return found
 
 
-def _kind(guard: Any) -> int:
+def _kind(guard: Expr) -> int:
     if type(guard).__name__ == "floor":
         return FLOOR
     return STRICT if guard.rel_op in ("<", ">") else WEAK

@@ -24,7 +24,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import factorial
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # reading a deck does without numpy
+    import numpy as np
 
 KINDS = ("linear", "akima", "natural", "not-a-knot", "periodic")
 BEYOND = ("parabola", "tangent", "constant", "piece")
@@ -39,12 +42,12 @@ class Interpolant:
     m, 4) coefficients.
     """
 
-    data: Any
-    knots: Any
-    places: Any
-    pieces: Any
+    data: np.ndarray
+    knots: np.ndarray
+    places: np.ndarray
+    pieces: np.ndarray
 
-    def at(self, x: Any, order: int = 0) -> Any:
+    def at(self, x: np.ndarray, order: int = 0) -> np.ndarray:
         """Values (k, m) of all curves, or of a derivative, at ``x`` (k,)."""
         import numpy as np
 
@@ -54,7 +57,11 @@ class Interpolant:
 
 
 def interpolant(
-    x: Any, y: Any, kind: str, beyond: str = "parabola", places: Any = None
+    x: np.ndarray,
+    y: np.ndarray,
+    kind: str,
+    beyond: str = "parabola",
+    places: np.ndarray | None = None,
 ) -> Interpolant:
     """Curves of a kind through the columns of ``y`` (n, m) at ``x`` (n,), which ascends.
 
@@ -68,7 +75,7 @@ def interpolant(
     return joined(x, np.concatenate([ends[0][None], inner, ends[1][None]]), places)
 
 
-def joined(knots: Any, pieces: Any, places: Any = None) -> Interpolant:
+def joined(knots: np.ndarray, pieces: np.ndarray, places: np.ndarray | None = None) -> Interpolant:
     """The table of given ``pieces`` (n + 1, m, 4) over ``knots`` (n,)."""
     import numpy as np
 
@@ -79,7 +86,7 @@ def joined(knots: Any, pieces: Any, places: Any = None) -> Interpolant:
     return Interpolant(data, views[0], views[1], views[2].reshape(pieces.shape))
 
 
-def _inner(x: Any, y: Any, kind: str) -> Any:
+def _inner(x: np.ndarray, y: np.ndarray, kind: str) -> np.ndarray:
     """Coefficients (n - 1, m, 4) between the knots."""
     import numpy as np
     from scipy.interpolate import Akima1DInterpolator, CubicSpline
@@ -92,7 +99,7 @@ def _inner(x: Any, y: Any, kind: str) -> Any:
     return np.moveaxis(found.c[::-1], 0, -1)
 
 
-def _end(x: Any, y: Any, inner: Any, beyond: str, last: bool) -> Any:
+def _end(x: np.ndarray, y: np.ndarray, inner: np.ndarray, beyond: str, last: bool) -> np.ndarray:
     """Coefficients (m, 4) before the first knot or behind the last one, counted from it."""
     import numpy as np
 
@@ -108,7 +115,7 @@ def _end(x: Any, y: Any, inner: Any, beyond: str, last: bool) -> Any:
     return found
 
 
-def _parabola(x: Any, y: Any) -> Any:
+def _parabola(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Slope at the first point and half the bend of the parabola through three, (m, 2)."""
     import numpy as np
 
@@ -117,7 +124,7 @@ def _parabola(x: Any, y: Any) -> Any:
     return np.stack([slopes[0] + (x[0] - x[1]) * half_bend, half_bend], axis=-1)
 
 
-def _polynomial(a: Any, t: Any, order: int) -> Any:
+def _polynomial(a: np.ndarray, t: np.ndarray | float, order: int) -> np.ndarray:
     """Derivative of a_0 + a_1 t + a_2 t^2 + a_3 t^3; ``a`` (..., 4)."""
     total = 0.0 * a[..., 0]
     for k in range(3, order - 1, -1):

@@ -23,13 +23,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from adamslite.symbolic.derivatives import Derivatives
 from adamslite.symbolic.sympy_nodes import sp
+from adamslite.symbolic.types import Expr, Frame, Leaf, Seen, Symbol, Tree
 
 ORIGIN = -1
-Vector = tuple[Any, Any, Any]
+Vector = tuple[Expr, Expr, Expr]
 ZERO: Vector = (0, 0, 0)
 
 
@@ -40,7 +41,7 @@ class Load(NamedTuple):
     of ``frame`` when ``follows`` is true (a floating marker); ``None`` means nothing reacts.
     """
 
-    frame: int
+    frame: Frame
     force: Vector
     torque: Vector = ZERO
     reaction: int | None = None
@@ -64,11 +65,11 @@ def cross(a: Vector, b: Vector) -> Vector:
     )
 
 
-def dot(a: Vector, b: Vector) -> Any:
+def dot(a: Vector, b: Vector) -> Expr:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def scale(factor: Any, a: Vector) -> Vector:
+def scale(factor: Expr, a: Vector) -> Vector:
     return (factor * a[0], factor * a[1], factor * a[2])
 
 
@@ -80,7 +81,7 @@ def minus(a: Vector, b: Vector) -> Vector:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
-def _unbound(tree: Any) -> Any:
+def _unbound(tree: Tree) -> Expr:
     raise LookupError("this scope has no statement bound to it")
 
 
@@ -100,16 +101,16 @@ class Scope:
 
     def __init__(self, slots: list[Slot]) -> None:
         self.slots = slots
-        self.leaves: dict[Any, tuple] = {}
-        self.symbols: dict[tuple, Any] = {}
-        self.angles: list[Any] = []
-        self.limits: list[Any] = []
+        self.leaves: dict[Symbol, Leaf] = {}
+        self.symbols: dict[Leaf, Symbol] = {}
+        self.angles: list[Expr] = []
+        self.limits: list[Expr] = []
         self.slope = Derivatives()
-        self.elements: list[Any] = []
+        self.elements: list[Seen] = []
         self._everything_moves = False
-        self.read: Callable[[Any], Any] = _unbound
+        self.read: Callable[[Tree], Expr] = _unbound
 
-    def symbol(self, *leaf: Any) -> Any:
+    def symbol(self, *leaf: str | int) -> Symbol:
         """The real symbol of one leaf."""
         if leaf not in self.symbols:
             symbol = sp.Symbol("_".join(map(str, leaf)), real=True)
@@ -117,14 +118,14 @@ class Scope:
             self.leaves[symbol] = leaf
         return self.symbols[leaf]
 
-    def vector(self, *leaf: Any) -> Vector:
-        return tuple(self.symbol(*leaf, c) for c in range(3))
+    def vector(self, *leaf: str | int) -> Vector:
+        return (self.symbol(*leaf, 0), self.symbol(*leaf, 1), self.symbol(*leaf, 2))
 
-    def is_ground(self, frame: int) -> bool:
+    def is_ground(self, frame: Frame) -> bool:
         """True when ``frame`` can never move."""
         return frame == ORIGIN or self.slots[frame].kind == "ground"
 
-    def turns(self, frame: int) -> bool:
+    def turns(self, frame: Frame) -> bool:
         """True when the axes of ``frame`` can rotate."""
         if frame == ORIGIN:
             return False
@@ -143,54 +144,54 @@ class Scope:
         finally:
             self._everything_moves = False
 
-    def _pair(self, name: str, i: int, j: int) -> Vector:
+    def _pair(self, name: str, i: Frame, j: Frame) -> Vector:
         if i == j:
             return ZERO
         if j == ORIGIN or (i != ORIGIN and i < j):
             return self.vector(name, i, j)
         return scale(-1, self.vector(name, j, i))
 
-    def _moving(self, i: int) -> int:
+    def _moving(self, i: Frame) -> int:
         return ORIGIN if self.is_ground(i) and not self._everything_moves else i
 
-    def _turning(self, i: int) -> int:
+    def _turning(self, i: Frame) -> int:
         return i if self.turns(i) else ORIGIN
 
-    def position(self, i: int, j: int) -> Vector:
+    def position(self, i: Frame, j: Frame) -> Vector:
         """r_i - r_j."""
         return self._pair("d", i, j)
 
-    def velocity(self, i: int, j: int) -> Vector:
+    def velocity(self, i: Frame, j: Frame) -> Vector:
         """Derivative of r_i - r_j in ground."""
         return self._pair("v", self._moving(i), self._moving(j))
 
-    def acceleration(self, i: int, j: int) -> Vector:
+    def acceleration(self, i: Frame, j: Frame) -> Vector:
         """Second derivative of r_i - r_j in ground."""
         return self._pair("a", self._moving(i), self._moving(j))
 
-    def omega(self, i: int, j: int = ORIGIN) -> Vector:
+    def omega(self, i: Frame, j: Frame = ORIGIN) -> Vector:
         """Angular velocity of i less that of j."""
         return self._pair("w", self._turning(i), self._turning(j))
 
-    def alpha(self, i: int, j: int = ORIGIN) -> Vector:
+    def alpha(self, i: Frame, j: Frame = ORIGIN) -> Vector:
         """Derivative of the angular velocity difference in ground."""
         return self._pair("al", self._turning(i), self._turning(j))
 
-    def axes(self, k: int) -> tuple[Vector, Vector, Vector]:
+    def axes(self, k: Frame) -> tuple[Vector, Vector, Vector]:
         """The x, y and z axes of marker k."""
         if k == ORIGIN or not (self.turns(k) or self.slots[k].turned):
             return ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-        return tuple(self.vector("x", k, c) for c in range(3))
+        return (self.vector("x", k, 0), self.vector("x", k, 1), self.vector("x", k, 2))
 
     @property
-    def time(self) -> Any:
+    def time(self) -> Expr:
         return self.symbol("t")
 
     @property
-    def mode(self) -> Any:
+    def mode(self) -> Expr:
         return self.symbol("mode")
 
-    def angle(self, sine: Any, cosine: Any) -> Any:
+    def angle(self, sine: Expr, cosine: Expr) -> Expr:
         """atan2 counted over full turns: the branch nearest to the angle at the last accepted step.
 
         The number of turns to add is locally constant, so the derivative is that of atan2.
@@ -200,14 +201,14 @@ class Scope:
             self.angles.append(wrapped)
         return wrapped + self.symbol("turn", self.angles.index(wrapped))
 
-    def limit(self, expr: Any) -> None:
+    def limit(self, expr: Expr) -> None:
         """The law that is being written means nothing once ``expr`` is below zero; the time of the
         first accepted state where it is will be remembered.
         """
         if expr not in self.limits:
             self.limits.append(expr)
 
-    def statement(self, id: Any) -> Any:
+    def statement(self, id: Tree) -> Seen:
         """The statement that an ``id`` argument of a function means, as its physics sees it.
 
         It has the arguments of the statement and what it derives, as in its own methods. Of a
@@ -215,7 +216,7 @@ class Scope:
         """
         return self.read(id)
 
-    def load(self, id: Any, jflag: int) -> tuple[Vector, Vector]:
+    def load(self, id: Tree, jflag: int) -> tuple[Vector, Vector]:
         """Force and torque of an element on marker I (``jflag`` 0) or J (1), in ground axes."""
         view = self.statement(id)
         end, against = view.side(jflag)
@@ -228,7 +229,7 @@ class Scope:
             torque = plus(torque, scale(sign, load.torque))
         return force, torque
 
-    def derivative(self, expr: Any) -> Any:
+    def derivative(self, expr: Expr) -> Expr:
         """Total time derivative of an expression of these symbols."""
         expr = sp.S.Zero + expr
         total = sp.S.Zero
@@ -239,7 +240,7 @@ class Scope:
                 total = total + self.slope(expr, symbol) * rate
         return total
 
-    def rate(self, leaf: tuple) -> Any:
+    def rate(self, leaf: Leaf) -> Expr:
         """Time derivative of one leaf."""
         kind = leaf[0]
         if kind == "d":
@@ -267,6 +268,6 @@ class UndefinedRate(Exception):
     ``leaf``: that something.
     """
 
-    def __init__(self, leaf: tuple) -> None:
+    def __init__(self, leaf: Leaf) -> None:
         super().__init__(leaf)
         self.leaf = leaf

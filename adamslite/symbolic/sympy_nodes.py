@@ -8,7 +8,9 @@ tables.
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from adamslite.symbolic.types import Expr, Symbol
 
 
 class _Sympy:
@@ -22,7 +24,10 @@ class _Sympy:
         return value
 
 
-sp = _Sympy()
+if TYPE_CHECKING:
+    import sympy as sp
+else:
+    sp = _Sympy()
 
 
 @cache
@@ -40,7 +45,7 @@ def _nodes(smooth: int | None = None) -> tuple[type, type]:
         is_extended_real = True
         order = smooth
 
-        def __new__(cls, *pairs: Any) -> Any:
+        def __new__(cls, *pairs: Expr) -> Expr:
             kept = []
             for pair in pairs:
                 piece = ExprCondPair(*pair)
@@ -52,20 +57,20 @@ def _nodes(smooth: int | None = None) -> tuple[type, type]:
                 return kept[-1].expr
             return sp.Expr.__new__(cls, *kept)
 
-        def _eval_derivative(self, symbol: Any) -> Any:
+        def _eval_derivative(self, symbol: Symbol) -> Expr:
             return self.func(*[(piece.expr.diff(symbol), piece.cond) for piece in self.args])
 
     # sympy leaves d floor(x)/dx as an unevaluated Derivative; between its jumps it is zero.
     class floor(sp.floor):  # noqa: N801  printers look rules up by this name
         order = smooth
 
-        def _eval_derivative(self, symbol: Any) -> Any:
+        def _eval_derivative(self, symbol: Symbol) -> Expr:
             return sp.S.Zero
 
     return Piecewise, floor
 
 
-def choose(*pieces: tuple[Any, Any], otherwise: Any, order: int | None = None) -> Any:
+def choose(*pieces: tuple[Expr, Expr], otherwise: Expr, order: int | None = None) -> Expr:
     """The value of the first ``(value, condition)`` that holds, else ``otherwise``.
 
     ``order``: where the choice changes, derivatives up to this order are continuous (-1: the value
@@ -75,17 +80,17 @@ def choose(*pieces: tuple[Any, Any], otherwise: Any, order: int | None = None) -
     return _nodes(order)[0](*pieces, (otherwise, True))
 
 
-def floor(x: Any, order: int | None = None) -> Any:
+def floor(x: Expr, order: int | None = None) -> Expr:
     """Largest integer not above ``x``, with derivative zero; ``order`` as in :func:`choose`."""
     return _nodes(order)[1](x)
 
 
-def magnitude(x: Any, order: int | None = 0) -> Any:
+def magnitude(x: Expr, order: int | None = 0) -> Expr:
     """|x|, with the derivative 1 at zero; ``order`` as in :func:`choose`."""
     return choose((x, x >= 0), otherwise=-x, order=order)
 
 
-def power(base: Any, exponent: Any) -> Any:
+def power(base: Expr, exponent: Expr) -> Expr:
     """``base**exponent`` of real numbers; a whole or half exponent is kept as an exact fraction."""
     exponent = sp.S.Zero + exponent
     if exponent.is_Float and 2 * exponent == int(2 * exponent):
@@ -95,12 +100,12 @@ def power(base: Any, exponent: Any) -> Any:
     return result.replace(sp.Abs, magnitude) if result.has(sp.Abs) else result
 
 
-def root(x: Any) -> Any:
+def root(x: Expr) -> Expr:
     """Square root of ``x`` >= 0."""
     return power(x, sp.S.Half)
 
 
-def norm(vector: tuple[Any, Any, Any]) -> Any:
+def norm(vector: tuple[Expr, Expr, Expr]) -> Expr:
     """Length of a vector; at the zero vector the value and the derivative are 0.
 
     A speed or a reaction is often exactly zero, where sqrt alone would have the derivative 0/0.
@@ -122,7 +127,7 @@ def _lookups() -> tuple[type, type]:
 
         is_extended_real = True
 
-        def fdiff(self, argindex: int = 4) -> Any:
+        def fdiff(self, argindex: int = 4) -> Expr:
             table, curve, order, x = self.args
             return self.func(table, curve, order + 1, x) if order < 3 else sp.S.Zero
 
@@ -131,7 +136,7 @@ def _lookups() -> tuple[type, type]:
 
         is_extended_real = True
 
-        def fdiff(self, argindex: int = 4) -> Any:
+        def fdiff(self, argindex: int = 4) -> Expr:
             table, order, z_order, x, z = self.args
             if argindex == 4:
                 return self.func(table, order + 1, z_order, x, z) if order < 3 else sp.S.Zero
@@ -140,7 +145,7 @@ def _lookups() -> tuple[type, type]:
     return Lookup, LookupBetween
 
 
-def lookup(table: int, x: Any, curve: int = 0, order: int = 0) -> Any:
+def lookup(table: int, x: Expr, curve: int = 0, order: int = 0) -> Expr:
     """A curve of a table at ``x``, or its derivative; see :mod:`adamslite.kernels.code.lookup`.
 
     ``table``: as a statement sees it that derives an interpolant.
@@ -148,6 +153,6 @@ def lookup(table: int, x: Any, curve: int = 0, order: int = 0) -> Any:
     return _lookups()[0](table, curve, order, x)
 
 
-def lookup_between(table: int, x: Any, z: Any, order: int = 0, z_order: int = 0) -> Any:
+def lookup_between(table: int, x: Expr, z: Expr, order: int = 0, z_order: int = 0) -> Expr:
     """A table of two arguments at ``x`` and ``z``, or its derivatives."""
     return _lookups()[1](table, order, z_order, x, z)

@@ -12,9 +12,9 @@ Sign: the reaction is what acts **on I**, torque about I's origin; J gets the op
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.language.expression import COMPONENTS, Node, Ref, measure
+from adamslite.language.interfaces import DrawnModel
+from adamslite.language.statement import Statement
 
 # What each kind of row keeps at zero, for messages.
 TOGETHER = ("x of I - J", "y of I - J", "z of I - J")
@@ -23,7 +23,7 @@ PARALLEL = ("rotation about y_J (z_I . x_J)", "rotation about x_J (z_I . y_J)")
 SAME_TURN = ("rotation about z_J (x_I . y_J)",)
 
 
-class Constraint:
+class Constraint(Statement):
     """Mixed into statements that have ``constraints(self, scope)``: rows that vanish."""
 
     @property
@@ -31,7 +31,7 @@ class Constraint:
         """Constraint equations."""
         return 1
 
-    def is_rate(self, model: Any) -> bool:
+    def is_rate(self, model: DrawnModel) -> bool:
         """Whether the rows constrain velocities only."""
         return False
 
@@ -45,7 +45,7 @@ class Constraint:
         """Reaction on I, ground axes, torque about I's origin."""
         return ("fx", "fy", "fz", "tx", "ty", "tz")
 
-    def outputs(self, model: Any) -> list[Node]:
+    def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
         own = Ref(self.keyword, self.key)
         return [measure(self.keyword, own, component) for component in COMPONENTS]

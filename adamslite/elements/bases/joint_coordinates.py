@@ -14,30 +14,35 @@ which the deck draws the model, so that it starts near zero and never on the edg
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
-from adamslite.symbolic.scope import Scope, cross, dot
+from adamslite.language.interfaces import DrawnModel, Key
+from adamslite.symbolic.scope import Scope, cross, dot, scale
 from adamslite.symbolic.sympy_nodes import choose, sp
+from adamslite.symbolic.types import Expr, Frame
 
-Turn = tuple[Any, Any]
+if TYPE_CHECKING:  # reading a deck does without numpy
+    import numpy as np
+
+Turn = tuple[Expr, Expr]
 # Sines below this are the round-off of markers that are drawn aligned.
 ALIGNED = 1e-14
 # Minus the cosine of the bend from which a constant-velocity joint counts as folded.
 FOLDED = 0.5
 
 
-def slide(scope: Scope, i: int, j: int) -> Any:
+def slide(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Displacement of I along z of J."""
     return dot(scope.position(i, j), scope.axes(j)[2])
 
 
-def turn(scope: Scope, i: int, j: int) -> Turn:
+def turn(scope: Scope, i: Frame, j: Frame) -> Turn:
     """Rotation of I about z of J, as sine and cosine."""
     xi, (xj, yj, _) = scope.axes(i)[0], scope.axes(j)
     return dot(xi, yj), dot(xi, xj)
 
 
-def turn_on_rack(scope: Scope, i: int, j: int) -> Turn:
+def turn_on_rack(scope: Scope, i: Frame, j: Frame) -> Turn:
     """Rotation of a pinion I about its own z, seen from a rack J along z of J."""
     (xi, yi, _), zj = scope.axes(i), scope.axes(j)[2]
     return -dot(zj, yi), dot(zj, xi)
@@ -49,29 +54,29 @@ def less(first: Turn, second: Turn) -> Turn:
     return s * c0 - c * s0, c * c0 + s * s0
 
 
-def angle_to(rotation: Turn, target: Any) -> Any:
+def angle_to(rotation: Turn, target: Expr) -> Expr:
     """``rotation`` less the angle ``target``, within half a turn: zero on any full turn."""
     return sp.atan2(*less(rotation, (sp.sin(target), sp.cos(target))))
 
 
-def angle_since(scope: Scope, rotation: Turn, built: Turn) -> Any:
+def angle_since(scope: Scope, rotation: Turn, built: Turn) -> Expr:
     """The angle turned since ``built``, full turns counted."""
     return scope.angle(*less(rotation, built))
 
 
-def spin(scope: Scope, i: int, j: int) -> Any:
+def spin(scope: Scope, i: Frame, j: Frame) -> Expr:
     """Angular velocity of I relative to J about z of J."""
     return dot(scope.omega(i, j), scope.axes(j)[2])
 
 
-def relative_velocity(scope: Scope, i: int, j: int, axis: int) -> Any:
+def relative_velocity(scope: Scope, i: Frame, j: Frame, axis: int) -> Expr:
     """Velocity of I seen from J along an axis (0 x, 1 y, 2 z) of J."""
     swept = cross(scope.omega(j), scope.position(i, j))
     along = scope.axes(j)[axis]
     return dot(scope.velocity(i, j), along) - dot(swept, along)
 
 
-def pose(model: Any, marker: Any) -> tuple[Any, Any]:
+def pose(model: DrawnModel, marker: Key) -> tuple[np.ndarray, np.ndarray]:
     """Origin (3,) and axes (3, 3) in ground of a marker, as the deck draws it."""
     place = model.marker(marker)
     if place.kind == "ground":
@@ -82,30 +87,30 @@ def pose(model: Any, marker: Any) -> tuple[Any, Any]:
     return body.x + body.attitude @ place.p, body.attitude @ place.axes
 
 
-def built_slide(model: Any, i: Any, j: Any) -> float:
+def built_slide(model: DrawnModel, i: Key, j: Key) -> float:
     """The slide of I along z of J as the deck draws it."""
     (ri, _), (rj, axes) = pose(model, i), pose(model, j)
     return float((ri - rj) @ axes[:, 2])
 
 
-def built_turn(model: Any, i: Any, j: Any) -> tuple[float, float]:
+def built_turn(model: DrawnModel, i: Key, j: Key) -> tuple[float, float]:
     """Sine and cosine of the turn of I about z of J as the deck draws it."""
     seen = pose(model, j)[1].T @ pose(model, i)[1]
     return _unit(float(seen[1, 0]), float(seen[0, 0]))
 
 
-def built_turn_on_rack(model: Any, i: Any, j: Any) -> tuple[float, float]:
+def built_turn_on_rack(model: DrawnModel, i: Key, j: Key) -> tuple[float, float]:
     """The same for :func:`turn_on_rack`."""
     seen = pose(model, i)[1].T @ pose(model, j)[1]
     return _unit(-float(seen[1, 2]), float(seen[0, 2]))
 
 
-def faces_away(model: Any, i: Any, j: Any) -> bool:
+def faces_away(model: DrawnModel, i: Key, j: Key) -> bool:
     """Whether the z axes of I and J make more than a right angle as the deck draws them."""
     return float(pose(model, i)[1][:, 2] @ pose(model, j)[1][:, 2]) < -ALIGNED
 
 
-def equal_speed(scope: Any, i: Any, j: Any, opposed: bool) -> Any:
+def equal_speed(scope: Scope, i: Frame, j: Frame, opposed: bool) -> Expr:
     """Zero where I is turned against J about an axis across both shafts: q_z = 0 of its quaternion.
 
     4 q_w q_z, 4 q_x q_z and 4 q_y q_z are sums of direction cosines; the first, x_I.y_J - y_I.x_J,
@@ -115,7 +120,7 @@ def equal_speed(scope: Any, i: Any, j: Any, opposed: bool) -> Any:
     """
     (xi, yi, zi), (xj, yj, zj) = scope.axes(i), scope.axes(j)
     if opposed:
-        yi, zi = (tuple(-component for component in axis) for axis in (yi, zi))
+        yi, zi = scale(-1, yi), scale(-1, zi)
     return choose(
         (dot(xi, yj) - dot(yi, xj), dot(zi, zj) > -FOLDED),
         (dot(zi, xj) + dot(xi, zj), dot(xi, xj) > dot(yi, yj)),

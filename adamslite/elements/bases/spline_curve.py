@@ -13,9 +13,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING
 
 from adamslite.symbolic.interpolant import Interpolant, interpolant
+
+if TYPE_CHECKING:  # reading a deck does without numpy
+    import numpy as np
 
 # How finely the nearest point is looked for before it is polished, per piece; steps of that.
 SAMPLES, POLISHED = 20, 20
@@ -29,13 +32,13 @@ class SplineCurve:
     length: float
     closed: bool
 
-    def at(self, s: Any, order: int = 0) -> Any:
+    def at(self, s: np.ndarray, order: int = 0) -> np.ndarray:
         """Points (n, 3) or derivatives at ``s`` (n,)."""
         import numpy as np
 
         return self.table.at(s - np.floor(s) if self.closed else s, order)
 
-    def nearest(self, point: Any) -> float:
+    def nearest(self, point: np.ndarray) -> float:
         """Parameter of the curve's point nearest to ``point`` (3,): Newton from the nearest sample,
         never to a point that is further away.
         """
@@ -53,7 +56,7 @@ class SplineCurve:
             s = s - step
         return float(s[0])
 
-    def _nearest_sample(self, point: Any) -> Any:
+    def _nearest_sample(self, point: np.ndarray) -> np.ndarray:
         """Parameter (1,) of the nearest of all samples, on the pieces that may come nearest."""
         import numpy as np
 
@@ -70,7 +73,7 @@ class SplineCurve:
         return best
 
     @cached_property
-    def _reach(self) -> Any:
+    def _reach(self) -> np.ndarray:
         """How far a piece goes from its first point at most, (n - 1,)."""
         import numpy as np
 
@@ -78,7 +81,7 @@ class SplineCurve:
         return sum(np.linalg.norm(inner[:, :, k], axis=1) * span**k for k in (1, 2, 3))
 
 
-def through(points: Any, closed: bool) -> SplineCurve:
+def through(points: np.ndarray, closed: bool) -> SplineCurve:
     """The spline through ``points`` (n, 3); a closed one ends where it begins."""
     import numpy as np
 

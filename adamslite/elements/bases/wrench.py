@@ -13,20 +13,23 @@ from J.  AX, AY and AZ are projected angles: all three small, or only AZ large.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
 
 from adamslite.elements.bases.joint_coordinates import relative_velocity
 from adamslite.functions.forces import MEASURES
 from adamslite.language.expression import COMPONENTS, Node, Ref, measure
 from adamslite.language.function import FUNCTIONS
+from adamslite.language.interfaces import DrawnModel
+from adamslite.language.statement import Statement
 from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes, cross, dot, scale
+from adamslite.symbolic.types import Expr, Seen
 
 Row = tuple[float, ...]
 SIX = range(6)
 NOTHING: Row = (0.0,) * 6
 
 
-class Wrench:
+class Wrench(Statement):
     """Mixed into statements that exert a force and a torque on I."""
 
     @property
@@ -34,7 +37,7 @@ class Wrench:
         """Force and torque on I, ground axes, torque about I's origin."""
         return ("fx", "fy", "fz", "tx", "ty", "tz")
 
-    def outputs(self, model: Any) -> list[Node]:
+    def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
         own = Ref(self.keyword, self.key)
         return [measure(MEASURES[self.keyword], own, component) for component in COMPONENTS]
@@ -50,7 +53,7 @@ class Compliance(Wrench):
     beyond = "turned past 90 degrees about x or y of J, where AX and AY are no angles any more"
     """What it means that z_I . z_J is below zero."""
 
-    def loads(self, scope: Scope) -> list[Load]:
+    def loads(self: Seen, scope: Scope) -> list[Load]:
         """The wrench on I and what J gets."""
         if any(row[3] != 0 or row[4] != 0 for row in self.stiffness):
             scope.limit(dot(scope.axes(self.i)[2], scope.axes(self.j)[2]))
@@ -60,7 +63,7 @@ class Compliance(Wrench):
             total = [t - _product(row, values) for t, row in zip(total, matrix, strict=True)]
         return between(scope, self.i, self.j, total)
 
-    def stored(self, scope: Scope) -> Any:
+    def stored(self: Seen, scope: Scope) -> Expr:
         """(x - rest) . K (x - rest)/2 - preload . (x - rest), for a symmetric K."""
         strained = _strained(self, scope)
         pulls = zip(self.stiffness, self.preload, strict=True)
@@ -68,33 +71,34 @@ class Compliance(Wrench):
         return _product(pulled, strained)
 
 
-def _strained(element: Any, scope: Scope) -> list[Any]:
+def _strained(element: Seen, scope: Scope) -> list[Expr]:
     """x - rest"""
     found = displacement(scope, element.i, element.j)
     return [x - x0 for x, x0 in zip(found, element.rest, strict=True)]
 
 
-def _product(row: tuple[Any, ...], values: list[Any]) -> Any:
+def _product(row: Sequence[Expr], values: Sequence[Expr]) -> Expr:
     return sum(a * x for a, x in zip(row, values, strict=True) if a != 0)
 
 
-def displacement(scope: Scope, i: int, j: int) -> list[Any]:
+def displacement(scope: Scope, i: int, j: int) -> list[Expr]:
     """Position and projected angles of I relative to J."""
     place = [dot(scope.position(i, j), axis) for axis in scope.axes(j)]
     return place + [FUNCTIONS[name].body(scope, i, j) for name in ("AX", "AY", "AZ")]
 
 
-def rate(scope: Scope, ends: Any) -> list[Any]:
+def rate(scope: Scope, ends: Seen) -> list[Expr]:
     """Velocity and angular velocity of I seen from J, of anything with ends I and J."""
     i, j = ends.i, ends.j
     speed = [relative_velocity(scope, i, j, axis) for axis in range(3)]
     return speed + [dot(scope.omega(i, j), axis) for axis in scope.axes(j)]
 
 
-def between(scope: Scope, i: int, j: int, wrench: list[Any]) -> list[Load]:
+def between(scope: Scope, i: int, j: int, wrench: list[Expr]) -> list[Load]:
     """Loads of a wrench on I with components along the axes of J."""
     axes = scope.axes(j)
-    force, torque = along_axes(axes, wrench[:3]), along_axes(axes, wrench[3:])
+    fx, fy, fz, tx, ty, tz = wrench
+    force, torque = along_axes(axes, (fx, fy, fz)), along_axes(axes, (tx, ty, tz))
     moment = cross(scope.position(i, j), force)
     return [Load(i, force, torque, j), Load(j, ZERO, scale(-1, moment))]
 
