@@ -11,7 +11,7 @@ import math
 import operator
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from adamslite.language.statement import Statement
 
@@ -22,7 +22,7 @@ class Operator(NamedTuple):
     """``level``: how strongly it binds; ``function``: what it does."""
 
     level: int
-    function: Callable[..., Any]
+    function: Callable[..., float]
 
 
 OPERATORS = {

@@ -13,7 +13,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import FrozenInstanceError, dataclass, field
-from typing import Any, ClassVar, TypedDict, TypeVar, Unpack
+from typing import Any, ClassVar, TypeAlias, TypedDict, TypeVar, Unpack
 
 from adamslite.language.diagnostics import Span, Spans
 from adamslite.language.interfaces import DrawnModel, Key, Lookup
@@ -21,6 +21,8 @@ from adamslite.language.interfaces import DrawnModel, Key, Lookup
 STATEMENTS: dict[str, type[Statement]] = {}
 NO_SPANS = Spans()
 S = TypeVar("S", bound="Statement")
+Field: TypeAlias = Any
+"""What declares a field in the body of a class stands for the value that the field will have."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,72 +95,71 @@ class Facts(ListFacts, total=False):
     default: object
 
 
-def _declare(argument: Argument) -> Any:
-    """In the body of a class, a field; for a type checker, the value it stands for: any."""
+def _declare(argument: Argument) -> Field:
     return field(default=argument.default, metadata={"argument": argument})
 
 
-def number(*keys: str, help: str, unit: str, **facts: Unpack[Facts]) -> Any:
+def number(*keys: str, help: str, unit: str, **facts: Unpack[Facts]) -> Field:
     """One real number (a constant expression is worked out)."""
     return _declare(Argument("number", keys, help=help, unit=unit, **facts))
 
 
 def vector(
     *keys: str, size: int, help: str, unit: str, most: int = 0, **facts: Unpack[Facts]
-) -> Any:
+) -> Field:
     """``size`` real numbers, or from ``size`` to ``most``."""
     sizes = (size, most or size)
     return _declare(Argument("vector", keys, help=help, unit=unit, sizes=sizes, **facts))
 
 
-def integer(*keys: str, help: str, unit: str = "", **facts: Unpack[Facts]) -> Any:
+def integer(*keys: str, help: str, unit: str = "", **facts: Unpack[Facts]) -> Field:
     """One whole number."""
     return _declare(Argument("integer", keys, help=help, unit=unit, **facts))
 
 
-def flag(*keys: str, help: str) -> Any:
+def flag(*keys: str, help: str) -> Field:
     """A word without a value."""
     return _declare(Argument("flag", keys, help=help, default=False))
 
 
-def choice(*keys: str, options: tuple[str, ...], help: str, **facts: Unpack[Facts]) -> Any:
+def choice(*keys: str, options: tuple[str, ...], help: str, **facts: Unpack[Facts]) -> Field:
     """One word of several: ``KEY=WORD``, or just ``WORD`` when no key is given."""
     return _declare(Argument("choice", keys, help=help, options=options, bare=not keys, **facts))
 
 
-def reference(*keys: str, to: str, help: str, **facts: Unpack[Facts]) -> Any:
+def reference(*keys: str, to: str, help: str, **facts: Unpack[Facts]) -> Field:
     """The id or name of another statement; a marker may also be written ``KEY_MARKER=``."""
     if to == "MARKER":
         keys += tuple(f"{key}_MARKER" for key in keys if not key.endswith("MARKER"))
     return _declare(Argument("reference", keys, help=help, to=to, **facts))
 
 
-def references(*keys: str, to: str, help: str, **facts: Unpack[ListFacts]) -> Any:
+def references(*keys: str, to: str, help: str, **facts: Unpack[ListFacts]) -> Field:
     """Ids or names of several statements."""
     return _declare(Argument("references", keys, help=help, to=to, default=(), **facts))
 
 
-def ids(*keys: str, help: str, **facts: Unpack[ListFacts]) -> Any:
+def ids(*keys: str, help: str, **facts: Unpack[ListFacts]) -> Field:
     """Ids or names of several statements, of a kind that another argument tells."""
     return _declare(Argument("ids", keys, help=help, default=(), **facts))
 
 
-def expression(*keys: str, help: str, unit: str = "", **facts: Unpack[Facts]) -> Any:
+def expression(*keys: str, help: str, unit: str = "", **facts: Unpack[Facts]) -> Field:
     """A function expression; the last argument, or closed by a backslash."""
     return _declare(Argument("expression", keys, help=help, unit=unit, **facts))
 
 
-def text(*keys: str, help: str, **facts: Unpack[Facts]) -> Any:
+def text(*keys: str, help: str, **facts: Unpack[Facts]) -> Field:
     """Free text up to the next comma."""
     return _declare(Argument("text", keys, help=help, **facts))
 
 
-def texts(*keys: str, help: str, **facts: Unpack[ListFacts]) -> Any:
+def texts(*keys: str, help: str, **facts: Unpack[ListFacts]) -> Field:
     """Several texts, separated by commas."""
     return _declare(Argument("texts", keys, help=help, default=(), **facts))
 
 
-def words(*keys: str, options: tuple[str, ...], help: str, **facts: Unpack[ListFacts]) -> Any:
+def words(*keys: str, options: tuple[str, ...], help: str, **facts: Unpack[ListFacts]) -> Field:
     """Words separated by colons, as in ``X:Y:PSI``."""
     return _declare(Argument("words", keys, help=help, options=options, default=(), **facts))
 
