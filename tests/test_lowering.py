@@ -24,10 +24,11 @@ ORDINARY = [
     (x + y) ** 2 * (x + y) ** 3 + sp.sin(x + y),
 ]  # fmt: skip
 CHOICES = [
-    sympy_nodes.choose((x, x > y), otherwise=y), sympy_nodes.choose((1, sp.Eq(x, y)), otherwise=2),
-    sympy_nodes.choose((x, sp.And(x > 0, z < 0)), (y, sp.Or(x > 5, z > 2)), otherwise=z),
-    sympy_nodes.choose((x, sp.Not(sp.Eq(x, y))), otherwise=-1), sympy_nodes.magnitude(z),
-    sympy_nodes.norm((x, y, z)), sympy_nodes.choose((sp.log(z), z > 0), otherwise=0),
+    sympy_nodes.piecewise((x, x > y), otherwise=y),
+    sympy_nodes.piecewise((1, sp.Eq(x, y)), otherwise=2),
+    sympy_nodes.piecewise((x, sp.And(x > 0, z < 0)), (y, sp.Or(x > 5, z > 2)), otherwise=z),
+    sympy_nodes.piecewise((x, sp.Not(sp.Eq(x, y))), otherwise=-1), sympy_nodes.magnitude(z),
+    sympy_nodes.norm((x, y, z)), sympy_nodes.piecewise((sp.log(z), z > 0), otherwise=0),
 ]  # fmt: skip
 
 
@@ -73,7 +74,7 @@ def test_not_a_number_stays_what_it_is():
 
 def test_a_choice_hides_the_piece_it_does_not_take():
     """log of a negative number behind a condition that excludes it."""
-    safe = sympy_nodes.choose((sp.log(z), z > 0), (sp.sqrt(z), z > 1), otherwise=7)
+    safe = sympy_nodes.piecewise((sp.log(z), z > 0), (sp.sqrt(z), z > 1), otherwise=7)
     assert run([safe], [(0.0, 0.0, -1.0)])[0] == [7.0]
 
 
@@ -113,6 +114,6 @@ def test_comparisons(relation, number):
     truth = {"<": 1.0 < number, "<=": 1.0 <= number, ">": 1.0 > number, ">=": 1.0 >= number}
     truth |= {"==": number == 1.0, "!=": number != 1.0}
     condition = sp.Rel(x, y, relation)
-    assert run([sympy_nodes.choose((1, condition), otherwise=0)], [(1.0, number, 0.0)])[0] == [
+    assert run([sympy_nodes.piecewise((1, condition), otherwise=0)], [(1.0, number, 0.0)])[0] == [
         float(truth[relation])
     ]

@@ -12,14 +12,15 @@ from math import acos, asin, atan2, cos, hypot, inf, pi, sin, sqrt
 
 from scipy.optimize import brentq
 
-from adamslite.cables.geometry import Span, add, cross, dot, unit, wrap
-from adamslite.cables.vocabulary import Spec, Vector
+from adamslite.cables.geometry import Span, wrap
+from adamslite.cables.vectors import Vector, add, cross, dot, part_across, unit
+from adamslite.cables.vocabulary import Spec
 
 Point = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class Line:
+class Straight:
     """From `start` in the direction `along`."""
 
     start: Point
@@ -131,7 +132,7 @@ def plane(spec: Spec) -> Plane:
     """The plane across the axles."""
     axis = next(each.axis for each in spec.route if each.is_round)
     helper = (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0)
-    ahead = unit(add(helper, axis, -dot(helper, axis)))
+    ahead = unit(part_across(helper, axis))
     return Plane(spec.route[0].at, ahead, cross(axis, ahead))
 
 
@@ -147,7 +148,7 @@ def stretches(spec: Spec) -> list[list[int]]:
 
 def way(
     spec: Spec, spans: list[Span], group: list[int], stored: dict[int, float]
-) -> list[Line | Arc]:
+) -> list[Straight | Arc]:
     """Lines and arcs of a stretch; `stored` [m] is what winches at its ends hold."""
     flat, parts = plane(spec), []
     first, last = spec.pairs[group[0]][0], spec.pairs[group[-1]][1]
@@ -160,7 +161,7 @@ def way(
     for p in group:
         span, j = spans[p], spec.pairs[p][1]
         along = dot(span.along, flat.ahead), dot(span.along, flat.across)
-        parts.append(Line(flat.seen(span.start), along, span.length, p))
+        parts.append(Straight(flat.seen(span.start), along, span.length, p))
         if spec.route[j].is_round and (spec.closed or j != last):
             length = spec.route[j].radius * wrap(spec, spans, j)
             parts.append(_arc(spec, flat, j, span.finish, length, (p, (p + 1) % len(spans))))
@@ -172,13 +173,13 @@ def way(
     return parts
 
 
-def _from_the_middle(parts: list[Line | Arc]) -> list[Line | Arc]:
+def _from_the_middle(parts: list[Straight | Arc]) -> list[Straight | Arc]:
     """A loop that begins in the middle of its first line, where no node is about to touch a rim."""
     line = parts[0]
     half = line.length / 2
     return [
-        Line(line.point(half, 0.0), line.along, half, line.span), *parts[1:],
-        Line(line.start, line.along, half, line.span),
+        Straight(line.point(half, 0.0), line.along, half, line.span), *parts[1:],
+        Straight(line.start, line.along, half, line.span),
     ]  # fmt: skip
 
 
@@ -189,7 +190,7 @@ def _arc(spec: Spec, flat: Plane, i: int, at: Vector, length: float, spans) -> A
     return Arc(centre, each.radius, angle, each.turn, length, i, spans, each.is_wheel)
 
 
-def length(parts: list[Line | Arc], pitch: float) -> float:
+def length(parts: list[Straight | Arc], pitch: float) -> float:
     """Of a stretch along lines and, for a chain of that pitch, the chords of its links [m]."""
     total = sum(part.length for part in parts)
     for part in parts:
@@ -201,16 +202,16 @@ def length(parts: list[Line | Arc], pitch: float) -> float:
 
 def lay(
     spec: Spec,
-    parts: list[Line | Arc],
+    parts: list[Straight | Arc],
     count: int,
-    tension: Callable[[Line | Arc, float, Vector], float],
+    tension: Callable[[Straight | Arc, float, Vector], float],
     contact: float,
 ) -> Laid:
     """A stretch laid out as `count` sections.
 
     Parameters
     ----------
-    parts : list of Line and Arc
+    parts : list of Straight and Arc
     count : int
     tension : callable
         Of the part, the way on it and the place: tension at rest [N].
@@ -236,8 +237,8 @@ class _Walk:
     """Goes along the parts section by section."""
 
     spec: Spec
-    parts: list[Line | Arc]
-    tension: Callable[[Line | Arc, float, Vector], float]
+    parts: list[Straight | Arc]
+    tension: Callable[[Straight | Arc, float, Vector], float]
     contact: float
 
     def __call__(self, free: float, count: int) -> tuple[list[Node], float]:
@@ -261,12 +262,12 @@ class _Walk:
             nodes.append(self._node(flat, part, p, at, before + at))
         return nodes, before + on - sum(part.length for part in parts)
 
-    def _pull(self, flat: Plane, part: Line | Arc, at: float) -> float:
+    def _pull(self, flat: Plane, part: Straight | Arc, at: float) -> float:
         return self.tension(part, at, flat.place(part.point(at, 0.0)))
 
-    def _sunk(self, part: Line | Arc, pull: float, h: float) -> float:
+    def _sunk(self, part: Straight | Arc, pull: float, h: float) -> float:
         held = isinstance(part, Arc) and part.held
         return pull * h / part.radius / self.contact if held else 0.0
 
-    def _node(self, flat: Plane, part: Line | Arc, p: Point, at: float, way: float) -> Node:
+    def _node(self, flat: Plane, part: Straight | Arc, p: Point, at: float, way: float) -> Node:
         return Node(flat.place(p), flat.vector(part.direction(at)), way)

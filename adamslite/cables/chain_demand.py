@@ -10,7 +10,8 @@ from adamslite.cables.chain_finder import Chain, Link, free_length, law_of
 from adamslite.cables.demand import Demand
 from adamslite.cables.estimate import Travel, from_ways
 from adamslite.cables.payout_law import Unknown
-from adamslite.cables.posture import Body, Posture, Vector, dot, norm, plus
+from adamslite.cables.posture import Body, Posture
+from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across, unit
 from adamslite.language.expression import Call, Ref, calls
 
 INSTANTS = 100
@@ -18,13 +19,12 @@ INSTANTS = 100
 SHORT = 1e-6
 # Of what feeds the whole cable a section gets at least this share.
 FED = 1e-5
-ZERO = (0.0, 0.0, 0.0)
 # Directions that differ by less are the same.
 ASIDE = 1e-6
 
 
 @dataclass(frozen=True)
-class Asked:
+class ChainDemand:
     """A chain, what is asked of it, and how it is made.
 
     `form` is "fixed" without payout, "paper" or "ale"; `gained` is the range of dm/m0 of an inner
@@ -37,7 +37,7 @@ class Asked:
     gained: tuple[float, float]
 
 
-def asked(chain: Chain, posture: Posture, end: float) -> Asked:
+def demand_on(chain: Chain, posture: Posture, end: float) -> ChainDemand:
     """The figures of a chain in a run from 0 to `end`."""
     deck, ucf = posture.deck, posture.deck.ucf
     n = len(chain.links)
@@ -63,7 +63,7 @@ def asked(chain: Chain, posture: Posture, end: float) -> Asked:
         bounces=abs(drawn - hung) > 0.5 * weight + 0.01 * hung and not chain.is_ring, end=end,
         tied=_is_tied(deck),
     )  # fmt: skip
-    return Asked(chain, demand, _form(chain, posture, travel), gained)
+    return ChainDemand(chain, demand, _form(chain, posture, travel), gained)
 
 
 def _tips(chain: Chain) -> list[Body]:
@@ -199,10 +199,10 @@ class _Shape:
         self.speeds = [
             ZERO if node[0] == "MARKER" else posture.velocity(node) for node in chain.nodes
         ]
-        steps = [plus(b, a, -1.0) for a, b in zip(self.places, self.places[1:], strict=False)]
-        self.along = [_unit(step) for step in steps]
-        across_ends = plus(self.places[-1], self.places[0], -1.0)
-        self.line = _unit(across_ends) if norm(across_ends) > 0 else ZERO
+        steps = [add(b, a, -1.0) for a, b in zip(self.places, self.places[1:], strict=False)]
+        self.along = [unit(step) for step in steps]
+        across_ends = add(self.places[-1], self.places[0], -1.0)
+        self.line = unit(across_ends)
         self.pull = dot(posture.deck.gravity, self.line)
         self.gravity = posture.deck.gravity
 
@@ -212,18 +212,18 @@ class _Shape:
         fastest = max(map(norm, self.speeds))
         return (
             norm(self.line) > 0
-            and all(norm(_aside(a, self.line)) < ASIDE for a in self.along)
-            and all(norm(_aside(v, self.line)) <= ASIDE * fastest for v in self.speeds)
-            and norm(_aside(self.gravity, self.line)) <= ASIDE * norm(self.gravity)
+            and all(norm(part_across(a, self.line)) < ASIDE for a in self.along)
+            and all(norm(part_across(v, self.line)) <= ASIDE * fastest for v in self.speeds)
+            and norm(part_across(self.gravity, self.line)) <= ASIDE * norm(self.gravity)
         )
 
     def jumps(self) -> tuple[float, float]:
         """Differences of speed along and across that stand between two neighbours, not spread over
         the chain.
         """
-        steps = [plus(b, a, -1.0) for a, b in zip(self.speeds, self.speeds[1:], strict=False)]
+        steps = [add(b, a, -1.0) for a, b in zip(self.speeds, self.speeds[1:], strict=False)]
         along = [abs(dot(d, t)) for d, t in zip(steps, self.along, strict=True)]
-        across = [norm(_aside(d, t)) for d, t in zip(steps, self.along, strict=True)]
+        across = [norm(part_across(d, t)) for d, t in zip(steps, self.along, strict=True)]
         return tuple(max(each) if max(each) > 0.5 * sum(each) else 0.0 for each in (along, across))
 
     def leaves(self, chain: Chain) -> float:
@@ -244,9 +244,9 @@ class _Shape:
 
 
 def _wave_number(values: list[Vector], h: float, line: Vector) -> float:
-    ys = [_aside(v, line) for v in values]
-    slopes = [plus(b, a, -1.0) for a, b in zip(ys, ys[1:], strict=False)]
-    bends = [plus(b, a, -1.0) for a, b in zip(slopes, slopes[1:], strict=False)]
+    ys = [part_across(v, line) for v in values]
+    slopes = [add(b, a, -1.0) for a, b in zip(ys, ys[1:], strict=False)]
+    bends = [add(b, a, -1.0) for a, b in zip(slopes, slopes[1:], strict=False)]
     first = sum(dot(s, s) for s in slopes)
     if first <= (ASIDE * max(map(norm, values))) ** 2:
         return 0.0
@@ -259,13 +259,3 @@ def _place(chain: Chain, posture: Posture, k: int) -> Vector:
     i_first = link.ends[0] == chain.nodes[min(k, len(chain.links) - 1)]
     first, second = (link.i, link.j) if i_first else (link.j, link.i)
     return posture.place(first if k < len(chain.links) else second)
-
-
-def _unit(a: Vector) -> Vector:
-    size = norm(a)
-    return plus(ZERO, a, 1 / size) if size > 0 else ZERO
-
-
-def _aside(a: Vector, line: Vector) -> Vector:
-    """The part of a across the line."""
-    return plus(a, line, -dot(a, line))

@@ -12,7 +12,8 @@ from statistics import median
 from typing import Any
 
 from adamslite.cables.payout_law import Unknown
-from adamslite.cables.posture import GROUND, Body, Posture, dot, norm, plus
+from adamslite.cables.posture import GROUND, Body, Posture
+from adamslite.cables.vectors import ZERO, add, dot, norm
 from adamslite.language.expression import Node, Ref, rebuild
 
 Key = int | str
@@ -133,7 +134,7 @@ def _other_ends(posture: Posture, i: Key, components: Sequence[Node]) -> set[Key
 def _sprung(link: Link, posture: Posture) -> Link | None:
     """The link with its stiffness and free length; None when it is no spring that pulls."""
     spring = link.statement
-    line = plus(posture.place(link.i), posture.place(link.j), -1.0)
+    line = add(posture.place(link.i), posture.place(link.j), -1.0)
     drawn = norm(line)
     if not link.components:
         free = spring.length + spring.force / spring.k if spring.k > 0 else 0.0
@@ -149,7 +150,7 @@ def _sprung(link: Link, posture: Posture) -> Link | None:
 
 def _stiff(link: Link, posture: Posture, stretches: Sequence[float]) -> tuple[float, float] | None:
     """Stiffness and free length at the first stretch at which it is stiff."""
-    drawn = norm(plus(posture.place(link.i), posture.place(link.j), -1.0))
+    drawn = norm(add(posture.place(link.i), posture.place(link.j), -1.0))
     for stretch in stretches:
         pull = _pull(link, posture, stretch)
         more = _pull(link, posture, stretch + DIFFERENCE)
@@ -167,11 +168,11 @@ def _made(link: Link, pull: float, stiffness: float, free: float) -> Link:
 
 def _pull(link: Link, posture: Posture, stretch: float) -> float:
     """Its tension when it is drawn longer by a share of its length."""
-    line = plus(posture.place(link.i), posture.place(link.j), -1.0)
+    line = add(posture.place(link.i), posture.place(link.j), -1.0)
     body, sense = posture.body(link.i), 1.0
     if body is GROUND:
         body, sense = posture.body(link.j), -1.0
-    posture.shift[body] = plus((0.0, 0.0, 0.0), line, sense * stretch)
+    posture.shift[body] = add(ZERO, line, sense * stretch)
     posture.forget()
     try:
         values = tuple(posture.value(node) for node in link.components)

@@ -3,7 +3,7 @@
 from adamslite.cables.estimate import Moves
 from adamslite.cables.geometry import Span
 from adamslite.cables.lumps import start_speed, write_lumps
-from adamslite.cables.model_choice import Choice
+from adamslite.cables.model_choice import CableModel
 from adamslite.cables.requests import write_requests
 from adamslite.cables.span_statements import write_pieces
 from adamslite.cables.statements import cable_variables, head, number, tail
@@ -18,7 +18,7 @@ NOTES = {
 BRUTE = "Brute force: sections of fixed length run over the rims and off the winches."
 
 
-def write(spec: Spec, spans: list[Span], moves: Moves, choice: Choice) -> str:
+def write(spec: Spec, spans: list[Span], moves: Moves, model: CableModel) -> str:
     """The deck.
 
     Parameters
@@ -28,28 +28,28 @@ def write(spec: Spec, spans: list[Span], moves: Moves, choice: Choice) -> str:
     spans : list of Span
         One between every two stations.
     moves : Moves
-    choice : Choice
+    model : CableModel
 
     Returns
     -------
     str
     """
-    brute = choice.form == "brute"
-    notes = f"{BRUTE if brute else NOTES[choice.level]} Chosen: {'; '.join(choice.reasons)}."
-    notes += f" Figures: {'; '.join(choice.figures)}."
+    brute = model.form == "brute"
+    notes = f"{BRUTE if brute else NOTES[model.level]} Chosen: {'; '.join(model.reasons)}."
+    notes += f" Figures: {'; '.join(model.figures)}."
     gravity = ", ".join(
         f"{n}={number(g)}" for n, g in zip(("IGRAV", "JGRAV", "KGRAV"), spec.gravity, strict=True)
         if g
     )  # fmt: skip
     lines = ["", "PART/1, GROUND", *([f"ACCGRAV/{gravity}"] if gravity else [])]
     text = head(spec.title, notes, *lines, author="adamslite cable")
-    if choice.level > 1:
+    if model.level > 1:
         text += cable_variables(spec.cable, spec.cable.damping)
     speed = start_speed(spec, moves)
     for i, each in enumerate(spec.route):
         text += wheel(spec, i, speed) if each.is_wheel else ""
     if brute or spec.bends:
-        text += write_lumps(spec, spans, choice, moves)
+        text += write_lumps(spec, spans, model, moves)
     else:
-        text += write_pieces(spec, spans, choice) + write_requests(spec, spans, choice)
-    return text + tail(choice.integrator, spec.end, spec.steps)
+        text += write_pieces(spec, spans, model) + write_requests(spec, spans, model)
+    return text + tail(model.integrator, spec.end, spec.steps)

@@ -11,10 +11,11 @@ with d the direction of the route at each free end.
 from dataclasses import dataclass, field, replace
 from math import dist
 
-from adamslite.cables.geometry import Span, add, dot
+from adamslite.cables.geometry import Span
 from adamslite.cables.messages import Faults
 from adamslite.cables.payout_law import NoValue, Unknown, parse, value
 from adamslite.cables.toml_places import Path
+from adamslite.cables.vectors import add, dot
 from adamslite.cables.vocabulary import Spec
 from adamslite.language.expression import Node, Num, Op
 

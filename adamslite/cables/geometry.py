@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 from math import atan2, pi, sqrt
 
 from adamslite.cables.messages import Faults
-from adamslite.cables.vocabulary import ZERO, Spec, Station, Vector
+from adamslite.cables.vectors import ZERO, Vector, add, cross, dot, norm, unit
+from adamslite.cables.vocabulary import Spec, Station
 
 
 @dataclass(frozen=True)
@@ -24,28 +25,6 @@ class Span:
     finish: Vector
     along: Vector
     length: float
-
-
-def add(a: Vector, b: Vector, factor: float = 1.0) -> Vector:
-    """a + factor b."""
-    x, y, z = (p + factor * q for p, q in zip(a, b, strict=True))
-    return x, y, z
-
-
-def dot(a: Vector, b: Vector) -> float:
-    """Scalar product."""
-    return sum(p * q for p, q in zip(a, b, strict=True))
-
-
-def cross(a: Vector, b: Vector) -> Vector:
-    """Vector product."""
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-def unit(a: Vector) -> Vector:
-    """a/|a|; a zero vector stays."""
-    size = sqrt(dot(a, a))
-    return add(ZERO, a, 1 / size if size else 0.0)
 
 
 def turned(spec: Spec) -> Spec:
@@ -116,7 +95,7 @@ def _ring(each: Station) -> Span:
 
 def _span(a: Station, b: Station, at: tuple[int, int], faults: Faults) -> Span | None:
     between = add(b.at, a.at, -1)
-    spacing = sqrt(dot(between, between))
+    spacing = norm(between)
     i, j = at[0] + 1, at[1] + 1
     place = ("route", max(at), "at")
     if spacing == 0:
@@ -138,7 +117,7 @@ def _span(a: Station, b: Station, at: tuple[int, int], faults: Faults) -> Span |
     start = add(a.at, cross(along, a.axis), a.turn * a.radius)
     finish = add(b.at, cross(along, b.axis), b.turn * b.radius)
     way = add(finish, start, -1)
-    return Span(start, finish, unit(way), sqrt(dot(way, way)))
+    return Span(start, finish, unit(way), norm(way))
 
 
 def _crossings(spec: Spec, found: list[Span], faults: Faults) -> None:
@@ -174,4 +153,4 @@ def apart(p: Span, q: Span) -> float:
     t = min(max(e + b * s, 0.0), q.length)
     s = min(max(b * t - d, 0.0), p.length)
     way = add(add(between, p.along, s), q.along, -t)
-    return sqrt(dot(way, way))
+    return norm(way)

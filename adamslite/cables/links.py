@@ -11,9 +11,9 @@ and the torque -R T of the rim, so that the cable loads nothing but the axle. On
 guide of some mass, and slides along the axle against a spring and a damper.
 """
 
-from adamslite.cables.geometry import add, cross, dot
 from adamslite.cables.statements import AXES, number, rounded
-from adamslite.cables.vocabulary import ZERO, Spec, Vector
+from adamslite.cables.vectors import ZERO, Vector, add, cross, dot
+from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import carrier, marker, travel, triple
 
 AXLE = 900

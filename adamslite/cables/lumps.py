@@ -12,14 +12,15 @@ weights, is MARKER/1000 s + k.
 from dataclasses import dataclass
 from math import atan2, ceil, cos, inf, pi, sin, sqrt
 
-from adamslite.cables.brute_force_layout import Laid, Line, lay, length, plane, stretches, way
+from adamslite.cables.brute_force_layout import Laid, Straight, lay, length, plane, stretches, way
 from adamslite.cables.demand import loaded
 from adamslite.cables.ends import end
 from adamslite.cables.estimate import Moves
-from adamslite.cables.geometry import Span, add, dot, reaches, unit
-from adamslite.cables.model_choice import Choice, asked, tensions
+from adamslite.cables.geometry import Span, reaches
+from adamslite.cables.model_choice import CableModel, demand_on_longest, tensions
 from adamslite.cables.statements import number, point, section
-from adamslite.cables.vocabulary import Spec, Vector
+from adamslite.cables.vectors import Vector, add, dot, unit
+from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import drive, marker, mount_request, triple, turning
 
 # What a wheel without mu has: the cable creeps on it by a fifth of what mu = 1 would let it.
@@ -69,14 +70,16 @@ def stored(spec: Spec, moves: Moves) -> dict[int, float]:
 def stiffness(spec: Spec, spans: list[Span], moves: Moves, section: float) -> float:
     """Of the contact of a node [N/m], from the greatest tension that is expected."""
     # A front doubles where it is thrown back.
-    fronts = 2 * loaded(asked(spec, spans, moves)) if moves.across or moves.jump else 0.0
+    fronts = (
+        2 * loaded(demand_on_longest(spec, spans, moves)) if moves.across or moves.jump else 0.0
+    )
     expected = max(*tensions(spec, spans), fronts, 1e-6 * spec.cable.stiffness)
     return 80 * expected / section
 
 
-def write_lumps(spec: Spec, spans: list[Span], choice: Choice, moves: Moves) -> str:
+def write_lumps(spec: Spec, spans: list[Span], model: CableModel, moves: Moves) -> str:
     """Stretches, ends, contacts, what turns the wheels, results."""
-    section = spec.pitch or max(reaches(spec, spans)) / choice.elements
+    section = spec.pitch or max(reaches(spec, spans)) / model.elements
     wheels = any(each.is_wheel for each in spec.route)
     contact = stiffness(spec, spans, moves, section) if wheels else inf
     held, found = stored(spec, moves), []
@@ -115,7 +118,7 @@ def _tension(spec: Spec, spans: list[Span]):
         return pulls[p] - spec.cable.density * dot(spec.gravity, add(place, free, -1))
 
     def tension(part, at: float, place: Vector) -> float:
-        if isinstance(part, Line):
+        if isinstance(part, Straight):
             return pull(part.span, place)
         share = min(max(at / part.length, 0.0), 1.0) if part.length else 0.0
         return (1 - share) * pull(part.spans[0], place) + share * pull(part.spans[1], place)

@@ -13,8 +13,9 @@ from adamslite.cables import demand
 from adamslite.cables.advice import advise
 from adamslite.cables.demand import Demand
 from adamslite.cables.estimate import Moves, moving_mass
-from adamslite.cables.geometry import Span, add, dot, reaches, unit, wrap
+from adamslite.cables.geometry import Span, reaches, wrap
 from adamslite.cables.messages import Faults
+from adamslite.cables.vectors import add, dot, part_across, unit
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import slipping
 
@@ -23,7 +24,7 @@ LIES = 0.1
 
 
 @dataclass(frozen=True)
-class Choice:
+class CableModel:
     """Level, form of level 3, sections of the longest span and integrator; the figures and reasons
     they rest on."""
 
@@ -64,7 +65,7 @@ def _block(spec: Spec, spans: list[Span], i: int) -> float:
         mass += spec.cable.density * (before.length + behind.length) / 2
     if spec.route[i].haul:
         along = unit(add(behind.finish, before.start, -1))
-        pull = add(pull, along, -dot(pull, along))
+        pull = part_across(pull, along)
         size = dot(pull, pull)
     return max(0.0, -mass * dot(spec.gravity, pull) / size) if size else 0.0
 
@@ -101,9 +102,9 @@ def _stays_tangent(spec: Spec, spans: list[Span], i: int) -> bool:
     )  # fmt: skip
 
 
-def choose(spec: Spec, spans: list[Span], moves: Moves, faults: Faults) -> Choice:
+def choose_model(spec: Spec, spans: list[Span], moves: Moves, faults: Faults) -> CableModel:
     """The model the description asks for, or what `accuracy` needs."""
-    p, of = spec.accuracy, asked(spec, spans, moves)
+    p, of = spec.accuracy, demand_on_longest(spec, spans, moves)
     figures = _figures(of, moves)
     level, why = _level(spec, spans, of, moves)
     form, why_form = _form(spec, spans, of, level, moves)
@@ -121,10 +122,10 @@ def choose(spec: Spec, spans: list[Span], moves: Moves, faults: Faults) -> Choic
                    tension=of.tension)  # fmt: skip
     method, why_method = _integrator(spec, of, level, form, count)
     reasons = [*why, *why_form, *([why_count] if level > 1 else []), why_method]
-    return Choice(level, form, count, method, tuple(figures), tuple(reasons))
+    return CableModel(level, form, count, method, tuple(figures), tuple(reasons))
 
 
-def asked(spec: Spec, spans: list[Span], moves: Moves) -> Demand:
+def demand_on_longest(spec: Spec, spans: list[Span], moves: Moves) -> Demand:
     """What the longest span is asked for; it lies on its line unless something strikes it."""
     cable = spec.cable
     longest = max(reaches(spec, spans))

@@ -6,13 +6,13 @@ as a function of time is worked out from that constraint.
 """
 
 from collections.abc import Iterator
-from math import atan2, sqrt
+from math import atan2
 from typing import Any
 
 from adamslite.cables.payout_law import Unknown, evaluate
+from adamslite.cables.vectors import ZERO, Vector, add, dot, norm
 from adamslite.language.expression import Call, Node, Ref, Time, walk
 
-Vector = tuple[float, float, float]
 Body = tuple[str, Any]
 
 GROUND: Body = ("PART", "ground")
@@ -22,19 +22,6 @@ PLACES = ("DM", "DX", "DY", "DZ")
 # Measures that a joint's motion or a GCON may prescribe.
 DRIVEN = (*PLACES, "AX", "AY", "AZ", "DIF")
 FREEDOMS = {"ROTATION": "AZ", "TRANSLATION": "DZ"}
-
-
-def dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def plus(a: Vector, b: Vector, factor: float = 1.0) -> Vector:
-    """a + factor b."""
-    return a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]
-
-
-def norm(a: Vector) -> float:
-    return sqrt(dot(a, a))
 
 
 class Posture:
@@ -86,7 +73,7 @@ class Posture:
         if marker not in self._places:
             self._places[marker] = self._placed(marker)
         moved = self.shift.get(self.body(marker)) if self.shift else None
-        return plus(self._places[marker], moved) if moved else self._places[marker]
+        return add(self._places[marker], moved) if moved else self._places[marker]
 
     def _placed(self, marker: Any) -> Vector:
         if marker == 0:
@@ -98,7 +85,7 @@ class Posture:
         x, y, z = _axes(part)
         place = part.qg
         for axis, share in zip((x, y, z), found.qp, strict=True):
-            place = plus(place, axis, share)
+            place = add(place, axis, share)
         return place
 
     def axes(self, marker: Any) -> tuple[Vector, Vector, Vector]:
@@ -116,7 +103,7 @@ class Posture:
     def velocity(self, body: Body) -> Vector:
         """Of the origin of a body at the start."""
         found = self.deck.find(*body) if body is not GROUND else None
-        return (found.vx, found.vy, found.vz) if found else (0.0, 0.0, 0.0)
+        return (found.vx, found.vy, found.vz) if found else ZERO
 
     # values
 
@@ -160,7 +147,7 @@ class Posture:
     def _distance(self, name: str, ids: list[Any]) -> float:
         d = self.place(ids[0])
         if len(ids) > 1 and ids[1] != 0:
-            d = plus(d, self.place(ids[1]), -1.0)
+            d = add(d, self.place(ids[1]), -1.0)
         if name == "DM":
             return norm(d)
         axis = "XYZ".index(name[1])
@@ -225,7 +212,7 @@ class Posture:
         if found is None or not hasattr(found, "wz"):
             return 0.0, 0.0, 0.0
         x, y, z = self.axes(found.cm)
-        return plus(plus(plus((0.0, 0.0, 0.0), x, found.wx), y, found.wy), z, found.wz)
+        return add(add(add(ZERO, x, found.wx), y, found.wy), z, found.wz)
 
     def _motion(self, call: Call) -> Any:
         ids = [arg.id for arg in call.args if isinstance(arg, Ref)][:2]

@@ -6,7 +6,7 @@ from math import pi
 from typing import Any
 
 from adamslite.cables.advice import Advice, advise
-from adamslite.cables.chain_demand import Asked, asked
+from adamslite.cables.chain_demand import ChainDemand, demand_on
 from adamslite.cables.chain_finder import Chain, chains
 from adamslite.cables.demand import Demand
 from adamslite.cables.payout_law import Unknown
@@ -23,7 +23,7 @@ def about_cables(deck: Any, commands: Iterable[Any] = ()) -> list[str]:
     return _listed(cables(deck, commands))
 
 
-def cables(deck: Any, commands: Iterable[Any] = ()) -> list[Asked]:
+def cables(deck: Any, commands: Iterable[Any] = ()) -> list[ChainDemand]:
     """The cables of a deck in its run, in SI units when the deck names its units."""
     posture = Posture(deck)
     rows = chains(deck, posture)
@@ -31,7 +31,7 @@ def cables(deck: Any, commands: Iterable[Any] = ()) -> list[Asked]:
     found = []
     for chain in rows:
         try:
-            each = asked(chain, posture, end)
+            each = demand_on(chain, posture, end)
         except Unknown:
             continue
         found.append(replace(each, demand=_in_si(each.demand, deck)))
@@ -68,7 +68,7 @@ def _in_si(of: Demand, deck: Any) -> Demand:
 # ---- the text --------------------------------------------------------------------------------
 
 
-def _listed(found: list[Asked]) -> list[str]:
+def _listed(found: list[ChainDemand]) -> list[str]:
     """Equal cables share their lines."""
     groups: dict[tuple[str, ...], list[Chain]] = {}
     for each in found:
@@ -92,7 +92,7 @@ def _name(node: tuple[str, Any]) -> str:
     return f"{node[0]}/{node[1]}"
 
 
-def _figures(each: Asked) -> list[str]:
+def _figures(each: ChainDemand) -> list[str]:
     of = each.demand
     sections = len(each.chain.links)
     return [
@@ -106,7 +106,7 @@ def _figures(each: Asked) -> list[str]:
     ]
 
 
-def _made(each: Asked) -> str:
+def _made(each: ChainDemand) -> str:
     if each.form == "fixed":
         return "of fixed length"
     least, most = each.gained
@@ -126,7 +126,7 @@ def _frequency(of: Demand, sections: int) -> str:
     return f"{found:.3g} Hz, c/(pi H)"
 
 
-def _payout(each: Asked) -> list[str]:
+def _payout(each: ChainDemand) -> list[str]:
     of = each.demand
     if not of.known:
         rate = f"; it starts with {_short(of.speed)} m/s" if of.speed else ""

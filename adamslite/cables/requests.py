@@ -2,18 +2,18 @@
 
 from adamslite.cables.geometry import Span, wrap
 from adamslite.cables.links import wrapped
-from adamslite.cables.model_choice import Choice
+from adamslite.cables.model_choice import CableModel
 from adamslite.cables.span_statements import Piece, pieces
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import marker, mount_request, travel
 
 
-def write_requests(spec: Spec, spans: list[Span], choice: Choice) -> str:
+def write_requests(spec: Spec, spans: list[Span], model: CableModel) -> str:
     """Tension of every span; travel over every wheel and through every weight that slides, how
     the cable lies on a wheel and loads it."""
     found = pieces(spec, spans)
     text = "\n! ---- results ----\n"
-    if choice.level > 1:
+    if model.level > 1:
         text += "".join(
             f"REQUEST/{p.number}, F2=T{p.number}             ! tension of span {p.number}\n"
             for p in found
@@ -21,7 +21,7 @@ def write_requests(spec: Spec, spans: list[Span], choice: Choice) -> str:
     for i, each in enumerate(spec.route):
         if each.is_wheel:
             text += _over(spec, spans, found, i) + mount_request(spec, i)
-        elif each.slides and choice.level > 1:
+        elif each.slides and model.level > 1:
             text += _over(spec, spans, found, i)
     return text
 

@@ -3,8 +3,8 @@
 from itertools import accumulate, pairwise
 from math import sqrt
 
-from adamslite.cables.geometry import add, dot
-from adamslite.cables.vocabulary import ZERO, Spec, Vector
+from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across
+from adamslite.cables.vocabulary import Spec
 
 
 def hanging(
@@ -33,7 +33,7 @@ def hanging(
     (place, along), cable = line, spec.cable
     weight = 0.0 if held else dot(spec.gravity, along)
     falls = _sag(spec, n, length, along, tension)
-    drops = [sqrt(dot(d, d)) for d in (add(b, a, -1) for a, b in pairwise([ZERO, *falls]))]
+    drops = [norm(d) for d in (add(b, a, -1) for a, b in pairwise([ZERO, *falls]))]
     free = length
     for _ in range(20):
         node = cable.density * free / n * weight
@@ -53,8 +53,8 @@ def _sag(spec: Spec, n: int, length: float, along: Vector, tension: float) -> li
     as one.
     """
     h, density = length / n, spec.cable.density / (1 + tension / spec.cable.stiffness)
-    across = add(spec.gravity, along, -dot(spec.gravity, along))
-    if tension < density * length * sqrt(dot(across, across)) / 2 or not tension:
+    across = part_across(spec.gravity, along)
+    if tension < density * length * norm(across) / 2 or not tension:
         return [ZERO] * n
     share = density * h * h / (2 * tension)
     return [add(ZERO, across, share * k * (n - k)) for k in range(1, n + 1)]

@@ -4,12 +4,13 @@ from adamslite.cables.brute_force_layout import length, stretches, way
 from adamslite.cables.deck_writer import write
 from adamslite.cables.demand import MOST
 from adamslite.cables.estimate import Moves, laws, travel
-from adamslite.cables.geometry import Span, dot, reaches, spans, turned
+from adamslite.cables.geometry import Span, reaches, spans, turned
 from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
-from adamslite.cables.model_choice import Choice, choose, needs_brute, tensions
+from adamslite.cables.model_choice import CableModel, choose_model, needs_brute, tensions
 from adamslite.cables.sliders import is_straight, is_wire
 from adamslite.cables.spec import read
+from adamslite.cables.vectors import dot
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import in_plane, slipping
 from adamslite.language.diagnostics import DeckError, Diagnostic, sort_by_place
@@ -32,13 +33,13 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     told = laws(spec, faults)
     _stop(faults, faults.errors)
     moves = travel(spec, pieces, told)
-    choice = choose(spec, pieces, moves, faults)
-    _check_form(spec, pieces, choice, faults)
+    model = choose_model(spec, pieces, moves, faults)
+    _check_form(spec, pieces, model, faults)
     _check_chain(spec, pieces, faults)
-    _check_shape(spec, pieces, choice, faults)
-    _check(spec, pieces, moves, choice, faults)
+    _check_shape(spec, pieces, model, faults)
+    _check(spec, pieces, moves, model, faults)
     _stop(faults, faults.errors)
-    return write(spec, pieces, moves, choice), sort_by_place(faults.found)
+    return write(spec, pieces, moves, model), sort_by_place(faults.found)
 
 
 def _stop(faults: Faults, wrong: bool) -> None:
@@ -46,10 +47,10 @@ def _stop(faults: Faults, wrong: bool) -> None:
         raise DeckError(sort_by_place(faults.found))
 
 
-def _check_form(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) -> None:
+def _check_form(spec: Spec, pieces: list[Span], model: CableModel, faults: Faults) -> None:
     """Whether the level and the form can show what the description has."""
-    brute = choice.form == "brute"
-    if choice.level < 3 and spec.form not in ("auto", "brute"):
+    brute = model.form == "brute"
+    if model.level < 3 and spec.form not in ("auto", "brute"):
         faults.add("form-has-level", ("model", "form"), form=spec.form)
     why = needs_brute(spec, pieces)
     if why and not brute:
@@ -57,11 +58,11 @@ def _check_form(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) 
         faults.add("needs-brute", ("model", key), why="; ".join(why))
     if brute or spec.bends:
         _check_brute(spec, faults)
-    shows_sliding = choice.level == 1 or choice.level == 3 and choice.form == "ale"
+    shows_sliding = model.level == 1 or model.level == 3 and model.form == "ale"
     for i, each in enumerate(spec.route):
         if each.slides and not shows_sliding:
             faults.add("slider-form", ("route", i, "slides"))
-    if choice.level == 1:
+    if model.level == 1:
         _check_rigid(spec, faults)
 
 
@@ -110,9 +111,9 @@ def _check_chain(spec: Spec, pieces: list[Span], faults: Faults) -> None:
                    off=(round(links) - links) * spec.pitch / 2)  # fmt: skip
 
 
-def _check_shape(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults) -> None:
+def _check_shape(spec: Spec, pieces: list[Span], model: CableModel, faults: Faults) -> None:
     """Whether the sections fit round the bends, and only a loop runs along itself."""
-    section = max(reaches(spec, pieces)) / choice.elements
+    section = max(reaches(spec, pieces)) / model.elements
     for i in spec.bends:
         radius = spec.route[i].radius
         if section > 2 * radius:
@@ -121,12 +122,12 @@ def _check_shape(spec: Spec, pieces: list[Span], choice: Choice, faults: Faults)
         faults.add("speed-on-a-route", ("speed",))
 
 
-def _check(spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults: Faults) -> None:
-    """What only the choice and the travel show."""
+def _check(spec: Spec, pieces: list[Span], moves: Moves, model: CableModel, faults: Faults) -> None:
+    """What only the model and the travel show."""
     longest = max(reaches(spec, pieces))
-    count = choice.elements
-    held = stored(spec, moves) if choice.form == "brute" else {}
-    if choice.form == "brute":
+    count = model.elements
+    held = stored(spec, moves) if model.form == "brute" else {}
+    if model.form == "brute":
         total = sum(piece.length for piece in pieces) + sum(held.values())
         count = round(count * total / longest / len(stretches(spec)))
     if count > MOST:
@@ -146,19 +147,19 @@ def _check(spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults:
                        length=length)  # fmt: skip
         if i in held and paid.most > held[i]:
             faults.add("stored-too-little", ("route", i, "stored"), value=paid.most, held=held[i])
-    _check_slack(spec, pieces, moves, choice, faults)
-    section = longest / choice.elements
-    _check_fixed(spec, choice, moves, section, faults)
+    _check_slack(spec, pieces, moves, model, faults)
+    section = longest / model.elements
+    _check_fixed(spec, model, moves, section, faults)
     most = max(tensions(spec, pieces))
     if 0 < spec.cable.breaking < most:
         faults.add("breaking", ("cable", "breaking_load"), tension=most, limit=spec.cable.breaking)
 
 
 def _check_slack(
-    spec: Spec, pieces: list[Span], moves: Moves, choice: Choice, faults: Faults
+    spec: Spec, pieces: list[Span], moves: Moves, model: CableModel, faults: Faults
 ) -> None:
     """Whether a winch pays out faster than a load at the other end comes after by itself."""
-    if spec.cable.pulls_only and choice.level > 1:
+    if spec.cable.pulls_only and model.level > 1:
         return
     last = len(spec.route) - 1
     for i, paid in moves.paid.items():
@@ -177,12 +178,14 @@ def _check_slack(
             faults.add("pushed", path, gain=paid.gain, time=paid.gain_at, fall=max(fall, 0.0))
 
 
-def _check_fixed(spec: Spec, choice: Choice, moves: Moves, section: float, faults: Faults) -> None:
+def _check_fixed(
+    spec: Spec, model: CableModel, moves: Moves, section: float, faults: Faults
+) -> None:
     """Whether a section of fixed length can take the cable that comes over a wheel."""
     route = spec.route
     # Between two wheels there is one spring, which cable may run through.
     sections = any(not (route[i].is_wheel and route[j].is_wheel) for i, j in spec.pairs)
-    if choice.level != 2 or choice.form == "brute" or not sections or faults.errors:
+    if model.level != 2 or model.form == "brute" or not sections or faults.errors:
         return
     if moves.way > section / 2:
         faults.add("level-2-pays-out", ("model", "level"), section=section, travel=moves.way)

@@ -15,9 +15,9 @@ the weight is a bead on a wire.
 
 from math import dist
 
-from adamslite.cables.geometry import add, dot, unit
 from adamslite.cables.statements import AXES, number, vforce
-from adamslite.cables.vocabulary import ZERO, Spec
+from adamslite.cables.vectors import ZERO, add, dot, unit
+from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import marker, triple
 
 # Directions whose cosine is closer to 1 are one.

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 from adamslite.cables import sliders
 from adamslite.cables.ends import end
-from adamslite.cables.geometry import Span, add, dot, wrap
+from adamslite.cables.geometry import Span, wrap
 from adamslite.cables.links import borne, comes, link, spun
-from adamslite.cables.model_choice import Choice, tensions
+from adamslite.cables.model_choice import CableModel, tensions
 from adamslite.cables.sag import hanging
 from adamslite.cables.statements import (
     AXES,
@@ -22,7 +22,8 @@ from adamslite.cables.statements import (
     point,
     section,
 )
-from adamslite.cables.vocabulary import ZERO, Spec, Vector
+from adamslite.cables.vectors import ZERO, Vector, add, dot
+from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import (
     arm,
     carrier,
@@ -77,15 +78,15 @@ def _piece(spec: Spec, p: int, span: Span, tension: float) -> Piece:
     return Piece(p + 1, span, root, tip, place, add(ZERO, span.along, sense), sense, tension)
 
 
-def write_pieces(spec: Spec, spans: list[Span], choice: Choice) -> str:
+def write_pieces(spec: Spec, spans: list[Span], model: CableModel) -> str:
     """Spans, ends, what turns the wheels."""
     found = pieces(spec, spans)
-    text = "".join(_span(spec, choice, piece) for piece in found)
-    text += _ends(spec, choice, found)
+    text = "".join(_span(spec, model, piece) for piece in found)
+    text += _ends(spec, model, found)
     for i, each in enumerate(spec.route):
         if each.is_wheel:
-            text += _turned(spec, spans, choice, i)
-        elif each.slides and choice.level > 1:
+            text += _turned(spec, spans, model, i)
+        elif each.slides and model.level > 1:
             text += sliders.flow(spec, i, found[i].tension)
     return text
 
@@ -104,33 +105,33 @@ def _root_marker(spec: Spec, piece: Piece) -> int:
     return piece.first if spec.route[piece.root].feeds else marker(piece.root)
 
 
-def _span(spec: Spec, choice: Choice, piece: Piece) -> str:
+def _span(spec: Spec, model: CableModel, piece: Piece) -> str:
     """One span in the form of its level."""
     i, j = spec.pairs[piece.number - 1]
     text = f"\n! ---- span {piece.number}, from station {i + 1} to {j + 1} ----\n"
     root = spec.route[piece.root]
     if root.is_wheel and (_moves(spec, piece) or not _between(spec, piece)):
-        to = _next(spec, choice, piece)
+        to = _next(spec, model, piece)
         text += _touches(spec, piece, piece.first, to)
-    if root.slides and choice.level == 1:
+    if root.slides and model.level == 1:
         return text + (sliders.rigid(spec, piece.root) if piece.sense < 0 else "! With the last.\n")
     if root.slides:
         text += sliders.opening(spec, piece.root, piece.first)
-    if choice.level == 1:
+    if model.level == 1:
         return text + _rigid(spec, piece)
     if spec.route[piece.tip].kind == "run":
         return text + _run(spec, piece)
     if _between(spec, piece):
         return text + _link(spec, piece)
-    return text + _chain(spec, choice, piece)
+    return text + _chain(spec, model, piece)
 
 
-def _next(spec: Spec, choice: Choice, piece: Piece) -> int:
+def _next(spec: Spec, model: CableModel, piece: Piece) -> int:
     """The marker that the cable goes to from the root."""
     if _between(spec, piece):
         return piece.first + 1
-    whole = choice.level == 1 or spec.route[piece.tip].kind == "run"
-    return marker(piece.tip) if whole else _side(piece, choice).node(1)
+    whole = model.level == 1 or spec.route[piece.tip].kind == "run"
+    return marker(piece.tip) if whole else _side(piece, model).node(1)
 
 
 def _touches(spec: Spec, piece: Piece, m: int, to: int) -> str:
@@ -237,10 +238,10 @@ def _on_axle(spec: Spec, piece: Piece) -> str:
     return text + borne(spec, i, m, end, piece.sense, f"T{piece.number}")
 
 
-def _hanging(spec: Spec, choice: Choice, piece: Piece) -> tuple[float, list[Vector]]:
+def _hanging(spec: Spec, model: CableModel, piece: Piece) -> tuple[float, list[Vector]]:
     """Free length at rest [m], and the places of the nodes from root to tip."""
     held = spec.route[piece.tip].kind == "fixed"
-    return hanging(spec, choice.elements, piece.span.length, (piece.place, piece.along),
+    return hanging(spec, model.elements, piece.span.length, (piece.place, piece.along),
                    piece.tension, held)  # fmt: skip
 
 
@@ -252,41 +253,41 @@ def _axes(spec: Spec) -> str:
     return "".join(a for i, a in enumerate(AXES) if laws[i] or any(abs(v[i]) > 0 for v in vectors))
 
 
-def _side(piece: Piece, choice: Choice) -> Side:
+def _side(piece: Piece, model: CableModel) -> Side:
     return Side(
-        str(piece.number), piece.first, marker(piece.root), (choice.elements, marker(piece.tip))
+        str(piece.number), piece.first, marker(piece.root), (model.elements, marker(piece.tip))
     )
 
 
-def _chain(spec: Spec, choice: Choice, piece: Piece) -> str:
+def _chain(spec: Spec, model: CableModel, piece: Piece) -> str:
     """Nodes and sections."""
-    n, p, cable = choice.elements, piece.number, spec.cable
-    free, places = _hanging(spec, choice, piece)
-    side, axes = _side(piece, choice), _axes(spec)
-    grows = choice.level == 3 and spec.route[piece.root].feeds
+    n, p, cable = model.elements, piece.number, spec.cable
+    free, places = _hanging(spec, model, piece)
+    side, axes = _side(piece, model), _axes(spec)
+    grows = model.level == 3 and spec.route[piece.root].feeds
     mass = cable.density * free / n
     # Nodes go with a weight that slides; the cable runs the other way through both.
     speed = spec.route[piece.root].velocity if spec.route[piece.root].slides else ZERO
-    text = _lengths(spec, choice, piece, free)
+    text = _lengths(spec, model, piece, free)
     for k in range(1, n):
         text += point(side.node(k), mass, places[k - 1], add(ZERO, speed, 1 - k / n))
-        text += grown(choice.form, k, n, axes, side) if grows else ""
+        text += grown(model.form, k, n, axes, side) if grows else ""
     if grows and spec.route[piece.tip].is_free:
-        text += grown_tip(choice.form, side.first + n, n, axes, side)
+        text += grown_tip(model.form, side.first + n, n, axes, side)
     for k in range(1, n + 1):
         i = _root_marker(spec, piece) if k == 1 else side.node(k - 1)
         name = f"H{p}" if grows else f"L{p}_0" if k == 1 else f"L{p}"
         text += section(side.first + k, i, side.node(k), name, cable.damping, cable.pulls_only)
     if spec.route[piece.root].slides:
         text += sliders.through(p, side.node(0), side.node(1), axes)
-    return text + _pull(spec, choice, piece, grows)
+    return text + _pull(spec, model, piece, grows)
 
 
-def _lengths(spec: Spec, choice: Choice, piece: Piece, free: float) -> str:
+def _lengths(spec: Spec, model: CableModel, piece: Piece, free: float) -> str:
     """Names for the free length of the sections."""
-    p, n = piece.number, choice.elements
+    p, n = piece.number, model.elements
     feeds = spec.route[piece.root].feeds
-    if choice.level == 3 and feeds:
+    if model.level == 3 and feeds:
         ways = [_feed(spec, piece, order) for order in range(3)]
         return length_variables(str(p), n, free, ways) + "\n"
     feed = _feed(spec, piece) if feeds else ""
@@ -297,16 +298,16 @@ def _lengths(spec: Spec, choice: Choice, piece: Piece, free: float) -> str:
     )
 
 
-def _half(choice: Choice, piece: Piece, spec: Spec) -> str:
+def _half(model: CableModel, piece: Piece, spec: Spec) -> str:
     """Free length of the half section at the root."""
-    grows = choice.level == 3 and spec.route[piece.root].feeds
+    grows = model.level == 3 and spec.route[piece.root].feeds
     return f"H{piece.number}/2" if grows else f"L{piece.number}_0/2"
 
 
-def _pull(spec: Spec, choice: Choice, piece: Piece, grows: bool) -> str:
+def _pull(spec: Spec, model: CableModel, piece: Piece, grows: bool) -> str:
     """Tension at the root, with the half section that lies there."""
     p, damping = piece.number, spec.cable.damping
-    i, j = _root_marker(spec, piece), _side(piece, choice).node(1)
+    i, j = _root_marker(spec, piece), _side(piece, model).node(1)
     free = f"H{p}" if grows else f"L{p}_0"
     pull = f"EA*(DM({i},{j})/{free}-1)"
     if damping:
@@ -321,31 +322,31 @@ def _pull(spec: Spec, choice: Choice, piece: Piece, grows: bool) -> str:
     if spec.route[piece.root].is_wheel:
         # A cable that slips has the half section among the mass on its wheel instead.
         feeds = f"-({_feed(spec, piece, 2)})"
-        feeds = "" if slipping(piece.root, spec) or grows and choice.form == "paper" else feeds
+        feeds = "" if slipping(piece.root, spec) or grows and model.form == "paper" else feeds
         if weight or feeds:
-            text += f"\n, +rho*{_half(choice, piece, spec)}*({number(weight)}{feeds})"
+            text += f"\n, +rho*{_half(model, piece, spec)}*({number(weight)}{feeds})"
     elif spec.route[piece.root].slides:
-        text += f"\n, +rho*{_half(choice, piece, spec)}*{sliders.lean(i, j)}"
+        text += f"\n, +rho*{_half(model, piece, spec)}*{sliders.lean(i, j)}"
     return f"! Tension at the {'wheel' if spec.route[piece.root].is_wheel else 'start'}.\n{text}\n"
 
 
-def _ends(spec: Spec, choice: Choice, found: list[Piece]) -> str:
+def _ends(spec: Spec, model: CableModel, found: list[Piece]) -> str:
     """What the pieces are held by or carry."""
     text = "\n! ---- ends and weights ----\n"
     for i, each in enumerate(spec.route):
         half = 0.0
         for p in spec.beside(i):
-            if p >= 0 and choice.level > 1 and not each.is_wheel:
+            if p >= 0 and model.level > 1 and not each.is_wheel:
                 if "run" not in (spec.route[found[p].tip].kind, spec.route[found[p].root].kind):
-                    free, _ = _hanging(spec, choice, found[p])
-                    half += spec.cable.density * free / choice.elements / 2
+                    free, _ = _hanging(spec, model, found[p])
+                    half += spec.cable.density * free / model.elements / 2
         # What lies at a weight that slides goes with the cable.
         text += end(spec, i, 0.0 if each.slides else half) if not each.is_wheel else ""
         text += sliders.slider(spec, i) if each.slides else ""
     return text
 
 
-def _turned(spec: Spec, spans: list[Span], choice: Choice, i: int) -> str:
+def _turned(spec: Spec, spans: list[Span], model: CableModel, i: int) -> str:
     """What the cable, or its friction, and the drive do to wheel i."""
     each, n = spec.route[i], marker(i)
     before, behind = (f"T{p + 1}" if p >= 0 else "" for p in spec.beside(i))
@@ -357,7 +358,7 @@ def _turned(spec: Spec, spans: list[Span], choice: Choice, i: int) -> str:
         for p in spec.beside(i):
             if found[p].root == i and not _between(spec, found[p]):
                 if spec.route[found[p].tip].kind != "run":
-                    rim += f"+rho*{_half(choice, found[p], spec)}"
+                    rim += f"+rho*{_half(model, found[p], spec)}"
         text = (
             f"\n! Friction of the cable on the wheel of station {i + 1}, mu times wrap"
             f" {each.mu * angle:.4g}: at most a ratio of {2.718281828 ** (each.mu * angle):.4g}.\n"
@@ -370,4 +371,4 @@ def _turned(spec: Spec, spans: list[Span], choice: Choice, i: int) -> str:
         )
         return text + drive(spec, i, [f"{radius}*F_{n}"])
     pulls = (f"+{behind}" if behind else "") + (f"-{before}" if before else "")
-    return drive(spec, i, [f"{radius}*({pulls})"] if choice.level > 1 else [])
+    return drive(spec, i, [f"{radius}*({pulls})"] if model.level > 1 else [])

@@ -15,7 +15,7 @@ from adamslite.cables.vocabulary import (
     TABLES,
     TOP,
     Cable,
-    Group,
+    NestedTable,
     Spec,
     Station,
 )
@@ -108,7 +108,7 @@ def _table(
     for key, (takes, rule, default) in rules.items():
         if key in data:
             values[key] = _value(faults, data[key], takes, rule, (*path, key))
-        elif isinstance(takes, Group):
+        elif isinstance(takes, NestedTable):
             values[key] = None
         elif default is None:
             faults.add("missing-key", path, label=_label(path), word=key)
@@ -127,7 +127,7 @@ def _label(path: Path) -> str:
 def _value(faults: Faults, value: Any, takes: Any, rule: str, path: Path) -> Any:
     """The value as the Spec holds it; 1 after saying why it cannot be."""
     word = path[-1]
-    if isinstance(takes, Group):
+    if isinstance(takes, NestedTable):
         return _grouped(faults, value, takes, path)
     good, expected = _fits(value, takes)
     if not good:
@@ -142,7 +142,7 @@ def _value(faults: Faults, value: Any, takes: Any, rule: str, path: Path) -> Any
     return tuple(map(float, value)) if takes == "vector" else value
 
 
-def _grouped(faults: Faults, value: Any, takes: Group, path: Path) -> Any:
+def _grouped(faults: Faults, value: Any, takes: NestedTable, path: Path) -> Any:
     """A table within a table; None where it is not whole."""
     if not isinstance(value, dict):
         wanted = f"a table of {', '.join(takes.rules)}"

@@ -5,8 +5,7 @@ from functools import cached_property
 from math import pi, sin, sqrt
 from typing import Any
 
-Vector = tuple[float, float, float]
-ZERO: Vector = (0.0, 0.0, 0.0)
+from adamslite.cables.vectors import ZERO, Vector
 
 
 @dataclass(frozen=True)
@@ -260,18 +259,18 @@ MODEL = {
 
 
 @dataclass(frozen=True)
-class Group:
+class NestedTable:
     """A key that takes a table of keys, which `make` puts together; None without it."""
 
     make: type
     rules: dict[str, Any]
 
 
-REEL = Group(
+REEL = NestedTable(
     Reel,
     {"thickness": ("number", "not-positive", None), "core": ("number", "not-positive", None)},
 )
-MOUNT = Group(
+MOUNT = NestedTable(
     Mount,
     {
         "foot": ("vector", "", None),
@@ -280,7 +279,7 @@ MOUNT = Group(
         "damping": ("number", "negative", 0.0),
     },
 )
-WANDER = Group(
+WANDER = NestedTable(
     Wander,
     {
         "mass": ("number", "not-positive", None),

@@ -9,9 +9,9 @@ MARKER/n+4 floats for contacts.
 import re
 from math import pi
 
-from adamslite.cables.geometry import add, cross, dot, unit
 from adamslite.cables.statements import AXES, number, rounded
-from adamslite.cables.vocabulary import Spec, Station, Vector
+from adamslite.cables.vectors import Vector, add, cross, dot, unit
+from adamslite.cables.vocabulary import Spec, Station
 
 
 def marker(i: int) -> int:

@@ -16,7 +16,7 @@ ENTRY = re.compile(r"[a-z_]+[0-9a-f]{32}\.(?:o|json|parser)")
 DRAFT = re.compile(rf"\.{ENTRY.pattern}\.\d+-\d+\.part")
 
 
-class Entry(NamedTuple):
+class CacheEntry(NamedTuple):
     """A file of the folder: its size [bytes] and when it was last used [s since 1970]."""
 
     path: Path
@@ -24,12 +24,12 @@ class Entry(NamedTuple):
     used: float
 
 
-def entries(folder: Path) -> list[Entry]:
+def entries(folder: Path) -> list[CacheEntry]:
     """What is kept in a folder, unused for longest first."""
     return sorted(found_files(folder, ENTRY), key=lambda entry: (entry.used, entry.path))
 
 
-def clear(folder: Path) -> list[Entry]:
+def clear(folder: Path) -> list[CacheEntry]:
     """Remove every entry; returns those that there were."""
     found = entries(folder)
     for entry in (*found, *found_files(folder, DRAFT)):
@@ -37,15 +37,15 @@ def clear(folder: Path) -> list[Entry]:
     return found
 
 
-def found_files(folder: Path, kind: re.Pattern[str]) -> Iterator[Entry]:
+def found_files(folder: Path, kind: re.Pattern[str]) -> Iterator[CacheEntry]:
     with suppress(OSError), os.scandir(folder) as files:
         for file in files:
             if kind.fullmatch(file.name):
                 with suppress(FileNotFoundError):
                     facts = file.stat(follow_symlinks=False)
-                    yield Entry(Path(file.path), facts.st_size, facts.st_mtime)
+                    yield CacheEntry(Path(file.path), facts.st_size, facts.st_mtime)
 
 
-def remove(entry: Entry) -> None:
+def remove(entry: CacheEntry) -> None:
     with suppress(OSError):
         entry.path.unlink(missing_ok=True)

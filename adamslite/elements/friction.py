@@ -71,7 +71,7 @@ from adamslite.language.statement import (
     words,
 )
 from adamslite.symbolic.scope import ZERO, Load, Scope, Vector, dot, minus, scale
-from adamslite.symbolic.sympy_nodes import choose, magnitude, norm, root
+from adamslite.symbolic.sympy_nodes import magnitude, norm, piecewise, root
 from adamslite.symbolic.types import Expr, Seen
 
 BLEND = 1.5
@@ -259,13 +259,13 @@ def friction_by_bristle(friction: Seen, speed: Expr, load: Expr) -> Expr:
     edge, b = friction.stiction_transition_velocity, friction.bristle
     # Below the edge nothing depends on the size: friction is smooth where the slip turns round.
     size = magnitude(speed, None)
-    share = choose(
+    share = piecewise(
         (speed * (3 - speed**2 / edge**2) / (2 * edge), size <= edge),
         (1, speed > 0),
         otherwise=-1,
         order=1,
     )
-    mu = choose(
+    mu = piecewise(
         (rest, size <= edge),
         (blended(friction, size), size <= BLEND * edge),
         otherwise=moving,
@@ -280,7 +280,7 @@ def friction_by_speed(friction: Seen, square: Expr, load: Expr) -> Expr:
     own = preload(friction)
     edge, speed = friction.stiction_transition_velocity, root(square)
     creeping = (rest * load + own) * (3 - square / edge**2) / (2 * edge)
-    return choose(
+    return piecewise(
         (creeping, square <= edge**2),
         ((blended(friction, speed) * load + own) / speed, square <= (BLEND * edge) ** 2),
         otherwise=(moving * load + own) / speed,

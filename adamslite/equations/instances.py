@@ -13,7 +13,7 @@ from adamslite.equations.numbering import Numbering
 from adamslite.integrators import contract
 from adamslite.integrators.contract import KernelGroup
 from adamslite.kernels.binding import Binding
-from adamslite.kernels.compile import Group, Kernels
+from adamslite.kernels.compile import Kernels, ShapeGroup
 from adamslite.native.translate import Rows
 
 PHASES = {
@@ -55,10 +55,10 @@ class Instances(Numbering):
         self.n_out = first + len(names)
         return first
 
-    def _is_rate(self, group: Group) -> bool:
+    def _is_rate(self, group: ShapeGroup) -> bool:
         return group.instances[0][0].is_rate(self.model)
 
-    def _group(self, group: Group) -> list[int]:
+    def _group(self, group: ShapeGroup) -> list[int]:
         phase = PHASES[group.face]
         if group.face == "velocity" and self._is_rate(group):
             phase = contract.RATE_ROWS
@@ -116,7 +116,7 @@ class Instances(Numbering):
                 found[statement.label] = f"{statement.beyond}, first at t = {time:.6g}"
         return found
 
-    def _integers(self, group: Group, binding: Binding, instance: int) -> list[int]:
+    def _integers(self, group: ShapeGroup, binding: Binding, instance: int) -> list[int]:
         nodes = [("BODY", b) for b in binding.bodies] + binding.nodes
         found = [self.w_at.get(node, 0) for node in nodes]
         found += [self.w_at["SIGNAL", s] for s in binding.signals]
@@ -134,13 +134,13 @@ class Instances(Numbering):
             found += [self.block(rows[r], columns[c]) for r, c in group.meta["blocks"]]
         return found
 
-    def _row_node(self, group: Group, node: tuple[str, Any]) -> int:
+    def _row_node(self, group: ShapeGroup, node: tuple[str, Any]) -> int:
         """Node whose rows an instance writes: velocity rows stand at mu."""
         if group.face == "velocity" and ("MU", node) in self.node_at:
             return self.node_at["MU", node]
         return self.node_at[node]
 
-    def _row(self, group: Group, node: tuple[str, Any]) -> int:
+    def _row(self, group: ShapeGroup, node: tuple[str, Any]) -> int:
         if node[0] == "OUTPUT":
             return self.out_at[node[1]]
         if node[0] == "SIGNAL":
@@ -149,7 +149,7 @@ class Instances(Numbering):
             return 0  # all add up in one number
         return self.starts[self._row_node(group, node)]
 
-    def _reals(self, group: Group, binding: Binding) -> list[float]:
+    def _reals(self, group: ShapeGroup, binding: Binding) -> list[float]:
         values = list(binding.params) + [0.0] * group.meta["angles"]
         values += [inf] * group.meta["limits"]
         for marker_id in binding.markers:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from adamslite.language.function import Mistake, function
 from adamslite.symbolic.scope import Scope, dot
-from adamslite.symbolic.sympy_nodes import choose, norm, root, sp
+from adamslite.symbolic.sympy_nodes import norm, piecewise, root, sp
 from adamslite.symbolic.types import Expr, Frame
 
 SEQUENCES = (
@@ -49,7 +49,7 @@ def _sequence_angle(r: Matrix, sequence: tuple[int, int, int], component: int) -
         return sp.atan2(*middle)
     sine, cosine = first if component == 1 else last
     together = sp.atan2(e * r[other][b], r[b][b]) if component == 1 else 0
-    return choose((sp.atan2(sine, cosine), sine**2 + cosine**2 > ALIGNED), otherwise=together)
+    return piecewise((sp.atan2(sine, cosine), sine**2 + cosine**2 > ALIGNED), otherwise=together)
 
 
 def _euler_parameter(r: Matrix, component: int) -> Expr:
@@ -67,8 +67,8 @@ def _euler_parameter(r: Matrix, component: int) -> Expr:
     values = []
     for n, row in enumerate(table):
         value = row[component - 1] / (2 * root(row[n]))
-        values.append(choose((value, row[0] >= 0), otherwise=-value))
-    return choose(
+        values.append(piecewise((value, row[0] >= 0), otherwise=-value))
+    return piecewise(
         (values[0], trace >= 0),
         (values[1], sp.And(r[0][0] >= r[1][1], r[0][0] >= r[2][2])),
         (values[2], r[1][1] >= r[2][2]),

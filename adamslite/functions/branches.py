@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import choose
+from adamslite.symbolic.sympy_nodes import piecewise
 from adamslite.symbolic.types import Expr
 
 
@@ -14,4 +14,4 @@ def if_(scope: Scope, e: Expr, a: Expr, b: Expr, c: Expr) -> Expr:
 
     Unit: that of a, b and c.  Source: Adams/Solver function IF.
     """
-    return choose((a, e < 0), (c, e > 0), otherwise=b, order=-1)
+    return piecewise((a, e < 0), (c, e > 0), otherwise=b, order=-1)

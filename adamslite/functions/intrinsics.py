@@ -7,20 +7,20 @@ from functools import reduce
 
 from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import choose, floor, magnitude, root, sp
+from adamslite.symbolic.sympy_nodes import floor, magnitude, piecewise, root, sp
 from adamslite.symbolic.types import Expr
 
 
 def _truncated(x: Expr) -> Expr:
-    return choose((floor(x, -1), x >= 0), otherwise=-floor(-x, -1), order=-1)
+    return piecewise((floor(x, -1), x >= 0), otherwise=-floor(-x, -1), order=-1)
 
 
 def _larger(a: Expr, b: Expr) -> Expr:
-    return choose((a, a >= b), otherwise=b, order=0)
+    return piecewise((a, a >= b), otherwise=b, order=0)
 
 
 def _smaller(a: Expr, b: Expr) -> Expr:
-    return choose((a, a <= b), otherwise=b, order=0)
+    return piecewise((a, a <= b), otherwise=b, order=0)
 
 
 def _against_first(*a: Expr) -> tuple[Expr, ...]:
@@ -60,7 +60,7 @@ def dim(scope: Scope, a: Expr, b: Expr) -> Expr:
 
     Unit: that of a and b.  Source: FORTRAN intrinsic DIM.
     """
-    return choose((a - b, a > b), otherwise=0, order=0)
+    return piecewise((a - b, a > b), otherwise=0, order=0)
 
 
 @function("SIGN", "a:number b:number", edges=lambda a, b: (a, b), order=-1)
@@ -70,7 +70,7 @@ def sign(scope: Scope, a: Expr, b: Expr) -> Expr:
     Unit: that of a.  Source: FORTRAN intrinsic SIGN.
     """
     size = magnitude(a)
-    return choose((size, b >= 0), otherwise=-size, order=-1)
+    return piecewise((size, b >= 0), otherwise=-size, order=-1)
 
 
 @function("MOD", "a:number b:number", edges=lambda a, b: (sp.sin(math.pi * a / b),), order=-1)
@@ -97,7 +97,7 @@ def anint(scope: Scope, x: Expr) -> Expr:
 
     Unit: none.  Source: FORTRAN intrinsic ANINT.
     """
-    return choose((floor(x + 0.5, -1), x >= 0), otherwise=-floor(0.5 - x, -1), order=-1)
+    return piecewise((floor(x + 0.5, -1), x >= 0), otherwise=-floor(0.5 - x, -1), order=-1)
 
 
 @function("SQRT", "x:number")

@@ -7,7 +7,7 @@ import math
 from adamslite.functions.steps import step5
 from adamslite.language.function import ascending, function
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import choose, sp
+from adamslite.symbolic.sympy_nodes import piecewise, sp
 from adamslite.symbolic.types import Expr
 
 
@@ -79,7 +79,7 @@ def sweep(scope: Scope, x: Expr, a: Expr, x0: Expr, f0: Expr, x1: Expr, f1: Expr
     f0, f1 in cycles per unit of x.  Unit: that of a.  Source: Adams/Solver function SWEEP.
     """
     rise = f1 - f0
-    phase = choose(
+    phase = piecewise(
         (f0 * x, x <= x0),
         (f1 * x - rise * (x1 + x0) / 2, x >= x1),
         otherwise=f0 * x + rise * (x - x0) ** 2 / (2 * (x1 - x0)),

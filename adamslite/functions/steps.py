@@ -14,7 +14,7 @@ from collections.abc import Callable
 
 from adamslite.language.function import Mistake, ascending, function
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import choose, power, sp
+from adamslite.symbolic.sympy_nodes import piecewise, power, sp
 from adamslite.symbolic.types import Expr
 
 STEP_SIGNATURE = "x:number x0:number h0:number x1:number h1:number"
@@ -39,7 +39,7 @@ def _blend(
     width = x1 - x0
     rise = h0 + (h1 - h0) * shape((x - x0) / width)
     before, behind = (x - x0) * width <= 0, (x - x1) * width >= 0
-    return choose((h0, before), (h1, behind), otherwise=rise, order=order)
+    return piecewise((h0, before), (h1, behind), otherwise=rise, order=order)
 
 
 @function("STEP", STEP_SIGNATURE, edges=_edges, order=1, rule=_apart)
@@ -84,7 +84,7 @@ def impact(scope: Scope, x: Expr, v: Expr, x1: Expr, k: Expr, e: Expr, cmax: Exp
     """
     touching = x < x1
     force = _spring(k, x1 - x, e) - v * step(scope, x, x1 - d, cmax, x1, 0)
-    return choose((force, sp.And(touching, force > 0)), otherwise=0, order=0)
+    return piecewise((force, sp.And(touching, force > 0)), otherwise=0, order=0)
 
 
 def _spring(k: Expr, depth: Expr, e: Expr) -> Expr:
@@ -92,8 +92,8 @@ def _spring(k: Expr, depth: Expr, e: Expr) -> Expr:
     finite.
     """
     deep = depth >= 0
-    size = choose((depth, deep), otherwise=-depth)
-    return k * power(size, e) * choose((1, deep), otherwise=-1)
+    size = piecewise((depth, deep), otherwise=-depth)
+    return k * power(size, e) * piecewise((1, deep), otherwise=-1)
 
 
 @function(

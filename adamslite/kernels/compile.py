@@ -2,7 +2,7 @@
 
 A statement shows several *faces*: the loads it exerts, its constraint rows at position, velocity
 and acceleration level, its algebraic or differential equation, the values it writes.  All
-instances of one face with one shape form a :class:`Group`, run by one kernel in one call.
+instances of one face with one shape form a :class:`ShapeGroup`, run by one kernel in one call.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from adamslite.symbolic.scope import Scope, UndefinedRate
 
 
 @dataclass
-class Group:
+class ShapeGroup:
     """The instances of one shape: ``face`` names what its kernels compute."""
 
     face: str
@@ -49,7 +49,7 @@ class Kernels:
     """
 
     model: Model
-    groups: list[Group]
+    groups: list[ShapeGroup]
     outputs: list[tuple[Statement, tuple[str, ...]]]
     addresses: dict[str, int]
     compiled: int
@@ -67,7 +67,7 @@ def compile_model(
     ``audited``: what elastic elements store too.  ``speed``: :data:`compiler.QUICK` takes a third
     of LLVM's time, and gives the same values but for round-off.
     """
-    groups: dict[tuple, Group] = {}
+    groups: dict[tuple, ShapeGroup] = {}
     add = partial(_add, groups, model, speed=speed)
     outputs = []
     with uncollected():
@@ -105,7 +105,7 @@ def _output(statement: Statement) -> Iterator[str]:
 
 
 def _add(
-    groups: dict[tuple, Group], model: Model, statement: Statement, face: str,
+    groups: dict[tuple, ShapeGroup], model: Model, statement: Statement, face: str,
     speed: int = compiler.FULL,
 ) -> None:  # fmt: skip
     binder = Binder(model, inline_signals=face == "signal")
@@ -122,7 +122,7 @@ def _add(
         level = LEVELS.index(face) - 1 if face in LEVELS else 0
         level -= level > 0 and rate
         write = FaceWriter(binder, statement.keyword, face, fields, own, level)
-        groups[key] = Group(face, name, write, speed=speed)
+        groups[key] = ShapeGroup(face, name, write, speed=speed)
     groups[key].instances.append((statement, binder.instance))
 
 
@@ -206,7 +206,7 @@ def _rates(scope: Scope, expr: Any, order: int) -> list[Any]:
     return found
 
 
-def _compile(group: Group, progress: Any) -> bool:
+def _compile(group: ShapeGroup, progress: Any) -> bool:
     """Fetch or make the object code; True when it was made."""
     made: list[tuple[str, dict]] = []
 
@@ -226,7 +226,7 @@ def _compile(group: Group, progress: Any) -> bool:
     return bool(made)
 
 
-def _kernels(group: Group) -> tuple[str, dict]:
+def _kernels(group: ShapeGroup) -> tuple[str, dict]:
     try:
         return group.write.kernels(group.name)
     except UndefinedRate as fault:
@@ -235,7 +235,7 @@ def _kernels(group: Group) -> tuple[str, dict]:
 
 def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnostic]:
     """What there is to say of statements whose equations cannot be formed; nothing is compiled."""
-    groups: dict[tuple, Group] = {}
+    groups: dict[tuple, ShapeGroup] = {}
     for statement in statements:
         try:
             for face in (*faces(statement, model), *_output(statement)):
@@ -249,7 +249,7 @@ def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnost
             yield _no_rate(group, fault)
 
 
-def _no_rate(group: Group, fault: UndefinedRate) -> Diagnostic:
+def _no_rate(group: ShapeGroup, fault: UndefinedRate) -> Diagnostic:
     """What the equations would need the rate of."""
     kind, at, *_ = fault.leaf
     what = {"a": "an acceleration", "al": "an angular acceleration"}.get(kind, "a second rate")
@@ -262,7 +262,7 @@ def _no_rate(group: Group, fault: UndefinedRate) -> Diagnostic:
     return say(group.instances[0][0], "no-rate", what=what)
 
 
-def _entry_points(group: Group) -> list[str]:
+def _entry_points(group: ShapeGroup) -> list[str]:
     names = [f"{group.name}_residual"]
     if group.face in WITH_JACOBIAN:
         names.append(f"{group.name}_jacobian")

@@ -70,7 +70,7 @@ def _nodes(smooth: int | None = None) -> tuple[type, type]:
     return Piecewise, floor
 
 
-def choose(*pieces: tuple[Expr, Expr], otherwise: Expr, order: int | None = None) -> Expr:
+def piecewise(*pieces: tuple[Expr, Expr], otherwise: Expr, order: int | None = None) -> Expr:
     """The value of the first ``(value, condition)`` that holds, else ``otherwise``.
 
     ``order``: where the choice changes, derivatives up to this order are continuous (-1: the value
@@ -81,13 +81,13 @@ def choose(*pieces: tuple[Expr, Expr], otherwise: Expr, order: int | None = None
 
 
 def floor(x: Expr, order: int | None = None) -> Expr:
-    """Largest integer not above ``x``, with derivative zero; ``order`` as in :func:`choose`."""
+    """Largest integer not above ``x``, with derivative zero; ``order`` as in :func:`piecewise`."""
     return _nodes(order)[1](x)
 
 
 def magnitude(x: Expr, order: int | None = 0) -> Expr:
-    """|x|, with the derivative 1 at zero; ``order`` as in :func:`choose`."""
-    return choose((x, x >= 0), otherwise=-x, order=order)
+    """|x|, with the derivative 1 at zero; ``order`` as in :func:`piecewise`."""
+    return piecewise((x, x >= 0), otherwise=-x, order=order)
 
 
 def power(base: Expr, exponent: Expr) -> Expr:
@@ -111,7 +111,7 @@ def norm(vector: tuple[Expr, Expr, Expr]) -> Expr:
     A speed or a reaction is often exactly zero, where sqrt alone would have the derivative 0/0.
     """
     square = sum(component**2 for component in vector)
-    return choose((root(square), square > 0), otherwise=0)
+    return piecewise((root(square), square > 0), otherwise=0)
 
 
 # Values of tables by the names of their nodes, whose first three arguments are whole numbers.

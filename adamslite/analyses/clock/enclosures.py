@@ -19,11 +19,11 @@ import numpy as np
 from adamslite.analyses.clock.table_ranges import ranges
 from adamslite.symbolic.interpolant import Interpolant
 
-Span = tuple[Any, Any]
+Interval = tuple[Any, Any]
 Instruction = tuple[Any, ...]
 # The kind of analysis, as MODE gives it.
 DYNAMICS = 4.0
-WHOLE: Span = (-math.inf, math.inf)
+WHOLE: Interval = (-math.inf, math.inf)
 
 
 def enclose(code: Sequence[Instruction], low: np.ndarray, high: np.ndarray) -> np.ndarray:
@@ -40,33 +40,33 @@ def enclose(code: Sequence[Instruction], low: np.ndarray, high: np.ndarray) -> n
     return result
 
 
-def _plus(a: Span, b: Span) -> Span:
+def _plus(a: Interval, b: Interval) -> Interval:
     low, high = np.asarray(a[0] + b[0]), np.asarray(a[1] + b[1])
     return np.where(np.isnan(low), -np.inf, low), np.where(np.isnan(high), np.inf, high)
 
 
-def _times(a: Span, b: Span) -> Span:
+def _times(a: Interval, b: Interval) -> Interval:
     corners = np.array(np.broadcast_arrays(a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]))
     # Zero times what has no bound: an exact zero.
     corners[np.isnan(corners)] = 0.0
     return corners.min(axis=0), corners.max(axis=0)
 
 
-def _inverse(a: Span) -> Span:
+def _inverse(a: Interval) -> Interval:
     low, high = np.asarray(1.0 / a[1]), np.asarray(1.0 / a[0])
     across = (a[0] < 0.0) & (a[1] > 0.0)
     low = np.where(across | (a[1] == 0.0), -np.inf, low)
     return low, np.where(across | (a[0] == 0.0), np.inf, high)
 
 
-def _even(a: Span, power: Callable[[Any], Any]) -> Span:
+def _even(a: Interval, power: Callable[[Any], Any]) -> Interval:
     """An even function that grows away from zero."""
     one, other = power(np.abs(a[0])), power(np.abs(a[1]))
     across = (a[0] < 0.0) & (a[1] > 0.0)
     return np.where(across, power(0.0), np.minimum(one, other)), np.maximum(one, other)
 
 
-def _power(a: Span, p: int, q: int) -> Span:
+def _power(a: Interval, p: int, q: int) -> Interval:
     """a**(p/q); fractions only of what is not negative."""
     if p < 0:
         return _inverse(_power(a, -p, q))
@@ -77,7 +77,7 @@ def _power(a: Span, p: int, q: int) -> Span:
     return _even(a, lambda x: x**p)
 
 
-def _cosine(a: Span) -> Span:
+def _cosine(a: Interval) -> Interval:
     """Extrema at the multiples of pi that lie inside."""
     one, other = np.cos(a[0]), np.cos(a[1])
     top = np.floor(a[1] / (2.0 * math.pi)) >= np.ceil(a[0] / (2.0 * math.pi))
@@ -87,27 +87,29 @@ def _cosine(a: Span) -> Span:
     return low, np.where(top | wide, 1.0, np.maximum(one, other))
 
 
-def _sine(a: Span) -> Span:
+def _sine(a: Interval) -> Interval:
     return _cosine((a[0] - 0.5 * math.pi, a[1] - 0.5 * math.pi))
 
 
-def _tangent(a: Span) -> Span:
+def _tangent(a: Interval) -> Interval:
     pole = np.floor(a[1] / math.pi - 0.5) >= np.ceil(a[0] / math.pi - 0.5)
     pole |= ~np.isfinite(a[0] + a[1])
     return np.where(pole, -np.inf, np.tan(a[0])), np.where(pole, np.inf, np.tan(a[1]))
 
 
-def _rising(function: Callable[[Any], Any], least: float, most: float) -> Callable[[Span], Span]:
+def _rising(
+    function: Callable[[Any], Any], least: float, most: float
+) -> Callable[[Interval], Interval]:
     """A function that rises where it is defined, from ``least`` to ``most``."""
     return lambda a: (function(np.clip(a[0], least, most)), function(np.clip(a[1], least, most)))
 
 
-def _one_less_square(a: Span) -> Span:
+def _one_less_square(a: Interval) -> Interval:
     low, high = _even(a, np.square)
     return 1.0 - high, 1.0 - low
 
 
-def _bell(a: Span, power: int) -> Span:
+def _bell(a: Interval, power: int) -> Interval:
     """(1 -+ a**2)**(-1/2) for ``power`` 2, else 1/(1 + a**2)."""
     if power == 1:
         return _inverse(_plus((1.0, 1.0), _even(a, np.square)))
@@ -115,7 +117,7 @@ def _bell(a: Span, power: int) -> Span:
     return _inverse(_power(_one_less_square(inside), 1, 2))
 
 
-def _minus(a: Span) -> Span:
+def _minus(a: Interval) -> Interval:
     return -a[1], -a[0]
 
 
@@ -125,16 +127,16 @@ _sinh = _rising(np.sinh, -np.inf, np.inf)
 _log = _rising(np.log, 0.0, np.inf)
 
 
-def _cosh(a: Span) -> Span:
+def _cosh(a: Interval) -> Interval:
     return _even(a, np.cosh)
 
 
-def _arccosine(a: Span) -> Span:
+def _arccosine(a: Interval) -> Interval:
     return np.arccos(np.clip(a[1], -1.0, 1.0)), np.arccos(np.clip(a[0], -1.0, 1.0))
 
 
 # Value and rate by the argument of functions of one argument.
-FUNCTIONS: dict[str, tuple[Callable[[Span], Span], Callable[[Span], Span]]] = {
+FUNCTIONS: dict[str, tuple[Callable[[Interval], Interval], Callable[[Interval], Interval]]] = {
     "sin": (_sine, _cosine),
     "cos": (_cosine, lambda a: _minus(_sine(a))),
     "tan": (_tangent, lambda a: _plus((1.0, 1.0), _even(_tangent(a), np.square))),
@@ -229,16 +231,16 @@ def _choose(values: list[Any], jumps: bool, *pieces: int) -> Any:
     return (low, high), (slow, fast)
 
 
-def _joined(taken: Any, a: Span, b: Span) -> Span:
+def _joined(taken: Any, a: Interval, b: Interval) -> Interval:
     """The span of both where ``taken``."""
     return np.where(taken, np.fmin(a[0], b[0]), a[0]), np.where(taken, np.fmax(a[1], b[1]), a[1])
 
 
-def _relation(compare: Callable[[Span, Span], Any]) -> Callable[..., Any]:
+def _relation(compare: Callable[[Interval, Interval], Any]) -> Callable[..., Any]:
     return lambda values, a, b: compare(values[a][0], values[b][0])
 
 
-def _equal(a: Span, b: Span) -> tuple[Any, Any]:
+def _equal(a: Interval, b: Interval) -> tuple[Any, Any]:
     return (a[0] <= b[1]) & (b[0] <= a[1]), (a[0] != a[1]) | (b[0] != b[1]) | (a[0] != b[0])
 
 
@@ -278,7 +280,7 @@ def _lookup_between(
     return _between(table, order, z_order, at, across), _unbounded(jumps, _plus(by_x, by_z))
 
 
-def _between(table: Interpolant, order: int, z_order: int, x: Span, z: Span) -> Span:
+def _between(table: Interpolant, order: int, z_order: int, x: Interval, z: Interval) -> Interval:
     """Values between all pairs of neighbouring curves that z meets."""
     places, last = table.places, len(table.places) - 1
     if last == 0:
@@ -296,7 +298,7 @@ def _between(table: Interpolant, order: int, z_order: int, x: Span, z: Span) -> 
     return total
 
 
-def _of_curve(table: Interpolant, curve: int, order: int, x: Span) -> Span:
+def _of_curve(table: Interpolant, curve: int, order: int, x: Interval) -> Interval:
     return ranges(table, curve, order).within(*_arrays(*x)) if order < 4 else _both_ends(0.0)
 
 
@@ -304,11 +306,11 @@ def _arrays(low: Any, high: Any) -> tuple[np.ndarray, np.ndarray]:
     return tuple(np.broadcast_arrays(np.atleast_1d(low), np.atleast_1d(high)))
 
 
-def _both_ends(x: float) -> Span:
+def _both_ends(x: float) -> Interval:
     return np.float64(x), np.float64(x)
 
 
-def _unbounded(where: Any, rate: Span) -> Span:
+def _unbounded(where: Any, rate: Interval) -> Interval:
     return np.where(where, -np.inf, rate[0]), np.where(where, np.inf, rate[1])
 
 

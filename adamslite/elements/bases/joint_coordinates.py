@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from adamslite.language.interfaces import DrawnModel, Key
 from adamslite.symbolic.scope import Scope, cross, dot, scale
-from adamslite.symbolic.sympy_nodes import choose, sp
+from adamslite.symbolic.sympy_nodes import piecewise, sp
 from adamslite.symbolic.types import Expr, Frame
 
 if TYPE_CHECKING:  # reading a deck does without numpy
@@ -121,7 +121,7 @@ def equal_speed(scope: Scope, i: Frame, j: Frame, opposed: bool) -> Expr:
     (xi, yi, zi), (xj, yj, zj) = scope.axes(i), scope.axes(j)
     if opposed:
         yi, zi = scale(-1, yi), scale(-1, zi)
-    return choose(
+    return piecewise(
         (dot(xi, yj) - dot(yi, xj), dot(zi, zj) > -FOLDED),
         (dot(zi, xj) + dot(xi, zj), dot(xi, xj) > dot(yi, yj)),
         otherwise=dot(zi, yj) + dot(yi, zj), order=-1,

@@ -9,14 +9,14 @@ from __future__ import annotations
 from typing import Any
 
 from adamslite.kernels.code.kinematics import Columns, Vec
-from adamslite.kernels.code.residual_writer import Writer
+from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.native.llvm_builder import Value
 from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
 
 
-class JacobianWriter(Writer):
+class JacobianWriter(ResidualWriter):
     """Writes the loop body of the Jacobian; ``blocks`` are the pairs (row node, column node) it
     found, in the order of their integers.
     """

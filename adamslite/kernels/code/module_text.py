@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from adamslite.kernels.code.clock_program import clock_programs
 from adamslite.kernels.code.jacobian_writer import JacobianWriter
-from adamslite.kernels.code.residual_writer import Writer
+from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Shape
 from adamslite.native.translate import METADATA, REGISTERED, definitions
 from adamslite.symbolic.guards import guards
@@ -60,24 +60,24 @@ def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tu
         shape.guards = guards(out.expressions, scope.leaves)
         clock = clock_programs(face, out.expressions, shape.guards.clock, scope.leaves)
     blocks: list[tuple[int, int]] = []
-    bodies: list[tuple[str, str, Writer]] = []
+    bodies: list[tuple[str, str, ResidualWriter]] = []
     if with_jacobian:
         writer = JacobianWriter(shape, scope)
         writer.jacobian(out)
         blocks = writer.blocks
         bodies.append((f"{name}_jacobian", JACOBIAN_HEAD, writer))
-    writer = Writer(shape, scope)
+    writer = ResidualWriter(shape, scope)
     writer.residual(out)
     bodies.append((f"{name}_residual", RESIDUAL_HEAD, writer))
     if scope.angles or scope.limits:
-        writer = Writer(shape, scope)
+        writer = ResidualWriter(shape, scope)
         writer.track()
         bodies.append((f"{name}_track", RESIDUAL_HEAD, writer))
     kinds = shape.guards.kinds
     evaluated = {"clock": kinds["clock"], "watch": kinds["watch"] + kinds["zone"]}
     for place, (kind, found) in enumerate(evaluated.items()):
         if found:
-            writer = Writer(shape, scope)
+            writer = ResidualWriter(shape, scope)
             writer.guard_values(place)
             bodies.append((f"{name}_{kind}", RESIDUAL_HEAD, writer))
     n_ints = shape.blocks_at + len(blocks)
@@ -93,7 +93,7 @@ def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tu
     return _module(bodies, n_ints, shape.n_reals), meta
 
 
-def _module(bodies: list[tuple[str, str, Writer]], n_ints: int, n_reals: int) -> str:
+def _module(bodies: list[tuple[str, str, ResidualWriter]], n_ints: int, n_reals: int) -> str:
     declared, parts = definitions(
         REGISTERED[name] for name in sorted({name for *_, w in bodies for name in w.b.called})
     )

@@ -13,7 +13,7 @@ from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
 
 
-class Writer:
+class ResidualWriter:
     """Writes the loop body of a kernel of values: residual, angle memory, guards."""
 
     def __init__(self, shape: Shape, scope: Scope) -> None:
