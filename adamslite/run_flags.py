@@ -56,11 +56,11 @@ def add_run_flags(parser: argparse.ArgumentParser) -> None:
         help="do without a reduction of the model: plane, points or variables; may be repeated",
     )  # fmt: skip
     flags.add_argument(
-        "--audit", action="store_true", default=None, help="follow the balance of energy and say it"
+        "--audit", action="store_true", default=None, help="follow and report the balance of energy"
     )
     flags.add_argument(
         "--confirm", action="store_true", default=None,
-        help="run again, more tightly and by another method, and say how many digits agree",
+        help="run again with a smaller ERROR and with another method; report how many digits agree",
     )  # fmt: skip
 
 

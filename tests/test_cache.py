@@ -101,7 +101,7 @@ USES = {"parser": tables, "json": facts, "o": code}
 
 @pytest.mark.parametrize("kind", USES)
 @pytest.mark.parametrize("damage", DAMAGE)
-def test_a_damaged_entry_is_made_again_and_said_in_one_line(damage, kind, cache, caplog) -> None:
+def test_a_damaged_entry_is_rebuilt_and_reported_in_one_line(damage, kind, cache, caplog) -> None:
     """Of every kind: what is made of it is the same, and the next use says nothing."""
     use = USES[kind]
     right = use()
@@ -111,7 +111,7 @@ def test_a_damaged_entry_is_made_again_and_said_in_one_line(damage, kind, cache,
     assert file.read_bytes() != kept
     assert use() == right
     (line,) = caplog.messages
-    assert str(file) in line and "made again" in line and "\n" not in line
+    assert str(file) in line and "is rebuilt" in line and "\n" not in line
     assert unsealed(file.name, file.read_bytes())
     assert use() == right and len(caplog.messages) == 1
 
@@ -126,7 +126,7 @@ def solve(cache: Path, tmp_path: Path) -> subprocess.CompletedProcess:
     """A run in a process of its own, where code is linked and tables are unpickled anew."""
     (tmp_path / "a.adm").write_text(DECK)
     words = ["-m", "adamslite", "solve", "a.adm", "--end", "1", "--steps", "2"]
-    path = str(Path(forms.__file__).parents[1])
+    path = str(Path(forms.__file__).parents[2])
     environment = {**os.environ, "ADAMSLITE_CACHE": str(cache), "PYTHONPATH": path}
     return subprocess.run(
         [sys.executable, *words], cwd=tmp_path, env=environment, capture_output=True, text=True
@@ -153,9 +153,9 @@ def test_each_kind_of_entry_survives_damage_in_a_real_run(cache, tmp_path) -> No
         damage = next(kinds, "without a head")
     ran = solve(cache, tmp_path)
     assert ran.returncode == 0 and (tmp_path / "a.csv").read_bytes() == right
-    lines = [line for line in ran.stderr.splitlines() if "is made again" in line]
+    lines = [line for line in ran.stderr.splitlines() if "is rebuilt" in line]
     assert len(lines) == len(names) and all(line.startswith("adamslite: ") for line in lines)
-    assert "made again" not in solve(cache, tmp_path).stderr
+    assert "is rebuilt" not in solve(cache, tmp_path).stderr
 
 
 @pytest.mark.parametrize("damage", ("empty", "zeroed", "cut to half", "a bit of the content"))
@@ -292,7 +292,7 @@ for turn in range(60):
 
 def test_processes_that_read_write_trim_and_clear_at_once(cache) -> None:
     environment = {**os.environ, "ADAMSLITE_CACHE_SIZE": "0.009"}
-    environment["PYTHONPATH"] = str(Path(forms.__file__).parents[1])
+    environment["PYTHONPATH"] = str(Path(forms.__file__).parents[2])
     run = [sys.executable, "-c", WORKER]
     running = [
         subprocess.Popen(run, env=environment, stderr=subprocess.PIPE, text=True) for _ in range(3)

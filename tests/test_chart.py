@@ -139,11 +139,11 @@ def test_no_error_is_believed_below_what_the_reference_is_known_to() -> None:
     assert "no other method" in made.truth.origin
 
 
-def test_tight_runs_that_disagree_are_told() -> None:
+def test_tight_runs_that_disagree_are_reported() -> None:
     chaotic = {"ABAM": method(1.0, lambda e: e), "GSTIFF": method(1.0, lambda e: 0.3 + e)}
     made = measure(runs(**chaotic), TRIED, ERRORS)
     assert made.useless and made.truth.doubt == pytest.approx(0.3)
-    assert "something else" in made.truth.origin
+    assert "disagrees" in made.truth.origin
 
 
 def test_steps_bound_by_hmax_do_not_look_exact() -> None:

@@ -77,7 +77,7 @@ class Balance:
             found.append(
                 f"the balance of energy is off by {self.gap:.3g} at t = {self.time:.6g}, of which "
                 f"ERROR explains {self.explained:.3g}: errors of steps add up, or steps passed "
-                "over a force; a run with a smaller ERROR and HMAX tells"
+                "over a force; compare a run with a smaller ERROR and HMAX"
             )
         for name, (drift, explained) in zip(("", "angular "), self.momenta, strict=False):
             if not drift <= explained:

@@ -43,9 +43,9 @@ def buckled(model: Model, names: tuple[str, ...], time: np.ndarray, values: np.n
         return ""
     worst = struts[int(grown.argmax())]
     return (
-        f"{worst.label} pushed masses apart that nothing keeps in line: what they are off it, even"
-        f" round-off, grew up to {np.exp(min(most, 700.0)):.0e} times, and behind that no ERROR"
-        " tells where they are; let a cable only pull (MAX), or give it a stiffness against bending"
+        f"{worst.label} pushed masses apart that nothing keeps in line: their distance from it,"
+        f" even round-off, grew up to {np.exp(min(most, 700.0)):.0e} times, so that ERROR does"
+        " not bound their positions; let a cable only pull (MAX), or give it a bending stiffness"
     )
 
 

@@ -52,7 +52,7 @@ def doubts(
         Columns of the results.
     """
     if settings.method == CONSTANT:
-        return "equal steps without error test: a run with half of HINIT tells how far off they are"
+        return "equal steps without error test: compare a run with half of HINIT"
     report, steps = system.report, counts.steps
     shifted = 1.0 + float(counts.restarts) / SHIFTED
     way, reach = longest_way(names, values)
@@ -95,7 +95,7 @@ def _of_method(settings: Any, steps: int, report: np.ndarray, off: float) -> Ite
     if kind == HHT and divided:
         yield (
             f"steps were divided {divided} times, because the corrector did not converge with the "
-            f"{settings.hinit:g} asked for: a shorter HINIT, or none, for an error test"
+            f"requested {settings.hinit:g}: a shorter HINIT, or none, for an error test"
         )
     most = contract.STABLE * report.stable_step
     if kind == VERLET and settings.hinit and settings.hinit > most:

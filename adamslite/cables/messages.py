@@ -25,7 +25,7 @@ MESSAGES: dict[str, Message] = {
     ),
     "drive": Message("a winch needs one of payout, force and torque", 'payout = "0.5*TIME**2"'),
     "reel-between": Message(
-        "a reel holds cable: it stands at an end of the route", "leave reel out, or end here"
+        "a reel holds cable: it must be at an end of the route", "leave reel out, or end here"
     ),
     "reel-core": Message(
         "a core of {core:.4g} m fills the radius of {radius:.4g} m",
@@ -35,7 +35,7 @@ MESSAGES: dict[str, Message] = {
         "a wheel moves by its motion or by the forces on its mass", "leave motion or mass out"
     ),
     "mount-moves": Message(
-        "a mount stands on the ground: its wheel has no motion and no mass of its own",
+        "a mount is fixed to the ground: its wheel has no motion and no mass of its own",
         "leave mount out, or motion and mass",
     ),
     "reel-leans": Message(

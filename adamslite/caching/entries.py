@@ -49,7 +49,7 @@ def recall(name: str, make: Callable[[], bytes]) -> bytes:
     except FileNotFoundError:
         pass
     except (Damaged, OSError) as fault:
-        say(f"the cache entry {path} is made again: {getattr(fault, 'strerror', None) or fault}")
+        say(f"the cache entry {path} is rebuilt: {getattr(fault, 'strerror', None) or fault}")
     else:
         _note_use(path)
         return content

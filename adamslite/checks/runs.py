@@ -101,11 +101,14 @@ def _not_too_many(run: Statement) -> Iterator[Diagnostic]:
 
 
 def late_start_values(command: Redefinition) -> Iterator[Diagnostic]:
-    """Start values given anew to a model that has moved: it goes on from where it is."""
+    """Start values for a model that has already moved: it continues from its present state."""
     for field in command.changes:
         argument = command.of.arguments[field]
         if argument.start:
-            reason, word = "the model goes on from the state it has reached", argument.keys[0]
+            reason, word = (
+                "the model continues from the state that it has reached",
+                argument.keys[0],
+            )
             yield say(command, "no-effect", field, word=word, reason=reason)
 
 

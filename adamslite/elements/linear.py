@@ -41,7 +41,7 @@ class Linear(Statement):
     )
     nodamping: bool = flag("NODAMPING", help="leave out what depends on velocities")
     rm: int | str | None = reference(
-        "RM", to="MARKER", help="marker on whose body the observer stands, with its axes"
+        "RM", to="MARKER", help="marker of the body of the observer, whose axes are used"
     )
     file: str | None = text(
         "FILE", help="plain name of the file the matrices are written to, beside the results"

@@ -45,11 +45,11 @@ USES: dict[str, dict[tuple[str, ...], str]] = {
         LEAPFROG: "the run ends when steps have to be smaller",
     },
     "HINIT": {
-        BACKWARD: "first step, also behind a jump",
+        BACKWARD: "first step, also after a jump",
         FIXED: "the step",
         SECOND: "first step of the run",
-        STAGES: "first step, also behind a jump",
-        RUNGE_KUTTA: "first step, also behind a jump",
+        STAGES: "first step, also after a jump",
+        RUNGE_KUTTA: "first step, also after a jump",
         LEAPFROG: "the step, shortened to fit between output times; no error test",
     },
     "KMAX": {
@@ -78,7 +78,7 @@ USES: dict[str, dict[tuple[str, ...], str]] = {
     },
     "INTERPOLATE": {
         BACKWARD: "OFF: equal steps onto every output time; unless given, ON",
-        FIXED: "-its steps are fixed, and what lies between them is interpolated",
+        FIXED: "-its steps are fixed, and values between them are interpolated",
         SECOND: "OFF: equal steps onto every output time; unless given, ON",
         STAGES: "ON: steps pass output times, a cubic in between; unless given, OFF",
         RUNGE_KUTTA: "OFF: equal steps onto every output time; unless given, ON",

@@ -262,7 +262,7 @@ def _checked(best: Tight, others: Sequence[Tight], channels: Sequence[str]) -> T
             # No change at all: HMAX decides on the steps, and ERROR says nothing of them.
             return Truth(best.results, best.change or distance, told)
     distance, other = min(apart, key=lambda pair: pair[0])
-    told = f"{name}; {other.variant.label} comes to something else"
+    told = f"{name}; {other.variant.label} disagrees"
     return Truth(best.results, distance, told)
 
 

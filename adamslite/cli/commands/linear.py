@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
     parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
     parser.add_argument("--time", type=instant, metavar="T", help="linearise at this time")
-    parser.add_argument("--rm", metavar="MARKER", help="marker on whose body the observer stands")
+    parser.add_argument("--rm", metavar="MARKER", help="marker of the body of the observer")
     parser.add_argument("-o", "--output", metavar="FILE", help="result file, .csv or .json")
 
 

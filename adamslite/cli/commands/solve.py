@@ -52,7 +52,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="OUT", help="result file, or - for stdout")
     add_run_flags(parser)
     talk = parser.add_argument_group("talk")
-    talk.add_argument("--quiet", action="store_true", help="say nothing unless something is wrong")
+    talk.add_argument(
+        "--quiet", action="store_true", help="print nothing unless something is wrong"
+    )
     talk.add_argument(
         "--summary",
         choices=("text", "json"),

@@ -66,7 +66,7 @@ ARGUMENTS: dict[str, Message] = {
     ),
     "degrees-of-no-angle": Message(
         "{text} is {value:.4g}: D turns degrees into radians, and {word} has the unit {unit}",
-        "leave D out; an exponent has digits behind the D",
+        "leave D out; an exponent has digits after the D",
         ("ACCGRAV/JGRAV=-9.81D",),
         severity=WARNING,
     ),
