@@ -15,6 +15,7 @@ Source: Adams/Solver statement GFORCE.
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import component_axes, reaction_marker, reaction_part
 from adamslite.elements.bases.wrench import Wrench
 from adamslite.language.expression import Node, Num
 from adamslite.language.statement import Statement, expression, reference, statement
@@ -37,13 +38,9 @@ class Gforce(Wrench, Statement):
     """
 
     i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
-    jfloat: int | str | None = reference(
-        "JFLOAT", "J", to="MARKER", help="floating marker on the part that takes the reaction"
-    )
-    j_part: int | str | None = reference("J_PART", to="PART", help="part that takes the reaction")
-    rm: int | str = reference(
-        "RM", to="MARKER", default=0, help="marker whose axes the components refer to"
-    )
+    jfloat: int | str | None = reaction_marker()
+    j_part: int | str | None = reaction_part()
+    rm: int | str = component_axes()
     fx: Node = _component("FX", "force")
     fy: Node = _component("FY", "force")
     fz: Node = _component("FZ", "force")

@@ -10,6 +10,7 @@ its columns are the body axes in ground.
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import body_angles, body_origin, body_x_point, body_z_point
 from adamslite.language.statement import (
     Statement,
     flag,
@@ -46,28 +47,10 @@ class Part(Statement):
     ip: tuple[float, ...] | None = vector(
         "IP", size=3, most=6, unit="mass length^2", help="inertia xx,yy,zz[,xy,xz,yz] at IM"
     )
-    qg: tuple[float, ...] = vector(
-        "QG",
-        start=True,
-        size=3,
-        unit="length",
-        default=(0.0, 0.0, 0.0),
-        help="origin of the body, in ground",
-    )
-    reuler: tuple[float, ...] = vector(
-        "REULER", "EULER", start=True, size=3, unit="angle", default=(0.0, 0.0, 0.0),
-        help="body 3-1-3 angles of the body frame in ground",
-    )  # fmt: skip
-    zg: tuple[float, ...] | None = vector(
-        "ZG", start=True, size=3, unit="length", help="point in ground on the +z axis of the body"
-    )
-    xg: tuple[float, ...] | None = vector(
-        "XG",
-        start=True,
-        size=3,
-        unit="length",
-        help="point in ground in the +xz half-plane of the body",
-    )
+    qg: tuple[float, ...] = body_origin()
+    reuler: tuple[float, ...] = body_angles()
+    zg: tuple[float, ...] | None = body_z_point()
+    xg: tuple[float, ...] | None = body_x_point()
     vx: float = number(
         "VX", start=True, unit="length/time", default=0.0, help="initial velocity of CM, x"
     )

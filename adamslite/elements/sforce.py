@@ -13,6 +13,7 @@ Sign: positive pushes I and J apart, so a spring is ``-k*(DM(I,J)-L0)``::
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import reaction_part
 from adamslite.language.expression import Node
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, expression, flag, reference, statement
@@ -33,7 +34,7 @@ class Sforce(Statement):
     )  # fmt: skip
     i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
     j: int | str = reference("J", to="MARKER", required=True, help="marker that takes the reaction")
-    j_part: int | str | None = reference("J_PART", to="PART", help="part that takes the reaction")
+    j_part: int | str | None = reaction_part()
     actiononly: bool = flag("ACTIONONLY", help="along z of J, and nothing acts on J")
     function: Node = expression(
         "FUNCTION", required=True, unit="force, or torque", help="the force on I"

@@ -11,6 +11,7 @@ The opposite force acts on the part of JFLOAT at the present place of I::
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import component_axes, reaction_marker, reaction_part
 from adamslite.language.expression import Node, Num
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, expression, reference, statement
@@ -30,13 +31,9 @@ class Vforce(Statement):
     alternatives = ((("jfloat",), ("j_part",)),)
 
     i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
-    jfloat: int | str | None = reference(
-        "JFLOAT", "J", to="MARKER", help="floating marker on the part that takes the reaction"
-    )
-    j_part: int | str | None = reference("J_PART", to="PART", help="part that takes the reaction")
-    rm: int | str = reference(
-        "RM", to="MARKER", default=0, help="marker whose axes the components refer to"
-    )
+    jfloat: int | str | None = reaction_marker()
+    j_part: int | str | None = reaction_part()
+    rm: int | str = component_axes()
     fx: Node = expression("FX", unit="force", default=Num(0.0), help="component along x of RM")
     fy: Node = expression("FY", unit="force", default=Num(0.0), help="component along y of RM")
     fz: Node = expression("FZ", unit="force", default=Num(0.0), help="component along z of RM")

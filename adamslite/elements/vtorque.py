@@ -13,6 +13,7 @@ Source: Adams/Solver statement VTORQUE.
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import component_axes, reaction_marker, reaction_part
 from adamslite.elements.bases.wrench import Wrench
 from adamslite.language.expression import Node, Num
 from adamslite.language.statement import Statement, expression, reference, statement
@@ -30,13 +31,9 @@ class Vtorque(Wrench, Statement):
     """
 
     i: int | str = reference("I", to="MARKER", required=True, help="marker the torque acts on")
-    jfloat: int | str | None = reference(
-        "JFLOAT", "J", to="MARKER", help="floating marker on the part that takes the reaction"
-    )
-    j_part: int | str | None = reference("J_PART", to="PART", help="part that takes the reaction")
-    rm: int | str = reference(
-        "RM", to="MARKER", default=0, help="marker whose axes the components refer to"
-    )
+    jfloat: int | str | None = reaction_marker()
+    j_part: int | str | None = reaction_part()
+    rm: int | str = component_axes()
     tx: Node = expression("TX", unit="torque", default=Num(0.0), help="torque about x of RM")
     ty: Node = expression("TY", unit="torque", default=Num(0.0), help="torque about y of RM")
     tz: Node = expression("TZ", unit="torque", default=Num(0.0), help="torque about z of RM")

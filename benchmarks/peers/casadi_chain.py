@@ -7,14 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.peers.program import (
-    Laps,
-    Program,
-    Settings,
-    Solution,
-    module_found,
-    tolerances,
-)
+from benchmarks.peers.program import Laps, Program, Settings, Solution, module_found, tolerances
 from benchmarks.scenes import CHAINS, Chain, chain
 
 

@@ -12,14 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.peers.program import (
-    Laps,
-    Program,
-    Settings,
-    Solution,
-    module_found,
-    step_counts,
-)
+from benchmarks.peers.program import Laps, Program, Settings, Solution, module_found, step_counts
 from benchmarks.scenes import Array, Chain, chain
 
 

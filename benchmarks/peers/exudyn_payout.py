@@ -11,14 +11,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.peers.exudyn_chain import build, load, quiet_settings
-from benchmarks.peers.program import (
-    Laps,
-    Program,
-    Settings,
-    Solution,
-    module_found,
-    step_counts,
-)
+from benchmarks.peers.program import Laps, Program, Settings, Solution, module_found, step_counts
 from benchmarks.scenes import Chain, chain
 
 

@@ -7,14 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.peers.program import (
-    Laps,
-    Program,
-    Settings,
-    Solution,
-    module_found,
-    step_counts,
-)
+from benchmarks.peers.program import Laps, Program, Settings, Solution, module_found, step_counts
 from benchmarks.scenes import Chain, chain
 
 MODEL = """<mujoco>

@@ -13,14 +13,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.mechanisms import PLANAR, watched
-from benchmarks.peers.program import (
-    Laps,
-    Program,
-    Settings,
-    Solution,
-    module_found,
-    tolerances,
-)
+from benchmarks.peers.program import Laps, Program, Settings, Solution, module_found, tolerances
 from benchmarks.planar import Equations, planar
 from benchmarks.scenes import Array
 

@@ -10,14 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.peers.program import (
-    Laps,
-    Program,
-    Settings,
-    Solution,
-    module_found,
-    tolerances,
-)
+from benchmarks.peers.program import Laps, Program, Settings, Solution, module_found, tolerances
 from benchmarks.scenes import CHAINS, Array, acceleration, chain
 
 #: Half bandwidth of the Jacobian when the six states of a mass stand together.

@@ -6,14 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from benchmarks.peers.program import (
-    Laps,
-    Program,
-    Settings,
-    Solution,
-    module_found,
-    tolerances,
-)
+from benchmarks.peers.program import Laps, Program, Settings, Solution, module_found, tolerances
 from benchmarks.scenes import CHAINS, Array, acceleration, chain
 
 OPTIONS = {"linsolver": "band", "lband": 11, "uband": 11, "max_num_steps": 10_000_000}

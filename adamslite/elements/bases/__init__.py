@@ -1,1 +1,1 @@
-"""Bases of families of statements: constraints, wrenches, joint coordinates, curves."""
+"""Bases of families of statements, and arguments that several statements share."""

@@ -16,7 +16,7 @@ rows        of a VARIABLE of time: its value and two rates
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from adamslite.native.llvm_builder import LIBRARY
@@ -129,7 +129,7 @@ def clock_programs(
 
 def _curves(expression: Any, writer: ClockWriter) -> Iterator[Any]:
     """Functions of time in an expression that can change faster than their arguments."""
-    for node in _below(expression):
+    for node in _nodes(expression, lambda node: reversed(node.args)):
         name = type(node).__name__
         bent = name in CURVED or (name in LOOKUPS and not any(_orders(node)))
         if node.is_Pow:
@@ -150,32 +150,29 @@ def _slopes(curve: Any) -> Iterator[Any]:
             yield curve.fdiff(argument)
 
 
-def _below(expression: Any) -> Iterator[Any]:
-    """Every different node of an expression, itself first."""
-    pending, seen = [expression], set()
-    while pending:
-        node = pending.pop()
-        if node in seen:
-            continue
-        seen.add(node)
-        yield node
-        pending.extend(reversed(node.args))
-
-
 def _driven(expression: Any, writer: ClockWriter) -> Iterator[Any]:
     """The largest parts of an expression that depend on time alone."""
+
+    def others(node: Any) -> list[Any]:
+        return [] if writer.on_clock(node) else [x for x in node.args if not splits(node, x)]
+
+    def splits(node: Any, part: Any) -> bool:
+        return (node.is_Add or node.is_Mul) and writer.on_clock(part)
+
+    for node in _nodes(expression, others):
+        timed = [each for each in node.args if splits(node, each)]
+        if writer.on_clock(node):
+            yield node
+        elif timed:
+            yield node.func(*timed)
+
+
+def _nodes(expression: Any, below: Callable[[Any], Iterable[Any]]) -> Iterator[Any]:
+    """Every different node of an expression, itself first; ``below``: what to go on with."""
     pending, seen = [expression], set()
     while pending:
         node = pending.pop()
-        if node in seen:
-            continue
-        seen.add(node)
-        if writer.on_clock(node):
+        if node not in seen:
+            seen.add(node)
             yield node
-        elif node.is_Add or node.is_Mul:
-            timed = [each for each in node.args if writer.on_clock(each)]
-            if timed:
-                yield node.func(*timed)
-            pending.extend(each for each in node.args if each not in timed)
-        else:
-            pending.extend(node.args)
+            pending.extend(below(node))

@@ -1,0 +1,60 @@
+"""Arguments that several statements share: the frame of a body, the reaction of a force."""
+
+from __future__ import annotations
+
+from adamslite.language.statement import Field, reference, vector
+
+
+def body_origin() -> Field:
+    """Where the frame of a body starts."""
+    return vector(
+        "QG",
+        start=True,
+        size=3,
+        unit="length",
+        default=(0.0, 0.0, 0.0),
+        help="origin of the body, in ground",
+    )
+
+
+def body_angles() -> Field:
+    """Its axes by angles."""
+    return vector(
+        "REULER", "EULER", start=True, size=3, unit="angle", default=(0.0, 0.0, 0.0),
+        help="body 3-1-3 angles of the body frame in ground",
+    )  # fmt: skip
+
+
+def body_z_point() -> Field:
+    """Its z axis by a point."""
+    return vector(
+        "ZG", start=True, size=3, unit="length", help="point in ground on the +z axis of the body"
+    )
+
+
+def body_x_point() -> Field:
+    """Its x axis by a point."""
+    return vector(
+        "XG",
+        start=True,
+        size=3,
+        unit="length",
+        help="point in ground in the +xz half-plane of the body",
+    )
+
+
+def reaction_marker() -> Field:
+    """What takes the reaction, by a marker that follows the other one."""
+    return reference(
+        "JFLOAT", "J", to="MARKER", help="floating marker on the part that takes the reaction"
+    )
+
+
+def reaction_part() -> Field:
+    """What takes the reaction, by its part."""
+    return reference("J_PART", to="PART", help="part that takes the reaction")
+
+
+def component_axes() -> Field:
+    """The axes that components are along."""
+    return reference("RM", to="MARKER", default=0, help="marker whose axes the components refer to")
