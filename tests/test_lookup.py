@@ -73,6 +73,19 @@ def test_between_its_points_a_table_is_what_scipy_makes_of_them(
     assert plain == pytest.approx(found, abs=1e-13 * size)
 
 
+@pytest.mark.parametrize("kind", ["natural", "not-a-knot", "periodic"])
+def test_few_points_and_uneven_ones_are_those_of_scipy_too(kind: str) -> None:
+    """Distances up to 1000 times as long as others."""
+    random = np.random.default_rng(5)
+    for n in (3, 4, 5, 8, 13, 500):
+        x, y = np.cumsum(10.0 ** random.uniform(-3.0, 0.0, n)), random.normal(size=(n, 2))
+        y[-1] = y[0]
+        at = np.linspace(x[0], x[-1], 200)
+        expected = CubicSpline(x, y, bc_type=kind)(at)
+        found = interpolant(x, y, kind).at(at)
+        assert found == pytest.approx(expected, abs=1e-9 * np.abs(expected).max()), n
+
+
 def test_straight_lines_lead_from_point_to_point() -> None:
     made = table("linear", "constant")
     everywhere = np.append(INSIDE, OUTSIDE)

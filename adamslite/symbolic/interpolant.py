@@ -29,8 +29,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:  # reading a deck does without numpy
     import numpy as np
 
-KINDS = ("linear", "akima", "natural", "not-a-knot", "periodic")
 BEYOND = ("parabola", "tangent", "constant", "piece")
+KINDS = ("linear", "akima", "natural", "not-a-knot", "periodic")
+# Chords bend by less than this share of the sharpest bend: straight to round-off.
+STRAIGHT = 1e-9
+# A neighbour that counts less than this is left out; rounds at most.
+NEGLIGIBLE, ROUNDS = 1e-18, 50
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,16 +91,98 @@ def joined(knots: np.ndarray, pieces: np.ndarray, places: np.ndarray | None = No
 
 
 def _inner(x: np.ndarray, y: np.ndarray, kind: str) -> np.ndarray:
-    """Coefficients (n - 1, m, 4) between the knots."""
+    """Coefficients (n - 1, m, 4) between the knots, from the slopes at them."""
     import numpy as np
-    from scipy.interpolate import Akima1DInterpolator, CubicSpline
 
-    if kind == "linear":
-        flat = np.zeros_like(y[1:])
-        slope = np.diff(y, axis=0) / np.diff(x)[:, None]
-        return np.stack([y[:-1], slope, flat, flat], axis=-1)
-    found = Akima1DInterpolator(x, y) if kind == "akima" else CubicSpline(x, y, bc_type=kind)
-    return np.moveaxis(found.c[::-1], 0, -1)
+    h = np.diff(x)[:, None]
+    chords = np.diff(y, axis=0) / h
+    if kind == "linear" or len(x) == 2:
+        return np.stack([y[:-1], chords, 0.0 * chords, 0.0 * chords], axis=-1)
+    slopes = _akima(chords) if kind == "akima" else _spline(h, chords, kind)
+    first, last = slopes[:-1], slopes[1:]
+    bends = (3.0 * chords - 2.0 * first - last) / h
+    return np.stack([y[:-1], first, bends, (first + last - 2.0 * chords) / h**2], axis=-1)
+
+
+def _akima(chords: np.ndarray) -> np.ndarray:
+    """Slopes (n, m): of the chords on both sides, each the heavier the less the other side bends.
+    Where neither bends the mean of both.
+    """
+    import numpy as np
+
+    before, behind = 2.0 * chords[0] - chords[1], 2.0 * chords[-1] - chords[-2]
+    outer = [2.0 * before - chords[0], before], [behind, 2.0 * behind - chords[-1]]
+    m = np.concatenate([outer[0], chords, outer[1]])
+    bend = np.abs(np.diff(m, axis=0))
+    left, right = bend[2:], bend[:-2]
+    straight = left + right <= STRAIGHT * (left + right).max(axis=0)
+    left, right = np.where(straight, 1.0, left), np.where(straight, 1.0, right)
+    return (left * m[1:-2] + right * m[2:-1]) / (left + right)
+
+
+def _spline(h: np.ndarray, chords: np.ndarray, kind: str) -> np.ndarray:
+    """Slopes (n, m) with which the second derivative is continuous: at a point between pieces of
+    lengths h and k, k s_(i-1) + 2 (h + k) s_i + h s_(i+1) = 3 (k m_(i-1) + h m_i).
+    """
+    import numpy as np
+
+    if kind == "not-a-knot" and len(h) == 2:
+        bend = np.diff(chords, axis=0) / h.sum()
+        return np.concatenate([chords - h * bend, chords[1:] + h[1] * bend])
+    if kind == "periodic":
+        slopes = _solved(*_rows(np.append(h[-1:], h, 0), np.append(chords[-1:], chords, 0)))
+        return np.append(slopes, slopes[:1], 0)
+    low, middle, high, sums = _rows(h, chords)
+    start, end = _end_slope(h, chords, kind), _end_slope(h[::-1], chords[::-1], kind)
+    for at, edge, (share, value) in ((0, low, start), (-1, high, end)):
+        middle[at] -= share * edge[at]
+        sums[at] -= edge[at] * value
+        edge[at] = 0.0
+    slopes = _solved(low, middle, high, sums)
+    first, last = start[1] - start[0] * slopes[0], end[1] - end[0] * slopes[-1]
+    return np.concatenate([first[None], slopes, last[None]])
+
+
+def _rows(
+    h: np.ndarray, chords: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Factors of s_(i-1), s_i and s_(i+1) and the right side at the points between pieces."""
+    low, high = h[1:].copy(), h[:-1].copy()
+    return low, 2.0 * (low + high), high, 3.0 * (low * chords[:-1] + high * chords[1:])
+
+
+def _end_slope(h: np.ndarray, chords: np.ndarray, kind: str) -> tuple[np.ndarray, np.ndarray]:
+    """Share and value of the first slope, s_0 = value - share s_1: without bend there, or the first
+    two pieces are one cubic.
+    """
+    if kind == "natural":
+        return 0.5, 1.5 * chords[0]
+    both = h[0] + h[1]
+    value = (h[0] + 2.0 * both) * h[1] * chords[0] + h[0] ** 2 * chords[1]
+    return both / h[1], value / (both * h[1])
+
+
+def _solved(low: np.ndarray, middle: np.ndarray, high: np.ndarray, sums: np.ndarray) -> np.ndarray:
+    """Solution of low x_(i-1) + middle x_i + high x_(i+1) = sums, the last before the first.
+
+    Cyclic reduction of all rows: each takes its neighbours out and knows those twice as far away.
+    Their shares shrink with the square, so that a few rounds are enough for any number of rows.
+    """
+    import numpy as np
+
+    for stride in (2**k for k in range(ROUNDS)):
+        if not (low.any() or high.any()):
+            break
+        back, on = (lambda a, by=by: np.roll(a, by, axis=0) for by in (stride, -stride))
+        down, up = low / back(middle), high / on(middle)
+        middle, sums = (
+            middle - down * back(high) - up * on(low),
+            sums - down * back(sums) - up * on(sums),
+        )
+        low, high = -down * back(low), -up * on(high)
+        small = (np.abs(low) + np.abs(high)) <= NEGLIGIBLE * np.abs(middle)
+        low, high = np.where(small, 0.0, low), np.where(small, 0.0, high)
+    return sums / middle
 
 
 def _end(x: np.ndarray, y: np.ndarray, inner: np.ndarray, beyond: str, last: bool) -> np.ndarray:
