@@ -7,7 +7,7 @@ time and runs in :func:`check` only.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from adamslite.checks.posture import (
     is_plain,
@@ -17,19 +17,37 @@ from adamslite.checks.rule import needs, positive
 from adamslite.deck.deck import Deck
 from adamslite.deck.names import RESERVED
 from adamslite.deck.statement_diagnostics import say
+from adamslite.elements.beam import Beam
+from adamslite.elements.bushing import Bushing
+from adamslite.elements.diff import Diff
+from adamslite.elements.field import Field
+from adamslite.elements.friction import Friction
+from adamslite.elements.gforce import Gforce
+from adamslite.elements.joint import Joint
+from adamslite.elements.marker import Marker
+from adamslite.elements.part import Part
+from adamslite.elements.ptcv import Ptcv
+from adamslite.elements.request import Request
+from adamslite.elements.sforce import Sforce
+from adamslite.elements.springdamper import Springdamper
+from adamslite.elements.units import Units
+from adamslite.elements.variable import Variable
+from adamslite.elements.vforce import Vforce
+from adamslite.elements.vtorque import Vtorque
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Ref, walk
+from adamslite.language.interfaces import Key
 from adamslite.language.messages import compose
 from adamslite.language.statement import Statement
 
-Key = int | str
 Body = tuple[str, Key]
 
 POINT = "POINT_MASS"
 # Forces whose reaction follows I, and all elements between two markers.
+Following = Vforce | Vtorque | Gforce
+Compliant = Bushing | Field | Beam
+Between = Sforce | Springdamper | Joint | Compliant | Following
 FOLLOWING = ("VFORCE", "VTORQUE", "GFORCE")
-COMPLIANT = ("BUSHING", "FIELD", "BEAM")
-BETWEEN = ("SFORCE", "SPRINGDAMPER", "JOINT", *COMPLIANT, *FOLLOWING)
 
 
 # ---- bodies -----------------------------------------------------------------------------------
@@ -37,7 +55,7 @@ BETWEEN = ("SFORCE", "SPRINGDAMPER", "JOINT", *COMPLIANT, *FOLLOWING)
 
 def body_of(deck: Deck, marker: Key | None) -> Body | None:
     """Keyword and id of the body a marker is on; None when that cannot be told."""
-    found = deck.find("MARKER", marker) if marker is not None else None
+    found = deck.find(Marker, marker) if marker is not None else None
     return found.owner if found else None
 
 
@@ -47,12 +65,12 @@ def _label(body: Body) -> str:
 
 def _is_ground(deck: Deck, body: Body | None) -> bool:
     part = deck.find(*body) if body and body[0] == "PART" else None
-    return bool(part) and part.ground
+    return bool(part and part.ground)
 
 
 @needs("PART")
 def one_ground(deck: Deck) -> Iterator[Diagnostic]:
-    grounds = [part for part in deck.of("PART") if part.ground]
+    grounds = [part for part in deck.of(Part) if part.ground]
     if not grounds:
         source = deck.source
         yield compose("no-ground", source.span(0, len(source.line(1))), source.line(1))
@@ -62,14 +80,14 @@ def one_ground(deck: Deck) -> Iterator[Diagnostic]:
 
 def ground_without_data(deck: Deck) -> Iterator[Diagnostic]:
     ignored = ("mass", "cm", "im", "ip", "vx", "vy", "vz", "wx", "wy", "wz")
-    for part in deck.of("PART"):
+    for part in deck.of(Part):
         for field in ignored if part.ground else ():
             if part.given(field):
                 yield say(part, "ground-with-data", field, word=field.upper())
 
 
 def masses(deck: Deck) -> Iterator[Diagnostic]:
-    for part in deck.of("PART"):
+    for part in deck.of(Part):
         if part.ground:
             continue
         if not part.mass:
@@ -86,7 +104,7 @@ def masses(deck: Deck) -> Iterator[Diagnostic]:
 
 def _is_held(deck: Deck, part: Statement) -> bool:
     """Whether some constraint acts on a part: only then may it be without mass."""
-    own = {m.key for m in deck.of("MARKER") if m.owner == ("PART", part.key)}
+    own = {m.key for m in deck.of(Marker) if m.owner == ("PART", part.key)}
     return any(
         getattr(s, "i", None) in own or getattr(s, "j", None) in own
         for s in deck.statements
@@ -95,7 +113,7 @@ def _is_held(deck: Deck, part: Statement) -> bool:
 
 
 def inertia(deck: Deck) -> Iterator[Diagnostic]:
-    for part in deck.of("PART"):
+    for part in deck.of(Part):
         if part.ground or part.cm is None:
             continue
         if part.ip is None:
@@ -113,15 +131,15 @@ def markers_of_bodies(deck: Deck) -> Iterator[Diagnostic]:
                 marker = getattr(body, field, None)
                 owner = body_of(deck, marker)
                 if owner and owner != (keyword, body.key):
-                    words = {"word": field.upper(), "key": marker, "owner": _label(owner)}
-                    yield say(body, "foreign-marker", field, **words)
+                    word, label = field.upper(), _label(owner)
+                    yield say(body, "foreign-marker", field, word=word, key=marker, owner=label)
 
 
 # ---- markers ----------------------------------------------------------------------------------
 
 
 def owners(deck: Deck) -> Iterator[Diagnostic]:
-    for marker in deck.of("MARKER"):
+    for marker in deck.of(Marker):
         if marker.part is not None and marker.point_mass is not None:
             yield say(marker, "two-owners", "point_mass")
         elif marker.owner is None and not deck.incomplete & {"PART", POINT, "FLEX_BODY"}:
@@ -129,7 +147,7 @@ def owners(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def floating_alone(deck: Deck) -> Iterator[Diagnostic]:
-    for marker in deck.of("MARKER"):
+    for marker in deck.of(Marker):
         placed = [f for f in ("qp", "reuler", "zp", "xp", "usexp") if marker.given(f)]
         if marker.floating and placed:
             yield say(marker, "floating-placed", placed[0])
@@ -148,10 +166,10 @@ def _uses(statement: Statement) -> Iterator[tuple[str, Key]]:
 
 
 def floating_use(deck: Deck) -> Iterator[Diagnostic]:
-    floating = {marker.key for marker in deck.of("MARKER") if marker.floating}
-    for force in _all(deck, FOLLOWING):
+    floating = {marker.key for marker in deck.of(Marker) if marker.floating}
+    for force in _following(deck):
         if force.jfloat is not None and force.jfloat not in floating:
-            if deck.find("MARKER", force.jfloat):
+            if deck.find(Marker, force.jfloat):
                 yield say(force, "not-floating", "jfloat", key=force.jfloat)
     for statement in deck.statements if floating else ():
         for field, key in _uses(statement):
@@ -162,8 +180,8 @@ def floating_use(deck: Deck) -> Iterator[Diagnostic]:
 
 @needs(*FOLLOWING, "PTCV", "CVCV")
 def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
-    used = {force.jfloat for force in _all(deck, (*FOLLOWING, "PTCV"))}
-    for marker in deck.of("MARKER"):
+    used = {each.jfloat for each in (*_following(deck), *deck.of(Ptcv))}
+    for marker in deck.of(Marker):
         if marker.floating and marker.key not in used:
             yield say(marker, "floating-unused")
 
@@ -172,84 +190,103 @@ def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def reactions(deck: Deck) -> Iterator[Diagnostic]:
-    for force in _all(deck, FOLLOWING):
+    for force in _following(deck):
         if force.jfloat is None and force.j_part is None:
             yield say(force, "no-reaction")
         elif force.jfloat is not None and force.j_part is not None:
             yield say(force, "two-reactions", "j_part")
-    for force in deck.of("SFORCE"):
-        target = None if force.j_part is None else ("PART", force.j_part)
-        owner = body_of(deck, force.j)
+    for single in deck.of(Sforce):
+        target = None if single.j_part is None else ("PART", single.j_part)
+        owner = body_of(deck, single.j)
         if target and owner and owner != target and not _is_ground(deck, target):
-            words = {"word": _label(target), "owner": _label(owner)}
-            yield say(force, "reaction-on-other-part", "j_part", **words)
+            word, label = _label(target), _label(owner)
+            yield say(single, "reaction-on-other-part", "j_part", word=word, owner=label)
 
 
-def _all(deck: Deck, keywords: Sequence[str]) -> Iterator[Statement]:
-    return (each for keyword in keywords for each in deck.of(keyword))
+def _following(deck: Deck) -> Iterator[Following]:
+    yield from deck.of(Vforce)
+    yield from deck.of(Vtorque)
+    yield from deck.of(Gforce)
 
 
-def _ends(deck: Deck, element: Statement) -> tuple[Body | None, Body | None]:
+def _compliant(deck: Deck) -> Iterator[Compliant]:
+    yield from deck.of(Bushing)
+    yield from deck.of(Field)
+    yield from deck.of(Beam)
+
+
+def _between(deck: Deck) -> Iterator[Between]:
+    yield from deck.of(Sforce)
+    yield from deck.of(Springdamper)
+    yield from deck.of(Joint)
+    yield from _compliant(deck)
+    yield from _following(deck)
+
+
+def _ends(deck: Deck, element: Between) -> tuple[Body | None, Body | None]:
     """The bodies an element acts on."""
-    j = element.jfloat if element.keyword in FOLLOWING else element.j
-    if j is not None:
-        return body_of(deck, element.i), body_of(deck, j)
-    part = element.j_part
-    return body_of(deck, element.i), None if part is None else ("PART", part)
+    here = body_of(deck, element.i)
+    if not isinstance(element, Following):
+        return here, body_of(deck, element.j)
+    if element.jfloat is not None:
+        return here, body_of(deck, element.jfloat)
+    return here, None if element.j_part is None else ("PART", element.j_part)
 
 
 def distinct_ends(deck: Deck) -> Iterator[Diagnostic]:
-    for each in _all(deck, BETWEEN):
-        if getattr(each, "actiononly", False):
+    for each in _between(deck):
+        if isinstance(each, Sforce) and each.actiononly:
             continue
-        keyword, (here, there) = each.keyword, _ends(deck, each)
-        if keyword not in ("JOINT", *FOLLOWING) and each.i == each.j:
+        here, there = _ends(deck, each)
+        if not isinstance(each, Joint | Following) and each.i == each.j:
             yield say(each, "same-marker", "j")
         elif here and here == there:
-            code = "same-body" if keyword in ("JOINT", *FOLLOWING) else "internal-force"
+            code = "same-body" if isinstance(each, Joint | Following) else "internal-force"
             yield say(each, code, "j", owner=_label(here))
 
 
 def torques_on_points(deck: Deck) -> Iterator[Diagnostic]:
-    for keyword in ("SFORCE", "SPRINGDAMPER", "JOINT"):
-        for each in deck.of(keyword):
-            ends = [each.i] if getattr(each, "actiononly", False) else [each.i, each.j]
-            if each.kind in ("TRANSLATIONAL", "SPHERICAL") and keyword != "JOINT":
-                continue
-            for owner in (body_of(deck, end) for end in ends):
-                if each.kind != "SPHERICAL" and owner and owner[0] == POINT:
-                    yield say(each, "torque-on-point", owner=_label(owner))
+    found: list[Sforce | Springdamper | Joint]
+    found = [*deck.of(Sforce), *deck.of(Springdamper), *deck.of(Joint)]
+    for each in found:
+        alone = isinstance(each, Sforce) and each.actiononly
+        harmless = "SPHERICAL" if isinstance(each, Joint) else "TRANSLATIONAL"
+        if each.kind == harmless:
+            continue
+        for owner in (body_of(deck, end) for end in ([each.i] if alone else [each.i, each.j])):
+            if owner and owner[0] == POINT:
+                yield say(each, "torque-on-point", owner=_label(owner))
 
 
 def wrenches_on_points(deck: Deck) -> Iterator[Diagnostic]:
-    for each in _all(deck, (*COMPLIANT, "VTORQUE", "GFORCE")):
+    for each in (*_compliant(deck), *deck.of(Vtorque), *deck.of(Gforce)):
         for owner in _ends(deck, each):
             if owner and owner[0] == POINT:
                 yield say(each, "torque-on-point", owner=_label(owner))
 
 
 def sections(deck: Deck) -> Iterator[Diagnostic]:
-    for beam in deck.of("BEAM"):
+    for beam in deck.of(Beam):
         yield from positive(beam, "length", "area", "ixx", "iyy", "izz", "emodulus", "gmodulus")
-    for each in _all(deck, ("BEAM", "FIELD")):
+    for each in (*deck.of(Beam), *deck.of(Field)):
         if each.given("cratio") and each.given("cmatrix"):
             yield say(each, "two-dampings", "cmatrix")
 
 
 def frictions(deck: Deck) -> Iterator[Diagnostic]:
     lengths = ("stiction_transition_velocity", "pin_radius", "ball_radius", "friction_arm")
-    for each in deck.of("FRICTION"):
+    for each in deck.of(Friction):
         yield from positive(
             each, *lengths, "bending_reaction_arm", "reaction_arm", "initial_overlap"
         )
-        joint = deck.find("JOINT", each.joint)
+        joint = deck.find(Joint, each.joint)
         if joint and joint.kind not in each.joints:
             yield say(each, "friction-not-there", "joint", joint=joint.label, kind=joint.kind)
         if joint and joint.kind in each.joints:
             yield from _stiction(each, joint)
 
 
-def _stiction(friction: Statement, joint: Statement) -> Iterator[Diagnostic]:
+def _stiction(friction: Friction, joint: Joint) -> Iterator[Diagnostic]:
     """Whether the joint can hold at rest, and whether that was asked for."""
     field, creeps = "max_stiction_deformation", f"a joint {joint.kind} at rest under load creeps"
     if friction.given(field):
@@ -269,7 +306,7 @@ def held_states(deck: Deck) -> Iterator[Diagnostic]:
         "static_hold": "a static analysis finds the y at which dy/dt = 0",
         "dynamic_hold": "a dynamic analysis integrates y",
     }
-    for state in deck.of("DIFF"):
+    for state in deck.of(Diff):
         for field, reason in fields.items():
             if getattr(state, field):
                 yield say(state, "no-effect", field, word=field.upper(), reason=reason)
@@ -280,7 +317,7 @@ def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:
         "TRANSLATIONAL": ("kt", "ct", "torque", "angle"),
         "ROTATIONAL": ("k", "c", "force", "length"),
     }
-    for spring in deck.of("SPRINGDAMPER"):
+    for spring in deck.of(Springdamper):
         for field in fields[spring.kind]:
             if spring.given(field):
                 word, reason = field.upper(), f"the spring is {spring.kind}"
@@ -288,14 +325,14 @@ def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def reserved_names(deck: Deck) -> Iterator[Diagnostic]:
-    for variable in deck.of("VARIABLE"):
+    for variable in deck.of(Variable):
         names = {str(variable.key), (variable.name or "").upper()}
         for word in names & set(RESERVED):
             yield say(variable, "reserved-name", word=word)
 
 
 def requests(deck: Deck) -> Iterator[Diagnostic]:
-    for request in deck.of("REQUEST"):
+    for request in deck.of(Request):
         expressions = any(function is not None for function in request.functions)
         if request.kind and expressions:
             yield say(request, "two-requests", "kind", word=request.kind)
@@ -307,7 +344,7 @@ def requests(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def unit_system(deck: Deck) -> Iterator[Diagnostic]:
-    for units in deck.of("UNITS"):
+    for units in deck.of(Units):
         named = [f for f in ("force", "mass", "length", "time") if units.given(f)]
         ways = [bool(named), units.given("system"), units.given("ucf")]
         if sum(ways) > 1:

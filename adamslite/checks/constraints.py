@@ -9,8 +9,19 @@ from operator import ne
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import say
+from adamslite.elements.coupler import Coupler
+from adamslite.elements.curve import Curve
+from adamslite.elements.gear import Gear
+from adamslite.elements.joint import Joint
+from adamslite.elements.jprim import Jprim
+from adamslite.elements.marker import Marker
+from adamslite.elements.matrix import Matrix
+from adamslite.elements.motion import Motion
+from adamslite.elements.ptcv import Ptcv
+from adamslite.elements.variable import Variable
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Mode, Node, Ref, walk
+from adamslite.language.interfaces import Key
 from adamslite.language.statement import STATEMENTS, Statement
 
 POINT = "POINT_MASS"
@@ -27,12 +38,12 @@ HELD = {
 }  # fmt: skip
 
 
-def _owner(deck: Deck, marker: int | str | None) -> tuple[str, int | str] | None:
-    found = deck.find("MARKER", marker) if marker is not None else None
+def _owner(deck: Deck, marker: Key | None) -> tuple[str, Key] | None:
+    found = deck.find(Marker, marker) if marker is not None else None
     return found.owner if found else None
 
 
-def _turns(deck: Deck, owner: tuple[str, int | str] | None) -> bool:
+def _turns(deck: Deck, owner: tuple[str, Key] | None) -> bool:
     """Whether a body can rotate; a body that cannot be told counts as one that can."""
     if owner is None:
         return True
@@ -41,21 +52,26 @@ def _turns(deck: Deck, owner: tuple[str, int | str] | None) -> bool:
 
 
 def pairs(deck: Deck) -> Iterator[Diagnostic]:
-    for keyword in ("JPRIM", "MOTION", "PTCV"):
-        for each in deck.of(keyword):
-            here, there = _owner(deck, each.i), _owner(deck, each.j)
-            if here and here == there:
-                yield say(each, "same-body", "j", owner=f"{here[0]}/{here[1]}")
-                continue
-            kind = getattr(each, "kind", None) or getattr(each, "axis", None) or ""
-            points = [o for o in (here, there) if o and o[0] == POINT]
-            needs_turning = kind in TURNING or kind[:1] == "B"
-            if needs_turning and points and not (_turns(deck, here) or _turns(deck, there)):
-                yield say(each, "torque-on-point", owner=f"{points[0][0]}/{points[0][1]}")
+    found: list[Jprim | Motion | Ptcv] = [*deck.of(Jprim), *deck.of(Motion), *deck.of(Ptcv)]
+    for each in found:
+        here, there = _owner(deck, each.i), _owner(deck, each.j)
+        if here and here == there:
+            yield say(each, "same-body", "j", owner=f"{here[0]}/{here[1]}")
+            continue
+        points = [o for o in (here, there) if o and o[0] == POINT]
+        if _holds_turns(each) and points and not (_turns(deck, here) or _turns(deck, there)):
+            yield say(each, "torque-on-point", owner=f"{points[0][0]}/{points[0][1]}")
+
+
+def _holds_turns(element: Jprim | Motion | Ptcv) -> bool:
+    """Whether its rows hold rotations: one of its markers has to be on a body that turns."""
+    if isinstance(element, Jprim):
+        return element.kind in TURNING
+    return isinstance(element, Motion) and (element.axis or "")[:1] == "B"
 
 
 def joint_sizes(deck: Deck) -> Iterator[Diagnostic]:
-    for joint in deck.of("JOINT"):
+    for joint in deck.of(Joint):
         for kind, field in SIZES.items():
             value = getattr(joint, field)
             if joint.kind == kind and not value:
@@ -72,8 +88,8 @@ def joint_sizes(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def couplers(deck: Deck) -> Iterator[Diagnostic]:
-    for coupler in deck.of("COUPLER"):
-        joints = [deck.find("JOINT", key) for key in coupler.joints]
+    for coupler in deck.of(Coupler):
+        joints = [deck.find(Joint, key) for key in coupler.joints]
         count = len(joints)
         if count not in (2, 3):
             yield say(coupler, "coupled-count", "joints", count=count, expected="two or three")
@@ -88,7 +104,7 @@ def couplers(deck: Deck) -> Iterator[Diagnostic]:
                 yield from _coupled(coupler, number, joint)
 
 
-def _coupled(coupler: Statement, number: int, joint: Statement) -> Iterator[Diagnostic]:
+def _coupled(coupler: Coupler, number: int, joint: Joint) -> Iterator[Diagnostic]:
     if coupler.uses(number, joint.coordinates) is not None:
         return
     if joint.kind == "CYLINDRICAL":
@@ -99,14 +115,14 @@ def _coupled(coupler: Statement, number: int, joint: Statement) -> Iterator[Diag
 
 
 def gears(deck: Deck) -> Iterator[Diagnostic]:
-    for gear in deck.of("GEAR"):
+    for gear in deck.of(Gear):
         if len(gear.joints) != 2:
             count = len(gear.joints)
             yield say(gear, "coupled-count", "joints", count=count, expected="two")
             continue
         carrier = _owner(deck, gear.cv)
         for key in gear.joints:
-            joint = deck.find("JOINT", key)
+            joint = deck.find(Joint, key)
             if joint and not joint.coordinates:
                 yield say(gear, "no-such-freedom", "joints", joint=joint.label, kind=joint.kind)
             elif joint and carrier and _owner(deck, joint.j) not in (carrier, None):
@@ -115,26 +131,26 @@ def gears(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def driven_freedoms(deck: Deck) -> Iterator[Diagnostic]:
-    taken: dict[tuple, Statement] = {}
-    for motion in deck.of("MOTION"):
+    taken: dict[tuple[Key | None, ...], Statement] = {}
+    for motion in deck.of(Motion):
         found = list(_form(deck, motion))
         yield from found
         if found:
             continue
-        joint = deck.find("JOINT", motion.joint) if motion.joint is not None else None
+        joint = deck.find(Joint, motion.joint) if motion.joint is not None else None
         freedom = motion.driven(joint)
         place = (motion.i, motion.j) if joint is None else (joint.i, joint.j)
-        word = {"TRANSLATION": "Z", "ROTATION": "B3"}.get(freedom, freedom)
+        word = {"TRANSLATION": "Z", "ROTATION": "B3"}.get(freedom or "", freedom)
         other = taken.setdefault((*place, word), motion)
         if other is not motion:
             yield say(motion, "motion-twice", other=other.label, freedom=freedom)
-        for holder in deck.of("JOINT") if joint is None else ():
+        for holder in deck.of(Joint) if joint is None else ():
             held = HELD.get(holder.kind, ())
             if (holder.i, holder.j) == place and freedom in held:
                 yield say(motion, "freedom-held", "axis", joint=holder.label, freedom=freedom)
 
 
-def _form(deck: Deck, motion: Statement) -> Iterator[Diagnostic]:
+def _form(deck: Deck, motion: Motion) -> Iterator[Diagnostic]:
     """What is wrong with the way a motion names its freedom."""
     markers = [f for f in ("i", "j") if motion.given(f)]
     if motion.joint is None:
@@ -145,7 +161,7 @@ def _form(deck: Deck, motion: Statement) -> Iterator[Diagnostic]:
         return
     if markers:
         yield say(motion, "motion-two-ways", markers[0])
-    joint = deck.find("JOINT", motion.joint)
+    joint = deck.find(Joint, motion.joint)
     if joint is None or motion.driven(joint) is not None:
         return
     if joint.kind == "CYLINDRICAL" and motion.axis is None:
@@ -158,13 +174,13 @@ def _form(deck: Deck, motion: Statement) -> Iterator[Diagnostic]:
 
 @needs("VARIABLE")
 def functions_of_time(deck: Deck) -> Iterator[Diagnostic]:
-    for motion in deck.of("MOTION"):
+    for motion in deck.of(Motion):
         culprit = _not_of_time(deck, motion.function, ())
         if culprit:
             yield say(motion, "motion-not-of-time", "function", word=culprit)
 
 
-def _not_of_time(deck: Deck, node: Node, inside: tuple[int | str, ...]) -> str | None:
+def _not_of_time(deck: Deck, node: Node, inside: tuple[Key, ...]) -> str | None:
     """What in an expression depends on more than TIME, itself or through variables.
 
     ``inside``: the variables whose expressions it is part of.
@@ -179,7 +195,7 @@ def _not_of_time(deck: Deck, node: Node, inside: tuple[int | str, ...]) -> str |
                 continue
             if ref.kind != "VARIABLE":
                 return each.name
-            variable = deck.find("VARIABLE", ref.id)
+            variable = deck.find(Variable, ref.id)
             if variable is None:
                 continue
             if ref.id in inside or _not_of_time(deck, variable.function, (*inside, ref.id)):
@@ -189,7 +205,7 @@ def _not_of_time(deck: Deck, node: Node, inside: tuple[int | str, ...]) -> str |
 
 def motion_starts(deck: Deck) -> Iterator[Diagnostic]:
     used = {"DISPLACEMENT": (), "VELOCITY": ("icdisp",), "ACCELERATION": ("icdisp", "icvel")}
-    for motion in deck.of("MOTION"):
+    for motion in deck.of(Motion):
         for field in ("icdisp", "icvel"):
             if motion.given(field) and field not in used[motion.level]:
                 reason = f"FUNCTION gives the {motion.level.lower()}"
@@ -197,25 +213,25 @@ def motion_starts(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def matrices(deck: Deck) -> Iterator[Diagnostic]:
-    for matrix in deck.of("MATRIX"):
+    for matrix in deck.of(Matrix):
         count, expected = len(matrix.values), matrix.rows * matrix.columns
         if count != expected:
             yield say(matrix, "matrix-size", "values", count=count, expected=expected)
 
 
 def curves(deck: Deck) -> Iterator[Diagnostic]:
-    for curve in deck.of("CURVE"):
+    for curve in deck.of(Curve):
         if curve.order != CUBIC:
             yield say(curve, "curve-order", "order", order=curve.order)
         if curve.matrix is None:
             yield say(curve, "missing-argument", word="MATRIX")
             continue
-        matrix = deck.find("MATRIX", curve.matrix)
+        matrix = deck.find(Matrix, curve.matrix)
         if matrix and len(matrix.values) == matrix.rows * matrix.columns:
             yield from _points(curve, matrix)
 
 
-def _points(curve: Statement, matrix: Statement) -> Iterator[Diagnostic]:
+def _points(curve: Curve, matrix: Matrix) -> Iterator[Diagnostic]:
     """Whether the points are enough, and whether a closed curve ends where it begins."""
     closed = curve.form == "CLOSED"
     points, least = matrix.table, 4 if closed else 2
@@ -229,11 +245,11 @@ def _points(curve: Statement, matrix: Statement) -> Iterator[Diagnostic]:
 
 
 def floating_markers(deck: Deck) -> Iterator[Diagnostic]:
-    for each in deck.of("PTCV"):
+    for each in deck.of(Ptcv):
         floats, lies = _owner(deck, each.jfloat), _owner(deck, each.j)
         if floats and lies and floats != lies:
-            words = {"word": "JFLOAT", "key": each.jfloat, "owner": f"{floats[0]}/{floats[1]}"}
-            yield say(each, "foreign-marker", "jfloat", **words)
+            owner = f"{floats[0]}/{floats[1]}"
+            yield say(each, "foreign-marker", "jfloat", word="JFLOAT", key=each.jfloat, owner=owner)
 
 
 CONSTRAINT_RULES: list[Rule] = [

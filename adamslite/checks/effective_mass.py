@@ -12,8 +12,12 @@ reading a deck does not wait for an algebra system.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
+from adamslite.deck.deck import Deck
+from adamslite.elements.marker import Marker
+from adamslite.elements.part import Part
+from adamslite.elements.point_mass import PointMass
+from adamslite.elements.vforce import Vforce
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import (
     NEGATE,
@@ -28,8 +32,8 @@ from adamslite.language.expression import (
     to_text,
     walk,
 )
+from adamslite.language.interfaces import Key
 from adamslite.language.messages import compose
-from adamslite.language.statement import Statement
 
 AXES = {"fx": "ACCX", "fy": "ACCY", "fz": "ACCZ"}
 ZERO, ONE = Num(0.0), Num(1.0)
@@ -37,32 +41,34 @@ ZERO, ONE = Num(0.0), Num(1.0)
 SAMPLES = (0.0, 1e-3, 0.1, 1.0, 10.0)
 
 
-def effective_masses(deck: Any) -> Iterator[Diagnostic]:
+def effective_masses(deck: Deck) -> Iterator[Diagnostic]:
     """A warning for each VFORCE that takes inertia away from its own body."""
-    for force in deck.of("VFORCE"):
+    for force in deck.of(Vforce):
         body = _body(deck, force.i)
         if body is None or force.rm != 0:
             continue
         for field, name in AXES.items():
             slope = _own_slope(deck, getattr(force, field), name, body)
             if slope != ZERO and _can_be_positive(deck, slope):
-                yield _warning(force, field, body.label, body.mass / deck.ucf, slope)
+                yield _warning(force, field, body.label, (body.mass or 0.0) / deck.ucf, slope)
                 break
 
 
-def _body(deck: Any, marker_id: Any) -> Statement | None:
-    marker = deck.find("MARKER", marker_id)
+def _body(deck: Deck, marker_id: Key) -> Part | PointMass | None:
+    marker = deck.find(Marker, marker_id)
     owner = marker.owner if marker else None
     body = deck.find(*owner) if owner else None
     return None if body is None or getattr(body, "ground", False) else body
 
 
-def _own_slope(deck: Any, component: Node, name: str, body: Statement) -> Node:
+def _own_slope(deck: Deck, component: Node, name: str, body: Part | PointMass) -> Node:
     """Sum of d(component)/d(acceleration) over the calls that measure this body against ground."""
     total: Node = ZERO
     for call in set(calls(component, name)):
         moving, against = call.args[0], call.args[1]
-        if against == Ref("MARKER", 0) and moving.id and _body(deck, moving.id) is body:
+        if not isinstance(moving, Ref) or not moving.id or against != Ref("MARKER", 0):
+            continue
+        if _body(deck, moving.id) is body:
             total = _plus(total, slope_of(component, call))
     return total
 
@@ -95,11 +101,9 @@ def _plus(a: Node, b: Node) -> Node:
 
 
 def _negative(a: Node) -> Node:
-    return a if a == ZERO else a.args[0] if _is_negative(a) else Op(NEGATE, (a,))
-
-
-def _is_negative(a: Node) -> bool:
-    return isinstance(a, Op) and a.op == NEGATE
+    if isinstance(a, Op) and a.op == NEGATE:
+        return a.args[0]
+    return a if a == ZERO else Op(NEGATE, (a,))
 
 
 def _times(a: Node, b: Node) -> Node:
@@ -112,12 +116,12 @@ def _plain(a: Node) -> Node:
     return a.args[0] if isinstance(a, Op) and a.op == "/" and a.args[1] == ONE else a
 
 
-def _can_be_positive(deck: Any, slope: Node) -> bool:
+def _can_be_positive(deck: Deck, slope: Node) -> bool:
     """Whether the slope is above zero at some sample time; unknown quantities count as one."""
     return any(_value(deck, slope, time) > 0.0 for time in SAMPLES)
 
 
-def _value(deck: Any, node: Node, time: float) -> float:
+def _value(deck: Deck, node: Node, time: float) -> float:
     match node:
         case Num(value):
             return value
@@ -132,7 +136,7 @@ def _value(deck: Any, node: Node, time: float) -> float:
     return 1.0
 
 
-def _warning(force: Statement, field: str, body: str, mass: float, slope: Node) -> Diagnostic:
+def _warning(force: Vforce, field: str, body: str, mass: float, slope: Node) -> Diagnostic:
     """``mass`` is in units of force per acceleration, as the slope is."""
     fields = [each for each in AXES if force.given(each)]
     lines = " \\\n      ".join(f", {each.upper()}= -( {_source(force, each)} )" for each in fields)
@@ -141,7 +145,7 @@ def _warning(force: Statement, field: str, body: str, mass: float, slope: Node) 
     return compose(
         "effective-mass",
         span,
-        spans.source.line(span.line),
+        spans.first_line(span),
         label=force.label,
         body=body,
         axis=field[1],
@@ -156,11 +160,9 @@ def _in_product(slope: Node) -> str:
     return f"({text})" if isinstance(slope, Op) and slope.op in "+-" else text
 
 
-def _source(force: Statement, field: str) -> str:
+def _source(force: Vforce, field: str) -> str:
     """The expression as the deck has it, on one line."""
-    spans = force.spans.home(field)
-    start, end = spans.ranges[field]
-    text = spans.source.text[start:end]
+    text = force.spans.home(field).text(field)
     pieces = [piece.strip().removeprefix(",").strip() for piece in text.splitlines()]
     joined = " ".join(piece for piece in pieces if piece)
     return joined.partition("=")[2].strip().rstrip("\\/").strip()

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import hypot
-from typing import Any
 
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import say
+from adamslite.elements.joint import Joint
+from adamslite.elements.jprim import Jprim
+from adamslite.elements.marker import Marker
+from adamslite.elements.part import Part
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.statement import Statement
 
@@ -72,14 +75,14 @@ def _about(moment: float) -> str:
     return f"the principal moment {moment:.6g} about its mass centre"
 
 
-def is_plain(part: Statement) -> bool:
+def is_plain(part: Part) -> bool:
     """Whether IP holds the principal moments about the mass centre as they are."""
-    return part.im in (None, part.cm) and not any(part.ip[3:])
+    return part.im in (None, part.cm) and not any((part.ip or ())[3:])
 
 
 def inertia_at_mass_centre(deck: Deck) -> Iterator[Diagnostic]:
     """Principal moments where products, or a shift from IM, hide them."""
-    hidden = [p for p in deck.of("PART") if p.ip and not p.ground and p.mass and not is_plain(p)]
+    hidden = [p for p in deck.of(Part) if p.ip and not p.ground and p.mass and not is_plain(p)]
     if not hidden:
         return
     from numpy.linalg import eigvalsh
@@ -96,7 +99,7 @@ def inertia_at_mass_centre(deck: Deck) -> Iterator[Diagnostic]:
 
 def facing_markers(deck: Deck) -> Iterator[Diagnostic]:
     """Joints whose markers are half a turn apart, which satisfies their conditions too."""
-    joints = [*deck.of("JOINT"), *deck.of("JPRIM")]
+    joints: list[Joint | Jprim] = [*deck.of(Joint), *deck.of(Jprim)]
     turned = [j for j in joints if j.kind in CO_DIRECTED and _is_turned(deck, j)]
     if not turned:
         return
@@ -112,19 +115,19 @@ def facing_markers(deck: Deck) -> Iterator[Diagnostic]:
             if axis in CO_DIRECTED[joint.kind] and axes_i[:, n] @ axes_j[:, n] < OPPOSED
         ]
         if found:
-            words = {"i": joint.i, "j": joint.j, "axes": " and ".join(found)}
-            yield say(joint, "markers-opposed", "i", kind=joint.kind, **words)
+            axes, kind = " and ".join(found), joint.kind
+            yield say(joint, "markers-opposed", "i", kind=kind, i=joint.i, j=joint.j, axes=axes)
 
 
-def _is_turned(deck: Deck, joint: Statement) -> bool:
+def _is_turned(deck: Deck, joint: Joint | Jprim) -> bool:
     """Whether a marker, or its body, has axes of its own."""
     for end in (joint.i, joint.j):
-        marker = deck.find("MARKER", end)
-        body = deck.find(*marker.owner)
+        marker = deck.find(Marker, end)
+        body = deck.find(*marker.owner) if marker and marker.owner else None
         if _has_axes(marker, "reuler", "zp", "xp") or _has_axes(body, "reuler", "zg", "xg"):
             return True
     return False
 
 
-def _has_axes(statement: Any, *fields: str) -> bool:
-    return any(statement.given(field) for field in fields)
+def _has_axes(statement: Statement | None, *fields: str) -> bool:
+    return statement is not None and any(statement.given(field) for field in fields)

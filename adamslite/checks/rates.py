@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 from adamslite.deck.deck import Deck
+from adamslite.elements.variable import Variable
 from adamslite.functions.forces import MEASURES, NET
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Mode, Node, Ref, calls, expressions, walk
+from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 
 # Functions without a rate, or with one that depends on what they measure.
@@ -22,7 +23,7 @@ PORTS = ("PINPUT", "POUTPUT")
 
 def unformed_equations(deck: Deck) -> Iterator[Diagnostic]:
     """Forces that depend on themselves, rates of what has none."""
-    known: dict[Any, bool] = {}
+    known: dict[Key, bool] = {}
     suspects = [each for each in deck.statements if _is_suspect(deck, each, known)]
     if suspects:
         from adamslite.kernels.compile import unformed
@@ -31,9 +32,9 @@ def unformed_equations(deck: Deck) -> Iterator[Diagnostic]:
         yield from unformed(Model(deck), suspects)
 
 
-def _is_suspect(deck: Deck, statement: Statement, known: dict[Any, bool]) -> bool:
+def _is_suspect(deck: Deck, statement: Statement, known: dict[Key, bool]) -> bool:
     """Whether it takes rates of more than places and TIME, or measures forces with forces."""
-    asked = ("DDT",)
+    asked: tuple[str, ...] = ("DDT",)
     if hasattr(statement, "constraints"):
         asked += RATELESS
     if hasattr(statement, "loads") or statement.keyword == "GCON":
@@ -42,7 +43,7 @@ def _is_suspect(deck: Deck, statement: Statement, known: dict[Any, bool]) -> boo
     return not all(call.name == "VARVAL" and _has_rates(deck, call, known) for call in found)
 
 
-def _has_rates(deck: Deck, node: Node, known: dict[Any, bool]) -> bool:
+def _has_rates(deck: Deck, node: Node, known: dict[Key, bool]) -> bool:
     """Whether it depends on places and TIME alone, directly or by VARIABLEs that are not solved
     for; ``known``: which of these do.
     """
@@ -59,13 +60,13 @@ def _asks_markers(call: Call) -> bool:
     return any(isinstance(each, Ref) and each.kind == "MARKER" for each in call.args)
 
 
-def _is_plain(deck: Deck, ref: Ref, known: dict[Any, bool]) -> bool:
+def _is_plain(deck: Deck, ref: Ref, known: dict[Key, bool]) -> bool:
     """Whether a VARIABLE is put in where it is used, and has rates."""
     key = ref.id
     if key not in known:
         known[key] = False  # what comes back to it depends on itself
-        variable = deck.find("VARIABLE", key)
+        variable = deck.find(Variable, key)
         solved = any(key in port.variables for w in PORTS for port in deck.of(w))
-        plain = variable is not None and not solved
-        known[key] = plain and _has_rates(deck, variable.function, known)
+        if variable is not None and not solved:
+            known[key] = _has_rates(deck, variable.function, known)
     return known[key]

@@ -4,16 +4,25 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 from adamslite.checks.rule import Rule, positive
 from adamslite.deck.deck import Deck
-from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition
 from adamslite.deck.statement_diagnostics import say
-from adamslite.elements.simulate import MOST_STEPS, output_steps
+from adamslite.elements.activate import Activate
+from adamslite.elements.deactivate import Deactivate
+from adamslite.elements.equilibrium import Equilibrium
+from adamslite.elements.integrator import Integrator
+from adamslite.elements.kinematics import Kinematics
+from adamslite.elements.linear import Linear
+from adamslite.elements.pinput import Pinput
+from adamslite.elements.simulate import MOST_STEPS, Simulate, output_steps
+from adamslite.elements.variable import Variable
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Node, Ref, calls, expressions, walk
 from adamslite.language.integrator_arguments import BACKWARD, FIXED, RUNGE_KUTTA, without_effect
+from adamslite.language.interfaces import Key
 from adamslite.language.messages import did_you_mean
 from adamslite.language.statement import STATEMENTS, Statement
 
@@ -25,7 +34,7 @@ TIMES = ("end", "duration", "dtout", "steps")
 
 
 def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
-    for each in deck.of("INTEGRATOR"):
+    for each in deck.of(Integrator):
         yield from positive(each, "error", "hmax", "hmin", "hinit", "kmax", "maxit")
         if each.alpha is not None and not -1 / 3 - 1e-9 <= each.alpha <= 0:
             yield say(each, "out-of-range", "alpha", word="ALPHA", low="-1/3", high="0")
@@ -41,7 +50,7 @@ def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
 
 def idle_integrator_arguments(deck: Deck) -> Iterator[Diagnostic]:
     method = "GSTIFF"
-    for each in deck.of("INTEGRATOR"):
+    for each in deck.of(Integrator):
         method = each.method or method
         given = {
             argument.key: field for field, argument in each.arguments.items() if each.given(field)
@@ -53,16 +62,16 @@ def idle_integrator_arguments(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def iteration_values(deck: Deck) -> Iterator[Diagnostic]:
-    for each in deck.of("EQUILIBRIUM"):
+    for each in deck.of(Equilibrium):
         yield from positive(each, "alimit", "error", "imbalance", "maxit", "tlimit")
         if each.stability < 0:
             yield say(each, "negative", "stability", word="STABILITY")
-    for each in deck.of("KINEMATICS"):
-        yield from positive(each, "alimit", "error", "aerror", "maxit", "tlimit")
+    for solver in deck.of(Kinematics):
+        yield from positive(solver, "alimit", "error", "aerror", "maxit", "tlimit")
 
 
 def simulation_times(deck: Deck) -> Iterator[Diagnostic]:
-    for each in deck.of("SIMULATE"):
+    for each in deck.of(Simulate):
         yield from positive(each, "duration", "dtout", "steps")
         if each.level and each.kind != "INITIAL_CONDITIONS":
             yield _idle(each, "level", each.level, "only INITIAL_CONDITIONS come in levels")
@@ -77,7 +86,7 @@ def _idle(statement: Statement, field: str, word: str, reason: str) -> Diagnosti
     return say(statement, "no-effect", field, word=word, reason=reason)
 
 
-def _span_of_time(run: Statement) -> Iterator[Diagnostic]:
+def _span_of_time(run: Simulate) -> Iterator[Diagnostic]:
     if run.end is None and run.duration is None:
         yield say(run, "no-end")
     elif run.end is not None and run.duration is not None:
@@ -90,9 +99,9 @@ def _span_of_time(run: Statement) -> Iterator[Diagnostic]:
         yield from _not_too_many(run)
 
 
-def _not_too_many(run: Statement) -> Iterator[Diagnostic]:
+def _not_too_many(run: Simulate) -> Iterator[Diagnostic]:
     """Of a run that begins at 0; one that begins later is looked at when it begins."""
-    if run.steps is None and run.dtout <= 0:
+    if run.steps is None and (run.dtout or 0) <= 0:
         return
     count = output_steps(run.until(0.0), run.steps, run.dtout)
     if count > MOST_STEPS:
@@ -100,7 +109,7 @@ def _not_too_many(run: Statement) -> Iterator[Diagnostic]:
         yield say(run, "too-many-steps", field, count=float(count), most=float(MOST_STEPS))
 
 
-def late_start_values(command: Redefinition) -> Iterator[Diagnostic]:
+def late_start_values(command: Redefinition[Any]) -> Iterator[Diagnostic]:
     """Start values for a model that has already moved: it continues from its present state."""
     for field in command.changes:
         argument = command.of.arguments[field]
@@ -116,17 +125,18 @@ def ends_in_order(deck: Deck) -> Iterator[Diagnostic]:
     if "SENSOR" in deck.names.ids:  # it may have ended the run before
         return
     time = 0.0
-    for each in deck.of("SIMULATE"):
+    for each in deck.of(Simulate):
         if each.at_once or (each.end is None and each.duration is None):
             continue
-        if each.duration is None and each.end <= time:
-            yield say(each, "end-not-later", "end", end=f"{each.end:g}", time=f"{time:g}")
-        time = max(time, each.until(time))
+        end = each.until(time)
+        if each.duration is None and end <= time:
+            yield say(each, "end-not-later", "end", end=f"{end:g}", time=f"{time:g}")
+        time = max(time, end)
 
 
 def switched_elements(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.statements:
-        if not isinstance(each, Switch):
+        if not isinstance(each, Activate | Deactivate):
             continue
         if each.kind not in STATEMENTS:
             yield say(each, "planned-statement", "kind", word=each.kind, times="")
@@ -136,11 +146,11 @@ def switched_elements(deck: Deck) -> Iterator[Diagnostic]:
         for key in each.ids:
             yield from _missing(deck, each, key)
         if each.range and not each.elements(deck.names):
-            words = dict(zip(("low", "high"), map(int, each.range), strict=True))
-            yield say(each, "empty-range", "range", kind=each.kind, **words)
+            low, high = map(int, each.range)
+            yield say(each, "empty-range", "range", kind=each.kind, low=low, high=high)
 
 
-def _missing(deck: Deck, switch: Statement, key: int | str) -> Iterator[Diagnostic]:
+def _missing(deck: Deck, switch: Activate | Deactivate, key: Key) -> Iterator[Diagnostic]:
     found = deck.names.find(switch.kind, key)
     if isinstance(found, list):
         labels = ", ".join(f"{switch.kind}/{each}" for each in found[:5])
@@ -151,7 +161,7 @@ def _missing(deck: Deck, switch: Statement, key: int | str) -> Iterator[Diagnost
 
 
 def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
-    for each in deck.of("LINEAR"):
+    for each in deck.of(Linear):
         for field in ("file", "pinput", "poutput"):
             if each.kind == "EIGENSOL" and each.given(field):
                 yield _idle(each, field, field.upper(), "EIGENSOL has neither input nor output")
@@ -160,7 +170,7 @@ def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
 def file_names(deck: Deck) -> Iterator[Diagnostic]:
     """Files that commands name lie beside the results, each written once."""
     known: set[str] = set()
-    for each in deck.of("LINEAR"):
+    for each in deck.of(Linear):
         if each.file is None or each.kind == "EIGENSOL":
             continue
         if not FILE_NAME.fullmatch(each.file) or not each.file.isprintable():
@@ -175,8 +185,8 @@ def inputs_with_rates(deck: Deck, commands: Iterable[Statement]) -> Iterator[Dia
     """Inputs of a linear model whose rates count as well: it would have no columns for these."""
     for command in commands:
         port = None
-        if command.keyword == "LINEAR" and command.pinput is not None:
-            port = deck.find("PINPUT", command.pinput)
+        if isinstance(command, Linear) and command.pinput is not None:
+            port = deck.find(Pinput, command.pinput)
         for key in port.variables if port else ():
             user = _taker_of_rate(deck, key)
             if user is not None:
@@ -184,7 +194,7 @@ def inputs_with_rates(deck: Deck, commands: Iterable[Statement]) -> Iterator[Dia
                 yield say(command, "input-rate", "pinput", word=word, user=user.label)
 
 
-def _taker_of_rate(deck: Deck, key: int | str) -> Statement | None:
+def _taker_of_rate(deck: Deck, key: Key) -> Statement | None:
     """A MOTION, GCON or d( )/dt of an equation that depends on a VARIABLE."""
     for each in deck.statements:
         found = expressions(each)
@@ -197,15 +207,15 @@ def _taker_of_rate(deck: Deck, key: int | str) -> Statement | None:
     return None
 
 
-def _variables(deck: Deck, node: Node) -> set[int | str]:
+def _variables(deck: Deck, node: Node) -> set[Key]:
     """VARIABLEs that an expression depends on, itself or through others."""
-    found: set[int | str] = set()
+    found: set[Key] = set()
     pending = [node]
     while pending:
         for each in walk(pending.pop()):
             if isinstance(each, Ref) and each.kind == "VARIABLE" and each.id not in found:
                 found.add(each.id)
-                variable = deck.find("VARIABLE", each.id)
+                variable = deck.find(Variable, each.id)
                 pending += [variable.function] if variable else []
     return found
 

@@ -95,6 +95,15 @@ class Spans(Mapping[str, Span]):
         """The places, all in one source, that ``field`` is among."""
         return self
 
+    def first_line(self, span: Span) -> str:
+        """The line of the source on which a span begins; empty where there is no source."""
+        return self.source.line(span.line) if self.source else ""
+
+    def text(self, field: str) -> str:
+        """An argument as written, with its keyword; empty where there is no source."""
+        start, end = self.ranges.get(field, (0, 0))
+        return self.source.text[start:end] if self.source else ""
+
     def __getitem__(self, field: str) -> Span:
         start, end = self.ranges[field]
         return self.source.span(start, end) if self.source else NOWHERE
