@@ -9,7 +9,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from decklets import codes, deck_with, function, last
+from decklets import codes, deck_with, function, last, told
 
 import adamslite
 from adamslite.checks.rules import check
@@ -233,6 +233,14 @@ def test_the_effective_mass_is_that_of_forces(length: str, mass: str) -> None:
         assert told.message.endswith(f"effective mass along y is {mass} - {left}")
     for force in ("-VARVAL(DM)*ACCY(2)", "1-0.5*ACCY(2)", "-(ACCY(2)/4)"):
         assert not check(read(PUSHED.format(length=length, force=force)))
+
+
+def test_the_effective_mass_of_a_part_without_mass() -> None:
+    """A part that a joint holds may be without MASS: zero is what the force is taken from."""
+    held = "PART/5, CM=5\nMARKER/5, PART=5\nJOINT/1, FIXED, I=5, J=1\nMARKER/6, PART=1, FLOATING\n"
+    found = told(f"{START}{held}VFORCE/1, I=5, JFLOAT=6, FX=2*ACCX(5)\n")
+    assert [each.code for each in found] == ["no-inertia", "effective-mass"]
+    assert found[1].message.endswith("effective mass along x is 0 - 2")
 
 
 def test_a_mistake_does_not_make_others() -> None:
