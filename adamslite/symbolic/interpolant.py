@@ -151,7 +151,9 @@ def _rows(
     return low, 2.0 * (low + high), high, 3.0 * (low * chords[:-1] + high * chords[1:])
 
 
-def _end_slope(h: np.ndarray, chords: np.ndarray, kind: str) -> tuple[np.ndarray, np.ndarray]:
+def _end_slope(
+    h: np.ndarray, chords: np.ndarray, kind: str
+) -> tuple[np.ndarray | float, np.ndarray]:
     """Share and value of the first slope, s_0 = value - share s_1: without bend there, or the first
     two pieces are one cubic.
     """

@@ -303,7 +303,8 @@ def _of_curve(table: Interpolant, curve: int, order: int, x: Interval) -> Interv
 
 
 def _arrays(low: Any, high: Any) -> tuple[np.ndarray, np.ndarray]:
-    return tuple(np.broadcast_arrays(np.atleast_1d(low), np.atleast_1d(high)))
+    one, other = np.broadcast_arrays(np.atleast_1d(low), np.atleast_1d(high))
+    return one, other
 
 
 def _both_ends(x: float) -> Interval:
