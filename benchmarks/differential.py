@@ -29,7 +29,7 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from adamslite import assemble, compile_model, read, simulate
-from adamslite.analyses.choose import AUTO
+from adamslite.analyses.method_choice import AUTO
 from adamslite.errors import UsageError
 from adamslite.language.diagnostics import DeckError
 from adamslite.results.outcomes import Outcome

@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 import adamslite
-from adamslite.analyses.choose import AUTO, CONSTANT
+from adamslite.analyses.method_choice import AUTO, CONSTANT
 from adamslite.analyses.output_times import output_times
 from adamslite.errors import UsageError
 from adamslite.outputs.whole_files import whole_file

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from fakes import SUMMARY
 
-from adamslite.analyses.choose import AUTO, CONSTANT
+from adamslite.analyses.method_choice import AUTO, CONSTANT
 from adamslite.cli.main import main
 from adamslite.elements.integrator import Integrator
 from adamslite.errors import RunFailed, UsageError

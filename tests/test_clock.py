@@ -11,7 +11,7 @@ from scenes import GROUND, carriage, done, options, run, system
 
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.enclosures import enclose
-from adamslite.analyses.clock.paces import timetable
+from adamslite.analyses.clock.step_limits import timetable
 from adamslite.integrators import contract
 from adamslite.kernels.code.clock_program import ClockWriter
 from adamslite.language.function import FUNCTIONS

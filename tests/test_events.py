@@ -9,7 +9,7 @@ import pytest
 from pytest import approx
 from scenes import GROUND, PENDULUM, carriage, done, options, run, system
 
-from adamslite.analyses.clock.edges import stops
+from adamslite.analyses.clock.stops import stops
 from adamslite.results.outcomes import Outcome
 
 MASS = GROUND + "POINT_MASS/2, MASS={mass}, CM=2, QG={x},0,0, VX={v}\nMARKER/2, POINT_MASS=2\n"

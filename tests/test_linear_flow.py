@@ -15,7 +15,7 @@ from small_motions import Flow, distance
 from tiers import slow
 
 import adamslite
-from adamslite.analyses.linearization.linear import linear
+from adamslite.analyses.linearization.linearization import linear
 from adamslite.analyses.session import Session
 from adamslite.analyses.simulation import _Simulation
 from adamslite.results.outcomes import Outcome

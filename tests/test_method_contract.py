@@ -12,7 +12,7 @@ import pytest
 from scenes import GROUND, run
 
 import adamslite as al
-from adamslite.analyses.choose import METHODS
+from adamslite.analyses.method_choice import METHODS
 from adamslite.errors import UsageError
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results

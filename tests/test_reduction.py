@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import adamslite
-from adamslite.analyses import plane
+from adamslite.analyses import planar_reduction
 from adamslite.analyses.session import Session
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
@@ -46,7 +46,7 @@ def folded(deck: str) -> int:
     scene = load_scene(DECKS / f"{deck}.adm")
     session = Session(scene.deck, None, {})
     session.prepare()
-    plane.fold(session.system)
+    planar_reduction.reduce_to_plane(session.system)
     return session.system.held.size
 
 

@@ -16,7 +16,7 @@ import pytest
 from scenes import GROUND, PENDULUM, chain, interpreted, run
 
 import adamslite as al
-from adamslite.analyses.choose import METHODS
+from adamslite.analyses.method_choice import METHODS
 from adamslite.equations import engine, operations
 from adamslite.errors import UsageError
 from adamslite.integrators.linalg import blocks

@@ -9,10 +9,10 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from adamslite.analyses.audit import start_audit
-from adamslite.analyses.choose import CONSTANT, METHODS
 from adamslite.analyses.clock.clock import Clock
-from adamslite.analyses.clock.drives import first_jump
-from adamslite.analyses.clock.paces import timetable
+from adamslite.analyses.clock.motion_jumps import first_jump
+from adamslite.analyses.clock.step_limits import timetable
+from adamslite.analyses.method_choice import CONSTANT, METHODS
 from adamslite.equations.engine import ints
 from adamslite.equations.system import System
 from adamslite.integrators import contract

@@ -20,9 +20,8 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.choose import METHODS, Choice, choose
 from adamslite.analyses.clock.clock import Clock
-from adamslite.analyses.clock.drives import without_value
+from adamslite.analyses.clock.motion_jumps import without_value
 from adamslite.analyses.dynamic import Settings, run_dynamic
 from adamslite.analyses.initial.conditions import (
     Unclosed,
@@ -33,8 +32,9 @@ from adamslite.analyses.initial.conditions import (
 from adamslite.analyses.initial.joint_start import start_of_joints
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
 from adamslite.analyses.kinematic import run_kinematic
+from adamslite.analyses.method_choice import METHODS, MethodChoice, choose_method
 from adamslite.analyses.output_times import output_times
-from adamslite.analyses.plane import in_its_plane
+from adamslite.analyses.planar_reduction import in_its_plane
 from adamslite.analyses.static import StaticSettings, run_static
 from adamslite.equations.engine import engine
 from adamslite.equations.result_columns import columns
@@ -89,7 +89,7 @@ class Session:
         self.without = without | self.kernels.model.without
         engine(ACCELERATIONS, progress)
         self.settings = replace(Settings(), **flags)
-        self.chosen = Choice(self.settings)
+        self.chosen = MethodChoice(self.settings)
         self.statics = StaticSettings()
         self.time, self.late_setup = 0.0, 0.0
         self.pieces: list[tuple[np.ndarray, np.ndarray]] = []
@@ -190,7 +190,7 @@ class Session:
             if self.unclosed:
                 self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
                 return
-        self.chosen = choose(system, times, self.settings)
+        self.chosen = choose_method(system, times, self.settings)
         if system.sizes.si2 and system.holonomic and self.chosen.settings.form != "SI2":
             system = self._system = self._renumbered(system, system.pivoting)
         began = clock.process_time()
@@ -278,7 +278,7 @@ class Session:
         inputs, outputs = (
             self.deck.find(kind, key).variables if key is not None else () for kind, key in ports
         )
-        from adamslite.analyses.linearization.linear import linear
+        from adamslite.analyses.linearization.linearization import linear
 
         found = linear(self.system, inputs, outputs, not command.nodamping, command.rm)
         self.linearizations.append(Linearized(command.kind, command.file, self.time, found))

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from adamslite.analyses.accuracy_notes import accuracy_notes
 from adamslite.analyses.buckling import buckled
-from adamslite.analyses.doubts import doubts
 from adamslite.analyses.failure_report import explain
 from adamslite.analyses.initial.redundancy import row_name
 from adamslite.analyses.output_times import spread_times
@@ -30,7 +30,7 @@ from adamslite.results.results import Results
 # Few runs need them, and they take a while to load.
 if TYPE_CHECKING:
     from adamslite.analyses.audit import Balance
-    from adamslite.analyses.linearization.linear import Linearization
+    from adamslite.analyses.linearization.linearization import Linearization
 
 SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
 CAPPED = (
@@ -133,7 +133,7 @@ def linearize(
     RunFailed
         When the state could not be reached.
     """
-    from adamslite.analyses.linearization.linear import linear
+    from adamslite.analyses.linearization.linearization import linear
 
     deck = _deck(scene)
     marker = None if rm is None else _marker(deck, str(rm))
@@ -248,10 +248,10 @@ def _meta(session: Session) -> Mapping[str, str]:
     }
 
 
-def _doubt(session: Session) -> str:
+def _accuracy_note(session: Session) -> str:
     names, values = session.names, np.concatenate([v for _, v in session.pieces])
     time = np.concatenate([t for t, _ in session.pieces])
-    said = doubts(session.system, session.chosen.settings, session.counts, names, values)
+    said = accuracy_notes(session.system, session.chosen.settings, session.counts, names, values)
     grown = buckled(session.kernels.model, names, time, values)
     return "; ".join(sentence for sentence in (grown, said) if sentence)
 
@@ -288,8 +288,8 @@ def _notes(session: Session) -> dict[str, str]:
     if session.balances:
         found["energy"] = str(_worst(session.balances))
     steps = session.counts.steps
-    if steps and (doubt := _doubt(session)):
-        found["accuracy"] = doubt
+    if steps and (note := _accuracy_note(session)):
+        found["accuracy"] = note
     told = {each.model.note: each.time for each in reversed(session.linearizations)}
     if varying := [f"t = {t:g}: {note}" for note, t in reversed(told.items()) if note]:
         found["linear"] = "; ".join(varying)

@@ -26,12 +26,12 @@ from adamslite.checks.bodies_and_elements import (
 )
 from adamslite.checks.constraints import CONSTRAINT_RULES
 from adamslite.checks.effective_mass import effective_masses
+from adamslite.checks.equations import unformed_equations
 from adamslite.checks.posture import (
     facing_markers,
     inertia_at_mass_centre,
     orientations,
 )
-from adamslite.checks.rates import unformed_equations
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.runs import RUN_RULES
 from adamslite.deck.deck import Deck

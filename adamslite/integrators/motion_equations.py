@@ -179,7 +179,8 @@ def inertia_forces(P: Problem, F: Reals) -> None:
 def residual(P: Problem, phases: int, F: Reals) -> None:
     """All equations at the workspace's state.
 
-    What would drive the model out of its plane ends the run: see :mod:`adamslite.analyses.plane`.
+    What would drive the model out of its plane ends the run:
+    see :mod:`adamslite.analyses.planar_reduction`.
     """
     for k in range(P.sizes.n, P.sizes.nz):
         F[k] = 0.0

@@ -1,6 +1,6 @@
 """Reductions of the model to what its scene needs, each a rule with a name.
 
-    plane      what moves in a plane is solved in the plane (analyses/plane.py)
+    plane      what moves in a plane is solved in the plane (analyses/planar_reduction.py)
     points     a point mass has three unknowns and no attitude
     variables  a VARIABLE is worked out where it is used; solved for is only what depends on itself,
                and inputs and outputs of a plant

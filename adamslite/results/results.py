@@ -22,7 +22,7 @@ class UnknownChannel(KeyError):
 
 class Linearized(NamedTuple):
     """One LINEAR command: ``kind`` EIGENSOL or STATEMAT, its FILE if it names one, the ``time`` of
-    the state, and the :class:`~adamslite.analyses.linearization.linear.Linearization`.
+    the state, and the :class:`~adamslite.analyses.linearization.linearization.Linearization`.
     """
 
     kind: str

@@ -13,8 +13,8 @@ from math import floor, inf, log10
 from statistics import median
 from typing import Any
 
-from adamslite.analyses.choose import AUTO, CONSTANT, METHODS
 from adamslite.analyses.dynamic import Settings
+from adamslite.analyses.method_choice import AUTO, CONSTANT, METHODS
 from adamslite.elements.integrator import Integrator
 from adamslite.errors import RunFailed, UsageError
 from adamslite.integrators.contract import HHT, VERLET

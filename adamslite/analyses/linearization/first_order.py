@@ -33,7 +33,7 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.linearization.moment import Moment, skew
+from adamslite.analyses.linearization.instant import Instant, skew
 from adamslite.analyses.linearization.observer import Jet
 from adamslite.equations.system import System
 from adamslite.model.model import PART
@@ -88,7 +88,7 @@ def null_space(rows: np.ndarray, unit: np.ndarray, like: np.ndarray | None = Non
 
 
 class FirstOrder:
-    """Small motions at one moment.
+    """Small motions at one instant.
 
     Attributes
     ----------
@@ -100,14 +100,14 @@ class FirstOrder:
     """
 
     def __init__(
-        self, system: System, moment: Moment, view: Jet, basis: Basis, ports: Ports
+        self, system: System, instant: Instant, view: Jet, basis: Basis, ports: Ports
     ) -> None:
-        self.system, self.moment, self.basis = system, moment, basis
+        self.system, self.instant, self.basis = system, instant, basis
         n = basis.positions
         self.q = view[0] @ n[0]
         self.q1 = view[1] @ n[0] + view[0] @ n[1]
         self.q2 = view[2] @ n[0] + 2.0 * view[1] @ n[1] + view[0] @ n[2]
-        self.by_y = self.q1 - self._cross(moment.u, self.q)
+        self.by_y = self.q1 - self._cross(instant.u, self.q)
         rates = self._rates()
         self.held = rates.held
         self.whole = self._whole(rates, ports)
@@ -128,10 +128,10 @@ class FirstOrder:
         return found
 
     def _rates(self) -> Rates:
-        system, moment, f = self.system, self.moment, self.q.shape[1]
+        system, instant, f = self.system, self.instant, self.q.shape[1]
         b, b1 = self.basis.speeds
         held = np.zeros((f, f + system.ns))
-        gradient, drift = moment.gradient[system.holonomic :], moment.drift[system.holonomic :]
+        gradient, drift = instant.gradient[system.holonomic :], instant.drift[system.holonomic :]
         if len(gradient):
             of_y = gradient @ self.by_y + drift[:, : system.n] @ self.q
             forced = np.hstack([of_y, drift[:, self._states].toarray()])
@@ -147,7 +147,7 @@ class FirstOrder:
         return slice(first, first + self.system.ns)
 
     def _whole(self, rates: Rates, ports: Ports) -> np.ndarray:
-        system, moment, q = self.system, self.moment, self.q
+        system, instant, q = self.system, self.instant, self.q
         n, (f, g) = system.n, self.basis.speeds[0].shape
         s, z = self._states, slice(n, n + system.m + system.nv)
         rows = np.r_[0:n, n + system.m : s.stop]
@@ -155,12 +155,12 @@ class FirstOrder:
         place, speed, push = of_y.copy(), of_y.copy(), of_y
         place[:, :f], speed[:, :f], push[:, :f] = q, self.by_y, self._acceleration_by_y()
         speed += q @ rates.now
-        push += (2.0 * self.q1 - self._cross(moment.u, q)) @ rates.now + q @ rates.next
+        push += (2.0 * self.q1 - self._cross(instant.u, q)) @ rates.now + q @ rates.next
         by_q, by_u, by_a, by_z, by_sd = (
             each[rows]
             for each in (
-                moment.by_place, moment.by_velocity, moment.by_acceleration, moment.by_algebraic,
-                moment.by_rate,
+                instant.by_place, instant.by_velocity, instant.by_acceleration,
+                instant.by_algebraic, instant.by_rate,
             )
         )  # fmt: skip
         by_a = by_a[:, :n]
@@ -179,20 +179,20 @@ class FirstOrder:
 
     def _acceleration_by_y(self) -> np.ndarray:
         """Q'' - W Q' - W' Q."""
-        u, a = self.moment.u, self.moment.a
+        u, a = self.instant.u, self.instant.a
         return self.q2 - self._cross(u, self.q1) - self._cross(a, self.q)
 
 
 def still(
-    system: System, moment: Moment, view: Jet, unit: np.ndarray, like: Basis | None = None
+    system: System, instant: Instant, view: Jet, unit: np.ndarray, like: Basis | None = None
 ) -> Basis:
-    """The basis at one moment as if it stood still for the observer; near ``like``.
+    """The basis at one instant as if it stood still for the observer; near ``like``.
 
     ``unit`` (n,) makes rotations comparable with translations.
     """
-    holonomic = moment.gradient[: system.holonomic] @ view[0]
+    holonomic = instant.gradient[: system.holonomic] @ view[0]
     n = null_space(holonomic, unit, None if like is None else like.positions[0])
-    rows = moment.gradient[system.holonomic :] @ view[0] @ n
+    rows = instant.gradient[system.holonomic :] @ view[0] @ n
     b = null_space(rows, np.ones(n.shape[1]), None if like is None else like.speeds[0])
     return Basis((n, 0.0 * n, 0.0 * n), (b, 0.0 * b))
 

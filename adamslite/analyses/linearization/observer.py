@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.linearization.moment import Moment, skew
+from adamslite.analyses.linearization.instant import Instant, skew
 from adamslite.equations.system import System
 from adamslite.model.model import PART
 
@@ -48,27 +48,27 @@ class Observer:
         i = self.starts[self.body]
         return slice(i, i + (6 if self.turning[self.body] else 3))
 
-    def view(self, moment: Moment) -> Jet:
+    def view(self, instant: Instant) -> Jet:
         """P, P' and P'' (n, n)."""
-        axes = self._axes(moment)
-        return tuple(self._derivative(moment, axes, k) for k in range(3))
+        axes = self._axes(instant)
+        return tuple(self._derivative(instant, axes, k) for k in range(3))
 
-    def _axes(self, moment: Moment) -> Jet:
+    def _axes(self, instant: Instant) -> Jet:
         """E, E' and E'' (3, 3)."""
         if self.body is None or not self.turning[self.body]:
             return self.axes, np.zeros((3, 3)), np.zeros((3, 3))
         i = self.starts[self.body] + 3
-        axes = moment.attitude[self.body] @ self.axes
-        spin, alpha = skew(moment.u[i : i + 3]), skew(moment.a[i : i + 3])
+        axes = instant.attitude[self.body] @ self.axes
+        spin, alpha = skew(instant.u[i : i + 3]), skew(instant.a[i : i + 3])
         return axes, spin @ axes, (alpha + spin @ spin) @ axes
 
-    def _derivative(self, moment: Moment, axes: Jet, k: int) -> np.ndarray:
+    def _derivative(self, instant: Instant, axes: Jet, k: int) -> np.ndarray:
         """The k-th derivative of P by time."""
-        whole = np.kron(np.eye(len(moment.u) // 3), axes[k])
+        whole = np.kron(np.eye(len(instant.u) // 3), axes[k])
         if self.body is None:
             return whole
         o = self.starts[self.body]
-        states = (moment.q, moment.u, moment.a)
+        states = (instant.q, instant.u, instant.a)
         for i, turning in zip(self.starts, self.turning, strict=True):
             whole[i : i + 3, o : o + 3] = axes[k]
             if self.turning[self.body]:

@@ -47,14 +47,14 @@ LOUDEST = 0.97
 
 
 @dataclass(frozen=True)
-class Choice:
+class MethodChoice:
     """``settings`` with a method that exists; ``reason`` why, empty when it was asked for."""
 
     settings: Any
     reason: str = ""
 
 
-def choose(system: System, times: np.ndarray, settings: Any) -> Choice:
+def choose_method(system: System, times: np.ndarray, settings: Any) -> MethodChoice:
     """The integrator of a run over ``times`` (nt,).
 
     Raises
@@ -65,12 +65,12 @@ def choose(system: System, times: np.ndarray, settings: Any) -> Choice:
     if unfit := what_is_unfit(system, settings):
         raise UsageError(f"{settings.method} cannot run this scene: {unfit}")
     if settings.method in METHODS:
-        return Choice(settings)
+        return MethodChoice(settings)
     if settings.method != AUTO:
         known = ", ".join([*METHODS, AUTO])
         raise UsageError(f"There is no integrator {settings.method}. Known are {known}.")
     method, reason = _picked(system, times, settings.error)
-    return Choice(replace(settings, method=method), reason)
+    return MethodChoice(replace(settings, method=method), reason)
 
 
 def what_is_unfit(system: System, settings: Any) -> str:

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.choose import CONSTANT, METHODS
+from adamslite.analyses.method_choice import CONSTANT, METHODS
 from adamslite.integrators import contract
 from adamslite.integrators.contract import BDF, HHT, VERLET
 
@@ -37,7 +37,7 @@ SHIFTED = 30.0
 MOVING = 0.1
 
 
-def doubts(
+def accuracy_notes(
     system: Any, settings: Any, counts: contract.Counts, names: tuple[str, ...], values: np.ndarray
 ) -> str:
     """What ERROR does not say about the accuracy of a run, in sentences; empty when it does.

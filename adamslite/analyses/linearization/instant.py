@@ -1,4 +1,4 @@
-"""A state at one moment with the derivatives of its equations, and its neighbours in time.
+"""A state at one instant with the derivatives of its equations, and its neighbours in time.
 
 The neighbours at t +- h lie on the trajectory: with j = (a(t + h) - a(t - h)) / 2h
 
@@ -27,7 +27,7 @@ STATE = ("q", "u", "a", "z", "rd", "base", "W", "F", "report", "count")
 
 
 @dataclass(frozen=True)
-class Moment:
+class Instant:
     """One state and the derivatives of the equations in ground axes.
 
     Parameters
@@ -59,14 +59,14 @@ def skew(x: np.ndarray) -> np.ndarray:
     return np.array([[0.0, -x[2], x[1]], [x[2], 0.0, -x[0]], [-x[1], x[0], 0.0]])
 
 
-def present(system: System) -> Moment:
+def present(system: System) -> Instant:
     """The state that ``system`` holds, with its accelerations and multipliers."""
     system.run(ACCELERATIONS)
-    return _moment(system)
+    return _instant(system)
 
 
-def neighbours(system: System, h: float) -> tuple[Moment, Moment] | None:
-    """The moments h before and after; None where accelerations are not determined."""
+def neighbours(system: System, h: float) -> tuple[Instant, Instant] | None:
+    """The instants h before and after; None where accelerations are not determined."""
     kept = {name: getattr(system, name).copy() for name in STATE}
     time, attitude = float(system.settings.t), _attitudes(system)
     jerk, curve = np.zeros_like(system.a), np.zeros_like(system.rd)
@@ -78,7 +78,7 @@ def neighbours(system: System, h: float) -> tuple[Moment, Moment] | None:
                 system.settings.t = time + step
                 if system.run(ACCELERATIONS) != contract.DONE:
                     return None
-                found.append((system.a.copy(), system.rd.copy(), _moment(system)))
+                found.append((system.a.copy(), system.rd.copy(), _instant(system)))
             jerk, curve = ((found[1][k] - found[0][k]) / (2.0 * h) for k in range(2))
     finally:
         system.settings.t = time
@@ -127,14 +127,14 @@ def _attitudes(system: System) -> np.ndarray:
     return found
 
 
-def _moment(system: System) -> Moment:
+def _instant(system: System) -> Instant:
     """The workspace's state and its derivatives."""
     n = system.n
     attitude = _attitudes(system)
     kinds = [_matrix(system, kind, PHASES) for kind in range(5)]
     rows = velocity_rows(system)
     drift, gradient = (_matrix(system, kind, RATES)[rows] for kind in range(2))
-    return Moment(
+    return Instant(
         system.q[:n].copy(), system.u[:n].copy(), system.a[:n].copy(), attitude, *kinds,
         gradient[:, :n].toarray(), drift,
     )  # fmt: skip

@@ -4,7 +4,7 @@ Small motions are those that an :class:`~adamslite.analyses.linearization.observ
 how they follow from the equations of motion, constraints and all, says
 :mod:`adamslite.analyses.linearization.first_order`.  For an observer to whom nothing of that
 changes with time the eigenvalues are the exponents of small motions.  Otherwise they are those of
-the coefficients of this moment, and the result says so.
+the coefficients of this instant, and the result says so.
 
 Undamped frequencies come from the columns of y and p' alone.
 """
@@ -18,10 +18,10 @@ from typing import Any
 import numpy as np
 
 from adamslite.analyses.initial.conditions import consistent_velocities
-from adamslite.analyses.linearization.course import Course
 from adamslite.analyses.linearization.eigen import eigen
 from adamslite.analyses.linearization.first_order import Ports
 from adamslite.analyses.linearization.observer import Observer
+from adamslite.analyses.linearization.stationarity import Trajectory
 from adamslite.equations.system import System
 
 VARIES = "the linear system varies with time: its eigenvalues are those of this moment only"
@@ -112,9 +112,9 @@ def linear(
     system.unfold()
     consistent_velocities(system)
     observer = Observer(system, relative_to)
-    course = Course(system, Ports(*places, damping))
-    found, steady = course.seen(observer)
-    steady_for = "" if steady else course.steady_observer(observer)
+    trajectory = Trajectory(system, Ports(*places, damping))
+    found, steady = trajectory.seen(observer)
+    steady_for = "" if steady else trajectory.steady_observer(observer)
     nx = found.whole.shape[1] - len(inputs)
     a, b, c, d = (
         found.whole[rows, columns]

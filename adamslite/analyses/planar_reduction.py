@@ -30,7 +30,7 @@ STATE = ("q", "u", "a", "z", "rd", "mu", "ra", "rz", "base")
 
 def in_its_plane(system: System, run: Callable[[], Outcome]) -> Outcome:
     """Run in the plane of a model that has one; in space when it has none or leaves it."""
-    if not fold(system):
+    if not reduce_to_plane(system):
         return run()
     before = {name: getattr(system, name).copy() for name in STATE}
     memories = [(whose, values.copy()) for whose, values in system.memories()]
@@ -44,7 +44,7 @@ def in_its_plane(system: System, run: Callable[[], Outcome]) -> Outcome:
     return run()
 
 
-def fold(system: System) -> bool:
+def reduce_to_plane(system: System) -> bool:
     """Leave out what keeps a model in its plane; False when it has none, or nothing is gained.
 
     Blocks of point masses without constraints are quick as they are.

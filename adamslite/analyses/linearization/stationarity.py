@@ -1,6 +1,6 @@
 """Whether the equations of small motions stay constant along the motion that they are about.
 
-The first-order system of this moment is compared with those just before and after, on the same
+The first-order system of this instant is compared with those just before and after, on the same
 trajectory.  Where neither its basis nor its matrices change the state is steady for the observer:
 at rest, turning with him, or turning about an axis of symmetry.
 """
@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from adamslite.analyses.linearization.first_order import FirstOrder, Ports, moving, still
-from adamslite.analyses.linearization.moment import neighbours, present
+from adamslite.analyses.linearization.instant import neighbours, present
 from adamslite.analyses.linearization.observer import Observer
 from adamslite.equations.system import System
 from adamslite.model.model import PART
@@ -29,8 +29,8 @@ ZERO = 1e-6
 MOST_TRIED = 6
 
 
-class Course:
-    """Three moments of a trajectory, and the first-order systems that observers see at them."""
+class Trajectory:
+    """Three instants of a trajectory, and the first-order systems that observers see at them."""
 
     def __init__(self, system: System, ports: Ports) -> None:
         self.system, self.ports = system, ports
@@ -41,7 +41,7 @@ class Course:
         self.around = neighbours(system, self.h)
 
     def seen(self, observer: Observer) -> tuple[FirstOrder, bool]:
-        """The first-order system of this moment, and whether it stays."""
+        """The first-order system of this instant, and whether it stays."""
         three = self._three(observer)
         if self.around is None:
             return three[1], not self.now.u.any()
@@ -70,10 +70,10 @@ class Course:
         if self.around is None:
             return now, now, now
         found = []
-        for moment in self.around:
-            view = observer.view(moment)
-            basis = still(self.system, moment, view, self.unit, now.basis)
-            found.append(FirstOrder(self.system, moment, view, basis, self.ports))
+        for instant in self.around:
+            view = observer.view(instant)
+            basis = still(self.system, instant, view, self.unit, now.basis)
+            found.append(FirstOrder(self.system, instant, view, basis, self.ports))
         return found[0], now, found[1]
 
     def _are_alike(self, three: tuple[FirstOrder, FirstOrder, FirstOrder]) -> bool:
@@ -130,7 +130,7 @@ class Course:
         return unit
 
     def _slowest(self) -> float:
-        """The smallest undamped frequency of this moment that is not zero [1/time]."""
+        """The smallest undamped frequency of this instant that is not zero [1/time]."""
         squares = np.abs(np.linalg.eigvals(self._resting(Observer(self.system)).minus_stiffness))
         return float(min(squares[squares > ZERO**2 * squares.max(initial=0.0)], default=0.0)) ** 0.5
 
@@ -167,7 +167,7 @@ class Course:
 
 
 def _change(before: np.ndarray, now: np.ndarray, after: np.ndarray) -> bool:
-    """Whether a matrix changes from one moment to the next."""
+    """Whether a matrix changes from one instant to the next."""
     if not before.shape == now.shape == after.shape:
         return True
     if not now.size:

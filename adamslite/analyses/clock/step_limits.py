@@ -20,7 +20,7 @@ import numpy as np
 
 from adamslite.analyses.clock.changes import time_scales
 from adamslite.analyses.clock.clock import Clock
-from adamslite.analyses.clock.edges import SAME, edges, merged
+from adamslite.analyses.clock.stops import SAME, edges, merged
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 
