@@ -4,7 +4,7 @@ text --parse--> syntax tree --read--> Deck (typed statements) --check--> diagnos
      --compile_model--> Kernels (native residual, Jacobian, outputs)
      --simulate--> Results --save / compare-->
 
-Each arrow is one function, and every stage can be looked at:
+Each arrow is one function, and the result of every stage can be inspected:
 
     import adamslite as al
 
@@ -13,7 +13,7 @@ Each arrow is one function, and every stage can be looked at:
     results["PART/2.x"]             # (nt,) array
     results.save("cable.csv")
 
-Nothing is imported before it is used: a name below is fetched the first time somebody asks for it,
+Nothing is imported before it is used: a name below is imported at its first use,
 so that `adamslite --help` does not wait for numpy.
 """
 

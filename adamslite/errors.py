@@ -6,7 +6,7 @@ class UsageError(ValueError):
 
 
 class RunFailed(RuntimeError):
-    """A run that did not reach the state it was asked for; the message says why."""
+    """A run that did not reach the requested state; the message gives the reason."""
 
 
 class FormatError(ValueError):

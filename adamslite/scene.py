@@ -47,7 +47,7 @@ class Scene:
 
     @property
     def title(self) -> str:
-        """The deck, with the command file that nobody asked for."""
+        """The deck, with the command file that lies beside it."""
         if self.beside:
             return f"{self.deck_path} with {self.commands_path} beside it"
         return str(self.deck_path)

@@ -22,7 +22,7 @@ from adamslite.integrators.contract import BDF, HHT, VERLET
 # ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do
 # not have to offer.
 FINE = 1e-6
-# Share of rough steps that is told.
+# Share of rough steps that is reported.
 OFTEN = 0.05
 # Share of the longest way that added errors may come to untold. Stiff contacts turn errors of
 # places into errors of speeds, and sums of backward differences came out up to 12 times short of

@@ -25,8 +25,8 @@ from adamslite.integrators.contract import ACCELERATIONS, AUDIT
 
 # Standard deviations within which a sum of independent errors stays.
 CONFIDENCE = 3.0
-# Share of the largest energy that an elastic law may create before it is told: such laws hold for
-# small angles, and are off by the square of the angle.
+# Share of the largest energy that an elastic law may create before it is reported: such laws hold
+# for small angles, and are off by the square of the angle.
 CREATION = 0.01
 # Round-off of a balance: this share of the largest energy, per step.
 ROUND_OFF = 1e-15

@@ -23,7 +23,7 @@ ROUND_OFF = 2e-16
 # Share of the way that grown round-off may come to untold.
 FELT = 1e-3
 FORCES = ("SFORCE", "SPRINGDAMPER")
-# Numbers of records that are looked at together.
+# Numbers of records that are processed together.
 BLOCK = 2**18
 
 

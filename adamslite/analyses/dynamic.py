@@ -92,7 +92,7 @@ class Settings:
         return method in (RADAU, EXPLICIT) or (method == BDF and free)
 
     def equal_steps(self, hmax: float) -> bool:
-        """Whether steps are asked for that nothing may make shorter."""
+        """Whether the requested steps may not be shortened."""
         return self.method == CONSTANT or self.hinit == self.hmin == hmax
 
     @property

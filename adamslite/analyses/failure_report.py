@@ -54,7 +54,7 @@ def _when(system: System) -> str:
 
 
 def _is_least(system: System) -> bool:
-    """Whether the last step tried was as small as an HMIN that was asked for."""
+    """Whether the last step tried was as small as a requested HMIN."""
     step, least = system.report.h, system.settings.h_min
     return 0.0 < step <= 1.01 * least and least > ROUND_OFF * system.settings.t_end
 

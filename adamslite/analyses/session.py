@@ -47,7 +47,7 @@ from adamslite.model.model import Model, assemble
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Linearized
 
-# Outcomes after which the rank of the constraints is looked at again.
+# Outcomes after which the rank of the constraints is computed again.
 STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
 # Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
 # pivot.
@@ -349,7 +349,7 @@ class Session:
     def _keep(self, times: np.ndarray, static: bool, own_start: bool = True) -> None:
         """Append the records made; a state both ends and begins two analyses only once.
 
-        ``own_start``: the first time was asked for.
+        ``own_start``: the first time was requested.
         """
         system = self._system
         self.out_of_law = system.out_of_law() | self.out_of_law

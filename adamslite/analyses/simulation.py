@@ -157,7 +157,7 @@ def _marker(deck: Any, word: str) -> Any:
 
 
 class _Simulation:
-    """A dynamic run asked for by flags instead of a SIMULATE statement."""
+    """A dynamic run requested by flags instead of a SIMULATE statement."""
 
     keyword, kind = "SIMULATE", "DYNAMICS"
 

@@ -25,7 +25,7 @@ ASIDE = 1e-6
 
 @dataclass(frozen=True)
 class ChainDemand:
-    """A chain, what is asked of it, and how it is made.
+    """A chain, the demand on it, and its construction.
 
     `form` is "fixed" without payout, "paper" or "ale"; `gained` is the range of dm/m0 of an inner
     node.

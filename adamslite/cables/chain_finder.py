@@ -21,7 +21,7 @@ Key = int | str
 FEWEST = 3
 # Masses and stiffnesses of one cable differ by less than this factor.
 ALIKE = 4.0
-# Lengths of a spring, in parts of the drawn one, at which its pull is looked at: a slack one pulls
+# Lengths of a spring, in parts of the drawn one, at which its pull is evaluated: a slack one pulls
 # when it is long enough, a contact never.
 STRETCHES = (0.0, 1e-2, 0.1)
 DIFFERENCE = 1e-5

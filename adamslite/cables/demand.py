@@ -64,7 +64,7 @@ class Demand:
     tied : bool
         Constraints, turning parts, states or forces of accelerations are about: no VERLET.
     end : float
-        Time of the run, 0 when that is not said.
+        Time of the run, 0 when it is not given.
     """
 
     stiffness: float
@@ -230,7 +230,7 @@ def elements(of: Demand, p: float) -> int:
 
 
 def needed(of: Demand, p: float) -> dict[str, float]:
-    """Sections of a span that each rule asks for."""
+    """Sections of a span that each rule requires."""
     finer, q = 0.01 / p, SECTIONS_SHARE * p
     load = of.density * of.longest * (of.pull + of.acceleration)
     top = of.tension + load - of.density * of.length * of.pull / 2

@@ -97,7 +97,7 @@ class Moves:
 
 @dataclass(frozen=True)
 class Laws:
-    """The expressions of a description: ways that laws tell, by station, and engines.
+    """The expressions of a description: travel prescribed by laws, by station, and engines.
 
     A way is None where it depends on what only the run knows.
     """
@@ -142,7 +142,7 @@ def travel(spec: Spec, spans: list[Span], told: Laws) -> Moves:
 
 
 def _told(spec: Spec, law: Node, path: Path, faults: Faults) -> Travel | None:
-    """A way that a law tells; None when it depends on the run."""
+    """The travel that a law prescribes; None when it depends on the run."""
     ways = []
     try:
         for i in range(INSTANTS + 1):

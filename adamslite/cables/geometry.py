@@ -68,7 +68,7 @@ def wrap(spec: Spec, spans: list[Span], i: int) -> float:
 
 
 def reaches(spec: Spec, spans: list[Span]) -> list[float]:
-    """Lengths of cable from one thing that holds or moves it to the next: of spans, joined by the
+    """Lengths of cable from one support or drive to the next: of spans, joined by the
     bends between them [m].
     """
     found = [span.length for span in spans]

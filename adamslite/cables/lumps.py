@@ -1,8 +1,8 @@
 """Form brute: the whole cable as sections of fixed length that run over the rims of the wheels.
 
 A node that meets a wheel is pressed outwards by IMPACT and dragged along by Coulomb friction, mu N
-times a STEP of the sliding speed. Nothing tells it where it is: it runs on, leaves the wheel, and
-what is stored on a winch comes off it node by node. Node k of stretch s, between two ends or
+times a STEP of the sliding speed. Nothing prescribes its position: it runs on, leaves the wheel,
+and what is stored on a winch comes off it node by node. Node k of stretch s, between two ends or
 weights, is MARKER/1000 s + k.
 
     contact     K = 80 T/h: a node sinks in by h**2/(80 R), a tenth of the sagitta of its section

@@ -164,7 +164,7 @@ MESSAGES: dict[str, Message] = {
 
 
 class Faults:
-    """Collects what is said about one description."""
+    """Collects the diagnostics of one description."""
 
     def __init__(self, places: Places) -> None:
         self.places = places

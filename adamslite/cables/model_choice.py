@@ -43,7 +43,7 @@ def tensions(spec: Spec, spans: list[Span]) -> list[float]:
         return [max(spec.cable.pretension, spec.cable.running(spec.speed))] * len(spans)
     down = -dot(spec.gravity, spans[0].along), dot(spec.gravity, spans[-1].along)
     ends = [first.mass * max(0.0, down[0]), last.mass * max(0.0, down[1])]
-    # Free wheels pass a tension on; nothing at an end takes what the other end, or a block, asks.
+    # Free wheels pass a tension on; an end without weight takes what the other, or a block, needs.
     blocks = [_block(spec, spans, i) for i, each in enumerate(spec.route)
               if each.is_carried or each.slides]  # fmt: skip
     ends[0] = ends[0] or ends[1] or max(blocks, default=0.0)
@@ -103,7 +103,7 @@ def _stays_tangent(spec: Spec, spans: list[Span], i: int) -> bool:
 
 
 def choose_model(spec: Spec, spans: list[Span], moves: Moves, faults: Faults) -> CableModel:
-    """The model the description asks for, or what `accuracy` needs."""
+    """The model that the description requests, or what `accuracy` needs."""
     p, of = spec.accuracy, demand_on_longest(spec, spans, moves)
     figures = _figures(of, moves)
     level, why = _level(spec, spans, of, moves)
@@ -126,7 +126,7 @@ def choose_model(spec: Spec, spans: list[Span], moves: Moves, faults: Faults) ->
 
 
 def demand_on_longest(spec: Spec, spans: list[Span], moves: Moves) -> Demand:
-    """What the longest span is asked for; it lies on its line unless something strikes it."""
+    """The demand on the longest span; it lies on its line unless something strikes it."""
     cable = spec.cable
     longest = max(reaches(spec, spans))
     weight = max(abs(dot(spec.gravity, span.along)) for span in spans)
@@ -183,7 +183,7 @@ def _form(
 
 
 def _elements(spec: Spec, spans: list[Span], of: Demand, form: str) -> tuple[int, str]:
-    """Sections of the longest span, and what asks for them."""
+    """Sections of the longest span, and the rule that requires them."""
     if spec.pitch:
         return max(round(of.length / spec.pitch), 1), "a section for every link"
     if spec.elements:

@@ -2,7 +2,7 @@
 
 Everything is at rest in the posture of the deck: rates and accelerations are zero. What a run would
 have to find (reactions, forces that are measured) is :class:`Unknown`; what a constraint prescribes
-as a function of time is worked out from that constraint.
+as a function of time is computed from that constraint.
 """
 
 from collections.abc import Iterator
@@ -185,7 +185,7 @@ class Posture:
                     pending.append(self.deck.find("VARIABLE", each.id).function)
 
     def follow(self, call: Call) -> bool:
-        """Let a measure follow what prescribes it, or go on as it starts; whether it is
+        """Let a measure follow what prescribes it, or continue as it starts; whether it is
         prescribed.
         """
         law = self._motion(call) or self._constraint(call)

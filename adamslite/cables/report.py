@@ -14,7 +14,7 @@ from adamslite.cables.posture import Posture
 from adamslite.language import units
 
 ACCURACIES = (0.01, 0.001)
-# Cables that differ are told one by one; of more than this many the rest is only counted.
+# Cables that differ are reported one by one; of more than this many the rest is only counted.
 MOST = 6
 
 

@@ -15,7 +15,7 @@ from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import in_plane, slipping
 from adamslite.language.diagnostics import DeckError, Diagnostic, sort_by_place
 
-# Shares by which payout may outrun a load before it is told.
+# Shares by which payout may outrun a load before it is reported.
 FASTER = 0.01
 
 

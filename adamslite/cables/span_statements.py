@@ -1,7 +1,7 @@
 """Levels 1 to 3: every span of the route as a rigid cable, or as nodes and sections.
 
 Node k of span p is MARKER/1000 p + k, counted from the wheel, from the start of the route without
-one. A span between two wheels is one massless spring; a run that goes on pulls with T0 + rho c v.
+one. A span between two wheels is one massless spring; a run that continues pulls with T0 + rho c v.
 """
 
 from dataclasses import dataclass

@@ -26,7 +26,7 @@ def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
     """The description in `text`, and what is wrong with it.
 
     Where the route can be read, mistakes of other tables are left for later: a value that cannot
-    be stands in the Spec as 1, so that the rest of the description can be looked at too.
+    be stands in the Spec as 1, so that the rest of the description can be checked too.
 
     Raises
     ------

@@ -199,7 +199,7 @@ class Spec:
 
     @property
     def has_run(self) -> bool:
-        """Whether a long run goes on from an end."""
+        """Whether a long run continues from an end."""
         return any(each.kind == "run" for each in self.route)
 
     @property

@@ -190,7 +190,7 @@ def _slide(each: Station, n: int, way: Vector) -> str:
 
 
 def moved(i: int, j: int, each: Station) -> str:
-    """MARKER/i goes the way that the station's laws tell from MARKER/j."""
+    """MARKER/i moves from MARKER/j as the laws of the station prescribe."""
     return "".join(
         f"GCON/{i}{k}, FUNCTION=D{a}({i},{j})" + (f"\n, -({law})\n" if law else "\n")
         for k, (a, law) in enumerate(zip(AXES, each.motion, strict=True), 1)

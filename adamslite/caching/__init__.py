@@ -2,5 +2,5 @@
 
 sources   a digest of every file that shapes an entry: part of the entry's name
 folder    where entries lie; nobody else may write there
-entries   an entry is verified before it is used, and made again when it fails
+entries   an entry is verified before it is used, and rebuilt when it fails
 """

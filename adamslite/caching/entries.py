@@ -1,6 +1,6 @@
 """Entries: bytes stored under a name that identifies their source.
 
-An entry is verified before anything of it is used, and made again when it fails::
+An entry is verified before any part of it is used, and rebuilt when it fails::
 
     magic and format | length of the content | SHA-256 of name and content | content
     8 bytes            8 bytes                 32 bytes

@@ -27,7 +27,7 @@ HAS_OWNERS = hasattr(os, "geteuid")
 def cache_folder() -> Path:
     """The folder that holds what is kept; made when missing.
 
-    One that was settled earlier is looked at again: it may have been removed, and another put in
+    One that was settled earlier is checked again: it may have been removed, and another put in
     its place.
     """
     chosen = os.environ.get("ADAMSLITE_CACHE")
@@ -48,7 +48,7 @@ def usual_folder() -> Path:
 
 @cache
 def _usual_folder(platform: str, told: str | None, home: str | None) -> Path:
-    """The same from what it depends on: it is asked for with every entry."""
+    """The same from what it depends on: it is needed for every entry."""
     of_user = Path(home) if home else Path.home()
     if platform == "win32":
         return Path(of_user if told is None else told) / "adamslite" / "cache"
@@ -59,7 +59,7 @@ def _usual_folder(platform: str, told: str | None, home: str | None) -> Path:
 
 @cache
 def _settled(folder: Path, chosen: bool) -> tuple[Path, tuple[int, ...]]:
-    """A folder that can be had and trusted, ``folder`` if possible, and what it is told from."""
+    """A folder that can be created and trusted, ``folder`` if possible, and its reasons."""
     found = _found(folder, chosen)
     return found, _identity(found)
 
@@ -74,7 +74,7 @@ def _identity(folder: Path) -> tuple[int, ...]:
 
 
 def _found(folder: Path, chosen: bool) -> Path:
-    """``folder`` if it can be had and trusted, else another, which is said."""
+    """``folder`` if it can be created and trusted, else another one, which is reported."""
     try:
         made = _made(folder)
     except OSError:

@@ -54,7 +54,7 @@ FOLLOWING = ("VFORCE", "VTORQUE", "GFORCE")
 
 
 def body_of(deck: Deck, marker: Key | None) -> Body | None:
-    """Keyword and id of the body a marker is on; None when that cannot be told."""
+    """Keyword and id of the body a marker is on; None when that is unknown."""
     found = deck.find(Marker, marker) if marker is not None else None
     return found.owner if found else None
 
@@ -287,7 +287,7 @@ def frictions(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def _stiction(friction: Friction, joint: Joint) -> Iterator[Diagnostic]:
-    """Whether the joint can hold at rest, and whether that was asked for."""
+    """Whether the joint can hold at rest, and whether that was requested."""
     field, creeps = "max_stiction_deformation", f"a joint {joint.kind} at rest under load creeps"
     if friction.given(field):
         yield from positive(friction, field)

@@ -44,7 +44,7 @@ def _owner(deck: Deck, marker: Key | None) -> tuple[str, Key] | None:
 
 
 def _turns(deck: Deck, owner: tuple[str, Key] | None) -> bool:
-    """Whether a body can rotate; a body that cannot be told counts as one that can."""
+    """Whether a body can rotate; an unknown body counts as one that can."""
     if owner is None:
         return True
     body = deck.find(*owner)

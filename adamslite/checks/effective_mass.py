@@ -37,7 +37,7 @@ from adamslite.language.messages import compose
 
 AXES = {"fx": "ACCX", "fy": "ACCY", "fz": "ACCZ"}
 ZERO, ONE = Num(0.0), Num(1.0)
-# Times at which time-only variables are looked at to see whether the slope is ever positive.
+# Times at which time-only variables are evaluated to see whether the slope is ever positive.
 SAMPLES = (0.0, 1e-3, 0.1, 1.0, 10.0)
 
 

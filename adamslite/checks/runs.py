@@ -100,7 +100,7 @@ def _span_of_time(run: Simulate) -> Iterator[Diagnostic]:
 
 
 def _not_too_many(run: Simulate) -> Iterator[Diagnostic]:
-    """Of a run that begins at 0; one that begins later is looked at when it begins."""
+    """Of a run that begins at 0; one that begins later is checked when it begins."""
     if run.steps is None and (run.dtout or 0) <= 0:
         return
     count = output_steps(run.until(0.0), run.steps, run.dtout)

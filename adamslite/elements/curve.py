@@ -28,7 +28,7 @@ class Curve(Statement):
 
     def spline(self, model: DrawnModel) -> SplineCurve:
         """The curve itself."""
-        assert self.matrix is not None  # a rule asks for it
+        assert self.matrix is not None  # a rule requires it
         points = model.element("MATRIX", self.matrix)
         closed = self.form == "CLOSED"
         return model.once(("CURVE", self.key), lambda: through(points.table, closed))

@@ -123,7 +123,7 @@ class Joint(Constraint, Statement):
         return self.free.get(self.kind, ())
 
     def initial(self) -> list[Initial]:
-        """(field, freedom, displacement, velocity) asked for at the start; None where free."""
+        """(field, freedom, displacement, velocity) requested at the start; None where free."""
         asked = {"ictran": "TRANSLATION", "icrot": "ROTATION"}
         if len(self.coordinates) == 1:
             asked = {"ic": self.coordinates[0]}

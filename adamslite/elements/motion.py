@@ -99,7 +99,7 @@ class Motion(Constraint, Statement):
         return self.axis if self.axis in free else None
 
     def initial(self) -> list[tuple[str, str, float | None, float | None]]:
-        """(field, freedom, displacement, velocity) asked for at the start; None where free."""
+        """(field, freedom, displacement, velocity) requested at the start; None where free."""
         if self.level == "DISPLACEMENT" or self.icdisp is None:
             return []
         return [("icdisp", self.axis or "", self.icdisp, None)]

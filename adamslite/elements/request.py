@@ -80,7 +80,7 @@ class Request(Statement):
         """Values of ``result_names``."""
         if self.kind is None:
             return [f for f in self.functions if f is not None]
-        assert self.i is not None  # a rule asks for it
+        assert self.i is not None  # a rule requires it
         frames = (Ref("MARKER", self.i), Ref("MARKER", self.j), Ref("MARKER", self.rm))
         return [self._measure(name, frames) for name in MEASURES[self.kind]]
 

@@ -52,10 +52,10 @@ class Simulate(Statement):
             return start
         if self.duration is not None:
             return start + self.duration
-        assert self.end is not None  # a rule asks for one of the two
+        assert self.end is not None  # a rule requires one of the two
         return self.end
 
 
 def output_steps(span: float, steps: int | None, dtout: float | None) -> float:
-    """How many output steps are asked for over a span of time [time]."""
+    """The number of requested output steps over a span of time [time]."""
     return span / dtout if steps is None and dtout else steps or STEPS

@@ -35,7 +35,7 @@ __all__ = ["bdf", "engine_text", "explicit", "hht", "radau", "run", "verlet"]
 @native
 def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
-    row ``phases``; CLOCK writes the guards of the clock at the asked times; AUDIT starts a balance.
+    row ``phases``; CLOCK writes the guards of the clock at output times; AUDIT starts a balance.
     """
     if operation == CLOCK:
         return sample_clock(P)

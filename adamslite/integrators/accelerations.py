@@ -25,7 +25,7 @@ from adamslite.native.translate import Reals, native
 
 MAX_ITERATIONS = 12
 ROUND_OFF = 1e-11
-# The equations are linear but for loops of variables: a worse rate of convergence asks for a new
+# The equations are linear but for loops of variables: a worse rate of convergence requires a new
 # matrix.
 SLOW = 0.03
 # A pivot of the acceleration matrix below this share of its first value has vanished.

@@ -64,7 +64,7 @@ class Audit(Record):
     vectors              (2 n + m + nv + 2 ns,) u, a, z, s'
     points               values at the points of a panel, rows of guards
     moving               (m,) 1 for each constraint row that moves
-    matrix, pivots       what integrators go on with: acceleration matrix, its row order
+    matrix, pivots       what integrators continue with: acceleration matrix, its row order
     """
 
     on: bool

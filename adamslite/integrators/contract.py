@@ -4,11 +4,11 @@ An integrator is native code that
 
 1. sees the model only through :mod:`adamslite.integrators.motion_equations` (residual, Jacobian,
 workspace);
-2. advances from the present time to the end time and writes a record at every asked time;
+2. advances from the present time to the end time and writes a record at every output time;
 3. accepts a step only when Newton converged and the error test passed;
 4. never steps through a singular acceleration matrix, and never returns a state it did not
 converge to;
-5. ends a step at every stop and behind every crossing and starts anew there, as
+5. ends a step at every stop and after every crossing and restarts there, as
 :mod:`adamslite.integrators.events.events` says;
 6. counts what it does in ``P.count``;
 7. leaves the last accepted state behind, whatever the outcome;
@@ -36,7 +36,7 @@ mixed           per product D W G^T: target, its width, D, rows, columns, G, bod
 unit            places of the diagonal of mu, one in the acceleration matrix
 dead            unknowns left out of the matrix, whose equations are not solved
 held loose      those among them that hold a model in its plane, and what they may be off by
-times           (nt,) asked times
+times           (nt,) output times
 q u a           (n,) positions and rotation vectors, velocities, accelerations
 z mu            (m + nv + ns,) multipliers, variables, states; multipliers of velocity rows
 ra rz rd pz     accepted accelerations and z, derivatives of the states, z one step earlier
@@ -49,7 +49,7 @@ tableau         coefficients of the Runge-Kutta formula
 parts           of the Newton matrix of the Radau formula;  LC pivots_c: its complex factors
 control         the integrator's own numbers, its ``Control``
 undo            the state before the last accepted one; empty without constraints
-record          (nt, nw + n_out) workspace and outputs at the asked times
+record          (nt, nw + n_out) workspace and outputs at the output times
 kind guard      of guards: how they are read; their values, numbered as the workspace
 margin zone     how far guards are from changing; where the state is within zones
 stops           times at which guards of the clock change
@@ -138,7 +138,7 @@ class Sizes(Record):
 
 
 class RunSettings(Record):
-    """What a run is asked for; ``stop`` ends it, from outside too."""
+    """The settings of a run; ``stop`` ends it, also from outside."""
 
     t: float
     t_end: float

@@ -11,7 +11,7 @@ HUGE = 1e200
 # Rows of P.margin: at the start, at the end and inside of the step; the bracket; how often a guard
 # has changed lately, and since when; branches before they were turned over, and before they were
 # let go for a try; rates at the start and the end; values and rates at both sides of the
-# window within the step that is looked at; at the start of the step before.
+# window within the step that is examined; at the start of the step before.
 START, END, INSIDE, LOW_ROW, HIGH_ROW, CHANGES, SINCE, BEFORE, HELD, EARLY, LATE = range(11)
 LEFT, RIGHT, LEFT_RATE, RIGHT_RATE, PAST, PAST_RATE, MARGIN_ROWS = range(11, 18)
 # Rows of P.zone: the first three as above, and rates at the start and the end.
@@ -27,7 +27,7 @@ class Search(Record):
     """The location of events in one step; shares are of that step.
 
     stop_at, pace_at     the present stop and pace
-    open                 whether the search goes on, with a look at ``share``; ``stage``: what for
+    open                 whether the search continues, with a look at ``share``; ``stage``: what for
     low, high, budget    the bracket of a crossing, and how far ITP may leave its middle
     found, cut           the share of the crossing and of a zone, ``NONE`` without
     size, tolerance      of the step; how near to the crossing it has to end
@@ -37,11 +37,11 @@ class Search(Record):
                          ``hunt_end`` is still ahead
     loose, let_go        guards are evaluated as they are: always, for one try; ``again``: for this
     crawl                tiny steps after a guard was let go
-    looks, looked        looks in this step, the last share that was looked at for a dip
+    looks, looked        looks in this step, the last share that was examined for a dip
     known, rated         whether the rates at the start and at the end are known
     taken                whether guards were turned over because that makes no difference
     span                 share of a zone that a step may cross
-    window_low, window_high   the window that is looked at
+    window_low, window_high   the window that is examined
     past_size            size of the step before, 0 when its rates are not known
     """
 

@@ -178,7 +178,7 @@ def multiplier_change(P: Problem, dz: Reals, z: Reals, ca: float) -> float:
 def velocity_change(P: Problem, before: Reals, cu: float) -> float:
     """Largest change of a velocity by an increment of q and mu, above the round-off of positions.
 
-    mu itself tells little: its share W G^T mu of the velocities may be a hundred times larger.
+    mu itself shows little: its share W G^T mu of the velocities may be a hundred times larger.
     """
     reach, largest = 1.0, 0.0
     for i in range(P.sizes.n):

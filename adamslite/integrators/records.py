@@ -29,7 +29,7 @@ def interpolate(D: Reals, w: int, k: int, t: float, h: float, at: float, y: Real
 def record_at(
     P: Problem, L: Plan, D: Reals, w: int, k: int, t: float, h: float, following: int
 ) -> int:
-    """Write every asked time up to ``t``; returns the next one to write, -1 when it failed.
+    """Write every output time up to ``t``; returns the next one to write, -1 when it failed.
 
     Positions, velocities and states are interpolated; accelerations, multipliers and variables
     are then solved for, so that reactions are as exact as the motion.

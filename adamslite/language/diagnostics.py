@@ -72,7 +72,7 @@ class Source:
 
 
 class Spans(Mapping[str, Span]):
-    """The places of a statement's arguments as written, by field name; worked out when asked."""
+    """The places of a statement's arguments as written, by field name; computed when needed."""
 
     __slots__ = ("source", "whole_range", "ranges")
 
@@ -155,7 +155,7 @@ class MergedSpans(Spans):
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One thing to tell about a deck.
+    """One message about a deck.
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ def render(diagnostics: Iterable[Diagnostic]) -> str:
 class DeckError(Exception):
     """A deck (or command file) with mistakes; carries every one of them.
 
-    ``deck`` is what could be read, so that the command file can be looked at as well.
+    ``deck`` is what could be read, so that the command file can be checked as well.
     """
 
     def __init__(self, diagnostics: Iterable[Diagnostic], deck: Any = None) -> None:

@@ -58,4 +58,4 @@ class DrawnModel(Protocol):
         """The VARIABLE of that id."""
 
     def once(self, what: Hashable, worked_out: Callable[[], T]) -> T:
-        """What is computed for this model when it is first asked for."""
+        """Values that are computed for this model when they are first needed."""

@@ -1,6 +1,6 @@
 """Names of the ADAMS/Solver language that are not supported yet.
 
-They exist, so a deck that uses them is told "not supported yet" and not "unknown".  A name that is
+They exist, so they are reported as "not supported yet" and not as "unknown".  A name that is
 registered elsewhere is supported, whether or not it still stands here.
 """
 

@@ -48,7 +48,7 @@ class Argument:
     options : tuple of str
         Words a choice may take.
     discontinued : tuple of pairs
-        Options that ADAMS has given up, and what to write instead of each.
+        Options that ADAMS has discontinued, and what to write instead of each.
     supported : tuple of str
         Those options the program can run; empty means all.
     bare : bool
@@ -100,7 +100,7 @@ def _declare(argument: Argument) -> Field:
 
 
 def number(*keys: str, help: str, unit: str, **facts: Unpack[Facts]) -> Field:
-    """One real number (a constant expression is worked out)."""
+    """One real number (a constant expression is evaluated)."""
     return _declare(Argument("number", keys, help=help, unit=unit, **facts))
 
 
@@ -140,7 +140,7 @@ def references(*keys: str, to: str, help: str, **facts: Unpack[ListFacts]) -> Fi
 
 
 def ids(*keys: str, help: str, **facts: Unpack[ListFacts]) -> Field:
-    """Ids or names of several statements, of a kind that another argument tells."""
+    """Ids or names of several statements, of a kind that another argument gives."""
     return _declare(Argument("ids", keys, help=help, default=(), **facts))
 
 

@@ -82,7 +82,7 @@ class Model:
         self.held = {(s.keyword, s.key) for s in self.constraints}
 
     def once(self, what: Any, worked_out: Callable[[], Any]) -> Any:
-        """What is worked out for this model when it is first asked for."""
+        """Values that are computed for this model when they are first needed."""
         if what not in self.known:
             self.known[what] = worked_out()
         return self.known[what]

@@ -2,12 +2,12 @@
 
     plane      what moves in a plane is solved in the plane (analyses/planar_reduction.py)
     points     a point mass has three unknowns and no attitude
-    variables  a VARIABLE is worked out where it is used; solved for is only what depends on itself,
+    variables  a VARIABLE is evaluated where it is used; solved for is only what depends on itself,
                and inputs and outputs of a plant
 
 Results are the same with and without, to the accuracy of the integration. Not by rules, because
 nothing is gained by doing without: ground and its markers are constants, redundant constraint rows
-are no part of the matrix, requests are worked out at output times.
+are no part of the matrix, requests are evaluated at output times.
 """
 
 from __future__ import annotations

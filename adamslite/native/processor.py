@@ -50,7 +50,7 @@ def _this_one() -> str:
 
 
 def _told_by_system() -> str:
-    """Model and abilities of the first processor as Linux tells them; empty where it does not."""
+    """Model and features of the first processor as reported by Linux; empty elsewhere."""
     facts = ("vendor_id", "cpu family", "model", "stepping", "flags")
     try:
         first, _, _ = CPUINFO.read_text().partition("\n\n")

@@ -87,7 +87,7 @@ class Resolver:
         return self._node(tree, 0)
 
     def _node(self, tree: Tree, depth: int) -> Node:
-        """One node; after a mistake a stand-in, so that the rest is looked at as well."""
+        """One node; after a mistake a stand-in, so that the rest is checked as well."""
         try:
             return self._build(tree, depth)
         except Unresolved:

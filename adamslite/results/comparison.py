@@ -5,7 +5,7 @@ Channel c is inside its tolerance when at every reference time t
     |value_c(t) - reference_c(t)| <= A + R |reference_c(t)| + P max_t |reference_c|
 
 The reference may hold any few of the channels. Its times must be output times of the results unless
-an interpolation is asked for.
+an interpolation is requested.
 """
 
 from collections.abc import Callable, Iterator
@@ -44,7 +44,7 @@ class Tolerance:
         return " ".join(f"{name} {value:g}" for name, value in parts if value) or "exact"
 
 
-#: What `compare` allows when nothing is said.
+#: The tolerance of `compare` when none is given.
 USUAL = Tolerance(abs=1e-6, peak=1e-6)
 
 

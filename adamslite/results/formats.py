@@ -58,7 +58,7 @@ def formats() -> dict[str, Format]:
 
 
 def format_of(path: str | Path, to_read: bool = False) -> Format:
-    """The format that a file name asks for.
+    """The format of a file name.
 
     Raises
     ------

@@ -57,7 +57,7 @@ class Results:
     balances : tuple of Balance
         With an audit, the balance of energy of every dynamic analysis.
     confirmation : Confirmation
-        What the witnesses of the run say, when they were asked
+        The two other runs of a confirmation, when it was requested
         (:mod:`adamslite.analyses.confirmation`).
     """
 

@@ -3,9 +3,9 @@
     (a + b)' = a' + b'      (a b)' = a' b + a b'      (b^e)' = b^e (e' log b + b' e/b)
     f(a, b)' = f_a a' + f_b b'
 
-They are the trees that ``sympy.diff`` gives.  It asks every part of an expression anew for its
+They are the trees that ``sympy.diff`` gives.  It forms for every part of an expression again its
 symbols and for unevaluated derivatives, at every level: the effort grows with the size of the tree
-times its depth, and the trees of kernels share most of their parts.  Here each part is looked at
+times its depth, and the trees of kernels share most of their parts.  Here each part is visited
 once, and differentiated once by each symbol.
 """
 

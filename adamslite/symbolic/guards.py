@@ -12,7 +12,7 @@ zone        no guard but the place D = (x - x0)/(x1 - x0) of the state within th
             crosses a share at most
 ==========  =====================================================================================
 
-Other guards are evaluated afresh every time: they depend on the state, but the choice is smooth
+Other guards are evaluated every time: they depend on the state, but the choice is smooth
 enough (the borders of a zone), or they only keep a formula from 0/0.
 """
 

@@ -8,7 +8,7 @@ not-a-knot      cubic spline, third derivatives continuous next to both ends
 periodic        cubic spline whose slopes and bends are the same at both ends, as the values are
 ==============  ==================================================================================
 
-Beyond its ends a table goes on as one of
+Beyond its ends a table continues as one of
 
 ==============  ==================================================================================
 parabola        through the outermost three points

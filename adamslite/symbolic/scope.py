@@ -97,7 +97,7 @@ def along_axes(axes: tuple[Vector, Vector, Vector], components: Vector) -> Vecto
 
 
 class Scope:
-    """Symbols for one shape; records which leaves the expressions asked for."""
+    """Symbols for one shape; records which leaves the expressions use."""
 
     def __init__(self, slots: list[Slot]) -> None:
         self.slots = slots
@@ -263,7 +263,7 @@ class Scope:
 
 
 class UndefinedRate(Exception):
-    """A total time derivative was asked of something whose rate is not a known quantity.
+    """A total time derivative is needed of a quantity whose rate is not known.
 
     ``leaf``: that something.
     """

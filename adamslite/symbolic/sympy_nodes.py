@@ -75,7 +75,7 @@ def piecewise(*pieces: tuple[Expr, Expr], otherwise: Expr, order: int | None = N
 
     ``order``: where the choice changes, derivatives up to this order are continuous (-1: the value
     jumps); ``None``: all that matter are, as when a formula is only kept from 0/0.  Decides where
-    a run stops and starts anew: :mod:`adamslite.symbolic.guards`.
+    a run restarts: :mod:`adamslite.symbolic.guards`.
     """
     return _nodes(order)[0](*pieces, (otherwise, True))
 

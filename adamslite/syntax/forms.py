@@ -41,7 +41,7 @@ class Fault(NamedTuple):
 class Item(NamedTuple):
     """One item of a statement by token numbers: ``key`` (-1: none), value ``start`` to ``end``.
 
-    ``closed`` tells that a backslash follows.
+    ``closed``: a backslash follows.
     """
 
     key: int

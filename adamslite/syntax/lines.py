@@ -55,7 +55,7 @@ class _Joiner:
         return self.tokens[position][0] if position < len(self.tokens) else ""
 
     def _joint(self, token: Lexeme, position: int) -> int:
-        """A bracket, an ampersand or a last comment; returns where to go on."""
+        """A bracket, an ampersand or a last comment; returns where to continue."""
         kind = token[0]
         if kind == "AMPERSAND" and self.ampersand and self._kind(position) == "LINE_END":
             position += 1

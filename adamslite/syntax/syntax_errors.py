@@ -14,7 +14,7 @@ from adamslite.syntax.lines import Logical
 from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme, end_of
 
 MOST_MISTAKES = 20
-"""After so many in one statement the rest of it is given up."""
+"""After so many in one statement the rest of it is skipped."""
 
 WRITTEN = {
     "^": "a power is written **",
@@ -57,7 +57,7 @@ class Syntax(NamedTuple):
 def statement_syntax(logical: Logical) -> tuple[Syntax | None, list[tuple[Mistake, list[Lexeme]]]]:
     """The syntax of a statement and the mistakes in it, each with the tokens it counts.
 
-    The syntax is ``None`` when not even the name of the statement can be told.
+    The syntax is ``None`` when not even the name of the statement is known.
     """
     tokens = logical.tokens
     found: list[tuple[Mistake, list[Lexeme]]] = []

@@ -27,7 +27,7 @@ from adamslite.results.results import Results
 from adamslite.run_flags import parse_flags
 from adamslite.verification.measures import ARRIVAL, KINDS, VALUE, Measure
 
-# What a measure may be told, each followed by a number.
+# The options of a measure, each followed by a number.
 _WORDS = ("at", "from", "to", "through", "smoothed")
 
 

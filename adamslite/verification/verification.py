@@ -53,7 +53,7 @@ class Verdict:
     case : Case
         What was judged.
     passed : bool
-        Whether the run came as close as the reference asks.
+        Whether the run is as close as the reference requires.
     text : str
         One line, without the name of the case.
     share : float or None

@@ -41,7 +41,7 @@ Run = Callable[..., Results]
 
 @dataclass(frozen=True)
 class Variant:
-    """An integrator as a user asks for it.
+    """An integrator as a user requests it.
 
     formulation : empty where it makes no difference;  also : other names of the same
     """
@@ -188,7 +188,7 @@ class Patience(Progress):
 
 
 def patient(run: Run, seconds: float, told: Progress | None = None) -> Run:
-    """``run`` that gives up after ``seconds`` of CPU; a user's own interruption goes on."""
+    """``run`` that gives up after ``seconds`` of CPU; a user's own interruption is passed on."""
 
     def runs(**options: Any) -> Results:
         patience = Patience(seconds, told)
@@ -244,7 +244,7 @@ def find_truth(run: Run, tried: Iterable[Variant], channels: Sequence[str] = ())
 
 
 def _checked(best: Tight, others: Sequence[Tight], channels: Sequence[str]) -> Truth:
-    """How sure the best run is: its own change, if another method comes to the same.
+    """How sure the best run is: its own change, if another method agrees.
 
     Another method does when it is no further away than its own change explains; otherwise nobody
     knows which of them is right, and the distance is what is not known.
@@ -283,7 +283,7 @@ def _need_something(results: Results, channels: Sequence[str]) -> None:
 def climb(
     run: Run, variant: Variant, errors: Iterable[float], truth: Truth, channels: Sequence[str] = ()
 ) -> Iterator[Point]:
-    """One integrator from loose to tight; a refusal, or the first run given up, ends it."""
+    """One integrator from loose to tight; up to a rejection or a run that takes too long."""
     for error in errors:
         point = Point(program=variant.label, setting=f"ERROR={error:g}")
         try:
@@ -321,7 +321,7 @@ def measure(
     Parameters
     ----------
     run : function of keyword arguments of `simulate`, returns Results
-        INTERRUPTED is taken as given up; see `patient`.
+        INTERRUPTED counts as taking too long; see `patient`.
     tried : sequence of Variant
     errors : sequence of float
         From loose to tight.

@@ -37,7 +37,7 @@ QUIET, SURELY_QUIET = 1e-5, 1e-9
 OVERFLOW = 1e290
 # Rates within this factor are of one size, if one is found that is not far below.
 ALIKE, FOUND = 0.5, 0.1
-# Where a span is looked at: nowhere a periodic function could always be met at the same phase.
+# Where a span is evaluated: nowhere a periodic function could always be met at the same phase.
 GOLDEN = 0.6180339887498949
 
 

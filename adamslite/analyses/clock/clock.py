@@ -71,7 +71,7 @@ class Clock:
 
 
 def _used(code: list[list[Any]], binding: Any) -> Iterator[Any]:
-    """The parameters and VARIABLEs of an instance that a program asks for."""
+    """The parameters and VARIABLEs of an instance that a program needs."""
     for name, *given in code:
         if name == "p":
             yield binding.params[given[0]]

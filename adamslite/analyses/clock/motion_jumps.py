@@ -23,7 +23,7 @@ WORDS = {"position": "displacement", "velocity": "velocity"}
 
 
 class Break(NamedTuple):
-    """Where a run cannot go on: statement, time, and what becomes of which quantity."""
+    """Where a run cannot continue: statement, time, and what becomes of which quantity."""
 
     statement: Any
     time: float

@@ -27,7 +27,7 @@ from adamslite.integrators import contract
 # Steps per time scale at least (to see it) and, where it must be integrated without an error test
 # of velocities; how many steps of a run are worth that.
 SEEN, FINE, WORTH = 2.0, 32.0, 8192.0
-# What would need more steps than this is left to the error test, and said.
+# What would need more steps than this is left to the error test, and reported.
 MOST = 1e5
 # Curves slower than this share of the longest step cannot be missed, nor what lies between two
 # stops this many of the longest steps apart; nearer stops bound a pulse.
@@ -180,7 +180,7 @@ def _approach(group: np.ndarray, longest: float) -> np.ndarray:
 
 
 def _with_fences(rows: list[tuple[float, float]]) -> np.ndarray:
-    """Rows of (since when, longest step, fence): the fence is where a later row first asks for
+    """Rows of (since when, longest step, fence): the fence is where a later row first requires
     shorter steps.
     """
     table, later = [], []

@@ -94,7 +94,7 @@ def extent(a: np.ndarray, low: Any, high: Any) -> tuple[np.ndarray, np.ndarray]:
 
 
 def ranges(table: Interpolant, curve: int, order: int) -> Ranges:
-    """The ranges of a curve, worked out once."""
+    """The ranges of a curve, computed once."""
     known = _known.setdefault(table, {})
     if (curve, order) not in known:
         known[curve, order] = Ranges(table, curve, order)

@@ -1,8 +1,8 @@
 """Initial conditions of joints and motions: IC, ICTRAN, ICROT, ICDISP.
 
-A displacement asked for is what a MOTION with FUNCTION = d demands of the positions, a speed what a
+A requested displacement is what a MOTION with FUNCTION = d demands of the positions, a speed what a
 MOTION/VELOCITY with FUNCTION = v demands of the velocities.  The model with these motions added is
-assembled once, and its state handed on.  What is not asked for stays as the bodies say: the speed
+assembled once, and its state handed on.  What is not requested stays as the bodies say: the speed
 of a freedom with a displacement alone, and of a MOTION/ACCELERATION without ICVEL.
 """
 
@@ -29,7 +29,7 @@ class Condition(Motion):
 
     @property
     def row_names(self) -> tuple[str, ...]:
-        """What is asked for."""
+        """The requested displacements and speeds."""
         return ("speed" if self.level == "VELOCITY" else "displacement",)
 
 
@@ -52,7 +52,7 @@ def start_of_joints(system: System, progress: Any) -> Unclosed | None:
 
 
 def _conditions(statement: Statement) -> list[Condition]:
-    """A motion for each displacement and each speed asked for."""
+    """A motion for each requested displacement and speed."""
     where = {"joint": statement.key}
     if statement.keyword == "MOTION":
         where = {"joint": statement.joint, "i": statement.i, "j": statement.j}

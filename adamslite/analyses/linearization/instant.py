@@ -4,7 +4,7 @@ The neighbours at t +- h lie on the trajectory: with j = (a(t + h) - a(t - h)) /
 
     x(t + h) = x + h u + h^2 a/2,    u(t + h) = u + h a + h^2 j/2,    s(t + h) likewise
 
-(attitudes turn by the vector h w + h^2 al/2), accelerations and multipliers solved for anew.
+(attitudes turn by the vector h w + h^2 al/2), with accelerations and multipliers solved for.
 """
 
 from __future__ import annotations

@@ -49,7 +49,7 @@ class Linearization:
     coordinates, inputs, outputs : tuple of str
         Names of the rows of ``modes``, of w and of v.
     steady : bool
-        Whether A to D stay as they are while the motion goes on.
+        Whether A to D stay constant along the motion.
     steady_for : str
         Where they do not, for which observer they would ("RM=5"); empty if for none.
     """

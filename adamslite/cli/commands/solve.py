@@ -151,7 +151,7 @@ def _summarize(
 
 
 def _tell_trust(scene: "Scene", args: argparse.Namespace, results: "Results") -> None:
-    """What the run knows of its own errors; only what is wrong where nothing else is told."""
+    """What the run knows of its own errors; only what is wrong where nothing else is reported."""
     silent, found = args.quiet or args.summary == "json", results.confirmation
     if silent and any(not each.closes for each in results.balances):
         sys.stderr.write(f"{scene.title}: {results.meta['energy']}\n")

@@ -60,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def solve_tellingly(deck: Path, options: Mapping[str, Any]) -> Results:
-    """Solve a deck as `verify` does, and tell what takes long."""
+    """Solve a deck as `verify` does, and report what takes long."""
     from adamslite.progress import TalkingProgress
     from adamslite.verification.verification import solve_quietly
 

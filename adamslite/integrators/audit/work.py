@@ -29,7 +29,7 @@ ROUGH_OUTER, ROUGH_MIDDLE = 0.4059280294219, 1.1881439411562
 ZONED = 3
 POINTS, ROWS_OF_GUARDS = 10, 7
 # A change nearer to the end of a panel than this share of the step is at that end; guards are
-# looked at within, where they have left it.
+# evaluated within, where they have left it.
 SAME_PLACE = 1e-9
 # Panels of one step, their least size, and the share of what ERROR explains that is given to them.
 MOST_PANELS, LEAST_PANEL, SHARE_OF_ERROR = 400, 1e-7, 0.01

@@ -18,7 +18,7 @@ from adamslite.native.translate import Reals, as_written, native
 MAX_ORDER = 5
 ROWS = MAX_ORDER + 3
 LOST = ROWS
-# Rotation vectors are counted anew from the present attitude beyond this length (squared).
+# Rotation vectors are counted from the present attitude again beyond this length (squared).
 REBASE = 0.0025
 
 

@@ -88,7 +88,7 @@ def locate(P: Problem, L: Plan, cu: float) -> None:
 
 @native
 def switch_at_start(P: Problem, L: Plan, w: int) -> int:
-    """A branch changes just behind the start of the step: change it there and begin anew."""
+    """A branch changes just after the start of the step: change it there and restart."""
     P.undoing.undoable = False
     restore_state(P, P.history, w, P.control[NOW])
     for i in range(P.sizes.n):
@@ -101,7 +101,7 @@ def switch_at_start(P: Problem, L: Plan, w: int) -> int:
 
 @native
 def pass_on(P: Problem, L: Plan, w: int) -> int:
-    """Behind an event: the history goes on when nothing jumped, else a new one begins."""
+    """After an event: the history continues when nothing jumped, else a new one begins."""
     C = P.control
     # A step that is taken back must not lead across an event.
     P.undoing.undoable = False

@@ -121,7 +121,7 @@ def begin(P: Problem, L: Plan) -> int:
 
 @native
 def advance(P: Problem, L: Plan) -> int:
-    """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
+    """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
     C = P.control
     n, ns = P.sizes.n, P.sizes.ns
     w = 2 * n + ns

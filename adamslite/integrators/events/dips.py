@@ -5,9 +5,9 @@ At the share x of a step, with values a, b and rates r, s per step,
     p(x) = a + r x + c x^2 + d x^3,    c = 3 (b - a) - 2 r - s,    d = 2 (a - b) + r + s
 
 A margin that is positive at both ends was negative in between where p dips below zero; so near to
-zero that p cannot tell, the dense output is asked, and also where the tangents at both ends meet
-below zero: a distance between markers that pass each other is no cubic but almost a kink there.
-Where p fails to predict what is found inside, the step is looked at window by window
+zero that p cannot decide, the dense output is evaluated, and also where the tangents at both ends
+meet below zero: a distance between markers that pass each other is almost a kink there.
+Where p fails to predict what is found inside, the step is examined window by window
 (:mod:`adamslite.integrators.events.windows`).
 The place D within the zone of a smooth step follows the same cubic: a step that touches the zone
 0 < D < 1 may change D by a share of it, or it would pass a force without having felt it.
@@ -24,7 +24,7 @@ from adamslite.native.translate import native
 
 # Rates are differences over this share of the step.
 LITTLE = 1e-3
-# A dip is looked at when it comes nearer to zero than this share of the rates at both ends.
+# A dip is examined when it comes nearer to zero than this share of the rates at both ends.
 NEAR = 0.05
 # No dip is looked for where the lower end is above this share of the rates: tangents do not meet
 # below zero, and no cubic dips that far (4/27).
@@ -41,7 +41,7 @@ HALVINGS = 50
 
 @native
 def rates(P: Problem, row: int, target: int, zone_target: int) -> None:
-    """Rates between the end of the step in ``row`` and what was looked at inside, per time."""
+    """Rates between the end of the step in ``row`` and the last place examined inside, per time."""
     count, zones = P.sizes.watched, P.sizes.zones
     w = 1.0 / (LITTLE * P.search.size)
     if row == START:

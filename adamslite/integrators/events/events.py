@@ -38,7 +38,7 @@ An integrator
 5. accepts the step, writes the records of the time until then, and calls :func:`keep_margins`
    unless something :func:`happened`, else :func:`pass_event`; that leaves accelerations of the new
    branches, and in ``P.search.jump`` how much they changed.  After a jump what is remembered of
-   the past is worthless: it starts anew.  Behind the end of a STEP in time it may go on.
+   the past is worthless: it restarts.  After the end of a STEP in time it may continue.
 
 Reference: Shampine, Thompson, Appl. Math. Comput. 2000, "Event location for ODEs"; Oliveira,
 Takahashi, ACM Trans. Math. Softw. 47 (2021) 5 (ITP, the bracketing).

@@ -94,7 +94,7 @@ def exposes(P: Problem) -> bool:
 
 @native
 def forget(P: Problem) -> None:
-    """The branches that were turned over are those of the end; others are still looked at."""
+    """The branches that were turned over are those of the end; others are still examined."""
     note_changes(P, P.W[0], END)
     P.search.taken, P.search.high = True, NONE
     margins(P, END)

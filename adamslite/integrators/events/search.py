@@ -113,7 +113,7 @@ def judge(P: Problem) -> None:
 
 @native
 def choose(P: Problem) -> None:
-    """Rates are known: a shorter step where a zone asks for it, else a look at the guards."""
+    """Rates are known: a shorter step where a zone requires it, else a look at the guards."""
     P.search.cut = share_into_zones(P)
     if P.search.cut > 1.0 and P.sizes.watched > 0:
         open_window(P)

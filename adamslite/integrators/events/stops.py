@@ -110,7 +110,7 @@ def next_stop(P: Problem, t: float) -> None:
 
 @native
 def sample_clock(P: Problem) -> int:
-    """Values of the guards of the clock at every asked time into the record; how many there are."""
+    """Values of the guards of the clock at every output time into the record; their number."""
     first, count = P.sizes.nw, P.sizes.clocks
     for k in range(count):
         P.W[first + k] = 0.0

@@ -117,7 +117,7 @@ def end_window_here(P: Problem) -> None:
 
 @native
 def rates_at_right(P: Problem) -> None:
-    """Rates between the right side of the window and what was looked at inside, per time."""
+    """Rates between the right side of the window and the last place examined inside, per time."""
     count, S = P.sizes.watched, P.search
     w = 1.0 / ((S.window_high - S.share) * S.size)
     for k in range(count):

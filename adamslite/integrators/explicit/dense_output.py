@@ -44,7 +44,7 @@ DEFECT = 7.0
 
 @native
 def write_dense(P: Problem, L: Plan, w: int, t: float) -> bool:
-    """Write every asked time up to ``t``, the end of the step."""
+    """Write every output time up to ``t``, the end of the step."""
     C, K = P.control, P.history
     following, ready, apart, h = int(C[FOLLOWING]), False, False, C[H]
     while following < P.times.size and P.times[following] <= t + 1e-9 * h:

@@ -69,7 +69,7 @@ def put_cubic(P: Problem, t: float, h: float, x: float, width: int, old: int, la
 
 @native
 def change_where_it_stands(P: Problem, L: Plan, w: int) -> int:
-    """A branch changes just behind the start of the step: change it there and begin anew."""
+    """A branch changes just after the start of the step: change it there and restart."""
     stand_again(P, w)
     if not change_here(P, L, P.control[CLOCK]):
         return NEWTON_FAILED

@@ -128,7 +128,7 @@ def begin_explicit(P: Problem, L: Plan) -> int:
 
 @native
 def try_step(P: Problem, L: Plan) -> int:
-    """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
+    """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
     C = P.control
     w = 2 * P.sizes.n + P.sizes.ns
     if C[CLOCK] >= P.settings.t_end:

@@ -67,7 +67,7 @@ def put_share(P: Problem, t: float, h: float, x: float) -> None:
 
 @native
 def change_at_start(P: Problem, L: Plan) -> int:
-    """A branch changes just behind the start of the step: change it there and begin anew."""
+    """A branch changes just after the start of the step: change it there and restart."""
     back_to_accepted(P)
     if not change_here(P, L, P.control[NOW]):
         return NEWTON_FAILED
@@ -77,7 +77,7 @@ def change_at_start(P: Problem, L: Plan) -> int:
 
 @native
 def step_on(P: Problem, L: Plan) -> int:
-    """Behind an event: go on when nothing jumped, else start over."""
+    """After an event: continue when nothing jumped, else restart."""
     C, n, ns = P.control, P.sizes.n, P.sizes.ns
     if not pass_event(P, L, C[NOW]):
         return NEWTON_FAILED

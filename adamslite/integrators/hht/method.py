@@ -96,7 +96,7 @@ from adamslite.native.translate import Reals, native
 # Newton stops when the estimated remaining error is this share of ERROR; after a single iteration,
 # whose rate is not known, only when the increment is this share of that.
 CORRECTOR_SHARE, QUIET = 0.001, 0.01
-# A matrix kept from an earlier step is given up when increments shrink by less than this, and
+# A matrix kept from an earlier step is discarded when increments shrink by less than this, and
 # renewed for the next step when this one took more iterations.
 SLOW, MOST_ITERATIONS = 0.3, 4
 # ... or after this many steps, or when the step has changed by this share.
@@ -154,7 +154,7 @@ def start_hht(P: Problem, L: Plan) -> int:
 
 @native
 def attempt(P: Problem, L: Plan) -> int:
-    """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
+    """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
     C = P.control
     if C[NOW] >= P.settings.t_end:
         return DONE
@@ -302,7 +302,7 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
 
 @native
 def record_between(P: Problem, L: Plan, t: float, h: float) -> bool:
-    """Write every asked time of the accepted step; False when accelerations are not determined.
+    """Write every output time of the accepted step; False when accelerations are not determined.
 
     Positions and states are interpolated by cubics, velocities are the derivatives of those;
     accelerations, multipliers and variables are solved for.

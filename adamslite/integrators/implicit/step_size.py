@@ -101,7 +101,7 @@ def retry_factor(C: Reals) -> float:
     return 0.25
 
 
-# Where accelerations are looked at behind an event, as a share of the step that is thought of.
+# Where accelerations are evaluated after an event, as a share of the step that is thought of.
 LOOK_AHEAD = 0.1
 
 

@@ -9,7 +9,7 @@ and what has no value at the start, accelerations, multipliers and variables, th
 the stages.  The collocation polynomial has order 3 inside of the step; because the step is taken
 again to end at the crossing, that is the accuracy of a guess, not of the result.
 
-A formula of one step has no past to forget: behind an event only the prediction begins anew.
+A formula of one step has no past to forget: after an event only the prediction restarts.
 Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6 (discontinuities).
 """
 
@@ -93,7 +93,7 @@ def falls_short(P: Problem) -> bool:
 
     A step to the crossing from there would be so short that round-off of positions, over its size,
     spoils velocities.  What is lacking is read from the guards at the end and a little beyond,
-    where the polynomial of the step goes on.
+    where the polynomial of the step continues.
     """
     S, C, count, share = P.search, P.control, P.sizes.watched, NONE
     if not S.hunt or min(S.found, S.cut) <= 1.0 or C[LENGTHENED] >= MOST_LENGTHENED:
@@ -125,7 +125,7 @@ def is_at_crossing(P: Problem, norm: float) -> bool:
 
 @native
 def switch_behind(P: Problem, L: Plan) -> int:
-    """A branch changes just behind the start of the step: change it there and begin anew."""
+    """A branch changes just after the start of the step: change it there and restart."""
     P.control[PASSED], P.control[LENGTHENED] = 0.0, 0.0
     stand_at_start(P)
     if not change_here(P, L, P.control[NOW]):
@@ -136,7 +136,7 @@ def switch_behind(P: Problem, L: Plan) -> int:
 
 @native
 def move_past(P: Problem, L: Plan) -> int:
-    """Behind an event: the prediction goes on when nothing jumped, else it begins anew."""
+    """After an event: the prediction continues when nothing jumped, else it restarts."""
     C = P.control
     if not pass_event(P, L, C[NOW]):
         return NEWTON_FAILED

@@ -145,7 +145,7 @@ def start_radau(P: Problem, L: Plan) -> int:
 
 @native
 def try_radau(P: Problem, L: Plan) -> int:
-    """One try of a step: RUNNING to go on, whether accepted or not, else the outcome."""
+    """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
     C = P.control
     if C[NOW] >= P.settings.t_end:
         return DONE
@@ -302,7 +302,7 @@ def resume(P: Problem) -> None:
 
 @native
 def record_within(P: Problem, L: Plan, t: float, h: float) -> bool:
-    """Write every asked time of the accepted step; False when accelerations are not determined."""
+    """Write every output time of the accepted step; False when accelerations are not determined."""
     C, n, ns, first = P.control, P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     row, y, w = int(C[NEXT]), P.trial[0:], 2 * P.sizes.n + P.sizes.ns
     while row < P.times.size and P.times[row] <= t + 1e-9 * h:

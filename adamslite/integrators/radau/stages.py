@@ -273,7 +273,7 @@ def larger(largest: float, change: float, value: float) -> float:
 
 @native
 def predict_stages(P: Problem, h: float, before: float) -> None:
-    """First values of the stages: the polynomial of the step before (of size ``before``) goes on,
+    """First values of the stages: the polynomial of the step before (of size ``before``) continues,
     or without one accelerations stay.
     """
     n, ns, first, X = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, P.tableau

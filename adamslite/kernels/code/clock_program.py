@@ -168,7 +168,7 @@ def _driven(expression: Any, writer: ClockWriter) -> Iterator[Any]:
 
 
 def _nodes(expression: Any, below: Callable[[Any], Iterable[Any]]) -> Iterator[Any]:
-    """Every different node of an expression, itself first; ``below``: what to go on with."""
+    """Every different node of an expression, itself first; ``below``: what to continue with."""
     pending, seen = [expression], set()
     while pending:
         node = pending.pop()

@@ -32,7 +32,7 @@ TIME, MODE, HEAD = 0, 1, 2
 
 
 class Geometry:
-    """Local inputs of the markers of one shape, made when asked for."""
+    """Local inputs of the markers of one shape, created when needed."""
 
     def __init__(self, b: Builder, slots: list[Slot], reals: list[int]) -> None:
         self.b = b

@@ -69,7 +69,7 @@ class Shape:
 class Outputs:
     """Loads on bodies and scalar rows (node, component, expression) of one shape.
 
-    ``rates_only``: only derivatives with respect to accelerations and multipliers are asked for, as
+    ``rates_only``: only derivatives with respect to accelerations and multipliers are needed, as
     from the second derivative of a constraint; the others would be most of the code.
     """
 

@@ -94,7 +94,7 @@ class Log:
 
     @property
     def errors(self) -> int:
-        """How many errors there were so far; those told once per kind count each time."""
+        """How many errors there were so far; those reported once per kind count each time."""
         return self._errors
 
     def add(self, code: str, start: int, end: int, hint: str = "", **words: object) -> None:
@@ -125,7 +125,7 @@ class Log:
         self.add("missing-reference", start, end, kind=kind, key=key, hint=hint)
 
     def finish(self) -> list[Diagnostic]:
-        """Every message, those told once per kind included."""
+        """Every message, also those that are reported once per kind."""
         for (code, _), tally in self._tallies.items():
             times = "" if tally.count == 1 else f" ({tally.count} times, first here)"
             start, end = tally.first
