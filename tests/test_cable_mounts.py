@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tiers import fast, slow
+from tiers import slow
 
 import adamslite
 from adamslite.cables.scene import deck
@@ -49,7 +49,8 @@ def solve(gives: str = "", model: str = "level = 1", mass: float = 5, velocity: 
 FORMS = ["level = 1", "level = 2\nelements = 2", 'level = 3\nelements = 2\nform = "ale"']
 
 
-@pytest.mark.parametrize("model", fast(FORMS, FORMS[0]))
+@pytest.mark.slow
+@pytest.mark.parametrize("model", FORMS)
 def test_a_mount_carries_what_hangs_on_its_wheel(model: str) -> None:
     """Two equal weights at rest: 32.5 g on the ground, and 30 g about a foot 0.3 m to the right.
 

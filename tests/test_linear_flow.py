@@ -127,7 +127,7 @@ def differs(mechanism: Mechanism, observer: int | None, seed: int) -> float:
         slow(0, "METER", 20),
         slow(1, "METER", 30),
         slow(2, "METER", 20),
-        (2, "METER", 40),
+        slow(2, "METER", 40),
         (4, "CENTIMETER", 20),
     ],
 )

@@ -13,6 +13,7 @@ import pytest
 from frame_constraints import about
 from oracle import Flight, Marker, projected_angles, reported, seen, velocity
 from scenes import quick
+from tiers import slow
 
 import adamslite as al
 from adamslite.language.function import FUNCTIONS
@@ -338,7 +339,7 @@ END
     ("how", "off"),
     [
         ("DISPLACEMENT, FUNCTION={a!r}+{b!r}*TIME", 1e-9),
-        ("VELOCITY, ICDISP={a!r}, FUNCTION={b!r}", 1e-7),
+        slow("VELOCITY, ICDISP={a!r}, FUNCTION={b!r}", 1e-7),
     ],
 )
 def test_six_motions_carry_a_part_where_they_say(how: str, off: float, scale: float) -> None:

@@ -1,0 +1,39 @@
+"""Reference decks that take less than a second, of every kind; `adamslite verify` solves all."""
+
+from __future__ import annotations
+
+import pytest
+
+from adamslite.cli.main import main
+from adamslite.resources import find
+
+#: Largest share of a tolerance that may be used, as in .ci/run.
+SHARE = 0.8
+FOLDERS = (
+    "andrews",
+    "bricard",
+    "bushing",
+    "cable-level3-n10",
+    "cables/axial-echo",
+    "car-axis",
+    "conical-pendulum",
+    "four-bar",
+    "friction-stiction",
+    "gforce-pair",
+    "growing-mass-dalembert",
+    "growing-mass-singular",
+    "hanging-mass",
+    "heavy-top",
+    "paper-sforce",
+    "pendulum-gcon",
+    "slider-crank",
+    "sliding-mass",
+    "spring-pendulum",
+    "three-joint-coupler",
+)
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_a_reference_is_met(folder: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code = main(["verify", str(find("decks") / folder), "-j", "1", "--share", str(SHARE)])
+    assert code == 0, capsys.readouterr().out
