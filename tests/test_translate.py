@@ -32,6 +32,7 @@ from adamslite.native.translate import (
     Rows,
     Untranslatable,
     array,
+    copy,
     native,
 )
 from adamslite.native.translate.statements import Translator
@@ -165,6 +166,7 @@ def sample_shelf(S: Shelf) -> float:
     S.kept[:] = C.high
     seen.x, seen.often = S.spare, 7
     S.spare = S.crate.size
+    copy(S.crate.ends, S.crate.path[1:], 2)
     seen.hit = S.spare > 0.0
     return C.weight if S.kept.hit else 0.0
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.motion_equations import PART
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, copy, native
 
 # Accepted steps taken back in one place.
 MOST_BACKS = 24
@@ -96,16 +96,14 @@ def bring_back(P: Problem) -> None:
 @native
 def copied(n: int, x: Reals, y: Reals, at: int) -> int:
     """x into y at a place; returns the place after it."""
-    for i in range(n):
-        y[at + i] = x[i]
+    copy(y[at:], x, n)
     return at + n
 
 
 @native
 def taken(n: int, x: Reals, y: Reals, at: int) -> int:
     """x from y at a place; returns the place after it."""
-    for i in range(n):
-        x[i] = y[at + i]
+    copy(x, y[at:], n)
     return at + n
 
 

@@ -10,10 +10,10 @@ Reference: Brenan, Campbell, Petzold, Numerical Solution of IVP in DAE, 1996, se
 
 from __future__ import annotations
 
+from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.differences import predict
 from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.implicit.control import AGE, FACTORED, FRESH, H_LAST, NOW, RATE, H, K
 from adamslite.integrators.implicit.tolerance import asked
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import Plan
@@ -80,24 +80,25 @@ def motion_from_increments(P: Problem, cu: float, yp: Reals, psi: Reals, si2: bo
 @native
 def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     """Newton iterations from the predictor; True when converged."""
-    n, C = P.sizes.n, P.control
+    C = Control(P.control)
+    n = P.sizes.n
     w = 2 * n + P.sizes.ns
     yp, psi, v, e = P.trial[0:], P.trial[w:], P.trial[2 * w :], P.trial[2 * w + n :]
     error = asked(P, P.settings.fixed_step)
-    tolerance = CORRECTOR_SHARE * error + P.settings.adaptivity / C[H]
+    tolerance = CORRECTOR_SHARE * error + P.settings.adaptivity / C.h
     tested = cu if tests_velocities(P) else 0.0
     last = 0.0
     motion_from_increments(P, cu, yp, psi, si2)
     for iteration in range(P.settings.max_it):
         P.report.iteration = iteration + 1
-        if not fits_step(C, cu) or renews(P, iteration, C[AGE] < KEEP_STEPS):
+        if not fits_step(C, cu) or renews(P, iteration, C.age < KEEP_STEPS):
             if not newton_matrix(P, L, phases, cu, P.q, v, P.u):
-                C[FACTORED] = 0.0
+                C.factored = 0.0
                 return False
-            C[FACTORED], C[RATE], C[FRESH], C[AGE] = cu, 1.0, 1.0, 0.0
+            C.factored, C.rate, C.fresh, C.age = cu, 1.0, True, 0
         residual(P, phases, P.F)
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
-        scale_increment(P, 2.0 / (1.0 + cu / C[FACTORED]))
+        scale_increment(P, 2.0 / (1.0 + cu / C.factored))
         size = increment_norm(P, P.F, tested, si2)
         apply_increment(P, P.F, P.q, P.z, P.mu, si2)
         for i in range(n):
@@ -109,14 +110,14 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
         size = max(size, further_change(P, cu, si2))
         P.count.newton += 1
         if iteration > 0:
-            C[RATE] = max(LEAST_RATE, size / last)
-        if iteration > 1 and C[RATE] > 0.5 and C[FRESH] == 1.0 and size <= STALL_SHARE * error:
+            C.rate = max(LEAST_RATE, size / last)
+        if iteration > 1 and C.rate > 0.5 and C.fresh and size <= STALL_SHARE * error:
             return True
-        if not size < 1e12 or (C[RATE] > 0.9 and iteration > 0 and size > tolerance):
+        if not size < 1e12 or (C.rate > 0.9 and iteration > 0 and size > tolerance):
             return False
         if remaining(C, size) <= tolerance:
             if iteration == 0:
-                C[RATE] = min(1.0, 2.0 * C[RATE])
+                C.rate = min(1.0, 2.0 * C.rate)
             return True
         last = size
     return False
@@ -134,15 +135,15 @@ def further_change(P: Problem, cu: float, si2: bool) -> float:
 
 
 @native
-def remaining(C: Reals, size: float) -> float:
+def remaining(C: Control, size: float) -> float:
     """Error left after an increment of ``size`` when increments shrink by RATE each time."""
-    return size * min(1.0, C[RATE] / max(1e-3, 1.0 - min(C[RATE], 0.999)))
+    return size * min(1.0, C.rate / max(1e-3, 1.0 - min(C.rate, 0.999)))
 
 
 @native
-def fits_step(C: Reals, cu: float) -> bool:
+def fits_step(C: Control, cu: float) -> bool:
     """Whether there is a factored matrix for about this ``cu``."""
-    return C[FACTORED] != 0.0 and abs(cu / C[FACTORED] - 1.0) <= KEEP_RATIO
+    return C.factored != 0.0 and abs(cu / C.factored - 1.0) <= KEEP_RATIO
 
 
 @native
@@ -156,19 +157,20 @@ def scale_increment(P: Problem, ratio: float) -> None:
 @native
 def start_try(P: Problem, w: int) -> None:
     """Predicted values of all unknowns at the end of the step; of q only the change is kept."""
-    n, ns, C = P.sizes.n, P.sizes.ns, P.control
+    C = Control(P.control)
+    n, ns = P.sizes.n, P.sizes.ns
     first = P.sizes.m + P.sizes.nv
     yp, e = P.trial[0:], P.trial[2 * w + n :]
-    predict(P.history, w, int(C[K]), yp, P.trial[w:])
+    predict(P.history, w, C.order, yp, P.trial[w:])
     for i in range(n, w):
         yp[i] += P.history[i]
     for i in range(n):
         P.q[i], e[i] = P.history[i] + yp[i], 0.0
     for i in range(ns):
         P.z[first + i] = yp[2 * n + i]
-    ahead = C[H] / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
+    ahead = C.h / C.h_last if C.h_last > 0.0 else 0.0
     for i in range(first):
         P.z[i] = P.rz[i] + min(ahead, 2.0) * (P.rz[i] - P.pz[i])
     for i in range(P.mu.size):
         P.mu[i] = 0.0
-    put_time(P, C[NOW] + C[H])
+    put_time(P, C.t + C.h)

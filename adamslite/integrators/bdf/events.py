@@ -11,21 +11,14 @@ taken from a straight line, for guards that depend on them.
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import mass_signature, put_state
-from adamslite.integrators.bdf.order_cap import CAP, OrderCap
+from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.state import restore_state, start_values
 from adamslite.integrators.contract import INDEX3, NEWTON_FAILED, STABILISED, Problem
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import judge, open_search
 from adamslite.integrators.implicit.control import (
-    EQUAL,
-    FACTORED,
-    H_LAST,
-    NOW,
     RUNNING,
-    SIGNATURE,
-    H,
-    K,
     keep_algebraic,
 )
 from adamslite.integrators.implicit.step_size import LOOK_AHEAD, SMOOTH, first_step, jerk
@@ -75,13 +68,13 @@ def restart_step(P: Problem, L: Plan, t: float, h: float) -> float:
 @native
 def locate(P: Problem, L: Plan, cu: float) -> None:
     """Look for the first change of a branch within the step that has passed its test."""
-    C = P.control
-    t, h = C[NOW], C[H]
+    C = Control(P.control)
+    t, h = C.t, C.h
     stabilised = P.sizes.si2 and P.sizes.holonomic > 0
     open_search(P, t, h)
     take_harmless(P, L, STABILISED if stabilised else INDEX3, cu)
     while P.search.open:
-        put_between(P, int(C[K]), t, h, P.search.share)
+        put_between(P, C.order, t, h, P.search.share)
         judge(P)
     put_state(P, t + h, P.q, P.u, P.a, P.z, P.rd)
 
@@ -89,11 +82,12 @@ def locate(P: Problem, L: Plan, cu: float) -> None:
 @native
 def switch_at_start(P: Problem, L: Plan, w: int) -> int:
     """A branch changes just after the start of the step: change it there and restart."""
+    C = Control(P.control)
     P.undoing.undoable = False
-    restore_state(P, P.history, w, P.control[NOW])
+    restore_state(P, P.history, w, C.t)
     for i in range(P.sizes.n):
         P.a[i] = P.ra[i]
-    if not change_here(P, L, P.control[NOW]):
+    if not change_here(P, L, C.t):
         return NEWTON_FAILED
     begin_anew(P, L, w)
     return RUNNING
@@ -102,40 +96,40 @@ def switch_at_start(P: Problem, L: Plan, w: int) -> int:
 @native
 def pass_on(P: Problem, L: Plan, w: int) -> int:
     """After an event: the history continues when nothing jumped, else a new one begins."""
-    C = P.control
+    C = Control(P.control)
     # A step that is taken back must not lead across an event.
     P.undoing.undoable = False
-    restore_state(P, P.history, w, C[NOW])
+    restore_state(P, P.history, w, C.t)
     for i in range(P.sizes.n):
         P.a[i] = P.ra[i]
-    if not pass_event(P, L, C[NOW]):
+    if not pass_event(P, L, C.t):
         return NEWTON_FAILED
-    if P.search.jump * C[H_LAST] > SMOOTH * P.settings.error:
+    if P.search.jump * C.h_last > SMOOTH * P.settings.error:
         begin_anew(P, L, w)
         return RUNNING
-    C[FACTORED] = 0.0
+    C.factored = 0.0
     for i in range(P.sizes.n):
         P.ra[i] = P.a[i]
     keep_algebraic(P)
-    restore_state(P, P.history, w, C[NOW])
+    restore_state(P, P.history, w, C.t)
     return RUNNING
 
 
 @native
 def begin_anew(P: Problem, L: Plan, w: int) -> None:
     """A history of order 1 from the state and the accelerations in place."""
-    C = P.control
+    C = Control(P.control)
     P.count.restarts += 1
     for i in range(P.sizes.n):
         P.ra[i] = P.a[i]
     keep_algebraic(P)
     for i in range(P.z.size):
         P.pz[i] = P.rz[i]
-    C[H], C[K], C[EQUAL] = restart_step(P, L, C[NOW], first_step(P, w)), 1.0, 0.0
-    C[H_LAST], C[FACTORED] = 0.0, 0.0
-    cap = OrderCap(P.control[CAP:])
+    C.h, C.order, C.equal = restart_step(P, L, C.t, first_step(P, w)), 1, 0
+    C.h_last, C.factored = 0.0, 0.0
+    cap = C.cap
     cap.travelled, cap.bad, cap.tries, cap.suspect = 0.0, 0.0, 0.0, 0.0
-    start_values(P, P.history, w, C[H])
-    put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
+    start_values(P, P.history, w, C.h)
+    put_state(P, C.t, P.q, P.u, P.ra, P.z, P.rd)
     if P.sizes.implicit_mass:
-        C[SIGNATURE] = float(mass_signature(P, L, P.x))
+        C.signature = mass_signature(P, L, P.x)

@@ -38,8 +38,6 @@ HOPELESS = 0.3
 PATIENCE, MORE_PATIENCE = 500.0, 4.0
 
 WATCHING, TRYING, CAPPED = 0.0, 1.0, 2.0
-# Its place in P.control.
-CAP = 20
 
 
 class OrderCap(Record):
@@ -78,7 +76,7 @@ def suspect(C: OrderCap, order: int, low: float, high: float, error: float, step
 
 
 @native
-def highest_order(C: OrderCap, top: float, most: float, h_max: float) -> float:
+def highest_order(C: OrderCap, top: int, most: int, h_max: float) -> int:
     """The highest order from now on, after an accepted step; ``top`` is that until now."""
     if C.tries < WINDOW:
         return top
@@ -93,19 +91,19 @@ def highest_order(C: OrderCap, top: float, most: float, h_max: float) -> float:
     if growing or C.rest > 0.0 or pace * ROOM > h_max or not suspected:
         return top
     C.state, C.windows = TRYING, 0.0
-    return 2.0
+    return 2
 
 
 @native
-def after_window(C: OrderCap, pace: float, most: float) -> float:
+def after_window(C: OrderCap, pace: float, most: int) -> int:
     """The highest order after a window of a trial, or of steps under the cap."""
     C.windows += 1.0
     if pace > PAYS * C.pace:
         C.state = CAPPED
     if C.state == CAPPED and pace > STILL_PAYS * C.pace:
-        return 2.0
+        return 2
     if C.state == TRYING and C.windows < TRIAL_WINDOWS and pace > HOPELESS * C.pace:
-        return 2.0
+        return 2
     C.state, C.rest = WATCHING, C.next_rest
     C.next_rest *= MORE_PATIENCE
     return most

@@ -6,11 +6,11 @@ D_0 = y and D_1 = h y' start a history of order 1, on a first step with h^2 |y''
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
+from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.differences import change_step
 from adamslite.integrators.contract import (
     Problem,
 )
-from adamslite.integrators.implicit.control import EQUAL, H, K
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.native.translate import Reals, native
 
@@ -35,9 +35,10 @@ def start_values(P: Problem, D: Reals, w: int, h: float) -> None:
 @native
 def resize(P: Problem, w: int, factor: float) -> None:
     """Change the step and with it the history."""
-    change_step(P.history, w, int(P.control[K]), factor)
-    P.control[H] *= factor
-    P.control[EQUAL] = 0.0
+    C = Control(P.control)
+    change_step(P.history, w, C.order, factor)
+    C.h *= factor
+    C.equal = 0
 
 
 @native

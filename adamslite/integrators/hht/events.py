@@ -7,15 +7,10 @@ from adamslite.integrators.contract import INDEX3, NEWTON_FAILED, Problem
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import judge, open_search
-from adamslite.integrators.hht.newmark_formula import CU, back_to_accepted, bodies_between
+from adamslite.integrators.hht.control import Control
+from adamslite.integrators.hht.newmark_formula import back_to_accepted, bodies_between
 from adamslite.integrators.implicit.control import (
-    EQUAL,
-    FACTORED,
-    H_LAST,
-    NOW,
     RUNNING,
-    SIGNATURE,
-    H,
     keep_algebraic,
 )
 from adamslite.integrators.implicit.step_size import LOOK_AHEAD, SMOOTH, first_step, jerk
@@ -30,10 +25,11 @@ CAREFUL = 0.02
 @native
 def locate_in_step(P: Problem, L: Plan) -> None:
     """Look for the first change of a branch within the step that has passed its test."""
-    C, n = P.control, P.sizes.n
-    t, h, end = C[NOW], C[H], P.trial[0:]
+    C = Control(P.control)
+    n = P.sizes.n
+    t, h, end = C.t, C.h, P.trial[0:]
     open_search(P, t, h)
-    take_harmless(P, L, INDEX3, C[CU])
+    take_harmless(P, L, INDEX3, C.cu)
     vector_rates(P, P.q, P.u, end[n:])
     while P.search.open:
         put_share(P, t, h, P.search.share)
@@ -68,8 +64,9 @@ def put_share(P: Problem, t: float, h: float, x: float) -> None:
 @native
 def change_at_start(P: Problem, L: Plan) -> int:
     """A branch changes just after the start of the step: change it there and restart."""
+    C = Control(P.control)
     back_to_accepted(P)
-    if not change_here(P, L, P.control[NOW]):
+    if not change_here(P, L, C.t):
         return NEWTON_FAILED
     start_over(P, L)
     return RUNNING
@@ -78,13 +75,14 @@ def change_at_start(P: Problem, L: Plan) -> int:
 @native
 def step_on(P: Problem, L: Plan) -> int:
     """After an event: continue when nothing jumped, else restart."""
-    C, n, ns = P.control, P.sizes.n, P.sizes.ns
-    if not pass_event(P, L, C[NOW]):
+    C = Control(P.control)
+    n, ns = P.sizes.n, P.sizes.ns
+    if not pass_event(P, L, C.t):
         return NEWTON_FAILED
-    if P.search.jump * C[H_LAST] > SMOOTH * P.settings.error:
+    if P.search.jump * C.h_last > SMOOTH * P.settings.error:
         start_over(P, L)
         return RUNNING
-    C[FACTORED] = 0.0
+    C.factored = 0.0
     for i in range(n):
         P.ra[i] = P.a[i]
     for k in range(ns):
@@ -96,9 +94,10 @@ def step_on(P: Problem, L: Plan) -> int:
 @native
 def start_over(P: Problem, L: Plan) -> None:
     """Forget earlier accelerations: those in place are the first."""
-    C, D, n, ns = P.control, P.history, P.sizes.n, P.sizes.ns
+    C = Control(P.control)
+    D, n, ns = P.history, P.sizes.n, P.sizes.ns
     P.count.restarts += 1
-    C[H_LAST], C[EQUAL], C[FACTORED] = 0.0, 0.0, 0.0
+    C.h_last, C.equal, C.factored = 0.0, 0, 0.0
     for i in range(n):
         P.ra[i], D[2 * n + i] = P.a[i], P.a[i]
     for k in range(ns):
@@ -106,10 +105,10 @@ def start_over(P: Problem, L: Plan) -> None:
             D[4 * n + row * ns + k] = P.rd[k]
     keep_algebraic(P)
     h = first_step(P, 0)
-    change = abs(P.settings.beta - 1.0 / 6.0) * jerk(P, L, C[NOW], LOOK_AHEAD * h)
-    C[H] = P.settings.h_max
+    change = abs(P.settings.beta - 1.0 / 6.0) * jerk(P, L, C.t, LOOK_AHEAD * h)
+    C.h = P.settings.h_max
     if change > 0.0:
-        C[H] = min(C[H], (CAREFUL * P.settings.error / change) ** (1.0 / 3.0))
-    put_state(P, C[NOW], P.q, P.u, P.ra, P.z, P.rd)
+        C.h = min(C.h, (CAREFUL * P.settings.error / change) ** (1.0 / 3.0))
+    put_state(P, C.t, P.q, P.u, P.ra, P.z, P.rd)
     if P.sizes.implicit_mass:
-        C[SIGNATURE] = float(mass_signature(P, L, P.x))
+        C.signature = mass_signature(P, L, P.x)

@@ -52,10 +52,9 @@ from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.search import ends_there, shorter, starts_there
 from adamslite.integrators.events.stops import horizon, longest_step, step_limit
 from adamslite.integrators.failure_notes import note_trouble
+from adamslite.integrators.hht.control import Control
 from adamslite.integrators.hht.events import change_at_start, locate_in_step, step_on
 from adamslite.integrators.hht.newmark_formula import (
-    FIXED,
-    ROUGH,
     back_to_accepted,
     between,
     choose_coefficients,
@@ -68,19 +67,7 @@ from adamslite.integrators.hht.newmark_formula import (
     start_from_here,
 )
 from adamslite.integrators.implicit.control import (
-    AGE,
-    BLAMED,
-    EQUAL,
-    FACTORED,
-    FRESH,
-    H_LAST,
-    NEXT,
-    NORM,
-    NOW,
-    RETRIES,
     RUNNING,
-    SIGNATURE,
-    H,
     keep_algebraic,
 )
 from adamslite.integrators.implicit.failures import SINGULAR_RESOLUTION, corrector_failed, wildest
@@ -91,7 +78,7 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import put_time, residual, track, vector_rates
 from adamslite.integrators.newton import renews
 from adamslite.integrators.records import note_violation, write_record
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import native
 
 # Newton stops when the estimated remaining error is this share of ERROR; after a single iteration,
 # whose rate is not known, only when the increment is this share of that.
@@ -113,27 +100,28 @@ LEAST_SHARE = 1e-9
 @native
 def hht(P: Problem, L: Plan) -> int:
     """Integrate to the end time; returns an outcome."""
+    C = Control(P.control)
     outcome = start_hht(P, L)
     while outcome == RUNNING:
         outcome = attempt(P, L)
     back_to_accepted(P)
-    P.report.t = P.control[NOW]
+    P.report.t = C.t
     return outcome
 
 
 @native
 def start_hht(P: Problem, L: Plan) -> int:
     """Accelerations at the start, the first record, attitudes counted from here."""
-    C, D, s, n, ns = P.control, P.history, P.settings, P.sizes.n, P.sizes.ns
-    for i in range(P.control.size):
-        C[i] = 0.0
-    C[NOW] = s.t
+    C = Control(P.control)
+    D, s, n, ns = P.history, P.settings, P.sizes.n, P.sizes.ns
+    C[:] = 0
+    C.t = s.t
     if s.h_init > 0.0 and s.h_init == s.h_max and s.h_init == s.h_min:
-        C[FIXED] = s.h_init
-    start_events(P, C[FIXED] == 0.0, first_order_share(P) > 0.0)
+        C.fixed = s.h_init
+    start_events(P, C.fixed == 0.0, first_order_share(P) > 0.0)
     good = accelerations(P, L, s.t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
-    C[H] = first_step(P, 0)
+    C.h = first_step(P, 0)
     P.report.rough_steps = 0
     for i in range(n):
         P.ra[i], D[2 * n + i], D[3 * n + i] = P.a[i], P.a[i], P.a[i]
@@ -143,10 +131,10 @@ def start_hht(P: Problem, L: Plan) -> int:
     keep_algebraic(P)
     if good:
         if P.sizes.implicit_mass:
-            C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
-        while int(C[NEXT]) < P.times.size and P.times[int(C[NEXT])] <= s.t:
-            write_record(P, int(C[NEXT]))
-            C[NEXT] += 1.0
+            C.signature = mass_signature(P, L, P.pivot0)
+        while C.row < P.times.size and P.times[C.row] <= s.t:
+            write_record(P, C.row)
+            C.row += 1
         track(P)
     start_from_here(P)
     return RUNNING if good else BROKEN_START
@@ -155,43 +143,43 @@ def start_hht(P: Problem, L: Plan) -> int:
 @native
 def attempt(P: Problem, L: Plan) -> int:
     """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
-    C = P.control
-    if C[NOW] >= P.settings.t_end:
+    C = Control(P.control)
+    if C.t >= P.settings.t_end:
         return DONE
     if P.settings.stop:
         return INTERRUPTED
     choose_coefficients(P)
-    if C[H] < LEAST_SHARE * C[FIXED] or (C[FIXED] == 0.0 and too_small(P)) or crawls(P, C[H]):
+    if C.h < LEAST_SHARE * C.fixed or (C.fixed == 0.0 and too_small(P)) or crawls(P, C.h):
         return why_too_small(P, L)
-    P.report.t, P.report.h, P.report.order = C[NOW], C[H], 2
+    P.report.t, P.report.h, P.report.order = C.t, C.h, 2
     if not correct_step(P, L):
         return after_no_convergence(P)
     norm = position_error(P)
     P.report.error = norm
     if not norm < 1e12:
         return NOT_FINITE
-    if norm > 1.0 and C[FIXED] == 0.0:
+    if norm > 1.0 and C.fixed == 0.0:
         P.count.rejected += 1
-        C[EQUAL], C[NORM] = 0.0, norm
-        C[H] *= cut(P, max(0.2, (SAFETY * norm) ** (-1.0 / 3.0)))
+        C.equal, C.norm = 0, norm
+        C.h *= cut(P, max(0.2, (SAFETY * norm) ** (-1.0 / 3.0)))
         return RUNNING
     if P.sizes.implicit_mass:
-        if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
-            C[H] *= 0.25
-            return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings.h_max else SINGULAR_MASS
+        if mass_signature(P, L, P.x) != C.signature:
+            C.h *= 0.25
+            return RUNNING if C.h > SINGULAR_RESOLUTION * P.settings.h_max else SINGULAR_MASS
     return finish_attempt(P, L, norm)
 
 
 @native
 def finish_attempt(P: Problem, L: Plan, norm: float) -> int:
     """The step has passed its tests: accept it, or take it again to end at the first crossing."""
-    C = P.control
-    if P.sizes.watched + P.sizes.zones > 0 and C[FIXED] == 0.0:
+    C = Control(P.control)
+    if P.sizes.watched + P.sizes.zones > 0 and C.fixed == 0.0:
         locate_in_step(P, L)
         if not ends_there(P):
             if starts_there(P):
                 return change_at_start(P, L)
-            C[H], C[EQUAL] = shorter(P), 0.0
+            C.h, C.equal = shorter(P), 0
             return RUNNING
     return accept_attempt(P, L, norm)
 
@@ -203,18 +191,19 @@ def correct_step(P: Problem, L: Plan) -> bool:
     A kept matrix that converges slowly is no longer believed: back to the prediction, or on from
     here when the matrix was made in this step, with a new matrix at every iteration.
     """
-    C, tolerance, last = P.control, CORRECTOR_SHARE * asked(P, P.control[FIXED]), 0.0
+    C = Control(P.control)
+    tolerance, last = CORRECTOR_SHARE * asked(P, C.fixed), 0.0
     if first_order_share(P) > 0.0:
-        tolerance *= min(1.0, C[H])  # Velocities are tested: they are off by that of positions / h.
+        tolerance *= min(1.0, C.h)  # Velocities are tested: they are off by that of positions / h.
     full, tries = False, 0
-    C[FRESH] = 0.0
-    put_time(P, C[NOW] + C[H])
+    C.fresh = False
+    put_time(P, C.t + C.h)
     predict_step(P)
     while tries < P.settings.max_it:
-        if full or not matrix_fits(C) or renews(P, tries, C[AGE] < KEEP_STEPS):
-            C[FACTORED], C[FRESH], C[AGE] = C[H], 1.0, 0.0
+        if full or not matrix_fits(C) or renews(P, tries, C.age < KEEP_STEPS):
+            C.factored, C.fresh, C.age = C.h, True, 0
             if not second_order_matrix(P, L):
-                C[FACTORED] = 0.0
+                C.factored = 0.0
                 return False
         residual(P, INDEX3, P.F)
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
@@ -226,12 +215,12 @@ def correct_step(P: Problem, L: Plan) -> bool:
         left = size * rate / (1.0 - rate) if tries > 1 else size / QUIET
         if left <= tolerance:
             if tries > MOST_ITERATIONS:
-                C[FACTORED] = 0.0
+                C.factored = 0.0
             return True
         if not size < 1e12 or (tries > 1 and size > SLOW * last):
             if full and not size < DIVERGING * last:
                 return False
-            if not full and (C[FRESH] == 0.0 or not size < last):
+            if not full and (not C.fresh or not size < last):
                 predict_step(P)
                 tries = 0
             full = True
@@ -240,44 +229,45 @@ def correct_step(P: Problem, L: Plan) -> bool:
 
 
 @native
-def matrix_fits(C: Reals) -> bool:
+def matrix_fits(C: Control) -> bool:
     """Whether there is a factored matrix for this step."""
-    return C[FACTORED] != 0.0 and abs(C[H] / C[FACTORED] - 1.0) <= KEEP_RATIO
+    return C.factored != 0.0 and abs(C.h / C.factored - 1.0) <= KEEP_RATIO
 
 
 @native
 def after_no_convergence(P: Problem) -> int:
     """A shorter step with a new matrix; near a singular posture also longer ones."""
-    C = P.control
+    C = Control(P.control)
     P.count.failures += 1
-    C[FACTORED], C[EQUAL] = 0.0, 0.0
-    if C[FIXED] > 0.0:
+    C.factored, C.equal = 0.0, 0
+    if C.fixed > 0.0:
         P.report.divided += 1
     if let_go(P):
         return RUNNING
-    C[RETRIES] += 1.0
-    C[BLAMED] = float(wildest(P))
+    C.retries += 1
+    C.blamed = wildest(P)
     note_trouble(P, INDEX3, P.report.iteration)
-    C[H] *= cut(P, retry_factor(C)) if C[FIXED] == 0.0 else retry_factor(C)
+    C.h *= cut(P, retry_factor(C)) if C.fixed == 0.0 else retry_factor(C)
     return RUNNING
 
 
 @native
 def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
     """Move on, write records, choose the next step."""
-    C, h = P.control, P.control[H]
+    C = Control(P.control)
+    h = C.h
     P.count.steps += 1
     P.report.spent += norm
-    t = C[NOW] + h
-    limit = step_limit(P, int(C[NEXT])) if C[FIXED] == 0.0 else horizon(P)
+    t = C.t + h
+    limit = step_limit(P, C.row) if C.fixed == 0.0 else horizon(P)
     if t + 1e-7 * h > limit:
         t = limit
     keep_second_order(P)
-    P.report.rough_steps += int(C[ROUGH])
+    P.report.rough_steps += 1 if C.rough else 0
     note_violation(P, t)
     audit(P, L, t)
-    C[NOW], C[H_LAST], C[RETRIES], C[NORM] = t, h, 0.0, 0.0
-    C[AGE] += 1.0
+    C.t, C.h_last, C.retries, C.norm = t, h, 0, 0.0
+    C.age += 1
     good = record_between(P, L, t, h)
     track(P)
     start_from_here(P)
@@ -285,18 +275,18 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
         return SINGULAR_MASS
     if happened(P, t):
         outcome = step_on(P, L)
-        C[H] = C[FIXED] if C[FIXED] > 0.0 else C[H]
+        C.h = C.fixed if C.fixed > 0.0 else C.h
         return outcome
     keep_margins(P)
-    if C[FIXED] > 0.0:
-        C[H] = min(2.0 * h, C[FIXED])
+    if C.fixed > 0.0:
+        C.h = min(2.0 * h, C.fixed)
     else:
         factor = max(SAFETY * norm, 1e-10) ** (-1.0 / 3.0)
-        C[EQUAL] += 1.0
+        C.equal += 1
         room = min(MOST_GROWTH, longest_step(P) / h)
-        if (C[EQUAL] > 1.0 and min(factor, room) > LEAST_GROWTH) or factor < 0.9:
-            C[H] *= cut(P, min(factor, room))
-            C[EQUAL] = 0.0
+        if (C.equal > 1 and min(factor, room) > LEAST_GROWTH) or factor < 0.9:
+            C.h *= cut(P, min(factor, room))
+            C.equal = 0
     return RUNNING
 
 
@@ -307,8 +297,9 @@ def record_between(P: Problem, L: Plan, t: float, h: float) -> bool:
     Positions and states are interpolated by cubics, velocities are the derivatives of those;
     accelerations, multipliers and variables are solved for.
     """
-    C, n, ns, first = P.control, P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
-    row, good = int(C[NEXT]), True
+    C = Control(P.control)
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
+    row, good = C.row, True
     if row >= P.times.size or P.times[row] > t + 1e-9 * h:
         return True
     end, y = P.trial[0:], P.trial[2 * n + ns :]
@@ -321,7 +312,7 @@ def record_between(P: Problem, L: Plan, t: float, h: float) -> bool:
         if good:
             write_record(P, row)
             row += 1
-    C[NEXT] = float(row)
+    C.row = row
     for k in range(ns):
         P.rd[k] = P.history[4 * n + ns + k]
         P.z[first + k] = end[2 * n + k]
@@ -336,12 +327,12 @@ def why_too_small(P: Problem, L: Plan) -> int:
     """Why the step became too small: a vanishing pivot of the acceleration matrix, or something
     else.
     """
-    C = P.control
+    C = Control(P.control)
     back_to_accepted(P)
-    if mass_vanishes(P, L, int(C[SIGNATURE])):
+    if mass_vanishes(P, L, C.signature):
         return SINGULAR_MASS
-    if C[RETRIES] > 0.0:
-        P.report.where = int(C[BLAMED])
+    if C.retries > 0:
+        P.report.where = C.blamed
     if P.search.freed > 0:
         return CHATTERING
     return NEWTON_FAILED if corrector_failed(C) else STEP_TOO_SMALL

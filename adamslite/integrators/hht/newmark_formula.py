@@ -10,7 +10,8 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import INDEX3, Problem
 from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
-from adamslite.integrators.implicit.control import H_LAST, NEXT, NOW, H, keep_algebraic
+from adamslite.integrators.hht.control import Control
+from adamslite.integrators.implicit.control import keep_algebraic
 from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
@@ -36,33 +37,32 @@ FIRST_ORDER = 1e-9
 # share of ERROR: a vibration that is not followed but damped.
 HALF, FELT = 0.5, 0.01
 
-# Places in P.control after those of the BDF.
-CU, CA, CS, FIXED, REACH, ROUGH = range(18, 24)
-
 
 @native
 def choose_coefficients(P: Problem) -> None:
     """The step within its pace and the end time, and how u, a and s' follow from q and s."""
-    C, s = P.control, P.settings
-    set_pace(P, C[NOW])
-    left = horizon(P) - C[NOW]
-    C[H] = min(C[H], longest_step(P))
-    if not s.interpolate and C[FIXED] == 0.0:
-        C[H] = fitted(P, C[H], step_limit(P, int(C[NEXT])) - C[NOW])
-    elif C[H] * 1.0000001 > left:
-        C[H] = left
-    elif C[FIXED] == 0.0 and 2.0 * C[H] > left:
-        C[H] = 0.5 * left
-    h, beta, gamma, one = C[H], s.beta, s.gamma, 1.0 + s.alpha
-    C[CU], C[CA], C[CS] = gamma / (beta * h), 1.0 / (beta * h * h * one), 1.0 / (gamma * h * one)
+    C = Control(P.control)
+    s = P.settings
+    set_pace(P, C.t)
+    left = horizon(P) - C.t
+    C.h = min(C.h, longest_step(P))
+    if not s.interpolate and C.fixed == 0.0:
+        C.h = fitted(P, C.h, step_limit(P, C.row) - C.t)
+    elif C.h * 1.0000001 > left:
+        C.h = left
+    elif C.fixed == 0.0 and 2.0 * C.h > left:
+        C.h = 0.5 * left
+    h, beta, gamma, one = C.h, s.beta, s.gamma, 1.0 + s.alpha
+    C.cu, C.ca, C.cs = gamma / (beta * h), 1.0 / (beta * h * h * one), 1.0 / (gamma * h * one)
 
 
 @native
 def predict_step(P: Problem) -> None:
     """Unknowns at the end of the step with a+ = a and s'+ = s'; writes the workspace."""
-    C, D, s, n, ns = P.control, P.history, P.settings, P.sizes.n, P.sizes.ns
-    h, beta, gamma, first = C[H], s.beta, s.gamma, P.sizes.m + P.sizes.nv
-    stretch = h / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
+    C = Control(P.control)
+    D, s, n, ns = P.history, P.settings, P.sizes.n, P.sizes.ns
+    h, beta, gamma, first = C.h, s.beta, s.gamma, P.sizes.m + P.sizes.nv
+    stretch = h / C.h_last if C.h_last > 0.0 else 0.0
     q, u, a, U, B, A = P.q, P.u, P.a, D[n:], D[2 * n :], P.ra
     reach = 1.0
     for i in range(n):
@@ -71,7 +71,7 @@ def predict_step(P: Problem) -> None:
         u[i] = U[i] + h * ((1.0 - gamma) * b + gamma * A[i])
         a[i] = A[i]
         reach = max(reach, abs(q[i]))
-    C[REACH] = reach
+    C.reach = reach
     for body in range(P.sizes.nb):
         if P.body[body].width == PART:
             turn_from_start(P, P.body[body].first)
@@ -95,10 +95,11 @@ def turn_from_start(P: Problem, i: int) -> None:
     theta = h w + h^2 ((1/2 - beta) b + beta b+) + h^3/12 w' x w is the rotation vector of the step,
     w' x w because w turns: Magnus' series.  tan(x)/x by its continued fraction, exact to round-off.
     """
-    C, D, s, n, q, a, A = P.control, P.history, P.settings, P.sizes.n, P.q, P.a, P.ra
-    h, beta, alpha = C[H], s.beta, s.alpha
+    C = Control(P.control)
+    D, s, n, q, a, A = P.history, P.settings, P.sizes.n, P.q, P.a, P.ra
+    h, beta, alpha = C.h, s.beta, s.alpha
     U, B = D[n:], D[2 * n :]
-    stretch = h / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
+    stretch = h / C.h_last if C.h_last > 0.0 else 0.0
     for k in range(i + 3, i + 6):
         b = A[k] + (B[k] - A[k]) * stretch
         after = (1.0 + alpha) * a[k] - alpha * A[k]
@@ -118,8 +119,9 @@ def second_order_matrix(P: Problem, L: Plan) -> bool:
     """Assemble and factor dF/d(q, lam, V, s) = F_q + (cu F_u + ca F_a) T at the workspace's
     state; T = I - [c]/2 + c c^T/4 for rotations.
     """
-    C, c = P.control, P.coef
-    c[0], c[1], c[2], c[3], c[4] = 1.0, C[CU], C[CA], 1.0, C[CS]
+    C = Control(P.control)
+    c = P.coef
+    c[0], c[1], c[2], c[3], c[4] = 1.0, C.cu, C.ca, 1.0, C.cs
     jacobian(P, INDEX3, c, P.J)
     if P.turning.size > 0 and largest_turn(P) > SMALL_TURN:
         c[0], c[3], c[4] = 0.0, 0.0, 0.0
@@ -165,8 +167,9 @@ def move_all(P: Problem, dz: Reals) -> float:
     Returns the largest increment of positions, rotations, variables and states, each against
     max(1, |value|); at the round-off of positions it counts as none.
     """
-    C, W, q, u, a = P.control, P.W, P.q, P.u, P.a
-    cu, ca, noise, largest = C[CU], C[CA], ROUND_OFF * C[REACH], 0.0
+    C = Control(P.control)
+    W, q, u, a = P.W, P.q, P.u, P.a
+    cu, ca, noise, largest = C.cu, C.ca, ROUND_OFF * C.reach, 0.0
     for b in range(P.sizes.nb):
         kind, i, o = P.body[b].width, P.body[b].first, P.body[b].at
         for k in range(3):
@@ -196,16 +199,17 @@ def move_all(P: Problem, dz: Reals) -> float:
 @native
 def move_scalars(P: Problem, dz: Reals) -> float:
     """The share of multipliers, variables and states in :func:`move_all`, the same round-off."""
+    C = Control(P.control)
     n, m, ns, first, largest = P.sizes.n, P.sizes.m, P.sizes.ns, P.sizes.m + P.sizes.nv, 0.0
     for k in range(first + ns):
         P.z[k] -= dz[n + k]
         if k >= m and not abs(dz[n + k]) <= max(largest, ROUND_OFF) * max(1.0, abs(P.z[k])):
             largest = abs(dz[n + k]) / max(1.0, abs(P.z[k]))
     for k in range(ns):
-        P.rd[k] -= P.control[CS] * dz[n + first + k]
+        P.rd[k] -= C.cs * dz[n + first + k]
     put_scalars(P, P.z, P.rd)
     if P.settings.all_converge:
-        largest = max(largest, multiplier_change(P, dz, P.z, P.control[CA]))
+        largest = max(largest, multiplier_change(P, dz, P.z, C.ca))
     return largest
 
 
@@ -216,10 +220,11 @@ def position_error(P: Problem) -> float:
     Velocities have one of (gamma + alpha - 1/2) h |b+ - b|, which is nothing but in a NEWMARK of
     order 1.  States: a share of the distance from the explicit formula of order 2.
     """
-    C, D, s, n, ns = P.control, P.history, P.settings, P.sizes.n, P.sizes.ns
-    stretch = C[H] / C[H_LAST] if C[H_LAST] > 0.0 else 0.0
-    scale = abs(s.beta - 1.0 / 6.0) * C[H] * C[H]
-    fast = first_order_share(P) * C[H]
+    C = Control(P.control)
+    D, s, n, ns = P.history, P.settings, P.sizes.n, P.sizes.ns
+    stretch = C.h / C.h_last if C.h_last > 0.0 else 0.0
+    scale = abs(s.beta - 1.0 / 6.0) * C.h * C.h
+    fast = first_order_share(P) * C.h
     A, B, top, where = P.ra, D[2 * n :], 0.0, 0
     size, jump = 0.0, 0.0
     for i in range(n):
@@ -233,15 +238,15 @@ def position_error(P: Problem) -> float:
     for b in range(P.sizes.nb):
         if P.body[b].width == PART:
             i = P.body[b].first
-            bend = bend_of(P.u[i + 3], P.u[i + 4], P.u[i + 5], C[H])
+            bend = bend_of(P.u[i + 3], P.u[i + 4], P.u[i + 5], C.h)
             if exceeds(bend, top):
                 top, where = bend, i + 3
-    C[ROUGH] = 1.0 if jump > HALF * size and top > FELT * s.error else 0.0
+    C.rough = jump > HALF * size and top > FELT * s.error
     first = P.sizes.m + P.sizes.nv
     for k in range(ns):
         o = 4 * n + k
         rate, value = D[o + ns], P.z[first + k]
-        explicit = D[o] + C[H] * (rate + 0.5 * stretch * (rate - D[o + 3 * ns]))
+        explicit = D[o] + C.h * (rate + 0.5 * stretch * (rate - D[o + 3 * ns]))
         if exceeds(0.5 * abs(value - explicit), top * max(1.0, abs(value))):
             top, where = 0.5 * abs(value - explicit) / max(1.0, abs(value)), 2 * n + k
     P.report.where = where
@@ -300,6 +305,7 @@ def start_from_here(P: Problem) -> None:
 @native
 def back_to_accepted(P: Problem) -> None:
     """The last accepted state into the unknowns and the workspace."""
+    C = Control(P.control)
     D, n, ns, first = P.history, P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     for i in range(n):
         P.q[i], P.u[i], P.a[i] = D[i], D[n + i], P.ra[i]
@@ -307,7 +313,7 @@ def back_to_accepted(P: Problem) -> None:
         P.z[k] = P.rz[k]
     for k in range(ns):
         P.z[first + k], P.rd[k] = D[4 * n + k], D[4 * n + ns + k]
-    put_state(P, P.control[NOW], P.q, P.u, P.a, P.z, P.rd)
+    put_state(P, C.t, P.q, P.u, P.a, P.z, P.rd)
 
 
 @native

@@ -6,20 +6,19 @@ from adamslite.integrators.contract import (
     Problem,
 )
 from adamslite.integrators.implicit.control import (
-    NORM,
-    RETRIES,
+    StepControl,
 )
 from adamslite.integrators.linalg.norms import exceeds
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import native
 
 # A sign change of the effective mass is approached to this share of HMAX.
 SINGULAR_RESOLUTION = 1e-6
 
 
 @native
-def corrector_failed(C: Reals) -> bool:
+def corrector_failed(C: StepControl) -> bool:
     """Whether the last tries failed for the corrector, not for accuracy."""
-    return C[RETRIES] > 2.0 or (C[RETRIES] > 0.0 and C[NORM] == 0.0)
+    return C.retries > 2 or (C.retries > 0 and C.norm == 0.0)
 
 
 @native

@@ -8,14 +8,11 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.events.stops import least_step, longest_step
 from adamslite.integrators.implicit.control import (
-    H_LAST,
-    NORM,
-    RETRIES,
-    H,
+    StepControl,
 )
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import native
 
 # Fixed steps begin with this part of the step, because order 1 starts.
 START_PARTS = 1024.0
@@ -54,12 +51,13 @@ def first_step(P: Problem, w: int) -> float:
 @native
 def cut(P: Problem, factor: float) -> float:
     """``factor`` of the step, but not below HMIN, unless a step of HMIN has failed."""
-    C, h, least = P.control, P.control[H], P.settings.h_min
+    C = StepControl(P.control)
+    h, least = C.h, P.settings.h_min
     if h * factor >= least:
         return factor
     if h > least * 1.0000001:
         return least / h
-    return factor if C[RETRIES] > 0.0 or C[NORM] > 0.0 else max(factor, 1.0)
+    return factor if C.retries > 0 or C.norm > 0.0 else max(factor, 1.0)
 
 
 @native
@@ -67,10 +65,10 @@ def too_small(P: Problem) -> bool:
     """Whether failed tries have come down below HMIN; a step that only reaches a stop may be as
     short.
     """
-    C = P.control
-    failed = C[RETRIES] > 0.0 or C[NORM] > 0.0
+    C = StepControl(P.control)
+    failed = C.retries > 0 or C.norm > 0.0
     # A step cut to HMIN is HMIN but for its last digit.
-    return C[H] < (1.0 - 1e-12) * (P.settings.h_min if failed else least_step(P))
+    return C.h < (1.0 - 1e-12) * (P.settings.h_min if failed else least_step(P))
 
 
 # Cuts of the step after corrector failures before other lengths are tried.
@@ -78,16 +76,16 @@ CUTS = 3
 
 
 @native
-def retry_factor(C: Reals) -> float:
+def retry_factor(C: StepControl) -> float:
     """Change of the step after a failed corrector: smaller at first.
 
     Near a singular posture (dead centre, flattened parallelogram) ever smaller steps do not help,
     but a step across does: after some cuts a few other lengths around the last good one are tried.
     """
-    tried = int(C[RETRIES])
+    tried = C.retries
     if tried == 1:
         return 0.6
-    if C[H_LAST] > 0.0 and tried > CUTS and tried <= CUTS + 5:
+    if C.h_last > 0.0 and tried > CUTS and tried <= CUTS + 5:
         leap = 0.7
         if tried == CUTS + 1:
             leap = 1.3
@@ -97,7 +95,7 @@ def retry_factor(C: Reals) -> float:
             leap = 2.7
         if tried == CUTS + 4:
             leap = 4.0
-        return leap * C[H_LAST] / C[H]
+        return leap * C.h_last / C.h
     return 0.25
 
 

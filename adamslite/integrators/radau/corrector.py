@@ -11,20 +11,14 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.implicit.control import (
-    AGE,
-    BLAMED,
-    FACTORED,
-    FRESH,
-    RATE,
-    RETRIES,
     RUNNING,
-    H,
 )
 from adamslite.integrators.implicit.failures import wildest
 from adamslite.integrators.implicit.step_size import cut, retry_factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.newton import ROUND_OFF, renews
 from adamslite.integrators.radau.coefficients import REAL
+from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.stages import (
     ORIGIN,
     equations_kept,
@@ -35,7 +29,6 @@ from adamslite.integrators.radau.stages import (
     stage_increments,
     stage_residuals,
 )
-from adamslite.integrators.radau.state import CAUTIOUS, KNOWN, THETA, TURNS
 from adamslite.native.translate import native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
@@ -54,21 +47,22 @@ SAME_STEP = 1e-6
 @native
 def ready(P: Problem, L: Plan, turn: int) -> bool:
     """Derivatives and factors for the present step and iteration."""
-    C = P.control
-    if C[KNOWN] == 0.0 or renews(P, turn, C[AGE] < KEEP_STEPS or turn > 0):
-        radau_jacobian(P, L, C[H])
-        C[KNOWN], C[FRESH], C[AGE], C[FACTORED] = 1.0, 1.0, 0.0, 0.0
-    if not abs(C[H] - C[FACTORED]) <= SAME_STEP * C[H]:
-        C[FACTORED] = C[H] if radau_matrices(P, L, C[H]) else 0.0
-    return C[FACTORED] != 0.0
+    C = Control(P.control)
+    if not C.known or renews(P, turn, C.age < KEEP_STEPS or turn > 0):
+        radau_jacobian(P, L, C.h)
+        C.known, C.fresh, C.age, C.factored = True, True, 0, 0.0
+    if not abs(C.h - C.factored) <= SAME_STEP * C.h:
+        C.factored = C.h if radau_matrices(P, L, C.h) else 0.0
+    return C.factored != 0.0
 
 
 @native
 def solve_stages(P: Problem, L: Plan) -> bool:
     """Newton from the prediction; True when converged."""
-    C, h, last = P.control, P.control[H], 0.0
+    C = Control(P.control)
+    h, last = C.h, 0.0
     tolerance, most = CORRECTOR_SHARE * P.settings.error, P.settings.max_it
-    C[RATE], C[THETA] = max(C[RATE], LEAST_RATE) ** 0.8, 0.0
+    C.rate, C.theta = max(C.rate, LEAST_RATE) ** 0.8, 0.0
     for turn in range(most):
         if not ready(P, L, turn):
             return False
@@ -76,18 +70,18 @@ def solve_stages(P: Problem, L: Plan) -> bool:
         stage_increments(P, L)
         size = move_stages(P, h)
         P.count.newton += 1
-        C[TURNS] = turn + 1.0
+        C.turns = turn + 1
         if not size < 1e12:
             return False
         if turn > 0 and last > 0.0:
-            C[THETA] = size / last
-            if C[THETA] > (DIVERGING if turn == 1 else 0.99):
+            C.theta = size / last
+            if C.theta > (DIVERGING if turn == 1 else 0.99):
                 return size <= round_off(P)
-            rest = max(0.01, 1.0 - C[THETA])
-            C[RATE] = max(LEAST_RATE, C[THETA] / rest)
-            if turn > 1 and C[THETA] ** (most - 1.0 - turn) / rest * size > tolerance:
+            rest = max(0.01, 1.0 - C.theta)
+            C.rate = max(LEAST_RATE, C.theta / rest)
+            if turn > 1 and C.theta ** (most - 1.0 - turn) / rest * size > tolerance:
                 return False
-        if C[RATE] * size <= tolerance:
+        if C.rate * size <= tolerance:
             return True
         last = size
     return False
@@ -96,23 +90,24 @@ def solve_stages(P: Problem, L: Plan) -> bool:
 @native
 def round_off(P: Problem) -> float:
     """Changes of velocities that come from the last digits of positions."""
+    C = Control(P.control)
     w, reach = 2 * P.sizes.n + P.sizes.ns, 1.0
     for i in range(P.sizes.n):
         reach = max(reach, abs(P.history[ORIGIN * w + i]))
-    return ROUND_OFF * reach * P.tableau[REAL] / P.control[H]
+    return ROUND_OFF * reach * P.tableau[REAL] / C.h
 
 
 @native
 def after_failed_stages(P: Problem) -> int:
     """Newton failed: new derivatives when they were old, else another step."""
-    C = P.control
+    C = Control(P.control)
     P.count.failures += 1
-    old = C[FRESH] == 0.0 and C[KNOWN] != 0.0
-    C[KNOWN], C[FACTORED], C[RATE], C[CAUTIOUS] = 0.0, 0.0, 1.0, 1.0
+    old = not C.fresh and C.known
+    C.known, C.factored, C.rate, C.cautious = False, 0.0, 1.0, True
     if not old and not let_go(P):
-        C[RETRIES] += 1.0
-        C[BLAMED] = float(wildest(P))
-        put_stage(P, 3, C[H])
-        note_trouble(P, equations_kept(P), int(C[TURNS]))
-        C[H] *= cut(P, retry_factor(C))
+        C.retries += 1
+        C.blamed = wildest(P)
+        put_stage(P, 3, C.h)
+        note_trouble(P, equations_kept(P), C.turns)
+        C.h *= cut(P, retry_factor(C))
     return RUNNING

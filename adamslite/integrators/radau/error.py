@@ -10,7 +10,6 @@ Reference: Hairer, Wanner, Solving ODE II, 1996, section IV.8 (eq. 8.19, 8.20).
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.implicit.control import NOW, H
 from adamslite.integrators.implicit.tolerance import weighted
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import Plan
@@ -24,6 +23,7 @@ from adamslite.integrators.motion_equations import (
 )
 from adamslite.integrators.newton import apply_increment
 from adamslite.integrators.radau.coefficients import REAL, WEIGHT
+from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.stages import ORIGIN, equations_kept, is_tied, put_counted
 from adamslite.native.translate import Reals, native
 
@@ -31,7 +31,8 @@ from adamslite.native.translate import Reals, native
 @native
 def filtered_error(P: Problem, L: Plan, cautious: bool) -> float:
     """Estimated error over ERROR."""
-    n, ns, first, h = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, P.control[H]
+    C = Control(P.control)
+    n, ns, first, h = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, C.h
     w = 2 * n + ns
     base, error = P.trial[0:], P.trial[w:]
     for i in range(w):
@@ -49,6 +50,7 @@ def filtered_error(P: Problem, L: Plan, cautious: bool) -> float:
 @native
 def newton_error(P: Problem, L: Plan, h: float, base: Reals, error: Reals) -> float:
     """One Newton step from ``base`` with y' = (g error - sum_i e_i (y_i - y_0))/h; over ERROR."""
+    C = Control(P.control)
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y, cu, v = 2 * n + ns, P.history, P.tableau[REAL] / h, P.trial[2 * (2 * n + ns) :]
     a, b, c = P.tableau[WEIGHT] / h, P.tableau[WEIGHT + 1] / h, P.tableau[WEIGHT + 2] / h
@@ -60,7 +62,7 @@ def newton_error(P: Problem, L: Plan, h: float, base: Reals, error: Reals) -> fl
         P.mu[k] = 0.0
     for k in range(ns):
         P.z[first + k] = base[2 * n + k]
-    put_time(P, P.control[NOW])
+    put_time(P, C.t)
     error_motion(P, cu, base, error, v)
     residual(P, equations_kept(P), P.F)
     solve(L, P.LV, P.pivots, P.F, P.x, P.work)

@@ -23,16 +23,13 @@ from adamslite.integrators.events.guards import look
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import CLOSE, judge, open_search
 from adamslite.integrators.implicit.control import (
-    H_LAST,
-    NOW,
     RUNNING,
-    SIGNATURE,
-    H,
     keep_algebraic,
 )
 from adamslite.integrators.implicit.step_size import SMOOTH, first_step
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.coefficients import REAL
+from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.corrector import round_off
 from adamslite.integrators.radau.stages import (
     ORIGIN,
@@ -43,11 +40,6 @@ from adamslite.integrators.radau.stages import (
     stage_z,
 )
 from adamslite.integrators.radau.state import (
-    CAUTIOUS,
-    KNOWN,
-    LAST_SIZE,
-    LENGTHENED,
-    PASSED,
     put_end,
     stand_at_start,
 )
@@ -61,7 +53,8 @@ BEYOND, MOST_LENGTHENED = 1e-4, 3.0
 @native
 def locate_in_stages(P: Problem, L: Plan) -> None:
     """Look for the first change of a branch within the step that has passed its test."""
-    t, h = P.control[NOW], P.control[H]
+    C = Control(P.control)
+    t, h = C.t, C.h
     put_end(P)
     open_search(P, t, h)
     take_harmless(P, L, equations_kept(P), P.tableau[REAL] / h)
@@ -95,10 +88,11 @@ def falls_short(P: Problem) -> bool:
     spoils velocities.  What is lacking is read from the guards at the end and a little beyond,
     where the polynomial of the step continues.
     """
-    S, C, count, share = P.search, P.control, P.sizes.watched, NONE
-    if not S.hunt or min(S.found, S.cut) <= 1.0 or C[LENGTHENED] >= MOST_LENGTHENED:
+    C = Control(P.control)
+    S, count, share = P.search, P.sizes.watched, NONE
+    if not S.hunt or min(S.found, S.cut) <= 1.0 or C.lengthened >= MOST_LENGTHENED:
         return False
-    put_inside(P, C[NOW], C[H], 1.0 + BEYOND)
+    put_inside(P, C.t, C.h, 1.0 + BEYOND)
     look(P, INSIDE)
     put_end(P)
     for k in range(count):
@@ -107,8 +101,8 @@ def falls_short(P: Problem) -> bool:
             share = min(share, before / (before - after))
     if share > 1.0:
         return False
-    C[H] += BEYOND * share * C[H] + 0.5 * S.tolerance
-    C[LENGTHENED] += 1.0
+    C.h += BEYOND * share * C.h + 0.5 * S.tolerance
+    C.lengthened += 1
     return True
 
 
@@ -117,8 +111,9 @@ def is_at_crossing(P: Problem, norm: float) -> bool:
     """Whether the step to a crossing is so short that the last digits of positions make up its
     error, though a longer one from the same start has passed the test: the crossing is here.
     """
-    S, C = P.search, P.control
-    if C[H] > CLOSE * C[PASSED] or S.found > 1.0 or S.found * S.size > C[H]:
+    C = Control(P.control)
+    S = P.search
+    if C.h > CLOSE * C.passed or S.found > 1.0 or S.found * S.size > C.h:
         return False
     return norm * P.settings.error <= round_off(P)
 
@@ -126,9 +121,10 @@ def is_at_crossing(P: Problem, norm: float) -> bool:
 @native
 def switch_behind(P: Problem, L: Plan) -> int:
     """A branch changes just after the start of the step: change it there and restart."""
-    P.control[PASSED], P.control[LENGTHENED] = 0.0, 0.0
+    C = Control(P.control)
+    C.passed, C.lengthened = 0.0, 0
     stand_at_start(P)
-    if not change_here(P, L, P.control[NOW]):
+    if not change_here(P, L, C.t):
         return NEWTON_FAILED
     predict_anew(P, L)
     return RUNNING
@@ -137,11 +133,11 @@ def switch_behind(P: Problem, L: Plan) -> int:
 @native
 def move_past(P: Problem, L: Plan) -> int:
     """After an event: the prediction continues when nothing jumped, else it restarts."""
-    C = P.control
-    if not pass_event(P, L, C[NOW]):
+    C = Control(P.control)
+    if not pass_event(P, L, C.t):
         return NEWTON_FAILED
-    C[KNOWN] = 0.0
-    if P.search.jump * C[H_LAST] > SMOOTH * P.settings.error:
+    C.known = False
+    if P.search.jump * C.h_last > SMOOTH * P.settings.error:
         predict_anew(P, L)
     else:
         take_accelerations(P)
@@ -159,10 +155,10 @@ def take_accelerations(P: Problem) -> None:
 @native
 def predict_anew(P: Problem, L: Plan) -> None:
     """The next step is predicted from the accelerations in place, and chosen like the first."""
-    C = P.control
+    C = Control(P.control)
     P.count.restarts += 1
     take_accelerations(P)
-    C[H_LAST], C[LAST_SIZE], C[KNOWN], C[CAUTIOUS] = 0.0, 0.0, 0.0, 1.0
-    C[H] = first_step(P, 0)
+    C.h_last, C.last_size, C.known, C.cautious = 0.0, 0.0, False, True
+    C.h = first_step(P, 0)
     if P.sizes.implicit_mass:
-        C[SIGNATURE] = float(mass_signature(P, L, P.x))
+        C.signature = mass_signature(P, L, P.x)

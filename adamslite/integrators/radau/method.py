@@ -42,24 +42,14 @@ from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.search import ends_there, shorter, starts_there
 from adamslite.integrators.events.stops import horizon, longest_step, set_pace
 from adamslite.integrators.implicit.control import (
-    AGE,
-    BLAMED,
-    FRESH,
-    H_LAST,
-    NEXT,
-    NORM,
-    NOW,
-    RATE,
-    RETRIES,
     RUNNING,
-    SIGNATURE,
-    H,
     keep_algebraic,
 )
 from adamslite.integrators.implicit.failures import SINGULAR_RESOLUTION, corrector_failed
 from adamslite.integrators.implicit.step_size import cut, first_step, too_small
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
+from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.corrector import QUICK, after_failed_stages, solve_stages
 from adamslite.integrators.radau.error import filtered_error
 from adamslite.integrators.radau.events import (
@@ -77,21 +67,12 @@ from adamslite.integrators.radau.stages import (
     stage_motion,
 )
 from adamslite.integrators.radau.state import (
-    CAUTIOUS,
-    KNOWN,
-    LAST_NORM,
-    LAST_SIZE,
-    LENGTHENED,
-    PASSED,
-    THETA,
-    TO_TARGET,
-    TURNS,
     count_from_here,
     put_end,
     stand_at_start,
 )
 from adamslite.integrators.records import note_violation, write_record
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import native
 
 # The next step aims at this share of the step that the error allows; it is changed only when it
 # grows by more than KEEP_GROWTH, because every other size needs new factors.
@@ -103,35 +84,36 @@ MANY_STEPS = 100.0
 @native
 def radau(P: Problem, L: Plan) -> int:
     """Integrate to the end time; returns an outcome."""
+    C = Control(P.control)
     outcome = start_radau(P, L)
     while outcome == RUNNING:
         outcome = try_radau(P, L)
     stand_at_start(P)
-    P.report.t = P.control[NOW]
+    P.report.t = C.t
     return outcome
 
 
 @native
 def start_radau(P: Problem, L: Plan) -> int:
     """Accelerations at the start, the first record, attitudes counted from here."""
-    C, Y, t = P.control, P.history, P.settings.t
+    C = Control(P.control)
+    Y, t = P.history, P.settings.t
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     P.undoing[:] = 0
-    for i in range(P.control.size):
-        C[i] = 0.0
+    C[:] = 0
     for i in range(P.history.size):
         Y[i] = 0.0
-    C[NOW], C[RATE], C[CAUTIOUS] = t, 1.0, 1.0
+    C.t, C.rate, C.cautious = t, 1.0, True
     start_events(P, True, True)
     good = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
-    C[H] = first_step(P, 0)
+    C.h = first_step(P, 0)
     if good:
         if P.sizes.implicit_mass:
-            C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
-        while int(C[NEXT]) < P.times.size and P.times[int(C[NEXT])] <= t:
-            write_record(P, int(C[NEXT]))
-            C[NEXT] += 1.0
+            C.signature = mass_signature(P, L, P.pivot0)
+        while C.row < P.times.size and P.times[C.row] <= t:
+            write_record(P, C.row)
+            C.row += 1
         track(P)
         count_from_here(P)
     origin = Y[ORIGIN * (2 * n + ns) :]
@@ -146,20 +128,20 @@ def start_radau(P: Problem, L: Plan) -> int:
 @native
 def try_radau(P: Problem, L: Plan) -> int:
     """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
-    C = P.control
-    if C[NOW] >= P.settings.t_end:
+    C = Control(P.control)
+    if C.t >= P.settings.t_end:
         return DONE
     if P.settings.stop:
         return INTERRUPTED
     fit_step(P)
-    if too_small(P) or crawls(P, C[H]):
+    if too_small(P) or crawls(P, C.h):
         return why_no_step(P, L)
-    P.report.t, P.report.h, P.report.order = C[NOW], C[H], 5
-    predict_stages(P, C[H], C[H_LAST])
-    stage_motion(P, C[H])
+    P.report.t, P.report.h, P.report.order = C.t, C.h, 5
+    predict_stages(P, C.h, C.h_last)
+    stage_motion(P, C.h)
     if not solve_stages(P, L):
         return after_failed_stages(P)
-    norm = filtered_error(P, L, C[CAUTIOUS] != 0.0)
+    norm = filtered_error(P, L, C.cautious)
     P.report.error = norm
     if not norm < 1e12:
         return NOT_FINITE
@@ -170,9 +152,9 @@ def try_radau(P: Problem, L: Plan) -> int:
         return RUNNING
     if P.sizes.implicit_mass:
         put_end(P)
-        if mass_signature(P, L, P.x) != int(C[SIGNATURE]):
-            C[H] *= 0.25
-            return RUNNING if C[H] > SINGULAR_RESOLUTION * P.settings.h_max else SINGULAR_MASS
+        if mass_signature(P, L, P.x) != C.signature:
+            C.h *= 0.25
+            return RUNNING if C.h > SINGULAR_RESOLUTION * P.settings.h_max else SINGULAR_MASS
     return finish_stages(P, L, norm)
 
 
@@ -181,27 +163,28 @@ def take_shorter(P: Problem, norm: float) -> None:
     """The error was too large: a shorter step, with new derivatives where they were old, because
     these may be all that is wrong with the estimate.
     """
-    C = P.control
+    C = Control(P.control)
     P.count.rejected += 1
-    C[CAUTIOUS], C[NORM] = 1.0, norm
-    if C[FRESH] == 0.0:
-        C[KNOWN] = 0.0
-    C[H] *= cut(P, step_factor(C, norm))
-    if C[H] > 1e-9 * P.settings.h_max:
-        C[BLAMED] = P.report.where
+    C.cautious, C.norm = True, norm
+    if not C.fresh:
+        C.known = False
+    C.h *= cut(P, step_factor(C, norm))
+    if C.h > 1e-9 * P.settings.h_max:
+        C.blamed = P.report.where
 
 
 @native
 def finish_stages(P: Problem, L: Plan, norm: float) -> int:
     """The step has passed its tests: accept it, or take it again to end at the first crossing."""
+    C = Control(P.control)
     if P.sizes.watched + P.sizes.zones > 0:
         locate_in_stages(P, L)
         if not ends_there(P):
             if starts_there(P):
                 return switch_behind(P, L)
             if P.search.cut > 1.0:
-                P.control[PASSED] = max(P.control[PASSED], P.control[H])
-            P.control[H] = shorter(P)
+                C.passed = max(C.passed, C.h)
+            C.h = shorter(P)
             return RUNNING
         if falls_short(P):
             return RUNNING
@@ -213,35 +196,37 @@ def fit_step(P: Problem) -> None:
     """Keep the step within its pace; equal steps to the horizon or, unless they may be
     interpolated, to the next output time.  A step to a crossing keeps its size.
     """
-    set_pace(P, P.control[NOW])
-    C, target, row = P.control, horizon(P), int(P.control[NEXT])
+    C = Control(P.control)
+    set_pace(P, C.t)
+    target, row = horizon(P), C.row
     if not P.settings.interpolate and row < P.times.size:
         target = min(target, P.times[row])
-    C[H] = min(C[H], longest_step(P))
-    left = target - C[NOW]
+    C.h = min(C.h, longest_step(P))
+    left = target - C.t
     if P.search.hunt:
-        C[H] = min(C[H], left)
+        C.h = min(C.h, left)
         return
-    C[TO_TARGET] = floor(left / C[H] + 1.0 - 1e-7)
-    if C[TO_TARGET] < MANY_STEPS:
-        C[H] = left / max(1.0, C[TO_TARGET])
+    C.to_target = floor(left / C.h + 1.0 - 1e-7)
+    if C.to_target < MANY_STEPS:
+        C.h = left / max(1.0, C.to_target)
 
 
 @native
-def step_factor(C: Reals, norm: float) -> float:
+def step_factor(C: Control, norm: float) -> float:
     """Change of the step that the error allows; many iterations ask for caution."""
-    safety = min(SAFETY, SAFETY * 15.0 / (C[TURNS] + 14.0))
+    safety = min(SAFETY, SAFETY * 15.0 / (C.turns + 14.0))
     return max(LEAST_SHRINK, min(MOST_GROWTH, safety * max(norm, 1e-10) ** -0.25))
 
 
 @native
 def accept_stages(P: Problem, L: Plan, norm: float) -> int:
     """Move on, write records, choose the next step."""
-    C, h = P.control, P.control[H]
+    C = Control(P.control)
+    h = C.h
     P.count.steps += 1
     # The formula is of order 5, its estimate of order 3.
     P.report.spent += norm * (norm * P.settings.error) ** 0.5
-    t, row = C[NOW] + h, int(C[NEXT])
+    t, row = C.t + h, C.row
     if t + 1e-7 * h > horizon(P):
         t = horizon(P)
     if row < P.times.size and abs(P.times[row] - t) < 1e-7 * h:
@@ -252,7 +237,7 @@ def accept_stages(P: Problem, L: Plan, norm: float) -> int:
         P.ra[i] = P.a[i]
     note_violation(P, t)
     audit(P, L, t)
-    C[NOW] = t
+    C.t = t
     good = record_within(P, L, t, h)
     put_end(P)
     track(P)
@@ -271,23 +256,24 @@ def accept_stages(P: Problem, L: Plan, norm: float) -> int:
 @native
 def choose_step(P: Problem, norm: float) -> None:
     """The next step, from the errors of the last two (Gustafsson), and what is kept for it."""
-    C, h = P.control, P.control[H]
+    C = Control(P.control)
+    h = C.h
     factor = step_factor(C, norm)
-    if C[LAST_SIZE] > 0.0:
-        trend = h / C[LAST_SIZE] * (max(C[LAST_NORM], 1e-10) / max(norm, 1e-10) ** 2.0) ** 0.25
+    if C.last_size > 0.0:
+        trend = h / C.last_size * (max(C.last_norm, 1e-10) / max(norm, 1e-10) ** 2.0) ** 0.25
         factor = min(factor, max(LEAST_SHRINK, SAFETY * trend))
-    if C[CAUTIOUS] != 0.0 and C[LAST_SIZE] > 0.0:
+    if C.cautious and C.last_size > 0.0:
         factor = min(factor, 1.0)
-    C[LAST_SIZE], C[LAST_NORM], C[H_LAST] = h, max(0.01, norm), h
-    C[RETRIES], C[FRESH], C[CAUTIOUS], C[NORM] = 0.0, 0.0, 0.0, 0.0
-    C[AGE] += 1.0
-    if C[THETA] > QUICK:
-        C[KNOWN] = 0.0
-    if C[PASSED] > h:
+    C.last_size, C.last_norm, C.h_last = h, max(0.01, norm), h
+    C.retries, C.fresh, C.cautious, C.norm = 0, False, False, 0.0
+    C.age += 1
+    if C.theta > QUICK:
+        C.known = False
+    if C.passed > h:
         resume(P)
     elif factor < 1.0 or min(factor * h, longest_step(P)) > KEEP_GROWTH * h:
-        C[H] *= cut(P, factor)
-    C[PASSED], C[LENGTHENED] = 0.0, 0.0
+        C.h *= cut(P, factor)
+    C.passed, C.lengthened = 0.0, 0
 
 
 @native
@@ -295,16 +281,17 @@ def resume(P: Problem) -> None:
     """A step shortened to a crossing ends, maybe, just before it: the next is the rest of the one
     that has passed its test.  Derivatives of a step this short, and its error, are round-off.
     """
-    C = P.control
-    C[H] = max(C[PASSED] - C[H], C[H])
-    C[H_LAST], C[LAST_SIZE] = 0.0, 0.0
+    C = Control(P.control)
+    C.h = max(C.passed - C.h, C.h)
+    C.h_last, C.last_size = 0.0, 0.0
 
 
 @native
 def record_within(P: Problem, L: Plan, t: float, h: float) -> bool:
     """Write every output time of the accepted step; False when accelerations are not determined."""
-    C, n, ns, first = P.control, P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
-    row, y, w = int(C[NEXT]), P.trial[0:], 2 * P.sizes.n + P.sizes.ns
+    C = Control(P.control)
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
+    row, y, w = C.row, P.trial[0:], 2 * P.sizes.n + P.sizes.ns
     while row < P.times.size and P.times[row] <= t + 1e-9 * h:
         collocated(P, P.history, w, min(1.0, 1.0 + (P.times[row] - t) / h), y)
         for i in range(n):
@@ -315,7 +302,7 @@ def record_within(P: Problem, L: Plan, t: float, h: float) -> bool:
             return False
         write_record(P, row)
         row += 1
-        C[NEXT] = float(row)
+        C.row = row
     return True
 
 
@@ -324,11 +311,11 @@ def why_no_step(P: Problem, L: Plan) -> int:
     """Why the step became too small: a vanishing pivot of the acceleration matrix, or something
     else.
     """
-    C = P.control
+    C = Control(P.control)
     stand_at_start(P)
-    if mass_vanishes(P, L, int(C[SIGNATURE])):
+    if mass_vanishes(P, L, C.signature):
         return SINGULAR_MASS
-    P.report.where = int(C[BLAMED])
+    P.report.where = C.blamed
     if P.search.freed > 0:
         return CHATTERING
     return NEWTON_FAILED if corrector_failed(C) else STEP_TOO_SMALL

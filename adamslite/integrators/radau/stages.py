@@ -25,7 +25,6 @@ residuals and workspace of the complex system.
 from __future__ import annotations
 
 from adamslite.integrators.contract import INDEX3, STABILISED, Problem
-from adamslite.integrators.implicit.control import NOW
 from adamslite.integrators.implicit.rotation_count import count_anew
 from adamslite.integrators.linalg.blocks import factor, solve
 from adamslite.integrators.linalg.complex_blocks import factor_complex, solve_complex
@@ -58,6 +57,7 @@ from adamslite.integrators.radau.coefficients import (
     TO_MODES,
     TO_STAGES,
 )
+from adamslite.integrators.radau.control import Control
 from adamslite.native.translate import Reals, native
 
 # Rows of y: the start of the step, behind it its stages and their rates; the step before; the start
@@ -151,6 +151,7 @@ def put_counted(P: Problem, y: Reals) -> None:
 @native
 def stage_velocities(P: Problem, stage: int, h: float) -> None:
     """q', u and s' of a stage."""
+    C = Control(P.control)
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y = 2 * n + ns, P.history
     y, d, z = Y[stage * w :], Y[(RATES + stage) * w :], Y[stage_z(P, stage - 1) :]
@@ -166,7 +167,7 @@ def stage_velocities(P: Problem, stage: int, h: float) -> None:
         d[i] = a * (Y[w + i] - s) + b * (Y[2 * w + i] - s) + c * (Y[3 * w + i] - s)
     velocities(P, y, d, y[n:])
     if is_tied(P):
-        put_time(P, P.control[NOW] + P.tableau[NODE + stage - 1] * h)
+        put_time(P, C.t + P.tableau[NODE + stage - 1] * h)
         put_counted(P, y)
         project_on_constraints(P, z[first + ns :], P.F)
         for i in range(n):
@@ -205,9 +206,10 @@ def stage_residuals(P: Problem, h: float) -> None:
 @native
 def put_stage(P: Problem, stage: int, h: float) -> None:
     """A stage into the workspace."""
+    C = Control(P.control)
     n, Y = P.sizes.n, P.history
     y, d = Y[stage * (2 * n + P.sizes.ns) :], Y[(RATES + stage) * (2 * n + P.sizes.ns) :]
-    put_time(P, P.control[NOW] + P.tableau[NODE + stage - 1] * h)
+    put_time(P, C.t + P.tableau[NODE + stage - 1] * h)
     put_counted(P, y)
     put_motion(P, y[n:], d[n:])
     put_scalars(P, Y[stage_z(P, stage - 1) :], d[2 * n :])

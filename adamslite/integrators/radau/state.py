@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.implicit.control import NOW, H
 from adamslite.integrators.motion_equations import PART
+from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.stages import ORIGIN, stage_z
 from adamslite.native.translate import native
-
-# Places in P.control after those of the BDF.  PASSED: the step that has passed its error test from
-# where the run stands, and was taken again, shorter, to end at a crossing; LENGTHENED: how often
-# that one then was taken again, longer, because it ended before the crossing.
-THETA, TURNS, LAST_NORM, LAST_SIZE, CAUTIOUS, KNOWN, TO_TARGET, PASSED, LENGTHENED = range(18, 27)
 
 
 @native
@@ -30,6 +25,7 @@ def count_from_here(P: Problem) -> None:
 @native
 def stand_at_start(P: Problem) -> None:
     """The last accepted state into the unknowns and the workspace."""
+    C = Control(P.control)
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     Y = P.history[ORIGIN * (2 * n + P.sizes.ns) :]
     for i in range(n):
@@ -38,12 +34,13 @@ def stand_at_start(P: Problem) -> None:
         P.z[k] = P.rz[k]
     for k in range(P.sizes.ns):
         P.z[first + k] = Y[2 * n + k]
-    put_state(P, P.control[NOW], P.q, P.u, P.a, P.z, P.rd)
+    put_state(P, C.t, P.q, P.u, P.a, P.z, P.rd)
 
 
 @native
 def put_end(P: Problem) -> None:
     """The end of the tried step into the unknowns and the workspace."""
+    C = Control(P.control)
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y, z = 2 * n + ns, P.history, P.history[stage_z(P, 2) :]
     y, d = Y[3 * w :], Y[6 * w :]
@@ -53,4 +50,4 @@ def put_end(P: Problem) -> None:
         P.z[k] = z[k]
     for k in range(ns):
         P.rd[k] = d[2 * n + k]
-    put_state(P, P.control[NOW] + P.control[H], P.q, P.u, P.a, P.z, P.rd)
+    put_state(P, C.t + C.h, P.q, P.u, P.a, P.z, P.rd)

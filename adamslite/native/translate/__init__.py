@@ -3,11 +3,11 @@
 A function marked :func:`native` may use ``int`` (64 bit), ``float``, ``bool``, arrays (``Ints``,
 ``Reals``), records (:mod:`adamslite.native.translate.records`) and their ``Rows``, ``if``,
 ``while``, ``for .. in range``, assignments, arithmetic, comparisons, ``abs min max float int sqrt
-floor``, slices ``a[k:]`` (a shifted array), calls of other native functions and ``call_address``.
-Arguments carry annotations; a local variable has the type of its first assignment. ``Alone`` is an
-array of reals that no other argument reaches while the function runs. Sums may be reordered except
-in functions marked :func:`as_written`. There is no bounds check, and division follows the
-processor.
+floor``, slices ``a[k:]`` (a shifted array), calls of other native functions, ``copy`` and
+``call_address``. Arguments carry annotations; a local variable has the type of its first
+assignment. ``Alone`` is an array of reals that no other argument reaches while the function runs.
+Sums may be reordered except in functions marked :func:`as_written`. There is no bounds check, and
+division follows the processor.
 
 The same functions run under plain Python on numpy arrays and records, which is how tests compare
 the two.
@@ -18,6 +18,7 @@ from adamslite.native.translate.language import (
     Untranslatable,
     as_written,
     call_address,
+    copy,
     native,
     symbol,
 )
@@ -37,6 +38,7 @@ __all__ = [
     "array",
     "as_written",
     "call_address",
+    "copy",
     "definitions",
     "native",
     "symbol",

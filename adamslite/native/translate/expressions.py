@@ -8,6 +8,7 @@ from adamslite.native.llvm_builder import literal
 from adamslite.native.translate.language import is_native, llvm_type, name_of, signature, symbol
 from adamslite.native.translate.records import (
     ARRAYS,
+    SLOT,
     ByReference,
     Inside,
     Nested,
@@ -219,19 +220,20 @@ class Expressions(Writer):
             return self.library("llvm.fabs.f64", *args)
         if name in ("sqrt", "floor"):
             return self.library(f"llvm.{name}.f64", *args)
-        if name == "float":
-            return self.convert(args[0], "double")
-        if name == "int":
-            return (
-                args[0]
-                if args[0].kind == "i64"
-                else self.value("i64", f"fptosi double {args[0].text} to i64")
-            )
-        if name == "call_address":
-            return self.call_address(args)
+        if name in ("float", "int"):
+            return self.number(name, args[0])
+        if name in ("call_address", "copy"):
+            return getattr(self, name)(node, args)
         if is_record(self.globals.get(name)):
             return self.seen_as(node, self.globals[name], args)
         return self.call_native(node, name, args)
+
+    def number(self, name: str, value: Value) -> Value:
+        """``float(value)``, ``int(value)``"""
+        if name == "float" or value.kind == "i64":
+            return self.convert(value, "double" if name == "float" else "i64")
+        real = self.convert(value, "double")
+        return self.value("i64", f"fptosi double {real.text} to i64")
 
     def seen_as(self, node: ast.Call, record: type, args: list[Value]) -> Value:
         """``Record(array)``: the same memory."""
@@ -250,12 +252,20 @@ class Expressions(Writer):
             result = self.value(kind, f"select i1 {better.text}, {kind} {b.text}, {kind} {a.text}")
         return result
 
-    def call_address(self, args: list[Value]) -> Value:
+    def call_address(self, node: ast.Call, args: list[Value]) -> Value:
         target = self.value("ptr", f"inttoptr i64 {args[0].text} to ptr").text
         operands = []
         for value in args[1:]:
             operands.append(f"{llvm_type(value.kind)} {value.text}")
         self.line(f"call void {target}({', '.join(operands)})")
+        return Value("", "void")
+
+    def copy(self, node: ast.Call, args: list[Value]) -> Value:
+        if len(args) != 3 or args[0].kind not in ARRAYS or args[1].kind != args[0].kind:
+            raise self.fail(node, "copy takes two arrays of a kind and how many numbers")
+        count = self.convert(args[2], "i64")
+        size = self.value("i64", f"mul i64 {count.text}, {SLOT}").text
+        self.copy_bytes(args[0].text, args[1].text, size)
         return Value("", "void")
 
     def call_native(self, node: ast.Call, name: str, args: list[Value]) -> Value:

@@ -53,6 +53,13 @@ def call_address(address: int, *arguments: Any) -> None:
     ctypes.CFUNCTYPE(None, *[type(a) for a in given])(int(address))(*given)
 
 
+def copy(target: Any, source: Any, count: int) -> None:
+    """The first ``count`` numbers of an array into another that does not overlap it, bit by bit:
+    also those of a room that records are seen in, which are reals as well as integers.
+    """
+    target[:count] = source[:count]
+
+
 def signature(function: Callable[..., Any]) -> tuple[list[tuple[str, Any]], str]:
     """Argument names with kinds, and the kind of the result (``void`` for none)."""
     hints, kinds = function.__annotations__, []

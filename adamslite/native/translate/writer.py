@@ -138,15 +138,19 @@ class Writer:
             raise self.fail(None, f"{name_of(record.kind)} is not set as a whole")
         size = SLOT * record.kind.slots
         if value.kind is record.kind:
-            self.declared.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
-            operands = f"ptr align 8 {record.text}, ptr align 8 {value.text}"
-            self.line(f"call void @llvm.memcpy.p0.p0.i64({operands}, i64 {size}, i1 false)")
+            self.copy_bytes(record.text, value.text, str(size))
         elif value.text == "0":
             self.declared.add("declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)")
             operands = f"ptr align 8 {record.text}, i8 0"
             self.line(f"call void @llvm.memset.p0.i64({operands}, i64 {size}, i1 false)")
         else:
             raise self.fail(None, f"{name_of(value.kind)} where {name_of(record.kind)} is needed")
+
+    def copy_bytes(self, target: str, source: str, size: str) -> None:
+        """What lies at an address to another, whatever kinds of numbers it is."""
+        self.declared.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
+        operands = f"ptr align 8 {target}, ptr align 8 {source}"
+        self.line(f"call void @llvm.memcpy.p0.p0.i64({operands}, i64 {size}, i1 false)")
 
     def constant(self, node: ast.AST, value: Any) -> Value:
         if isinstance(value, bool):

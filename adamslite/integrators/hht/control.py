@@ -1,0 +1,22 @@
+"""What HHT and NEWMARK remember from step to step."""
+
+from __future__ import annotations
+
+from adamslite.integrators.implicit.control import StepControl
+
+
+class Control(StepControl):
+    """The numbers of HHT and NEWMARK.
+
+    cu, ca, cs           how u and a follow from q, and s' from s
+    fixed                the fixed step (0: steps vary)
+    reach                the largest position, at least 1
+    rough                whether accelerations changed by a large share in this step
+    """
+
+    cu: float
+    ca: float
+    cs: float
+    fixed: float
+    reach: float
+    rough: bool

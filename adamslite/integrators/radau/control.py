@@ -1,0 +1,29 @@
+"""What the Radau formula remembers from step to step."""
+
+from __future__ import annotations
+
+from adamslite.integrators.implicit.control import StepControl
+
+
+class Control(StepControl):
+    """The numbers of the Radau formula.
+
+    theta, turns         rate of the last iterations, how many there were
+    last_norm, last_size error and size of the last accepted step (0: none)
+    cautious, known      the step must not grow; there is a Jacobian
+    to_target            equal steps to the time that must be met
+    passed               the step that has passed its error test from where the run stands, and was
+                         taken again, shorter, to end at a crossing
+    lengthened           how often that one then was taken again, longer, because it ended before
+                         the crossing
+    """
+
+    theta: float
+    turns: int
+    last_norm: float
+    last_size: float
+    cautious: bool
+    known: bool
+    to_target: float
+    passed: float
+    lengthened: int
