@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,9 @@ from adamslite.equations.system import System
 from adamslite.integrators import motion_equations
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.kernels.compile import Kernels
-from adamslite.native import compiler
+from adamslite.native import compiler, translate
+from adamslite.native import compiler as code
+from adamslite.native.translate import Record
 from adamslite.results.results import Results
 
 GROUND = "a scene\nPART/1, GROUND\nMARKER/1, PART=1\n"
@@ -149,6 +152,14 @@ def interpreted(monkeypatch: Any) -> None:
     """Let every run of this test interpret the engine."""
     monkeypatch.setattr(motion_equations, "call_address", call_address, raising=False)
     monkeypatch.setattr(System, "run", run_in_python)
+
+
+def native_call(entry: Callable[..., Any], arrays: list[Any]) -> float:
+    """Compile ``entry`` and call it on numpy arrays and records."""
+    name = entry.__name__
+    address = code.addresses([(code.object_code(translate.translate(entry)), [name])])[name]
+    places = [a.address if isinstance(a, Record) else a.ctypes.data for a in arrays]
+    return ctypes.CFUNCTYPE(ctypes.c_double, *[ctypes.c_void_p] * len(places))(address)(*places)
 
 
 # ---- derivatives ---------------------------------------------------------------------------------
