@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Sequence
-from inspect import cleandoc
+from inspect import cleandoc, getattr_static
 
 from adamslite import elements, functions  # noqa: F401  register what there is to describe
 from adamslite.errors import UsageError
@@ -148,9 +148,9 @@ def statement(cls: type[Statement]) -> str:
     if cls.arguments:
         head = ("argument", "value", "unit", "default", "meaning")
         parts.append(table(head, [_argument_row(each) for each in cls.arguments.values()]))
-    results = getattr(cls, "result_names", None)
-    if results:
-        parts.append(f"Results: {_lower_first(_heading(results.fget.__doc__))}.\n")
+    names = getattr_static(cls, "result_names")
+    if names is not getattr_static(Statement, "result_names"):
+        parts.append(f"Results: {_lower_first(_heading(names.__doc__))}.\n")
     if cls.planned:
         parts.append(f"Not supported yet: {_listed(cls.planned)}.\n")
     return "\n".join(parts)

@@ -8,9 +8,9 @@ from adamslite.deck.deck import Deck
 from adamslite.elements.variable import Variable
 from adamslite.functions.forces import MEASURES, NET
 from adamslite.language.diagnostics import Diagnostic
-from adamslite.language.expression import Call, Mode, Node, Ref, calls, expressions, walk
+from adamslite.language.expression import Call, Mode, Node, Ref, calls, walk
 from adamslite.language.interfaces import Key
-from adamslite.language.statement import Statement
+from adamslite.language.statement import Statement, expressions
 
 # Functions without a rate, or with one that depends on what they measure.
 RATELESS = (

@@ -20,11 +20,11 @@ from adamslite.elements.pinput import Pinput
 from adamslite.elements.simulate import MOST_STEPS, Simulate, output_steps
 from adamslite.elements.variable import Variable
 from adamslite.language.diagnostics import Diagnostic
-from adamslite.language.expression import Node, Ref, calls, expressions, walk
+from adamslite.language.expression import Node, Ref, calls, walk
 from adamslite.language.integrator_arguments import BACKWARD, FIXED, RUNGE_KUTTA, without_effect
 from adamslite.language.interfaces import Key
 from adamslite.language.messages import did_you_mean
-from adamslite.language.statement import STATEMENTS, Statement
+from adamslite.language.statement import STATEMENTS, Statement, expressions
 
 # The highest order of the backward differences: 6 is unstable for all but strongly damped motion.
 HIGHEST = 5

@@ -11,10 +11,11 @@ include it, GCON(id, 0, comp) is what acts on the first of them.
 
 from __future__ import annotations
 
+from adamslite.elements.bases.constraint import Constraint
 from adamslite.language.expression import Call, Node, Ref, measure, walk
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import DrawnModel, Key
-from adamslite.language.statement import Statement, expression, statement
+from adamslite.language.statement import expression, statement
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Seen
 
@@ -23,7 +24,7 @@ RATES = frozenset(("VM", "VR", "VX", "VY", "VZ", "WM", "WX", "WY", "WZ"))
 
 
 @statement("GCON")
-class Gcon(Statement):
+class Gcon(Constraint):
     """Makes an expression in displacements (holonomic) or velocities (nonholonomic) vanish."""
 
     function: Node = expression(

@@ -23,13 +23,14 @@ from adamslite import functions  # noqa: F401  registers the deck functions
 from adamslite.functions.forces import NET
 from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.language.function import FUNCTIONS, Function
-from adamslite.language.statement import Statement
-from adamslite.model.model import folded
+from adamslite.language.interfaces import Key
+from adamslite.language.statement import Argument, Statement
+from adamslite.model.model import MassCentre, Model, NodeKey, folded
 from adamslite.model.net_force import written_out
 from adamslite.symbolic.interpolant import Interpolant
 from adamslite.symbolic.scope import ORIGIN, Slot
+from adamslite.symbolic.types import Tree
 
-Tree = tuple
 IGNORED = ("text", "texts")
 # What cannot be switched off.
 LASTING = ("MARKER", "VARIABLE", "DIFF")
@@ -43,11 +44,11 @@ class ForceLoop(Exception):
 class Binding:
     """One instance: what fills the slots of its shape."""
 
-    markers: list[Any] = field(default_factory=list)
+    markers: list[Key | MassCentre] = field(default_factory=list)
     bodies: list[int] = field(default_factory=list)
-    nodes: list[Any] = field(default_factory=list)
+    nodes: list[NodeKey] = field(default_factory=list)
     params: list[float] = field(default_factory=list)
-    signals: list[Any] = field(default_factory=list)
+    signals: list[Key] = field(default_factory=list)
     tables: list[Interpolant] = field(default_factory=list)
 
 
@@ -59,24 +60,24 @@ class Binder:
     variables that are solved for too, unless they depend on themselves.
     """
 
-    def __init__(self, model: Any, inline_signals: bool = False) -> None:
+    def __init__(self, model: Model, inline_signals: bool = False) -> None:
         self.model = model
         self.inline_signals = inline_signals
         self.takes_rates = False
         self.instance = Binding()
-        self.frames: dict[Any, Tree] = {0: ("m", ORIGIN)}
+        self.frames: dict[Key | MassCentre, Tree] = {0: ("m", ORIGIN)}
         self.slots: list[Slot] = []
-        self.elements: list[tuple[str, Tree]] = []
-        self.element_at: dict[tuple[str, Any], int] = {}
+        self.elements: list[tuple[str, Tree, int]] = []
+        self.element_at: dict[NodeKey, int] = {}
 
-    def marker(self, marker_id: Any) -> Tree:
+    def marker(self, marker_id: Key | MassCentre) -> Tree:
         """The frame of a marker, of a part's mass centre for ``("PART", id)``."""
         frame = self.frames.get(marker_id)
         if frame is None:
             frame = self.frames[marker_id] = self._frame(marker_id)
         return frame
 
-    def _frame(self, marker_id: Any) -> Tree:
+    def _frame(self, marker_id: Key | MassCentre) -> Tree:
         place, at = self.model.marker(marker_id), self.instance
         if place is None:
             return ("c", None)
@@ -89,7 +90,7 @@ class Binder:
         self.slots.append(Slot(place.kind, body, place.offset, place.turned))
         return ("m", len(at.markers) - 1)
 
-    def node_slot(self, node: Any) -> int:
+    def node_slot(self, node: NodeKey) -> int:
         """Slot of a scalar node, counted after the bodies once binding is finished."""
         if node not in self.instance.nodes:
             self.instance.nodes.append(node)
@@ -115,7 +116,7 @@ class Binder:
         self.takes_rates = before
         return tuple(fields)
 
-    def _derived(self, value: Any) -> Tree:
+    def _derived(self, value: object) -> Tree:
         if value is None or isinstance(value, str):
             return ("c", value)
         if isinstance(value, tuple):
@@ -124,7 +125,10 @@ class Binder:
             return self.reference(value)
         if isinstance(value, Interpolant):
             return self.table(value)
-        return self.number(value) if isinstance(value, float) else self.expression(value)
+        if isinstance(value, float):
+            return self.number(value)
+        assert isinstance(value, Node)
+        return self.expression(value)
 
     def table(self, value: Interpolant) -> Tree:
         """Its number among those of the instance; nothing in it shapes the code."""
@@ -133,7 +137,7 @@ class Binder:
             tables.append(value)
         return ("tab", tables.index(value))
 
-    def _argument(self, argument: Any, value: Any) -> Tree:
+    def _argument(self, argument: Argument, value: Any) -> Tree:
         if value is None:
             return ("c", None)
         if argument.kind == "expression":
@@ -148,7 +152,7 @@ class Binder:
             return ("v", tuple(self._referred(argument.to, v) for v in value))
         return ("c", value)
 
-    def _referred(self, keyword: str, value: Any) -> Tree:
+    def _referred(self, keyword: str, value: Key) -> Tree:
         """A marker or part as a frame; any other statement with its own arguments."""
         if keyword == "MARKER":
             return self.marker(value)
@@ -161,33 +165,34 @@ class Binder:
 
     def _bound(self, node: Node) -> tuple[Tree, float | None]:
         """An expression, with its value if nothing in it changes."""
-        kind = type(node)
-        if kind is Num:
+        if isinstance(node, Num):
             return self.number(node.value), node.value
-        if kind is Op:
+        if isinstance(node, Op):
             return self._operation(node)
-        if kind is Call:
+        if isinstance(node, Call):
             constant = self.model.constant(node)
             return (
                 (self.call(node), None) if constant is None else (self.number(constant), constant)
             )
-        if kind is Time or kind is Mode:
-            return ("t",) if kind is Time else ("mode",), None
+        if isinstance(node, Time | Mode):
+            return ("t",) if isinstance(node, Time) else ("mode",), None
         raise TypeError(f"not an expression: {node!r}")
 
     def _operation(self, node: Op) -> tuple[Tree, float | None]:
         """Numbers are parameters, except what they are folded from, and constant exponents."""
         params = self.instance.params
         mark = len(params)
-        trees, values = zip(*[self._bound(each) for each in node.args], strict=True)
-        if None not in values:
+        bound = [self._bound(each) for each in node.args]
+        trees = tuple(tree for tree, _ in bound)
+        values = [value for _, value in bound if value is not None]
+        if len(values) == len(bound):
             del params[mark:]
             value = folded(node.op, values)
             return self.number(value), value
-        if node.op == "**" and values[1] is not None:
+        if node.op == "**" and bound[1][1] is not None:
             if trees[1][0] == "p":
                 params.pop()
-            trees = (trees[0], ("c", values[1]))
+            trees = (trees[0], ("c", bound[1][1]))
         return ("o", node.op, trees), None
 
     def output(self, node: Node, statement: Statement) -> Tree:
@@ -201,12 +206,11 @@ class Binder:
             if type(arg) is Ref and arg.kind not in LASTING and self._is_off(arg):
                 return ("c", 0.0)
         function = FUNCTIONS[node.name]
-        if (
-            node.name == "GCON" and not node.args[2].value
-        ):  # its multiplier, and nothing of its kind
-            strength = ("z", self.node_slot(("GCON", node.args[0].id)), 0)
-            own = ("s", "GCON", (("multiplier", strength),))
-            return ("f", "GCON", (own, ("c", 0), ("c", 0), self.marker(0)))
+        match node:
+            case Call("GCON", (Ref(_, id), _, Num(0.0), _)):
+                # its multiplier, and nothing of its kind
+                own = ("s", "GCON", (("multiplier", ("z", self.node_slot(("GCON", id)), 0)),))
+                return ("f", "GCON", (own, ("c", 0), ("c", 0), self.marker(0)))
         before = self.takes_rates
         self.takes_rates = before or node.name == "DDT"
         taken = tuple([self._taken(function, n, a) for n, a in enumerate(node.args)])
@@ -219,9 +223,9 @@ class Binder:
 
     def _taken(self, function: Function, n: int, node: Node) -> Tree:
         """Argument number ``n`` of a call."""
-        if type(node) is Ref:
+        if isinstance(node, Ref):
             return self.reference(node)
-        if function.parameter(n).kind == "constant":
+        if isinstance(node, Num) and function.parameter(n).kind == "constant":
             return ("c", int(node.value))
         return self.expression(node)
 
@@ -235,7 +239,7 @@ class Binder:
             return ("s", "DIFF", (("state", ("dif", node)), ("rate", ("dif1", node))))
         return self.element(ref)
 
-    def variable(self, variable_id: Any) -> Tree:
+    def variable(self, variable_id: Key) -> Tree:
         kind = self.model.variable_kind(variable_id)
         written_out = self.takes_rates and variable_id not in self.model.circular
         if kind == "loop" and not written_out:
@@ -265,7 +269,7 @@ class Binder:
         node = (statement.keyword, statement.key)
         return self.node_slot(node) if self.model.has_unknowns(node) else -1
 
-    def key(self, face: str, body: Any) -> tuple:
+    def key(self, face: str, body: Tree) -> Tree:
         """Everything that decides the native code.
 
         Equal constants at the same place are of the same type, which field or parameter decides.

@@ -12,20 +12,30 @@ from dataclasses import dataclass, field
 from functools import cache, partial
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
 from adamslite.deck.statement_diagnostics import say
+from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import uncollected
-from adamslite.kernels.binding import Binder, Binding, ForceLoop, Tree
+from adamslite.kernels.binding import Binder, Binding, ForceLoop
 from adamslite.kernels.reactions import reactions
 from adamslite.kernels.reader import ExpressionReader, symbolic_view
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.statement import Statement
 from adamslite.model.model import Model
 from adamslite.native import compiler
+from adamslite.progress import Progress
 from adamslite.symbolic.scope import Scope, UndefinedRate
+from adamslite.symbolic.types import Expr, Tree
+
+if TYPE_CHECKING:  # a deck whose shapes are cached needs no sympy
+    from adamslite.kernels.code import Outputs
+
+
+Meta = dict[str, Any]
+"""What an instance of a shape must provide, see :mod:`adamslite.kernels.code.module_text`."""
 
 
 @dataclass
@@ -37,7 +47,7 @@ class ShapeGroup:
     write: FaceWriter
     instances: list[tuple[Statement, Binding]] = field(default_factory=list)
     code: bytes = b""
-    meta: dict[str, Any] = field(default_factory=dict)
+    meta: Meta = field(default_factory=dict)
     speed: int = compiler.FULL
 
 
@@ -60,14 +70,17 @@ WITH_JACOBIAN = ("loads", "equation", *LEVELS)
 
 
 def compile_model(
-    model: Model, progress: Any = None, audited: bool = False, speed: int = compiler.FULL
+    model: Model,
+    progress: Progress | None = None,
+    audited: bool = False,
+    speed: int = compiler.FULL,
 ) -> Kernels:
     """Bind every statement, compile the shapes not seen before, link all of them.
 
     ``audited``: what elastic elements store too.  ``speed``: :data:`compiler.QUICK` takes a third
     of LLVM's time, and gives the same values but for round-off.
     """
-    groups: dict[tuple, ShapeGroup] = {}
+    groups: dict[Tree, ShapeGroup] = {}
     add = partial(_add, groups, model, speed=speed)
     outputs = []
     with uncollected():
@@ -90,7 +103,7 @@ def faces(statement: Statement, model: Model) -> Iterator[str]:
         return
     if hasattr(statement, "loads"):
         yield "loads"
-    if (statement.keyword, statement.key) in model.held:
+    if isinstance(statement, Constraint):
         rate = statement.is_rate(model)
         yield from ("reactions", "velocity", "acceleration") if rate else LEVELS
     if hasattr(statement, "equation"):
@@ -100,12 +113,12 @@ def faces(statement: Statement, model: Model) -> Iterator[str]:
 
 
 def _output(statement: Statement) -> Iterator[str]:
-    if getattr(statement, "result_names", ()):
+    if statement.result_names:
         yield "output"
 
 
 def _add(
-    groups: dict[tuple, ShapeGroup], model: Model, statement: Statement, face: str,
+    groups: dict[Tree, ShapeGroup], model: Model, statement: Statement, face: str,
     speed: int = compiler.FULL,
 ) -> None:  # fmt: skip
     binder = Binder(model, inline_signals=face == "signal")
@@ -113,7 +126,8 @@ def _add(
         fields, own = _bound(binder, statement, face)
     except ForceLoop as loop:
         raise DeckError([say(statement, "force-loop", other=str(loop))], model.deck) from None
-    rate = (statement.keyword, statement.key) in model.held and statement.is_rate(model)
+    held = (statement.keyword, statement.key) in model.held
+    rate = held and isinstance(statement, Constraint) and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
     if key not in groups:
         name = "k" + compiler.digest(
@@ -155,7 +169,7 @@ class FaceWriter:
         """Bodies among the nodes."""
         return len(self.binder.instance.bodies)
 
-    def kernels(self, name: str) -> tuple[str, dict]:
+    def kernels(self, name: str) -> tuple[str, Meta]:
         """LLVM text of all kernels of the shape, and what an instance must provide."""
         from adamslite.kernels.code import Shape, write_kernels
 
@@ -166,7 +180,7 @@ class FaceWriter:
         shape = Shape(self.binder.slots, widths, self.n_bodies, *counts, self)
         return write_kernels(shape, name, self.face, self.face in WITH_JACOBIAN)
 
-    def __call__(self, scope: Scope) -> Any:
+    def __call__(self, scope: Scope) -> Outputs:
         from adamslite.kernels.code import Outputs
 
         scope.read = ExpressionReader(scope, self.n_bodies)
@@ -198,7 +212,7 @@ class FaceWriter:
         return Outputs(rows=numbered, rates_only=self.face == "acceleration")
 
 
-def _rates(scope: Scope, expr: Any, order: int) -> list[Any]:
+def _rates(scope: Scope, expr: Expr, order: int) -> list[Expr]:
     """An expression and its total time derivatives up to ``order``."""
     found = [expr]
     for _ in range(order):
@@ -206,11 +220,11 @@ def _rates(scope: Scope, expr: Any, order: int) -> list[Any]:
     return found
 
 
-def _compile(group: ShapeGroup, progress: Any) -> bool:
+def _compile(group: ShapeGroup, progress: Progress | None) -> bool:
     """Fetch or make the object code; True when it was made."""
-    made: list[tuple[str, dict]] = []
+    made: list[tuple[str, Meta]] = []
 
-    def text_and_meta() -> tuple[str, dict]:
+    def text_and_meta() -> tuple[str, Meta]:
         if not made:
             if progress is not None and group.face == "loads":
                 progress.say(
@@ -226,7 +240,7 @@ def _compile(group: ShapeGroup, progress: Any) -> bool:
     return bool(made)
 
 
-def _kernels(group: ShapeGroup) -> tuple[str, dict]:
+def _kernels(group: ShapeGroup) -> tuple[str, Meta]:
     try:
         return group.write.kernels(group.name)
     except UndefinedRate as fault:
@@ -235,7 +249,7 @@ def _kernels(group: ShapeGroup) -> tuple[str, dict]:
 
 def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnostic]:
     """What there is to say of statements whose equations cannot be formed; nothing is compiled."""
-    groups: dict[tuple, ShapeGroup] = {}
+    groups: dict[Tree, ShapeGroup] = {}
     for statement in statements:
         try:
             for face in (*faces(statement, model), *_output(statement)):
@@ -277,5 +291,6 @@ def _entry_points(group: ShapeGroup) -> list[str]:
 @cache
 def algebra() -> str:
     """Version of sympy, whose transformations shape the text of a kernel; sympy is not imported."""
-    place = find_spec("sympy").submodule_search_locations[0]
-    return (Path(place) / "release.py").read_text(encoding="utf-8")
+    spec = find_spec("sympy")
+    assert spec is not None and spec.origin is not None
+    return (Path(spec.origin).parent / "release.py").read_text(encoding="utf-8")

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 from adamslite.symbolic.scope import ZERO, Load, Scope, cross, scale
+from adamslite.symbolic.types import Expr, Leaf, Symbol
 
 
-def reactions(rows: Iterable[Any], multipliers: Sequence[Any], scope: Scope) -> list[Load]:
+def reactions(rows: Iterable[Expr], multipliers: Sequence[Symbol], scope: Scope) -> list[Load]:
     """-G^T lam as loads: what a constraint of rows g and multipliers lam exerts.
 
     A row g gives the force -lam dg/dd on I of each relative position d(i,j), the opposite on J,
@@ -20,7 +20,7 @@ def reactions(rows: Iterable[Any], multipliers: Sequence[Any], scope: Scope) -> 
     loads = []
     for row, lam in zip(rows, multipliers, strict=True):
         row = sp.S.Zero + row
-        groups: dict[tuple, list[Any]] = {}
+        groups: dict[Leaf, list[Expr]] = {}
         for symbol in sorted(scope.slope.symbols(row), key=str):
             leaf = scope.leaves[symbol]
             if leaf[0] in ("d", "x", "v", "w"):
@@ -28,7 +28,7 @@ def reactions(rows: Iterable[Any], multipliers: Sequence[Any], scope: Scope) -> 
                 slope[leaf[-1]] = scope.slope(row, symbol)
         rates = any(leaf[0] in ("v", "w") for leaf in groups)
         for leaf, slope in groups.items():
-            pull = scale(-lam, tuple(slope))
+            pull = scale(-lam, (slope[0], slope[1], slope[2]))
             if leaf[0] == ("v" if rates else "d"):
                 loads.append(Load(leaf[1], pull, ZERO, leaf[2]))
             elif leaf[0] == "w":

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
-from adamslite.kernels.binding import Tree
 from adamslite.kernels.view import View
 from adamslite.language.expression import OPERATORS
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.statement import STATEMENTS
 from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.types import Expr, Read, Tree
 
 
 class ExpressionReader:
@@ -19,16 +18,16 @@ class ExpressionReader:
     def __init__(self, scope: Scope, n_bodies: int) -> None:
         self.scope = scope
         self.n_bodies = n_bodies
-        self.memo: dict[Tree, Any] = {}
+        self.memo: dict[Tree, Read] = {}
 
-    def __call__(self, tree: Tree) -> Any:
+    def __call__(self, tree: Tree) -> Read:
         if tree[0] == "c":  # not remembered: 0.0 and False are one key
             return self._read(tree)
         if tree not in self.memo:
             self.memo[tree] = self._defined(self._read(tree))
         return self.memo[tree]
 
-    def _defined(self, value: Any) -> Any:
+    def _defined(self, value: Read) -> Read:
         """What sympy knows to be undefined (a pole, a division by zero) becomes not-a-number."""
         from adamslite.symbolic.sympy_nodes import sp
 
@@ -36,7 +35,7 @@ class ExpressionReader:
             return self.scope.symbol("nan")
         return value
 
-    def _read(self, tree: Tree) -> Any:
+    def _read(self, tree: Tree) -> Read:
         scope = self.scope
         match tree:
             case ("p", _) | ("sig", _, _):
@@ -59,7 +58,7 @@ class ExpressionReader:
                 return self._operation(op, [self(t) for t in args])
         return self._call(tree)
 
-    def _call(self, tree: Tree) -> Any:
+    def _call(self, tree: Tree) -> Read:
         """A call of a deck function, which gets ids as they are bound: see Scope.statement."""
         function = FUNCTIONS[tree[1]]
         kinds = [function.parameter(n).statement for n in range(len(tree[2]))]
@@ -69,13 +68,13 @@ class ExpressionReader:
         ]
         return function.body(self.scope, *args)
 
-    def _operation(self, op: str, args: list[Any]) -> Any:
+    def _operation(self, op: str, args: list[Expr]) -> Expr:
         from adamslite.symbolic.sympy_nodes import power
 
         return power(*args) if op == "**" else OPERATORS[op].function(*args)
 
 
-def _exact(value: float) -> Any:
+def _exact(value: float) -> Expr:
     from adamslite.symbolic.sympy_nodes import sp
 
     doubled = 2.0 * value

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
 
 from adamslite.kernels.reactions import reactions
-from adamslite.language.statement import Statement
 from adamslite.symbolic.scope import Load, Scope
+from adamslite.symbolic.types import Physics, Read, Symbol
 
 
 class View:
@@ -15,15 +15,20 @@ class View:
 
     def __init__(
         self,
-        cls: type[Statement],
-        fields: dict[str, Any],
-        unknowns: list[Any],
+        cls: Physics,
+        fields: dict[str, Read],
+        unknowns: list[Symbol],
         anew: Callable[[], View] | None = None,
     ) -> None:
         self.__dict__.update(fields)
         self.cls = cls
         self.unknowns = unknowns
         self.anew = anew
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Read:
+            """A field."""
 
     def own_loads(self, scope: Scope) -> list[Load]:
         """Loads of a force, or the reactions of a constraint."""

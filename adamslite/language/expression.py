@@ -13,8 +13,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from adamslite.language.statement import Statement
-
 NEGATE = "neg"
 
 
@@ -105,16 +103,6 @@ def walk(node: Node) -> Iterator[Node]:
         yield top
         if type(top) is Call or type(top) is Op:
             pending.extend(reversed(top.args))
-
-
-def expressions(statement: Statement) -> list[Node]:
-    """The expressions among a statement's arguments."""
-    values = (
-        getattr(statement, name)
-        for name, argument in statement.arguments.items()
-        if argument.kind == "expression"
-    )
-    return [value for value in values if value is not None]
 
 
 def calls(node: Node, *names: str) -> Iterator[Call]:

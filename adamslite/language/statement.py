@@ -16,6 +16,7 @@ from dataclasses import FrozenInstanceError, dataclass, field
 from typing import Any, ClassVar, TypeAlias, TypedDict, TypeVar, Unpack
 
 from adamslite.language.diagnostics import Span, Spans
+from adamslite.language.expression import Node
 from adamslite.language.interfaces import DrawnModel, Key, Lookup
 
 STATEMENTS: dict[str, type[Statement]] = {}
@@ -249,6 +250,15 @@ class Statement:
         """
         return {}
 
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """Names of the values it writes at output times."""
+        return ()
+
+    def outputs(self, model: DrawnModel) -> list[Node]:
+        """Values of ``result_names``, as expressions."""
+        return []
+
     def constants(self) -> dict[str, float]:
         """Numbers this statement gives a name that expressions may use, names in capitals."""
         return {}
@@ -256,6 +266,16 @@ class Statement:
     def given(self, field_name: str) -> bool:
         """Whether the deck has this argument."""
         return field_name in self.spans
+
+
+def expressions(statement: Statement) -> list[Node]:
+    """The expressions among a statement's arguments."""
+    values = (
+        getattr(statement, name)
+        for name, argument in statement.arguments.items()
+        if argument.kind == "expression"
+    )
+    return [value for value in values if value is not None]
 
 
 def statement(

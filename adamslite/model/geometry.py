@@ -6,19 +6,21 @@ Axes are (3, 3), in columns.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
-from adamslite.language.statement import Statement
+from adamslite.elements.marker import Marker
+from adamslite.elements.part import Part
+from adamslite.elements.point_mass import PointMass
 
+Point = tuple[float, ...]
 IDENTITY = np.eye(3)
 IDENTITY.flags.writeable = False
 # Of the components of unit vectors, after a few products.
 ROUND_OFF = 1e-15
 
 
-def rotation_313(angles: tuple[float, float, float]) -> np.ndarray:
+def rotation_313(angles: Point) -> np.ndarray:
     """R = Rz(a) Rx(b) Rz(c), (3, 3): columns are the turned axes."""
     a, b, c = angles
     if a == b == c == 0.0:
@@ -37,19 +39,19 @@ def _about_x(angle: float) -> np.ndarray:
 
 
 def axes_from_points(
-    origin: np.ndarray, z_point: Any, x_point: Any, x_exact: bool
+    origin: np.ndarray, z_point: Point | None, x_point: Point | None, x_exact: bool
 ) -> np.ndarray | None:
     """Axes through points: +z through one, +xz half-plane through the other (or x exact)."""
-    if z_point is None and x_point is None:
-        return None
     along_z = None if z_point is None else np.asarray(z_point) - origin
     along_x = None if x_point is None else np.asarray(x_point) - origin
-    if x_exact:
+    if x_exact and along_x is not None:
         x = along_x / np.linalg.norm(along_x)
         y = np.cross(along_z if along_z is not None else _aside(x), x)
         y /= np.linalg.norm(y)
         return np.column_stack([x, y, np.cross(x, y)])
     if along_z is None:
+        if along_x is None:
+            return None
         along_z = _aside(along_x)
         along_z -= along_x * (along_z @ along_x) / (along_x @ along_x)
     z = along_z / np.linalg.norm(along_z)
@@ -63,11 +65,12 @@ def _aside(v: np.ndarray) -> np.ndarray:
     return IDENTITY[int(np.argmin(np.abs(v)))].copy()
 
 
-def frame_axes(statement: Statement, origin: np.ndarray) -> np.ndarray:
+def frame_axes(statement: Part | PointMass | Marker, origin: np.ndarray) -> np.ndarray:
     """Axes of a body or marker statement from REULER or its points."""
-    z = getattr(statement, "zg", getattr(statement, "zp", None))
-    x = getattr(statement, "xg", getattr(statement, "xp", None))
-    axes = axes_from_points(origin, z, x, getattr(statement, "usexp", False))
+    if isinstance(statement, Marker):
+        axes = axes_from_points(origin, statement.zp, statement.xp, statement.usexp)
+    else:
+        axes = axes_from_points(origin, statement.zg, statement.xg, False)
     return axes if axes is not None else rotation_313(statement.reuler)
 
 

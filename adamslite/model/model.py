@@ -8,14 +8,22 @@ force * UCF = mass * acceleration.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar, overload
 
 import numpy as np
 
 from adamslite import elements  # noqa: F401  registers the statements
+from adamslite.deck.deck import Deck
+from adamslite.elements.bases.constraint import Constraint
+from adamslite.elements.marker import Marker
+from adamslite.elements.part import Part
+from adamslite.elements.pinput import Pinput
+from adamslite.elements.point_mass import PointMass
+from adamslite.elements.poutput import Poutput
+from adamslite.elements.variable import Variable
 from adamslite.functions.forces import NET
 from adamslite.language.expression import (
     Call,
@@ -25,22 +33,26 @@ from adamslite.language.expression import (
     Op,
     Ref,
     Time,
-    expressions,
     operate,
     walk,
 )
-from adamslite.language.statement import STATEMENTS, Statement
+from adamslite.language.interfaces import Key
+from adamslite.language.statement import STATEMENTS, Statement, expressions
 from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
 from adamslite.model.net_force import written_out
 
 POINT, PART = 3, 6
+MassCentre = tuple[str, Key]
+NodeKey = tuple[str, Any]
+"""Keyword and id of a statement with unknowns; ``("OUTPUT", statement)`` of one that writes."""
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
 class Body:
     """A moving body: ``width`` 3 or 6 unknowns, start in ground, inertia in body axes over UCF."""
 
-    statement: Statement
+    statement: Part | PointMass
     width: int
     mass: float
     inertia: np.ndarray
@@ -63,25 +75,25 @@ class Model:
         Rules of :mod:`adamslite.model.reduction` that are not applied.
     """
 
-    def __init__(self, deck: Any, without: frozenset[str] = frozenset()) -> None:
+    def __init__(self, deck: Deck, without: frozenset[str] = frozenset()) -> None:
         self.deck = deck
         self.without = without
-        self.places: dict[Any, Place | None] = {}
-        self.folded: dict[Any, float | None] = {}
-        self.known: dict[Any, Any] = {}
-        self.body_index: dict[tuple[str, Any], int] = {}
+        self.places: dict[Key | MassCentre, Place | None] = {}
+        self.folded: dict[Key, float | None] = {}
+        self.known: dict[Hashable, Any] = {}
+        self.body_index: dict[tuple[str, Key], int] = {}
         self.bodies: list[Body] = []
         for statement in deck.statements:
-            if statement.keyword in ("PART", "POINT_MASS") and not getattr(
-                statement, "ground", False
+            if isinstance(statement, PointMass) or (
+                isinstance(statement, Part) and not statement.ground
             ):
                 self.body_index[statement.keyword, statement.key] = len(self.bodies)
                 self.bodies.append(self._body(statement))
-        found = [s for s in deck.statements if hasattr(s, "constraints") and deck.is_active(s)]
+        found = [s for s in deck.statements if isinstance(s, Constraint) and deck.is_active(s)]
         self.constraints = sorted(found, key=lambda s: s.is_rate(self))
         self.held = {(s.keyword, s.key) for s in self.constraints}
 
-    def once(self, what: Any, worked_out: Callable[[], Any]) -> Any:
+    def once(self, what: Hashable, worked_out: Callable[[], T]) -> T:
         """Values that are computed for this model when they are first needed."""
         if what not in self.known:
             self.known[what] = worked_out()
@@ -89,14 +101,14 @@ class Model:
 
     # bodies and markers
 
-    def _body(self, statement: Statement) -> Body:
+    def _body(self, statement: Part | PointMass) -> Body:
         origin = np.asarray(statement.qg, dtype=float)
         attitude = frame_axes(statement, origin)
         cm = self._marker_in_body(statement.cm)
         x = origin + attitude @ cm[0]
         mass = (statement.mass or 0.0) / self.deck.ucf
         v = np.array([statement.vx, statement.vy, statement.vz], dtype=float)
-        if statement.keyword == "POINT_MASS":
+        if isinstance(statement, PointMass):
             if "points" in self.without:
                 ball = mass * IDENTITY  # nothing turns it, whatever its inertia
                 return Body(statement, PART, mass, ball, x, attitude, v, np.zeros(3))
@@ -104,15 +116,15 @@ class Model:
         w = attitude @ cm[1] @ np.array([statement.wx, statement.wy, statement.wz], dtype=float)
         return Body(statement, PART, mass, self._inertia(statement, cm[0], mass), x, attitude, v, w)
 
-    def _marker_in_body(self, marker_id: Any) -> tuple[np.ndarray, np.ndarray]:
+    def _marker_in_body(self, marker_id: Key | None) -> tuple[np.ndarray, np.ndarray]:
         """Origin and axes of a marker in its body frame."""
         if marker_id is None:
             return np.zeros(3), IDENTITY
-        marker = self.deck.find("MARKER", marker_id)
+        marker = self._marker(marker_id)
         origin = np.asarray(marker.qp, dtype=float)
         return origin, frame_axes(marker, origin)
 
-    def _inertia(self, part: Statement, cm: np.ndarray, mass: float) -> np.ndarray:
+    def _inertia(self, part: Part, cm: np.ndarray, mass: float) -> np.ndarray:
         """Inertia about the mass centre in body axes (parallel axes from IM)."""
         xx, yy, zz, xy, xz, yz = (*(part.ip or ()), *[0.0] * 6)[:6]
         given = np.array([[xx, -xy, -xz], [-xy, yy, -yz], [-xz, -yz, zz]]) / self.deck.ucf
@@ -120,18 +132,27 @@ class Model:
         d = cm - origin
         return axes @ given @ axes.T - mass * (d @ d * IDENTITY - np.outer(d, d))
 
-    def marker(self, marker_id: Any) -> Place | None:
+    def _marker(self, marker_id: Key) -> Marker:
+        found = self.deck.find(Marker, marker_id)
+        assert found is not None  # readers report references to what is not there
+        return found
+
+    @overload
+    def marker(self, marker_id: Key) -> Place: ...
+    @overload
+    def marker(self, marker_id: MassCentre) -> Place | None: ...
+    def marker(self, marker_id: Key | MassCentre) -> Place | None:
         """Where a marker sits; ``("PART", id)`` is a part's mass centre, None for the ground."""
         if marker_id not in self.places:
             self.places[marker_id] = self._place(marker_id)
         return self.places[marker_id]
 
-    def _place(self, marker_id: Any) -> Place | None:
+    def _place(self, marker_id: Key | MassCentre) -> Place | None:
         if isinstance(marker_id, tuple):
             at = self.body_index.get(marker_id)
             return None if at is None else Place("part", at, np.zeros(3), IDENTITY)
-        marker = self.deck.find("MARKER", marker_id)
-        owner = marker.owner
+        owner = self._marker(marker_id).owner
+        assert owner is not None  # a rule asks for it
         body = self.body_index.get(owner)
         origin, axes = self._marker_in_body(marker_id)
         if body is None:
@@ -153,19 +174,23 @@ class Model:
         """Whether an element is switched on."""
         return self.deck.is_active(statement)
 
-    def element(self, keyword: str, element_id: Any) -> Statement:
+    def element(self, keyword: str, element_id: Key) -> Any:
+        """The statement of that kind with that id."""
         return self.deck.find(keyword, element_id)
 
-    def variable(self, variable_id: Any) -> Statement:
-        return self.deck.find("VARIABLE", variable_id)
+    def variable(self, variable_id: Key) -> Variable:
+        """The VARIABLE of that id."""
+        found = self.deck.find(Variable, variable_id)
+        assert found is not None  # readers report references to what is not there
+        return found
 
-    def has_unknowns(self, node: tuple[str, Any]) -> bool:
+    def has_unknowns(self, node: NodeKey) -> bool:
         """Whether a statement brings unknowns of its own."""
         if node[0] == "VARIABLE":
             return self.variable_kind(node[1]) == "loop"
         return node[0] == "DIFF" or node in self.held
 
-    def node_width(self, node: tuple[str, Any]) -> int:
+    def node_width(self, node: NodeKey) -> int:
         """Unknowns of a scalar node: (keyword, id)."""
         if node in self.held:
             return self.element(*node).n_rows
@@ -173,16 +198,17 @@ class Model:
 
     def constant(self, node: Node) -> float | None:
         """Value of an expression without anything that changes; None when something does."""
-        if type(node) is Num:
-            return node.value
-        if type(node) is Op:
-            values = [self.constant(each) for each in node.args]
-            return None if None in values else folded(node.op, values)
-        if type(node) is Call and node.name == "VARVAL":
-            return self.constant_variable(node.args[0].id)
+        match node:
+            case Num(value):
+                return value
+            case Op(op, args):
+                values = [value for value in map(self.constant, args) if value is not None]
+                return folded(op, values) if len(values) == len(args) else None
+            case Call("VARVAL", (Ref(_, id),)):
+                return self.constant_variable(id)
         return None
 
-    def constant_variable(self, variable_id: Any) -> float | None:
+    def constant_variable(self, variable_id: Key) -> float | None:
         """Value of a VARIABLE that never changes."""
         if variable_id not in self.folded:
             self.folded[variable_id] = None
@@ -191,7 +217,7 @@ class Model:
             self.folded[variable_id] = self.constant(self.variable(variable_id).function)
         return self.folded[variable_id]
 
-    def variable_kind(self, variable_id: Any) -> str:
+    def variable_kind(self, variable_id: Key) -> str:
         """``signal`` (depends on time only), ``loop`` (solved for) or ``inline``.
 
         Solved for are those that depend on themselves, and inputs and outputs of the plant.
@@ -199,29 +225,29 @@ class Model:
         return self._kinds[variable_id]
 
     @cached_property
-    def _plant(self) -> set[Any]:
+    def _plant(self) -> set[Key]:
         """VARIABLEs of every PINPUT and POUTPUT."""
-        ports = [*self.deck.of("PINPUT"), *self.deck.of("POUTPUT")]
+        ports: list[Pinput | Poutput] = [*self.deck.of(Pinput), *self.deck.of(Poutput)]
         return {key for port in ports for key in port.variables}
 
     @cached_property
-    def circular(self) -> set[Any]:
+    def circular(self) -> set[Key]:
         """VARIABLEs that depend on themselves."""
-        return _in_loops({v.key: set(self._uses(v.function)) for v in self.deck.of("VARIABLE")})
+        return _in_loops({v.key: set(self._uses(v.function)) for v in self.deck.of(Variable)})
 
     @cached_property
-    def _kinds(self) -> dict[Any, str]:
+    def _kinds(self) -> dict[Key, str]:
         loops = self._plant | self.circular
         if "variables" in self.without:
-            loops |= {v.key for v in self.deck.of("VARIABLE")}
+            loops |= {v.key for v in self.deck.of(Variable)}
         return {
             v.key: "loop"
             if v.key in loops
             else ("signal" if self._time_only(v.function, loops) else "inline")
-            for v in self.deck.of("VARIABLE")
+            for v in self.deck.of(Variable)
         }
 
-    def _uses(self, node: Node) -> Iterator[Any]:
+    def _uses(self, node: Node) -> Iterator[Key]:
         """Variables an expression depends on, through the elements it measures too."""
         seen: set[Node] = set()
         pending = [node]
@@ -238,7 +264,7 @@ class Model:
                 elif each.kind not in ("MARKER", "DIFF"):
                     pending += expressions(self.element(each.kind, each.id))
 
-    def _time_only(self, node: Node, loops: set[Any]) -> bool:
+    def _time_only(self, node: Node, loops: set[Key]) -> bool:
         for each in walk(node):
             if isinstance(each, Mode):
                 return False
@@ -261,7 +287,7 @@ def folded(op: str, values: Sequence[float]) -> float:
     return float("nan") if value is None else value
 
 
-def _in_loops(uses: dict[Any, set[Any]]) -> set[Any]:
+def _in_loops(uses: dict[Key, set[Key]]) -> set[Key]:
     """Members of dependency cycles."""
     reach = {key: set(direct) for key, direct in uses.items()}
     changed = True
@@ -275,6 +301,6 @@ def _in_loops(uses: dict[Any, set[Any]]) -> set[Any]:
     return {key for key, all_used in reach.items() if key in all_used}
 
 
-def assemble(deck: Any, without: frozenset[str] = frozenset()) -> Model:
+def assemble(deck: Deck, without: frozenset[str] = frozenset()) -> Model:
     """Bodies, markers and constraints of a deck without errors, reduced but for some rules."""
     return Model(deck, without)

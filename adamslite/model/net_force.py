@@ -9,17 +9,26 @@ Source: Adams/Solver C++ functions FX, TX; the value is the force on marker i, a
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Protocol
 
+from adamslite.deck.deck import Deck
+from adamslite.elements.gcon import Gcon
 from adamslite.functions.forces import MEASURES, NET
 from adamslite.language.expression import GROUND_FRAME, Call, Node, Num, Op, Ref, measure
+from adamslite.language.interfaces import DrawnModel, Key
+from adamslite.language.statement import Statement
 
-Key = int | str
+
+class WithDeck(DrawnModel, Protocol):
+    """The model and the deck it is made from."""
+
+    @property
+    def deck(self) -> Deck: ...
 
 
-def written_out(call: Call, model: Any) -> Node:
+def written_out(call: Call, model: WithDeck) -> Node:
     """One of the functions of the net force as a sum of the elements' own."""
-    i, j, k = (*(ref.id for ref in call.args), 0)[:3]
+    i, j, k = (*(ref.id for ref in call.args if isinstance(ref, Ref)), 0)[:3]
     component = NET[call.name]
     if component in (1, 5):
         parts = [_sum_of(model, i, j, component + n, 0) for n in (1, 2, 3)]
@@ -27,7 +36,7 @@ def written_out(call: Call, model: Any) -> Node:
     return _sum_of(model, i, j, component, k)
 
 
-def _sum_of(model: Any, i: Key, j: Key, component: int, k: Key) -> Node:
+def _sum_of(model: WithDeck, i: Key, j: Key, component: int, k: Key) -> Node:
     axes = Ref("MARKER", k) if k else GROUND_FRAME
     return total(
         [
@@ -39,17 +48,17 @@ def _sum_of(model: Any, i: Key, j: Key, component: int, k: Key) -> Node:
     )
 
 
-def ends(deck: Any, element: Any) -> tuple[Key | None, Key | None]:
+def ends(deck: Deck, element: Statement) -> tuple[Key | None, Key | None]:
     """The I and J markers of an element, or of the joint it drives."""
     joint = getattr(element, "joint", None)
     if joint is not None:
-        element = deck.find("JOINT", joint)
+        return ends(deck, deck.find("JOINT", joint))
     i, j = getattr(element, "i", None), getattr(element, "jfloat", None)
     return i, j if j is not None else getattr(element, "j", None)
 
 
-def _flags(model: Any, element: Any, i: Key, j: Key) -> list[int]:
-    if hasattr(element, "flags"):
+def _flags(model: WithDeck, element: Statement, i: Key, j: Key) -> list[int]:
+    if isinstance(element, Gcon):
         return element.flags(model, i, j)
     found = ends(model.deck, element)
     return [n for n in (0, 1) if found[n] == i and (j == 0 or found[1 - n] == j)]

@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 from adamslite.symbolic.derivatives import Derivatives
 from adamslite.symbolic.sympy_nodes import sp
-from adamslite.symbolic.types import Expr, Frame, Leaf, Seen, Symbol, Tree
+from adamslite.symbolic.types import Expr, Frame, Leaf, Read, Seen, Symbol, Tree
 
 ORIGIN = -1
 Vector = tuple[Expr, Expr, Expr]
@@ -108,7 +108,7 @@ class Scope:
         self.slope = Derivatives()
         self.elements: list[Seen] = []
         self._everything_moves = False
-        self.read: Callable[[Tree], Expr] = _unbound
+        self.read: Callable[[Tree], Read] = _unbound
 
     def symbol(self, *leaf: str | int) -> Symbol:
         """The real symbol of one leaf."""

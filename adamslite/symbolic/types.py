@@ -15,6 +15,11 @@ Leaf: TypeAlias = tuple[Any, ...]
 """What a symbol stands for: a kind, then numbers that depend on the kind."""
 Tree: TypeAlias = tuple[Any, ...]
 """A node of a bound expression, see :mod:`adamslite.kernels.binding`."""
+Read: TypeAlias = Any
+"""What a bound tree is read as: an ``Expr``, a frame, a statement as ``Seen``, a word, several."""
+Physics: TypeAlias = Any
+"""The class of a statement, for ``loads``, ``constraints``, ``equation``, ``stored``: the methods
+that are called with a view of the statement.  Which of them there are depends on the statement."""
 Seen: TypeAlias = Any
 """A statement as its physics sees it, :class:`adamslite.kernels.view.View`.  Where the deck has an
 id, an expression or a number, its field is a frame, another such statement, an ``Expr``; what

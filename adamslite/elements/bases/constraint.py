@@ -15,6 +15,8 @@ from __future__ import annotations
 from adamslite.language.expression import COMPONENTS, Node, Ref, measure
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement
+from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.types import Expr, Seen
 
 # What each kind of row keeps at zero, for messages.
 TOGETHER = ("x of I - J", "y of I - J", "z of I - J")
@@ -24,7 +26,11 @@ SAME_TURN = ("rotation about z_J (x_I . y_J)",)
 
 
 class Constraint(Statement):
-    """Mixed into statements that have ``constraints(self, scope)``: rows that vanish."""
+    """Statements with rows that vanish."""
+
+    def constraints(self: Seen, scope: Scope) -> list[Expr]:
+        """The rows, of I and J as ``scope`` has them."""
+        raise NotImplementedError
 
     @property
     def n_rows(self) -> int:

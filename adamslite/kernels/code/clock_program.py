@@ -22,27 +22,30 @@ from typing import Any
 from adamslite.native.llvm_builder import LIBRARY
 from adamslite.symbolic.guards import CLOCK_LEAVES, FIXED_LEAVES
 from adamslite.symbolic.sympy_nodes import LOOKUPS, sp
+from adamslite.symbolic.types import Expr, Leaf, Symbol
 
+Instruction = list[Any]
+"""A word, the numbers of the instructions that it takes, other numbers."""
 CURVED = LIBRARY - {"floor"}
 
 
 class ClockWriter:
     """Instructions of expressions of time; ``leaves``: what their symbols stand for."""
 
-    def __init__(self, leaves: dict[Any, tuple]) -> None:
+    def __init__(self, leaves: dict[Symbol, Leaf]) -> None:
         self.leaves = leaves
-        self.code: list[list[Any]] = []
-        self.known: dict[Any, int] = {}
-        self.clock: dict[Any, bool] = {}
+        self.code: list[Instruction] = []
+        self.known: dict[Expr, int] = {}
+        self.clock: dict[Expr, bool] = {}
 
-    def on_clock(self, expr: Any) -> bool:
+    def on_clock(self, expr: Expr) -> bool:
         """Whether an expression changes with time and with nothing else."""
         if expr not in self.clock:
             kinds = {self.leaves[s][0] for s in expr.free_symbols} - set(FIXED_LEAVES)
             self.clock[expr] = bool(kinds) and kinds <= set(CLOCK_LEAVES)
         return self.clock[expr]
 
-    def place(self, expr: Any) -> int:
+    def place(self, expr: Expr) -> int:
         """Number of the instruction that gives the value of an expression."""
         if expr not in self.known:
             instruction = self._instruction(expr)
@@ -50,7 +53,7 @@ class ClockWriter:
             self.known[expr] = len(self.code) - 1
         return self.known[expr]
 
-    def _instruction(self, expr: Any) -> list[Any]:
+    def _instruction(self, expr: Expr) -> Instruction:
         name = type(expr).__name__
         if expr in self.leaves:
             return list(self.leaves[expr])
@@ -69,11 +72,11 @@ class ClockWriter:
         name = getattr(expr, "rel_op", name)
         return [name, *map(self.place, expr.args)]
 
-    def gap(self, guard: Any) -> int:
+    def gap(self, guard: Expr) -> int:
         """Number of what is zero where a relation changes."""
         return self.place(sp.Add(guard.lhs, -guard.rhs))
 
-    def closed(self, number: int) -> list[list[Any]]:
+    def closed(self, number: int) -> list[Instruction]:
         """The instructions that one needs, itself last."""
         needed, pending = set(), [number]
         while pending:
@@ -86,18 +89,18 @@ class ClockWriter:
         return [self._renumbered(self.code[old], new) for old in order]
 
     @staticmethod
-    def _first(instruction: list[Any]) -> int:
+    def _first(instruction: Instruction) -> int:
         """Where the operands of an instruction begin."""
         leaves = (*CLOCK_LEAVES, *FIXED_LEAVES, "number", "decided")
         if instruction[0] in LOOKUPS:
             return 4
         return len(instruction) if instruction[0] in leaves else 1 + (instruction[0] == "choose")
 
-    def _operands(self, instruction: list[Any]) -> list[int]:
+    def _operands(self, instruction: Instruction) -> list[int]:
         first = self._first(instruction)
         return instruction[first : 2 if instruction[0] == "root" else None]
 
-    def _renumbered(self, instruction: list[Any], new: dict[int, int]) -> list[Any]:
+    def _renumbered(self, instruction: Instruction, new: dict[int, int]) -> Instruction:
         first = self._first(instruction)
         last = 2 if instruction[0] == "root" else len(instruction)
         moved = [new[x] for x in instruction[first:last]]
@@ -105,8 +108,8 @@ class ClockWriter:
 
 
 def clock_programs(
-    face: str, expressions: Iterable[Any], guards: list[Any], leaves: dict[Any, tuple]
-) -> dict[str, list[Any]]:
+    face: str, expressions: Iterable[Expr], guards: list[Expr], leaves: dict[Symbol, Leaf]
+) -> dict[str, list[list[Instruction]]]:
     """The instructions that a kernel carries along."""
     writer, expressions = ClockWriter(leaves), list(expressions)
     curves = dict.fromkeys(x for e in expressions for x in _curves(e, writer))
@@ -127,7 +130,7 @@ def clock_programs(
     return {kind: [writer.closed(at) for at in places] for kind, places in found.items()}
 
 
-def _curves(expression: Any, writer: ClockWriter) -> Iterator[Any]:
+def _curves(expression: Expr, writer: ClockWriter) -> Iterator[Expr]:
     """Functions of time in an expression that can change faster than their arguments."""
     for node in _nodes(expression, lambda node: reversed(node.args)):
         name = type(node).__name__
@@ -138,25 +141,25 @@ def _curves(expression: Any, writer: ClockWriter) -> Iterator[Any]:
             yield node
 
 
-def _orders(lookup: Any) -> tuple[Any, ...]:
+def _orders(lookup: Expr) -> tuple[int, ...]:
     """Of which derivative of a table it is the value."""
     return lookup.args[2:3] if type(lookup).__name__ == "Lookup" else lookup.args[1:3]
 
 
-def _slopes(curve: Any) -> Iterator[Any]:
+def _slopes(curve: Expr) -> Iterator[Expr]:
     """The derivatives of a table by its arguments."""
     if type(curve).__name__ in LOOKUPS:
         for argument in range(4, len(curve.args) + 1):
             yield curve.fdiff(argument)
 
 
-def _driven(expression: Any, writer: ClockWriter) -> Iterator[Any]:
+def _driven(expression: Expr, writer: ClockWriter) -> Iterator[Expr]:
     """The largest parts of an expression that depend on time alone."""
 
-    def others(node: Any) -> list[Any]:
+    def others(node: Expr) -> list[Expr]:
         return [] if writer.on_clock(node) else [x for x in node.args if not splits(node, x)]
 
-    def splits(node: Any, part: Any) -> bool:
+    def splits(node: Expr, part: Expr) -> bool:
         return (node.is_Add or node.is_Mul) and writer.on_clock(part)
 
     for node in _nodes(expression, others):
@@ -167,7 +170,7 @@ def _driven(expression: Any, writer: ClockWriter) -> Iterator[Any]:
             yield node.func(*timed)
 
 
-def _nodes(expression: Any, below: Callable[[Any], Iterable[Any]]) -> Iterator[Any]:
+def _nodes(expression: Expr, below: Callable[[Expr], Iterable[Expr]]) -> Iterator[Expr]:
     """Every different node of an expression, itself first; ``below``: what to continue with."""
     pending, seen = [expression], set()
     while pending:

@@ -6,14 +6,13 @@ row of six numbers for a part, force rows and torque rows about its mass centre.
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.kernels.code.kinematics import Columns, Vec
 from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.native.llvm_builder import Value
 from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
+from adamslite.symbolic.types import Expr
 
 
 class JacobianWriter(ResidualWriter):
@@ -60,13 +59,13 @@ class JacobianWriter(ResidualWriter):
     ) -> None:
         """Add component c of d(lever) x force = -force x d(lever)."""
         cq = self._coefficient(0)
-        unit = [float(k == c) for k in range(3)]
+        unit: Vec = [float(k == c) for k in range(3)]
         row = self.g.scale(cq, self.g.cross(force, unit))
         if reaction and load.follows:
             total.position(load.frame, row)
             total.add(slot.body, [self.b.neg(v) for v in row], [0.0, 0.0, 0.0])
         else:
-            frame = load.reaction if reaction else load.frame
+            frame = load.reaction if reaction and load.reaction is not None else load.frame
             total.rotation(frame, self.g.cross(self.g.lever(frame), row))
 
     def _merged(self, source: Columns, factor: Value, into: Columns | None) -> Columns:
@@ -81,7 +80,7 @@ class JacobianWriter(ResidualWriter):
     def _coefficient(self, n: int) -> Value:
         return 0.0 if self.rates_only and n < 2 else f"%c{n}"
 
-    def columns(self, expr: Any) -> Columns:
+    def columns(self, expr: Expr) -> Columns:
         """Derivative of one scalar with respect to every unknown it touches."""
         expr = sp.S.Zero + expr
         total = Columns(self.g)

@@ -19,8 +19,11 @@ and ``ca`` for accelerations, so that one kernel serves every integration method
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from adamslite.native.llvm_builder import Builder, Value
 from adamslite.symbolic.scope import ORIGIN, Slot
+from adamslite.symbolic.types import Leaf
 
 Vec = list[Value]
 
@@ -38,9 +41,9 @@ class Geometry:
         self.b = b
         self.slots = slots
         self.reals = reals
-        self.memo: dict[tuple, Vec] = {}
+        self.memo: dict[Leaf, Vec] = {}
 
-    def _once(self, key: tuple, make) -> Vec:
+    def _once(self, key: tuple, make: Callable[[], Vec]) -> Vec:
         if key not in self.memo:
             self.memo[key] = make()
         return self.memo[key]
@@ -54,7 +57,7 @@ class Geometry:
         ]
 
     def add(self, *vectors: Vec) -> Vec:
-        total = [0.0, 0.0, 0.0]
+        total: Vec = [0.0, 0.0, 0.0]
         for vector in vectors:
             total = [self.b.add(t, v) for t, v in zip(total, vector, strict=True)]
         return total

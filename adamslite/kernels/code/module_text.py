@@ -62,10 +62,10 @@ def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tu
     blocks: list[tuple[int, int]] = []
     bodies: list[tuple[str, str, ResidualWriter]] = []
     if with_jacobian:
-        writer = JacobianWriter(shape, scope)
-        writer.jacobian(out)
-        blocks = writer.blocks
-        bodies.append((f"{name}_jacobian", JACOBIAN_HEAD, writer))
+        jacobian = JacobianWriter(shape, scope)
+        jacobian.jacobian(out)
+        blocks = jacobian.blocks
+        bodies.append((f"{name}_jacobian", JACOBIAN_HEAD, jacobian))
     writer = ResidualWriter(shape, scope)
     writer.residual(out)
     bodies.append((f"{name}_residual", RESIDUAL_HEAD, writer))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from adamslite.kernels.code.kinematics import HEAD, MODE, TIME, Geometry, Vec
 from adamslite.kernels.code.shape import Outputs, Shape
@@ -11,6 +10,7 @@ from adamslite.kernels.code.sympy_to_llvm import Lowering
 from adamslite.native.llvm_builder import Builder, Value
 from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
+from adamslite.symbolic.types import Expr, Frame
 
 
 class ResidualWriter:
@@ -27,7 +27,7 @@ class ResidualWriter:
                 at = self.b.int_at(shape.branches_at + place)
                 self.lower.branches[guard] = self.b.read("W", at, n)
 
-    def value(self, expr: Any) -> Value:
+    def value(self, expr: Expr) -> Value:
         """Lower an expression, loading the leaves it uses first."""
         expr = sp.S.Zero + expr
         for symbol in sorted(self.scope.slope.symbols(expr), key=str):
@@ -84,19 +84,18 @@ class ResidualWriter:
         slot = self._moving(load.frame)
         if slot is not None:
             ends.append((slot, -1.0, self.g.lever(load.frame)))
-        other = self._moving(load.reaction) if load.reaction is not None else None
-        if other is not None:
-            ends.append((other, 1.0, self._reaction_lever(load)))
+        if load.reaction is not None and (other := self._moving(load.reaction)) is not None:
+            ends.append((other, 1.0, self._reaction_lever(load, load.reaction)))
         return ends
 
     def _moving(self, frame: int) -> Slot | None:
         return None if self.scope.is_ground(frame) else self.shape.slots[frame]
 
-    def _reaction_lever(self, load: Load) -> Vec:
-        slot = self.shape.slots[load.reaction]
+    def _reaction_lever(self, load: Load, frame: Frame) -> Vec:
+        slot = self.shape.slots[frame]
         if slot.kind == "part" and load.follows:
             return self.g.sub(self.g.position(load.frame), self.g.body(slot.body, 0))
-        return self.g.lever(load.reaction)
+        return self.g.lever(frame)
 
     def _add_load(self, slot: Slot, sign: float, force: Vec, torque: Vec, lever: Vec) -> None:
         row = self.b.int_at(self.shape.row_at(slot.body))
@@ -116,7 +115,7 @@ class ResidualWriter:
         for n, zone in enumerate(guards.zone if place else ()):
             self.b.accumulate("F", self.b.int_at(first + 2), n, self.value(zone))
 
-    def _guard_value(self, guard: Any) -> Value:
+    def _guard_value(self, guard: Expr) -> Value:
         for side in guard.args:
             self.value(side)
         return self.lower.gap(guard) if hasattr(guard, "rel_op") else self.value(guard.args[0])

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 from adamslite.symbolic.guards import Guards
 from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
+from adamslite.symbolic.types import Expr
 
 
 @dataclass
@@ -74,11 +74,11 @@ class Outputs:
     """
 
     loads: list[Load] = field(default_factory=list)
-    rows: list[tuple[int, int, Any]] = field(default_factory=list)
+    rows: list[tuple[int, int, Expr]] = field(default_factory=list)
     rates_only: bool = False
 
     @property
-    def expressions(self) -> list[Any]:
+    def expressions(self) -> list[Expr]:
         """Everything that is evaluated."""
         loads = [e for load in self.loads for e in (*load.force, *load.torque)]
         return [sp.S.Zero + e for e in (*loads, *(row[2] for row in self.rows))]

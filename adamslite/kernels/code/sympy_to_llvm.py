@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 from adamslite.kernels.code.lookup import on_piece, on_strip, piece_at, strip_at
 from adamslite.native.llvm_builder import LIBRARY, Builder, Value
 from adamslite.native.translate import symbol
+from adamslite.symbolic.types import Expr, Symbol
 
 
-def joined(factors: tuple[Any, ...]) -> list[Any]:
+def joined(factors: tuple[Expr, ...]) -> list[Expr]:
     """Factors of a product with x**e/x as x**(e - 1): the slope of x**e, at x = 0 not 0/0."""
     raised = [f for f in factors if f.is_Pow and not f.exp.is_number]
     if not raised:
         return list(factors)
-    powers: dict[Any, Any] = {}
+    powers: dict[Expr, Expr] = {}
     for factor in raised:
         powers[factor.base] = powers.get(factor.base, 0) + factor.exp
     rest = [f for f in factors if f not in raised]
@@ -35,14 +36,14 @@ class Lowering:
     the middle of the unit interval.
     """
 
-    def __init__(self, builder: Builder, leaves: dict[Any, Value], tables_at: int = 0) -> None:
+    def __init__(self, builder: Builder, leaves: dict[Symbol, Value], tables_at: int = 0) -> None:
         self.b = builder
         self.leaves = leaves
         self.tables_at = tables_at
-        self.branches: dict[Any, Value] = {}
-        self.memo: dict[Any, Value] = {}
+        self.branches: dict[Expr, Value] = {}
+        self.memo: dict[Expr, Value] = {}
 
-    def __call__(self, expr: Any) -> Value:
+    def __call__(self, expr: Expr) -> Value:
         if expr in self.memo:
             return self.memo[expr]
         if expr in self.leaves:
@@ -54,7 +55,7 @@ class Lowering:
         self.memo[expr] = value
         return value
 
-    def _rule(self, expr: Any) -> Any:
+    def _rule(self, expr: Expr) -> Callable[[Expr], Value]:
         name = type(expr).__name__
         rule = getattr(self, f"_{name}", None)
         if rule is not None:
@@ -63,7 +64,7 @@ class Lowering:
             return lambda e: self.b.call(name, *[self(a) for a in e.args])
         raise TypeError(f"no native code for {name}")
 
-    def _Add(self, expr: Any) -> Value:
+    def _Add(self, expr: Expr) -> Value:
         plus = [a for a in expr.args if not a.could_extract_minus_sign()]
         minus = [a for a in expr.args if a.could_extract_minus_sign()]
         total: Value = 0.0
@@ -73,7 +74,7 @@ class Lowering:
             total = self.b.sub(total, self(-term))
         return total
 
-    def _Mul(self, expr: Any) -> Value:
+    def _Mul(self, expr: Expr) -> Value:
         top: Value = 1.0
         bottom: Value = 1.0
         for factor in joined(expr.args):
@@ -83,13 +84,13 @@ class Lowering:
                 top = self.b.mul(top, self(factor))
         return self.b.div(top, bottom)
 
-    def _Pow(self, expr: Any) -> Value:
+    def _Pow(self, expr: Expr) -> Value:
         base, exponent = expr.base, expr.exp
         if exponent.is_Rational:
             return self.b.power(self(base), Fraction(int(exponent.p), int(exponent.q)))
         return self.b.call("pow", self(base), self(exponent))
 
-    def _Piecewise(self, expr: Any) -> Value:
+    def _Piecewise(self, expr: Expr) -> Value:
         held = getattr(expr, "order", None) is not None
         pieces = list(expr.args)
         last = pieces.pop()
@@ -100,21 +101,21 @@ class Lowering:
             value = self.b.select(self.condition(piece.cond, held), self(piece.expr), value)
         return value
 
-    def _floor(self, expr: Any) -> Value:
+    def _floor(self, expr: Expr) -> Value:
         value = self.b.call("floor", self(expr.args[0]))
         held = self.branches.get(expr) if getattr(expr, "order", None) is not None else None
         if held is None:
             return value
         return self.b.select(self.b.compare("==", held, 0.0), value, self.b.sub(held, 0.5))
 
-    def _Lookup(self, expr: Any) -> Value:
+    def _Lookup(self, expr: Expr) -> Value:
         number, curve, order, x = expr.args
         table, at = self._table(number), ("double", self(x))
         piece = self.b.call_native(symbol(piece_at), "i64", table, at)
         known = (table, ("i64", piece), ("i64", int(curve)))
         return self.b.call_native(symbol(on_piece), "double", *known, at, ("i64", int(order)))
 
-    def _LookupBetween(self, expr: Any) -> Value:
+    def _LookupBetween(self, expr: Expr) -> Value:
         number, order, z_order, x, z = expr.args
         table, at, across = self._table(number), ("double", self(x)), ("double", self(z))
         piece = self.b.call_native(symbol(piece_at), "i64", table, at)
@@ -123,10 +124,10 @@ class Lowering:
         orders = (("i64", int(order)), ("i64", int(z_order)))
         return self.b.call_native(symbol(on_strip), "double", *known, *orders)
 
-    def _table(self, number: Any) -> tuple[str, Value]:
+    def _table(self, number: Expr) -> tuple[str, Value]:
         return "ptr", self.b.table_at(self.tables_at + int(number))
 
-    def condition(self, cond: Any, held: bool = False) -> str:
+    def condition(self, cond: Expr, held: bool = False) -> str:
         """A sympy relation or logic expression as an ``i1`` value; ``held``: by its branch."""
         name = type(cond).__name__
         if name in ("And", "Or"):
@@ -145,7 +146,7 @@ class Lowering:
         margin = self.b.sum_as_written(self.gap(cond), branch)
         return self.b.compare(">" if cond.rel_op in "<>" else ">=", margin, 0.0)
 
-    def gap(self, cond: Any) -> Value:
+    def gap(self, cond: Expr) -> Value:
         """What is positive where a relation holds: the larger side less the smaller one."""
         less = cond.rel_op.startswith("<")
         large, small = (cond.rhs, cond.lhs) if less else (cond.lhs, cond.rhs)
