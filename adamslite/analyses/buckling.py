@@ -19,6 +19,8 @@ import numpy as np
 
 from adamslite.model.model import POINT, Model
 
+# The exponential of more is beyond the range of numbers.
+EXP_LIMIT = 700.0
 ROUND_OFF = 2e-16
 # Share of the way that grown round-off may come to untold.
 FELT = 1e-3
@@ -44,7 +46,7 @@ def buckled(model: Model, names: tuple[str, ...], time: np.ndarray, values: np.n
     worst = struts[int(grown.argmax())]
     return (
         f"{worst.label} pushed masses apart that nothing keeps in line: their distance from it,"
-        f" even round-off, grew up to {np.exp(min(most, 700.0)):.0e} times, so that ERROR does"
+        f" even round-off, grew up to {np.exp(min(most, EXP_LIMIT)):.0e} times, so that ERROR does"
         " not bound their positions; let a cable only pull (MAX), or give it a bending stiffness"
     )
 

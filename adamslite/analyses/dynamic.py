@@ -20,6 +20,12 @@ from adamslite.integrators.contract import BDF, EXPLICIT, RADAU
 from adamslite.native.translate import Rows
 from adamslite.results.outcomes import Outcome
 
+# Of CONSTANT_BDF where the deck gives no step.
+STEPS_PER_OUTPUT = 20.0
+# Least step as a share of the end of the run, or of HMAX; of VERLET, which takes equal ones.
+ROUND_OFF, VERLET_LEAST = 1e-14, 1e-8
+# Time between two looks at a run [s].
+WATCH_INTERVAL = 0.1
 # How a run may end before a motion that jumps, or gets ever faster.
 CLOSE = (Outcome.DONE, Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED)
 # Error estimates from here on stand for not-a-number.
@@ -83,7 +89,7 @@ class Settings:
         """The step of CONSTANT_BDF; zero for all others."""
         if self.method != CONSTANT:
             return 0.0
-        return self.hinit or self.hmax or output_step / 20.0
+        return self.hinit or self.hmax or output_step / STEPS_PER_OUTPUT
 
     def tests_velocities(self, constrained: bool) -> bool:
         """Whether the error test sees velocities; that of index 3 only where nothing is held."""
@@ -109,7 +115,8 @@ class Settings:
         many that the run does not end.
         """
         own = 0.0 if self.method == CONSTANT else self.hmin
-        return own or max(1e-14 * abs(end), (1e-8 if self.method == "VERLET" else 1e-14) * hmax)
+        share = VERLET_LEAST if self.method == "VERLET" else ROUND_OFF
+        return own or max(ROUND_OFF * abs(end), share * hmax)
 
     @property
     def second_order(self) -> tuple[float, float, float]:
@@ -206,7 +213,7 @@ def _watched(
         running = pool.submit(system.run, method)
         while not running.done():
             try:
-                wait([running], timeout=0.1)
+                wait([running], timeout=WATCH_INTERVAL)
                 if watch and not running.done():
                     watch(float(system.report.t), end)
             except KeyboardInterrupt:

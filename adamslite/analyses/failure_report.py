@@ -14,6 +14,8 @@ from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.integrators.verlet.method import LIMIT
 from adamslite.results.outcomes import Outcome
 
+# A step below this multiple of HMIN is HMIN.
+NEARLY = 1.01
 # Models up to this many unknowns are searched for what leaves their accelerations open.
 MOST_SEARCHED = 1500
 # Singular values below this share of the largest are zero.
@@ -56,7 +58,7 @@ def _when(system: System) -> str:
 def _is_least(system: System) -> bool:
     """Whether the last step tried was as small as a requested HMIN."""
     step, least = system.report.h, system.settings.h_min
-    return 0.0 < step <= 1.01 * least and least > ROUND_OFF * system.settings.t_end
+    return 0.0 < step <= NEARLY * least and least > ROUND_OFF * system.settings.t_end
 
 
 def _where(system: System) -> str:

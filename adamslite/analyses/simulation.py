@@ -19,6 +19,7 @@ from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
 from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
+from adamslite.integrators.linalg.dense import TINY
 from adamslite.kernels.compile import Kernels
 from adamslite.language.integrator_arguments import without_effect
 from adamslite.language.messages import did_you_mean
@@ -258,7 +259,7 @@ def _accuracy_note(session: Session) -> str:
 
 def _worst(balances: list[Balance]) -> Balance:
     """Of several analyses."""
-    return max(balances, key=lambda b: (not b.closes, b.gap / max(b.explained, 1e-300)))
+    return max(balances, key=lambda b: (not b.closes, b.gap / max(b.explained, TINY)))
 
 
 def _beyond(session: Session) -> dict[str, str]:

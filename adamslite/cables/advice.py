@@ -16,6 +16,8 @@ from math import floor, log10, pi, sqrt
 
 from adamslite.cables.demand import Demand, elements, form, is_sudden, level, loaded
 
+# Of a quotient of decimal numbers.
+ROUND_OFF = 1e-9
 PER_CROSSING = {"VERLET": 2.5, "HHT": 0.7}
 PER_PERIOD, FEWEST_STEPS = 100.0, 400.0
 VERLET_CPU, FIXED_CPU, GROWING_CPU = 0.13e-6, 0.6e-6, 2.4e-6
@@ -71,4 +73,4 @@ def _cost(of: Demand, method: str, chosen: int, sections: int) -> float:
 def _rounded(value: float) -> float:
     """The next lower of 1, 2, 5, 10, 20 ..."""
     power = 10.0 ** floor(log10(value))
-    return next(k for k in (5, 2, 1) if k * power <= value * (1 + 1e-9)) * power
+    return next(k for k in (5, 2, 1) if k * power <= value * (1 + ROUND_OFF)) * power

@@ -13,9 +13,11 @@ from math import acos, asin, atan2, cos, hypot, inf, pi, sin, sqrt
 from scipy.optimize import brentq
 
 from adamslite.cables.geometry import Span, wrap
-from adamslite.cables.vectors import Vector, add, cross, dot, part_across, unit
+from adamslite.cables.vectors import Vector, add, aside, cross, dot, part_across, unit
 from adamslite.cables.vocabulary import Spec
 
+# A root to the last digits.
+EXACTLY = {"xtol": 1e-15, "rtol": 1e-14}
 Point = tuple[float, float]
 
 
@@ -131,8 +133,7 @@ class Laid:
 def plane(spec: Spec) -> Plane:
     """The plane across the axles."""
     axis = next(each.axis for each in spec.route if each.is_round)
-    helper = (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0)
-    ahead = unit(part_across(helper, axis))
+    ahead = unit(part_across(aside(axis), axis))
     return Plane(spec.route[0].at, ahead, cross(axis, ahead))
 
 
@@ -222,7 +223,7 @@ def lay(
     walk = _Walk(spec, parts, tension, contact)
     # Tension stretches, arcs shorten: far less than by half.
     guess = total / count
-    free = brentq(lambda x: walk(x, count)[1], 0.5 * guess, 1.5 * guess, xtol=1e-15, rtol=1e-14)
+    free = brentq(lambda x: walk(x, count)[1], 0.5 * guess, 1.5 * guess, **EXACTLY)
     nodes, _ = walk(free, count)
     begins, at = {}, 0.0
     for part in parts:

@@ -14,6 +14,8 @@ from adamslite.cables.posture import Body, Posture
 from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across, unit
 from adamslite.language.expression import Call, Ref, calls
 
+# Share of a speed, or of a pull, from which a difference counts.
+FELT = 0.01
 INSTANTS = 100
 # A small part of a time or a length, to form rates with.
 SHORT = 1e-6
@@ -54,13 +56,13 @@ def demand_on(chain: Chain, posture: Posture, end: float) -> ChainDemand:
     jump, across = shape.jumps()
     if travel.jump:
         jump = abs(travel.jump - shape.leaves(chain))
-        jump = jump if jump > 0.01 * travel.speed else 0.0
+        jump = jump if jump > FELT * travel.speed else 0.0
     demand = Demand(
         stiffness=stiffness, density=mean(masses) * n / free, length=free, tension=carried,
         moved=sum(tips), pull=abs(shape.pull), least=travel.least, most=travel.most,
         speed=travel.speed, acceleration=travel.acceleration, known=travel.known, jump=jump,
         across=across, straight=shape.straight, wave=shape.wave(across, free),
-        bounces=abs(drawn - hung) > 0.5 * weight + 0.01 * hung and not chain.is_ring, end=end,
+        bounces=abs(drawn - hung) > 0.5 * weight + FELT * hung and not chain.is_ring, end=end,
         tied=_is_tied(deck),
     )  # fmt: skip
     return ChainDemand(chain, demand, _form(chain, posture, travel), gained)

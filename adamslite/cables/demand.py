@@ -29,7 +29,14 @@ from math import ceil, pi, sqrt
 
 MOST = 900
 FEWEST = 4
+# Sections of an axial front, and of a kink by c/U, for the accuracy at which they were measured.
 AXIAL = 42
+KINK = 7
+MEASURED_AT = 0.01
+# Power of the accuracy with which the sections of a front grow.
+AXIAL_POWER = 0.55
+# Keeps quotients finite where nothing pulls or hangs [N, kg].
+NEGLIGIBLE = 1e-12
 # Of the accuracy: what sections may use, the rest is the integrator's.
 SECTIONS_SHARE = 0.9
 
@@ -119,7 +126,7 @@ class Demand:
     @property
     def validity(self) -> dict[str, float]:
         """Errors of the paper's element, by the name of their estimate."""
-        carried = max(self.tension, 1e-12)
+        carried = max(self.tension, NEGLIGIBLE)
         found = {
             "s'/(2 c_t)": self.speed / (2 * sqrt(carried / self.density)),
             "rho (l s\" + s'^2)/(2 T)": self.density
@@ -216,7 +223,7 @@ def rigid_fails(of: Demand, p: float) -> list[str]:
     weight = of.density * of.longest
     swings = sqrt((of.moved + weight / 3) * of.longest / of.stiffness)
     figures = {
-        "rho l/M": weight / max(of.moved, 1e-12),
+        "rho l/M": weight / max(of.moved, NEGLIGIBLE),
         "T/EA": of.tension / of.stiffness,
         "sqrt((M + rho l/3) l/EA)/tau": swings * of.acceleration / of.speed if of.speed else 0.0,
     }
@@ -231,18 +238,18 @@ def elements(of: Demand, p: float) -> int:
 
 def needed(of: Demand, p: float) -> dict[str, float]:
     """Sections of a span that each rule requires."""
-    finer, q = 0.01 / p, SECTIONS_SHARE * p
+    finer, q = MEASURED_AT / p, SECTIONS_SHARE * p
     load = of.density * of.longest * (of.pull + of.acceleration)
     top = of.tension + load - of.density * of.length * of.pull / 2
     found = {
         "at least": FEWEST,
-        "for half a section at an end": load / max(top, load, 1e-12) / (2 * q) + 1,
+        "for half a section at an end": load / max(top, load, NEGLIGIBLE) / (2 * q) + 1,
     }
     if not of.straight:
         found["for transverse waves"] = max(pi, of.wave * of.length) / sqrt(24 * q)
     if of.jump or not of.known:
-        found["for axial fronts"] = AXIAL * finer**0.55
+        found["for axial fronts"] = AXIAL * finer**AXIAL_POWER
     if of.across:
         kink = kink_speed(of.stiffness, of.density, of.tension, of.across)
-        found["for a kink, 7 c/U"] = 7 * of.c / kink * finer ** (2 / 3)
+        found["for a kink, 7 c/U"] = KINK * of.c / kink * finer ** (2 / 3)
     return found

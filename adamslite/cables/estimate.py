@@ -20,6 +20,12 @@ from adamslite.cables.vocabulary import Spec
 from adamslite.language.expression import Node, Num, Op
 
 INSTANTS = 400
+# A law that starts within this is at zero [m].
+AT_ZERO = 1e-9
+# Accelerations that differ by less than this share are equally large.
+ALIKE = 1e-6
+# Share of the greatest speed from which a speed at the start is more than that of differences.
+SUDDEN = 0.05
 
 
 @dataclass(frozen=True)
@@ -152,7 +158,7 @@ def _told(spec: Spec, law: Node, path: Path, faults: Faults) -> Travel | None:
         return None
     except Unknown:
         return None
-    if abs(ways[0]) > 1e-9:
+    if abs(ways[0]) > AT_ZERO:
         faults.add("law-start", path, word=path[2], value=ways[0])
     return from_ways(ways, spec.end / INSTANTS)
 
@@ -225,10 +231,10 @@ def from_ways(ways: list[float], h: float, across: float = 0.0) -> Travel:
 
     speeds, changes = rates(ways), rates(rates(ways))
     least, fastest, gain = min(ways), max(map(abs, speeds)), max(changes)
-    first = next(k for k, change in enumerate(changes) if change >= gain - 1e-6 * abs(gain))
+    first = next(k for k, change in enumerate(changes) if change >= gain - ALIKE * abs(gain))
     start = speeds[0] - changes[0] * h / 2
     # A speed that is there from the first instant on, and not by the acceleration that follows.
-    jump = abs(start) if abs(start) > 0.05 * fastest else 0.0
+    jump = abs(start) if abs(start) > SUDDEN * fastest else 0.0
     return Travel(
         least, max(ways), ways.index(least) * h, fastest, max(map(abs, changes)), jump, across,
         start=start, gain=gain, gain_at=(first + 1) * h,

@@ -13,8 +13,11 @@ from dataclasses import dataclass, replace
 from math import atan2, pi, sqrt
 
 from adamslite.cables.messages import Faults
-from adamslite.cables.vectors import ZERO, Vector, add, cross, dot, norm, unit
+from adamslite.cables.vectors import ZERO, Vector, add, aside, cross, dot, norm, unit
 from adamslite.cables.vocabulary import Spec, Station
+
+# Of lengths, as a share; of the cosine of two directions that are one.
+ROUND_OFF, PARALLEL = 1e-9, 1e-12
 
 
 @dataclass(frozen=True)
@@ -87,8 +90,7 @@ def reaches(spec: Spec, spans: list[Span]) -> list[float]:
 
 def _ring(each: Station) -> Span:
     """Of a loop that is nothing but a circle: the point where it begins."""
-    helper = (1.0, 0.0, 0.0) if abs(each.axis[0]) < 0.9 else (0.0, 1.0, 0.0)
-    along = unit(cross(each.axis, helper))
+    along = unit(cross(each.axis, aside(each.axis)))
     place = add(each.at, cross(along, each.axis), each.turn * each.radius)
     return Span(place, place, along, 0.0)
 
@@ -126,15 +128,15 @@ def _crossings(spec: Spec, found: list[Span], faults: Faults) -> None:
         for q in range(p + 1, len(found)):
             # Neighbours meet at a point of no size only by turning back onto each other.
             beside = set(spec.pairs[p]) & set(spec.pairs[q])
-            if apart(span, found[q]) < 1e-9 * (span.length + found[q].length) and (
-                len(beside) != 1 or dot(span.along, found[q].along) < -1 + 1e-12
+            if apart(span, found[q]) < ROUND_OFF * (span.length + found[q].length) and (
+                len(beside) != 1 or dot(span.along, found[q].along) < -1 + PARALLEL
             ):
                 what = f"spans {_name(spec, p)} and {_name(spec, q)} meet"
                 faults.add("crossing", ("route", spec.pairs[q][0], "at"), what=what)
         for j, wheel in enumerate(spec.route):
             if wheel.is_round and j not in spec.pairs[p]:
                 centre = Span(wheel.at, wheel.at, ZERO, 0.0)
-                if apart(span, centre) < wheel.radius * (1 - 1e-9):
+                if apart(span, centre) < wheel.radius * (1 - ROUND_OFF):
                     what = f"span {_name(spec, p)} runs through the wheel of station {j + 1}"
                     faults.add("crossing", ("route", j, "at"), what=what)
 
@@ -148,7 +150,7 @@ def apart(p: Span, q: Span) -> float:
     """Least distance of two straight pieces [m]."""
     between, b = add(p.start, q.start, -1), dot(p.along, q.along)
     d, e, wide = dot(p.along, between), dot(q.along, between), 1 - b * b
-    s = (b * e - d) / wide if wide > 1e-12 and q.length else 0.0
+    s = (b * e - d) / wide if wide > PARALLEL and q.length else 0.0
     s = min(max(s, 0.0), p.length)
     t = min(max(e + b * s, 0.0), q.length)
     s = min(max(b * t - d, 0.0), p.length)

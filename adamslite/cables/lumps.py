@@ -17,7 +17,7 @@ from adamslite.cables.demand import loaded
 from adamslite.cables.ends import end
 from adamslite.cables.estimate import Moves
 from adamslite.cables.geometry import Span, reaches
-from adamslite.cables.model_choice import CableModel, demand_on_longest, tensions
+from adamslite.cables.model_choice import SUNK, CableModel, demand_on_longest, tensions
 from adamslite.cables.statements import number, point, section
 from adamslite.cables.vectors import Vector, add, dot, unit
 from adamslite.cables.vocabulary import Spec
@@ -27,6 +27,10 @@ from adamslite.cables.wheels import drive, marker, mount_request, triple, turnin
 GRIP = 5.0
 # Height of teeth over the pitch, bluntness of their roots.
 TOOTH, ROOT = 0.24, 0.05
+# Damper of a contact as a share of sqrt(stiffness mass), and the strain that is expected at least.
+DAMPED, LEAST_STRAIN = 0.2, 1e-6
+# Nodes that come near a wheel by this multiple of the way can touch it.
+MARGIN = 1.1
 # Sliding speed at which friction is full: at least this [m/s], or this share of the payout's.
 CREEP, CREEP_SHARE = 1e-3, 2.5e-3
 
@@ -73,8 +77,8 @@ def stiffness(spec: Spec, spans: list[Span], moves: Moves, section: float) -> fl
     fronts = (
         2 * loaded(demand_on_longest(spec, spans, moves)) if moves.across or moves.jump else 0.0
     )
-    expected = max(*tensions(spec, spans), fronts, 1e-6 * spec.cable.stiffness)
-    return 80 * expected / section
+    expected = max(*tensions(spec, spans), fronts, LEAST_STRAIN * spec.cable.stiffness)
+    return SUNK * expected / section
 
 
 def write_lumps(spec: Spec, spans: list[Span], model: CableModel, moves: Moves) -> str:
@@ -134,8 +138,8 @@ def _lowest(spec: Spec) -> Vector:
 
 
 def _constants(spec: Spec, moves: Moves, contact: float, section: float) -> str:
-    damper = 0.2 * sqrt(contact * spec.cable.density * section)
-    depth = section**2 / 80 / max(each.radius for each in spec.route if each.is_wheel)
+    damper = DAMPED * sqrt(contact * spec.cable.density * section)
+    depth = section**2 / SUNK / max(each.radius for each in spec.route if each.is_wheel)
     return (
         "! A contact: stiffness, damper, and the depth at which the damper is full; sliding speed\n"
         "! at which friction is full.\n"
@@ -200,7 +204,7 @@ def _run(spec: Spec, s: Stretch, i: int, k: int) -> str:
 def _contacts(spec: Spec, s: Stretch, moves: Moves, section: float) -> str:
     """Every node with every wheel it can reach."""
     text, count = "", len(s.laid.nodes) - 1
-    reach = 1.1 * moves.way + 3 * section
+    reach = MARGIN * moves.way + 3 * section
     for i, (begin, finish) in s.laid.wheels.items():
         each, n = spec.route[i], marker(i)
         text += f"\n! ---- the wheel of station {i + 1} carries what lies on it ----\n"

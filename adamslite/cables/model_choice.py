@@ -19,6 +19,14 @@ from adamslite.cables.vectors import add, dot, part_across, unit
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import slipping
 
+# Of the cosine of two directions that are one.
+ROUND_OFF = 1e-9
+# Sections shorten an arc by (h/R)^2/24 of it: at most this share of the accuracy.
+RIM_SHARE = 0.02
+# A node sinks h^2/(SUNK R) into a rim: a tenth of the height of the arc over a section.
+SUNK = 80
+# ERROR of a rigid cable, as a share of its length.
+RIGID_ERROR = 1e-7
 # An arc that is long enough to have to be round [rad].
 LIES = 0.1
 
@@ -97,7 +105,7 @@ def _stays_tangent(spec: Spec, spans: list[Span], i: int) -> bool:
     ways = [each.slide] if each.is_carried else []
     ways += [tuple(float(k == j) for k in range(3)) for j in range(3) if each.motion[j]]
     return all(
-        any(v) and abs(dot(unit(v), spans[p].along)) > 1 - 1e-9
+        any(v) and abs(dot(unit(v), spans[p].along)) > 1 - ROUND_OFF
         for v in ways for p in spec.beside(i)
     )  # fmt: skip
 
@@ -191,7 +199,9 @@ def _elements(spec: Spec, spans: list[Span], of: Demand, form: str) -> tuple[int
     found = demand.needed(of, spec.accuracy)
     radii = [each.radius for i, each in enumerate(spec.route) if _lies_on(spec, spans, i)]
     if form == "brute" and radii:
-        found["for (h/R)^2/24 on a rim"] = of.length / min(radii) / sqrt(0.48 * spec.accuracy)
+        found["for (h/R)^2/24 on a rim"] = (
+            of.length / min(radii) / sqrt(24 * RIM_SHARE * spec.accuracy)
+        )
     bends = [spec.route[i].radius for i in spec.bends]
     if bends:
         found["for one on a radius of a bend"] = of.length / min(bends)
@@ -212,11 +222,12 @@ def _integrator(spec: Spec, of: Demand, level: int, form: str, count: int) -> tu
     error, says = advise(of, p).error, "p T H/EA"
     if level == 1:
         method, why = "GSTIFF, SI2", "constraints, and no fast vibration"
-        error, says = 1e-7 * of.longest, "1e-7 l"
+        error, says = RIGID_ERROR * of.longest, "1e-7 l"
     elif form == "brute":
         method, why = "HHT", "contacts, and sections that vibrate fast"
         radius = min((each.radius for each in spec.route if each.is_wheel), default=1.0)
-        error, says = (of.length / count) ** 2 / (800 * radius), "a tenth of what a node sinks in"
+        error = (of.length / count) ** 2 / (10 * SUNK * radius)
+        says = "a tenth of what a node sinks in"
     elif any(slipping(i, spec) for i in range(len(spec.route))):
         method, why = "HHT", "friction that a small sliding speed builds up"
     elif spec.bends and not of.tied:

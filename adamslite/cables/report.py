@@ -13,6 +13,8 @@ from adamslite.cables.payout_law import Unknown
 from adamslite.cables.posture import Posture
 from adamslite.language import units
 
+# Figures below it are shown as 0.
+ROUND_OFF = 1e-9
 ACCURACIES = (0.01, 0.001)
 # Cables that differ are reported one by one; of more than this many the rest is only counted.
 MOST = 6
@@ -161,4 +163,4 @@ def _time(value: float) -> str:
 
 
 def _short(value: float) -> str:
-    return f"{value:.2g}" if abs(value) > 1e-9 else "0"
+    return f"{value:.2g}" if abs(value) > ROUND_OFF else "0"

@@ -6,6 +6,9 @@ from math import sqrt
 from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across
 from adamslite.cables.vocabulary import Spec
 
+# A fixed point that comes nearer by the strain of the cable in each.
+ITERATIONS = 20
+
 
 def hanging(
     spec: Spec, n: int, length: float, line: tuple[Vector, Vector], tension: float, held: bool
@@ -35,7 +38,7 @@ def hanging(
     falls = _sag(spec, n, length, along, tension)
     drops = [norm(d) for d in (add(b, a, -1) for a, b in pairwise([ZERO, *falls]))]
     free = length
-    for _ in range(20):
+    for _ in range(ITERATIONS):
         node = cable.density * free / n * weight
         pulls = [tension + node * (n - k + 0.5) for k in range(1, n + 1)]
         steps = [free / n * (1 + pull / cable.stiffness) for pull in pulls]

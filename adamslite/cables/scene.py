@@ -15,6 +15,10 @@ from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import in_plane, slipping
 from adamslite.language.diagnostics import DeckError, Diagnostic, sort_by_place
 
+# Pitches that differ by less than this share are one.
+SAME_PITCH = 1e-4
+# What a loop may lack of a whole number of links, as a share of one on half of a wheel.
+LINK_SHARE = 0.02
 # Shares by which payout may outrun a load before it is reported.
 FASTER = 0.01
 
@@ -96,7 +100,7 @@ def _check_chain(spec: Spec, pieces: list[Span], faults: Faults) -> None:
     toothed = [i for i, each in enumerate(spec.route) if each.teeth]
     for i in toothed[1:]:
         each = spec.route[i]
-        if abs(each.pitch - spec.pitch) > 1e-4 * spec.pitch:
+        if abs(each.pitch - spec.pitch) > SAME_PITCH * spec.pitch:
             faults.add("pitches", ("route", i, "radius"), i=toothed[0] + 1, j=i + 1,
                        first=spec.pitch, second=each.pitch,
                        radius=each.radius * spec.pitch / each.pitch)  # fmt: skip
@@ -105,8 +109,8 @@ def _check_chain(spec: Spec, pieces: list[Span], faults: Faults) -> None:
     parts = way(spec, pieces, list(range(len(pieces))), {})
     links = length(parts, spec.pitch) / spec.pitch
     most = max(spec.route[i].teeth for i in toothed)
-    # Spread over all links, less than a fiftieth of a link on half of the largest wheel.
-    if abs(links - round(links)) > 0.02 * 2 * links / most:
+    # Spread over all links, less than LINK_SHARE of a link on half of the largest wheel.
+    if abs(links - round(links)) > LINK_SHARE * 2 * links / most:
         faults.add("loop-of-links", ("route", toothed[-1], "at"), links=links,
                    off=(round(links) - links) * spec.pitch / 2)  # fmt: skip
 

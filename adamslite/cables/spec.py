@@ -21,6 +21,9 @@ from adamslite.cables.vocabulary import (
 )
 from adamslite.language.diagnostics import DeckError, Source, sort_by_place
 
+# Neither infinite nor so large that a product of it is.
+LARGEST = 1e300
+
 
 def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
     """The description in `text`, and what is wrong with it.
@@ -178,7 +181,7 @@ def _fits(value: Any, takes: Any) -> tuple[bool, str]:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e300
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < LARGEST
 
 
 def _is_line(value: Any) -> bool:

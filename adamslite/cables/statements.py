@@ -20,6 +20,8 @@ from textwrap import wrap
 
 from adamslite.cables.vocabulary import Cable
 
+# Of a component, as a share of the largest.
+ROUND_OFF = 1e-12
 PULLEY, BEARING = 9001, 9002
 RADIUS = 0.5
 # "The impact speed is constant": the hook is a mass that no cable slows down.
@@ -57,7 +59,7 @@ def number(value: float) -> str:
 
 def rounded(values: Sequence[float]) -> tuple[float, ...]:
     """Components without those that are rounding errors of the largest."""
-    least = 1e-12 * max(map(abs, values), default=0.0)
+    least = ROUND_OFF * max(map(abs, values), default=0.0)
     return tuple(x if abs(x) > least else 0.0 for x in values)
 
 

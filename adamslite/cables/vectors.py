@@ -2,6 +2,8 @@
 
 from math import sqrt
 
+# A unit vector with a larger component is taken to be along that axis.
+ALONG = 0.9
 Vector = tuple[float, float, float]
 ZERO: Vector = (0.0, 0.0, 0.0)
 
@@ -30,6 +32,11 @@ def unit(a: Vector) -> Vector:
     """a/|a|; a zero vector stays."""
     size = norm(a)
     return add(ZERO, a, 1 / size if size else 0.0)
+
+
+def aside(axis: Vector) -> Vector:
+    """A coordinate axis that is not along a unit vector."""
+    return (1.0, 0.0, 0.0) if abs(axis[0]) < ALONG else (0.0, 1.0, 0.0)
 
 
 def part_across(a: Vector, line: Vector) -> Vector:

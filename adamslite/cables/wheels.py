@@ -13,6 +13,9 @@ from adamslite.cables.statements import AXES, number, rounded
 from adamslite.cables.vectors import Vector, add, cross, dot, unit
 from adamslite.cables.vocabulary import Spec, Station
 
+# Of the sine of the angle between axes that are parallel.
+ROUND_OFF = 1e-9
+
 
 def marker(i: int) -> int:
     """Of station i."""
@@ -211,8 +214,8 @@ def in_plane(spec: Spec) -> bool:
     across = [dot(cross(axis, each), cross(axis, each)) for each in axes]
     vectors = [spec.gravity, *(each.velocity for each in spec.route)]
     vectors += [add(each.at, origin, -1) for each in spec.route]
-    return max(across) < 1e-18 and all(
-        abs(dot(axis, v)) <= 1e-9 * dot(v, v) ** 0.5 for v in vectors
+    return max(across) < ROUND_OFF**2 and all(
+        abs(dot(axis, v)) <= ROUND_OFF * dot(v, v) ** 0.5 for v in vectors
     )
 
 

@@ -26,6 +26,8 @@ from adamslite.language.interfaces import Key
 from adamslite.language.messages import did_you_mean
 from adamslite.language.statement import STATEMENTS, Statement, expressions
 
+# What -0.333333333 is below -1/3.
+ROUNDED = 1e-9
 # The highest order of the backward differences: 6 is unstable for all but strongly damped motion.
 HIGHEST = 5
 # The name of a file without a folder; one with a dot in front is for the system or hidden.
@@ -36,7 +38,7 @@ TIMES = ("end", "duration", "dtout", "steps")
 def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.of(Integrator):
         yield from positive(each, "error", "hmax", "hmin", "hinit", "kmax", "maxit")
-        if each.alpha is not None and not -1 / 3 - 1e-9 <= each.alpha <= 0:
+        if each.alpha is not None and not -1 / 3 - ROUNDED <= each.alpha <= 0:
             yield say(each, "out-of-range", "alpha", word="ALPHA", low="-1/3", high="0")
         if each.hmin is not None and each.hmax is not None and each.hmin > each.hmax:
             yield say(each, "steps-disordered", "hmin")

@@ -11,6 +11,11 @@ from adamslite.language.statement import STATEMENTS
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Read, Tree
 
+# Whole and half numbers below this are exact fractions, so that powers and products of them are.
+EXACT_BELOW = 1e6
+# With these a double is read back as it was.
+DIGITS = 17
+
 
 class ExpressionReader:
     """Turns bound trees into sympy with a scope."""
@@ -78,9 +83,9 @@ def _exact(value: float) -> Expr:
     from adamslite.symbolic.sympy_nodes import sp
 
     doubled = 2.0 * value
-    if math.isfinite(doubled) and doubled == int(doubled) and abs(doubled) < 1e6:
+    if math.isfinite(doubled) and doubled == int(doubled) and abs(doubled) < EXACT_BELOW:
         return sp.Rational(int(doubled), 2)
-    return sp.Float(value, 17)
+    return sp.Float(value, DIGITS)
 
 
 def symbolic_view(

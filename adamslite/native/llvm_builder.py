@@ -25,6 +25,10 @@ COMMUTATIVE = {"fadd", "fmul"}
 LIBRARY = frozenset("sin cos tan asin acos atan atan2 sinh cosh tanh exp log floor".split())
 
 
+LONGEST_PRODUCT = 64
+"""Greatest power that is written out as products: twelve at the most."""
+
+
 INTRINSICS = {"sqrt", "sin", "cos", "exp", "log", "floor", "pow"}
 
 
@@ -138,7 +142,7 @@ class Builder:
         if exponent.denominator == 2:
             root = self.call("sqrt", base)
             return self.mul(root, self.power(base, Fraction(exponent.numerator - 1, 2)))
-        if exponent.denominator != 1 or exponent > 64:
+        if exponent.denominator != 1 or exponent > LONGEST_PRODUCT:
             return self.call("pow", base, float(exponent))
         result: Value = 1.0
         square, n = base, int(exponent)

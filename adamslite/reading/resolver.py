@@ -22,6 +22,8 @@ from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
 
 DEEPEST = 100
 LONGEST_CHAIN = 16
+# Any number of so many digits fits into 64 bits.
+ID_DIGITS = 18
 _STAND_IN = Num(0.0)
 
 
@@ -237,7 +239,7 @@ class Resolver:
     def _reference(self, function: Function, kind: str, branch: Tree) -> Ref:
         rule, first = branch[0], branch[1]
         text = self.tokens[first][1]
-        if rule == "number" and text.isdigit() and len(text) < 19:
+        if rule == "number" and text.isdigit() and len(text) <= ID_DIGITS:
             key: Key = int(text)
             if key == 0 and kind == "MARKER":
                 return Ref(kind, 0)

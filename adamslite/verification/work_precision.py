@@ -24,6 +24,8 @@ from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results, UnknownChannel
 from adamslite.results.run_error import error_of
 
+# Errors below it are not told apart; what an error of 10^-k misses of k digits by its logarithm.
+LEAST_ERROR, ROUND_OFF = 1e-16, 1e-9
 #: ERROR of the charts, and of the reference.
 ERRORS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 TIGHT, LESS_TIGHT = 1e-10, 1e-8
@@ -98,7 +100,7 @@ class Point:
         """Digits that are right; 0 where that is not known."""
         if not self.ok or self.error is None:
             return 0
-        return max(0, floor(1e-9 - log10(max(self.error, 1e-16))))
+        return max(0, floor(ROUND_OFF - log10(max(self.error, LEAST_ERROR))))
 
     def meets(self, target: float) -> bool:
         """Whether the error is known and small enough."""

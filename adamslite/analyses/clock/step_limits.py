@@ -24,6 +24,8 @@ from adamslite.analyses.clock.stops import SAME, edges, merged
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 
+# From a step as short as round-off of the run to one of its length.
+DOUBLINGS = 64
 # Steps per time scale at least (to see it) and, where it must be integrated without an error test
 # of velocities; how many steps of a run are worth that.
 SEEN, FINE, WORTH = 2.0, 32.0, 8192.0
@@ -171,7 +173,7 @@ def _approach(group: np.ndarray, longest: float) -> np.ndarray:
     at its edge would otherwise count for the whole of a long step.
     """
     low, high = group[0, 0], group[-1, 1]
-    way = group[:, 2].min() * np.exp2(np.arange(64))
+    way = group[:, 2].min() * np.exp2(np.arange(DOUBLINGS))
     way = way[way < longest]
     ends, step = np.cumsum(np.append(0.0, way)), way
     before = np.stack([low - ends[1:], low - ends[:-1], step], axis=1)

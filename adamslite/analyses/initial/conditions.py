@@ -20,6 +20,7 @@ import numpy as np
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
+from adamslite.integrators.linalg.dense import TINY
 from adamslite.model.model import PART
 from adamslite.results.outcomes import Outcome
 
@@ -29,8 +30,10 @@ MASSLESS = 1e-4
 MAX_ITERATIONS = 100
 # |g| below this share of the model's size counts as closed.
 CLOSED = 1e-13
-# Beyond this share a constraint is open.
-OPEN = 1e-9
+# Beyond this share a constraint is open, and one of velocities.
+OPEN, OPEN_SPEED = 1e-9, 1e-8
+# Steps below this share are round-off.
+STILL = 1e-15
 # Largest turn of a part in one step [rad], halvings of a step that does not help.
 MOST_TURN, HALVINGS = 0.5, 12
 # Singular values below this share of the largest are redundant rows.
@@ -87,7 +90,7 @@ def _positions(system: System) -> Unclosed | None:
             break
         step = _least_change(system, gradient, g)
         g, moved = _damped(system, step, g, rows)
-        if moved <= 1e-15 * size:
+        if moved <= STILL * size:
             break
     return _unclosed(system, g, np.arange(len(g)), OPEN * size, "position")
 
@@ -99,7 +102,7 @@ def _damped(
     MOST_TURN.
     """
     before = (system.q.copy(), system.base.copy())
-    share = min(1.0, MOST_TURN / max(1e-300, _largest_turn(system, step)))
+    share = min(1.0, MOST_TURN / max(TINY, _largest_turn(system, step)))
     for _ in range(HALVINGS):
         move(system, share * step)
         new = _residual(system, contract.POSITION_ROWS)[rows]
@@ -135,7 +138,7 @@ def _velocities(system: System, free: Iterable[Any]) -> Unclosed | None:
         system.u[: system.n] -= _least_change(system, gradient, defect)
         defect = _residual(system, SPEEDS)[rows]
     size = max(1.0, float(np.abs(system.u).max()))
-    return _unclosed(system, defect, kept, 1e-8 * size, "velocity")
+    return _unclosed(system, defect, kept, OPEN_SPEED * size, "velocity")
 
 
 def settle_variables(system: System) -> None:

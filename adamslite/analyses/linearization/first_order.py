@@ -36,6 +36,7 @@ import numpy as np
 from adamslite.analyses.linearization.instant import Instant, skew
 from adamslite.analyses.linearization.observer import Jet
 from adamslite.equations.system import System
+from adamslite.integrators.linalg.dense import TINY
 from adamslite.model.model import PART
 
 # Singular values below this share of the largest are redundant rows.
@@ -79,7 +80,7 @@ def null_space(rows: np.ndarray, unit: np.ndarray, like: np.ndarray | None = Non
     if not rows.size:
         return np.eye(rows.shape[1])
     _, size, vt = np.linalg.svd(rows * unit)
-    rank = int((size > RANK * max(size[0], 1e-300)).sum())
+    rank = int((size > RANK * max(size[0], TINY)).sum())
     basis = vt[rank:].T
     if like is not None and like.shape == basis.shape:
         left, _, right = np.linalg.svd(basis.T @ (like / unit[:, None]))

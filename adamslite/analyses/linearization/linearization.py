@@ -24,6 +24,8 @@ from adamslite.analyses.linearization.observer import Observer
 from adamslite.analyses.linearization.stationarity import Trajectory
 from adamslite.equations.system import System
 
+# Displacements that differ by less than this share are equally large: the first one counts.
+ALIKE = 1e-6
 VARIES = "the linear system varies with time: its eigenvalues are those of this moment only"
 
 
@@ -144,7 +146,7 @@ def _factors(places: np.ndarray, speeds: np.ndarray) -> np.ndarray:
     for k, column in enumerate(places.T):
         far = np.abs(column)
         if far.any():
-            largest = column[np.flatnonzero(far > (1.0 - 1e-6) * far.max())[0]]
+            largest = column[np.flatnonzero(far > (1.0 - ALIKE) * far.max())[0]]
             factors[k] *= largest.conjugate() / abs(largest)
     return factors
 

@@ -25,6 +25,8 @@ SHARE = 1e-3
 FIRST, SECOND = (1e-5, 1e-2), (1e-4, 1e-2)
 # Of the largest eigenvalue, or the rate of the motion: smaller ones are zero.
 ZERO = 1e-6
+# Rigid motions that differ by less than this share are the same.
+SAME_MOTION = 1e-6
 # Bodies of different motion that are tried as observers.
 MOST_TRIED = 6
 
@@ -142,7 +144,7 @@ class Trajectory:
             i = self.system.starts[b]
             x, v, spin = self.now.q[i : i + 3], self.now.u[i : i + 3], self.now.u[i + 3 : i + 6]
             twist = np.concatenate([spin, v - np.cross(spin, x)])
-            near = 1e-6 * float(np.abs(twist).max())
+            near = SAME_MOTION * float(np.abs(twist).max())
             if not any(np.abs(twist - each).max() <= near for each in tried):
                 tried.append(twist)
                 yield f"with RM={marker}", Observer(self.system, marker)

@@ -21,6 +21,8 @@ from adamslite.language.messages.runs import RUNS
 from adamslite.language.messages.statements import STATEMENTS
 from adamslite.language.not_supported import INSTEAD
 
+# Of words that may have been meant: likeness at least (1: equal), and what they may fall behind by.
+LIKENESS, SPREAD = 0.6, 0.1
 MESSAGES: dict[str, Message] = STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CONSTRAINTS | RUNS
 
 ALIKE = {"PART": "POINT_MASS", "POINT_MASS": "PART", "VARIABLE": "DIFF", "DIFF": "VARIABLE"}
@@ -56,9 +58,11 @@ def did_you_mean(word: str, candidates: Iterable[str]) -> str:
     from difflib import SequenceMatcher, get_close_matches
 
     word = word.upper()
-    close = get_close_matches(word, dict.fromkeys(c.upper() for c in candidates), 3, 0.6)
+    close = get_close_matches(word, dict.fromkeys(c.upper() for c in candidates), 3, LIKENESS)
     likeness = [SequenceMatcher(None, each, word).ratio() for each in close]
-    found = [each for each, ratio in zip(close, likeness, strict=True) if ratio > likeness[0] - 0.1]
+    found = [
+        each for each, ratio in zip(close, likeness, strict=True) if ratio > likeness[0] - SPREAD
+    ]
     return f"did you mean {' or '.join(found)}?" if found else ""
 
 
