@@ -12,7 +12,7 @@ from math import acos, asin, atan2, cos, hypot, inf, pi, sin, sqrt
 
 from scipy.optimize import brentq
 
-from adamslite.cables.geometry import Span, wrap
+from adamslite.cables.geometry import FreeSpan, wrap
 from adamslite.cables.vectors import Vector, add, aside, cross, dot, part_across, unit
 from adamslite.cables.vocabulary import Spec
 
@@ -109,7 +109,7 @@ class Plane:
 
 
 @dataclass(frozen=True)
-class Node:
+class CableNode:
     """A node at the start: its place, the direction of the cable, its way from the beginning."""
 
     place: Vector
@@ -118,14 +118,14 @@ class Node:
 
 
 @dataclass(frozen=True)
-class Laid:
+class Layout:
     """Nodes of a stretch of cable, the free length of its sections, and where its wheels are.
 
     `wheels` has, for every station whose rim the stretch lies on, the ways where it begins and
     ends to lie there.
     """
 
-    nodes: list[Node]
+    nodes: list[CableNode]
     free: float
     wheels: dict[int, tuple[float, float]]
 
@@ -148,7 +148,7 @@ def stretches(spec: Spec) -> list[list[int]]:
 
 
 def way(
-    spec: Spec, spans: list[Span], group: list[int], stored: dict[int, float]
+    spec: Spec, spans: list[FreeSpan], group: list[int], stored: dict[int, float]
 ) -> list[Straight | Arc]:
     """Lines and arcs of a stretch; `stored` [m] is what winches at its ends hold."""
     flat, parts = plane(spec), []
@@ -207,7 +207,7 @@ def lay(
     count: int,
     tension: Callable[[Straight | Arc, float, Vector], float],
     contact: float,
-) -> Laid:
+) -> Layout:
     """A stretch laid out as `count` sections.
 
     Parameters
@@ -230,7 +230,7 @@ def lay(
         if isinstance(part, Arc) and part.held:
             begins[part.station] = at, at + part.length
         at += part.length
-    return Laid(nodes, free, begins)
+    return Layout(nodes, free, begins)
 
 
 @dataclass(frozen=True)
@@ -242,7 +242,7 @@ class _Walk:
     tension: Callable[[Straight | Arc, float, Vector], float]
     contact: float
 
-    def __call__(self, free: float, count: int) -> tuple[list[Node], float]:
+    def __call__(self, free: float, count: int) -> tuple[list[CableNode], float]:
         """The nodes for sections of the free length `free`, and how far beyond the end they go."""
         flat, parts = plane(self.spec), self.parts
         index, on, before = 0, 0.0, 0.0
@@ -270,5 +270,7 @@ class _Walk:
         held = isinstance(part, Arc) and part.held
         return pull * h / part.radius / self.contact if held else 0.0
 
-    def _node(self, flat: Plane, part: Straight | Arc, p: Point, at: float, way: float) -> Node:
-        return Node(flat.place(p), flat.vector(part.direction(at)), way)
+    def _node(
+        self, flat: Plane, part: Straight | Arc, p: Point, at: float, way: float
+    ) -> CableNode:
+        return CableNode(flat.place(p), flat.vector(part.direction(at)), way)

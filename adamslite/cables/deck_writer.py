@@ -1,7 +1,7 @@
 """Writes the deck of a cable scene: head, wheels, cable, run."""
 
 from adamslite.cables.estimate import Moves
-from adamslite.cables.geometry import Span
+from adamslite.cables.geometry import FreeSpan
 from adamslite.cables.lumps import start_speed, write_lumps
 from adamslite.cables.model_choice import CableModel
 from adamslite.cables.requests import write_requests
@@ -18,14 +18,14 @@ NOTES = {
 BRUTE = "Brute force: sections of fixed length run over the rims and off the winches."
 
 
-def write(spec: Spec, spans: list[Span], moves: Moves, model: CableModel) -> str:
+def write(spec: Spec, spans: list[FreeSpan], moves: Moves, model: CableModel) -> str:
     """The deck.
 
     Parameters
     ----------
     spec : Spec
         With the turn of every wheel.
-    spans : list of Span
+    spans : list of FreeSpan
         One between every two stations.
     moves : Moves
     model : CableModel

@@ -11,7 +11,7 @@ with d the direction of the route at each free end.
 from dataclasses import dataclass, field, replace
 from math import dist
 
-from adamslite.cables.geometry import Span
+from adamslite.cables.geometry import FreeSpan
 from adamslite.cables.messages import Faults
 from adamslite.cables.payout_law import NoValue, Unknown, parse, value
 from adamslite.cables.toml_places import Path
@@ -133,7 +133,7 @@ def laws(spec: Spec, faults: Faults) -> Laws:
     return found
 
 
-def travel(spec: Spec, spans: list[Span], told: Laws) -> Moves:
+def travel(spec: Spec, spans: list[FreeSpan], told: Laws) -> Moves:
     """The travel of the rigid cable over the whole run."""
     ways = {i: way for i, way in told.paid.items() if way}
     if spec.closed:  # all of it starts at that speed
@@ -163,7 +163,7 @@ def _told(spec: Spec, law: Node, path: Path, faults: Faults) -> Travel | None:
     return from_ways(ways, spec.end / INSTANTS)
 
 
-def _free(spec: Spec, spans: list[Span], engines: list[Node]) -> Travel | str | None:
+def _free(spec: Spec, spans: list[FreeSpan], engines: list[Node]) -> Travel | str | None:
     """The way of a cable that weights and an engine move, or why it is not known."""
     if any(each.slides for each in spec.route):
         return "a weight slides along the cable"
@@ -187,7 +187,7 @@ def _free(spec: Spec, spans: list[Span], engines: list[Node]) -> Travel | str | 
         return "the payout is not known before the run"
 
 
-def _across(spec: Spec, spans: list[Span]) -> float:
+def _across(spec: Spec, spans: list[FreeSpan]) -> float:
     """Greatest speed of a weight across the cable [m/s]."""
     found = [0.0]
     for i, each in enumerate(spec.route):
@@ -205,7 +205,7 @@ def moving_mass(spec: Spec) -> float:
     return wheels + sum(each.mass for each in spec.route)
 
 
-def _ways(spec: Spec, spans: list[Span], law: Node | None) -> Travel:
+def _ways(spec: Spec, spans: list[FreeSpan], law: Node | None) -> Travel:
     """Ways of the rigid cable, at the ends of equal steps; symplectic Euler."""
     cable = spec.cable.density * sum(span.length for span in spans)
     inertia = moving_mass(spec) + cable

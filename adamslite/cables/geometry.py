@@ -21,7 +21,7 @@ ROUND_OFF, PARALLEL = 1e-9, 1e-12
 
 
 @dataclass(frozen=True)
-class Span:
+class FreeSpan:
     """A free piece of cable: its ends [m] and direction in the sense of the route."""
 
     start: Vector
@@ -46,7 +46,7 @@ def turned(spec: Spec) -> Spec:
     return replace(spec, route=tuple(route))
 
 
-def spans(spec: Spec, faults: Faults) -> list[Span]:
+def spans(spec: Spec, faults: Faults) -> list[FreeSpan]:
     """All free pieces of the cable; says which cannot be."""
     found = []
     for i, j in spec.pairs:
@@ -59,7 +59,7 @@ def spans(spec: Spec, faults: Faults) -> list[Span]:
     return found
 
 
-def wrap(spec: Spec, spans: list[Span], i: int) -> float:
+def wrap(spec: Spec, spans: list[FreeSpan], i: int) -> float:
     """Angle over which the cable goes round station i, 0 to 2 pi; 0 at an end."""
     p, q = spec.beside(i)
     if p < 0 or q < 0:
@@ -70,7 +70,7 @@ def wrap(spec: Spec, spans: list[Span], i: int) -> float:
     return spec.route[i].turn * atan2(dot(cross(a, b), axis), dot(a, b)) % (2 * pi)
 
 
-def reaches(spec: Spec, spans: list[Span]) -> list[float]:
+def reaches(spec: Spec, spans: list[FreeSpan]) -> list[float]:
     """Lengths of cable from one support or drive to the next: of spans, joined by the
     bends between them [m].
     """
@@ -88,14 +88,14 @@ def reaches(spec: Spec, spans: list[Span]) -> list[float]:
     return lengths
 
 
-def _ring(each: Station) -> Span:
+def _ring(each: Station) -> FreeSpan:
     """Of a loop that is nothing but a circle: the point where it begins."""
     along = unit(cross(each.axis, aside(each.axis)))
     place = add(each.at, cross(along, each.axis), each.turn * each.radius)
-    return Span(place, place, along, 0.0)
+    return FreeSpan(place, place, along, 0.0)
 
 
-def _span(a: Station, b: Station, at: tuple[int, int], faults: Faults) -> Span | None:
+def _span(a: Station, b: Station, at: tuple[int, int], faults: Faults) -> FreeSpan | None:
     between = add(b.at, a.at, -1)
     spacing = norm(between)
     i, j = at[0] + 1, at[1] + 1
@@ -119,10 +119,10 @@ def _span(a: Station, b: Station, at: tuple[int, int], faults: Faults) -> Span |
     start = add(a.at, cross(along, a.axis), a.turn * a.radius)
     finish = add(b.at, cross(along, b.axis), b.turn * b.radius)
     way = add(finish, start, -1)
-    return Span(start, finish, unit(way), norm(way))
+    return FreeSpan(start, finish, unit(way), norm(way))
 
 
-def _crossings(spec: Spec, found: list[Span], faults: Faults) -> None:
+def _crossings(spec: Spec, found: list[FreeSpan], faults: Faults) -> None:
     """Two pieces that meet, or a piece that runs through a wheel it does not touch."""
     for p, span in enumerate(found):
         for q in range(p + 1, len(found)):
@@ -135,7 +135,7 @@ def _crossings(spec: Spec, found: list[Span], faults: Faults) -> None:
                 faults.add("crossing", ("route", spec.pairs[q][0], "at"), what=what)
         for j, wheel in enumerate(spec.route):
             if wheel.is_round and j not in spec.pairs[p]:
-                centre = Span(wheel.at, wheel.at, ZERO, 0.0)
+                centre = FreeSpan(wheel.at, wheel.at, ZERO, 0.0)
                 if apart(span, centre) < wheel.radius * (1 - ROUND_OFF):
                     what = f"span {_name(spec, p)} runs through the wheel of station {j + 1}"
                     faults.add("crossing", ("route", j, "at"), what=what)
@@ -146,7 +146,7 @@ def _name(spec: Spec, p: int) -> str:
     return f"{i + 1}-{j + 1}"
 
 
-def apart(p: Span, q: Span) -> float:
+def apart(p: FreeSpan, q: FreeSpan) -> float:
     """Least distance of two straight pieces [m]."""
     between, b = add(p.start, q.start, -1), dot(p.along, q.along)
     d, e, wide = dot(p.along, between), dot(q.along, between), 1 - b * b

@@ -12,11 +12,11 @@ weights, is MARKER/1000 s + k.
 from dataclasses import dataclass
 from math import atan2, ceil, cos, inf, pi, sin, sqrt
 
-from adamslite.cables.brute_force_layout import Laid, Straight, lay, length, plane, stretches, way
+from adamslite.cables.brute_force_layout import Layout, Straight, lay, length, plane, stretches, way
 from adamslite.cables.demand import loaded
 from adamslite.cables.ends import end
 from adamslite.cables.estimate import Moves
-from adamslite.cables.geometry import Span, reaches
+from adamslite.cables.geometry import FreeSpan, reaches
 from adamslite.cables.model_choice import SUNK, CableModel, demand_on_longest, tensions
 from adamslite.cables.statements import number, point, section
 from adamslite.cables.vectors import Vector, add, dot, unit
@@ -40,7 +40,7 @@ class Stretch:
     """A stretch of cable from station to station."""
 
     number: int
-    laid: Laid
+    laid: Layout
     first: int
     last: int
     closed: bool
@@ -71,7 +71,7 @@ def stored(spec: Spec, moves: Moves) -> dict[int, float]:
     return found
 
 
-def stiffness(spec: Spec, spans: list[Span], moves: Moves, section: float) -> float:
+def stiffness(spec: Spec, spans: list[FreeSpan], moves: Moves, section: float) -> float:
     """Of the contact of a node [N/m], from the greatest tension that is expected."""
     # A front doubles where it is thrown back.
     fronts = (
@@ -81,7 +81,7 @@ def stiffness(spec: Spec, spans: list[Span], moves: Moves, section: float) -> fl
     return SUNK * expected / section
 
 
-def write_lumps(spec: Spec, spans: list[Span], model: CableModel, moves: Moves) -> str:
+def write_lumps(spec: Spec, spans: list[FreeSpan], model: CableModel, moves: Moves) -> str:
     """Stretches, ends, contacts, what turns the wheels, results."""
     section = spec.pitch or max(reaches(spec, spans)) / model.elements
     wheels = any(each.is_wheel for each in spec.route)
@@ -111,7 +111,7 @@ def start_speed(spec: Spec, moves: Moves) -> float:
     return starts[0] if spec.closed and starts else 0.0
 
 
-def _tension(spec: Spec, spans: list[Span]):
+def _tension(spec: Spec, spans: list[FreeSpan]):
     """At rest: that of the span less the weight of the cable above its free end; one with bends
     hangs from both its ends."""
     pulls, last = tensions(spec, spans), len(spans) - 1

@@ -13,7 +13,7 @@ from adamslite.cables import demand
 from adamslite.cables.advice import advise
 from adamslite.cables.demand import Demand
 from adamslite.cables.estimate import Moves, moving_mass
-from adamslite.cables.geometry import Span, reaches, wrap
+from adamslite.cables.geometry import FreeSpan, reaches, wrap
 from adamslite.cables.messages import Faults
 from adamslite.cables.vectors import add, dot, part_across, unit
 from adamslite.cables.vocabulary import Spec
@@ -44,7 +44,7 @@ class CableModel:
     reasons: tuple[str, ...]
 
 
-def tensions(spec: Spec, spans: list[Span]) -> list[float]:
+def tensions(spec: Spec, spans: list[FreeSpan]) -> list[float]:
     """Of every span at rest, at its lower or free end [N]: what hangs there, or the pretension."""
     first, last = spec.route[0], spec.route[-1]
     if spec.closed:
@@ -62,7 +62,7 @@ def tensions(spec: Spec, spans: list[Span]) -> list[float]:
     return [max(each, spec.cable.pretension) for each in carried]
 
 
-def _block(spec: Spec, spans: list[Span], i: int) -> float:
+def _block(spec: Spec, spans: list[FreeSpan], i: int) -> float:
     """Tension that holds the wheel or weight of station i, which is free to move, against gravity,
     with half of the cable beside a weight [N]."""
     before, behind = (spans[p] for p in spec.beside(i))
@@ -78,7 +78,7 @@ def _block(spec: Spec, spans: list[Span], i: int) -> float:
     return max(0.0, -mass * dot(spec.gravity, pull) / size) if size else 0.0
 
 
-def needs_brute(spec: Spec, spans: list[Span]) -> list[str]:
+def needs_brute(spec: Spec, spans: list[FreeSpan]) -> list[str]:
     """What only sections that run over the rims can show."""
     if not any(each.is_wheel for each in spec.route):
         return []
@@ -93,7 +93,7 @@ def needs_brute(spec: Spec, spans: list[Span]) -> list[str]:
     return found
 
 
-def _stays_tangent(spec: Spec, spans: list[Span], i: int) -> bool:
+def _stays_tangent(spec: Spec, spans: list[FreeSpan], i: int) -> bool:
     """Whether wheel i moves along both its spans, so that they touch it where they did, or on
     links that follow."""
     each = spec.route[i]
@@ -110,7 +110,7 @@ def _stays_tangent(spec: Spec, spans: list[Span], i: int) -> bool:
     )  # fmt: skip
 
 
-def choose_model(spec: Spec, spans: list[Span], moves: Moves, faults: Faults) -> CableModel:
+def choose_model(spec: Spec, spans: list[FreeSpan], moves: Moves, faults: Faults) -> CableModel:
     """The model that the description requests, or what `accuracy` needs."""
     p, of = spec.accuracy, demand_on_longest(spec, spans, moves)
     figures = _figures(of, moves)
@@ -133,7 +133,7 @@ def choose_model(spec: Spec, spans: list[Span], moves: Moves, faults: Faults) ->
     return CableModel(level, form, count, method, tuple(figures), tuple(reasons))
 
 
-def demand_on_longest(spec: Spec, spans: list[Span], moves: Moves) -> Demand:
+def demand_on_longest(spec: Spec, spans: list[FreeSpan], moves: Moves) -> Demand:
     """The demand on the longest span; it lies on its line unless something strikes it."""
     cable = spec.cable
     longest = max(reaches(spec, spans))
@@ -154,7 +154,7 @@ def _said(found: list[str], moves: Moves) -> list[str]:
     return list(dict.fromkeys(told))
 
 
-def _level(spec: Spec, spans: list[Span], of: Demand, moves: Moves) -> tuple[int, list[str]]:
+def _level(spec: Spec, spans: list[FreeSpan], of: Demand, moves: Moves) -> tuple[int, list[str]]:
     """The level, and why."""
     if spec.level:
         return spec.level, [f"level {spec.level} as asked"]
@@ -174,7 +174,7 @@ def _level(spec: Spec, spans: list[Span], of: Demand, moves: Moves) -> tuple[int
 
 
 def _form(
-    spec: Spec, spans: list[Span], of: Demand, level: int, moves: Moves
+    spec: Spec, spans: list[FreeSpan], of: Demand, level: int, moves: Moves
 ) -> tuple[str, list[str]]:
     """The form, and why."""
     if spec.form != "auto":
@@ -190,7 +190,7 @@ def _form(
     return "paper", [f"form paper: its estimates are all below {spec.accuracy:g}"]
 
 
-def _elements(spec: Spec, spans: list[Span], of: Demand, form: str) -> tuple[int, str]:
+def _elements(spec: Spec, spans: list[FreeSpan], of: Demand, form: str) -> tuple[int, str]:
     """Sections of the longest span, and the rule that requires them."""
     if spec.pitch:
         return max(round(of.length / spec.pitch), 1), "a section for every link"
@@ -210,7 +210,7 @@ def _elements(spec: Spec, spans: list[Span], of: Demand, form: str) -> tuple[int
     return count, f"{count} sections {why}"
 
 
-def _lies_on(spec: Spec, spans: list[Span], i: int) -> bool:
+def _lies_on(spec: Spec, spans: list[FreeSpan], i: int) -> bool:
     """Whether cable lies on a good part of wheel i."""
     each = spec.route[i]
     return each.is_wheel and (spec.is_end(i) or wrap(spec, spans, i) > LIES)

@@ -1,6 +1,6 @@
 """The requests in the decks of levels 1 to 3."""
 
-from adamslite.cables.geometry import Span, wrap
+from adamslite.cables.geometry import FreeSpan, wrap
 from adamslite.cables.links import wrapped
 from adamslite.cables.model_choice import CableModel
 from adamslite.cables.span_statements import Piece, pieces
@@ -8,7 +8,7 @@ from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import marker, mount_request, travel
 
 
-def write_requests(spec: Spec, spans: list[Span], model: CableModel) -> str:
+def write_requests(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
     """Tension of every span; travel over every wheel and through every weight that slides, how
     the cable lies on a wheel and loads it."""
     found = pieces(spec, spans)
@@ -26,7 +26,7 @@ def write_requests(spec: Spec, spans: list[Span], model: CableModel) -> str:
     return text
 
 
-def _over(spec: Spec, spans: list[Span], found: list[Piece], i: int) -> str:
+def _over(spec: Spec, spans: list[FreeSpan], found: list[Piece], i: int) -> str:
     each, n = spec.route[i], marker(i)
     told = f"cable over station {i + 1}"
     parts = [f"F2={travel(i, spec)}", f"F3={travel(i, spec, 1)}"]

@@ -4,7 +4,7 @@ from adamslite.cables.brute_force_layout import length, stretches, way
 from adamslite.cables.deck_writer import write
 from adamslite.cables.demand import MOST
 from adamslite.cables.estimate import Moves, laws, travel
-from adamslite.cables.geometry import Span, reaches, spans, turned
+from adamslite.cables.geometry import FreeSpan, reaches, spans, turned
 from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
 from adamslite.cables.model_choice import CableModel, choose_model, needs_brute, tensions
@@ -51,7 +51,7 @@ def _stop(faults: Faults, wrong: bool) -> None:
         raise DeckError(sort_by_place(faults.found))
 
 
-def _check_form(spec: Spec, pieces: list[Span], model: CableModel, faults: Faults) -> None:
+def _check_form(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: Faults) -> None:
     """Whether the level and the form can show what the description has."""
     brute = model.form == "brute"
     if model.level < 3 and spec.form not in ("auto", "brute"):
@@ -95,7 +95,7 @@ def _check_brute(spec: Spec, faults: Faults) -> None:
                 faults.add("brute-cannot", ("route", i, word), word=word)
 
 
-def _check_chain(spec: Spec, pieces: list[Span], faults: Faults) -> None:
+def _check_chain(spec: Spec, pieces: list[FreeSpan], faults: Faults) -> None:
     """Whether all sprockets have one pitch, and a loop a whole number of links."""
     toothed = [i for i, each in enumerate(spec.route) if each.teeth]
     for i in toothed[1:]:
@@ -115,7 +115,7 @@ def _check_chain(spec: Spec, pieces: list[Span], faults: Faults) -> None:
                    off=(round(links) - links) * spec.pitch / 2)  # fmt: skip
 
 
-def _check_shape(spec: Spec, pieces: list[Span], model: CableModel, faults: Faults) -> None:
+def _check_shape(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: Faults) -> None:
     """Whether the sections fit round the bends, and only a loop runs along itself."""
     section = max(reaches(spec, pieces)) / model.elements
     for i in spec.bends:
@@ -126,7 +126,9 @@ def _check_shape(spec: Spec, pieces: list[Span], model: CableModel, faults: Faul
         faults.add("speed-on-a-route", ("speed",))
 
 
-def _check(spec: Spec, pieces: list[Span], moves: Moves, model: CableModel, faults: Faults) -> None:
+def _check(
+    spec: Spec, pieces: list[FreeSpan], moves: Moves, model: CableModel, faults: Faults
+) -> None:
     """What only the model and the travel show."""
     longest = max(reaches(spec, pieces))
     count = model.elements
@@ -160,7 +162,7 @@ def _check(spec: Spec, pieces: list[Span], moves: Moves, model: CableModel, faul
 
 
 def _check_slack(
-    spec: Spec, pieces: list[Span], moves: Moves, model: CableModel, faults: Faults
+    spec: Spec, pieces: list[FreeSpan], moves: Moves, model: CableModel, faults: Faults
 ) -> None:
     """Whether a winch pays out faster than a load at the other end comes after by itself."""
     if spec.cable.pulls_only and model.level > 1:

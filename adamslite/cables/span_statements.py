@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from adamslite.cables import sliders
 from adamslite.cables.ends import end
-from adamslite.cables.geometry import Span, wrap
+from adamslite.cables.geometry import FreeSpan, wrap
 from adamslite.cables.links import borne, comes, link, spun
 from adamslite.cables.model_choice import CableModel, tensions
 from adamslite.cables.sag import hanging
@@ -48,7 +48,7 @@ class Piece:
     """
 
     number: int
-    span: Span
+    span: FreeSpan
     root: int
     tip: int
     place: Vector
@@ -62,13 +62,13 @@ class Piece:
         return 1000 * self.number
 
 
-def pieces(spec: Spec, spans: list[Span]) -> list[Piece]:
+def pieces(spec: Spec, spans: list[FreeSpan]) -> list[Piece]:
     """One for every span."""
     pulls = tensions(spec, spans)
     return [_piece(spec, p, span, pulls[p]) for p, span in enumerate(spans)]
 
 
-def _piece(spec: Spec, p: int, span: Span, tension: float) -> Piece:
+def _piece(spec: Spec, p: int, span: FreeSpan, tension: float) -> Piece:
     i, j = spec.pairs[p]
     a, b = spec.route[i], spec.route[j]
     backwards = b.feeds and not a.feeds or a.kind == "run"
@@ -78,7 +78,7 @@ def _piece(spec: Spec, p: int, span: Span, tension: float) -> Piece:
     return Piece(p + 1, span, root, tip, place, add(ZERO, span.along, sense), sense, tension)
 
 
-def write_pieces(spec: Spec, spans: list[Span], model: CableModel) -> str:
+def write_pieces(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
     """Spans, ends, what turns the wheels."""
     found = pieces(spec, spans)
     text = "".join(_span(spec, model, piece) for piece in found)
@@ -346,7 +346,7 @@ def _ends(spec: Spec, model: CableModel, found: list[Piece]) -> str:
     return text
 
 
-def _turned(spec: Spec, spans: list[Span], model: CableModel, i: int) -> str:
+def _turned(spec: Spec, spans: list[FreeSpan], model: CableModel, i: int) -> str:
     """What the cable, or its friction, and the drive do to wheel i."""
     each, n = spec.route[i], marker(i)
     before, behind = (f"T{p + 1}" if p >= 0 else "" for p in spec.beside(i))
