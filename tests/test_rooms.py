@@ -35,6 +35,7 @@ integrators.linalg
 integrators
 integrators.audit
 integrators.events
+integrators.stepping
 integrators.implicit
 integrators.bdf integrators.radau integrators.hht integrators.explicit integrators.verlet
 equations

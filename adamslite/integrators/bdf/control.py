@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from adamslite.integrators.bdf.order_cap import OrderCap
-from adamslite.integrators.implicit.control import StepControl
+from adamslite.integrators.implicit.control import ImplicitControl
 
 
-class Control(StepControl):
+class Control(ImplicitControl):
     """The numbers of the BDF: with the cap on its order."""
 
     cap: OrderCap

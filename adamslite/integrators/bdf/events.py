@@ -17,12 +17,10 @@ from adamslite.integrators.contract import INDEX3, NEWTON_FAILED, STABILISED, Pr
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import judge, open_search
-from adamslite.integrators.implicit.control import (
-    RUNNING,
-    keep_algebraic,
-)
+from adamslite.integrators.implicit.control import keep_algebraic
 from adamslite.integrators.implicit.step_size import LOOK_AHEAD, SMOOTH, first_step, jerk
 from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.stepping.control import RUNNING
 from adamslite.native.translate import native
 
 # The first step behind an event in multiples of (ERROR/|a'|)^(1/2).

@@ -53,15 +53,14 @@ from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.search import ends_there, shorter, starts_there
 from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
-from adamslite.integrators.implicit.control import (
-    RUNNING,
-    keep_algebraic,
-)
-from adamslite.integrators.implicit.step_size import first_step, too_small
+from adamslite.integrators.implicit.control import keep_algebraic
+from adamslite.integrators.implicit.step_size import first_step
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation, record_at
 from adamslite.integrators.step_back import make_undoable
+from adamslite.integrators.stepping.control import RUNNING
+from adamslite.integrators.stepping.step_size import too_small
 from adamslite.native.translate import native
 
 # Steps that differ by less than this share are equal.
@@ -123,7 +122,7 @@ def advance(P: Problem, L: Plan) -> int:
     if P.settings.stop:
         return INTERRUPTED
     limit_step(P, w)
-    if too_small(P) or crawls(P, C.h):
+    if too_small(P, C) or crawls(P, C.h):
         return RUNNING if land_elsewhere(P, w) else stuck(P, L, w)
     P.report.t, P.report.h, P.report.order = C.t, C.h, C.order
     stabilised = P.sizes.si2 and P.sizes.holonomic > 0

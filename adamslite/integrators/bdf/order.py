@@ -13,8 +13,8 @@ from adamslite.integrators.bdf.order_cap import suspect
 from adamslite.integrators.bdf.state import resize, tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
-from adamslite.integrators.implicit.step_size import cut
 from adamslite.integrators.implicit.tolerance import weighted
+from adamslite.integrators.stepping.step_size import cut
 from adamslite.native.translate import native
 
 # The next step aims at an estimated error below ERROR by these factors (at a higher order: more
@@ -126,4 +126,4 @@ def choose_order(P: Problem, w: int, norm: float) -> None:
     factor = min(factor, min(room, MOST_GROWTH))
     if best != k or factor >= LEAST_GROWTH or factor < 0.9:
         C.order = best
-        resize(P, w, cut(P, factor))
+        resize(P, w, cut(P, C, factor))

@@ -18,13 +18,13 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.failure_notes import note_trouble
-from adamslite.integrators.implicit.control import (
-    RUNNING,
-)
-from adamslite.integrators.implicit.failures import SINGULAR_RESOLUTION, corrector_failed, wildest
-from adamslite.integrators.implicit.step_size import CUTS, cut, retry_factor
+from adamslite.integrators.implicit.failures import wildest
+from adamslite.integrators.implicit.step_size import CUTS, retry_factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.step_back import before_trouble
+from adamslite.integrators.stepping.control import RUNNING
+from adamslite.integrators.stepping.outcome import SINGULAR_RESOLUTION, corrector_failed
+from adamslite.integrators.stepping.step_size import cut
 from adamslite.native.translate import native
 
 # A step is noise, not truncation, when the error estimates of this many tries in turn keep more
@@ -51,7 +51,7 @@ def after_failure(P: Problem, w: int) -> int:
         P.report.where = C.blamed
         return NEWTON_FAILED
     if C.retries != CUTS or not land_elsewhere(P, w):
-        resize(P, w, cut(P, retry_factor(C)))
+        resize(P, w, cut(P, C, retry_factor(C)))
     return RUNNING
 
 
@@ -88,7 +88,7 @@ def after_rejection(P: Problem, w: int, norm: float) -> int:
     if C.order > 2:
         cap = C.cap
         cap.bad += 1.0
-    resize(P, w, cut(P, factor))
+    resize(P, w, cut(P, C, factor))
     return RUNNING
 
 

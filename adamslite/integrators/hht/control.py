@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.implicit.control import StepControl
+from adamslite.integrators.implicit.control import ImplicitControl
 
 
-class Control(StepControl):
+class Control(ImplicitControl):
     """The numbers of HHT and NEWMARK.
 
     cu, ca, cs           how u and a follow from q, and s' from s

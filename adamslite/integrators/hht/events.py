@@ -9,13 +9,11 @@ from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import judge, open_search
 from adamslite.integrators.hht.control import Control
 from adamslite.integrators.hht.newmark_formula import back_to_accepted, bodies_between
-from adamslite.integrators.implicit.control import (
-    RUNNING,
-    keep_algebraic,
-)
+from adamslite.integrators.implicit.control import keep_algebraic
 from adamslite.integrators.implicit.step_size import LOOK_AHEAD, SMOOTH, first_step, jerk
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
+from adamslite.integrators.stepping.control import RUNNING
 from adamslite.native.translate import native
 
 # The first step behind an event: where its estimated error is this share of ERROR.

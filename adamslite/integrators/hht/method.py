@@ -66,18 +66,18 @@ from adamslite.integrators.hht.newmark_formula import (
     second_order_matrix,
     start_from_here,
 )
-from adamslite.integrators.implicit.control import (
-    RUNNING,
-    keep_algebraic,
-)
-from adamslite.integrators.implicit.failures import SINGULAR_RESOLUTION, corrector_failed, wildest
-from adamslite.integrators.implicit.step_size import cut, first_step, retry_factor, too_small
+from adamslite.integrators.implicit.control import keep_algebraic
+from adamslite.integrators.implicit.failures import wildest
+from adamslite.integrators.implicit.step_size import first_step, retry_factor
 from adamslite.integrators.implicit.tolerance import asked
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import put_time, residual, track, vector_rates
 from adamslite.integrators.newton import renews
 from adamslite.integrators.records import note_violation, write_record
+from adamslite.integrators.stepping.control import RUNNING
+from adamslite.integrators.stepping.outcome import SINGULAR_RESOLUTION, corrector_failed
+from adamslite.integrators.stepping.step_size import cut, too_small
 from adamslite.native.translate import native
 
 # Newton stops when the estimated remaining error is this share of ERROR; after a single iteration,
@@ -149,7 +149,7 @@ def attempt(P: Problem, L: Plan) -> int:
     if P.settings.stop:
         return INTERRUPTED
     choose_coefficients(P)
-    if C.h < LEAST_SHARE * C.fixed or (C.fixed == 0.0 and too_small(P)) or crawls(P, C.h):
+    if C.h < LEAST_SHARE * C.fixed or (C.fixed == 0.0 and too_small(P, C)) or crawls(P, C.h):
         return why_too_small(P, L)
     P.report.t, P.report.h, P.report.order = C.t, C.h, 2
     if not correct_step(P, L):
@@ -161,7 +161,7 @@ def attempt(P: Problem, L: Plan) -> int:
     if norm > 1.0 and C.fixed == 0.0:
         P.count.rejected += 1
         C.equal, C.norm = 0, norm
-        C.h *= cut(P, max(0.2, (SAFETY * norm) ** (-1.0 / 3.0)))
+        C.h *= cut(P, C, max(0.2, (SAFETY * norm) ** (-1.0 / 3.0)))
         return RUNNING
     if P.sizes.implicit_mass:
         if mass_signature(P, L, P.x) != C.signature:
@@ -247,7 +247,7 @@ def after_no_convergence(P: Problem) -> int:
     C.retries += 1
     C.blamed = wildest(P)
     note_trouble(P, INDEX3, P.report.iteration)
-    C.h *= cut(P, retry_factor(C)) if C.fixed == 0.0 else retry_factor(C)
+    C.h *= cut(P, C, retry_factor(C)) if C.fixed == 0.0 else retry_factor(C)
     return RUNNING
 
 
@@ -285,7 +285,7 @@ def accept_attempt(P: Problem, L: Plan, norm: float) -> int:
         C.equal += 1
         room = min(MOST_GROWTH, longest_step(P) / h)
         if (C.equal > 1 and min(factor, room) > LEAST_GROWTH) or factor < 0.9:
-            C.h *= cut(P, min(factor, room))
+            C.h *= cut(P, C, min(factor, room))
             C.equal = 0
     return RUNNING
 

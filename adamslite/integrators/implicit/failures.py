@@ -1,24 +1,12 @@
-"""Why the tries of a step failed, and the unknown with the largest error."""
+"""The unknown that keeps a corrector from converging."""
 
 from __future__ import annotations
 
 from adamslite.integrators.contract import (
     Problem,
 )
-from adamslite.integrators.implicit.control import (
-    StepControl,
-)
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.native.translate import native
-
-# A sign change of the effective mass is approached to this share of HMAX.
-SINGULAR_RESOLUTION = 1e-6
-
-
-@native
-def corrector_failed(C: StepControl) -> bool:
-    """Whether the last tries failed for the corrector, not for accuracy."""
-    return C.retries > 2 or (C.retries > 0 and C.norm == 0.0)
 
 
 @native

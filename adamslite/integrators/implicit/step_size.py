@@ -6,12 +6,10 @@ from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.contract import (
     Problem,
 )
-from adamslite.integrators.events.stops import least_step, longest_step
-from adamslite.integrators.implicit.control import (
-    StepControl,
-)
+from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
+from adamslite.integrators.stepping.control import StepControl
 from adamslite.native.translate import native
 
 # Fixed steps begin with this part of the step, because order 1 starts.
@@ -46,29 +44,6 @@ def first_step(P: Problem, w: int) -> float:
     noise = 1e-14 * reach / (tol * speed) if stabilised else 0.0
     noise = max(noise, P.settings.h_min)
     return min(0.05 * h, max(noise, tol**0.5 / max(fastest, 1e-12) * 0.3))
-
-
-@native
-def cut(P: Problem, factor: float) -> float:
-    """``factor`` of the step, but not below HMIN, unless a step of HMIN has failed."""
-    C = StepControl(P.control)
-    h, least = C.h, P.settings.h_min
-    if h * factor >= least:
-        return factor
-    if h > least * 1.0000001:
-        return least / h
-    return factor if C.retries > 0 or C.norm > 0.0 else max(factor, 1.0)
-
-
-@native
-def too_small(P: Problem) -> bool:
-    """Whether failed tries have come down below HMIN; a step that only reaches a stop may be as
-    short.
-    """
-    C = StepControl(P.control)
-    failed = C.retries > 0 or C.norm > 0.0
-    # A step cut to HMIN is HMIN but for its last digit.
-    return C.h < (1.0 - 1e-12) * (P.settings.h_min if failed else least_step(P))
 
 
 # Cuts of the step after corrector failures before other lengths are tried.

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.implicit.control import StepControl
+from adamslite.integrators.implicit.control import ImplicitControl
 
 
-class Control(StepControl):
+class Control(ImplicitControl):
     """The numbers of the Radau formula.
 
     theta, turns         rate of the last iterations, how many there were

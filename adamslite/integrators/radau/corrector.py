@@ -10,11 +10,8 @@ from __future__ import annotations
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.failure_notes import note_trouble
-from adamslite.integrators.implicit.control import (
-    RUNNING,
-)
 from adamslite.integrators.implicit.failures import wildest
-from adamslite.integrators.implicit.step_size import cut, retry_factor
+from adamslite.integrators.implicit.step_size import retry_factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.newton import ROUND_OFF, renews
 from adamslite.integrators.radau.coefficients import REAL
@@ -29,6 +26,8 @@ from adamslite.integrators.radau.stages import (
     stage_increments,
     stage_residuals,
 )
+from adamslite.integrators.stepping.control import RUNNING
+from adamslite.integrators.stepping.step_size import cut
 from adamslite.native.translate import native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
@@ -109,5 +108,5 @@ def after_failed_stages(P: Problem) -> int:
         C.blamed = wildest(P)
         put_stage(P, 3, C.h)
         note_trouble(P, equations_kept(P), C.turns)
-        C.h *= cut(P, retry_factor(C))
+        C.h *= cut(P, C, retry_factor(C))
     return RUNNING

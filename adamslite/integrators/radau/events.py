@@ -22,10 +22,7 @@ from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.guards import look
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import CLOSE, judge, open_search
-from adamslite.integrators.implicit.control import (
-    RUNNING,
-    keep_algebraic,
-)
+from adamslite.integrators.implicit.control import keep_algebraic
 from adamslite.integrators.implicit.step_size import SMOOTH, first_step
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.coefficients import REAL
@@ -43,6 +40,7 @@ from adamslite.integrators.radau.state import (
     put_end,
     stand_at_start,
 )
+from adamslite.integrators.stepping.control import RUNNING
 from adamslite.native.translate import native
 
 # A step to a crossing that ends before it by less than this share is taken again, longer, but not

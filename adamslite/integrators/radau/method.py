@@ -41,12 +41,8 @@ from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.search import ends_there, shorter, starts_there
 from adamslite.integrators.events.stops import horizon, longest_step, set_pace
-from adamslite.integrators.implicit.control import (
-    RUNNING,
-    keep_algebraic,
-)
-from adamslite.integrators.implicit.failures import SINGULAR_RESOLUTION, corrector_failed
-from adamslite.integrators.implicit.step_size import cut, first_step, too_small
+from adamslite.integrators.implicit.control import keep_algebraic
+from adamslite.integrators.implicit.step_size import first_step
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.radau.control import Control
@@ -72,6 +68,9 @@ from adamslite.integrators.radau.state import (
     stand_at_start,
 )
 from adamslite.integrators.records import note_violation, write_record
+from adamslite.integrators.stepping.control import RUNNING
+from adamslite.integrators.stepping.outcome import SINGULAR_RESOLUTION, corrector_failed
+from adamslite.integrators.stepping.step_size import cut, too_small
 from adamslite.native.translate import native
 
 # The next step aims at this share of the step that the error allows; it is changed only when it
@@ -134,7 +133,7 @@ def try_radau(P: Problem, L: Plan) -> int:
     if P.settings.stop:
         return INTERRUPTED
     fit_step(P)
-    if too_small(P) or crawls(P, C.h):
+    if too_small(P, C) or crawls(P, C.h):
         return why_no_step(P, L)
     P.report.t, P.report.h, P.report.order = C.t, C.h, 5
     predict_stages(P, C.h, C.h_last)
@@ -168,7 +167,7 @@ def take_shorter(P: Problem, norm: float) -> None:
     C.cautious, C.norm = True, norm
     if not C.fresh:
         C.known = False
-    C.h *= cut(P, step_factor(C, norm))
+    C.h *= cut(P, C, step_factor(C, norm))
     if C.h > 1e-9 * P.settings.h_max:
         C.blamed = P.report.where
 
@@ -272,7 +271,7 @@ def choose_step(P: Problem, norm: float) -> None:
     if C.passed > h:
         resume(P)
     elif factor < 1.0 or min(factor * h, longest_step(P)) > KEEP_GROWTH * h:
-        C.h *= cut(P, factor)
+        C.h *= cut(P, C, factor)
     C.passed, C.lengthened = 0.0, 0
 
 

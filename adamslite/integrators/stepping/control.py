@@ -1,0 +1,28 @@
+"""Control numbers of a method between steps: those that every method has."""
+
+from __future__ import annotations
+
+from adamslite.native.translate import Record
+
+RUNNING = -1
+"""A run goes on: the outcome of a step before there is one."""
+
+
+class StepControl(Record):
+    """What every method remembers from step to step; each extends it by its own numbers.
+
+    t, h, h_last         accepted time, size of the next try, of the last step (0: none)
+    row                  the next row of the record
+    retries, blamed      failures of the corrector in a row, the unknown that moved most
+    norm                 error of the last rejected try (0: none)
+    signature            signs of the pivots of the acceleration matrix
+    """
+
+    t: float
+    h: float
+    h_last: float
+    row: int
+    retries: int
+    blamed: int
+    norm: float
+    signature: int

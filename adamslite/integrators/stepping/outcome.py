@@ -1,0 +1,65 @@
+"""The end of a run: at its time, by the user, at a singular posture, or because steps vanish."""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import mass_signature, mass_vanishes
+from adamslite.integrators.contract import (
+    CHATTERING,
+    DONE,
+    INTERRUPTED,
+    NEWTON_FAILED,
+    SINGULAR_MASS,
+    STEP_TOO_SMALL,
+    Problem,
+)
+from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.stepping.control import RUNNING, StepControl
+from adamslite.native.translate import native
+
+# A sign change of the effective mass is approached to this share of HMAX.
+SINGULAR_RESOLUTION = 1e-6
+# A step that ends before a limit by less than this share of its size ends there.
+ALMOST = 1e-7
+
+
+@native
+def end_of_run(P: Problem, C: StepControl) -> int:
+    """DONE at the end time, INTERRUPTED by the user, else RUNNING."""
+    if C.t >= P.settings.t_end:
+        return DONE
+    return INTERRUPTED if P.settings.stop else RUNNING
+
+
+@native
+def end_of_step(C: StepControl, limit: float) -> float:
+    """The time at which the tried step ends: ``limit`` where it all but reaches that."""
+    t = C.t + C.h
+    return limit if t + ALMOST * C.h > limit else t
+
+
+@native
+def passed_singularity(P: Problem, L: Plan, C: StepControl) -> bool:
+    """Whether the acceleration matrix became singular within the step; its state is in the
+    workspace.
+    """
+    if not P.sizes.implicit_mass:
+        return False
+    return mass_signature(P, L, P.x) != C.signature
+
+
+@native
+def why_stuck(P: Problem, L: Plan, C: StepControl) -> int:
+    """Why the step became too small; the accepted state is in the workspace."""
+    if mass_vanishes(P, L, C.signature):
+        return SINGULAR_MASS
+    if C.blamed >= 0:
+        P.report.where = C.blamed
+    if P.search.freed > 0:
+        return CHATTERING
+    return NEWTON_FAILED if corrector_failed(C) else STEP_TOO_SMALL
+
+
+@native
+def corrector_failed(C: StepControl) -> bool:
+    """Whether the last tries failed for the corrector, not for accuracy."""
+    return C.retries > 2 or (C.retries > 0 and C.norm == 0.0)
