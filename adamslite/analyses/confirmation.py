@@ -17,13 +17,13 @@ or round-off; psi and phi do not count where they are one angle.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from math import inf, log10, pi
+from math import inf, pi
 from typing import Any
 
 import numpy as np
 
 from adamslite.errors import UsageError
+from adamslite.results.confirmation import Channel, Confirmation
 from adamslite.results.results import Results
 
 # Both witnesses are taken at ERROR over this, but not below what round-off leaves of a test.
@@ -33,12 +33,8 @@ TIGHTER, TIGHTEST = 100.0, 1e-12
 # that leads to it (a narrow Gaussian) may be missed by all.
 LARGEST_STEP, LEAST_STEPS = 0.25, 1013
 SAFETY, ROUND_OFF = 2.0, 1e-13
-# Largest bound of a confirmed channel, against its quantity.
-AGREED = 1e-2
 # Round-off: this share of the largest number of a run; sine of theta of no account.
 NEGLIGIBLE, ALIGNED = 1e-12, 1e-6
-# Digits of numbers of 64 bits.
-MOST_DIGITS = 15.0
 # Formulas that are related to each other.
 FAMILIES = {
     "GSTIFF": "differences", "WSTIFF": "differences", "CONSTANT_BDF": "differences",
@@ -52,80 +48,6 @@ TRIPLES = ("x y z", "psi theta phi", "vx vy vz", "wx wy wz", "ax ay az", "alx al
            "fx fy fz", "tx ty tz", "F2 F3 F4", "F6 F7 F8")  # fmt: skip
 KIND = {word: triple for triple in TRIPLES for word in triple.split()}
 ANGLES = ("psi", "theta", "phi")
-# Named in a line.
-MOST_NAMED = 3
-
-
-@dataclass(frozen=True)
-class Channel:
-    """``bound``: how far the column ``name`` may be from the exact value at any output time;
-    ``size``: the largest value of its quantity; ``loose``: what a bound may be in any case.
-    """
-
-    name: str
-    bound: float
-    size: float
-    loose: float = 0.0
-
-    @property
-    def digits(self) -> float:
-        """Digits of the largest value that agree."""
-        if self.bound == 0.0 or self.size == 0.0:
-            return MOST_DIGITS if self.bound == 0.0 else 0.0
-        return min(MOST_DIGITS, max(0.0, -log10(self.bound / self.size)))
-
-    @property
-    def agrees(self) -> bool:
-        """Whether the bound is small enough."""
-        return self.bound <= max(AGREED * self.size, self.loose)
-
-
-@dataclass(frozen=True)
-class Confirmation:
-    """What the witnesses of a run say.
-
-    Parameters
-    ----------
-    channels : tuple of Channel
-        In the order of the columns.
-    witnesses : tuple of str
-        Method and ERROR of each run that was compared.
-    objections : tuple of str
-        What keeps the run from being confirmed besides the bounds.
-    """
-
-    channels: tuple[Channel, ...]
-    witnesses: tuple[str, ...]
-    objections: tuple[str, ...]
-
-    def __getitem__(self, name: str) -> Channel:
-        """The channel called ``name``, upper or lower case."""
-        return next(c for c in self.channels if c.name.casefold() == name.casefold())
-
-    @property
-    def confirmed(self) -> bool:
-        """The verdict."""
-        return not self.objections and all(channel.agrees for channel in self.channels)
-
-    @property
-    def verdict(self) -> str:
-        """The verdict as one line."""
-        if self.confirmed:
-            worst = min((c.digits for c in self.channels), default=MOST_DIGITS)
-            return f"confirmed by {' and '.join(self.witnesses)}: {worst:.1f} digits or more agree"
-        apart = sorted((c for c in self.channels if not c.agrees), key=lambda c: c.digits)
-        told = [f"{c.name} may be off by {c.bound:.2g} of {c.size:.3g}" for c in apart[:MOST_NAMED]]
-        if len(apart) > MOST_NAMED:
-            told.append(f"and {len(apart) - MOST_NAMED} more")
-        return f"NOT CONFIRMED: {'; '.join([*self.objections, *told])}"
-
-    def table(self) -> str:
-        """Digits and bound of every channel, a line each."""
-        width = max((len(c.name) for c in self.channels), default=0)
-        lines = [
-            f"{c.name:<{width}}  {c.digits:4.1f} digits  +- {c.bound:.2g}" for c in self.channels
-        ]
-        return "\n".join(lines)
 
 
 def confirmation(results: Results, settings: Any, again: Callable[..., Results]) -> Confirmation:

@@ -30,8 +30,8 @@ from adamslite.results.results import Results
 
 # Few runs need them, and they take a while to load.
 if TYPE_CHECKING:
-    from adamslite.analyses.audit import Balance
-    from adamslite.analyses.linearization.linearization import Linearization
+    from adamslite.results.balance import Balance
+    from adamslite.results.linearization import Linearization
 
 SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
 CAPPED = (

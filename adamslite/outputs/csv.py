@@ -14,7 +14,7 @@ import csv
 import io
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TextIO
+from typing import IO
 
 import numpy as np
 
@@ -40,7 +40,7 @@ def write(results: Results, path: str | Path) -> None:
         write_to(results, stream)
 
 
-def write_to(results: Results, stream: TextIO) -> None:
+def write_to(results: Results, stream: IO[str]) -> None:
     """Write `results` to an open text stream."""
     stream.write(f"# adamslite {adamslite.__version__}\n")
     for key, value in results.meta.items():

@@ -5,12 +5,13 @@ A conjugate pair of eigenvalues is one mode; modes are numbered by undamped freq
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from adamslite.errors import UsageError
 from adamslite.outputs.whole_files import whole_file
+from adamslite.results.linearization import Linearization
 
 HEAD = ("mode", "frequency [Hz]", "damping ratio", "real", "imaginary")
 # An eigenvalue within this share of the largest one of an axis lies on it.
@@ -40,11 +41,11 @@ class ModeRow(NamedTuple):
     pair: bool
 
 
-def mode_rows(linearization: Any) -> list[ModeRow]:
+def mode_rows(linearization: Linearization) -> list[ModeRow]:
     """The modes, slowest first."""
     found = linearization
     scale = max((abs(each) for each in found.eigenvalues), default=0.0)
-    rows = []
+    rows: list[ModeRow] = []
     facts = zip(found.eigenvalues, found.frequencies, found.damping_ratios, strict=True)
     for value, frequency, damping in sorted(facts, key=lambda fact: float(fact[1])):
         pair = abs(value.imag) > ON_AXIS * scale
@@ -55,7 +56,7 @@ def mode_rows(linearization: Any) -> list[ModeRow]:
     return rows
 
 
-def mode_table(linearization: Any) -> str:
+def mode_table(linearization: Linearization) -> str:
     """The modes as a table to read, and below it what to know before they are used."""
     number, *rest = HEAD
     lines = [f"{number:>4}  " + "  ".join(f"{word:>16}" for word in rest)]
@@ -69,7 +70,7 @@ def mode_table(linearization: Any) -> str:
     return "\n".join(lines) + "\n"
 
 
-def save(linearization: Any, path: str | Path) -> None:
+def save(linearization: Linearization, path: str | Path) -> None:
     """Write the modes (a name that ends with .csv) or everything (any other name, as JSON)."""
     write = _csv if Path(path).suffix.lower() == ".csv" else _json
     with whole_file(path) as stream:
@@ -82,7 +83,7 @@ def need_suffix(path: str | Path) -> None:
         raise UsageError(f"'{path}': the name must end with .csv (modes) or .json (everything)")
 
 
-def _csv(linearization: Any) -> str:
+def _csv(linearization: Linearization) -> str:
     """Numbers with all their digits, as in result files."""
     lines = ["mode,frequency,damping_ratio,real,imaginary,pair"]
     for row in mode_rows(linearization):
@@ -91,7 +92,7 @@ def _csv(linearization: Any) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _json(linearization: Any) -> str:
+def _json(linearization: Linearization) -> str:
     """Complex numbers are pairs [real, imaginary]; matrices are lists of rows."""
     import json
 
@@ -114,5 +115,5 @@ def _json(linearization: Any) -> str:
     return json.dumps(whole, indent=1) + "\n"
 
 
-def _pairs(values: Any) -> Iterator[list[float]]:
+def _pairs(values: Iterable[complex]) -> Iterator[list[float]]:
     return ([float(each.real), float(each.imag)] for each in values)

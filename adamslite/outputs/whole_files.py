@@ -4,28 +4,29 @@ import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from adamslite.errors import UsageError
 
 
 @contextmanager
-def whole_file(path: str | Path, binary: bool = False) -> Iterator[Any]:
+def whole_file(path: str | Path, binary: bool = False) -> Iterator[IO[Any]]:
     """Open `path` for writing text or bytes; it changes only when the block succeeds.
 
     The content goes to a file beside it first, so the final rename stays on one disk and is atomic.
     What is not a regular file (`/dev/null`, a pipe) is written directly.
     """
     target = Path(os.path.realpath(path))
-    how = {"mode": "wb"} if binary else {"mode": "w", "encoding": "utf-8", "newline": "\n"}
+    kind = "b" if binary else ""
+    encoding, newline = (None, None) if binary else ("utf-8", "\n")
     if target.exists() and not target.is_file():
-        with open(target, **how) as stream:
+        with open(target, f"w{kind}", encoding=encoding, newline=newline) as stream:
             yield stream
         return
     draft = _draft(target)
     draft.unlink(missing_ok=True)
     try:
-        with open(draft, **{**how, "mode": how["mode"].replace("w", "x")}) as stream:
+        with open(draft, f"x{kind}", encoding=encoding, newline=newline) as stream:
             yield stream
         os.replace(draft, target)
     finally:

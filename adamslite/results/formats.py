@@ -17,10 +17,12 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from adamslite.errors import FormatError, UsageError
 
+Written: TypeAlias = Any
+"""``Results``, whose module finds its formats here and cannot be imported from here."""
 DEFAULT = ".csv"
 """What a name without a suffix gets; the null device has none."""
 
@@ -31,8 +33,8 @@ class Format:
 
     suffix: str
     what: str
-    write: Callable[[Any, str | Path], None]
-    read: Callable[[str | Path], Any] | None = None
+    write: Callable[[Written, str | Path], None]
+    read: Callable[[str | Path], Written] | None = None
 
 
 _FORMATS: dict[str, Format] = {}
@@ -41,8 +43,8 @@ _FORMATS: dict[str, Format] = {}
 def register_format(
     suffix: str,
     what: str,
-    write: Callable[[Any, str | Path], None],
-    read: Callable[[str | Path], Any] | None = None,
+    write: Callable[[Written, str | Path], None],
+    read: Callable[[str | Path], Written] | None = None,
 ) -> None:
     """Enter the format of a suffix, which begins with a dot and is in lower case."""
     if suffix in _FORMATS:

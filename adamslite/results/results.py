@@ -9,7 +9,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from adamslite.results.balance import Balance
+from adamslite.results.confirmation import Confirmation
 from adamslite.results.formats import format_of
+from adamslite.results.linearization import Linearization
 from adamslite.results.outcomes import Outcome
 
 
@@ -22,13 +25,13 @@ class UnknownChannel(KeyError):
 
 class Linearized(NamedTuple):
     """One LINEAR command: ``kind`` EIGENSOL or STATEMAT, its FILE if it names one, the ``time`` of
-    the state, and the :class:`~adamslite.analyses.linearization.linearization.Linearization`.
+    the state, and the :class:`~adamslite.results.linearization.Linearization`.
     """
 
     kind: str
     file: str | None
     time: float
-    model: Any
+    model: Linearization
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -69,8 +72,8 @@ class Results:
     message: str = ""
     summary: Mapping[str, Any] = field(default_factory=dict)
     linearizations: tuple[Linearized, ...] = ()
-    balances: tuple[Any, ...] = ()
-    confirmation: Any = None
+    balances: tuple[Balance, ...] = ()
+    confirmation: Confirmation | None = None
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return the (nt,) history called `name` (upper or lower case), or the times for "time"."""
@@ -97,7 +100,9 @@ class Results:
     @staticmethod
     def load(path: str | Path) -> "Results":
         """Read what `save` wrote; the comment lines come back in `meta`."""
-        return format_of(path, to_read=True).read(path)
+        read = format_of(path, to_read=True).read
+        assert read is not None
+        return read(path)
 
     @cached_property
     def _column(self) -> dict[str, int]:

@@ -11,8 +11,6 @@ Undamped frequencies come from the columns of y and p' alone.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import pi
 from typing import Any
 
 import numpy as np
@@ -23,70 +21,10 @@ from adamslite.analyses.linearization.first_order import Ports
 from adamslite.analyses.linearization.observer import Observer
 from adamslite.analyses.linearization.stationarity import Trajectory
 from adamslite.equations.system import System
+from adamslite.results.linearization import Linearization
 
 # Displacements that differ by less than this share are equally large: the first one counts.
 ALIKE = 1e-6
-VARIES = "the linear system varies with time: its eigenvalues are those of this moment only"
-
-
-@dataclass(frozen=True)
-class Linearization:
-    """The model about one state.
-
-    Parameters
-    ----------
-    eigenvalues : (nx,) complex array
-        Of the state matrix, by frequency [1/time].
-    undamped : (f,) array
-        Natural frequencies without damping [1/time], imaginary parts as negative numbers for
-        unstable directions (a negative stiffness gives -sqrt|k/m|).
-    modes : (n, nx) complex array
-        Body coordinates (translations, rotation vectors) of each eigenvector, relative to the
-        observer's body and in the observer's axes.
-    state_matrix : (nx, nx) array
-        A of x' = A x + B w with x = (y, p, s), see
-        :mod:`adamslite.analyses.linearization.first_order`.
-    input_matrix, output_matrix, feedthrough : (nx, nw), (nv, nx), (nv, nw) arrays
-        B, C, D; w is added to the VARIABLEs of PINPUT, v = C x + D w is those of POUTPUT.
-    coordinates, inputs, outputs : tuple of str
-        Names of the rows of ``modes``, of w and of v.
-    steady : bool
-        Whether A to D stay constant along the motion.
-    steady_for : str
-        Where they do not, for which observer they would ("RM=5"); empty if for none.
-    """
-
-    eigenvalues: np.ndarray
-    undamped: np.ndarray
-    modes: np.ndarray
-    state_matrix: np.ndarray
-    coordinates: tuple[str, ...]
-    input_matrix: np.ndarray
-    output_matrix: np.ndarray
-    feedthrough: np.ndarray
-    inputs: tuple[str, ...]
-    outputs: tuple[str, ...]
-    steady: bool = True
-    steady_for: str = ""
-
-    @property
-    def frequencies(self) -> np.ndarray:
-        """|eigenvalue|/(2 pi) [cycles per time]."""
-        return np.abs(self.eigenvalues) / (2 * pi)
-
-    @property
-    def damping_ratios(self) -> np.ndarray:
-        """-Re/|eigenvalue|; zero where the eigenvalue vanishes."""
-        size = np.abs(self.eigenvalues)
-        shares = -self.eigenvalues.real / np.where(size > 0.0, size, 1.0)
-        return np.where(np.abs(shares) > 0.0, shares, 0.0)
-
-    @property
-    def note(self) -> str:
-        """What to know before the eigenvalues are used; empty for a steady state."""
-        if self.steady:
-            return ""
-        return f"{VARIES}; it is steady {self.steady_for}" if self.steady_for else VARIES
 
 
 def linear(
