@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from adamslite.native.llvm_builder import literal
+from adamslite.native.llvm_builder import COMPARISONS, literal
 from adamslite.native.translate.language import is_native, llvm_type, name_of, signature, symbol
 from adamslite.native.translate.records import (
     ARRAYS,
@@ -28,24 +28,15 @@ INT_OPS = {
     ast.BitAnd: "and",
 }
 FLOAT_OPS = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
-INT_TESTS = {
-    ast.Lt: "slt",
-    ast.LtE: "sle",
-    ast.Gt: "sgt",
-    ast.GtE: "sge",
-    ast.Eq: "eq",
-    ast.NotEq: "ne",
+#: Relations: the symbol, and the test of integers.
+TESTS = {
+    ast.Lt: ("<", "slt"),
+    ast.LtE: ("<=", "sle"),
+    ast.Gt: (">", "sgt"),
+    ast.GtE: (">=", "sge"),
+    ast.Eq: ("==", "eq"),
+    ast.NotEq: ("!=", "ne"),
 }
-FLOAT_TESTS = {
-    ast.Lt: "olt",
-    ast.LtE: "ole",
-    ast.Gt: "ogt",
-    ast.GtE: "oge",
-    ast.Eq: "oeq",
-    ast.NotEq: "une",
-}
-
-
 # How what stands in a record of an array is loaded: it stays as it is in a run.
 ADDRESS = "!tbaa !3, !invariant.load !7"
 
@@ -166,12 +157,13 @@ class Expressions(Writer):
         )
         if len(node.ops) > 1:
             raise self.fail(node, "chained comparisons are not translated")
-        if op not in INT_TESTS:
+        if op not in TESTS:
             raise self.fail(node, f"{op.__name__} is not translated")
+        relation, of_integers = TESTS[op]
         if a.kind == b.kind and a.kind in ("i64", "i1"):
-            return self.value("i1", f"icmp {INT_TESTS[op]} {a.kind} {a.text}, {b.text}")
+            return self.value("i1", f"icmp {of_integers} {a.kind} {a.text}, {b.text}")
         x, y = self.convert(a, "double"), self.convert(b, "double")
-        return self.value("i1", f"fcmp {FLOAT_TESTS[op]} double {x.text}, {y.text}")
+        return self.value("i1", f"fcmp {COMPARISONS[relation]} double {x.text}, {y.text}")
 
     def truth(self, node: ast.expr) -> Value:
         value = self.expression(node)
