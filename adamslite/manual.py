@@ -15,9 +15,9 @@ from adamslite import elements, functions  # noqa: F401  register what there is 
 from adamslite.errors import UsageError
 from adamslite.language.expression import Node, to_text
 from adamslite.language.function import FUNCTIONS, Function, Parameter, listed
-from adamslite.language.integrator_arguments import FAMILIES, USES
 from adamslite.language.messages import MESSAGES, did_you_mean
 from adamslite.language.messages.entry import Message
+from adamslite.language.method import ARGUMENTS, Method, declared, methods
 from adamslite.language.statement import STATEMENTS, Argument, Statement
 from adamslite.results.formats import formats
 from adamslite.results.outcomes import Outcome
@@ -38,10 +38,14 @@ MESSAGES_INTRO = """# Messages
 Every message about a deck, each with the smallest deck that causes it: statements added to a
 correct deck, or a whole deck where they begin with a title. Words in braces are filled in.
 """
-INTEGRATORS_INTRO = """# Integrators and the arguments of INTEGRATOR
+INTEGRATORS_INTRO = """# Integrators
 
-What each argument does with each method. Where it has no effect, `check` and the comments of the
-results report that; the reason is given in brackets.
+The methods of INTEGRATOR, and what each of its arguments does with each of them.
+"""
+ARGUMENTS_INTRO = """## Arguments of INTEGRATOR
+
+Where an argument has no effect, `check` and the comments of the results report that; the reason is
+given in brackets.
 """
 FORMATS_INTRO = """# Formats of result files
 
@@ -82,11 +86,43 @@ def messages() -> str:
     return "\n".join([HEAD, MESSAGES_INTRO, *said, OUTCOMES_INTRO, outcomes])
 
 
-def integrator_arguments() -> str:
+def integrators() -> str:
     """The page of methods and arguments: docs/integrators.md."""
-    head = ("argument", *(", ".join(f"`{method}`" for method in each) for each in FAMILIES))
-    rows = [(f"`{word}`", *(_use(uses[each]) for each in FAMILIES)) for word, uses in USES.items()]
-    return "\n".join([HEAD, INTEGRATORS_INTRO, table(head, rows)])
+    found = declared()
+    head = ("argument", *(_listed(each.names) for each in found))
+    rows = [(f"`{word}`", *(_use(each.use(word)) for each in found)) for word in ARGUMENTS]
+    pages = (integrator(each) for each in found)
+    return "\n".join([HEAD, INTEGRATORS_INTRO, *pages, ARGUMENTS_INTRO, table(head, rows)])
+
+
+def integrator(method: Method) -> str:
+    """One method: its formula, what it is meant for, what it can do, its arguments."""
+    names = ", ".join(method.names)
+    facts = [
+        f"{'explicit' if method.explicit else 'implicit'}, of order {_up_to(method)}",
+        f"formulation {' or '.join(method.formulations)}",
+        f"steps: {method.steps}",
+    ]
+    if method.cannot:
+        facts.append(f"unable to follow {', '.join(method.cannot)}")
+    lines = (_sentence([method.what]), f"Suited to {method.suited}.", _sentence(facts))
+    return f"## {names}\n\n" + "\n\n".join(lines) + "\n"
+
+
+def _up_to(method: Method) -> str:
+    """The order of a method, the highest where KMAX may lower it."""
+    return f"1 to {method.order}" if method.uses("KMAX") else f"{method.order}"
+
+
+def _sentence(facts: Iterable[str]) -> str:
+    text = "; ".join(facts)
+    return f"{text[:1].upper()}{text[1:]}."
+
+
+def _integrator_page(method: Method) -> str:
+    """A method with its arguments, for the terminal."""
+    rows = [(f"`{word}`", _use(method.use(word))) for word in ARGUMENTS]
+    return f"{integrator(method)}\n{table(('argument', 'effect'), rows)}"
 
 
 def result_formats() -> str:
@@ -99,7 +135,7 @@ def result_formats() -> str:
 
 
 #: Pages of registers that are looked up as a whole.
-TOPICS = {"INTEGRATORS": integrator_arguments, "FORMATS": result_formats}
+TOPICS = {"INTEGRATORS": integrators, "FORMATS": result_formats}
 
 
 def _use(text: str) -> str:
@@ -107,7 +143,7 @@ def _use(text: str) -> str:
 
 
 def pages(name: str) -> str:
-    """Everything of this name: a statement, a function, a message, a topic.
+    """Everything of this name: a statement, a function, an integrator, a message, a topic.
 
     Raises
     ------
@@ -119,16 +155,17 @@ def pages(name: str) -> str:
         for register, key, describe in (
             (STATEMENTS, name.upper(), statement),
             (FUNCTIONS, name.upper(), function),
+            (methods(), name.upper(), _integrator_page),
             (MESSAGES, name.lower(), lambda each: message(name.lower(), each)),
             (TOPICS, name.upper(), lambda page: page().removeprefix(HEAD).lstrip()),
         )
         if key in register
     ]
     if not found:
-        names = [*STATEMENTS, *FUNCTIONS, *MESSAGES, *TOPICS]
+        names = [*STATEMENTS, *FUNCTIONS, *methods(), *MESSAGES, *TOPICS]
         longer = [each for each in names if each.startswith(name.upper())]
         hint = did_you_mean(name, names) if len(longer) != 1 else f"did you mean {longer[0]}?"
-        raise UsageError(f"there is no statement, function or message '{name}'; {hint or LISTED}")
+        raise UsageError(f"nothing here is called '{name}'; {hint or LISTED}")
     return "\n".join(found)
 
 
@@ -137,6 +174,7 @@ def contents() -> str:
     titles = [sys.modules[cls.__module__].__doc__ for cls in STATEMENTS.values()]
     lines = ["Statements", *(f"  {_heading(title)}" for title in sorted(titles)), "", "Functions"]
     lines += [f"  {each.usage}: {_heading(each.doc)}" for each in FUNCTIONS.values()]
+    lines += ["", "Integrators", *(f"  {', '.join(m.names)}: {m.what}" for m in declared())]
     lines += ["", "Topics", *(f"  {name}" for name in TOPICS)]
     return "\n".join(lines) + "\n"
 

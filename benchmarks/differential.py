@@ -29,9 +29,9 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from adamslite import assemble, compile_model, read, simulate
-from adamslite.analyses.method_choice import AUTO
 from adamslite.errors import UsageError
 from adamslite.language.diagnostics import DeckError
+from adamslite.language.method import AUTO
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.run_error import error_of

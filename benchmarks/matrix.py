@@ -25,9 +25,9 @@ from typing import Any
 import numpy as np
 
 import adamslite
-from adamslite.analyses.method_choice import AUTO, CONSTANT
 from adamslite.analyses.output_times import output_times
 from adamslite.errors import UsageError
+from adamslite.language.method import AUTO
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
@@ -40,6 +40,8 @@ from benchmarks.torture import CASES, Case
 NAME = "matrix.csv"
 #: CPU [s] that an integrator may use for a case, and the least ERROR asked for.
 SECONDS, LEAST = 20.0, 1e-12
+#: The method of fixed steps.
+CONSTANT = "CONSTANT_BDF"
 #: From one rung to the next: ERROR, and the step of CONSTANT_BDF.
 TIGHTER, SHORTER = 0.1, 0.25
 

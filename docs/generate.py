@@ -11,7 +11,7 @@ PAGES = {
     "statements.md": manual.statements,
     "functions.md": manual.deck_functions,
     "messages.md": manual.messages,
-    "integrators.md": manual.integrator_arguments,
+    "integrators.md": manual.integrators,
     "formats.md": manual.result_formats,
 }
 

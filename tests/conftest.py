@@ -78,18 +78,14 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
-    """Judge what a test has used since its set-up began."""
-    result = yield
-    judge(item, cpu() - item.stash[STARTED])
-    return result
-
-
-def judge(item: pytest.Item, used: float) -> None:
     """Fail a test of the fast tier that is not fast."""
+    result = yield
+    used = cpu() - item.stash[STARTED]
     if used > MOST and item.get_closest_marker("slow") is None:
         pytest.fail(
             f"{used:.1f} s of CPU, more than {MOST:g} s: mark it with @pytest.mark.slow", False
         )
+    return result
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable
+from importlib import import_module
 from typing import Any
 
 import numpy as np
 
 import adamslite as al
 from adamslite.equations import operations
-from adamslite.equations.engine import INTEGRATORS
 from adamslite.equations.system import System
 from adamslite.integrators import motion_equations
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
@@ -143,20 +143,26 @@ def call_address(address: int, *args: Any) -> None:
 def run_in_python(scene: System, operation: int, phases: int = 0) -> int:
     """What ``System.run`` does, interpreted; kernels stay native, overflow passes in silence."""
     with np.errstate(all="ignore"):
-        if operation in INTEGRATORS:
-            return getattr(operations, INTEGRATORS[operation])(*scene.records())
         return operations.run(*scene.records(), operation, phases)
+
+
+def integrate_in_python(scene: System, entry: str) -> int:
+    """What ``System.integrate`` does, likewise."""
+    module, _, name = entry.rpartition(".")
+    with np.errstate(all="ignore"):
+        return getattr(import_module(module), name)(*scene.records())
 
 
 def interpreted(monkeypatch: Any) -> None:
     """Let every run of this test interpret the engine."""
     monkeypatch.setattr(motion_equations, "call_address", call_address, raising=False)
     monkeypatch.setattr(System, "run", run_in_python)
+    monkeypatch.setattr(System, "integrate", integrate_in_python)
 
 
 def native_call(entry: Callable[..., Any], arrays: list[Any]) -> float:
     """Compile ``entry`` and call it on numpy arrays and records."""
-    name = entry.__name__
+    name = translate.symbol(entry)
     address = code.addresses([(code.object_code(translate.translate(entry)), [name])])[name]
     places = [a.address if isinstance(a, Record) else a.ctypes.data for a in arrays]
     return ctypes.CFUNCTYPE(ctypes.c_double, *[ctypes.c_void_p] * len(places))(address)(*places)

@@ -11,7 +11,7 @@ from scenes import GROUND, PENDULUM
 
 import adamslite as al
 from adamslite import Outcome
-from adamslite.language.integrator_arguments import USES
+from adamslite.language.method import ARGUMENTS, methods
 from adamslite.results.results import Results
 
 IMPLICIT = ("GSTIFF", "GSTIFF, I3", "CONSTANT_BDF", "HHT", "NEWMARK", "RADAU")
@@ -189,18 +189,16 @@ def test_scale_must_be_positive():
 # ---- without effect ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("word", USES)
+@pytest.mark.parametrize("word", ARGUMENTS)
 def test_what_has_no_effect_is_told_with_the_reason(word):
     """And what has one is not."""
-    for family, use in USES[word].items():
-        for method in family:
-            value = VALUES.get(word, "0.001")
-            deck = al.read(FREE.replace("END", f"INTEGRATOR/{method}, {word}={value}\nEND"))
-            told = [d for d in al.check(deck) if d.code == "no-effect"]
-            owner = {"ALPHA": "HHT", "BETA": "NEWMARK", "GAMMA": "NEWMARK"}.get(word, method)
-            assert bool(told) == (use.startswith("-") or method != owner), (method, word)
-            if told:
-                assert use[1:] in told[0].hint or owner in told[0].hint
+    for name, method in methods().items():
+        value = VALUES.get(word, "0.001")
+        deck = al.read(FREE.replace("END", f"INTEGRATOR/{name}, {word}={value}\nEND"))
+        told = [d for d in al.check(deck) if d.code == "no-effect"]
+        assert bool(told) != method.uses(word), (name, word)
+        if told:
+            assert method.use(word)[1:] in told[0].hint
 
 
 def test_a_flag_that_changes_the_method_leaves_a_comment_in_the_results():

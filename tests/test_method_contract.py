@@ -12,8 +12,8 @@ import pytest
 from scenes import GROUND, run
 
 import adamslite as al
-from adamslite.analyses.method_choice import METHODS
 from adamslite.errors import UsageError
+from adamslite.language.method import methods
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
@@ -65,7 +65,7 @@ def pushed(force: str, x: float = 0.0, v: float = 0.0) -> str:
     return f"{GROUND}{POINT.format(x=x, v=v)}VFORCE/1, I=2, J_PART=1, FX={force}\\FY=0\\FZ=0\nEND\n"
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", methods())
 class TestContract:
     """Each test is one rule; a method that registers is tested with the others."""
 

@@ -38,6 +38,7 @@ integrators.events
 integrators.stepping
 integrators.implicit
 integrators.bdf integrators.radau integrators.hht integrators.explicit integrators.verlet
+integrators.methods
 equations
 results
 outputs

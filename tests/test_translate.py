@@ -6,6 +6,8 @@ import math
 import re
 import sys
 import threading
+from collections.abc import Callable
+from importlib import import_module
 from math import floor, sqrt
 from pathlib import Path
 
@@ -14,12 +16,11 @@ import pytest
 from scenes import GROUND, PENDULUM, chain, interpreted, native_call, run
 
 import adamslite as al
-from adamslite.analyses.method_choice import METHODS
-from adamslite.equations import engine, operations
+from adamslite.equations import engine
 from adamslite.errors import UsageError
 from adamslite.integrators.linalg import blocks
 from adamslite.kernels.code import lookup
-from adamslite.language.statement import STATEMENTS
+from adamslite.language.method import AUTO, FIXED, declared
 from adamslite.native import translate
 from adamslite.native.translate import (
     REGISTERED,
@@ -31,11 +32,14 @@ from adamslite.native.translate import (
 )
 from adamslite.native.translate.statements import Translator
 
+ENTRIES = sorted({method.entry for method in declared()} | {engine.OPERATIONS})
+for _entry in ENTRIES:
+    import_module(_entry.rpartition(".")[0])
 # All of the package but what kernels call.
 ENGINE = {
     name
     for name, code in REGISTERED.items()
-    if code.__module__.startswith("adamslite.") and code.__module__ != lookup.__name__
+    if code.__module__.startswith(engine.HERE) and code.__module__ != lookup.__name__
 }
 LIMIT = 3
 
@@ -189,8 +193,7 @@ END""",
 
 
 # One method for each native integrator, on every deck; and equilibria, far ones too.
-SUPPORTED = STATEMENTS["INTEGRATOR"].arguments["method"].supported
-INTEGRATORS = {METHODS.get(method, method): method for method in SUPPORTED}.values()
+INTEGRATORS = [AUTO, *{m.entry: m.name for m in declared() if m.steps != FIXED}.values()]
 # A filter faster than the steps: records between their ends need steps of their own.
 LAGS = f"""{GROUND}\
 POINT_MASS/2, MASS=1, CM=2, VX=1
@@ -263,9 +266,6 @@ def test_the_engine_runs_the_same_interpreted_and_native(name):
     np.testing.assert_allclose(by_python.values, native_run.values, rtol=1e-8, atol=1e-8)
 
 
-ENTRIES = [*engine.INTEGRATORS.values(), engine.OPERATIONS]
-
-
 def defined(text: str) -> set[str]:
     """Symbols of the functions in a module."""
     return set(re.findall(r"^define internal \w+ @([\w.]+)\(", text, re.MULTILINE))
@@ -294,15 +294,15 @@ def test_those_runs_reach_every_native_function(called):
     """All that the registered entries call."""
     for name in RUNS:
         interpreted_run_of(name)
-    reached = set().union(*(defined(operations.engine_text(name)) for name in ENTRIES))
+    reached = set().union(*(defined(engine.engine_text(name)) for name in ENTRIES))
     assert "integrators.records.write_record" in reached
     assert reached <= called
 
 
 def test_the_entries_are_translated_whole():
     """Every native function is part of one; each has one name that others may call."""
-    texts = [operations.engine_text(name) for name in ENTRIES]
-    entries = {translate.symbol(getattr(operations, name)) for name in ENTRIES}
+    texts = [engine.engine_text(name) for name in ENTRIES]
+    entries = {name.removeprefix(engine.HERE) for name in ENTRIES}
     assert entries.union(*map(defined, texts)) >= ENGINE
     assert all(t.count("define ") - t.count("define internal") == 1 for t in texts)
 

@@ -15,9 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.method_choice import CONSTANT, METHODS
 from adamslite.integrators import contract
-from adamslite.integrators.contract import BDF, HHT, VERLET
+from adamslite.language.method import FIXED, FIXED_BY_HINIT
 
 # ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do
 # not have to offer.
@@ -51,7 +50,7 @@ def accuracy_notes(
     names, values
         Columns of the results.
     """
-    if settings.method == CONSTANT:
+    if settings.formula.steps == FIXED:
         return "equal steps without error test: compare a run with half of HINIT"
     report, steps = system.report, counts.steps
     shifted = 1.0 + float(counts.restarts) / SHIFTED
@@ -60,8 +59,7 @@ def accuracy_notes(
     off = spent * max(1.0, reach)
     found = [*_of_method(settings, steps, report, off), *_added_up(settings, steps, off, way)]
     found += _of_small_states(settings, spent, names, values)
-    index_3 = METHODS[settings.method] == BDF and settings.form == "I3"
-    if index_3 and system.sizes.holonomic:
+    if settings.form != settings.formula.formulations[0] and system.sizes.holonomic:
         found.append("I3 does not test velocities, so that their errors add up; SI2 does")
     return "; ".join(found)
 
@@ -80,42 +78,43 @@ def longest_way(names: tuple[str, ...], values: np.ndarray) -> tuple[float, floa
 
 def _of_method(settings: Any, steps: int, report: np.ndarray, off: float) -> Iterator[str]:
     """What belongs to a formula."""
-    kind, (alpha, _, gamma) = METHODS[settings.method], settings.second_order
+    method, (alpha, _, gamma) = settings.formula, settings.damping
     rough, divided = report.rough_steps, report.divided
-    if kind == HHT and abs(gamma + alpha - 0.5) > FIRST_ORDER:
+    if method.damping and abs(gamma + alpha - 0.5) > FIRST_ORDER:
         yield (
             f"with GAMMA={gamma:g} the formula is of order 1, and a run is off by the root of ERROR"
             " rather than by ERROR; HHT damps as well and is of order 2"
         )
-    if kind == HHT and rough > OFTEN * steps:
+    if method.damping and rough > OFTEN * steps:
         yield (
             f"accelerations changed by more than half in {rough} of {steps} steps: vibrations "
             "faster than the steps were damped, not followed; GSTIFF or RADAU follow them"
         )
-    if kind == HHT and divided:
+    if method.damping and divided:
         yield (
             f"steps were divided {divided} times, because the corrector did not converge with the "
             f"requested {settings.hinit:g}: a shorter HINIT, or none, for an error test"
         )
     most = contract.STABLE * report.stable_step
-    if kind == VERLET and settings.hinit and settings.hinit > most:
+    if method.steps == FIXED_BY_HINIT and settings.hinit and settings.hinit > most > 0.0:
         yield (
             f"HINIT={settings.hinit:g} is close to the longest stable step, "
             f"{report.stable_step:.3g} by estimate: above it vibrations grow without "
             f"bound; stay below {most:.3g}"
         )
-    if kind in (HHT, VERLET) and settings.error <= FINE:
+    if method.order <= 2 and settings.error <= FINE:
         yield (
-            f"the formula is of order 2: {steps} steps of ERROR={settings.error:g} add up to "
-            f"{off:.1e}; GSTIFF, RADAU or RKF45 get further with fewer"
+            f"the formula is of order {method.order}: {steps} steps of ERROR={settings.error:g} "
+            f"add up to {off:.1e}; GSTIFF, RADAU or RKF45 get further with fewer"
         )
 
 
 def _added_up(settings: Any, steps: int, off: float, way: float) -> Iterator[str]:
     """What belongs to every method."""
-    fixed = settings.hinit and (settings.method == "VERLET" or settings.hinit == settings.hmin)
+    by_hinit = settings.formula.steps == FIXED_BY_HINIT
+    fixed = settings.hinit and (by_hinit or settings.hinit == settings.hmin)
     remedy = "a shorter step" if fixed else f"a smaller ERROR than {settings.error:g}"
-    felt = FELT_BY_BDF if METHODS[settings.method] == BDF else FELT
+    felt = FELT_BY_BDF if settings.formula.family == "differences" else FELT
     if off > felt * way > 0.0:
         yield (
             f"the estimated errors of {steps} steps add up to {off:.1e}, {off / way:.2%} of the "

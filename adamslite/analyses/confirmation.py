@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 
 from adamslite.errors import UsageError
+from adamslite.language.method import FIXED, declared, method_of
 from adamslite.results.confirmation import Channel, Confirmation
 from adamslite.results.results import Results
 
@@ -35,12 +36,6 @@ LARGEST_STEP, LEAST_STEPS = 0.25, 1013
 SAFETY, ROUND_OFF = 2.0, 1e-13
 # Round-off: this share of the largest number of a run; sine of theta of no account.
 NEGLIGIBLE, ALIGNED = 1e-12, 1e-6
-# Formulas that are related to each other.
-FAMILIES = {
-    "GSTIFF": "differences", "WSTIFF": "differences", "CONSTANT_BDF": "differences",
-    "HHT": "Newmark", "NEWMARK": "Newmark", "RADAU": "Radau", "ABAM": "Runge-Kutta",
-    "RKF45": "Runge-Kutta", "VERLET": "leap-frog",
-}  # fmt: skip
 # What is tried as a witness, in this order.
 WITNESSES = ("RADAU", "ABAM", "GSTIFF")
 # Columns that are one quantity, of which one may be zero.
@@ -60,10 +55,12 @@ def confirmation(results: Results, settings: Any, again: Callable[..., Results])
         longest = LARGEST_STEP * float(np.diff(results.time).max())
         longest = min(longest, float(np.ptp(results.time)) / LEAST_STEPS)
         options["hmax"] = min(longest, settings.hmax or longest)
-    # Equal steps know no ERROR: their own formula with variable steps is the witness.
-    method = "GSTIFF" if settings.method == "CONSTANT_BDF" else settings.method
+    family = settings.formula.family
+    method = settings.method
+    if settings.formula.steps == FIXED:  # knows no ERROR: its formula with variable steps does
+        method = next(m.name for m in declared() if m.family == family and m.steps != FIXED)
     own = _run(again, integrator=method, formulation=settings.formulation, **options)
-    others = (w for w in WITNESSES if FAMILIES[w] != FAMILIES[method])
+    others = (w for w in WITNESSES if method_of(w).family != family)
     other = next(_tried((_run(again, integrator=w, **options) for w in others), results), None)
     witnesses = [w for w in (own, other) if isinstance(w, Results)]
     objections = [

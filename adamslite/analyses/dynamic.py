@@ -12,18 +12,17 @@ from adamslite.analyses.audit import start_audit
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import first_jump
 from adamslite.analyses.clock.step_limits import timetable
-from adamslite.analyses.method_choice import CONSTANT, METHODS
 from adamslite.equations.engine import ints
 from adamslite.equations.system import System
 from adamslite.integrators import contract
-from adamslite.integrators.contract import BDF, EXPLICIT, RADAU
+from adamslite.language.method import FIXED, USUAL, Method, method_of
 from adamslite.native.translate import Rows
 from adamslite.results.outcomes import Outcome
 
-# Of CONSTANT_BDF where the deck gives no step.
+# Of a method with fixed steps where the deck gives none.
 STEPS_PER_OUTPUT = 20.0
-# Least step as a share of the end of the run, or of HMAX; of VERLET, which takes equal ones.
-ROUND_OFF, VERLET_LEAST = 1e-14, 1e-8
+# Share of a time that its round-off may be.
+ROUND_OFF = 1e-14
 # Time between two looks at a run [s].
 WATCH_INTERVAL = 0.1
 # How a run may end before a motion that jumps, or gets ever faster.
@@ -48,7 +47,7 @@ OUTCOMES = {
 class Settings:
     """Integration settings after deck, commands and flags: see the INTEGRATOR statement."""
 
-    method: str = "GSTIFF"
+    method: str = USUAL
     formulation: str = "SI2"
     error: float = 1e-3
     hmax: float | None = None
@@ -74,56 +73,51 @@ class Settings:
         ]
 
     @property
-    def form(self) -> str:
-        """The formulation used: only backward differences have a choice.
+    def formula(self) -> Method:
+        """The method of integration; the usual one until AUTO has chosen."""
+        return method_of(self.method)
 
-        HHT and NEWMARK are written for index 3, RADAU for the stabilised index 2.  Explicit methods
-        solve for accelerations, and the multipliers of the other form would only be carried along.
+    @property
+    def form(self) -> str:
+        """The formulation used: what is asked for where the method has a choice.
+
+        Explicit methods solve for accelerations and take I3, because the multipliers of the other
+        form would only be carried along.
         """
-        method = METHODS.get(self.method, BDF)
-        if method not in (BDF, RADAU):
-            return "I3"
-        return "I3" if method == BDF and self.formulation == "I3" else "SI2"
+        known = self.formula.formulations
+        return self.formulation if self.formulation in known else known[0]
 
     def fixed_step(self, output_step: float) -> float:
-        """The step of CONSTANT_BDF; zero for all others."""
-        if self.method != CONSTANT:
+        """The step of a method that takes equal ones; zero for all others."""
+        if self.formula.steps != FIXED:
             return 0.0
         return self.hinit or self.hmax or output_step / STEPS_PER_OUTPUT
 
     def tests_velocities(self, constrained: bool) -> bool:
         """Whether the error test sees velocities; that of index 3 only where nothing is held."""
-        method = METHODS.get(self.method, BDF)
-        free = self.form == "SI2" or not constrained
-        return method in (RADAU, EXPLICIT) or (method == BDF and free)
+        method = self.formula
+        determined = method.explicit or self.form == "SI2" or not constrained
+        return method.tests_velocities and determined
 
     def equal_steps(self, hmax: float) -> bool:
         """Whether the requested steps may not be shortened."""
-        return self.method == CONSTANT or self.hinit == self.hmin == hmax
+        return self.formula.steps == FIXED or self.hinit == self.hmin == hmax
 
     @property
     def interpolates(self) -> bool:
-        """Whether steps pass output times; without INTERPOLATE all but those of RADAU, whose
-        polynomial within a step has order 3 only.
-        """
-        return self.interpolate == "ON" if self.interpolate else self.method != "RADAU"
+        """Whether steps pass output times."""
+        return self.interpolate == "ON" if self.interpolate else self.formula.interpolates
 
     def least_step(self, end: float, hmax: float) -> float:
-        """HMIN, or what round-off of the time leaves; the small steps of a start-up are exempt.
-
-        VERLET takes equal steps from output to output, and near a pole of a force would take so
-        many that the run does not end.
-        """
-        own = 0.0 if self.method == CONSTANT else self.hmin
-        share = VERLET_LEAST if self.method == "VERLET" else ROUND_OFF
-        return own or max(ROUND_OFF * abs(end), share * hmax)
+        """HMIN, or what round-off of the time leaves; the small steps of a start-up are exempt."""
+        own = 0.0 if self.formula.steps == FIXED else self.hmin
+        return own or max(ROUND_OFF * abs(end), self.formula.least_step * hmax)
 
     @property
-    def second_order(self) -> tuple[float, float, float]:
-        """alpha, beta, gamma of HHT or NEWMARK."""
-        if self.method == "NEWMARK":
-            return 0.0, self.beta, self.gamma
-        return self.alpha, (1.0 - self.alpha) ** 2 / 4.0, 0.5 - self.alpha
+    def damping(self) -> tuple[float, float, float]:
+        """alpha, beta, gamma of a formula of Newmark's kind; zeros of others."""
+        damping = self.formula.damping
+        return damping(self) if damping else (0.0, 0.0, 0.0)
 
 
 def run_dynamic(
@@ -146,21 +140,18 @@ def run_dynamic(
     asked.h_max, asked.h_min = hmax, settings.least_step(end, hmax)
     asked.h_init, asked.fixed_step = settings.hinit or 0.0, fixed
     asked.k_max, asked.max_it = settings.kmax, settings.maxit
-    asked.alpha, asked.beta, asked.gamma = settings.second_order
+    asked.alpha, asked.beta, asked.gamma = settings.damping
     asked.interpolate, asked.adaptivity = settings.interpolates, settings.adaptivity
     asked.all_converge = settings.corrector in EVERYTHING
     asked.stop, system.report.torn = False, 0
     system.pattern = ints([word == "T" for word in settings.pattern])
-    method = METHODS[settings.method]
+    method = settings.formula
     times = _scheduled(system, times, settings, hmax)
     system.settings.t_end = end = float(system.stops[-1])
-    if method == EXPLICIT:
-        system.prepare_explicit(settings.scale)
-    if method == RADAU:
-        system.prepare_radau()
+    method.prepare(system, settings)
     start_audit(system, audited)
     system.start_record(times)
-    code = _watched(system, method, watch, end)
+    code = _watched(system, method.entry, watch, end)
     system.release_guards()
     outcome = _named(system, code)
     if system.broken and outcome in CLOSE:
@@ -206,11 +197,11 @@ def _named(system: System, code: int) -> Outcome:
 
 
 def _watched(
-    system: System, method: int, watch: Callable[[float, float], None] | None, end: float
+    system: System, entry: str, watch: Callable[[float, float], None] | None, end: float
 ) -> int:
     # Not Thread.join: in Python 3.11 an interrupted join takes a running thread for finished.
     with ThreadPoolExecutor(max_workers=1) as pool:
-        running = pool.submit(system.run, method)
+        running = pool.submit(system.integrate, entry)
         while not running.done():
             try:
                 wait([running], timeout=WATCH_INTERVAL)

@@ -12,6 +12,7 @@ AUTO, with rho the largest circular frequency of the linearised scene and dt the
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import sqrt
 from typing import Any
@@ -21,17 +22,11 @@ import numpy as np
 from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
-from adamslite.integrators.contract import BDF, EXPLICIT, HHT, RADAU, SPECTRUM, VERLET
+from adamslite.integrators.contract import SPECTRUM
+from adamslite.language.method import AUTO, CONSTRAINTS, ROTATIONS, STATE_JUMPS, methods
 from adamslite.model.model import PART
 from adamslite.symbolic.guards import JUMPS
 
-# Native operation of each method of the INTEGRATOR statement.
-METHODS = {
-    "GSTIFF": BDF, "WSTIFF": BDF, "CONSTANT_BDF": BDF, "HHT": HHT, "NEWMARK": HHT,
-    "ABAM": EXPLICIT, "RADAU": RADAU, "RKF45": EXPLICIT, "VERLET": VERLET,
-}  # fmt: skip
-AUTO = "AUTO"
-CONSTANT = "CONSTANT_BDF"
 # An explicit step costs a few residuals and covers a few radians of the fastest oscillation; an
 # implicit one costs some ten, and motion worth recording takes some ten steps per output step.
 STEPS_WORTH = 3000.0
@@ -41,9 +36,6 @@ COARSE = 1e-4
 ROUGH = 1e-3
 # Unknowns of their own, and what to say of them.
 SOLVED = {"VARIABLE": "is solved for", "DIFF": "is a state"}
-# Share of an error across a constraint that may be left after a step.  HHT: ALPHA of -0.016; with
-# -0.01 the ringing costs a pendulum twenty times the steps of -0.05.
-LOUDEST = 0.97
 
 
 @dataclass(frozen=True)
@@ -64,10 +56,10 @@ def choose_method(system: System, times: np.ndarray, settings: Any) -> MethodCho
     """
     if unfit := what_is_unfit(system, settings):
         raise UsageError(f"{settings.method} cannot run this scene: {unfit}")
-    if settings.method in METHODS:
+    if settings.method in methods():
         return MethodChoice(settings)
     if settings.method != AUTO:
-        known = ", ".join([*METHODS, AUTO])
+        known = ", ".join([*methods(), AUTO])
         raise UsageError(f"There is no integrator {settings.method}. Known are {known}.")
     method, reason = _picked(system, times, settings.error)
     return MethodChoice(replace(settings, method=method), reason)
@@ -75,27 +67,13 @@ def choose_method(system: System, times: np.ndarray, settings: Any) -> MethodCho
 
 def what_is_unfit(system: System, settings: Any) -> str:
     """Why the method asked for cannot run a scene, and what can; empty when it can."""
-    if settings.method == "VERLET" and (
-        obstacle := what_ties(system) or what_turns(system) or what_changes(system, settings.error)
-    ):
-        return f"{obstacle}. Use ABAM (explicit) or GSTIFF (implicit)."
-    if METHODS.get(settings.method) == HHT and system.sizes.m:
-        _, beta, gamma = settings.second_order
-        if echo(beta, gamma) > LOUDEST:
-            return (
-                f"{what_ties(system)}, and with so little damping (GAMMA={gamma:g}) its reactions "
-                "ring, louder with every step. Use HHT with ALPHA=-0.05 or below, or GSTIFF."
-            )
-    return ""
-
-
-def echo(beta: float, gamma: float) -> float:
-    """What is left after a step of an error in the acceleration across a constraint.
-
-    The constraint fixes q, so that beta b+ + (1/2 + gamma - 2 beta) b + (1/2 - gamma + beta) b- is
-    given; the largest root of that.  1 is the trapezoidal rule.
-    """
-    return float(np.abs(np.roots([beta, 0.5 + gamma - 2.0 * beta, 0.5 - gamma + beta])).max())
+    method = methods().get(settings.method)
+    if method is None:
+        return ""
+    for what in method.cannot:
+        if obstacle := _OBSTACLES[what](system, settings.error):
+            return f"{obstacle}. Use ABAM (explicit) or GSTIFF (implicit)."
+    return method.unfit(settings, what_ties(system) if system.m else "") if method.unfit else ""
 
 
 def what_ties(system: System) -> str:
@@ -145,6 +123,13 @@ def what_changes(system: System, error: float) -> str:
             f"{rising[0].label} rises within a zone (STEP, IMPACT), and its equal steps may skip it"
         )
     return ""
+
+
+_OBSTACLES: dict[str, Callable[[System, float], str]] = {
+    CONSTRAINTS: lambda system, error: what_ties(system),
+    ROTATIONS: lambda system, error: what_turns(system),
+    STATE_JUMPS: what_changes,
+}
 
 
 def fastest(system: System, time: float) -> float:

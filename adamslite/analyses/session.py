@@ -32,7 +32,7 @@ from adamslite.analyses.initial.conditions import (
 from adamslite.analyses.initial.joint_start import start_of_joints
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
 from adamslite.analyses.kinematic import run_kinematic
-from adamslite.analyses.method_choice import METHODS, MethodChoice, choose_method
+from adamslite.analyses.method_choice import MethodChoice, choose_method
 from adamslite.analyses.output_times import output_times
 from adamslite.analyses.planar_reduction import in_its_plane
 from adamslite.analyses.static import StaticSettings, run_static
@@ -87,7 +87,7 @@ class Session:
         self.audited = audited
         self.kernels = _compiled(scene, progress, without, audited)
         self.without = without | self.kernels.model.without
-        engine(ACCELERATIONS, progress)
+        engine(progress=progress)
         self.settings = replace(Settings(), **flags)
         self.chosen = MethodChoice(self.settings)
         self.statics = StaticSettings()
@@ -194,7 +194,7 @@ class Session:
         if system.sizes.si2 and system.holonomic and self.chosen.settings.form != "SI2":
             system = self._system = self._renumbered(system, system.pivoting)
         began = clock.process_time()
-        engine(METHODS[self.chosen.settings.method], self.progress)
+        engine(self.chosen.settings.formula.entry, self.progress)
         self.late_setup += clock.process_time() - began
         self.outcome = self._integrated(times)
         self.time = float(system.report.t)

@@ -21,8 +21,8 @@ from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
 from adamslite.integrators.linalg.dense import TINY
 from adamslite.kernels.compile import Kernels
-from adamslite.language.integrator_arguments import without_effect
 from adamslite.language.messages import did_you_mean
+from adamslite.language.method import without_effect
 from adamslite.model.model import Model
 from adamslite.model.reduction import left_off
 from adamslite.results.outcomes import Outcome

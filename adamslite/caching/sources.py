@@ -52,7 +52,8 @@ def digest_of(package: str, *modules: str) -> str:
 def covered(package: str, *modules: str) -> dict[str, bytes]:
     """The files that ``modules`` of the package in folder ``package`` need, with their content."""
     found: dict[str, bytes] = {}
-    met, new = {"", *modules}, ["", *modules]
+    met = _with_packages({"", *modules})
+    new = [*met]
     while new:
         for path in _files(package, new.pop()):
             if path not in found:

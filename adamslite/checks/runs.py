@@ -21,15 +21,13 @@ from adamslite.elements.simulate import MOST_STEPS, Simulate, output_steps
 from adamslite.elements.variable import Variable
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Node, Ref, calls, walk
-from adamslite.language.integrator_arguments import BACKWARD, FIXED, RUNGE_KUTTA, without_effect
 from adamslite.language.interfaces import Key
 from adamslite.language.messages import did_you_mean
+from adamslite.language.method import USUAL, method_of, methods, without_effect
 from adamslite.language.statement import STATEMENTS, Statement, expressions
 
 # What -0.333333333 is below -1/3.
 ROUNDED = 1e-9
-# The highest order of the backward differences: 6 is unstable for all but strongly damped motion.
-HIGHEST = 5
 # The name of a file without a folder; one with a dot in front is for the system or hidden.
 FILE_NAME = re.compile(r"[^./\\:][^/\\:]*")
 TIMES = ("end", "duration", "dtout", "steps")
@@ -44,14 +42,14 @@ def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
             yield say(each, "steps-disordered", "hmin")
         if any(factor <= 0 for factor in each.scale):
             yield say(each, "not-positive", "scale", word="SCALE")
-        elif each.scale and (each.method or "") in RUNGE_KUTTA:
+        elif each.scale and each.method and method_of(each.method).uses("SCALE"):
             yield say(each, "scale-order", "scale")
         if each.formulation == "SI1":
             yield say(each, "solved-as", "formulation", word="SI1", other="SI2")
 
 
 def idle_integrator_arguments(deck: Deck) -> Iterator[Diagnostic]:
-    method = "GSTIFF"
+    method = USUAL
     for each in deck.of(Integrator):
         method = each.method or method
         given = {
@@ -59,8 +57,9 @@ def idle_integrator_arguments(deck: Deck) -> Iterator[Diagnostic]:
         }
         for word, reason in without_effect(method, given):
             yield _idle(each, given[word], word, reason)
-        if each.kmax is not None and each.kmax > HIGHEST and method in BACKWARD + FIXED:
-            yield say(each, "order-limited", "kmax", word=each.kmax, highest=HIGHEST)
+        own = methods().get(method)
+        if own and own.uses("KMAX") and each.kmax is not None and each.kmax > own.order:
+            yield say(each, "order-limited", "kmax", word=each.kmax, highest=own.order)
 
 
 def iteration_values(deck: Deck) -> Iterator[Diagnostic]:

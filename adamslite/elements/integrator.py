@@ -7,6 +7,7 @@ Equation (local error test of the step)::
 
 from __future__ import annotations
 
+from adamslite.language.method import AUTO, USUAL, MethodNames
 from adamslite.language.statement import (
     Statement,
     choice,
@@ -26,21 +27,12 @@ class Integrator(Statement):
     """
 
     method: str | None = choice(
-        options=(
-            "ABAM", "AUTO", "CONSTANT_BDF", "GSTIFF", "HASTIFF", "HHT", "NEWMARK", "RADAU",
-            "RKF45", "VERLET", "WSTIFF",
-        ),
-        supported=(
-            "ABAM", "AUTO", "CONSTANT_BDF", "GSTIFF", "HHT", "NEWMARK", "RADAU", "RKF45", "VERLET",
-            "WSTIFF",
-        ),
+        options=MethodNames(AUTO, "HASTIFF"),
+        supported=MethodNames(AUTO),
         discontinued=(("HASTIFF", "GSTIFF, SI2"),),
-        help="variable-order BDF (GSTIFF) unless given; CONSTANT_BDF: BDF with fixed steps of "
-        "HINIT, else HMAX, else a 20th of the output step, without error test; RADAU: implicit "
-        "Runge-Kutta of order 5 for ERROR below 1E-5; ABAM and RKF45: explicit Runge-Kutta of "
-        "order 8; VERLET: explicit of order 2, unconstrained point masses; AUTO: what suits the "
-        "scene",
-    )  # fmt: skip
+        help=f"the formula, {USUAL} unless given; {AUTO}: what suits the scene. "
+        "`adamslite help integrators` describes all",
+    )
     formulation: str | None = choice(
         options=("I3", "SI1", "SI2"), supported=("I3", "SI1", "SI2"),
         help="index 3, or stabilised index 2 (SI2, unless given); SI1 is solved as SI2",

@@ -115,7 +115,6 @@ class Elimination(Instances):
         self.LV, self.LA = np.zeros(found.size + 1), np.zeros(found.size + 1)
         self.pivots, self.pivots_a = ints([0] * (self.nz + 1)), ints([0] * (self.nz + 1))
         self.work = np.zeros(max(WORK, found.widest**2))
-        self.parts = np.zeros(1)  # those of RADAU are made for the new plan when it needs them
 
     def _places(self, place: np.ndarray) -> np.ndarray:
         """Of every unknown in the order of elimination; those left out share the one behind."""

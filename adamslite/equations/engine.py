@@ -1,49 +1,66 @@
-"""The native engine: built once per version and processor, called with tables of addresses."""
+"""Native code of integrators and equations, built once per version and processor.
+
+An entry is a native function that takes tables of addresses, by module and name: ``f(P, L)`` of a
+method of integration, ``run(P, L, operation, phases)`` of the rest.  Each is compiled by itself
+when a run first needs it.
+"""
 
 from __future__ import annotations
 
 import ctypes
+from importlib import import_module
 from typing import Any
 
 import numpy as np
 
 from adamslite.caching.entries import recall
 from adamslite.caching.sources import version_of
-from adamslite.integrators.contract import BDF, EXPLICIT, HHT, RADAU, VERLET
 from adamslite.native import compiler
+from adamslite.native.translate import translate
 
-#: The integrators, each compiled by itself when a run first needs it; the rest is one piece.
-INTEGRATORS = {BDF: "bdf", HHT: "hht", RADAU: "radau", EXPLICIT: "explicit", VERLET: "verlet"}
-OPERATIONS = "run"
-WHAT = {name: "the integrator" for name in INTEGRATORS.values()} | {OPERATIONS: "the equations"}
+OPERATIONS = "adamslite.equations.operations.run"
+#: Where modules lie whose sources are known to :mod:`adamslite.caching.sources`.
+HERE = "adamslite."
 
 
-def engine(operation: int, progress: Any = None) -> Any:
-    """The native entry of an operation, built once per version and processor: ``f(P, L)`` of an
-    integrator, ``run(P, L, operation, phases)`` of the others.
-    """
-    name = INTEGRATORS.get(operation, OPERATIONS)
-    if name not in _built:
-        _built[name] = _build(name, progress)
-    return _built[name]
+def engine(entry: str = OPERATIONS, progress: Any = None) -> Any:
+    """The native code of an entry, as a function of Python."""
+    if entry not in _built:
+        _built[entry] = _build(entry, progress)
+    return _built[entry]
 
 
 _built: dict[str, Any] = {}
 
 
-def _build(name: str, progress: Any) -> Any:
-    key = name + compiler.digest(version_of("equations.engine"))
+def _build(entry: str, progress: Any) -> Any:
+    symbol = entry.removeprefix(HERE)
 
     def compiled() -> bytes:
         if progress is not None:
-            progress.say(f"compiling {WHAT[name]}, once after installing: takes a few seconds")
-        from adamslite.equations.operations import engine_text
+            what = "the equations" if entry == OPERATIONS else "the integrator"
+            progress.say(f"compiling {what}, once after installing: takes a few seconds")
+        return compiler.object_code(engine_text(entry))
 
-        return compiler.object_code(engine_text(name))
-
-    address = compiler.addresses([(recall(f"{key}.o", compiled), [name])])[name]
-    integers = [] if name != OPERATIONS else [ctypes.c_int64, ctypes.c_int64]
+    name = symbol.rpartition(".")[2]
+    code = recall(f"{name}{compiler.digest(entry, _version(entry))}.o", compiled)
+    address = compiler.addresses([(code, [symbol])])[symbol]
+    integers = [ctypes.c_int64, ctypes.c_int64] if entry == OPERATIONS else []
     return ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, *integers)(address)
+
+
+def _version(entry: str) -> str:
+    """Changes whenever what an entry is made from does: a method from elsewhere is its text."""
+    module = entry.rpartition(".")[0]
+    if not module.startswith(HERE):
+        return engine_text(entry)
+    return version_of("equations.engine", module.removeprefix(HERE))
+
+
+def engine_text(entry: str) -> str:
+    """LLVM assembly of an entry."""
+    module, _, name = entry.rpartition(".")
+    return translate(getattr(import_module(module), name))
 
 
 def ints(values: list[int]) -> np.ndarray:

@@ -1,10 +1,9 @@
-"""The native entry points: tables of addresses in, an outcome out."""
+"""The native entry of all operations on equations but integration."""
 
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations, put_state
 from adamslite.integrators.audit.balance import start_balance
-from adamslite.integrators.bdf.method import bdf
 from adamslite.integrators.contract import (
     ACCELERATIONS,
     AUDIT,
@@ -19,17 +18,11 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.equilibrium import equilibrium
 from adamslite.integrators.events.stops import sample_clock
-from adamslite.integrators.explicit.method import explicit
-from adamslite.integrators.hht.method import hht
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import jacobian, residual, track
-from adamslite.integrators.radau.method import radau
 from adamslite.integrators.records import write_record
 from adamslite.integrators.unconstrained import spectrum
-from adamslite.integrators.verlet.method import verlet
-from adamslite.native.translate import native, translate
-
-__all__ = ["bdf", "engine_text", "explicit", "hht", "radau", "run", "verlet"]
+from adamslite.native.translate import native
 
 
 @native
@@ -57,8 +50,3 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     else:
         jacobian(P, phases, P.coef, P.J)
     return DONE
-
-
-def engine_text(name: str) -> str:
-    """LLVM assembly of one of the entries."""
-    return translate(globals()[name])

@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 
 from adamslite.equations.elimination import Elimination
-from adamslite.equations.engine import INTEGRATORS, engine, ints, reals
+from adamslite.equations.engine import engine, ints, reals
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
-from adamslite.integrators.bdf import differences
 from adamslite.integrators.event_rows import MARGIN_ROWS
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.kernels.compile import Kernels
@@ -70,7 +69,9 @@ class System(Elimination):
         self.broken, self.hurried = None, []
         self.paces = Rows(contract.Pace, np.array(contract.NO_PACE))
         self.pivot0 = np.zeros(nz + 1)
-        self.history, self.trial = np.zeros(differences.room(w)), np.zeros(3 * w + 3)
+        # What equilibria remember; a method makes the room that it needs.
+        self.history = np.zeros(self.q.size + 9 * len(self.model.bodies))
+        self.trial = np.zeros(3 * w + 3)
         self.control, self.tableau = np.zeros(contract.CONTROL), np.zeros(1)
         self.parts, self.LC, self.pivots_c = np.zeros(1), np.zeros(1), ints([0])
         self.coef = np.zeros(contract.COEFFICIENTS)
@@ -211,44 +212,12 @@ class System(Elimination):
         """Let every expression take the branch of the moment again."""
         self.W[self.nw :] = 0.0
 
-    def prepare_explicit(self, scale: tuple[float, ...]) -> None:
-        """Coefficients and room for the stages of the explicit formula; ``scale`` as in SCALE."""
-        from adamslite.integrators.explicit.dop853 import tableau
-        from adamslite.integrators.explicit.state import HISTORY_ROWS, SCALES
-
-        w = 2 * self.n + self.ns
-        room = HISTORY_ROWS * w + 9 * len(self.model.bodies) + 16
-        self.tableau = tableau()
-        if self.history.size < room:
-            self.history = np.zeros(room)
-        self.history[SCALES * w : (SCALES + 1) * w] = self._error_scales(scale)
-
-    def _error_scales(self, scale: tuple[float, ...]) -> np.ndarray:
-        """Factors of ERROR (2 n + ns,): SCALE for bodies, 1 for states and what is not given."""
-        place, angle, _, speed, spin, _ = (*scale, *(6 - len(scale)) * (1.0,))
-        factors = np.ones(2 * self.n + self.ns)
-        for b, body in enumerate(self.model.bodies):
-            i = self.starts[b]
-            for start, shift, turn in ((i, place, angle), (self.n + i, speed, spin)):
-                factors[start : start + 3] = shift
-                if body.width == PART:
-                    factors[start + 3 : start + 6] = turn
-        return factors
-
-    def prepare_radau(self) -> None:
-        """Coefficients and room for the stages and the complex factors of the Radau formula."""
-        from adamslite.integrators.radau.coefficients import coefficients
-        from adamslite.integrators.radau.stages import Y_ROWS, Z_ROWS
-
-        z = self.m + self.nv + self.ns + self.holonomic
-        room = Y_ROWS * (2 * self.n + self.ns) + Z_ROWS * z + 7 * self.nz + 16
-        self.tableau = coefficients()
-        if self.parts.size == 1:
-            self.history = np.zeros(max(room, self.history.size))
-            self.parts = np.zeros(3 * self.J.size)
-            self.LC, self.pivots_c = np.zeros(2 * self.LV.size), ints([0] * self.nz)
-            widest = int(self.plan["size"].max(initial=0))
-            self.work = np.zeros(max(self.work.size, 2 * widest**2))
+    def make_room(self, **sizes: int) -> None:
+        """Have arrays of at least these sizes; one that is replaced begins with zeros."""
+        for name, size in sizes.items():
+            present = getattr(self, name)
+            if present.size < size:
+                setattr(self, name, np.zeros(size, dtype=present.dtype))
 
     def start_record(self, times: np.ndarray) -> None:
         """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier
@@ -275,10 +244,14 @@ class System(Elimination):
         self.count[:] = 0
 
     def run(self, operation: int, phases: int = 0) -> int:
-        """Call native code on the arrays as they are now."""
-        more = () if operation in INTEGRATORS else (operation, phases)
+        """Do an operation of native code on the arrays as they are now; returns an outcome."""
         problem, plan = self.records()
-        return engine(operation)(problem.address, plan.address, *more)
+        return engine()(problem.address, plan.address, operation, phases)
+
+    def integrate(self, entry: str) -> int:
+        """Let the native code of a method run from the present state; returns an outcome."""
+        problem, plan = self.records()
+        return engine(entry)(problem.address, plan.address)
 
     def records(self) -> tuple[contract.Problem, Plan]:
         """The arrays as native code takes them."""

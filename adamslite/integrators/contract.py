@@ -112,6 +112,19 @@ MODE_STATICS = 5.0
 ) = range(10)
 
 
+# What is done to equations besides integration: see adamslite.equations.operations.
+(
+    RESIDUAL,
+    JACOBIAN,
+    ACCELERATIONS,
+    EQUILIBRIUM,
+    RECORD,
+    SPECTRUM,
+    CLOCK,
+    AUDIT,
+) = range(8)
+
+
 class Sizes(Record):
     """How many of what a model has.
 
@@ -327,9 +340,3 @@ class Problem(Record):
     pattern: Ints
     audit: Audit
     uncounted: Counts
-
-
-(
-    RESIDUAL, JACOBIAN, ACCELERATIONS, EQUILIBRIUM, RECORD, BDF, HHT, RADAU, EXPLICIT, VERLET,
-    SPECTRUM, CLOCK, AUDIT,
-) = range(13)  # fmt: skip

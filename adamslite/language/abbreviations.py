@@ -76,3 +76,8 @@ def vocabulary(cls: type[Statement]) -> Vocabulary:
     if found is None:
         found = _KNOWN[cls] = Vocabulary(cls)
     return found
+
+
+def forget_vocabularies() -> None:
+    """Collect keywords anew: the words that an argument may take have changed."""
+    _KNOWN.clear()

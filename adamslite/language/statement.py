@@ -11,7 +11,7 @@ Nothing else describes or validates the arguments; readers, checkers and manuals
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import FrozenInstanceError, dataclass, field
 from typing import Any, ClassVar, TypeAlias, TypedDict, TypeVar, Unpack
 
@@ -68,8 +68,8 @@ class Argument:
     required: bool = False
     sizes: tuple[int, int] = (1, 1)
     to: str = ""
-    options: tuple[str, ...] = ()
-    supported: tuple[str, ...] = ()
+    options: Sequence[str] = ()
+    supported: Sequence[str] = ()
     discontinued: tuple[tuple[str, str], ...] = ()
     bare: bool = False
     start: bool = False
@@ -85,7 +85,7 @@ class ListFacts(TypedDict, total=False):
     """What any argument may have, see :class:`Argument`."""
 
     required: bool
-    supported: tuple[str, ...]
+    supported: Sequence[str]
     discontinued: tuple[tuple[str, str], ...]
     start: bool
 
@@ -123,7 +123,7 @@ def flag(*keys: str, help: str) -> Field:
     return _declare(Argument("flag", keys, help=help, default=False))
 
 
-def choice(*keys: str, options: tuple[str, ...], help: str, **facts: Unpack[Facts]) -> Field:
+def choice(*keys: str, options: Sequence[str], help: str, **facts: Unpack[Facts]) -> Field:
     """One word of several: ``KEY=WORD``, or just ``WORD`` when no key is given."""
     return _declare(Argument("choice", keys, help=help, options=options, bare=not keys, **facts))
 

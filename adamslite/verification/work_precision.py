@@ -13,11 +13,8 @@ from math import floor, inf, log10
 from statistics import median
 from typing import Any
 
-from adamslite.analyses.dynamic import Settings
-from adamslite.analyses.method_choice import AUTO, CONSTANT, METHODS
-from adamslite.elements.integrator import Integrator
 from adamslite.errors import RunFailed, UsageError
-from adamslite.integrators.contract import HHT, VERLET
+from adamslite.language.method import FIXED, declared, method_of
 from adamslite.progress import Progress
 from adamslite.results.comparison import fits
 from adamslite.results.outcomes import Outcome
@@ -29,8 +26,8 @@ LEAST_ERROR, ROUND_OFF = 1e-16, 1e-9
 #: ERROR of the charts, and of the reference.
 ERRORS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 TIGHT, LESS_TIGHT = 1e-10, 1e-8
-#: Methods of second order, which would need too many steps at ``TIGHT``.
-SECOND_ORDER = (HHT, VERLET)
+#: Methods up to this order would need too many steps at ``TIGHT``.
+TOO_LOW = 2
 #: A hundred times smaller ERROR leaves this much more than the change at most.
 EXPLAINED, ROUNDING = 3.0, 1e-12
 #: A reference that is not known better than this is none.
@@ -155,21 +152,13 @@ def variants() -> list[Variant]:
 
     Formulations differ without constraints, too: I3 does not test the error of velocities.
     """
-    arguments = Integrator.arguments
-    found: dict[Any, list[Variant]] = {}
-    for method in arguments["method"].supported:
-        if method in (AUTO, CONSTANT):
-            continue
-        forms = arguments["formulation"].supported
-        chosen = {Settings(method=method, formulation=form).form: form for form in forms}
-        for form in chosen.values():
-            settings = Settings(method=method, formulation=form)
-            does = METHODS[method], settings.form, settings.second_order
-            told = form if len(chosen) > 1 else ""
-            found.setdefault(does, []).append(Variant(method, told))
-    return [
-        replace(first, also=tuple(v.integrator for v in rest)) for first, *rest in found.values()
+    found = [
+        Variant(method.name, form if len(method.formulations) > 1 else "", method.names[1:])
+        for method in declared()
+        if method.steps != FIXED
+        for form in method.formulations
     ]
+    return sorted(found, key=lambda variant: variant.label)
 
 
 class Patience(Progress):
@@ -226,7 +215,7 @@ def find_truth(run: Run, tried: Iterable[Variant], channels: Sequence[str] = ())
     done: list[Tight] = []
     told: list[str] = []
     for variant in tried:
-        if METHODS[variant.integrator] in SECOND_ORDER:
+        if method_of(variant.integrator).order <= TOO_LOW:
             continue
         try:
             tight, less = (run(error=error, **variant.options) for error in (TIGHT, LESS_TIGHT))
@@ -252,8 +241,8 @@ def _checked(best: Tight, others: Sequence[Tight], channels: Sequence[str]) -> T
     knows which of them is right, and the distance is what is not known.
     """
     name = f"{best.variant.label} at ERROR={TIGHT:g}"
-    own = METHODS[best.variant.integrator]
-    rivals = [o for o in others if METHODS[o.variant.integrator] != own] or others
+    own = method_of(best.variant.integrator).family
+    rivals = [o for o in others if method_of(o.variant.integrator).family != own] or others
     if not rivals:
         told = f"{name}, which no other method checks"
         return Truth(best.results, best.change or inf, told)

@@ -88,7 +88,7 @@ def programs() -> list[Program]:
     """One for every integrator and formulation."""
     if not installed():
         return []
-    from adamslite.analyses.method_choice import AUTO
+    from adamslite.language.method import AUTO
     from adamslite.verification.work_precision import Variant, variants
 
     return [

@@ -13,8 +13,8 @@ from adamslite.native.translate.writer import METADATA, Value
 
 
 def translate(entry: Native) -> str:
-    """LLVM assembly of ``entry`` under its plain name, and of every native function that it
-    reaches, each internal under its :func:`symbol`.
+    """LLVM assembly of ``entry`` and of every native function that it reaches, each under its
+    :func:`symbol`; all but the entry are internal.
     """
     declared, texts = definitions([entry], public=entry)
     return "\n".join([*sorted(declared), *texts, METADATA])
@@ -56,8 +56,8 @@ class Translator(Expressions):
         head = ", ".join(f"{self.passed(name, kind)} %arg.{name}" for name, kind in arguments)
         linkage = "internal " if internal else ""
         body = "\n".join(["entry:", *self.allocations, *self.lines])
-        name = symbol(self.function) if internal else self.function.__name__
-        return f"define {linkage}{self.result} @{name}({head}) nounwind {{\n{body}\n}}"
+        name = f"{linkage}{self.result} @{symbol(self.function)}"
+        return f"define {name}({head}) nounwind {{\n{body}\n}}"
 
     def block(self, body: list[ast.stmt]) -> None:
         for statement in body:

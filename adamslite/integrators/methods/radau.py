@@ -1,0 +1,54 @@
+"""RADAU: an implicit Runge-Kutta formula of order 5."""
+
+from typing import Any
+
+from adamslite.language.method import Method, register
+
+
+def prepare(system: Any, settings: Any) -> None:
+    """Coefficients, and room for the stages and the complex factors."""
+    from adamslite.integrators.radau.coefficients import coefficients
+    from adamslite.integrators.radau.stages import Y_ROWS, Z_ROWS
+
+    z = system.m + system.nv + system.ns + system.holonomic
+    widest = int(system.plan["size"].max(initial=0))
+    system.tableau = coefficients()
+    system.make_room(
+        history=Y_ROWS * (2 * system.n + system.ns) + Z_ROWS * z + 7 * system.nz + 16,
+        parts=3 * system.J.size,
+        LC=2 * system.LV.size,
+        pivots_c=system.nz,
+        work=2 * widest**2,
+    )
+
+
+register(
+    Method(
+        names=("RADAU",),
+        what="the three-stage Radau IIA formula of order 5 with variable step",
+        suited="ERROR below 1E-5, also of stiff scenes with constraints",
+        entry="adamslite.integrators.radau.method.radau",
+        order=5,
+        family="Radau",
+        explicit=False,
+        formulations=("SI2",),
+        prepare=prepare,
+        interpolates=False,  # its polynomial within a step has order 3 only
+        arguments={
+            "ERROR": "local error of q, u and states",
+            "HMAX": "largest step",
+            "HMIN": "as with GSTIFF",
+            "HINIT": "first step, also after a jump",
+            "KMAX": "-its order is 5",
+            "MAXIT": "iterations until the corrector has failed",
+            "PATTERN": "as with GSTIFF; iterations of the three stages together",
+            "INTERPOLATE": "ON: steps pass output times, a cubic in between; unless given, OFF",
+            "ADAPTIVITY": "-it loosens the corrector of backward differences only",
+            "CORRECTOR": "as with GSTIFF",
+            "SCALE": "-its coordinates have one tolerance",
+            "ALPHA": "-it belongs to HHT",
+            "BETA": "-it belongs to NEWMARK",
+            "GAMMA": "-it belongs to NEWMARK",
+        },
+    )
+)

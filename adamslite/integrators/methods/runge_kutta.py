@@ -1,0 +1,62 @@
+"""ABAM, RKF45: an explicit Runge-Kutta formula of order 8."""
+
+from typing import Any
+
+from adamslite.language.method import Method, register
+
+NO_CORRECTOR = "-an explicit formula has no corrector"
+
+
+def prepare(system: Any, settings: Any) -> None:
+    """Coefficients, room for the stages and for inverse inertias, factors of ERROR."""
+    from adamslite.integrators.explicit.dop853 import tableau
+    from adamslite.integrators.explicit.state import HISTORY_ROWS, SCALES
+
+    w = 2 * system.n + system.ns
+    system.tableau = tableau()
+    system.make_room(history=HISTORY_ROWS * w + 9 * len(system.model.bodies) + 16)
+    system.history[SCALES * w : (SCALES + 1) * w] = error_scales(system, settings.scale)
+
+
+def error_scales(system: Any, scale: tuple[float, ...]) -> Any:
+    """Factors of ERROR (2 n + ns,): SCALE for bodies, 1 for states and what is not given."""
+    import numpy as np
+
+    place, angle, _, speed, spin, _ = (*scale, *(6 - len(scale)) * (1.0,))
+    factors = np.ones(2 * system.n + system.ns)
+    for first, width in zip(system.starts, system.widths[: len(system.model.bodies)], strict=False):
+        for start, shift, turn in ((first, place, angle), (system.n + first, speed, spin)):
+            factors[start : start + 3] = shift
+            factors[start + 3 : start + width] = turn
+    return factors
+
+
+register(
+    Method(
+        names=("ABAM", "RKF45"),
+        what="the explicit Runge-Kutta pair of order 8(5,3) of Dormand and Prince with variable "
+        "step, on accelerations that satisfy the constraints",
+        suited="scenes that are not stiff, to any ERROR",
+        entry="adamslite.integrators.explicit.method.explicit",
+        order=8,
+        family="Runge-Kutta",
+        explicit=True,
+        prepare=prepare,
+        arguments={
+            "ERROR": "local error of q, u and states",
+            "HMAX": "largest step",
+            "HMIN": "as with GSTIFF",
+            "HINIT": "first step, also after a jump",
+            "KMAX": "-its order is 8",
+            "MAXIT": NO_CORRECTOR,
+            "PATTERN": NO_CORRECTOR,
+            "INTERPOLATE": "OFF: equal steps onto every output time; unless given, ON",
+            "ADAPTIVITY": NO_CORRECTOR,
+            "CORRECTOR": NO_CORRECTOR,
+            "SCALE": "factors of ERROR for displacements, angles, modal coordinates, their rates",
+            "ALPHA": "-it belongs to HHT",
+            "BETA": "-it belongs to NEWMARK",
+            "GAMMA": "-it belongs to NEWMARK",
+        },
+    )
+)
