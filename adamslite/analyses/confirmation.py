@@ -55,10 +55,11 @@ def confirmation(results: Results, settings: Any, again: Callable[..., Results])
         longest = LARGEST_STEP * float(np.diff(results.time).max())
         longest = min(longest, float(np.ptp(results.time)) / LEAST_STEPS)
         options["hmax"] = min(longest, settings.hmax or longest)
-    family = settings.formula.family
-    method = settings.method
-    if settings.formula.steps == FIXED:  # knows no ERROR: its formula with variable steps does
-        method = next(m.name for m in declared() if m.family == family and m.steps != FIXED)
+    formula, method = method_of(settings.method), settings.method
+    family = formula.family
+    if formula.steps == FIXED:  # knows no ERROR: its formula with variable steps does
+        related = (m.name for m in declared() if m.family == family and m.steps != FIXED)
+        method = next(related, method)
     own = _run(again, integrator=method, formulation=settings.formulation, **options)
     others = (w for w in WITNESSES if method_of(w).family != family)
     other = next(_tried((_run(again, integrator=w, **options) for w in others), results), None)
