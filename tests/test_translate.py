@@ -6,7 +6,6 @@ import math
 import re
 import sys
 import threading
-from collections.abc import Callable
 from importlib import import_module
 from math import floor, sqrt
 from pathlib import Path
@@ -21,7 +20,6 @@ from adamslite.errors import UsageError
 from adamslite.integrators.linalg import blocks
 from adamslite.kernels.code import lookup
 from adamslite.language.method import AUTO, FIXED, declared
-from adamslite.native import translate
 from adamslite.native.translate import (
     REGISTERED,
     Ints,
