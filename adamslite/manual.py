@@ -237,6 +237,8 @@ def _value(each: Argument) -> str:
     if each.kind == "vector":
         low, high = each.sizes
         return f"{low} numbers" if low == high else f"{low} to {high} numbers"
+    if each.kind == "vectors":
+        return f"{each.sizes[0]} to {each.sizes[1]} numbers, once or more"
     kinds = {
         "reference": f"a {each.to}",
         "references": f"several {each.to}",
@@ -249,7 +251,7 @@ def _value(each: Argument) -> str:
 def _default(each: Argument) -> str:
     if each.required:
         return "required"
-    if each.default is None or each.kind in ("flag", "texts", "words", "references"):
+    if each.default is None or each.kind in ("flag", "texts", "words", "references", "vectors"):
         return ""
     if each.kind == "reference":
         return "ground"

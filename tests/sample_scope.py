@@ -6,15 +6,47 @@ hands out one symbol per number, as the real scope does, and remembers what each
 
 from __future__ import annotations
 
+from bisect import bisect
 from functools import cache
+from math import factorial
 from types import SimpleNamespace
 
 import mpmath as mp
+import numpy as np
 import sympy as sp
+
+from adamslite.symbolic.interpolant import Interpolant, interpolant
 
 GROUND = -1
 NOW = mp.mpf("0.7")
 DIGITS = 60
+
+
+# The table of every SPLINE: number in an expression, kind, points.
+KINDS = ("linear", "akima", "natural")
+KNOTS, VALUES = np.array([-1.5, -0.7, -0.1, 0.4, 1.3]), np.array([1.0, -2.0, 0.5, 3.0, 1.0])
+
+
+@cache
+def sample_table(number: int) -> Interpolant:
+    """A table by its number."""
+    return interpolant(KNOTS, VALUES[:, None], KINDS[number])
+
+
+def table_value(number: int, curve: int, order: int, x) -> mp.mpf:
+    """A derivative of a curve of a table, at many digits."""
+    table = sample_table(int(number))
+    piece = bisect(table.knots, x)
+    t = x - mp.mpf(table.knots[max(piece - 1, 0)])
+    coefficients = table.pieces[piece, int(curve)]
+    return mp.fsum(
+        factorial(k) // factorial(k - int(order)) * mp.mpf(coefficients[k]) * t ** (k - int(order))
+        for k in range(int(order), 4)
+    )
+
+
+# What sympy does not know of; for lambdify.
+MODULES = [{"Lookup": table_value}, "mpmath"]
 
 
 def turn(axis: int, angle) -> mp.matrix:
@@ -148,9 +180,11 @@ class SampleScope:
 
     def statement(self, id) -> SimpleNamespace:
         values = {"value": "1.5", "state": "2.5", "rate": "-0.5", "multiplier": "3.5"}
+        tables = {kind: number for number, kind in enumerate(KINDS)}
         return SimpleNamespace(
-            **{name: self.symbol(f"{name}_{id}", value) for name, value in values.items()}
-        )
+            **{name: self.symbol(f"{name}_{id}", value) for name, value in values.items()},
+            **tables, family=None,
+        )  # fmt: skip
 
     def derivative(self, expr):
         return sum(

@@ -15,7 +15,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 import sympy as sp
-from sample_scope import DIGITS, GROUND, SampleScope
+from sample_scope import DIGITS, GROUND, MODULES, SampleScope
 
 import adamslite.functions  # noqa: F401  fills the registry
 from adamslite.functions.forces import NET
@@ -28,6 +28,7 @@ PRINTABLE = {
     *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log"),
     *("StrictLessThan", "StrictGreaterThan", "LessThan", "GreaterThan", "Equality", "Unequality"),
     *("And", "Or", "Not", "BooleanTrue", "BooleanFalse", "Exp1", "Pi"),
+    "Lookup",
 }
 REPEATS = 4
 SAMPLES = 8
@@ -70,12 +71,12 @@ class Gradient:
     @cached_property
     def value_of(self) -> Callable:
         """The value at many digits."""
-        return sp.lambdify(self.symbols, self.expr, "mpmath")
+        return sp.lambdify(self.symbols, self.expr, MODULES)
 
     @cached_property
     def slopes_of(self) -> Callable:
         """The derivatives."""
-        return sp.lambdify(self.symbols, self.derivatives, "mpmath")
+        return sp.lambdify(self.symbols, self.derivatives, MODULES)
 
     @cached_property
     def edges_of(self) -> Callable:

@@ -15,7 +15,7 @@ from adamslite.language.function import FUNCTIONS
 from adamslite.language.statement import STATEMENTS, Statement
 
 CLASSES = [pytest.param(cls, id=keyword) for keyword, cls in STATEMENTS.items()]
-NUMERIC = ("number", "vector", "expression")
+NUMERIC = ("number", "vector", "vectors", "expression")
 
 
 def test_there_is_one_file_for_each_statement() -> None:

@@ -34,6 +34,7 @@ from adamslite.checks.posture import (
 )
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.runs import RUN_RULES
+from adamslite.checks.tables import TABLE_RULES
 from adamslite.deck.deck import Deck
 from adamslite.language.diagnostics import Diagnostic, sort_by_place
 
@@ -66,6 +67,7 @@ RULES: list[Rule] = [
     requests,
     unit_system,
     *CONSTRAINT_RULES,
+    *TABLE_RULES,
     *RUN_RULES,
 ]
 

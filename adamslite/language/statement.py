@@ -33,7 +33,8 @@ class Argument:
     Parameters
     ----------
     kind : str
-        ``number vector integer flag choice reference references ids expression text texts words``.
+        ``number vector vectors integer flag choice reference references ids expression text texts
+        words``.
     keys : tuple of str
         The keyword and its aliases, in capitals.
     help, unit : str
@@ -43,7 +44,7 @@ class Argument:
     required : bool
         Whether omitting it is a mistake.
     sizes : tuple of int
-        Least and greatest number of values of a vector.
+        Least and greatest number of values of a vector, of each one where there are several.
     to : str
         Keyword of the statement a reference names.
     options : tuple of str
@@ -111,6 +112,12 @@ def vector(
     """``size`` real numbers, or from ``size`` to ``most``."""
     sizes = (size, most or size)
     return _declare(Argument("vector", keys, help=help, unit=unit, sizes=sizes, **facts))
+
+
+def vectors(*keys: str, size: int, most: int, help: str, unit: str) -> Field:
+    """Lists of ``size`` to ``most`` real numbers, ``KEY=`` once for each."""
+    sizes = (size, most)
+    return _declare(Argument("vectors", keys, help=help, unit=unit, sizes=sizes, default=()))
 
 
 def integer(*keys: str, help: str, unit: str = "", **facts: Unpack[Facts]) -> Field:

@@ -15,19 +15,21 @@ from adamslite.syntax.forms import Item
 from adamslite.syntax.syntax_errors import Syntax
 from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
 
-_LISTS = ("vector", "references", "ids", "texts")
+_LISTS = ("vector", "vectors", "references", "ids", "texts")
 
 
 class Pieces:
     """What is written for one argument: the tokens of each value."""
 
-    __slots__ = ("argument", "values", "start", "closed")
+    __slots__ = ("argument", "values", "start", "closed", "before")
 
     def __init__(self, argument: Argument, start: int) -> None:
         self.argument = argument
         self.values: list[list[Lexeme]] = []
         self.start = start
         self.closed = False
+        self.before: list[list[list[Lexeme]]] = []
+        """The values of the same keyword where it was given before."""
 
     @property
     def range(self) -> tuple[int, int]:
@@ -76,6 +78,11 @@ class Grouping:
             self.current, self.skipping = pieces, False
 
     def _open(self, argument: Argument, token: Lexeme) -> Pieces | None:
+        if argument.name in self.found and argument.kind == "vectors":
+            pieces = self.found[argument.name]
+            pieces.before.append(pieces.values)
+            pieces.values, pieces.closed = [], False
+            return pieces
         if argument.name in self.found:
             self.log.add("duplicate-argument", token[2], end_of(token), word=argument.key)
             return None
@@ -201,7 +208,10 @@ def read_arguments(
     for name, pieces in found.items():
         ranges[name] = pieces.range
         try:
-            values[name] = reader.value(cls, pieces.argument, pieces.values)
+            if pieces.argument.kind == "vectors":
+                values[name] = reader.vectors(cls, pieces.argument, [*pieces.before, pieces.values])
+            else:
+                values[name] = reader.value(cls, pieces.argument, pieces.values)
         except Refused:
             continue
     if syntax.whole and not partial:

@@ -168,6 +168,12 @@ class ValueReader:
             self._refuse("value-count", flat, word=argument.key, expected=expected, count=count)
         return tuple([self._number(argument, tokens) for tokens in values])
 
+    def vectors(
+        self, cls: type[Statement], argument: Argument, rows: list[list[list[Lexeme]]]
+    ) -> tuple[tuple[float, ...], ...]:
+        """The lists of an argument that may be given several times."""
+        return tuple([self._vector(cls, argument, row) for row in rows])
+
     # ---- words --------------------------------------------------------------------------------
 
     def _choice(self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]) -> str:

@@ -1,0 +1,51 @@
+"""Values of tables: the points of a SPLINE joined in one of three ways."""
+
+from __future__ import annotations
+
+from adamslite.language.function import function
+from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.sympy_nodes import lookup, lookup_between
+from adamslite.symbolic.types import Expr, Tree
+
+# Methods of INTERP.
+METHODS = {1: "linear", 3: "natural"}
+
+
+@function("AKISPL", "x:number z:number id:spline iord:constant{0..2}=0")
+def akispl(scope: Scope, x: Expr, z: Expr, id: Tree, iord: int = 0) -> Expr:
+    """SPLINE id at x by Akima's cubics, or its derivative of order iord by x.
+
+    The slope at a point follows from the chords next to it: little overshoot, bends that jump at
+    the points.  z chooses among a family of curves, linear between neighbours; 0 for a single
+    curve.  Unit: that of Y, per x for each order.  Source: Adams/Solver function AKISPL; Akima,
+    J. ACM 17 (1970) 589-602.
+    """
+    return _value(scope, id, "akima", x, z, iord)
+
+
+@function("CUBSPL", "x:number z:number id:spline iord:constant{0..2}=0")
+def cubspl(scope: Scope, x: Expr, z: Expr, id: Tree, iord: int = 0) -> Expr:
+    """SPLINE id at x by a cubic spline, or its derivative of order iord by x.
+
+    Slopes and bends are continuous, bends at both ends are zero.  z as in AKISPL.
+    Unit: that of Y, per x for each order.  Source: Adams/Solver function CUBSPL; the ends, which
+    its page leaves open, are those of a natural spline.
+    """
+    return _value(scope, id, "natural", x, z, iord)
+
+
+@function("INTERP", "x:number method:constant{1,3} id:spline iord:constant{0..2}=0")
+def interp(scope: Scope, x: Expr, method: int, id: Tree, iord: int = 0) -> Expr:
+    """SPLINE id, a single curve, at x; method 1: straight lines, 3: the cubic spline of CUBSPL.
+
+    Unit: that of Y, per x for each order iord.  Source: Adams/Solver function INTERP, there for
+    time histories in files alone.
+    """
+    return _value(scope, id, METHODS[method], x, 0, iord)
+
+
+def _value(scope: Scope, id: Tree, kind: str, x: Expr, z: Expr, order: int) -> Expr:
+    """A table of a statement, or its derivative by x."""
+    spline = scope.statement(id)
+    table = getattr(spline, kind)
+    return lookup_between(table, x, z, order) if spline.family else lookup(table, x, order=order)

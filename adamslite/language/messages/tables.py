@@ -1,0 +1,43 @@
+"""Messages about tables of numbers: SPLINE and the functions that use it."""
+
+from __future__ import annotations
+
+from adamslite.language.messages.entry import Message
+
+_CURVE = "SPLINE/1, X=0,1,2,3, Y=0,1,4,9\nVARIABLE/1, FUNCTION="
+_FAMILY = "SPLINE/1, X=0,1,2,3, Y=0,0,1,4,9, Y=1,0,2,8,18\nVARIABLE/1, FUNCTION="
+
+TABLES: dict[str, Message] = {
+    "not-ascending": Message(
+        "{word} of {label} must increase: {low} is followed by {high}",
+        "",
+        (
+            "SPLINE/1, X=0,1,1,3, Y=0,1,4,9",
+            "SPLINE/1, X=3,2,1,0, Y=0,1,4,9",
+            "SPLINE/1, X=0,1,2,3, Y=1,0,1,4,9, Y=1,0,2,8,18",
+        ),
+    ),
+    "spline-length": Message(
+        "a list Y of {label} has {count} values and needs {expected}",
+        "one for each X; each of several lists begins with its z, before the values",
+        (
+            "SPLINE/1, X=0,1,2,3, Y=0,1,4,9,16",
+            "SPLINE/1, X=0,1,2,3, Y=0,1,4,9, Y=0,1,4,9",
+        ),
+    ),
+    "spline-curve": Message(
+        "{word} has a z, and {spline} is a single curve",
+        "write 0 for z, or give the SPLINE several lists Y=z, y1, y2, ...",
+        (_CURVE + "AKISPL(TIME,1,1)", _CURVE + "CUBSPL(TIME,TIME,1)"),
+    ),
+    "spline-family": Message(
+        "{word} takes a single curve, and {spline} is a family of curves",
+        "AKISPL and CUBSPL take z",
+        (_FAMILY + "INTERP(TIME,1,1)",),
+    ),
+    "family-derivative": Message(
+        "{word} has no derivatives of {spline}, which is a family of curves",
+        "leave the order out; derivatives are those of a single curve",
+        (_FAMILY + "AKISPL(TIME,0.5,1,1)", _FAMILY + "CUBSPL(TIME,0,1,2)"),
+    ),
+}
