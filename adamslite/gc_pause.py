@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 
 @contextmanager
-def uncollected() -> Iterator[None]:
+def without_collection() -> Iterator[None]:
     """No garbage collection inside; with it, reading a large deck takes a fifth longer."""
     if not gc.isenabled():
         yield

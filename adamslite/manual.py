@@ -81,9 +81,9 @@ def deck_functions() -> str:
 
 def messages() -> str:
     """The page of all messages and outcomes: docs/messages.md."""
-    said = (message(code, each) for code, each in MESSAGES.items())
+    entries = (message(code, each) for code, each in MESSAGES.items())
     outcomes = table(("outcome", "sentence"), [(f"`{o.name}`", o.value) for o in Outcome])
-    return "\n".join([HEAD, MESSAGES_INTRO, *said, OUTCOMES_INTRO, outcomes])
+    return "\n".join([HEAD, MESSAGES_INTRO, *entries, OUTCOMES_INTRO, outcomes])
 
 
 def integrators() -> str:
@@ -204,11 +204,11 @@ def function(each: Function) -> str:
 
 def message(code: str, each: Message) -> str:
     """One message: sentence, hint and example."""
-    said = f"{each.severity}: {each.sentence}"
+    text = f"{each.severity}: {each.sentence}"
     if each.hint:
-        said += f"  \nhint: {each.hint}"
+        text += f"  \nhint: {each.hint}"
     example = each.deck + (each.broken or each.commands)[0].rstrip("\n")
-    return f"## `{code}`\n\n{said}\n\n```\n{example}\n```\n"
+    return f"## `{code}`\n\n{text}\n\n```\n{example}\n```\n"
 
 
 def table(head: Row, rows: Iterable[Row]) -> str:

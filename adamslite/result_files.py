@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from adamslite.deck.statement_diagnostics import say
+from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.outputs.whole_files import need_writable, same_file
 
@@ -74,6 +74,6 @@ def _taken(
     for command, path in zip(commands, paths, strict=True):
         word = _file(command)
         if word and same_file(path, output):
-            yield say(command, "file-taken", "file", word=word, what="that of the results")
+            yield diagnose(command, "file-taken", "file", word=word, what="that of the results")
         elif word and any(same_file(path, each) for each in read):
-            yield say(command, "file-taken", "file", word=word, what="read by this run")
+            yield diagnose(command, "file-taken", "file", word=word, what="read by this run")

@@ -231,6 +231,6 @@ def test_a_run_is_not_repeated_for_a_second_reference_with_the_same_flags(tmp_pa
 def test_references_that_come_with_the_program_are_complete(case: Case) -> None:
     read = read_reference(case.reference)
     assert case.deck is not None
-    assert not read.untold()
+    assert not read.without_tolerance()
     assert read.table.names or read.measures or read.stop
     assert np.isfinite(read.table.values).all()

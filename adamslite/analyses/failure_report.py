@@ -32,8 +32,8 @@ def explain(system: System, outcome: Outcome, unclosed: Any) -> str:
     """One paragraph for the user: where, when, what, and the outcome's own remedy."""
     if unclosed:
         return f"{_contradiction(unclosed)} {outcome.value}"
-    told = REASONS.get(outcome, _when)(system)
-    return f"{told[:1].upper()}{told[1:]}. {outcome.value}"
+    text = REASONS.get(outcome, _when)(system)
+    return f"{text[:1].upper()}{text[1:]}. {outcome.value}"
 
 
 def _contradiction(unclosed: Any) -> str:
@@ -41,9 +41,9 @@ def _contradiction(unclosed: Any) -> str:
     found = f"{placed(unclosed.statement)}, {unclosed.equation},"
     if isnan(unclosed.size):
         return f"{found} has no value at the start."
-    told = f"{found} stays open by {unclosed.size:.3g} at {unclosed.level} level"
+    text = f"{found} stays open by {unclosed.size:.3g} at {unclosed.level} level"
     others = unclosed.others[:MOST_NAMED]
-    return f"{told}{', against ' * bool(others)}{' and '.join(map(placed, others))}."
+    return f"{text}{', against ' * bool(others)}{' and '.join(map(placed, others))}."
 
 
 def _when(system: System) -> str:
@@ -72,8 +72,8 @@ def _error(system: System) -> str:
     if not report.h:
         return f"{_where(system)}, HMAX is too short a step to change the time"
     found = f"{tested(system, report.where)}: {_when(system)}"
-    told = f"{found}, the estimated error is {report.error:.3g} times ERROR"
-    return told + _held_up(system)
+    text = f"{found}, the estimated error is {report.error:.3g} times ERROR"
+    return text + _held_up(system)
 
 
 def _corrector(system: System) -> str:
@@ -83,11 +83,11 @@ def _corrector(system: System) -> str:
         where = tested(system, report.where)
         return f"{where}: {_when(system)}, no accelerations found"
     open_row = equation(system, report.open_row)
-    said = f"{open_row}: {_when(system)}, this equation is off by {report.open_by:.3g} "
-    said += f"after iteration {report.iteration}, more than all"
+    opening = f"{open_row}: {_when(system)}, this equation is off by {report.open_by:.3g} "
+    opening += f"after iteration {report.iteration}, more than all"
     moving = unknown(system, report.changed)
-    told = f"{said} others. {moving}, changes most, by {report.change:.3g}"
-    return told + _held_up(system)
+    text = f"{opening} others. {moving}, changes most, by {report.change:.3g}"
+    return text + _held_up(system)
 
 
 def _held_up(system: System) -> str:
@@ -106,16 +106,16 @@ def _singular_mass(system: System) -> str:
         for s, _ in group.instances
     ]
     named = ", ".join(placed(s) for s in found[:3])
-    told = f"{named}: {_when(system)}" if named else _when(system)
+    text = f"{named}: {_when(system)}" if named else _when(system)
     if system.nz > MOST_SEARCHED:
-        return told
+        return text
     matrix, kept = _acceleration_matrix(system)
     if not np.isfinite(matrix).all():
-        return told
+        return text
     scale = _inertias(system)[kept] ** -0.5
     loosest = np.linalg.svd(scale[:, None] * matrix * scale)[2][-1]
     inert = kept[int(np.abs(np.where(np.array(kept) < system.n, loosest, 0.0)).argmax())]
-    return f"{told}. {unknown(system, inert)}, loses its inertia"
+    return f"{text}. {unknown(system, inert)}, loses its inertia"
 
 
 def _inertias(system: System) -> np.ndarray:
@@ -182,8 +182,8 @@ def _not_finite(system: System) -> str:
     system.q[:] = start
     if guilty is not None:
         return f"{placed(guilty)}: {_when(system)}"
-    told = f"{tested(system, report.where)}: {_when(system)}"
-    return f"{told}, though no statement by itself lacks a value. Look at END, HMAX and ERROR too"
+    text = f"{tested(system, report.where)}: {_when(system)}"
+    return f"{text}, though no statement by itself lacks a value. Look at END, HMAX and ERROR too"
 
 
 def _without_value(system: System) -> Any:

@@ -151,9 +151,9 @@ def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, str]:
     tied = what_ties(system)
     pace = float(np.diff(times).max()) if len(times) > 1 else 0.0
     radians = fastest(system, float(times[0])) * pace
-    told = f"its fastest oscillation turns {radians:.3g} rad in an output step"
+    reason = f"its fastest oscillation turns {radians:.3g} rad in an output step"
     if not radians <= STEPS_WORTH:
-        return "HHT" if error >= COARSE and not tied else implicit, f"implicit, because {told}"
+        return "HHT" if error >= COARSE and not tied else implicit, f"implicit, because {reason}"
     if error >= COARSE and not (tied or what_turns(system) or what_changes(system, 0.0)):
-        return "VERLET", f"explicit, because nothing ties the masses together and {told}"
-    return "RKF45", f"explicit, because {told}"
+        return "VERLET", f"explicit, because nothing ties the masses together and {reason}"
+    return "RKF45", f"explicit, because {reason}"

@@ -39,7 +39,7 @@ from adamslite.analyses.static import StaticSettings, run_static
 from adamslite.equations.engine import engine
 from adamslite.equations.result_columns import columns
 from adamslite.equations.system import System
-from adamslite.gc_pause import uncollected
+from adamslite.gc_pause import without_collection
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.kernels.compile import Kernels, compile_model
@@ -286,7 +286,7 @@ class Session:
     # helpers
 
     def _numbered(self, pivoting: bool, form: str = "") -> System:
-        with uncollected():
+        with without_collection():
             stabilised = (form or self.settings.form) == "SI2"
             system = System(self.kernels, stabilised, pivoting)
         system.settings.t = self.time

@@ -199,12 +199,12 @@ def _deck(scene: Any) -> Any:
 def _without_value(time: np.ndarray, names: tuple[str, ...], values: np.ndarray) -> str:
     """The first columns with entries that are no numbers, and since when."""
     columns = np.flatnonzero(~np.isfinite(values).all(axis=0))
-    told = [
+    texts = [
         f"{names[k]} at t = {time[np.flatnonzero(~np.isfinite(values[:, k]))[0]]:.6g}"
         for k in columns[:MOST_TOLD]
     ]
     more = f" and {len(columns) - MOST_TOLD} more" if len(columns) > MOST_TOLD else ""
-    return "; ".join(told) + more
+    return "; ".join(texts) + more
 
 
 def _results(session: Session, cpu: tuple[float, float]) -> Results:
@@ -252,9 +252,9 @@ def _meta(session: Session) -> Mapping[str, str]:
 def _accuracy_note(session: Session) -> str:
     names, values = session.names, np.concatenate([v for _, v in session.pieces])
     time = np.concatenate([t for t, _ in session.pieces])
-    said = accuracy_notes(session.system, session.chosen.settings, session.counts, names, values)
+    note = accuracy_notes(session.system, session.chosen.settings, session.counts, names, values)
     grown = buckled(session.kernels.model, names, time, values)
-    return "; ".join(sentence for sentence in (grown, said) if sentence)
+    return "; ".join(sentence for sentence in (grown, note) if sentence)
 
 
 def _worst(balances: list[Balance]) -> Balance:
@@ -264,13 +264,13 @@ def _worst(balances: list[Balance]) -> Balance:
 
 def _beyond(session: Session) -> dict[str, str]:
     """Elements that the motion carried beyond what their law is meant for."""
-    told = [f"{label} {how}" for label, how in session.out_of_law.items()]
+    texts = [f"{label} {how}" for label, how in session.out_of_law.items()]
     if session.pieces:
         values = np.concatenate([v for _, v in session.pieces])
         time = np.concatenate([t for t, _ in session.pieces])
         slack = compressed(session.deck, session.names, time, values) if len(time) else ""
-        told += [slack] if slack else []
-    return {"out of its law": "; ".join(told)} if told else {}
+        texts += [slack] if slack else []
+    return {"out of its law": "; ".join(texts)} if texts else {}
 
 
 def _notes(session: Session) -> dict[str, str]:
@@ -291,13 +291,13 @@ def _notes(session: Session) -> dict[str, str]:
     steps = session.counts.steps
     if steps and (note := _accuracy_note(session)):
         found["accuracy"] = note
-    told = {each.model.note: each.time for each in reversed(session.linearizations)}
-    if varying := [f"t = {t:g}: {note}" for note, t in reversed(told.items()) if note]:
+    notes = {each.model.note: each.time for each in reversed(session.linearizations)}
+    if varying := [f"t = {t:g}: {note}" for note, t in reversed(notes.items()) if note]:
         found["linear"] = "; ".join(varying)
     idle = list(without_effect(session.chosen.settings.method, session.settings.given))
     if idle:
-        told = "; ".join(f"{word}, because {reason}" for word, reason in idle)
-        found["integrator arguments"] = f"without effect: {told}"
+        text = "; ".join(f"{word}, because {reason}" for word, reason in idle)
+        found["integrator arguments"] = f"without effect: {text}"
     rows = [row_name(session.system, row) for row in session.system.dropped]
     if rows:
         found["redundant"] = f"left out, their reactions are zero: {'; '.join(rows)}"

@@ -42,8 +42,8 @@ def _pushing(places: dict[str, int], values: np.ndarray) -> dict[str, float]:
     forces = values[:, list(places.values())]
     most, least = np.nanmax(forces, 0, initial=0.0), np.nanmin(forces, 0, initial=0.0)
     pushing = ((most > -FELT * least) & (most > 0.0)).tolist()
-    told = zip(places, most.tolist(), pushing, strict=True)
-    return {label: push for label, push, is_one in told if is_one}
+    sections = zip(places, most.tolist(), pushing, strict=True)
+    return {label: push for label, push, is_one in sections if is_one}
 
 
 def _sections(deck: Any) -> set[str]:

@@ -121,7 +121,7 @@ def laws(spec: Spec, faults: Faults) -> Laws:
             if getattr(each, key):
                 law = parse(getattr(each, key), ("route", i, key), faults)
                 if law and key == "payout":
-                    found.paid[i] = _told(spec, law, ("route", i, key), faults)
+                    found.paid[i] = _prescribed(spec, law, ("route", i, key), faults)
                 elif law and key == "force":
                     found.engines.append(law)
                 elif law and key == "torque":
@@ -129,25 +129,25 @@ def laws(spec: Spec, faults: Faults) -> Laws:
         for key, text in [*(("motion", text) for text in each.motion), ("haul", each.haul)]:
             law = parse(text, ("route", i, key), faults) if text else None
             if law:
-                found.moved.append(_told(spec, law, ("route", i, key), faults))
+                found.moved.append(_prescribed(spec, law, ("route", i, key), faults))
     return found
 
 
-def travel(spec: Spec, spans: list[FreeSpan], told: Laws) -> Moves:
+def travel(spec: Spec, spans: list[FreeSpan], prescribed: Laws) -> Moves:
     """The travel of the rigid cable over the whole run."""
-    ways = {i: way for i, way in told.paid.items() if way}
+    ways = {i: way for i, way in prescribed.paid.items() if way}
     if spec.closed:  # all of it starts at that speed
         ways = {i: replace(way, jump=0.0) for i, way in ways.items()}
-    free = _free(spec, spans, told.engines)
+    free = _free(spec, spans, prescribed.engines)
     unknown = free if isinstance(free, str) else ""
-    if len(ways) < len(told.paid):
+    if len(ways) < len(prescribed.paid):
         unknown = "the payout is not known before the run"
     found = (*ways.values(), *([free] if isinstance(free, Travel) else []))
-    shaken = max((way.acceleration for way in told.moved if way), default=0.0)
+    shaken = max((way.acceleration for way in prescribed.moved if way), default=0.0)
     return Moves(found, ways, _across(spec, spans), shaken, unknown)
 
 
-def _told(spec: Spec, law: Node, path: Path, faults: Faults) -> Travel | None:
+def _prescribed(spec: Spec, law: Node, path: Path, faults: Faults) -> Travel | None:
     """The travel that a law prescribes; None when it depends on the run."""
     ways = []
     try:

@@ -287,9 +287,9 @@ def _requests(spec: Spec, found: list[Stretch]) -> str:
         if each.is_wheel:
             n, rim = marker(i), number(each.turn * each.radius)
             pull = f"\\ F6=-GCON({n})" if each.payout else ""
-            told = ", pull of the winch" if pull else ""
+            addition = ", pull of the winch" if pull else ""
             text += (
-                f"! Way and speed of the rim of station {i + 1}, load on its axle{told}.\n"
+                f"! Way and speed of the rim of station {i + 1}, load on its axle{addition}.\n"
                 f"REQUEST/{n}, F2={rim}*{turning(i, spec)}\\ F3={rim}*{turning(i, spec, 1)}"
                 f"\\ F4=JOINT({n},0,1,0){pull}\n"
             )

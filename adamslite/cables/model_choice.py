@@ -118,13 +118,13 @@ def choose_model(spec: Spec, spans: list[FreeSpan], moves: Moves, faults: Faults
     form, why_form = _form(spec, spans, of, level, moves)
     count, why_count = _elements(spec, spans, of, form)
     if spec.level == 1 and demand.fronts(of, p) + (["rushes"] * (of.rushes > p)):
-        told = "; ".join((*demand.waves(of, p), *figures))
-        faults.add("rigid-has-waves", ("model", "level"), figures=told,
+        text = "; ".join((*demand.waves(of, p), *figures))
+        faults.add("rigid-has-waves", ("model", "level"), figures=text,
                    level=demand.elastic_level(of))  # fmt: skip
     bad = demand.paper_fails(of, p)
     if spec.form == "paper" and level == 3 and bad:
-        told = "; ".join(_said(bad, moves))
-        faults.add("paper-not-valid", ("model", "form"), accuracy=p, figures=told)
+        text = "; ".join(_with_unknowns(bad, moves))
+        faults.add("paper-not-valid", ("model", "form"), accuracy=p, figures=text)
     if level == 3 and form != "brute" and 0.0 < of.tension and of.speed > of.c_t:
         faults.add("faster-than-waves", ("model", "level"), speed=of.speed, wave=of.c_t,
                    tension=of.tension)  # fmt: skip
@@ -148,10 +148,10 @@ def demand_on_longest(spec: Spec, spans: list[FreeSpan], moves: Moves) -> Demand
     )  # fmt: skip
 
 
-def _said(found: list[str], moves: Moves) -> list[str]:
+def _with_unknowns(found: list[str], moves: Moves) -> list[str]:
     """The same, with what is not known before the run by its name."""
-    told = [moves.unknown if moves.unknown and "not known" in text else text for text in found]
-    return list(dict.fromkeys(told))
+    known = [moves.unknown if moves.unknown and "not known" in text else text for text in found]
+    return list(dict.fromkeys(known))
 
 
 def _level(spec: Spec, spans: list[FreeSpan], of: Demand, moves: Moves) -> tuple[int, list[str]]:
@@ -170,7 +170,10 @@ def _level(spec: Spec, spans: list[FreeSpan], of: Demand, moves: Moves) -> tuple
     level = demand.elastic_level(of)
     goes = moves.unknown or "cable goes over wheels"
     why = goes if level == 3 else "no cable goes over a wheel"
-    return level, [f"not level 1: {', '.join(_said(against, moves))}", f"level {level}: {why}"]
+    return level, [
+        f"not level 1: {', '.join(_with_unknowns(against, moves))}",
+        f"level {level}: {why}",
+    ]
 
 
 def _form(
@@ -184,7 +187,7 @@ def _form(
         return "brute", [f"form brute: {'; '.join(across)}"]
     if level < 3:
         return "paper", []
-    bad = _said(demand.paper_fails(of, spec.accuracy), moves)
+    bad = _with_unknowns(demand.paper_fails(of, spec.accuracy), moves)
     if bad:
         return "ale", [f"form ale: the paper's misses {spec.accuracy:g} by {', '.join(bad)}"]
     return "paper", [f"form paper: its estimates are all below {spec.accuracy:g}"]

@@ -28,22 +28,22 @@ def write_requests(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
 
 def _over(spec: Spec, spans: list[FreeSpan], found: list[Piece], i: int) -> str:
     each, n = spec.route[i], marker(i)
-    told = f"cable over station {i + 1}"
+    title = f"cable over station {i + 1}"
     parts = [f"F2={travel(i, spec)}", f"F3={travel(i, spec, 1)}"]
     if each.leans:
         parts.append(f"F4=JOINT({n},0,1,0)")
-        told += ", load on the axle"
+        title += ", load on the axle"
     if each.payout:
         parts.append(f"F6=-GCON({n})")
-        told += ", pull of the winch"
+        title += ", pull of the winch"
     if each.leans and not spec.is_end(i):
         before, behind = (_touch(found[p], i) for p in spec.beside(i))
         parts.append(f"F7={wrapped(spec, i, before, behind, wrap(spec, spans, i))}")
-        told += ", wrap angle"
+        title += ", wrap angle"
     text = "\\ ".join(parts)
     if len(parts) > 3:
-        return f"! {told[0].upper()}{told[1:]}.\nREQUEST/{n}, {text}\n"
-    return f"REQUEST/{n}, {text}  ! {told}\n"
+        return f"! {title[0].upper()}{title[1:]}.\nREQUEST/{n}, {text}\n"
+    return f"REQUEST/{n}, {text}  ! {title}\n"
 
 
 def _touch(piece: Piece, i: int) -> int:

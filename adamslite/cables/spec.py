@@ -60,9 +60,9 @@ def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
     return spec, faults
 
 
-def _line_of(said: str, places: Places) -> Path:
+def _line_of(message: str, places: Places) -> Path:
     """The key a message of tomllib, "... (at line 3, column 1)", is about, as far as known."""
-    _, _, rest = said.partition("at line ")
+    _, _, rest = message.partition("at line ")
     number = rest.split(",")[0]
     if number.isdigit():
         for path in places.paths():

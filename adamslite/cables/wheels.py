@@ -145,8 +145,8 @@ def mount_request(spec: Spec, i: int) -> str:
         return ""
     named = {2: "FX", 3: "FY", 4: "FZ", 6: "TX", 7: "TY", 8: "TZ"}
     parts = [f"F{k}={name}({n + 3},{n + 5})" for k, name in named.items()]
-    told = f"! Load and torque on the ground at the foot of the mount of station {i + 1}.\n"
-    return f"{told}REQUEST/{n + 1}, " + "\\ ".join(parts) + "\n"
+    comment = f"! Load and torque on the ground at the foot of the mount of station {i + 1}.\n"
+    return f"{comment}REQUEST/{n + 1}, " + "\\ ".join(parts) + "\n"
 
 
 def _carriage(each: Station, n: int) -> str:

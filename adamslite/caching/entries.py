@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from adamslite.caching.contents import DRAFT, entries, found_files, remove
-from adamslite.caching.folder import cache_folder, say
+from adamslite.caching.folder import cache_folder, warn
 from adamslite.errors import UsageError
 
 HEAD = struct.Struct("<8sQ32s")
@@ -49,7 +49,7 @@ def recall(name: str, make: Callable[[], bytes]) -> bytes:
     except FileNotFoundError:
         pass
     except (Damaged, OSError) as fault:
-        say(f"the cache entry {path} is rebuilt: {getattr(fault, 'strerror', None) or fault}")
+        warn(f"the cache entry {path} is rebuilt: {getattr(fault, 'strerror', None) or fault}")
     else:
         _note_use(path)
         return content
@@ -131,13 +131,13 @@ def bound() -> float:
     UsageError
         When ``ADAMSLITE_CACHE_SIZE`` is not a number of megabytes.
     """
-    told = os.environ.get("ADAMSLITE_CACHE_SIZE", "")
+    text = os.environ.get("ADAMSLITE_CACHE_SIZE", "")
     try:
-        size = float(told or BOUND)
+        size = float(text or BOUND)
     except ValueError:
         size = -1.0
     if not size >= 0.0:
-        raise UsageError(f"ADAMSLITE_CACHE_SIZE={told}: it is a number of megabytes, 0 or more")
+        raise UsageError(f"ADAMSLITE_CACHE_SIZE={text}: it is a number of megabytes, 0 or more")
     return 1e6 * size
 
 

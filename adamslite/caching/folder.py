@@ -47,14 +47,14 @@ def usual_folder() -> Path:
 
 
 @cache
-def _usual_folder(platform: str, told: str | None, home: str | None) -> Path:
+def _usual_folder(platform: str, given: str | None, home: str | None) -> Path:
     """The same from what it depends on: it is needed for every entry."""
     of_user = Path(home) if home else Path.home()
     if platform == "win32":
-        return Path(of_user if told is None else told) / "adamslite" / "cache"
+        return Path(of_user if given is None else given) / "adamslite" / "cache"
     if platform == "darwin":
         return of_user / "Library" / "Caches" / "adamslite"
-    return Path(of_user / ".cache" if told is None else told) / "adamslite"
+    return Path(of_user / ".cache" if given is None else given) / "adamslite"
 
 
 @cache
@@ -83,10 +83,10 @@ def _found(folder: Path, chosen: bool) -> Path:
     if not doubt:
         return made
     if not chosen and _taken_back(made):
-        say(f"the cache folder {made} could be written to by others: it was emptied and closed")
+        warn(f"the cache folder {made} could be written to by others: it was emptied and closed")
         return made
     other = _temporary()
-    say(f"the cache folder {made} {doubt}: {other} is used instead")
+    warn(f"the cache folder {made} {doubt}: {other} is used instead")
     return other
 
 
@@ -136,7 +136,7 @@ def _temporary() -> Path:
     if not doubt:
         return folder
     private = _private()
-    say(f"the cache folder {folder} {doubt}: what is compiled in {private} goes with this process")
+    warn(f"the cache folder {folder} {doubt}: what is compiled in {private} goes with this process")
     return private
 
 
@@ -152,7 +152,7 @@ def _private() -> Path:
     return Path(folder).resolve()
 
 
-def say(sentence: str) -> None:
+def warn(sentence: str) -> None:
     """One line on standard error, or wherever a program that uses this one sends warnings."""
     from logging import getLogger
 

@@ -16,7 +16,7 @@ import sys
 from functools import cache
 
 import adamslite
-from adamslite.caching.folder import say
+from adamslite.caching.folder import warn
 
 PACKAGE = os.path.dirname(adamslite.__file__)
 #: An import from this package, as ruff formats it: its module, and the names taken from there.
@@ -45,7 +45,7 @@ def digest_of(package: str, *modules: str) -> str:
             stamps.append(f"{os.getpid()} {adamslite.STARTED}")
             replaced.append(path)
     if replaced:
-        say(f"{replaced[0]} is newer than this process: what is compiled is not found again")
+        warn(f"{replaced[0]} is newer than this process: what is compiled is not found again")
     return hashlib.sha256("\n".join(stamps).encode()).hexdigest()
 
 

@@ -16,7 +16,7 @@ from adamslite.checks.posture import (
 from adamslite.checks.rule import needs, positive
 from adamslite.deck.deck import Deck
 from adamslite.deck.names import RESERVED
-from adamslite.deck.statement_diagnostics import say
+from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.beam import Beam
 from adamslite.elements.bushing import Bushing
 from adamslite.elements.diff import Diff
@@ -75,7 +75,7 @@ def one_ground(deck: Deck) -> Iterator[Diagnostic]:
         source = deck.source
         yield compose("no-ground", source.span(0, len(source.line(1))), source.line(1))
     for part in grounds[1:]:
-        yield say(part, "two-grounds", "ground")
+        yield diagnose(part, "two-grounds", "ground")
 
 
 def ground_without_data(deck: Deck) -> Iterator[Diagnostic]:
@@ -83,7 +83,7 @@ def ground_without_data(deck: Deck) -> Iterator[Diagnostic]:
     for part in deck.of(Part):
         for field in ignored if part.ground else ():
             if part.given(field):
-                yield say(part, "ground-with-data", field, word=field.upper())
+                yield diagnose(part, "ground-with-data", field, word=field.upper())
 
 
 def masses(deck: Deck) -> Iterator[Diagnostic]:
@@ -92,14 +92,14 @@ def masses(deck: Deck) -> Iterator[Diagnostic]:
             continue
         if not part.mass:
             if not _is_held(deck, part):
-                yield say(part, "no-mass", "mass")
+                yield diagnose(part, "no-mass", "mass")
         elif part.mass < 0:
-            yield say(part, "no-mass", "mass")
+            yield diagnose(part, "no-mass", "mass")
         elif part.cm is None:
-            yield say(part, "no-cm")
+            yield diagnose(part, "no-cm")
     for point in deck.of(POINT):
         if point.given("mass") and point.mass <= 0:
-            yield say(point, "no-mass", "mass")
+            yield diagnose(point, "no-mass", "mass")
 
 
 def _is_held(deck: Deck, part: Statement) -> bool:
@@ -117,11 +117,11 @@ def inertia(deck: Deck) -> Iterator[Diagnostic]:
         if part.ground or part.cm is None:
             continue
         if part.ip is None:
-            yield say(part, "no-inertia")
+            yield diagnose(part, "no-inertia")
             continue
         reason = no_body(part.ip[:3]) if is_plain(part) else ""
         if reason:
-            yield say(part, "bad-inertia", "ip", reason=reason)
+            yield diagnose(part, "bad-inertia", "ip", reason=reason)
 
 
 def markers_of_bodies(deck: Deck) -> Iterator[Diagnostic]:
@@ -132,7 +132,9 @@ def markers_of_bodies(deck: Deck) -> Iterator[Diagnostic]:
                 owner = body_of(deck, marker)
                 if owner and owner != (keyword, body.key):
                     word, label = field.upper(), _label(owner)
-                    yield say(body, "foreign-marker", field, word=word, key=marker, owner=label)
+                    yield diagnose(
+                        body, "foreign-marker", field, word=word, key=marker, owner=label
+                    )
 
 
 # ---- markers ----------------------------------------------------------------------------------
@@ -141,16 +143,16 @@ def markers_of_bodies(deck: Deck) -> Iterator[Diagnostic]:
 def owners(deck: Deck) -> Iterator[Diagnostic]:
     for marker in deck.of(Marker):
         if marker.part is not None and marker.point_mass is not None:
-            yield say(marker, "two-owners", "point_mass")
+            yield diagnose(marker, "two-owners", "point_mass")
         elif marker.owner is None and not deck.incomplete & {"PART", POINT, "FLEX_BODY"}:
-            yield say(marker, "no-owner")
+            yield diagnose(marker, "no-owner")
 
 
 def floating_alone(deck: Deck) -> Iterator[Diagnostic]:
     for marker in deck.of(Marker):
         placed = [f for f in ("qp", "reuler", "zp", "xp", "usexp") if marker.given(f)]
         if marker.floating and placed:
-            yield say(marker, "floating-placed", placed[0])
+            yield diagnose(marker, "floating-placed", placed[0])
 
 
 def _uses(statement: Statement) -> Iterator[tuple[str, Key]]:
@@ -170,12 +172,12 @@ def floating_use(deck: Deck) -> Iterator[Diagnostic]:
     for force in _following(deck):
         if force.jfloat is not None and force.jfloat not in floating:
             if deck.find(Marker, force.jfloat):
-                yield say(force, "not-floating", "jfloat", key=force.jfloat)
+                yield diagnose(force, "not-floating", "jfloat", key=force.jfloat)
     for statement in deck.statements if floating else ():
         for field, key in _uses(statement):
             if key in floating and field != "jfloat":
                 word = statement.arguments[field].key
-                yield say(statement, "floating-misused", field, word=word, key=key)
+                yield diagnose(statement, "floating-misused", field, word=word, key=key)
 
 
 @needs(*FOLLOWING, "PTCV", "CVCV")
@@ -183,7 +185,7 @@ def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
     used = {each.jfloat for each in (*_following(deck), *deck.of(Ptcv))}
     for marker in deck.of(Marker):
         if marker.floating and marker.key not in used:
-            yield say(marker, "floating-unused")
+            yield diagnose(marker, "floating-unused")
 
 
 # ---- forces and constraints -------------------------------------------------------------------
@@ -192,15 +194,15 @@ def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
 def reactions(deck: Deck) -> Iterator[Diagnostic]:
     for force in _following(deck):
         if force.jfloat is None and force.j_part is None:
-            yield say(force, "no-reaction")
+            yield diagnose(force, "no-reaction")
         elif force.jfloat is not None and force.j_part is not None:
-            yield say(force, "two-reactions", "j_part")
+            yield diagnose(force, "two-reactions", "j_part")
     for single in deck.of(Sforce):
         target = None if single.j_part is None else ("PART", single.j_part)
         owner = body_of(deck, single.j)
         if target and owner and owner != target and not _is_ground(deck, target):
             word, label = _label(target), _label(owner)
-            yield say(single, "reaction-on-other-part", "j_part", word=word, owner=label)
+            yield diagnose(single, "reaction-on-other-part", "j_part", word=word, owner=label)
 
 
 def _following(deck: Deck) -> Iterator[Following]:
@@ -239,10 +241,10 @@ def distinct_ends(deck: Deck) -> Iterator[Diagnostic]:
             continue
         here, there = _ends(deck, each)
         if not isinstance(each, Joint | Following) and each.i == each.j:
-            yield say(each, "same-marker", "j")
+            yield diagnose(each, "same-marker", "j")
         elif here and here == there:
             code = "same-body" if isinstance(each, Joint | Following) else "internal-force"
-            yield say(each, code, "j", owner=_label(here))
+            yield diagnose(each, code, "j", owner=_label(here))
 
 
 def torques_on_points(deck: Deck) -> Iterator[Diagnostic]:
@@ -255,14 +257,14 @@ def torques_on_points(deck: Deck) -> Iterator[Diagnostic]:
             continue
         for owner in (body_of(deck, end) for end in ([each.i] if alone else [each.i, each.j])):
             if owner and owner[0] == POINT:
-                yield say(each, "torque-on-point", owner=_label(owner))
+                yield diagnose(each, "torque-on-point", owner=_label(owner))
 
 
 def wrenches_on_points(deck: Deck) -> Iterator[Diagnostic]:
     for each in (*_compliant(deck), *deck.of(Vtorque), *deck.of(Gforce)):
         for owner in _ends(deck, each):
             if owner and owner[0] == POINT:
-                yield say(each, "torque-on-point", owner=_label(owner))
+                yield diagnose(each, "torque-on-point", owner=_label(owner))
 
 
 def sections(deck: Deck) -> Iterator[Diagnostic]:
@@ -270,7 +272,7 @@ def sections(deck: Deck) -> Iterator[Diagnostic]:
         yield from positive(beam, "length", "area", "ixx", "iyy", "izz", "emodulus", "gmodulus")
     for each in (*deck.of(Beam), *deck.of(Field)):
         if each.given("cratio") and each.given("cmatrix"):
-            yield say(each, "two-dampings", "cmatrix")
+            yield diagnose(each, "two-dampings", "cmatrix")
 
 
 def frictions(deck: Deck) -> Iterator[Diagnostic]:
@@ -281,7 +283,7 @@ def frictions(deck: Deck) -> Iterator[Diagnostic]:
         )
         joint = deck.find(Joint, each.joint)
         if joint and joint.kind not in each.joints:
-            yield say(each, "friction-not-there", "joint", joint=joint.label, kind=joint.kind)
+            yield diagnose(each, "friction-not-there", "joint", joint=joint.label, kind=joint.kind)
         if joint and joint.kind in each.joints:
             yield from _stiction(each, joint)
 
@@ -294,11 +296,11 @@ def _stiction(friction: Friction, joint: Joint) -> Iterator[Diagnostic]:
         if not friction.sticks(joint):
             sliding = friction.effect == "SLIDING"
             reason = "EFFECT=SLIDING leaves stiction out" if sliding else creeps
-            yield say(friction, "no-effect", field, word=field.upper(), reason=reason)
+            yield diagnose(friction, "no-effect", field, word=field.upper(), reason=reason)
     elif friction.effect != "SLIDING":
         holds = joint.kind in friction.held
         hint = f"{field.upper()} lets it hold" if holds else creeps
-        yield say(friction, "friction-creeps", hint=hint)
+        yield diagnose(friction, "friction-creeps", hint=hint)
 
 
 def held_states(deck: Deck) -> Iterator[Diagnostic]:
@@ -309,7 +311,7 @@ def held_states(deck: Deck) -> Iterator[Diagnostic]:
     for state in deck.of(Diff):
         for field, reason in fields.items():
             if getattr(state, field):
-                yield say(state, "no-effect", field, word=field.upper(), reason=reason)
+                yield diagnose(state, "no-effect", field, word=field.upper(), reason=reason)
 
 
 def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:
@@ -321,23 +323,23 @@ def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:
         for field in fields[spring.kind]:
             if spring.given(field):
                 word, reason = field.upper(), f"the spring is {spring.kind}"
-                yield say(spring, "no-effect", field, word=word, reason=reason)
+                yield diagnose(spring, "no-effect", field, word=word, reason=reason)
 
 
 def reserved_names(deck: Deck) -> Iterator[Diagnostic]:
     for variable in deck.of(Variable):
         names = {str(variable.key), (variable.name or "").upper()}
         for word in names & set(RESERVED):
-            yield say(variable, "reserved-name", word=word)
+            yield diagnose(variable, "reserved-name", word=word)
 
 
 def requests(deck: Deck) -> Iterator[Diagnostic]:
     for request in deck.of(Request):
         expressions = any(function is not None for function in request.functions)
         if request.kind and expressions:
-            yield say(request, "two-requests", "kind", word=request.kind)
+            yield diagnose(request, "two-requests", "kind", word=request.kind)
         elif not expressions and (request.kind is None or request.i is None):
-            yield say(request, "empty-request")
+            yield diagnose(request, "empty-request")
 
 
 # ---- units and runs ---------------------------------------------------------------------------
@@ -348,7 +350,7 @@ def unit_system(deck: Deck) -> Iterator[Diagnostic]:
         named = [f for f in ("force", "mass", "length", "time") if units.given(f)]
         ways = [bool(named), units.given("system"), units.given("ucf")]
         if sum(ways) > 1:
-            yield say(units, "units-twice")
+            yield diagnose(units, "units-twice")
         elif 0 < len(named) < 4:
-            yield say(units, "units-incomplete", word=", ".join(named).upper())
+            yield diagnose(units, "units-incomplete", word=", ".join(named).upper())
         yield from positive(units, "ucf")

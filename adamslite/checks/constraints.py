@@ -8,7 +8,7 @@ from operator import ne
 
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import say
+from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.coupler import Coupler
 from adamslite.elements.curve import Curve
 from adamslite.elements.gear import Gear
@@ -56,11 +56,11 @@ def pairs(deck: Deck) -> Iterator[Diagnostic]:
     for each in found:
         here, there = _owner(deck, each.i), _owner(deck, each.j)
         if here and here == there:
-            yield say(each, "same-body", "j", owner=f"{here[0]}/{here[1]}")
+            yield diagnose(each, "same-body", "j", owner=f"{here[0]}/{here[1]}")
             continue
         points = [o for o in (here, there) if o and o[0] == POINT]
         if _holds_turns(each) and points and not (_turns(deck, here) or _turns(deck, there)):
-            yield say(each, "torque-on-point", owner=f"{points[0][0]}/{points[0][1]}")
+            yield diagnose(each, "torque-on-point", owner=f"{points[0][0]}/{points[0][1]}")
 
 
 def _holds_turns(element: Jprim | Motion | Ptcv) -> bool:
@@ -76,15 +76,15 @@ def joint_sizes(deck: Deck) -> Iterator[Diagnostic]:
             value = getattr(joint, field)
             if joint.kind == kind and not value:
                 word = "without " + field.upper() if value is None else f"with {field.upper()}=0"
-                yield say(joint, "joint-size", field, kind=kind, word=word)
+                yield diagnose(joint, "joint-size", field, kind=kind, word=word)
             elif joint.kind != kind and value is not None:
                 reason = f"only the joint {kind} has one"
-                yield say(joint, "no-effect", field, word=field.upper(), reason=reason)
+                yield diagnose(joint, "no-effect", field, word=field.upper(), reason=reason)
         free = len(joint.coordinates)
         for field, wanted in (("ic", 1), ("ictran", 2), ("icrot", 2)):
             if joint.given(field) and free != wanted:
                 reason = "IC is for joints with one freedom, ICTRAN and ICROT for CYLINDRICAL"
-                yield say(joint, "no-effect", field, word=field.upper(), reason=reason)
+                yield diagnose(joint, "no-effect", field, word=field.upper(), reason=reason)
 
 
 def couplers(deck: Deck) -> Iterator[Diagnostic]:
@@ -92,12 +92,14 @@ def couplers(deck: Deck) -> Iterator[Diagnostic]:
         joints = [deck.find(Joint, key) for key in coupler.joints]
         count = len(joints)
         if count not in (2, 3):
-            yield say(coupler, "coupled-count", "joints", count=count, expected="two or three")
+            yield diagnose(coupler, "coupled-count", "joints", count=count, expected="two or three")
             continue
         if len(coupler.scales) not in (count - 1, count):
-            yield say(coupler, "scale-count", "scales", count=len(coupler.scales), joints=count)
+            yield diagnose(
+                coupler, "scale-count", "scales", count=len(coupler.scales), joints=count
+            )
         if coupler.type and len(coupler.type) != count:
-            yield say(coupler, "type-count", "type", count=len(coupler.type), joints=count)
+            yield diagnose(coupler, "type-count", "type", count=len(coupler.type), joints=count)
             continue
         for number, joint in enumerate(joints):
             if joint is not None:
@@ -108,26 +110,30 @@ def _coupled(coupler: Coupler, number: int, joint: Joint) -> Iterator[Diagnostic
     if coupler.uses(number, joint.coordinates) is not None:
         return
     if joint.kind == "CYLINDRICAL":
-        yield say(coupler, "freedom-unclear", "joints", joint=joint.label, hint="give TYPE=T or R")
+        yield diagnose(
+            coupler, "freedom-unclear", "joints", joint=joint.label, hint="give TYPE=T or R"
+        )
     else:
         field = "type" if coupler.type and joint.coordinates else "joints"
-        yield say(coupler, "no-such-freedom", field, joint=joint.label, kind=joint.kind)
+        yield diagnose(coupler, "no-such-freedom", field, joint=joint.label, kind=joint.kind)
 
 
 def gears(deck: Deck) -> Iterator[Diagnostic]:
     for gear in deck.of(Gear):
         if len(gear.joints) != 2:
             count = len(gear.joints)
-            yield say(gear, "coupled-count", "joints", count=count, expected="two")
+            yield diagnose(gear, "coupled-count", "joints", count=count, expected="two")
             continue
         carrier = _owner(deck, gear.cv)
         for key in gear.joints:
             joint = deck.find(Joint, key)
             if joint and not joint.coordinates:
-                yield say(gear, "no-such-freedom", "joints", joint=joint.label, kind=joint.kind)
+                yield diagnose(
+                    gear, "no-such-freedom", "joints", joint=joint.label, kind=joint.kind
+                )
             elif joint and carrier and _owner(deck, joint.j) not in (carrier, None):
                 owner = f"{carrier[0]}/{carrier[1]}"
-                yield say(gear, "not-on-carrier", "cv", joint=joint.label, owner=owner)
+                yield diagnose(gear, "not-on-carrier", "cv", joint=joint.label, owner=owner)
 
 
 def driven_freedoms(deck: Deck) -> Iterator[Diagnostic]:
@@ -143,11 +149,11 @@ def driven_freedoms(deck: Deck) -> Iterator[Diagnostic]:
         word = {"TRANSLATION": "Z", "ROTATION": "B3"}.get(freedom or "", freedom)
         other = taken.setdefault((*place, word), motion)
         if other is not motion:
-            yield say(motion, "motion-twice", other=other.label, freedom=freedom)
+            yield diagnose(motion, "motion-twice", other=other.label, freedom=freedom)
         for holder in deck.of(Joint) if joint is None else ():
             held = HELD.get(holder.kind, ())
             if (holder.i, holder.j) == place and freedom in held:
-                yield say(motion, "freedom-held", "axis", joint=holder.label, freedom=freedom)
+                yield diagnose(motion, "freedom-held", "axis", joint=holder.label, freedom=freedom)
 
 
 def _form(deck: Deck, motion: Motion) -> Iterator[Diagnostic]:
@@ -155,21 +161,21 @@ def _form(deck: Deck, motion: Motion) -> Iterator[Diagnostic]:
     markers = [f for f in ("i", "j") if motion.given(f)]
     if motion.joint is None:
         if len(markers) < 2:
-            yield say(motion, "motion-nowhere")
+            yield diagnose(motion, "motion-nowhere")
         elif motion.driven(None) is None:
-            yield say(motion, "motion-no-axis", "axis")
+            yield diagnose(motion, "motion-no-axis", "axis")
         return
     if markers:
-        yield say(motion, "motion-two-ways", markers[0])
+        yield diagnose(motion, "motion-two-ways", markers[0])
     joint = deck.find(Joint, motion.joint)
     if joint is None or motion.driven(joint) is not None:
         return
     if joint.kind == "CYLINDRICAL" and motion.axis is None:
         hint = "give TRANSLATION or ROTATION"
-        yield say(motion, "freedom-unclear", "joint", joint=joint.label, hint=hint)
+        yield diagnose(motion, "freedom-unclear", "joint", joint=joint.label, hint=hint)
     else:
         field = "axis" if motion.axis and joint.coordinates else "joint"
-        yield say(motion, "no-such-freedom", field, joint=joint.label, kind=joint.kind)
+        yield diagnose(motion, "no-such-freedom", field, joint=joint.label, kind=joint.kind)
 
 
 @needs("VARIABLE")
@@ -177,7 +183,7 @@ def functions_of_time(deck: Deck) -> Iterator[Diagnostic]:
     for motion in deck.of(Motion):
         culprit = _not_of_time(deck, motion.function, ())
         if culprit:
-            yield say(motion, "motion-not-of-time", "function", word=culprit)
+            yield diagnose(motion, "motion-not-of-time", "function", word=culprit)
 
 
 def _not_of_time(deck: Deck, node: Node, inside: tuple[Key, ...]) -> str | None:
@@ -209,22 +215,22 @@ def motion_starts(deck: Deck) -> Iterator[Diagnostic]:
         for field in ("icdisp", "icvel"):
             if motion.given(field) and field not in used[motion.level]:
                 reason = f"FUNCTION gives the {motion.level.lower()}"
-                yield say(motion, "no-effect", field, word=field.upper(), reason=reason)
+                yield diagnose(motion, "no-effect", field, word=field.upper(), reason=reason)
 
 
 def matrices(deck: Deck) -> Iterator[Diagnostic]:
     for matrix in deck.of(Matrix):
         count, expected = len(matrix.values), matrix.rows * matrix.columns
         if count != expected:
-            yield say(matrix, "matrix-size", "values", count=count, expected=expected)
+            yield diagnose(matrix, "matrix-size", "values", count=count, expected=expected)
 
 
 def curves(deck: Deck) -> Iterator[Diagnostic]:
     for curve in deck.of(Curve):
         if curve.order != CUBIC:
-            yield say(curve, "curve-order", "order", order=curve.order)
+            yield diagnose(curve, "curve-order", "order", order=curve.order)
         if curve.matrix is None:
-            yield say(curve, "missing-argument", word="MATRIX")
+            yield diagnose(curve, "missing-argument", word="MATRIX")
             continue
         matrix = deck.find(Matrix, curve.matrix)
         if matrix and len(matrix.values) == matrix.rows * matrix.columns:
@@ -237,11 +243,11 @@ def _points(curve: Curve, matrix: Matrix) -> Iterator[Diagnostic]:
     points, least = matrix.table, 4 if closed else 2
     different = 1 + sum(map(ne, points, points[1:]))
     if matrix.columns != 3 or different < least:
-        yield say(curve, "curve-points", "matrix", matrix=matrix.label, least=least)
+        yield diagnose(curve, "curve-points", "matrix", matrix=matrix.label, least=least)
     elif closed:
         gap = dist(points[0], points[-1])
         if gap > SEAM * max(dist(points[0], point) for point in points):
-            yield say(curve, "curve-open", "matrix", matrix=matrix.label, gap=f"{gap:.3g}")
+            yield diagnose(curve, "curve-open", "matrix", matrix=matrix.label, gap=f"{gap:.3g}")
 
 
 def floating_markers(deck: Deck) -> Iterator[Diagnostic]:
@@ -249,7 +255,9 @@ def floating_markers(deck: Deck) -> Iterator[Diagnostic]:
         floats, lies = _owner(deck, each.jfloat), _owner(deck, each.j)
         if floats and lies and floats != lies:
             owner = f"{floats[0]}/{floats[1]}"
-            yield say(each, "foreign-marker", "jfloat", word="JFLOAT", key=each.jfloat, owner=owner)
+            yield diagnose(
+                each, "foreign-marker", "jfloat", word="JFLOAT", key=each.jfloat, owner=owner
+            )
 
 
 CONSTRAINT_RULES: list[Rule] = [

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import hypot
 
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import say
+from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.joint import Joint
 from adamslite.elements.jprim import Jprim
 from adamslite.elements.marker import Marker
@@ -33,20 +33,20 @@ def orientations(deck: Deck) -> Iterator[Diagnostic]:
         for each in deck.of(keyword):
             points = [field for field in (along, plane) if each.given(field)]
             if points and each.given("reuler"):
-                yield say(each, "orientation-twice", points[0])
+                yield diagnose(each, "orientation-twice", points[0])
                 continue
             first = plane if getattr(each, "usexp", False) else along
             if (points or first == "xp") and not each.given(first):
-                yield say(each, "orientation-incomplete", word=f"add {first.upper()}=")
+                yield diagnose(each, "orientation-incomplete", word=f"add {first.upper()}=")
             origin = (each.qp if keyword == "MARKER" else each.qg) or (0.0, 0.0, 0.0)
             ways = {f: _minus(getattr(each, f), origin) for f in points}
             nowhere = [field for field in points if not any(ways[field])]
             for field in nowhere:
-                yield say(each, "orientation-nowhere", field, word=field.upper())
+                yield diagnose(each, "orientation-nowhere", field, word=field.upper())
             if len(points) == 2 and not nowhere and _parallel(*ways.values()):
                 field = plane if first == along else along
                 words = {"word": field.upper(), "other": first.upper(), "axis": first[0]}
-                yield say(each, "orientation-flat", field, **words)
+                yield diagnose(each, "orientation-flat", field, **words)
 
 
 def _minus(a: Sequence[float], b: Sequence[float]) -> tuple[float, ...]:
@@ -94,7 +94,7 @@ def inertia_at_mass_centre(deck: Deck) -> Iterator[Diagnostic]:
         body = model.bodies[model.body_index["PART", part.key]]
         reason = no_body((eigvalsh(body.inertia) * deck.ucf).tolist())
         if reason:
-            yield say(part, "bad-inertia", "ip", reason=reason)
+            yield diagnose(part, "bad-inertia", "ip", reason=reason)
 
 
 def facing_markers(deck: Deck) -> Iterator[Diagnostic]:
@@ -116,7 +116,9 @@ def facing_markers(deck: Deck) -> Iterator[Diagnostic]:
         ]
         if found:
             axes, kind = " and ".join(found), joint.kind
-            yield say(joint, "markers-opposed", "i", kind=kind, i=joint.i, j=joint.j, axes=axes)
+            yield diagnose(
+                joint, "markers-opposed", "i", kind=kind, i=joint.i, j=joint.j, axes=axes
+            )
 
 
 def _is_turned(deck: Deck, joint: Joint | Jprim) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import say
+from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.statement import Statement
 
@@ -36,4 +36,4 @@ def positive(statement: Statement, *fields: str) -> Iterator[Diagnostic]:
     for field in fields:
         value = getattr(statement, field)
         if value is not None and value <= 0:
-            yield say(statement, "not-positive", field, word=field.upper())
+            yield diagnose(statement, "not-positive", field, word=field.upper())

@@ -9,7 +9,7 @@ from typing import Any
 from adamslite.checks.rule import Rule, positive
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition
-from adamslite.deck.statement_diagnostics import say
+from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.activate import Activate
 from adamslite.elements.deactivate import Deactivate
 from adamslite.elements.equilibrium import Equilibrium
@@ -37,15 +37,15 @@ def integrator_values(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.of(Integrator):
         yield from positive(each, "error", "hmax", "hmin", "hinit", "kmax", "maxit")
         if each.alpha is not None and not -1 / 3 - ROUNDED <= each.alpha <= 0:
-            yield say(each, "out-of-range", "alpha", word="ALPHA", low="-1/3", high="0")
+            yield diagnose(each, "out-of-range", "alpha", word="ALPHA", low="-1/3", high="0")
         if each.hmin is not None and each.hmax is not None and each.hmin > each.hmax:
-            yield say(each, "steps-disordered", "hmin")
+            yield diagnose(each, "steps-disordered", "hmin")
         if any(factor <= 0 for factor in each.scale):
-            yield say(each, "not-positive", "scale", word="SCALE")
+            yield diagnose(each, "not-positive", "scale", word="SCALE")
         elif each.scale and each.method and method_of(each.method).uses("SCALE"):
-            yield say(each, "scale-order", "scale")
+            yield diagnose(each, "scale-order", "scale")
         if each.formulation == "SI1":
-            yield say(each, "solved-as", "formulation", word="SI1", other="SI2")
+            yield diagnose(each, "solved-as", "formulation", word="SI1", other="SI2")
 
 
 def idle_integrator_arguments(deck: Deck) -> Iterator[Diagnostic]:
@@ -59,14 +59,14 @@ def idle_integrator_arguments(deck: Deck) -> Iterator[Diagnostic]:
             yield _idle(each, given[word], word, reason)
         own = methods().get(method)
         if own and own.uses("KMAX") and each.kmax is not None and each.kmax > own.order:
-            yield say(each, "order-limited", "kmax", word=each.kmax, highest=own.order)
+            yield diagnose(each, "order-limited", "kmax", word=each.kmax, highest=own.order)
 
 
 def iteration_values(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.of(Equilibrium):
         yield from positive(each, "alimit", "error", "imbalance", "maxit", "tlimit")
         if each.stability < 0:
-            yield say(each, "negative", "stability", word="STABILITY")
+            yield diagnose(each, "negative", "stability", word="STABILITY")
     for solver in deck.of(Kinematics):
         yield from positive(solver, "alimit", "error", "aerror", "maxit", "tlimit")
 
@@ -84,18 +84,18 @@ def simulation_times(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def _idle(statement: Statement, field: str, word: str, reason: str) -> Diagnostic:
-    return say(statement, "no-effect", field, word=word, reason=reason)
+    return diagnose(statement, "no-effect", field, word=word, reason=reason)
 
 
 def _span_of_time(run: Simulate) -> Iterator[Diagnostic]:
     if run.end is None and run.duration is None:
-        yield say(run, "no-end")
+        yield diagnose(run, "no-end")
     elif run.end is not None and run.duration is not None:
-        yield say(run, "two-ends", "duration")
+        yield diagnose(run, "two-ends", "duration")
     elif run.steps is None and run.dtout is None:
-        yield say(run, "no-output-step")
+        yield diagnose(run, "no-output-step")
     elif run.steps is not None and run.dtout is not None:
-        yield say(run, "two-output-steps", "dtout")
+        yield diagnose(run, "two-output-steps", "dtout")
     else:
         yield from _not_too_many(run)
 
@@ -107,7 +107,7 @@ def _not_too_many(run: Simulate) -> Iterator[Diagnostic]:
     count = output_steps(run.until(0.0), run.steps, run.dtout)
     if count > MOST_STEPS:
         field = "dtout" if run.steps is None else "steps"
-        yield say(run, "too-many-steps", field, count=float(count), most=float(MOST_STEPS))
+        yield diagnose(run, "too-many-steps", field, count=float(count), most=float(MOST_STEPS))
 
 
 def late_start_values(command: Redefinition[Any]) -> Iterator[Diagnostic]:
@@ -119,7 +119,7 @@ def late_start_values(command: Redefinition[Any]) -> Iterator[Diagnostic]:
                 "the model continues from the state that it has reached",
                 argument.keys[0],
             )
-            yield say(command, "no-effect", field, word=word, reason=reason)
+            yield diagnose(command, "no-effect", field, word=word, reason=reason)
 
 
 def ends_in_order(deck: Deck) -> Iterator[Diagnostic]:
@@ -131,7 +131,7 @@ def ends_in_order(deck: Deck) -> Iterator[Diagnostic]:
             continue
         end = each.until(time)
         if each.duration is None and end <= time:
-            yield say(each, "end-not-later", "end", end=f"{end:g}", time=f"{time:g}")
+            yield diagnose(each, "end-not-later", "end", end=f"{end:g}", time=f"{time:g}")
         time = max(time, end)
 
 
@@ -140,25 +140,25 @@ def switched_elements(deck: Deck) -> Iterator[Diagnostic]:
         if not isinstance(each, Activate | Deactivate):
             continue
         if each.kind not in STATEMENTS:
-            yield say(each, "planned-statement", "kind", word=each.kind, times="")
+            yield diagnose(each, "planned-statement", "kind", word=each.kind, times="")
             continue
         if not each.ids and each.range is None:
-            yield say(each, "missing-argument", word="ID", hint="ID=1,2 or RANGE=first,last")
+            yield diagnose(each, "missing-argument", word="ID", hint="ID=1,2 or RANGE=first,last")
         for key in each.ids:
             yield from _missing(deck, each, key)
         if each.range and not each.elements(deck.names):
             low, high = map(int, each.range)
-            yield say(each, "empty-range", "range", kind=each.kind, low=low, high=high)
+            yield diagnose(each, "empty-range", "range", kind=each.kind, low=low, high=high)
 
 
 def _missing(deck: Deck, switch: Activate | Deactivate, key: Key) -> Iterator[Diagnostic]:
     found = deck.names.find(switch.kind, key)
     if isinstance(found, list):
         labels = ", ".join(f"{switch.kind}/{each}" for each in found[:5])
-        yield say(switch, "ambiguous-name", "ids", word=key, labels=labels)
+        yield diagnose(switch, "ambiguous-name", "ids", word=key, labels=labels)
     elif found is None:
         hint = did_you_mean(str(key), deck.names.known(switch.kind))
-        yield say(switch, "missing-reference", "ids", kind=switch.kind, key=key, hint=hint)
+        yield diagnose(switch, "missing-reference", "ids", kind=switch.kind, key=key, hint=hint)
 
 
 def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
@@ -175,10 +175,10 @@ def file_names(deck: Deck) -> Iterator[Diagnostic]:
         if each.file is None or each.kind == "EIGENSOL":
             continue
         if not FILE_NAME.fullmatch(each.file) or not each.file.isprintable():
-            yield say(each, "not-a-file-name", "file", word=each.file or '""')
+            yield diagnose(each, "not-a-file-name", "file", word=each.file or '""')
         elif each.file.casefold() in known:
             what = "that of an earlier LINEAR"
-            yield say(each, "file-taken", "file", word=each.file, what=what)
+            yield diagnose(each, "file-taken", "file", word=each.file, what=what)
         known.add(each.file.casefold())
 
 
@@ -192,7 +192,7 @@ def inputs_with_rates(deck: Deck, commands: Iterable[Statement]) -> Iterator[Dia
             user = _taker_of_rate(deck, key)
             if user is not None:
                 word = f"VARIABLE/{key}"
-                yield say(command, "input-rate", "pinput", word=word, user=user.label)
+                yield diagnose(command, "input-rate", "pinput", word=word, user=user.label)
 
 
 def _taker_of_rate(deck: Deck, key: Key) -> Statement | None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import say
+from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.spline import Spline
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Num, Ref, calls, fold
@@ -18,13 +18,13 @@ FITS = ("AKISPL", "CUBSPL")
 def spline_points(deck: Deck) -> Iterator[Diagnostic]:
     for spline in deck.of(Spline):
         if not spline.y:
-            yield say(spline, "missing-argument", word="Y", hint="Y: values at X")
+            yield diagnose(spline, "missing-argument", word="Y", hint="Y: values at X")
         yield from _ascending(spline, "x", spline.x)
         counts = [len(row) for row in spline.y]
         expected = len(spline.x) + spline.family
         wrong = next((count for count in counts if count != expected), None)
         if wrong is not None:
-            yield say(spline, "spline-length", "y", count=wrong, expected=expected)
+            yield diagnose(spline, "spline-length", "y", count=wrong, expected=expected)
         elif spline.family:
             yield from _ascending(spline, "y", spline.places)
 
@@ -34,7 +34,9 @@ def _ascending(spline: Spline, field: str, values: Sequence[float]) -> Iterator[
     for low, high in zip(values, values[1:], strict=False):
         if not low < high:
             word = "z" if field == "y" else "X"
-            yield say(spline, "not-ascending", field, word=word, low=f"{low:g}", high=f"{high:g}")
+            yield diagnose(
+                spline, "not-ascending", field, word=word, low=f"{low:g}", high=f"{high:g}"
+            )
             return
 
 
@@ -53,11 +55,11 @@ def _misfit(deck: Deck, statement: Statement, field: str, call: Call) -> Iterato
     if spline is None:
         return
     if spline.family and call.name == "INTERP":
-        yield say(statement, "spline-family", field, word=call.name, spline=spline.label)
+        yield diagnose(statement, "spline-family", field, word=call.name, spline=spline.label)
     elif spline.family and isinstance(order, Num) and order.value:
-        yield say(statement, "family-derivative", field, word=call.name, spline=spline.label)
+        yield diagnose(statement, "family-derivative", field, word=call.name, spline=spline.label)
     elif not spline.family and call.name in FITS and fold(second) != 0.0:
-        yield say(statement, "spline-curve", field, word=call.name, spline=spline.label)
+        yield diagnose(statement, "spline-curve", field, word=call.name, spline=spline.label)
 
 
 TABLE_RULES: list[Rule] = [spline_points, spline_calls]

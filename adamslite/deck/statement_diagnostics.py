@@ -10,7 +10,7 @@ from adamslite.language.messages import compose
 from adamslite.language.statement import Statement
 
 
-def say(
+def diagnose(
     statement: Statement | Redefinition[Any],
     code: str,
     field: str = "",

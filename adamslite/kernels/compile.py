@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING, Any
 
 from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
-from adamslite.deck.statement_diagnostics import say
+from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.bases.constraint import Constraint
-from adamslite.gc_pause import uncollected
+from adamslite.gc_pause import without_collection
 from adamslite.kernels.binding import Binder, Binding, ForceLoop
 from adamslite.kernels.reactions import reactions
 from adamslite.kernels.reader import ExpressionReader, symbolic_view
@@ -83,7 +83,7 @@ def compile_model(
     groups: dict[Tree, ShapeGroup] = {}
     add = partial(_add, groups, model, speed=speed)
     outputs = []
-    with uncollected():
+    with without_collection():
         for statement in model.deck.statements:
             for face in faces(statement, model):
                 add(statement, face)
@@ -125,7 +125,7 @@ def _add(
     try:
         fields, own = _bound(binder, statement, face)
     except ForceLoop as loop:
-        raise DeckError([say(statement, "force-loop", other=str(loop))], model.deck) from None
+        raise DeckError([diagnose(statement, "force-loop", other=str(loop))], model.deck) from None
     held = (statement.keyword, statement.key) in model.held
     rate = held and isinstance(statement, Constraint) and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
@@ -273,7 +273,7 @@ def _no_rate(group: ShapeGroup, fault: UndefinedRate) -> Diagnostic:
         circular = label.startswith("VARIABLE")
         what = f"{label}, which depends on itself" if circular else f"a reaction of {label}"
         what = f"the rate of {label}" if kind == "dif1" else what
-    return say(group.instances[0][0], "no-rate", what=what)
+    return diagnose(group.instances[0][0], "no-rate", what=what)
 
 
 def _entry_points(group: ShapeGroup) -> list[str]:

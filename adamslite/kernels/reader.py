@@ -95,7 +95,7 @@ def symbolic_view(
     cls = STATEMENTS[keyword]
     values = {name: scope.read(tree) for name, tree in fields}
 
-    def anew() -> View:
+    def moving_view() -> View:
         """The same view read where everything moves."""
         read = ExpressionReader(scope, n_bodies)
         return View(cls, {name: read(tree) for name, tree in fields}, own)
@@ -104,4 +104,4 @@ def symbolic_view(
         own = [scope.symbol(kind, n_bodies + node) for kind in ("dif", "dif1")]
     else:
         own = [scope.symbol("z", n_bodies + node, c) for c in range(width)] if node >= 0 else []
-    return View(cls, values, own, anew)
+    return View(cls, values, own, moving_view)

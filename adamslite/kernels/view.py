@@ -18,12 +18,12 @@ class View:
         cls: Physics,
         fields: dict[str, Read],
         unknowns: list[Symbol],
-        anew: Callable[[], View] | None = None,
+        moving_view: Callable[[], View] | None = None,
     ) -> None:
         self.__dict__.update(fields)
         self.cls = cls
         self.unknowns = unknowns
-        self.anew = anew
+        self.moving_view = moving_view
 
     if TYPE_CHECKING:
 
@@ -35,7 +35,7 @@ class View:
         if hasattr(self.cls, "loads"):
             return self.cls.loads(self, scope)
         with scope.everything_moves():
-            view = self.anew() if self.anew else self
+            view = self.moving_view() if self.moving_view else self
             return reactions(view.cls.constraints(view, scope), view.unknowns, scope)
 
     def side(self, jflag: int) -> tuple[int | None, int | None]:

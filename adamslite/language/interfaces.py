@@ -57,5 +57,5 @@ class DrawnModel(Protocol):
     def variable(self, variable_id: Key) -> Any:
         """The VARIABLE of that id."""
 
-    def once(self, what: Hashable, worked_out: Callable[[], T]) -> T:
+    def once(self, what: Hashable, compute: Callable[[], T]) -> T:
         """Values that are computed for this model when they are first needed."""

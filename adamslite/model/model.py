@@ -93,10 +93,10 @@ class Model:
         self.constraints = sorted(found, key=lambda s: s.is_rate(self))
         self.held = {(s.keyword, s.key) for s in self.constraints}
 
-    def once(self, what: Hashable, worked_out: Callable[[], T]) -> T:
+    def once(self, what: Hashable, compute: Callable[[], T]) -> T:
         """Values that are computed for this model when they are first needed."""
         if what not in self.known:
-            self.known[what] = worked_out()
+            self.known[what] = compute()
         return self.known[what]
 
     # bodies and markers

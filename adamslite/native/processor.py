@@ -56,10 +56,10 @@ def _told_by_system() -> str:
         first, _, _ = CPUINFO.read_text().partition("\n\n")
     except OSError:
         return ""
-    told = dict(map(str.strip, line.partition(":")[::2]) for line in first.splitlines())
-    if not all(told.get(fact) for fact in facts):
+    values = dict(map(str.strip, line.partition(":")[::2]) for line in first.splitlines())
+    if not all(values.get(fact) for fact in facts):
         return ""
-    return " ".join([os.uname().machine, str(sys.maxsize), *(told[fact] for fact in facts)])
+    return " ".join([os.uname().machine, str(sys.maxsize), *(values[fact] for fact in facts)])
 
 
 def _told_by_llvm() -> str:

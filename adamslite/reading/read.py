@@ -12,7 +12,7 @@ from adamslite.checks.runs import RUN_RULES, inputs_with_rates, late_start_value
 from adamslite.deck.deck import ANALYSES, Deck
 from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
-from adamslite.gc_pause import uncollected
+from adamslite.gc_pause import without_collection
 from adamslite.language.diagnostics import DeckError, Diagnostic, Source
 from adamslite.language.statement import Statement
 from adamslite.reading.statement_reader import Reading
@@ -44,7 +44,7 @@ def read(source: str | Path) -> Deck:
     title = text[:end_of_title]
     reading = Reading(Source(text, str(path or "<text>")), Names(), "deck")
     reading.title(title)
-    with uncollected():
+    with without_collection():
         read = reading.statements(end_of_title)
         statements = tuple(each for each in read if isinstance(each, Statement))  # all of them
         deck = Deck(reading.log.source, title, statements, reading.names, path)

@@ -70,7 +70,7 @@ class Balance:
         wrong = "; ".join(self.warnings())
         if wrong:
             return f"WARNING: {wrong}"
-        told = f"balance closes to {self.gap:.1e} of {self.energy:.3g}"
+        text = f"balance closes to {self.gap:.1e} of {self.energy:.3g}"
         if self.momenta:
-            told += ", momenta are kept to {:.1e} and {:.1e}".format(*(d for d, _ in self.momenta))
-        return told
+            text += ", momenta are kept to {:.1e} and {:.1e}".format(*(d for d, _ in self.momenta))
+        return text

@@ -71,10 +71,12 @@ class Confirmation:
             worst = min((c.digits for c in self.channels), default=MOST_DIGITS)
             return f"confirmed by {' and '.join(self.witnesses)}: {worst:.1f} digits or more agree"
         apart = sorted((c for c in self.channels if not c.agrees), key=lambda c: c.digits)
-        told = [f"{c.name} may be off by {c.bound:.2g} of {c.size:.3g}" for c in apart[:MOST_NAMED]]
+        texts = [
+            f"{c.name} may be off by {c.bound:.2g} of {c.size:.3g}" for c in apart[:MOST_NAMED]
+        ]
         if len(apart) > MOST_NAMED:
-            told.append(f"and {len(apart) - MOST_NAMED} more")
-        return f"NOT CONFIRMED: {'; '.join([*self.objections, *told])}"
+            texts.append(f"and {len(apart) - MOST_NAMED} more")
+        return f"NOT CONFIRMED: {'; '.join([*self.objections, *texts])}"
 
     def table(self) -> str:
         """Digits and bound of every channel, a line each."""

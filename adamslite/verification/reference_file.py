@@ -69,7 +69,7 @@ class Reference:
         allowed = [tolerance for pattern, tolerance in self.tolerances if fits(pattern, name)]
         return allowed[-1] if allowed else None
 
-    def untold(self) -> list[str]:
+    def without_tolerance(self) -> list[str]:
         """Return the channels of the table that no tolerance line fits."""
         return [name for name in self.table.names if self.tolerance_of(name) is None]
 

@@ -154,8 +154,8 @@ def _judge_safely(case: Case, run: Run) -> Verdict:
 
 def _judge(case: Case, run: Run) -> Verdict:
     reference = read_reference(case.reference)
-    if untold := reference.untold():
-        raise FormatError(f"no '# tolerance:' line fits the column '{untold[0]}'")
+    if missing := reference.without_tolerance():
+        raise FormatError(f"no '# tolerance:' line fits the column '{missing[0]}'")
     if case.deck is None:
         raise FormatError("its folder does not have exactly one deck for this reference file name")
     results = run(case.deck, reference.options)

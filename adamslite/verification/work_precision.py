@@ -164,25 +164,25 @@ def variants() -> list[Variant]:
 class Patience(Progress):
     """Ends a run that takes more than ``seconds`` of CPU."""
 
-    def __init__(self, seconds: float, told: Progress | None = None) -> None:
-        self.seconds, self.told, self.over = seconds, told or Progress(), False
+    def __init__(self, seconds: float, progress: Progress | None = None) -> None:
+        self.seconds, self.progress, self.over = seconds, progress or Progress(), False
         self._start = clock.process_time()
 
     def __call__(self, time: float, end: float) -> None:
-        self.told(time, end)
+        self.progress(time, end)
         if clock.process_time() - self._start > self.seconds:
             self.over = True
             raise KeyboardInterrupt
 
     def say(self, sentence: str) -> None:
-        self.told.say(sentence)
+        self.progress.say(sentence)
 
 
-def patient(run: Run, seconds: float, told: Progress | None = None) -> Run:
+def patient(run: Run, seconds: float, progress: Progress | None = None) -> Run:
     """``run`` that gives up after ``seconds`` of CPU; a user's own interruption is passed on."""
 
     def runs(**options: Any) -> Results:
-        patience = Patience(seconds, told)
+        patience = Patience(seconds, progress)
         results = run(progress=patience, **options)
         if results.outcome is not Outcome.INTERRUPTED:
             return results
@@ -213,23 +213,23 @@ def find_truth(run: Run, tried: Iterable[Variant], channels: Sequence[str] = ())
         When there is nothing to compare.
     """
     done: list[Tight] = []
-    told: list[str] = []
+    failures: list[str] = []
     for variant in tried:
         if method_of(variant.integrator).order <= TOO_LOW:
             continue
         try:
             tight, less = (run(error=error, **variant.options) for error in (TIGHT, LESS_TIGHT))
         except UsageError as refusal:
-            told.append(str(refusal))
+            failures.append(str(refusal))
             continue
         if tight.outcome is Outcome.DONE is less.outcome:
             _need_something(tight, channels)
             done.append(Tight(variant, tight, error_of(less, tight, channels)))
         else:
             why = tight.message or less.message or Outcome.NOT_FINITE.value
-            told.append(f"{variant.label} ERROR={TIGHT:g}: {why}")
+            failures.append(f"{variant.label} ERROR={TIGHT:g}: {why}")
     if not done:
-        raise RunFailed(f"there is no reference to chart against. {' '.join(told)}")
+        raise RunFailed(f"there is no reference to chart against. {' '.join(failures)}")
     best, *others = sorted(done, key=lambda each: each.change)
     return _checked(best, others, channels)
 
@@ -244,17 +244,17 @@ def _checked(best: Tight, others: Sequence[Tight], channels: Sequence[str]) -> T
     own = method_of(best.variant.integrator).family
     rivals = [o for o in others if method_of(o.variant.integrator).family != own] or others
     if not rivals:
-        told = f"{name}, which no other method checks"
-        return Truth(best.results, best.change or inf, told)
+        origin = f"{name}, which no other method checks"
+        return Truth(best.results, best.change or inf, origin)
     apart = [(error_of(o.results, best.results, channels), o) for o in rivals]
     for distance, other in apart:
         if distance <= EXPLAINED * max(other.change, best.change, ROUNDING):
-            told = f"{name}; {other.variant.label} agrees within {distance:.1e}"
+            origin = f"{name}; {other.variant.label} agrees within {distance:.1e}"
             # No change at all: HMAX decides on the steps, and ERROR says nothing of them.
-            return Truth(best.results, best.change or distance, told)
+            return Truth(best.results, best.change or distance, origin)
     distance, other = min(apart, key=lambda pair: pair[0])
-    told = f"{name}; {other.variant.label} disagrees"
-    return Truth(best.results, distance, told)
+    origin = f"{name}; {other.variant.label} disagrees"
+    return Truth(best.results, distance, origin)
 
 
 def _need_something(results: Results, channels: Sequence[str]) -> None:

@@ -175,8 +175,8 @@ class FirstOrder:
         # Least squares: multipliers of redundant rows are not determined.
         solved = np.linalg.lstsq(left, np.hstack([right, pushes[rows]]), rcond=None)[0]
         first = np.hstack([rates.now, np.zeros((f, len(ports.inputs)))])
-        told = [g + k - n for k in ports.outputs]
-        return np.vstack([first, solved[:g], solved[len(solved) - system.ns :], solved[told]])
+        outputs = [g + k - n for k in ports.outputs]
+        return np.vstack([first, solved[:g], solved[len(solved) - system.ns :], solved[outputs]])
 
     def _acceleration_by_y(self) -> np.ndarray:
         """Q'' - W Q' - W' Q."""

@@ -147,18 +147,18 @@ def _table(chart: "Chart") -> str:
 
 def _verdict(chart: "Chart", digits: int) -> str:
     truth = chart.truth
-    told = f"reference: {truth.origin}; known to {truth.doubt:.1e}\n"
+    header = f"reference: {truth.origin}; known to {truth.doubt:.1e}\n"
     if chart.useless:
         return (
-            told + "no recommendation: even tight runs do not agree, so no error above can be "
+            header + "no recommendation: even tight runs do not agree, so no error above can be "
             "trusted. The scene may amplify every error (a shorter --end shows), or jump.\n"
         )
     best = chart.recommended(digits)
     if best:
-        return f"{told}recommended: {_named(best)}\n"
+        return f"{header}recommended: {_named(best)}\n"
     good = [p for p in chart.points if p.ok]
     nearest = min(good, key=lambda p: (p.error, p.median), default=None)
-    return told + (
+    return header + (
         f"no run has {digits} digits; nearest: {_named(nearest)}\n" if nearest
         else "no run reached its end\n"
     )  # fmt: skip
