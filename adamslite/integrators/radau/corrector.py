@@ -8,26 +8,19 @@ Reference: Hairer, Wanner, Solving ODE II, 1996, section IV.8 (stopping criterio
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.events.guards import let_go
-from adamslite.integrators.failure_notes import note_trouble
-from adamslite.integrators.implicit.failures import wildest
-from adamslite.integrators.implicit.step_size import retry_factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.newton import ROUND_OFF, renews
 from adamslite.integrators.radau.coefficients import REAL
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.stages import (
     ORIGIN,
-    equations_kept,
     move_stages,
-    put_stage,
     radau_jacobian,
     radau_matrices,
     stage_increments,
     stage_residuals,
 )
-from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.step_size import cut
+from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.native.translate import native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
@@ -44,9 +37,8 @@ SAME_STEP = 1e-6
 
 
 @native
-def ready(P: Problem, L: Plan, turn: int) -> bool:
+def ready(P: Problem, L: Plan, C: Control, turn: int) -> bool:
     """Derivatives and factors for the present step and iteration."""
-    C = Control(P.control)
     if not C.known or renews(P, turn, C.age < KEEP_STEPS or turn > 0):
         radau_jacobian(P, L, C.h)
         C.known, C.fresh, C.age, C.factored = True, True, 0, 0.0
@@ -56,26 +48,25 @@ def ready(P: Problem, L: Plan, turn: int) -> bool:
 
 
 @native
-def solve_stages(P: Problem, L: Plan) -> bool:
+def correct(P: Problem, L: Plan, C: Control) -> bool:
     """Newton from the prediction; True when converged."""
-    C = Control(P.control)
     h, last = C.h, 0.0
     tolerance, most = CORRECTOR_SHARE * P.settings.error, P.settings.max_it
     C.rate, C.theta = max(C.rate, LEAST_RATE) ** 0.8, 0.0
     for turn in range(most):
-        if not ready(P, L, turn):
+        if not ready(P, L, C, turn):
             return False
         stage_residuals(P, h)
         stage_increments(P, L)
         size = move_stages(P, h)
         P.count.newton += 1
         C.turns = turn + 1
-        if not size < 1e12:
+        if not size < OVERFLOW:
             return False
         if turn > 0 and last > 0.0:
             C.theta = size / last
             if C.theta > (DIVERGING if turn == 1 else 0.99):
-                return size <= round_off(P)
+                return size <= round_off(P, C)
             rest = max(0.01, 1.0 - C.theta)
             C.rate = max(LEAST_RATE, C.theta / rest)
             if turn > 1 and C.theta ** (most - 1.0 - turn) / rest * size > tolerance:
@@ -87,26 +78,9 @@ def solve_stages(P: Problem, L: Plan) -> bool:
 
 
 @native
-def round_off(P: Problem) -> float:
+def round_off(P: Problem, C: Control) -> float:
     """Changes of velocities that come from the last digits of positions."""
-    C = Control(P.control)
     w, reach = 2 * P.sizes.n + P.sizes.ns, 1.0
     for i in range(P.sizes.n):
         reach = max(reach, abs(P.history[ORIGIN * w + i]))
     return ROUND_OFF * reach * P.tableau[REAL] / C.h
-
-
-@native
-def after_failed_stages(P: Problem) -> int:
-    """Newton failed: new derivatives when they were old, else another step."""
-    C = Control(P.control)
-    P.count.failures += 1
-    old = not C.fresh and C.known
-    C.known, C.factored, C.rate, C.cautious = False, 0.0, 1.0, True
-    if not old and not let_go(P):
-        C.retries += 1
-        C.blamed = wildest(P)
-        put_stage(P, 3, C.h)
-        note_trouble(P, equations_kept(P), C.turns)
-        C.h *= cut(P, C, retry_factor(C))
-    return RUNNING

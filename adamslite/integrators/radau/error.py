@@ -29,29 +29,28 @@ from adamslite.native.translate import Reals, native
 
 
 @native
-def filtered_error(P: Problem, L: Plan, cautious: bool) -> float:
-    """Estimated error over ERROR."""
-    C = Control(P.control)
-    n, ns, first, h = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, C.h
+def local_error(P: Problem, L: Plan, C: Control) -> float:
+    """Estimated error over ERROR; a second look after a failure and at the start."""
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w = 2 * n + ns
     base, error = P.trial[0:], P.trial[w:]
     for i in range(w):
         base[i] = P.history[i]
     for k in range(first):
         P.z[k] = P.rz[k]
-    norm = newton_error(P, L, h, base, error)
-    if norm > 1.0 and cautious:
+    norm = newton_error(P, L, C, base, error)
+    if norm > 1.0 and C.cautious:
         for i in range(w):
             base[i] += error[i]
-        norm = newton_error(P, L, h, base, error)
+        norm = newton_error(P, L, C, base, error)
+    P.report.error = norm
     return norm
 
 
 @native
-def newton_error(P: Problem, L: Plan, h: float, base: Reals, error: Reals) -> float:
+def newton_error(P: Problem, L: Plan, C: Control, base: Reals, error: Reals) -> float:
     """One Newton step from ``base`` with y' = (g error - sum_i e_i (y_i - y_0))/h; over ERROR."""
-    C = Control(P.control)
-    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
+    n, ns, first, h = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, C.h
     w, Y, cu, v = 2 * n + ns, P.history, P.tableau[REAL] / h, P.trial[2 * (2 * n + ns) :]
     a, b, c = P.tableau[WEIGHT] / h, P.tableau[WEIGHT + 1] / h, P.tableau[WEIGHT + 2] / h
     for i in range(w):

@@ -15,26 +15,29 @@ Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6 (discontin
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import mass_signature, put_state
+from adamslite.integrators.accelerations import mass_signature
 from adamslite.integrators.contract import NEWTON_FAILED, Problem
 from adamslite.integrators.event_rows import END, INSIDE, NONE
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.guards import look
 from adamslite.integrators.events.harmless import take_harmless
-from adamslite.integrators.events.search import CLOSE, judge, open_search
+from adamslite.integrators.events.search import (
+    CLOSE,
+    ends_there,
+    judge,
+    open_search,
+    shorter,
+    starts_there,
+)
 from adamslite.integrators.implicit.control import keep_algebraic
 from adamslite.integrators.implicit.step_size import SMOOTH, first_step
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.coefficients import REAL
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.corrector import round_off
+from adamslite.integrators.radau.dense_output import put_inside
 from adamslite.integrators.radau.stages import (
-    ORIGIN,
-    RATES,
-    collocated,
     equations_kept,
-    quadratic,
-    stage_z,
 )
 from adamslite.integrators.radau.state import (
     put_end,
@@ -49,36 +52,36 @@ BEYOND, MOST_LENGTHENED = 1e-4, 3.0
 
 
 @native
-def locate_in_stages(P: Problem, L: Plan) -> None:
-    """Look for the first change of a branch within the step that has passed its test."""
-    C = Control(P.control)
+def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
+    """Whether a branch changes within the step that has passed its test: the first change is
+    located.
+    """
+    if P.sizes.watched + P.sizes.zones == 0:
+        return False
     t, h = C.t, C.h
-    put_end(P)
+    put_end(P, C)
     open_search(P, t, h)
     take_harmless(P, L, equations_kept(P), P.tableau[REAL] / h)
     while P.search.open:
         put_inside(P, t, h, P.search.share)
         judge(P)
-    put_end(P)
+    put_end(P, C)
+    return not ends_there(P)
 
 
 @native
-def put_inside(P: Problem, t: float, h: float, x: float) -> None:
-    """The tried step from ``t`` at the share ``x`` into the workspace."""
-    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
-    w, Y, y, a, z = 2 * n + ns, P.history, P.trial[0:], P.x, P.F
-    collocated(P, Y, w, x, y)
-    quadratic(P, x, Y[(RATES + 1) * w + n :], w, n, a)
-    quadratic(P, x, Y[stage_z(P, 0) :], stage_z(P, 1) - stage_z(P, 0), first, z)
-    for i in range(n):
-        y[i] += Y[ORIGIN * w + i]
-    for k in range(ns):
-        z[first + k] = y[2 * n + k]
-    put_state(P, t + x * h, y, y[n:], a, z, P.rd)
+def end_at_crossing(P: Problem, L: Plan, C: Control) -> int:
+    """The step is taken again, to end where the first branch changes, or changes it at once."""
+    if starts_there(P):
+        return switch_behind(P, L, C)
+    if P.search.cut > 1.0:
+        C.passed = max(C.passed, C.h)
+    C.h = shorter(P)
+    return RUNNING
 
 
 @native
-def falls_short(P: Problem) -> bool:
+def falls_short(P: Problem, C: Control) -> bool:
     """Whether a step to a crossing ends just before it: then it is taken again, longer by what it
     lacks.
 
@@ -86,13 +89,12 @@ def falls_short(P: Problem) -> bool:
     spoils velocities.  What is lacking is read from the guards at the end and a little beyond,
     where the polynomial of the step continues.
     """
-    C = Control(P.control)
     S, count, share = P.search, P.sizes.watched, NONE
     if not S.hunt or min(S.found, S.cut) <= 1.0 or C.lengthened >= MOST_LENGTHENED:
         return False
     put_inside(P, C.t, C.h, 1.0 + BEYOND)
     look(P, INSIDE)
-    put_end(P)
+    put_end(P, C)
     for k in range(count):
         before, after = P.margin[END * count + k], P.margin[INSIDE * count + k]
         if before >= 0.0 and after < 0.0:
@@ -105,38 +107,35 @@ def falls_short(P: Problem) -> bool:
 
 
 @native
-def is_at_crossing(P: Problem, norm: float) -> bool:
+def is_at_crossing(P: Problem, C: Control, error: float) -> bool:
     """Whether the step to a crossing is so short that the last digits of positions make up its
     error, though a longer one from the same start has passed the test: the crossing is here.
     """
-    C = Control(P.control)
     S = P.search
     if C.h > CLOSE * C.passed or S.found > 1.0 or S.found * S.size > C.h:
         return False
-    return norm * P.settings.error <= round_off(P)
+    return error * P.settings.error <= round_off(P, C)
 
 
 @native
-def switch_behind(P: Problem, L: Plan) -> int:
+def switch_behind(P: Problem, L: Plan, C: Control) -> int:
     """A branch changes just after the start of the step: change it there and restart."""
-    C = Control(P.control)
     C.passed, C.lengthened = 0.0, 0
-    stand_at_start(P)
+    stand_at_start(P, C)
     if not change_here(P, L, C.t):
         return NEWTON_FAILED
-    predict_anew(P, L)
+    restart(P, L, C)
     return RUNNING
 
 
 @native
-def move_past(P: Problem, L: Plan) -> int:
+def pass_on(P: Problem, L: Plan, C: Control) -> int:
     """After an event: the prediction continues when nothing jumped, else it restarts."""
-    C = Control(P.control)
     if not pass_event(P, L, C.t):
         return NEWTON_FAILED
     C.known = False
     if P.search.jump * C.h_last > SMOOTH * P.settings.error:
-        predict_anew(P, L)
+        restart(P, L, C)
     else:
         take_accelerations(P)
     return RUNNING
@@ -151,9 +150,8 @@ def take_accelerations(P: Problem) -> None:
 
 
 @native
-def predict_anew(P: Problem, L: Plan) -> None:
+def restart(P: Problem, L: Plan, C: Control) -> None:
     """The next step is predicted from the accelerations in place, and chosen like the first."""
-    C = Control(P.control)
     P.count.restarts += 1
     take_accelerations(P)
     C.h_last, C.last_size, C.known, C.cautious = 0.0, 0.0, False, True

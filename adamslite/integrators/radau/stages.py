@@ -274,54 +274,6 @@ def larger(largest: float, change: float, value: float) -> float:
 
 
 @native
-def predict_stages(P: Problem, h: float, before: float) -> None:
-    """First values of the stages: the polynomial of the step before (of size ``before``) continues,
-    or without one accelerations stay.
-    """
-    n, ns, first, X = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, P.tableau
-    w, Y, e = 2 * n + ns, P.history, stage_z(P, 1) - stage_z(P, 0)
-    for stage in range(3):
-        y, z, c = Y[(1 + stage) * w :], Y[stage_z(P, stage) :], X[NODE + stage] * h
-        if before > 0.0:
-            collocated(P, Y[BEFORE * w :], w, 1.0 + c / before, y)
-            quadratic(P, 1.0 + c / before, Y[stage_z(P, 3) :], e, first, z)
-        else:
-            for i in range(n):
-                y[i] = Y[i] + c * (Y[n + i] + 0.5 * c * P.ra[i])
-            for k in range(ns):
-                y[2 * n + k] = Y[2 * n + k] + c * P.rd[k]
-            for k in range(first):
-                z[k] = P.rz[k]
-        for k in range(ns):
-            z[first + k] = y[2 * n + k]
-        for k in range(P.sizes.holonomic):
-            z[first + ns + k] = 0.0
-
-
-@native
-def collocated(P: Problem, rows: Reals, w: int, x: float, y: Reals) -> None:
-    """y at the share ``x`` of a step: the cubic through its start and its stages."""
-    a, b = P.tableau[NODE], P.tableau[NODE + 1]
-    f0 = (x - a) * (x - b) * (x - 1.0) / (-a * b)
-    f1 = x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
-    f2 = x * (x - a) * (x - 1.0) / (b * (b - a) * (b - 1.0))
-    f3 = x * (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
-    for i in range(w):
-        y[i] = f0 * rows[i] + f1 * rows[w + i] + f2 * rows[2 * w + i] + f3 * rows[3 * w + i]
-
-
-@native
-def quadratic(P: Problem, x: float, rows: Reals, lead: int, count: int, z: Reals) -> None:
-    """z at the share ``x`` of a step: through the values at its stages, ``lead`` apart."""
-    a, b = P.tableau[NODE], P.tableau[NODE + 1]
-    f1 = (x - b) * (x - 1.0) / ((a - b) * (a - 1.0))
-    f2 = (x - a) * (x - 1.0) / ((b - a) * (b - 1.0))
-    f3 = (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
-    for k in range(count):
-        z[k] = f1 * rows[k] + f2 * rows[lead + k] + f3 * rows[2 * lead + k]
-
-
-@native
 def keep_stages(P: Problem) -> None:
     """Remember the accepted stages with positions counted from the end of the step."""
     w, e = 2 * P.sizes.n + P.sizes.ns, stage_z(P, 1) - stage_z(P, 0)

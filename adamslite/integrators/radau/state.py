@@ -23,9 +23,8 @@ def count_from_here(P: Problem) -> None:
 
 
 @native
-def stand_at_start(P: Problem) -> None:
+def stand_at_start(P: Problem, C: Control) -> None:
     """The last accepted state into the unknowns and the workspace."""
-    C = Control(P.control)
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     Y = P.history[ORIGIN * (2 * n + P.sizes.ns) :]
     for i in range(n):
@@ -38,9 +37,8 @@ def stand_at_start(P: Problem) -> None:
 
 
 @native
-def put_end(P: Problem) -> None:
+def put_end(P: Problem, C: Control) -> None:
     """The end of the tried step into the unknowns and the workspace."""
-    C = Control(P.control)
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y, z = 2 * n + ns, P.history, P.history[stage_z(P, 2) :]
     y, d = Y[3 * w :], Y[6 * w :]

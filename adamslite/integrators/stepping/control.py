@@ -7,6 +7,9 @@ from adamslite.native.translate import Record
 RUNNING = -1
 """A run goes on: the outcome of a step before there is one."""
 
+NOBODY = -1
+"""``blamed`` before a corrector failed."""
+
 
 class StepControl(Record):
     """What every method remembers from step to step; each extends it by its own numbers.

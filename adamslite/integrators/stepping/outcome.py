@@ -20,6 +20,8 @@ from adamslite.native.translate import native
 SINGULAR_RESOLUTION = 1e-6
 # A step that ends before a limit by less than this share of its size ends there.
 ALMOST = 1e-7
+# An error or an increment from here on, against ERROR or as it is, is no number to continue with.
+OVERFLOW = 1e12
 
 
 @native
@@ -28,6 +30,12 @@ def end_of_run(P: Problem, C: StepControl) -> int:
     if C.t >= P.settings.t_end:
         return DONE
     return INTERRUPTED if P.settings.stop else RUNNING
+
+
+@native
+def note_try(P: Problem, C: StepControl, order: int) -> None:
+    """What a message needs to know of the step that is tried."""
+    P.report.t, P.report.h, P.report.order = C.t, C.h, order
 
 
 @native

@@ -1,0 +1,71 @@
+"""The Radau formula within a step: values between its ends, and records of them."""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import accelerations, put_state
+from adamslite.integrators.contract import Problem
+from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.radau.coefficients import NODE
+from adamslite.integrators.radau.control import Control
+from adamslite.integrators.radau.stages import ORIGIN, RATES, stage_z
+from adamslite.integrators.records import write_record
+from adamslite.native.translate import Reals, native
+
+# A time that lies behind the end of a step by this share of the step is one of it.
+DUE = 1e-9
+
+
+@native
+def record(P: Problem, L: Plan, C: Control, h: float) -> bool:
+    """Write every output time of the accepted step; False when accelerations are not determined."""
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
+    y, w = P.trial[0:], 2 * n + ns
+    while C.row < P.times.size and P.times[C.row] <= C.t + DUE * h:
+        collocated(P, P.history, w, min(1.0, 1.0 + (P.times[C.row] - C.t) / h), y)
+        for i in range(n):
+            y[i] += P.history[ORIGIN * w + i]
+        for k in range(ns):
+            P.z[first + k] = y[2 * n + k]
+        if not accelerations(P, L, P.times[C.row], y, y[n:], P.a, P.z, P.rd):
+            return False
+        write_record(P, C.row)
+        C.row += 1
+    return True
+
+
+@native
+def put_inside(P: Problem, t: float, h: float, x: float) -> None:
+    """The tried step from ``t`` at the share ``x`` into the workspace."""
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
+    w, Y, y, a, z = 2 * n + ns, P.history, P.trial[0:], P.x, P.F
+    collocated(P, Y, w, x, y)
+    quadratic(P, x, Y[(RATES + 1) * w + n :], w, n, a)
+    quadratic(P, x, Y[stage_z(P, 0) :], stage_z(P, 1) - stage_z(P, 0), first, z)
+    for i in range(n):
+        y[i] += Y[ORIGIN * w + i]
+    for k in range(ns):
+        z[first + k] = y[2 * n + k]
+    put_state(P, t + x * h, y, y[n:], a, z, P.rd)
+
+
+@native
+def collocated(P: Problem, rows: Reals, w: int, x: float, y: Reals) -> None:
+    """y at the share ``x`` of a step: the cubic through its start and its stages."""
+    a, b = P.tableau[NODE], P.tableau[NODE + 1]
+    f0 = (x - a) * (x - b) * (x - 1.0) / (-a * b)
+    f1 = x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
+    f2 = x * (x - a) * (x - 1.0) / (b * (b - a) * (b - 1.0))
+    f3 = x * (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
+    for i in range(w):
+        y[i] = f0 * rows[i] + f1 * rows[w + i] + f2 * rows[2 * w + i] + f3 * rows[3 * w + i]
+
+
+@native
+def quadratic(P: Problem, x: float, rows: Reals, lead: int, count: int, z: Reals) -> None:
+    """z at the share ``x`` of a step: through the values at its stages, ``lead`` apart."""
+    a, b = P.tableau[NODE], P.tableau[NODE + 1]
+    f1 = (x - b) * (x - 1.0) / ((a - b) * (a - 1.0))
+    f2 = (x - a) * (x - 1.0) / ((b - a) * (b - 1.0))
+    f3 = (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
+    for k in range(count):
+        z[k] = f1 * rows[k] + f2 * rows[lead + k] + f3 * rows[2 * lead + k]
