@@ -150,17 +150,17 @@ def pages(name: str) -> str:
     UsageError
         When there is none.
     """
-    found = [
-        describe(register[key])
-        for register, key, describe in (
-            (STATEMENTS, name.upper(), statement),
-            (FUNCTIONS, name.upper(), function),
-            (methods(), name.upper(), _integrator_page),
-            (MESSAGES, name.lower(), lambda each: message(name.lower(), each)),
-            (TOPICS, name.upper(), lambda page: page().removeprefix(HEAD).lstrip()),
-        )
-        if key in register
-    ]
+    upper, lower, found = name.upper(), name.lower(), []
+    if upper in STATEMENTS:
+        found.append(statement(STATEMENTS[upper]))
+    if upper in FUNCTIONS:
+        found.append(function(FUNCTIONS[upper]))
+    if upper in methods():
+        found.append(_integrator_page(methods()[upper]))
+    if lower in MESSAGES:
+        found.append(message(lower, MESSAGES[lower]))
+    if upper in TOPICS:
+        found.append(TOPICS[upper]().removeprefix(HEAD).lstrip())
     if not found:
         names = [*STATEMENTS, *FUNCTIONS, *methods(), *MESSAGES, *TOPICS]
         longer = [each for each in names if each.startswith(name.upper())]
@@ -171,7 +171,7 @@ def pages(name: str) -> str:
 
 def contents() -> str:
     """All names with their meaning in a line each."""
-    titles = [sys.modules[cls.__module__].__doc__ for cls in STATEMENTS.values()]
+    titles = [_module_doc(cls) for cls in STATEMENTS.values()]
     lines = ["Statements", *(f"  {_heading(title)}" for title in sorted(titles)), "", "Functions"]
     lines += [f"  {each.usage}: {_heading(each.doc)}" for each in FUNCTIONS.values()]
     lines += ["", "Integrators", *(f"  {', '.join(m.names)}: {m.what}" for m in declared())]
@@ -179,9 +179,13 @@ def contents() -> str:
     return "\n".join(lines) + "\n"
 
 
+def _module_doc(cls: type[Statement]) -> str:
+    return sys.modules[cls.__module__].__doc__ or ""
+
+
 def statement(cls: type[Statement]) -> str:
     """One statement: equation and sign from its module, its meaning, its arguments."""
-    title, _, equation = sys.modules[cls.__module__].__doc__.partition("\n\n")
+    title, _, equation = _module_doc(cls).partition("\n\n")
     parts = [f"## {title}\n", _markdown(cls.__doc__), _markdown(equation)]
     if cls.arguments:
         head = ("argument", "value", "unit", "default", "meaning")

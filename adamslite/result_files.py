@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.elements.linear import Linear
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.outputs.whole_files import need_writable, same_file
 
@@ -42,7 +43,7 @@ def plan(scene: Scene, output: str | Path, asked: bool) -> list[Path]:
         them.
     """
     need_writable(output, scene.read, asked)
-    commands = [each for each in scene.commands if getattr(each, "keyword", "") == "LINEAR"]
+    commands = [each for each in scene.commands if isinstance(each, Linear)]
     paths = list(_places(commands, Path(output)))
     wrong = list(_taken(commands, paths, output, scene.read))
     if wrong:
@@ -52,12 +53,12 @@ def plan(scene: Scene, output: str | Path, asked: bool) -> list[Path]:
     return paths
 
 
-def _file(command: Any) -> str:
+def _file(command: Linear) -> str:
     """The FILE of a command that has an effect."""
     return command.file or "" if command.kind == "STATEMAT" else ""
 
 
-def _places(commands: Sequence[Any], output: Path) -> Iterator[Path]:
+def _places(commands: Sequence[Linear], output: Path) -> Iterator[Path]:
     stem = output.with_suffix("").name
     made = {output.name, *map(_file, commands)}
     for each in commands:
@@ -69,7 +70,7 @@ def _places(commands: Sequence[Any], output: Path) -> Iterator[Path]:
 
 
 def _taken(
-    commands: Sequence[Any], paths: Sequence[Path], output: str | Path, read: Iterable[Path]
+    commands: Sequence[Linear], paths: Sequence[Path], output: str | Path, read: Iterable[Path]
 ) -> Iterator[Diagnostic]:
     for command, path in zip(commands, paths, strict=True):
         word = _file(command)

@@ -11,6 +11,8 @@ from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.progress import Progress
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
+    from adamslite.deck.deck import Deck
+    from adamslite.deck.redefinition import Command
     from adamslite.results.results import Results
 
 
@@ -33,8 +35,8 @@ class Scene:
         whether it was taken because it lies beside the deck.
     """
 
-    deck: Any
-    commands: tuple[Any, ...]
+    deck: "Deck"
+    commands: tuple["Command", ...]
     warnings: tuple[Diagnostic, ...]
     deck_path: Path
     commands_path: Path | None

@@ -63,11 +63,9 @@ class Pipeline:
 
 @dataclass(frozen=True)
 class Named:
-    """A statement of which only the keyword and its constraint rows matter."""
+    """A statement of which only the keyword matters."""
 
     keyword: str
-    n_rows: int = 0
-    ground: bool = False
 
 
 SIMULATE = Named("SIMULATE")
@@ -81,9 +79,9 @@ class FakeDeck:
     def is_active(self, statement: Any) -> bool:
         return True
 
-    def of(self, keyword: str) -> list[Any]:
-        """None: a stand-in has no arguments to look at."""
-        return []
+    def of(self, kind: Any) -> list[Any]:
+        """The real ones of a class: a stand-in has no arguments to look at."""
+        return [each for each in self.statements if isinstance(kind, type) and type(each) is kind]
 
 
 def stopped(outcome: Outcome, **facts: Any) -> Results:

@@ -8,11 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fakes import ERROR, SIMULATE, Named, fall, install, stopped
+from fakes import ERROR, SIMULATE, fall, install, stopped
 
 import adamslite
 from adamslite.analyses.session import Session
 from adamslite.cli.main import main
+from adamslite.elements.joint import Joint
+from adamslite.elements.part import Part
 from adamslite.errors import UsageError
 from adamslite.language.diagnostics import Diagnostic, Span
 from adamslite.progress import TalkingProgress
@@ -192,7 +194,7 @@ def test_check_tells_warnings_and_contents(pipeline, capsys) -> None:
     out = capsys.readouterr().out
     assert out.startswith("cable.adm:3:1: warning:")
     assert "cable.adm: 1 warning\n  3 statements: 2 PART, 1 SIMULATE\n" in out
-    pipeline.statements = (Named("PART", ground=True), Named("PART"), Named("JOINT", n_rows=5))
+    pipeline.statements = (Part(id=1, ground=True), Part(id=2), Joint(id=1, kind="REVOLUTE"))
     assert main(["check", "cable.adm"]) == 0
     out = capsys.readouterr().out
     assert "  1 degree of freedom: 1 moving part, 0 point masses, 5 constraint rows\n" in out

@@ -75,7 +75,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     for module in (check, solve, diff, verify, linear, chart, cable, cache, help):
         name = module.__name__.rpartition(".")[2]
-        summary = module.__doc__.partition("\n")[0]
+        summary = (module.__doc__ or "").partition("\n")[0]
         command = commands.add_parser(
             name,
             parents=[shared],

@@ -51,7 +51,7 @@ def object_code(text: str, speed: int = FULL) -> bytes:
 
 def addresses(parts: Iterable[tuple[bytes, list[str]]]) -> dict[str, int]:
     """Addresses of the names in each object code; one linked earlier is not linked again."""
-    found = {}
+    found: dict[str, int] = {}
     for code, names in parts:
         if names[0] not in _linked:
             _linked.update(_link(code, names))

@@ -18,7 +18,6 @@ import ctypes
 import mmap
 import sys
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -98,7 +97,7 @@ def _places(sections: np.ndarray) -> tuple[dict[int, int], int]:
     return at, -(-max(end, 1) // mmap.PAGESIZE) * mmap.PAGESIZE
 
 
-def _table(code: bytes, section: np.void, kind: Any) -> np.ndarray:
+def _table(code: bytes, section: np.void, kind: np.dtype | type[np.uint8]) -> np.ndarray:
     """The entries of a section."""
     entries = int(section["size"]) // np.dtype(kind).itemsize
     return np.frombuffer(code, kind, entries, int(section["offset"]))
@@ -127,7 +126,7 @@ def _from_library(name: str) -> int:
             function = getattr(ctypes.CDLL(library), name)
         except (AttributeError, OSError):
             continue
-        return ctypes.cast(function, ctypes.c_void_p).value
+        return ctypes.cast(function, ctypes.c_void_p).value or 0
     raise Foreign(f"calls {name}, which is not known")
 
 

@@ -56,7 +56,8 @@ def _told_by_system() -> str:
         first, _, _ = CPUINFO.read_text().partition("\n\n")
     except OSError:
         return ""
-    values = dict(map(str.strip, line.partition(":")[::2]) for line in first.splitlines())
+    pairs = (line.partition(":") for line in first.splitlines())
+    values = {name.strip(): value.strip() for name, _, value in pairs}
     if not all(values.get(fact) for fact in facts):
         return ""
     return " ".join([os.uname().machine, str(sys.maxsize), *(values[fact] for fact in facts)])

@@ -91,6 +91,7 @@ class Measure:
         return KINDS[self.kind](times[window], history[window])
 
     def _arrival(self, times: np.ndarray, history: np.ndarray) -> float:
+        assert self.level is not None  # an arrival has one
         when = arrival(times, history, self.level, times[0], times[-1])
         if when is None:
             raise Mismatch(

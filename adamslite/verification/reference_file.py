@@ -20,7 +20,14 @@ from typing import Any
 
 from adamslite.errors import FormatError, UsageError
 from adamslite.outputs import csv
-from adamslite.results.comparison import INTERPOLATIONS, Comparison, Tolerance, compare, fits
+from adamslite.results.comparison import (
+    INTERPOLATIONS,
+    Comparison,
+    Mismatch,
+    Tolerance,
+    compare,
+    fits,
+)
 from adamslite.results.formats import format_of
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
@@ -83,9 +90,14 @@ class Reference:
         usual : Tolerance, optional
             For channels that no tolerance line fits.
         """
-        channels = compare(
-            results, self.table, lambda name: self.tolerance_of(name) or usual, self.interpolate
-        )
+
+        def allowed(name: str) -> Tolerance:
+            found = self.tolerance_of(name) or usual
+            if found is None:
+                raise Mismatch(f"no tolerance is given for '{name}'")
+            return found
+
+        channels = compare(results, self.table, allowed, self.interpolate)
         measured = [measure.difference(results, self.interpolate) for measure in self.measures]
         return Comparison((*channels.differences, *measured))
 

@@ -69,7 +69,7 @@ class Verdict:
 
 def find_cases(paths: Iterable[Path]) -> list[Case]:
     """Return the cases of decks (files) and of everything below folders, sorted by path."""
-    cases = {}
+    cases: dict[Path, Case] = {}
     for path in paths:
         if path.is_dir():
             cases |= {file: Case(file, _deck_of(file)) for file in _references(path.rglob)}
@@ -131,7 +131,7 @@ def _deck_of(file: Path) -> Path | None:
 
 def _judge_deck(cases: Iterable[Case], run: Run) -> list[Verdict]:
     """Judge the cases of one deck; runs with the same flags are one run."""
-    runs: dict[Any, Results] = {}
+    runs: dict[tuple[object, ...], Results] = {}
 
     def remembered(deck: Path, options: Mapping[str, Any]) -> Results:
         key = (deck, *sorted(options.items()))

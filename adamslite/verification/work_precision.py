@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from math import floor, inf, log10
 from statistics import median
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 from adamslite.errors import RunFailed, UsageError
 from adamslite.language.method import FIXED, declared, method_of
@@ -55,7 +55,7 @@ class Variant:
         return " ".join(filter(None, (self.integrator, self.formulation)))
 
     @property
-    def options(self) -> dict[str, Any]:
+    def options(self) -> dict[str, str]:
         """Keyword arguments of `simulate`."""
         named = {"integrator": self.integrator, "formulation": self.formulation}
         return {key: value for key, value in named.items() if value}
@@ -139,9 +139,19 @@ class Chart:
         return min(sure, key=lambda p: p.median, default=None)
 
 
-def by_program(points: Iterable[Any]) -> dict[str, list[Any]]:
+class OfProgram(Protocol):
+    """A result of a program."""
+
+    @property
+    def program(self) -> str: ...
+
+
+P = TypeVar("P", bound=OfProgram)
+
+
+def by_program(points: Iterable[P]) -> dict[str, list[P]]:
     """Points by the name of their program."""
-    found: dict[str, list[Any]] = {}
+    found: dict[str, list[P]] = {}
     for point in points:
         found.setdefault(point.program, []).append(point)
     return found

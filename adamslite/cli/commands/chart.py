@@ -10,14 +10,14 @@ or, with --channel, that of the channels named, each against its largest value.
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
 from adamslite.run_flags import count, positive
 
 if TYPE_CHECKING:
     from adamslite.scene import Scene
-    from adamslite.verification.work_precision import Chart, Point, Variant
+    from adamslite.verification.work_precision import Chart, Point, Run, Variant
 
 PICTURES = ("png", "svg")
 COLUMNS = (
@@ -67,7 +67,7 @@ def run(args: argparse.Namespace) -> int:
     return OUTSIDE_TOLERANCE if chart.useless else DONE
 
 
-def _runs(args: argparse.Namespace, scene: "Scene") -> tuple[list["Variant"], Any]:
+def _runs(args: argparse.Namespace, scene: "Scene") -> tuple[list["Variant"], "Run"]:
     """The integrators to try, and what runs the deck with one of them."""
     from functools import partial
 
@@ -119,7 +119,7 @@ def _draw(chart: "Chart", name: str, title: str) -> None:
 
     known = by_program(p for p in chart.points if p.ok and p.error)
     lines = [
-        Line(program, "ours", [p.error for p in mine], [1e3 * p.median for p in mine])
+        Line(program, "ours", [p.error or 0.0 for p in mine], [1e3 * p.median for p in mine])
         for program, mine in known.items()
     ]
     axes = Axes(f"{title}: what accuracy costs", "error", "CPU [ms]", towards_less=True)

@@ -71,11 +71,14 @@ def _cables(scene: "Scene") -> list[str]:
 
 def _freedom(deck: "Deck") -> str:
     """Six coordinates for a part and three for a point mass, less one for each independent row."""
-    statements = deck.statements
-    parts = sum(each.keyword == "PART" and not each.ground for each in statements)
-    points = sum(each.keyword == "POINT_MASS" for each in statements)
-    rows = [getattr(each, "n_rows", 0) * deck.is_active(each) for each in statements]
-    held = [number for number in rows if number]
+    from adamslite.elements.bases.constraint import Constraint
+    from adamslite.elements.part import Part
+    from adamslite.elements.point_mass import PointMass
+
+    parts = sum(not each.ground for each in deck.of(Part))
+    points = len(deck.of(PointMass))
+    constraints = [each for each in deck.statements if isinstance(each, Constraint)]
+    held = [each.n_rows for each in constraints if deck.is_active(each)]
     found = _dropped(deck) if len(held) > parts + points else []
     free = 6 * parts + 3 * points - sum(held) + len(found)
     redundant = f"\n  redundant, left out: {'; '.join(found)}" if found else ""

@@ -11,12 +11,14 @@ import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
 from adamslite.run_flags import add_run_flags, run_options
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from adamslite.results.results import Results
     from adamslite.scene import Scene
 
@@ -160,13 +162,13 @@ def _tell_trust(scene: "Scene", args: argparse.Namespace, results: "Results") ->
         sys.stderr.write(f"{scene.title}: {found.verdict}\n")
 
 
-def _files(scene: "Scene", output: str) -> dict[str, Any]:
+def _files(scene: "Scene", output: str) -> dict[str, str | None]:
     """The files of a run: the deck, the commands it took from a file, the results."""
-    commands = scene.commands_path and str(scene.commands_path)
+    commands = str(scene.commands_path) if scene.commands_path else None
     return {"deck": str(scene.deck_path), "commands": commands, "output": output}
 
 
-def _as_json(summary: dict[str, Any]) -> str:
+def _as_json(summary: dict[str, object]) -> str:
     """JSON knows neither infinity nor not-a-number: both become null."""
     import json
     from math import isfinite
@@ -178,6 +180,6 @@ def _as_json(summary: dict[str, Any]) -> str:
     return json.dumps(plain, allow_nan=False, default=_plain_number)
 
 
-def _plain_number(number: Any) -> Any:
+def _plain_number(number: "np.generic") -> float:
     """A numpy number as one of Python."""
     return number.item()

@@ -80,10 +80,10 @@ def _summary(verdicts: Sequence[Verdict], share: float) -> str:
     """How many references are met, and which is met most narrowly."""
     met = sum(_meets(verdict, share) for verdict in verdicts)
     text = f"{met} of {len(verdicts)} references met"
-    judged = [verdict for verdict in verdicts if verdict.share is not None]
+    judged = [(each.share, each.case.name) for each in verdicts if each.share is not None]
     if judged:
-        worst = max(judged, key=lambda verdict: verdict.share)
-        text += f"; the largest share of a tolerance is {worst.share:.2f}, in {worst.case.name}"
+        worst, name = max(judged, key=lambda each: each[0])
+        text += f"; the largest share of a tolerance is {worst:.2f}, in {name}"
     return f"{text}\n"
 
 

@@ -142,7 +142,7 @@ class Expressions(Writer):
             return self.value("i1", f"xor i1 {self.truth(node.operand).text}, true")
         if not isinstance(node.op, ast.USub):
             raise self.fail(node, f"{type(node.op).__name__} is not translated")
-        if isinstance(node.operand, ast.Constant):
+        if isinstance(node.operand, ast.Constant) and isinstance(node.operand.value, int | float):
             return self.constant(node, -node.operand.value)
         value = self.expression(node.operand)
         if value.kind == "i64":

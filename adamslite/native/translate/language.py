@@ -6,22 +6,27 @@ import ctypes
 import inspect
 import os
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeGuard, TypeVar
 
-from adamslite.native.translate.records import RowsOf, is_record, resolve
+import numpy as np
 
+from adamslite.native.translate.records import Kind, Numbers, RowsOf, is_record, resolve
+
+F = TypeVar("F", bound=Callable[..., Any])
 Native = Callable[..., Any]
 """A function marked for translation."""
 
 REGISTERED: dict[str, Native] = {}
 """Every native function by its symbol."""
+AS_WRITTEN: set[Native] = set()
+"""Those whose sums are not reordered."""
 
 
 class Untranslatable(Exception):
     """A native function uses something outside the language above."""
 
 
-def native(function: Callable[..., Any]) -> Callable[..., Any]:
+def native(function: F) -> F:
     """Mark a function for translation; it stays an ordinary Python function."""
     if symbol(function) in REGISTERED:
         raise Untranslatable(f"two native functions are called {symbol(function)}")
@@ -34,17 +39,17 @@ def symbol(function: Native) -> str:
     return f"{function.__module__.removeprefix('adamslite.')}.{function.__name__}"
 
 
-def is_native(function: object) -> bool:
+def is_native(function: object) -> TypeGuard[Native]:
     return callable(function) and REGISTERED.get(symbol(function)) is function
 
 
-def as_written(function: Callable[..., Any]) -> Callable[..., Any]:
+def as_written(function: F) -> F:
     """Sums and products of this native function are neither reordered nor contracted."""
-    function.as_written = True
+    AS_WRITTEN.add(function)
     return function
 
 
-def call_address(address: int, *arguments: Any) -> None:
+def call_address(address: int, *arguments: np.ndarray | int) -> None:
     """Call the kernel at an address; natively a plain call, under Python one through ctypes."""
     given = [
         ctypes.c_void_p(a.ctypes.data) if hasattr(a, "ctypes") else ctypes.c_int64(int(a))
@@ -53,14 +58,14 @@ def call_address(address: int, *arguments: Any) -> None:
     ctypes.CFUNCTYPE(None, *[type(a) for a in given])(int(address))(*given)
 
 
-def copy(target: Any, source: Any, count: int) -> None:
+def copy(target: Numbers, source: Numbers, count: int) -> None:
     """The first ``count`` numbers of an array into another that does not overlap it, bit by bit:
     also those of a room that records are seen in, which are reals as well as integers.
     """
     target[:count] = source[:count]
 
 
-def signature(function: Callable[..., Any]) -> tuple[list[tuple[str, Any]], str]:
+def signature(function: Native) -> tuple[list[tuple[str, Kind]], Kind]:
     """Argument names with kinds, and the kind of the result (``void`` for none)."""
     hints, kinds = function.__annotations__, []
     for name in inspect.signature(function).parameters:
@@ -73,19 +78,19 @@ def signature(function: Callable[..., Any]) -> tuple[list[tuple[str, Any]], str]
     return kinds, "void" if result in (None, "None") else resolve(result, function.__globals__)
 
 
-def position(function: Callable[..., Any], line: int = 1) -> str:
+def position(function: Native, line: int = 1) -> str:
     """File and line of a line of a function, and its name."""
     code = function.__code__
     file = os.path.basename(code.co_filename)
     return f"{file}:{code.co_firstlineno + line - 1}, {function.__qualname__}"
 
 
-def llvm_type(kind: Any) -> str:
+def llvm_type(kind: Kind) -> str:
     """How a value of this kind is passed: arrays and records by their address."""
     return kind if kind in ("i64", "double", "i1", "void") else "ptr"
 
 
-def name_of(kind: Any) -> str:
+def name_of(kind: Kind) -> str:
     """A kind in a message."""
     if isinstance(kind, RowsOf):
         return f"Rows[{kind.record.__name__}]"

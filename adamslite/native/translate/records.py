@@ -22,30 +22,47 @@ import inspect
 import operator
 import sys
 from collections.abc import Iterator
-from typing import Any, ClassVar, Generic, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeAlias, TypeGuard, TypeVar
 
 import numpy as np
 
 SLOT = 8
+Kind: TypeAlias = Any
+"""What a value is: ``i64 double i1 Ints Reals void``, a class of records, or :class:`RowsOf` one.
+The translator branches on the words, which no type checker follows."""
 
 
-class Ints(np.ndarray):
-    """Annotation of an array of integers."""
+if TYPE_CHECKING:  # what these annotations stand for
+    Ints: TypeAlias = np.ndarray[Any, np.dtype[np.int64]]
+    Reals: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
+    Alone: TypeAlias = Reals
+
+else:
+
+    class Ints(np.ndarray):
+        """Annotation of an array of integers."""
+
+    class Reals(np.ndarray):
+        """Annotation of an array of reals."""
+
+    class Alone(Reals):
+        """Annotation of an array of reals that no other argument reaches."""
 
 
-class Reals(np.ndarray):
-    """Annotation of an array of reals."""
-
-
-class Alone(Reals):
-    """Annotation of an array of reals that no other argument reaches."""
-
-
-class array:
+class Length:
     """How many numbers a field of type ``Ints`` or ``Reals`` has inside of its record."""
 
     def __init__(self, length: int) -> None:
         self.length = length
+
+
+def array(length: int) -> Any:
+    """In the body of a record, what makes a field an array of fixed size inside of it."""
+    return Length(length)
+
+
+Numbers: TypeAlias = np.ndarray
+"""An array of either."""
 
 
 SCALARS = {"int": "i64", "float": "double", "bool": "i1"}
@@ -58,7 +75,7 @@ class RecordField:
 
     slots = 1
 
-    def __init__(self, kind: Any, at: int) -> None:
+    def __init__(self, kind: Kind, at: int) -> None:
         self.kind = kind
         self.at = at
 
@@ -273,7 +290,7 @@ class RowsOf:
         return hash(self.record)
 
 
-def resolve(hint: Any, names: dict[str, Any]) -> Any:
+def resolve(hint: Any, names: dict[str, Any]) -> Kind | None:
     """The kind that an annotation means where ``names`` are known: i64, double, i1, Ints, Reals, a
     record, rows of records; None for anything else.
     """
@@ -291,16 +308,16 @@ def resolve(hint: Any, names: dict[str, Any]) -> Any:
     return found if is_record(found) else None
 
 
-def is_record(kind: Any) -> bool:
+def is_record(kind: object) -> TypeGuard[type[Record]]:
     """Whether a kind is that of a record."""
     return isinstance(kind, type) and issubclass(kind, Record)
 
 
-def _field(kind: Any, at: int, given: Any) -> RecordField | None:
+def _field(kind: Kind, at: int, given: Any) -> RecordField | None:
     """The field of a kind at a slot; ``given``: what its annotation was set to."""
     if kind is None:
         return None
-    if isinstance(given, array):
+    if isinstance(given, Length):
         return Inside(kind, at, given.length) if kind in ARRAYS else None
     if kind in ARRAYS or isinstance(kind, RowsOf):
         return ByReference(kind, at)

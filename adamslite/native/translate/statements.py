@@ -35,7 +35,7 @@ def definitions(
         done.add(function)
         work = Translator(function)
         texts.append(work.define(internal=function is not public))
-        if public in work.called:
+        if public is not None and public in work.called:
             raise Untranslatable(f"{symbol(function)} calls the entry {public.__name__}")
         declared |= work.declared
         pending.extend(work.called)
@@ -48,6 +48,7 @@ class Translator(Expressions):
     def define(self, internal: bool) -> str:
         arguments, self.result = signature(self.function)
         tree = ast.parse(textwrap.dedent(inspect.getsource(self.function))).body[0]
+        assert isinstance(tree, ast.FunctionDef)
         for name, kind in arguments:
             self.store_local(name, Value(f"%arg.{name}", kind))
         self.block(tree.body)
@@ -142,6 +143,7 @@ class Translator(Expressions):
             raise self.fail(node, "only a range is looped over")
         if node.orelse:
             raise self.fail(node, "else of a loop is not translated")
+        assert isinstance(node.target, ast.Name)
         bounds = [self.expression(a) for a in node.iter.args]
         low, high = (Value("0", "i64"), bounds[0]) if len(bounds) == 1 else bounds[:2]
         step = bounds[2] if len(bounds) > 2 else Value("1", "i64")

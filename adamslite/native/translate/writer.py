@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
-from typing import Any
 
 from adamslite.native.llvm_builder import FAST, literal
-from adamslite.native.translate.language import Native, Untranslatable, llvm_type, name_of, position
-from adamslite.native.translate.records import ARRAYS, SLOT, RowsOf, is_record
+from adamslite.native.translate.language import (
+    AS_WRITTEN,
+    Native,
+    Untranslatable,
+    llvm_type,
+    name_of,
+    position,
+)
+from adamslite.native.translate.records import ARRAYS, SLOT, Kind, RowsOf, is_record
 
 # Which accesses never meet: numbers of each kind, and the addresses in records.
 ALIAS = {"i64": "!2", "double": "!1", "ptr": "!3"}
@@ -25,7 +30,7 @@ METADATA = """!0 = !{!"adamslite"}
 class Value:
     """An SSA value or constant with its kind: i64, double, i1, Ints, Reals, a record, rows."""
 
-    def __init__(self, text: str, kind: Any) -> None:
+    def __init__(self, text: str, kind: Kind) -> None:
         self.text = text
         self.kind = kind
 
@@ -33,11 +38,11 @@ class Value:
 class Writer:
     """What a function has written so far, and the plain instructions."""
 
-    def __init__(self, function: Callable[..., Any]) -> None:
+    def __init__(self, function: Native) -> None:
         self.function = function
         self.globals = function.__globals__
-        self.freedom = "" if hasattr(function, "as_written") else f"{FAST} "
-        self.locals: dict[str, Any] = {}
+        self.freedom = "" if function in AS_WRITTEN else f"{FAST} "
+        self.locals: dict[str, Kind] = {}
         self.lines: list[str] = []
         self.allocations: list[str] = []
         self.called: list[Native] = []
@@ -47,7 +52,7 @@ class Writer:
         self.present = 1
         self.open = True
 
-    def passed(self, name: str, kind: Any) -> str:
+    def passed(self, name: str, kind: Kind) -> str:
         """Type of an argument with what is promised of it."""
         hint = self.function.__annotations__[name]
         alone = getattr(hint, "__name__", hint) == "Alone"
@@ -62,7 +67,7 @@ class Writer:
         if self.open:
             self.lines.append("  " + text)
 
-    def value(self, kind: Any, text: str) -> Value:
+    def value(self, kind: Kind, text: str) -> Value:
         self.count += 1
         self.line(f"%t{self.count} = {text}")
         return Value(f"%t{self.count}", kind)
@@ -85,7 +90,7 @@ class Writer:
         self.line(f"br i1 {condition.text}, label %{yes}, label %{no}")
         self.open = False
 
-    def slot(self, kind: Any) -> str:
+    def slot(self, kind: Kind) -> str:
         self.count += 1
         self.allocations.append(f"  %s{self.count} = alloca {llvm_type(kind)}")
         return f"%s{self.count}"
@@ -152,7 +157,7 @@ class Writer:
         operands = f"ptr align 8 {target}, ptr align 8 {source}"
         self.line(f"call void @llvm.memcpy.p0.p0.i64({operands}, i64 {size}, i1 false)")
 
-    def constant(self, node: ast.AST, value: Any) -> Value:
+    def constant(self, node: ast.AST, value: object) -> Value:
         if isinstance(value, bool):
             return Value("true" if value else "false", "i1")
         if isinstance(value, int):
@@ -166,7 +171,7 @@ class Writer:
         operands = ", ".join(f"double {self.convert(a, 'double').text}" for a in args)
         return self.value("double", f"call {self.freedom}double @{name}({operands})")
 
-    def convert(self, value: Value, kind: Any) -> Value:
+    def convert(self, value: Value, kind: Kind) -> Value:
         if value.kind == kind:
             return value
         if is_record(kind) and is_record(value.kind) and issubclass(value.kind, kind):
