@@ -171,7 +171,9 @@ def method_of(name: str) -> Method:
 def without_effect(name: str, words: Iterable[str]) -> Iterator[tuple[str, str]]:
     """Those of the arguments that do nothing with a method, each with the reason."""
     method = methods().get(name)
-    for word in words if method else ():
+    if method is None:
+        return
+    for word in words:
         if word in ARGUMENTS and not method.uses(word):
             yield word, method.use(word)[1:]
 
