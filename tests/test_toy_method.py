@@ -7,6 +7,7 @@ Symplectic Euler with equal steps h for point masses without constraints:
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Iterator
 from math import floor
 from pathlib import Path
@@ -26,8 +27,8 @@ from adamslite.integrators.contract import (
     BROKEN_START,
     DONE,
     INTERRUPTED,
-    NOT_FINITE,
     SINGULAR_MASS,
+    STEP_TOO_SMALL,
     Problem,
 )
 from adamslite.integrators.events.events import start_events
@@ -53,59 +54,47 @@ from adamslite.verification.work_precision import variants
 
 @native
 def euler(P: Problem, L: Plan) -> int:
-    """Integrate over the output times; returns an outcome."""
-    P.report.order = 1
+    """From one output time or stop to the next; returns an outcome."""
     start_events(P, False, False)
-    P.report.t = P.times[0]
-    if not accelerations(P, L, P.times[0], P.q, P.u, P.a, P.z, P.rd):
-        return BROKEN_START
-    write_record(P, 0)
-    for row in range(1, P.times.size):
-        outcome = reach(P, L, P.times[row - 1], P.times[row])
+    row, t = 0, P.times[0]
+    while True:
+        P.report.t = t
+        if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
+            return BROKEN_START if row == 0 else SINGULAR_MASS
+        if t == P.times[row]:
+            write_record(P, row)
+            track(P)
+            row += 1
+        if row == P.times.size:
+            return DONE
+        end = min(P.times[row], present_stop(P))
+        outcome = march(P, L, t, end)
         if outcome != DONE:
             return outcome
-        write_record(P, row)
-        track(P)
-    return DONE
-
-
-@native
-def reach(P: Problem, L: Plan, start: float, end: float) -> int:
-    """From one output time to the next over all stops between; returns an outcome."""
-    t = start
-    while t < end:
-        to = min(end, present_stop(P))
-        outcome = march(P, L, t, to)
-        if outcome != DONE:
-            return outcome
-        t = to
-        if is_stop(P, to):
+        t = end
+        if is_stop(P, t):
             P.count.events += 1
-            next_stop(P, to)
-            if not accelerations(P, L, to, P.q, P.u, P.a, P.z, P.rd):
-                return SINGULAR_MASS
-    return DONE
+            next_stop(P, t)
 
 
 @native
 def march(P: Problem, L: Plan, start: float, end: float) -> int:
-    """Equal steps; returns an outcome."""
+    """Equal steps of at most HINIT; returns an outcome."""
     count = int(0.0 - floor(1e-9 - (end - start) / P.settings.h_max))
     h = (end - start) / count
-    P.report.h = h
+    P.report.h, P.report.order = h, 1
     for k in range(count):
         if P.settings.stop:
             return INTERRUPTED
+        if k > 0 and not accelerations(P, L, start + k * h, P.q, P.u, P.a, P.z, P.rd):
+            return SINGULAR_MASS
+        P.report.t = start + k * h
         for i in range(P.sizes.n):
             P.u[i] += h * P.a[i]
             P.q[i] += h * P.u[i]
             if not abs(P.q[i]) < 1e200:
-                return NOT_FINITE
+                return STEP_TOO_SMALL
         P.count.steps += 1
-        t = end if k + 1 == count else start + (k + 1) * h
-        if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
-            return SINGULAR_MASS
-        P.report.t = t
     return DONE
 
 
@@ -230,6 +219,11 @@ def test_its_code_is_kept_under_a_name_that_covers_this_file() -> None:
     al.simulate(al.read(spring()))
     assert "test_toy_method.march" in engine._version(EULER.entry)
     assert [*cache_folder().glob("euler*.o")]
+
+
+def test_the_page_for_contributors_shows_this_method() -> None:
+    page = (Path(__file__).parent.parent / "docs" / "contributing.md").read_text(encoding="utf-8")
+    assert all(inspect.getsource(function) in page for function in (euler, march))
 
 
 @pytest.mark.parametrize("names", [("TOY",), ("OTHER", "GSTIFF"), ("AUTO",)])
