@@ -18,7 +18,7 @@ from adamslite.kernels.code.lookup import on_piece, piece_at
 from adamslite.language.function import FUNCTIONS, function
 from adamslite.language.statement import STATEMENTS, Statement, choice, statement, vector
 from adamslite.native import compiler
-from adamslite.native.translate import translate
+from adamslite.native.translate import symbol, translate
 from adamslite.results.outcomes import Outcome
 from adamslite.symbolic.interpolant import BEYOND, Interpolant, interpolant
 from adamslite.symbolic.sympy_nodes import lookup, lookup_between
@@ -49,7 +49,8 @@ def table(kind: str, beyond: str = "parabola") -> Interpolant:
 def in_native_code() -> Callable[..., float]:
     """``lookup`` compiled: f(T, x, z, order, z_order)."""
     code = compiler.object_code(translate(in_python))
-    address = compiler.addresses([(code, ["lookup"])])["lookup"]
+    name = symbol(in_python)
+    address = compiler.addresses([(code, [name])])[name]
     real, whole = ctypes.c_double, ctypes.c_int64
     call = ctypes.CFUNCTYPE(real, ctypes.c_void_p, real, real, whole, whole)(address)
     return lambda T, *given: call(T.ctypes.data, *given)
