@@ -236,8 +236,10 @@ def _value(each: Argument) -> str:
     """What stands behind the equal sign, or instead of it."""
     if each.kind == "choice":
         ready = each.supported or each.options
-        later = [option for option in each.options if option not in ready]
-        return _listed(ready) + (f"; not yet {_listed(later)}" if later else "")
+        gone = [option for option, _ in each.discontinued]
+        later = [option for option in each.options if option not in (*ready, *gone)]
+        notes = [("not yet", later), ("discontinued", gone)]
+        return "; ".join([_listed(ready), *(f"{why} {_listed(w)}" for why, w in notes if w)])
     if each.kind == "vector":
         low, high = each.sizes
         return f"{low} numbers" if low == high else f"{low} to {high} numbers"

@@ -17,7 +17,8 @@ The words of a signature are separated by blanks:
                     gets an ``int``
 ``c:constant{1..8}``  the same, with the values allowed (``{1..12,27}``)
 ``i:marker``        the id of a MARKER; the body gets a frame
-``id:joint``        the id of a statement of that name (variable, diff, sforce ...)
+``id:joint``        the id of a statement of that name (variable, diff, sforce ...); the body gets
+                    what ``scope.statement(id)`` turns into that statement
 ``x:number=0``      optional, with its default; default 0 of a marker is the ground frame
 ``*a:number[1..31]``  the rest of the arguments, with how many of them there may be (``[2..]``)
 ``e:number:``       followed by a colon instead of a comma in a deck
