@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from statistics import median
 
-from benchmarks import matrix
+from benchmarks import hard_cases
 from benchmarks.figures import Figure
 from benchmarks.growth import FROM, exponent
 from benchmarks.points import Row
@@ -18,7 +18,9 @@ from benchmarks.tables import PEERS, TARGETS, by_scene, cheapest, milliseconds, 
 MIDDLE = 1e-5
 
 
-def conclusions(rows: Sequence[Row], single: Sequence[Figure], cells: Sequence[matrix.Cell]) -> str:
+def conclusions(
+    rows: Sequence[Row], single: Sequence[Figure], cells: Sequence[hard_cases.Cell]
+) -> str:
     """One item for each part that was measured."""
     parts = (_peers(rows), _methods(rows), _equal_steps(rows), _growth(rows), _cases(cells),
              _bounds(single))  # fmt: skip
@@ -98,10 +100,10 @@ def _names(rows: Iterable[Row]) -> list[str]:
     return list(dict.fromkeys(r.program for r in rows))
 
 
-def _cases(cells: Sequence[matrix.Cell]) -> Iterator[str]:
+def _cases(cells: Sequence[hard_cases.Cell]) -> Iterator[str]:
     """The counts of the matrix."""
     if cells:
-        yield f"**Hard cases.** Of {len(cells)} runs of hard cases {matrix.counts(cells)}."
+        yield f"**Hard cases.** Of {len(cells)} runs of hard cases {hard_cases.counts(cells)}."
 
 
 def _bounds(single: Sequence[Figure]) -> Iterator[str]:
@@ -132,17 +134,17 @@ def _cost(found: Row | None) -> tuple[str, str]:
     return (short(found.program), milliseconds(found.cpu_median)) if found else ("none", "-")
 
 
-def cases(cells: Sequence[matrix.Cell]) -> str:
+def cases(cells: Sequence[hard_cases.Cell]) -> str:
     """The hard cases of each integrator, counted by how they ended."""
     body = []
     for name in dict.fromkeys(cell.integrator for cell in cells):
         own = [cell for cell in cells if cell.integrator == name]
-        passed = [cell for cell in own if cell.verdict == matrix.PASSED]
+        passed = [cell for cell in own if cell.verdict == hard_cases.PASSED]
         at_once = sum(cell.share == cell.first for cell in passed)
         before = sum(cell.rejected_before for cell in own)
-        ended = sum(cell.verdict == matrix.STOPPED for cell in own) - before
+        ended = sum(cell.verdict == hard_cases.STOPPED for cell in own) - before
         others = [sum(cell.verdict == verdict for cell in own)
-                  for verdict in (matrix.REPORTED, matrix.SLOW, matrix.SILENT)]  # fmt: skip
+                  for verdict in (hard_cases.REPORTED, hard_cases.SLOW, hard_cases.SILENT)]  # fmt: skip
         counts = (at_once, len(passed) - at_once, before, ended, *others)
         body.append([name, *(str(count) for count in counts)])
     head = ("integrator", "inside at once", "inside at a smaller ERROR", "rejected before the run",

@@ -13,11 +13,10 @@ no error test; it starts at a twentieth of the output step and gets a quarter of
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
 import time
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -27,70 +26,30 @@ import numpy as np
 import adamslite
 from adamslite.analyses.output_times import output_times
 from adamslite.errors import UsageError
-from adamslite.language.method import AUTO
-from adamslite.outputs.whole_files import whole_file
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.scene import load_scene
 from adamslite.verification.reference_file import Reference, read_reference
-from adamslite.verification.work_precision import Variant, patient, variants
-from benchmarks.tables import table
+from adamslite.verification.work_precision import Variant, patient
+from benchmarks import report
+from benchmarks.hard_cases import (
+    CONSTANT,
+    PASSED,
+    REPORTED,
+    SILENT,
+    SLOW,
+    STOPPED,
+    Cell,
+    columns,
+    read,
+    write,
+)
 from benchmarks.torture import CASES, Case
 
-NAME = "matrix.csv"
 #: CPU [s] that an integrator may use for a case, and the least ERROR asked for.
 SECONDS, LEAST = 20.0, 1e-12
-#: The method of fixed steps.
-CONSTANT = "CONSTANT_BDF"
 #: From one rung to the next: ERROR, and the step of CONSTANT_BDF.
 TIGHTER, SHORTER = 0.1, 0.25
-
-#: Inside the band; rejected or ended early; too slow; outside, and the summary reports it; outside,
-#: and nothing reports it.
-PASSED, STOPPED, SLOW = "passed", "stopped", "slow"
-REPORTED, SILENT = "reported", "silent"
-WORDS = {
-    PASSED: "ended inside the band", STOPPED: "were rejected or ended early with a named outcome",
-    SLOW: "were not inside after twenty seconds",
-    REPORTED: "ended outside, and their summary says why", SILENT: "ended outside without a report",
-}  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Cell:
-    """How an integrator did on a case.
-
-    setting, share, steps, cpu : of the run that came closest, and the part of the band that it
-        used; infinite when none reached the end
-    first : the share at the ERROR of the deck;  outcome : how the last run ended
-    report : the sentence of a rejection or of the summary
-    """
-
-    case: str
-    integrator: str
-    verdict: str
-    setting: str = ""
-    share: float = np.inf
-    first: float = np.inf
-    steps: int = 0
-    cpu: float = 0.0
-    outcome: str = ""
-    report: str = ""
-
-    @property
-    def rejected_before(self) -> bool:
-        """Whether the method does not take the deck."""
-        return self.verdict == STOPPED and self.outcome == "UsageError"
-
-
-def columns() -> list[Variant]:
-    """Every integrator of the INTEGRATOR statement, those that do the same once."""
-    return [*variants(), Variant(CONSTANT), Variant(AUTO)]
-
-
-def heading(variant: Variant) -> str:
-    """All names of a column."""
-    return ", ".join((variant.label, *variant.also))
 
 
 def share_of(reference: Reference, results: Results) -> float:
@@ -178,33 +137,6 @@ def judged(reference: Reference, results: Results) -> tuple[float, str]:
     return share, PASSED if share <= 1.0 else SILENT
 
 
-def write(cells: Iterable[Cell], folder: Path) -> None:
-    """Write the table of a folder, cases and integrators in their order."""
-    rows = [case.name for case in CASES]
-    heads = [variant.label for variant in columns()]
-    known = [cell for cell in cells if cell.case in rows and cell.integrator in heads]
-    known.sort(key=lambda cell: (rows.index(cell.case), heads.index(cell.integrator)))
-    with whole_file(folder / NAME) as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow([field.name for field in fields(Cell)])
-        for cell in known:
-            values = asdict(cell).values()
-            writer.writerow([f"{v:.3g}" if isinstance(v, float) else v for v in values])
-
-
-def read(folder: Path) -> list[Cell]:
-    """The table of a folder; nothing where there is none."""
-    path = folder / NAME
-    if not path.exists():
-        return []
-    made = {"share": float, "first": float, "steps": int, "cpu": float}
-    with path.open(newline="") as file:
-        return [
-            Cell(**{key: made.get(key, str)(text) for key, text in row.items()})
-            for row in csv.DictReader(file)
-        ]
-
-
 def measure(cases: Sequence[Case], tried: Sequence[Variant], folder: Path, seconds: float) -> None:
     """Fill the cells of some cases and integrators, case by case."""
     for case in cases:
@@ -218,44 +150,8 @@ def measure(cases: Sequence[Case], tried: Sequence[Variant], folder: Path, secon
         print(f"{case.name}: {took:.0f} s{'; silent: ' + silent if silent else ''}", flush=True)
 
 
-def table_of(cells: Sequence[Cell]) -> str:
-    """Cases by integrators."""
-    found = {(cell.case, cell.integrator): cell for cell in cells}
-    heads = [variant for variant in columns() if any(c.integrator == variant.label for c in cells)]
-    body = [
-        [case.name, case.why, *(_shown(found.get((case.name, v.label))) for v in heads)]
-        for case in CASES if any(cell.case == case.name for cell in cells)
-    ]  # fmt: skip
-    if not body:
-        return ""
-    return table(("case", "", *map(heading, heads)), body)
-
-
-def counts(cells: Sequence[Cell]) -> str:
-    """How many runs ended in which way, in words."""
-    return ", ".join(
-        f"{sum(cell.verdict == verdict for cell in cells)} {words}"
-        for verdict, words in WORDS.items()
-    )
-
-
-def _shown(cell: Cell | None) -> str:
-    """A cell in few signs."""
-    if cell is None:
-        return ""
-    reached = f"{cell.share:.2g} at {cell.setting}"
-    if cell.verdict == PASSED:
-        return f"{cell.share:.2g}" if cell.share == cell.first else reached
-    if cell.verdict == STOPPED:
-        return "rejected" if cell.rejected_before else f"`{cell.outcome}`"
-    sign = {SLOW: "slow", REPORTED: "reported", SILENT: "**silent**"}[cell.verdict]
-    return f"{sign}, {reached}" if np.isfinite(cell.share) else sign
-
-
 def main() -> int:
     """Measure what the command line requests."""
-    from benchmarks import report
-
     parser = argparse.ArgumentParser(prog="python -m benchmarks.matrix", description=__doc__)
     parser.add_argument("--case", nargs="+", default=[""], metavar="PART")
     parser.add_argument("--only", nargs="+", default=[""], metavar="PART")

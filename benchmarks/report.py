@@ -16,7 +16,7 @@ from pathlib import Path
 
 from adamslite.errors import UsageError
 from adamslite.outputs.whole_files import whole_file
-from benchmarks import conclusions, figures, matrix, points, tables
+from benchmarks import conclusions, figures, hard_cases, points, tables
 from benchmarks.charts import GROWTH, draw_all, file_name, title
 from benchmarks.points import Row
 from benchmarks.tables import by_scene
@@ -105,7 +105,7 @@ TABLES = {
 def page(
     rows: Sequence[Row],
     single: Sequence[figures.Figure],
-    cells: Sequence[matrix.Cell],
+    cells: Sequence[hard_cases.Cell],
     drawn: Sequence[str],
     folder: str,
 ) -> str:
@@ -119,13 +119,13 @@ def page(
 
 
 def tables_page(
-    rows: Sequence[Row], single: Sequence[figures.Figure], cells: Sequence[matrix.Cell]
+    rows: Sequence[Row], single: Sequence[figures.Figure], cells: Sequence[hard_cases.Cell]
 ) -> str:
     """The sections of the second page."""
     parts = {
         "summary": tables.summary(rows), "equal_steps": tables.equal_steps(rows),
         "growth": tables.growth(rows), "singular": _singular(rows),
-        "matrix": matrix.table_of(cells), "single": tables.single(single),
+        "matrix": hard_cases.table_of(cells), "single": tables.single(single),
         "programs": _programs(rows),
     }  # fmt: skip
     return _sections(TABLES, parts)
@@ -160,7 +160,7 @@ def _programs(rows: Sequence[Row]) -> str:
 
 def write(folder: Path, target: Path, suffixes: Sequence[str], few: bool = False) -> None:
     """Write both pages from the tables in ``folder``, and all charts, or ``few`` of them, there."""
-    rows, single, cells = points.read(folder), figures.read(folder), matrix.read(folder)
+    rows, single, cells = points.read(folder), figures.read(folder), hard_cases.read(folder)
     if not rows and not single and not cells:
         raise UsageError(f"there is nothing measured in {folder}: python -m benchmarks --docs")
     try:

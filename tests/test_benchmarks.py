@@ -7,7 +7,7 @@ import pytest
 
 from adamslite import read
 from adamslite.verification.work_precision import Variant, variants
-from benchmarks import conclusions, figures, matrix, points, report, tables
+from benchmarks import conclusions, figures, hard_cases, matrix, points, report, tables
 from benchmarks.decks import deck
 from benchmarks.figures import Figure
 from benchmarks.growth import worth_measuring
@@ -229,16 +229,16 @@ def test_a_scene_measured_again_loses_its_old_lines() -> None:
 
 
 CELLS = [
-    matrix.Cell("pulse", "HHT", matrix.PASSED, "1e-08", 0.5, 12.0, 100, 0.01, "DONE"),
-    matrix.Cell("pulse", "RADAU", matrix.PASSED, "1e-06", 0.01, 0.01, 100, 0.01, "DONE"),
-    matrix.Cell("pulse", "VERLET", matrix.STOPPED, outcome="UsageError", report="use ABAM"),
-    matrix.Cell("pulse", "NEWMARK", matrix.SILENT, "1e-12", 2.0, 3.0, 100, 0.01, "DONE"),
+    hard_cases.Cell("pulse", "HHT", hard_cases.PASSED, "1e-08", 0.5, 12.0, 100, 0.01, "DONE"),
+    hard_cases.Cell("pulse", "RADAU", hard_cases.PASSED, "1e-06", 0.01, 0.01, 100, 0.01, "DONE"),
+    hard_cases.Cell("pulse", "VERLET", hard_cases.STOPPED, outcome="UsageError", report="use ABAM"),
+    hard_cases.Cell("pulse", "NEWMARK", hard_cases.SILENT, "1e-12", 2.0, 3.0, 100, 0.01, "DONE"),
 ]
 
 
 def test_the_report_has_what_every_command_measured(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
-    matrix.write(CELLS, tmp_path)
+    hard_cases.write(CELLS, tmp_path)
     report.write(tmp_path, page, [".svg"])
     behind = tmp_path / "page-tables.md"
     line = next(line for line in behind.read_text().splitlines() if line.startswith("| pulse"))
@@ -248,11 +248,11 @@ def test_the_report_has_what_every_command_measured(tmp_path: Path) -> None:
     report.write(tmp_path, page, [".svg"])
     assert "times ours" in behind.read_text() and line in behind.read_text()
     assert "Of 4 runs of hard cases 2 ended inside the band" in page.read_text()
-    assert matrix.read(tmp_path) == sorted(CELLS, key=in_order)
+    assert hard_cases.read(tmp_path) == sorted(CELLS, key=in_order)
 
 
-def in_order(cell: matrix.Cell) -> int:
-    return [variant.label for variant in matrix.columns()].index(cell.integrator)
+def in_order(cell: hard_cases.Cell) -> int:
+    return [variant.label for variant in hard_cases.columns()].index(cell.integrator)
 
 
 @pytest.fixture(scope="module")
@@ -268,12 +268,12 @@ def test_an_integrator_climbs_into_the_band(
 ) -> None:
     """At the ERROR of the deck, or at a smaller one: then the first was outside."""
     cell = matrix.attempt(square_wave, column(label), 20.0)
-    assert cell.verdict == matrix.PASSED and cell.share <= 1.0
+    assert cell.verdict == hard_cases.PASSED and cell.share <= 1.0
     assert (cell.first > 1.0) == smaller
 
 
 def column(label: str) -> Variant:
-    return next(variant for variant in matrix.columns() if variant.label == label)
+    return next(variant for variant in hard_cases.columns() if variant.label == label)
 
 
 def test_a_rejection_is_no_wrong_answer() -> None:
@@ -284,21 +284,21 @@ def test_a_rejection_is_no_wrong_answer() -> None:
 
 def test_no_time_is_no_pass(square_wave: matrix.Scene) -> None:
     cell = matrix.attempt(square_wave, column("HHT"), 0.0)
-    assert cell.share > 1.0 and cell.verdict in (matrix.SLOW, matrix.REPORTED)
+    assert cell.share > 1.0 and cell.verdict in (hard_cases.SLOW, hard_cases.REPORTED)
 
 
 def test_an_answer_outside_of_the_band_is_not_passed(square_wave: matrix.Scene) -> None:
     results = square_wave.run(error=1e-2)
     share, verdict = matrix.judged(square_wave.reference, results)
-    assert share > 1.0 and verdict == matrix.SILENT
+    assert share > 1.0 and verdict == hard_cases.SILENT
 
 
 def test_the_matrix_on_the_page_has_no_silent_wrong_answer() -> None:
     """Every hard case by every integrator was measured, and each outside of its band says so."""
-    cells = matrix.read(report.FOLDER)
+    cells = hard_cases.read(report.FOLDER)
     assert {cell.case for cell in cells} == {case.name for case in CASES}
-    assert len(cells) == len(CASES) * len(matrix.columns())
-    assert not [cell for cell in cells if cell.verdict == matrix.SILENT]
+    assert len(cells) == len(CASES) * len(hard_cases.columns())
+    assert not [cell for cell in cells if cell.verdict == hard_cases.SILENT]
 
 
 def test_charts_are_the_same_file_for_the_same_points(tmp_path: Path) -> None:
