@@ -143,8 +143,8 @@ def cases(cells: Sequence[hard_cases.Cell]) -> str:
         at_once = sum(cell.share == cell.first for cell in passed)
         before = sum(cell.rejected_before for cell in own)
         ended = sum(cell.verdict == hard_cases.STOPPED for cell in own) - before
-        others = [sum(cell.verdict == verdict for cell in own)
-                  for verdict in (hard_cases.REPORTED, hard_cases.SLOW, hard_cases.SILENT)]  # fmt: skip
+        rest = (hard_cases.REPORTED, hard_cases.SLOW, hard_cases.SILENT)
+        others = [sum(cell.verdict == verdict for cell in own) for verdict in rest]
         counts = (at_once, len(passed) - at_once, before, ended, *others)
         body.append([name, *(str(count) for count in counts)])
     head = ("integrator", "inside at once", "inside at a smaller ERROR", "rejected before the run",
