@@ -37,6 +37,7 @@ QUICK = (
     "paper-sforce",
     "pendulum-gcon",
     "pendulum-revolute",
+    "splines",
 )
 CHEAP = [
     slow(case) if case == "arrestment" else case for case in sorted(set(generate.CASES) - set(SLOW))

@@ -28,6 +28,7 @@ FOLDERS = (
     "pendulum-gcon",
     "slider-crank",
     "sliding-mass",
+    "splines",
     "spring-pendulum",
     "three-joint-coupler",
 )

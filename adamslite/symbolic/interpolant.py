@@ -55,9 +55,16 @@ class Interpolant:
         """Values (k, m) of all curves, or of a derivative, at ``x`` (k,)."""
         import numpy as np
 
-        piece = np.searchsorted(self.knots, x, side="right")
+        piece = pieces_at(self.knots, x)
         t = (x - self.knots[np.maximum(piece - 1, 0)])[:, None]
         return _polynomial(self.pieces[piece], t, order)
+
+
+def pieces_at(knots: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Numbers of the pieces that ``x`` lies on, as in :mod:`adamslite.kernels.code.lookup`."""
+    import numpy as np
+
+    return np.searchsorted(knots, x, side="right") - (np.asarray(x) == knots[-1])
 
 
 def interpolant(

@@ -12,7 +12,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from adamslite.symbolic.interpolant import Interpolant
+from adamslite.symbolic.interpolant import Interpolant, pieces_at
 
 # A curve or derivative jumps at a knot where its two sides differ by more than this share of its
 # largest value.
@@ -47,7 +47,7 @@ class Ranges:
 
     def within(self, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Least and largest value from ``low`` to ``high``."""
-        first, last = (np.searchsorted(self.knots, x, side="right") for x in (low, high))
+        first, last = (pieces_at(self.knots, x) for x in (low, high))
         n = len(self.knots)
         left = np.where(first == last, high, self.knots[np.minimum(first, n - 1)])
         right = np.where(first == last, low, self.knots[np.maximum(last - 1, 0)])
@@ -74,7 +74,7 @@ class Ranges:
 
     def jumps_within(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """Whether there is a jump behind ``low`` and up to ``high``."""
-        first, last = (np.searchsorted(self.knots, x, side="right") for x in (low, high))
+        first, last = (pieces_at(self.knots, x) for x in (low, high))
         return self.jumps[last] > self.jumps[first]
 
 

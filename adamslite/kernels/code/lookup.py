@@ -40,8 +40,11 @@ def count_up_to(values: Reals, n: int, x: float) -> int:
 
 @native
 def piece_at(T: Reals, x: float) -> int:
-    """Number of the piece that ``x`` lies on; at a knot of the one behind it."""
-    return count_up_to(T[KNOTS:], int(T[0]), x)
+    """Number of the piece that ``x`` lies on; at a knot of the one after it, at the last knot of
+    the one before it: a run may end where its table ends.
+    """
+    n = int(T[0])
+    return count_up_to(T[KNOTS:], n, x) - (1 if x == T[KNOTS + n - 1] else 0)
 
 
 @native
