@@ -151,7 +151,8 @@ def way(
     spec: Spec, spans: list[FreeSpan], group: list[int], stored: dict[int, float]
 ) -> list[Straight | Arc]:
     """Lines and arcs of a stretch; `stored` [m] is what winches at its ends hold."""
-    flat, parts = plane(spec), []
+    flat = plane(spec)
+    parts: list[Straight | Arc] = []
     first, last = spec.pairs[group[0]][0], spec.pairs[group[-1]][1]
     if not spec.closed and stored.get(first):
         span, rim = spans[group[0]], spec.route[first]
@@ -177,6 +178,7 @@ def way(
 def _from_the_middle(parts: list[Straight | Arc]) -> list[Straight | Arc]:
     """A loop that begins in the middle of its first line, where no node is about to touch a rim."""
     line = parts[0]
+    assert isinstance(line, Straight)
     half = line.length / 2
     return [
         Straight(line.point(half, 0.0), line.along, half, line.span), *parts[1:],
@@ -267,8 +269,9 @@ class _Walk:
         return self.tension(part, at, flat.place(part.point(at, 0.0)))
 
     def _sunk(self, part: Straight | Arc, pull: float, h: float) -> float:
-        held = isinstance(part, Arc) and part.held
-        return pull * h / part.radius / self.contact if held else 0.0
+        if isinstance(part, Arc) and part.held:
+            return pull * h / part.radius / self.contact
+        return 0.0
 
     def _node(
         self, flat: Plane, part: Straight | Arc, p: Point, at: float, way: float

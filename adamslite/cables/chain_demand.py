@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import sqrt
 from statistics import mean
-from typing import Any
+from typing import TypeGuard
 
 from adamslite.cables.chain_finder import Chain, Link, free_length, law_of
 from adamslite.cables.demand import Demand
@@ -12,7 +12,12 @@ from adamslite.cables.estimate import Travel, from_ways
 from adamslite.cables.payout_law import Unknown
 from adamslite.cables.posture import Body, Posture
 from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across, unit
-from adamslite.language.expression import Call, Ref, calls
+from adamslite.deck.deck import Deck
+from adamslite.elements.bases.constraint import Constraint
+from adamslite.elements.diff import Diff
+from adamslite.elements.part import Part
+from adamslite.elements.vforce import Vforce
+from adamslite.language.expression import Call, Node, Ref, calls
 
 # Share of a speed, or of a pull, from which a difference counts.
 FELT = 0.01
@@ -75,12 +80,10 @@ def _tips(chain: Chain) -> list[Body]:
     )
 
 
-def _is_tied(deck: Any) -> bool:
+def _is_tied(deck: Deck) -> bool:
     """Whether anything keeps accelerations from following mass by mass."""
     return any(
-        hasattr(each, "constraints")
-        or each.keyword in ("DIFF", "VFORCE")
-        or (each.keyword == "PART" and not each.ground)
+        isinstance(each, Constraint | Diff | Vforce) or (isinstance(each, Part) and not each.ground)
         for each in deck.statements
     )
 
@@ -90,7 +93,7 @@ def _is_tied(deck: Any) -> bool:
 
 def _travel(chain: Chain, posture: Posture, end: float) -> tuple[Travel, tuple[float, float]]:
     """Payout over the run, and the range of dm/m0."""
-    laws: dict[Any, list[Link]] = {}
+    laws: dict[tuple[Node, ...] | float, list[Link]] = {}
     for link in chain.links:
         laws.setdefault(law_of(link), []).append(link)
     fed = [(same[0], len(same)) for same in laws.values()]
@@ -107,14 +110,15 @@ def _travel(chain: Chain, posture: Posture, end: float) -> tuple[Travel, tuple[f
         if not known:
             speed = abs(payout(end * SHORT) - payout(0.0)) / (end * SHORT)
             speed = speed if speed * end > SHORT * payout(0.0) else 0.0
-            return Travel(speed=speed, jump=speed, known=False), (_gained(chain, posture),) * 2
+            gained = _gained(chain, posture)
+            return Travel(speed=speed, jump=speed, known=False), (gained, gained)
         times = [end * i / INSTANTS for i in range(INSTANTS + 1)]
         ways = [payout(time) for time in times]
-        gains = []
-        for way in (min(ways), max(ways)):
-            posture.at(times[ways.index(way)])
-            gains.append(_gained(chain, posture))
-        return from_ways([way - ways[0] for way in ways], end / INSTANTS, 0.0), tuple(gains)
+        posture.at(times[ways.index(min(ways))])
+        least = _gained(chain, posture)
+        posture.at(times[ways.index(max(ways))])
+        gains = least, _gained(chain, posture)
+        return from_ways([way - ways[0] for way in ways], end / INSTANTS, 0.0), gains
     except Unknown:
         return Travel(known=False), (0.0, 0.0)
     finally:
@@ -155,12 +159,12 @@ def _gained(chain: Chain, posture: Posture) -> float:
     for force in _grows(posture, node):
         for component in (force.fx, force.fy, force.fz):
             for call in set(calls(component, "ACCX", "ACCY", "ACCZ")):
-                if posture.body(call.args[0].id) == node:
+                if _is_marker(call.args[0]) and posture.body(call.args[0].id) == node:
                     total = max(total, _slope(component, call, posture))
     return total * posture.deck.ucf / posture.deck.find(*node).mass
 
 
-def _slope(component: Any, call: Call, posture: Posture) -> float:
+def _slope(component: Node, call: Call, posture: Posture) -> float:
     values = []
     for posture.given[call] in (0.0, 1.0):
         values.append(posture.value(component))
@@ -168,9 +172,9 @@ def _slope(component: Any, call: Call, posture: Posture) -> float:
     return values[0] - values[1]
 
 
-def _grows(posture: Posture, node: Body) -> Iterator[Any]:
+def _grows(posture: Posture, node: Body) -> Iterator[Vforce]:
     """VFORCEs on a body."""
-    return (f for f in posture.deck.of("VFORCE") if posture.body(f.i) == node)
+    return (f for f in posture.deck.of(Vforce) if posture.body(f.i) == node)
 
 
 def _form(chain: Chain, posture: Posture, travel: Travel) -> str:
@@ -186,7 +190,7 @@ def _form(chain: Chain, posture: Posture, travel: Travel) -> str:
     return forms.pop() if len(forms) == 1 else "fixed"
 
 
-def _is_marker(node: Any) -> bool:
+def _is_marker(node: Node) -> TypeGuard[Ref]:
     return isinstance(node, Ref) and node.kind == "MARKER" and node.id != 0
 
 
@@ -226,7 +230,7 @@ class _Shape:
         steps = [add(b, a, -1.0) for a, b in zip(self.speeds, self.speeds[1:], strict=False)]
         along = [abs(dot(d, t)) for d, t in zip(steps, self.along, strict=True)]
         across = [norm(part_across(d, t)) for d, t in zip(steps, self.along, strict=True)]
-        return tuple(max(each) if max(each) > 0.5 * sum(each) else 0.0 for each in (along, across))
+        return _standing(along), _standing(across)
 
     def leaves(self, chain: Chain) -> float:
         """Speed at which the far end moves away along the cable; cable comes in at the other."""
@@ -261,3 +265,8 @@ def _place(chain: Chain, posture: Posture, k: int) -> Vector:
     i_first = link.ends[0] == chain.nodes[min(k, len(chain.links) - 1)]
     first, second = (link.i, link.j) if i_first else (link.j, link.i)
     return posture.place(first if k < len(chain.links) else second)
+
+
+def _standing(steps: list[float]) -> float:
+    """The largest of some differences if it stands between two neighbours, else 0."""
+    return max(steps) if max(steps) > 0.5 * sum(steps) else 0.0

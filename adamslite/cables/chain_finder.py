@@ -6,17 +6,21 @@ it; EA = k H. A row ends at the ground, at a body that is joined to one or to mo
 and at a body much heavier or lighter than the masses in between.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from statistics import median
-from typing import Any
 
 from adamslite.cables.payout_law import Unknown
 from adamslite.cables.posture import GROUND, Body, Posture
 from adamslite.cables.vectors import ZERO, add, dot, norm
+from adamslite.deck.deck import Deck
+from adamslite.elements.sforce import Sforce
+from adamslite.elements.springdamper import Springdamper
+from adamslite.elements.vforce import Vforce
 from adamslite.language.expression import Node, Ref, rebuild
+from adamslite.language.interfaces import Key
 
-Key = int | str
+Spring = Sforce | Vforce | Springdamper
 # Fewer springs in a row are springs, not a cable.
 FEWEST = 3
 # Masses and stiffnesses of one cable differ by less than this factor.
@@ -36,10 +40,10 @@ class Link:
     `pull` [force] is its tension as drawn, `stiffness` [force/length], `free` its free length.
     """
 
-    statement: Any
+    statement: Spring
     i: Key
     j: Key
-    ends: tuple[Any, Any]
+    ends: tuple[Body, Body]
     components: tuple[Node, ...]
     pull: float = 0.0
     stiffness: float = 0.0
@@ -51,7 +55,7 @@ class Chain:
     """Springs in a row; node k is between link k - 1 and link k, the first and last are ends."""
 
     links: tuple[Link, ...]
-    nodes: tuple[Any, ...]
+    nodes: tuple[Body, ...]
 
     @property
     def is_ring(self) -> bool:
@@ -64,9 +68,9 @@ class Chain:
         return self.nodes[1:] if self.is_ring else self.nodes[1:-1]
 
 
-def chains(deck: Any, posture: Posture) -> list[Chain]:
+def chains(deck: Deck, posture: Posture) -> list[Chain]:
     """All cables of a deck, in the order of their first springs."""
-    joined: dict[Any, dict[Any, Link]] = {}
+    joined: dict[Body, dict[Body, Link]] = {}
     for link in _links(deck, posture):
         a, b = link.ends
         joined.setdefault(a, {})[b] = link
@@ -75,14 +79,14 @@ def chains(deck: Any, posture: Posture) -> list[Chain]:
     two = [m for node, m in masses.items() if m and len(joined[node]) == 2]
     middle = median(two) if two else 0.0
 
-    def inside(node: Any) -> bool:
+    def inside(node: Body) -> bool:
         m = masses[node]
         return bool(m) and len(joined[node]) == 2 and middle / ALIKE < m < middle * ALIKE
 
     return [chain for chain in _rows(joined, inside) if _is_cable(chain)]
 
 
-def _links(deck: Any, posture: Posture) -> Iterator[Link]:
+def _links(deck: Deck, posture: Posture) -> Iterator[Link]:
     for drawn in _candidates(deck, posture):
         try:
             found = _sprung(drawn, posture)
@@ -92,29 +96,31 @@ def _links(deck: Any, posture: Posture) -> Iterator[Link]:
             yield found
 
 
-def _candidates(deck: Any, posture: Posture) -> Iterator[Link]:
+def _candidates(deck: Deck, posture: Posture) -> Iterator[Link]:
     """Forces along a line between two bodies."""
-    for force in deck.of("SFORCE"):
+    for force in deck.of(Sforce):
         if force.kind == "TRANSLATIONAL" and not force.actiononly and deck.is_active(force):
             yield from _between(posture, force, force.j, (force.function,))
-    for spring in deck.of("SPRINGDAMPER"):
+    for spring in deck.of(Springdamper):
         if spring.kind == "TRANSLATIONAL" and deck.is_active(spring):
             yield from _between(posture, spring, spring.j, ())
-    for force in deck.of("VFORCE"):
-        if force.rm == 0 and deck.is_active(force):
-            components = (force.fx, force.fy, force.fz)
-            for j in _other_ends(posture, force.i, components):
-                yield from _between(posture, force, j, components)
+    for vector in deck.of(Vforce):
+        if vector.rm == 0 and deck.is_active(vector):
+            components = (vector.fx, vector.fy, vector.fz)
+            for j in _other_ends(posture, vector.i, components):
+                yield from _between(posture, vector, j, components)
 
 
-def _between(posture: Posture, force: Any, j: Key, components: Sequence[Node]) -> Iterator[Link]:
-    ends = tuple(
-        body if body is not GROUND else ("MARKER", marker)
-        for marker in (force.i, j)
-        for body in [posture.body(marker)]
-    )
-    if ends[0] != ends[1] and any(end[0] != "MARKER" for end in ends):
-        yield Link(force, force.i, j, ends, tuple(components))
+def _between(posture: Posture, force: Spring, j: Key, components: Sequence[Node]) -> Iterator[Link]:
+    here, there = _end(posture, force.i), _end(posture, j)
+    if here != there and (here[0] != "MARKER" or there[0] != "MARKER"):
+        yield Link(force, force.i, j, (here, there), tuple(components))
+
+
+def _end(posture: Posture, marker: Key) -> Body:
+    """The body of a marker; the marker itself where it is on the ground."""
+    body = posture.body(marker)
+    return body if body is not GROUND else ("MARKER", marker)
 
 
 def _other_ends(posture: Posture, i: Key, components: Sequence[Node]) -> set[Key]:
@@ -133,10 +139,10 @@ def _other_ends(posture: Posture, i: Key, components: Sequence[Node]) -> set[Key
 
 def _sprung(link: Link, posture: Posture) -> Link | None:
     """The link with its stiffness and free length; None when it is no spring that pulls."""
-    spring = link.statement
     line = add(posture.place(link.i), posture.place(link.j), -1.0)
     drawn = norm(line)
-    if not link.components:
+    spring = link.statement
+    if isinstance(spring, Springdamper):
         free = spring.length + spring.force / spring.k if spring.k > 0 else 0.0
         return _made(link, spring.k * (drawn - free), spring.k, free) if free > 0 else None
     if not drawn > 0 or not _pull(link, posture, STRETCHES[-1]) > 0:
@@ -175,11 +181,14 @@ def _pull(link: Link, posture: Posture, stretch: float) -> float:
     posture.shift[body] = add(ZERO, line, sense * stretch)
     posture.forget()
     try:
-        values = tuple(posture.value(node) for node in link.components)
+        values = [posture.value(node) for node in link.components]
     finally:
         posture.shift.clear()
         posture.forget()
-    return -values[0] if len(values) == 1 else -dot(values, line) / norm(line)
+    if len(values) == 1:
+        return -values[0]
+    x, y, z = values
+    return -dot((x, y, z), line) / norm(line)
 
 
 def free_length(link: Link, posture: Posture) -> float:
@@ -190,7 +199,7 @@ def free_length(link: Link, posture: Posture) -> float:
     return found[1]
 
 
-def law_of(link: Link) -> Any:
+def law_of(link: Link) -> tuple[Node, ...] | float:
     """What all links that are one law between different markers have in common."""
     own = {link.i: "I", link.j: "J"}
 
@@ -204,12 +213,12 @@ def law_of(link: Link) -> Any:
     return link.free
 
 
-def _mass(deck: Any, node: Any) -> float:
+def _mass(deck: Deck, node: Body) -> float:
     found = deck.find(*node) if node[0] != "MARKER" else None
     return (found.mass or 0.0) if found else 0.0
 
 
-def _rows(joined: dict[Any, dict[Any, Link]], inside: Any) -> Iterator[Chain]:
+def _rows(joined: dict[Body, dict[Body, Link]], inside: Callable[[Body], bool]) -> Iterator[Chain]:
     used: set[int] = set()
     ends = [node for node in joined if not inside(node)]
     for start in [*ends, *joined]:

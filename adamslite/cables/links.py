@@ -71,6 +71,7 @@ def _start(each, out: Vector, spin: float) -> str:
 def _wander(spec: Spec, i: int, m: int) -> str:
     """Way of a guide along the axle, and what pulls it back."""
     b, own = marker(i) + 1, spec.route[i].wander
+    assert own is not None
     a = m + AXLE
     return (
         f"VARIABLE/wander_{m}, FUNCTION=DZ({a},{b},{b})\n"

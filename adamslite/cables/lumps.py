@@ -98,8 +98,8 @@ def write_lumps(spec: Spec, spans: list[FreeSpan], model: CableModel, moves: Mov
     text += _ends(spec, found)
     for each in found:
         text += _contacts(spec, each, moves, section)
-    for i, each in enumerate(spec.route):
-        text += drive(spec, i, []) if each.is_wheel else ""
+    for i, station in enumerate(spec.route):
+        text += drive(spec, i, []) if station.is_wheel else ""
     return text + _requests(spec, found)
 
 

@@ -114,7 +114,6 @@ MESSAGES: dict[str, Message] = {
     "stored-too-little": Message(
         "the payout reaches {value:.4g} m, and {held:.4g} m are stored",
         "more cable stored, or an earlier end",
-        "more cable stored, or an earlier end",
     ),
     "level-2-pays-out": Message(
         "level 2 has sections of {section:.4g} m and {travel:.4g} m of cable go over a wheel",

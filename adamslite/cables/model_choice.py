@@ -15,6 +15,7 @@ from adamslite.cables.demand import Demand
 from adamslite.cables.estimate import Moves, moving_mass
 from adamslite.cables.geometry import FreeSpan, reaches, wrap
 from adamslite.cables.messages import Faults
+from adamslite.cables.posture import AXES
 from adamslite.cables.vectors import add, dot, part_across, unit
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import slipping
@@ -103,7 +104,7 @@ def _stays_tangent(spec: Spec, spans: list[FreeSpan], i: int) -> bool:
     if each.mount:
         return False
     ways = [each.slide] if each.is_carried else []
-    ways += [tuple(float(k == j) for k in range(3)) for j in range(3) if each.motion[j]]
+    ways += [axis for axis, law in zip(AXES, each.motion, strict=True) if law]
     return all(
         any(v) and abs(dot(unit(v), spans[p].along)) > 1 - ROUND_OFF
         for v in ways for p in spec.beside(i)

@@ -5,15 +5,25 @@ have to find (reactions, forces that are measured) is :class:`Unknown`; what a c
 as a function of time is computed from that constraint.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from math import atan2
-from typing import Any
 
 from adamslite.cables.payout_law import Unknown, evaluate
 from adamslite.cables.vectors import ZERO, Vector, add, dot, norm
+from adamslite.deck.deck import Deck
+from adamslite.elements.gcon import Gcon
+from adamslite.elements.marker import Marker
+from adamslite.elements.motion import Motion
+from adamslite.elements.part import Part
+from adamslite.elements.point_mass import PointMass
 from adamslite.language.expression import Call, Node, Ref, Time, walk
+from adamslite.language.interfaces import Key
 
-Body = tuple[str, Any]
+Body = tuple[str, Key]
+"""Keyword and id."""
+Axes = tuple[Vector, Vector, Vector]
+Law = Callable[[], float]
 
 GROUND: Body = ("PART", "ground")
 AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -35,16 +45,16 @@ class Posture:
         Displacements of bodies from where the deck places them.
     """
 
-    def __init__(self, deck: Any) -> None:
+    def __init__(self, deck: Deck) -> None:
         self.deck = deck
         self.time = 0.0
         self.given: dict[Call, float] = {}
         self.shift: dict[Body, Vector] = {}
-        self._bodies: dict[Any, Body] = {}
-        self._places: dict[Any, Vector] = {}
-        self._laws: dict[Call, Any] = {}
-        self._variables: dict[Any, float] = {}
-        self._constants: dict[Any, float] = {}
+        self._bodies: dict[Key, Body] = {}
+        self._places: dict[Key, Vector] = {}
+        self._laws: dict[Call, Law] = {}
+        self._variables: dict[Key, float] = {}
+        self._constants: dict[Key, float] = {}
 
     def at(self, time: float) -> None:
         """Go to another time: what is prescribed takes the value it has then."""
@@ -58,24 +68,26 @@ class Posture:
 
     # places
 
-    def body(self, marker: Any) -> Body:
+    def body(self, marker: Key) -> Body:
         """The body a marker is on; all of the ground is one."""
         if marker not in self._bodies:
             found = self.deck.find("MARKER", marker) if marker != 0 else None
-            owner = found.owner if found else GROUND
+            owner = found.owner if found else None
             part = self.deck.find(*owner) if owner else None
-            fixed = part is None or getattr(part, "ground", False)
-            self._bodies[marker] = GROUND if fixed else (owner[0], part.key)
+            if owner and part and not getattr(part, "ground", False):
+                self._bodies[marker] = owner[0], part.key
+            else:
+                self._bodies[marker] = GROUND
         return self._bodies[marker]
 
-    def place(self, marker: Any) -> Vector:
+    def place(self, marker: Key) -> Vector:
         """Where a marker is, in ground."""
         if marker not in self._places:
             self._places[marker] = self._placed(marker)
         moved = self.shift.get(self.body(marker)) if self.shift else None
         return add(self._places[marker], moved) if moved else self._places[marker]
 
-    def _placed(self, marker: Any) -> Vector:
+    def _placed(self, marker: Key) -> Vector:
         if marker == 0:
             return 0.0, 0.0, 0.0
         found = self.deck.find("MARKER", marker)
@@ -88,7 +100,7 @@ class Posture:
             place = add(place, axis, share)
         return place
 
-    def axes(self, marker: Any) -> tuple[Vector, Vector, Vector]:
+    def axes(self, marker: Key) -> Axes:
         """Axes of a marker, in ground."""
         if marker == 0:
             return AXES
@@ -96,9 +108,8 @@ class Posture:
         outer, own = _axes(self.deck.find(*found.owner)), _axes(found)
         if own is AXES:
             return outer
-        return tuple(
-            tuple(sum(axis[k] * outer[k][c] for k in range(3)) for c in range(3)) for axis in own
-        )  # fmt: skip
+        x, y, z = (add(add(add(ZERO, outer[0], a), outer[1], b), outer[2], c) for a, b, c in own)
+        return x, y, z
 
     def velocity(self, body: Body) -> Vector:
         """Of the origin of a body at the start."""
@@ -131,7 +142,7 @@ class Posture:
             return self._turn(ids)
         raise Unknown
 
-    def _variable(self, key: Any) -> float:
+    def _variable(self, key: Key) -> float:
         if key in self._constants:
             return self._constants[key]
         if key not in self._variables:
@@ -144,7 +155,7 @@ class Posture:
             raise Unknown
         return self._variables[key]
 
-    def _distance(self, name: str, ids: list[Any]) -> float:
+    def _distance(self, name: str, ids: list[Key]) -> float:
         d = self.place(ids[0])
         if len(ids) > 1 and ids[1] != 0:
             d = add(d, self.place(ids[1]), -1.0)
@@ -153,7 +164,7 @@ class Posture:
         axis = "XYZ".index(name[1])
         return d[axis] if len(ids) < 3 or ids[2] == 0 else dot(d, self.axes(ids[2])[axis])
 
-    def _turn(self, ids: list[Any]) -> float:
+    def _turn(self, ids: list[Key]) -> float:
         x = self.axes(ids[0])[0]
         along, aside, _ = self.axes(ids[1]) if len(ids) > 1 else AXES
         return atan2(dot(x, aside), dot(x, along))
@@ -205,7 +216,7 @@ class Posture:
         spins = [self._spin(each) for each in ids[:2]]
         return dot(spins[0], axis) - (dot(spins[1], axis) if len(spins) > 1 else 0.0)
 
-    def _spin(self, marker: Any) -> Vector:
+    def _spin(self, marker: Key) -> Vector:
         """Angular velocity of a marker's body at the start, in ground."""
         body = self.body(marker)
         found = self.deck.find(*body) if body is not GROUND else None
@@ -214,20 +225,22 @@ class Posture:
         x, y, z = self.axes(found.cm)
         return add(add(add(ZERO, x, found.wx), y, found.wy), z, found.wz)
 
-    def _motion(self, call: Call) -> Any:
+    def _motion(self, call: Call) -> Law | None:
         ids = [arg.id for arg in call.args if isinstance(arg, Ref)][:2]
-        for motion in self.deck.of("MOTION"):
+        for motion in self.deck.of(Motion):
             joint = self.deck.find("JOINT", motion.joint) if motion.joint is not None else None
-            driven = joint and [joint.i, joint.j] == ids and FREEDOMS.get(motion.axis) == call.name
+            driven = (
+                joint and [joint.i, joint.j] == ids and FREEDOMS.get(motion.axis or "") == call.name
+            )
             if driven and motion.level == "DISPLACEMENT":
-                return lambda motion=motion: self.value(motion.function)
+                return partial(self.value, motion.function)
         return None
 
-    def _constraint(self, call: Call) -> Any:
+    def _constraint(self, call: Call) -> Law | None:
         """From a GCON that is linear in the measure and depends on nothing else but time."""
-        for gcon in self.deck.of("GCON"):
+        for gcon in self.deck.of(Gcon):
             if self.measures(gcon.function) == {call}:
-                return lambda node=gcon.function: self._root(node, call)
+                return partial(self._root, gcon.function, call)
         return None
 
     def _root(self, node: Node, call: Call) -> float:
@@ -241,7 +254,7 @@ class Posture:
         return ends[0] / (ends[0] - ends[1])
 
 
-def _axes(statement: Any) -> tuple[Vector, Vector, Vector]:
+def _axes(statement: Part | PointMass | Marker) -> Axes:
     """Axes of a part or marker in what it is placed in; numpy only where they are turned."""
     words = ("reuler", "zp", "xp", "zg", "xg")
     if not any(statement.given(word) for word in words if hasattr(statement, word)):
@@ -250,5 +263,6 @@ def _axes(statement: Any) -> tuple[Vector, Vector, Vector]:
 
     from adamslite.model.geometry import frame_axes
 
-    origin = statement.qp if hasattr(statement, "qp") else statement.qg
-    return tuple(tuple(map(float, axis)) for axis in frame_axes(statement, np.asarray(origin)).T)
+    origin = statement.qp if isinstance(statement, Marker) else statement.qg
+    x, y, z = frame_axes(statement, np.asarray(origin)).T.tolist()
+    return tuple(x), tuple(y), tuple(z)

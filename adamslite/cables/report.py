@@ -3,14 +3,17 @@
 from collections.abc import Iterable
 from dataclasses import replace
 from math import pi
-from typing import Any
 
 from adamslite.cables.advice import Advice, advise
 from adamslite.cables.chain_demand import ChainDemand, demand_on
 from adamslite.cables.chain_finder import Chain, chains
 from adamslite.cables.demand import Demand
 from adamslite.cables.payout_law import Unknown
-from adamslite.cables.posture import Posture
+from adamslite.cables.posture import Body, Posture
+from adamslite.deck.deck import Deck
+from adamslite.deck.redefinition import Command
+from adamslite.elements.simulate import Simulate
+from adamslite.elements.units import Units
 from adamslite.language import units
 
 # Figures below it are shown as 0.
@@ -20,12 +23,12 @@ ACCURACIES = (0.01, 0.001)
 MOST = 6
 
 
-def about_cables(deck: Any, commands: Iterable[Any] = ()) -> list[str]:
+def about_cables(deck: Deck, commands: Iterable[Command] = ()) -> list[str]:
     """Lines about every cable; none for a deck without."""
     return _listed(cables(deck, commands))
 
 
-def cables(deck: Any, commands: Iterable[Any] = ()) -> list[ChainDemand]:
+def cables(deck: Deck, commands: Iterable[Command] = ()) -> list[ChainDemand]:
     """The cables of a deck in its run, in SI units when the deck names its units."""
     posture = Posture(deck)
     rows = chains(deck, posture)
@@ -40,20 +43,20 @@ def cables(deck: Any, commands: Iterable[Any] = ()) -> list[ChainDemand]:
     return found
 
 
-def _end(deck: Any, commands: Iterable[Any]) -> float:
+def _end(deck: Deck, commands: Iterable[Command]) -> float:
     """When the dynamics end, 0 when nothing says so."""
-    runs = [c for c in commands if c.keyword == "SIMULATE"] or deck.of("SIMULATE")
+    runs = [c for c in commands if isinstance(c, Simulate)] or deck.of(Simulate)
     time = reached = 0.0
     for run in runs:
-        if run.at_once or run.until(time) is None:
+        if run.at_once:
             continue
         time = run.until(time)
         reached = time if run.kind in ("DYNAMICS", "TRANSIENT") else reached
     return reached
 
 
-def _in_si(of: Demand, deck: Any) -> Demand:
-    names = deck.single("UNITS").names
+def _in_si(of: Demand, deck: Deck) -> Demand:
+    names = deck.single(Units).names
     if not names:
         return of
     force, length, time = units.FORCE[names[0]], units.LENGTH[names[2]], units.TIME[names[3]]
@@ -90,7 +93,7 @@ def _ends(chain: Chain) -> str:
     return f"from {_name(chain.nodes[0])} to {_name(chain.nodes[-1])}"
 
 
-def _name(node: tuple[str, Any]) -> str:
+def _name(node: Body) -> str:
     return f"{node[0]}/{node[1]}"
 
 

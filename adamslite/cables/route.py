@@ -1,10 +1,9 @@
 """Rules about the stations of a route: their order, and which of their keys go together."""
 
 from math import inf
-from typing import Any
 
 from adamslite.cables.messages import Faults
-from adamslite.cables.vocabulary import WHEELS
+from adamslite.cables.vocabulary import WHEELS, Toml
 
 INSIDE = ("pulley", "winch", "mass", "body", "bend")
 AT_ENDS = ("fixed", "free", "run", "mass", "body", "winch")
@@ -12,7 +11,7 @@ POINTS = ("fixed", "free", "mass", "body")
 ON_A_LOOP = ("pulley", "winch", "mass", "bend")
 
 
-def check_route(faults: Faults, route: list[dict[str, Any]], closed: bool) -> None:
+def check_route(faults: Faults, route: list[Toml], closed: bool) -> None:
     """Say what is wrong with the stations as a whole."""
     ring = closed and [each.get("kind") for each in route] == ["bend"]
     if len(route) < 2 and not ring:
@@ -28,7 +27,7 @@ def check_route(faults: Faults, route: list[dict[str, Any]], closed: bool) -> No
     _sliders(faults, route)
 
 
-def _sliders(faults: Faults, route: list[dict[str, Any]]) -> None:
+def _sliders(faults: Faults, route: list[Toml]) -> None:
     """A weight that slides does so between two points; only such a one is hauled."""
     for i, each in enumerate(route):
         beside = [route[k] for k in (i - 1, i + 1) if 0 <= k < len(route)]
@@ -39,7 +38,7 @@ def _sliders(faults: Faults, route: list[dict[str, Any]]) -> None:
             faults.add("no-slider", ("route", i, "haul"))
 
 
-def _place(faults: Faults, each: dict[str, Any], i: int, count: int, closed: bool) -> None:
+def _place(faults: Faults, each: Toml, i: int, count: int, closed: bool) -> None:
     kind, inside = each.get("kind"), 0 < i < count - 1
     if kind not in (*INSIDE, *AT_ENDS):
         return
@@ -50,7 +49,7 @@ def _place(faults: Faults, each: dict[str, Any], i: int, count: int, closed: boo
         faults.add("wrong-end", ("route", i, "kind"), kind=kind, where=where)
 
 
-def _winch(faults: Faults, each: dict[str, Any], i: int, ends: bool) -> None:
+def _winch(faults: Faults, each: Toml, i: int, ends: bool) -> None:
     """It has one drive; at an end of the route it may be a reel."""
     if sum(bool(each.get(key)) for key in ("payout", "force", "torque")) != 1:
         faults.add("drive", ("route", i))
@@ -64,7 +63,7 @@ def _winch(faults: Faults, each: dict[str, Any], i: int, ends: bool) -> None:
         faults.add("reel-core", ("route", i, "reel"), core=reel.core, radius=each["radius"])
 
 
-def _carriage(faults: Faults, each: dict[str, Any], i: int) -> None:
+def _carriage(faults: Faults, each: Toml, i: int) -> None:
     """A wheel that moves has either a law, or a mass that forces move."""
     if each["mass"] and any(each["motion"]):
         faults.add("moved-twice", ("route", i, "motion"))

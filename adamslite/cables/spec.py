@@ -16,8 +16,11 @@ from adamslite.cables.vocabulary import (
     TOP,
     Cable,
     NestedTable,
+    Rules,
     Spec,
     Station,
+    Takes,
+    Toml,
 )
 from adamslite.language.diagnostics import DeckError, Source, sort_by_place
 
@@ -52,7 +55,7 @@ def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
     if not readable or any(each.code == "missing-key" for each in faults.found):
         raise DeckError(sort_by_place(faults.found))
     names = {"EA": "stiffness", "rho": "density", "breaking_load": "breaking"}
-    numbers = {k: 0 if v == "auto" else v for k, v in model.items() if k != "form"}
+    numbers: Toml = {k: 0 if v == "auto" else v for k, v in model.items() if k != "form"}
     spec = Spec(
         **top, cable=Cable(**{names.get(k, k): v for k, v in cable.items()}),
         route=tuple(Station(**each) for each in route), form=model["form"], **numbers,
@@ -71,7 +74,7 @@ def _line_of(message: str, places: Places) -> Path:
     return ()
 
 
-def _part(faults: Faults, data: dict[str, Any], name: str) -> dict[str, Any]:
+def _part(faults: Faults, data: Toml, name: str) -> Toml:
     found = data.get(name, {})
     if isinstance(found, dict):
         return found
@@ -79,7 +82,7 @@ def _part(faults: Faults, data: dict[str, Any], name: str) -> dict[str, Any]:
     return {}
 
 
-def _stations(faults: Faults, route: Any) -> list[dict[str, Any]]:
+def _stations(faults: Faults, route: object) -> list[Toml]:
     if not isinstance(route, list) or not all(isinstance(each, dict) for each in route):
         faults.add("wrong-value", ("route",), word="route", expected="tables [[route]]",
                    text=repr(route))  # fmt: skip
@@ -95,8 +98,8 @@ def _stations(faults: Faults, route: Any) -> list[dict[str, Any]]:
 
 
 def _table(
-    faults: Faults, data: dict[str, Any], rules: dict[str, Any], path: Path, also: Any = ()
-) -> dict[str, Any]:
+    faults: Faults, data: Toml, rules: Rules, path: Path, also: tuple[str, ...] = ()
+) -> Toml:
     """The values of a table, checked; those of keys that are not written."""
     from adamslite.language.messages import did_you_mean
 
@@ -107,7 +110,7 @@ def _table(
             for name in known:
                 close = close.replace(name.upper(), name)
             faults.add("unknown-key", (*path, key), word=key, known=", ".join(known), hint=close)
-    values = {}
+    values: Toml = {}
     for key, (takes, rule, default) in rules.items():
         if key in data:
             values[key] = _value(faults, data[key], takes, rule, (*path, key))
@@ -123,11 +126,11 @@ def _table(
 def _label(path: Path) -> str:
     """What a table is called."""
     if len(path) == 2:
-        return f"station {path[1] + 1}"
+        return f"station {int(path[1]) + 1}"
     return str(path[-1]) if path else "the file"
 
 
-def _value(faults: Faults, value: Any, takes: Any, rule: str, path: Path) -> Any:
+def _value(faults: Faults, value: Any, takes: Takes, rule: str, path: Path) -> Any:
     """The value as the Spec holds it; 1 after saying why it cannot be."""
     word = path[-1]
     if isinstance(takes, NestedTable):
@@ -162,7 +165,7 @@ BROKEN = {
 }
 
 
-def _fits(value: Any, takes: Any) -> tuple[bool, str]:
+def _fits(value: Any, takes: str | tuple[str | int, ...]) -> tuple[bool, str]:
     """Whether a value is what a key takes, and what that is."""
     if isinstance(takes, tuple):
         wanted = "one of " + ", ".join(map(str, takes))
@@ -180,14 +183,14 @@ def _fits(value: Any, takes: Any) -> tuple[bool, str]:
     }[takes]  # fmt: skip
 
 
-def _is_number(value: Any) -> bool:
+def _is_number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < LARGEST
 
 
-def _is_line(value: Any) -> bool:
+def _is_line(value: object) -> bool:
     """Whether it is a text that is one line of a deck."""
     return isinstance(value, str) and "\n" not in value and "\r" not in value
 
 
-def _is_three(value: Any, fits: Callable[[Any], bool]) -> bool:
+def _is_three(value: object, fits: Callable[[object], bool]) -> bool:
     return isinstance(value, list) and len(value) == 3 and all(map(fits, value))

@@ -147,8 +147,8 @@ def payout_variables(
     wheel, bearing = side.pulley, side.pulley + 1
     # Rates are taken along the bearing's axis and, where that turns, as seen from there.
     seen = f",{bearing}" if side.carried else ""
-    calls = f"AZ({wheel},{bearing})", f"WZ({wheel},{bearing}{seen})"
-    calls = *calls, f"WDTZ({wheel},{bearing}{seen * 2})"
+    turn, spin = f"AZ({wheel},{bearing})", f"WZ({wheel},{bearing}{seen})"
+    calls = turn, spin, f"WDTZ({wheel},{bearing}{seen * 2})"
     ways = [f"{radius:.11g}*{call}" for call in calls]
     return length_variables(side.name, sections, length, ways)
 

@@ -1,9 +1,10 @@
 """The vocabulary of the description of a cable scene: keys and the kinds of their values."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import pi, sin, sqrt
-from typing import Any
+from typing import Any, TypeAlias
 
 from adamslite.cables.vectors import ZERO, Vector
 
@@ -232,8 +233,24 @@ WHEELS = ("pulley", "winch")
 KINDS = ("fixed", "free", "run", "mass", "body", "bend", *WHEELS)
 FORMS = ("auto", "paper", "ale", "brute")
 
+Toml = dict[str, Any]
+"""A table of a description, as it is read."""
+Takes: TypeAlias = "str | tuple[str | int, ...] | NestedTable"
+"""What a key takes: a word for a kind of value, some words or numbers, or a table."""
+Rules: TypeAlias = "dict[str, tuple[Takes, str, Any]]"
+"""Of each key what it takes, what must hold, and its default: any value that it takes."""
+
+
+@dataclass(frozen=True)
+class NestedTable:
+    """A key that takes a table of keys, which `make` puts together; None without it."""
+
+    make: Callable[..., object]
+    rules: Rules
+
+
 # Key -> (what it takes, rules for its value, the value without the key; None when it is needed).
-TOP = {
+TOP: Rules = {
     "title": ("text", "", "A cable"),
     "gravity": ("vector", "", (0.0, -9.81, 0.0)),
     "end": ("number", "not-positive", None),
@@ -242,7 +259,7 @@ TOP = {
     "closed": ("yes or no", "", False),
     "speed": ("number", "negative", 0.0),
 }
-CABLE = {
+CABLE: Rules = {
     "EA": ("number", "not-positive", None),
     "rho": ("number", "not-positive", None),
     "pretension": ("number", "negative", 0.0),
@@ -250,20 +267,12 @@ CABLE = {
     "damping": ("number", "not-a-share", 0.0),
     "pulls_only": ("yes or no", "", False),
 }
-MODEL = {
+MODEL: Rules = {
     "level": ((1, 2, 3, "auto"), "", "auto"),
     "form": (FORMS, "", "auto"),
     "elements": ("whole or auto", "not-positive", "auto"),
     "accuracy": ("number", "not-positive not-a-share", 0.01),
 }
-
-
-@dataclass(frozen=True)
-class NestedTable:
-    """A key that takes a table of keys, which `make` puts together; None without it."""
-
-    make: type
-    rules: dict[str, Any]
 
 
 REEL = NestedTable(
@@ -287,19 +296,19 @@ WANDER = NestedTable(
         "damping": ("number", "negative", 0.0),
     },
 )
-PLACE = {"kind": (KINDS, "", None), "at": ("vector", "", None)}
-MOVED = {"motion": ("laws", "", ("", "", ""))}
-CARRIED = {
+PLACE: Rules = {"kind": (KINDS, "", None), "at": ("vector", "", None)}
+MOVED: Rules = {"motion": ("laws", "", ("", "", ""))}
+CARRIED: Rules = {
     "mass": ("number", "not-positive", 0.0),
     "slide": ("vector", "", ZERO),
     "pull": ("text", "", ""),
 }
-ROUND = {
+ROUND: Rules = {
     "radius": ("number", "not-positive", None),
     "axis": ("vector", "", (0.0, 0.0, 1.0)),
     "turn": ((1, -1), "", 0),
 }
-WHEEL = (
+WHEEL: Rules = (
     MOVED
     | CARRIED
     | ROUND
@@ -313,13 +322,13 @@ WHEEL = (
         "wander": (WANDER, "", None),
     }
 )
-MASS = {
+MASS: Rules = {
     "mass": ("number", "not-positive", None),
     "velocity": ("vector", "", ZERO),
     "slides": ("yes or no", "", False),
     "haul": ("text", "", ""),
 }
-STATIONS = {
+STATIONS: dict[str, Rules] = {
     "fixed": PLACE | MOVED,
     "free": PLACE,
     "run": PLACE,

@@ -11,7 +11,7 @@ from math import pi
 
 from adamslite.cables.statements import AXES, number, rounded
 from adamslite.cables.vectors import Vector, add, cross, dot, unit
-from adamslite.cables.vocabulary import Spec, Station
+from adamslite.cables.vocabulary import Mount, Spec, Station
 
 # Of the sine of the angle between axes that are parallel.
 ROUND_OFF = 1e-9
@@ -58,6 +58,7 @@ def rolled(i: int, spec: Spec, order: int = 0, sense: int = 1) -> str:
 def _growth(i: int, spec: Spec) -> float:
     """Radius that a reel gains per angle about its axle [m]."""
     each = spec.route[i]
+    assert each.reel is not None
     return -spec.outwards(i) * each.turn * each.reel.thickness / (2 * pi)
 
 
@@ -81,7 +82,7 @@ def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
     own = "" if upright else f", ZP={triple(each.axis)}"
     text = f"\n! The {each.kind} of station {i + 1}, R = {number(each.radius)} m.\n"
     if each.is_mobile:
-        text += _mount(each, n) if each.mount else _carriage(each, n)
+        text += _mount(each, each.mount, n) if each.mount else _carriage(each, n)
         text += f"MARKER/{n + 1}, PART={n + 2}{own}\n"
     else:
         ground = "" if upright else f", ZP={triple(add(each.at, each.axis))}"
@@ -105,6 +106,7 @@ def _pack(spec: Spec, i: int) -> str:
     There is no term J' w: cable that leaves takes its angular momentum rho r w r^2 along.
     """
     each, n = spec.route[i], marker(i)
+    assert each.reel is not None
     heavy = spec.cable.density * pi / 2 / each.reel.thickness
     return (
         "! Radius and inertia of the cable on it.\n"
@@ -119,9 +121,8 @@ def carrier(spec: Spec, i: int) -> int:
     return marker(i) + 2 if spec.route[i].is_mobile else 1
 
 
-def _mount(each: Station, n: int) -> str:
+def _mount(each: Station, own: Mount, n: int) -> str:
     """A bracket with its mass centre at the axle, on its foot: MARKER/n+5 on MARKER/n+3."""
-    own = each.mount
     inertia = ",".join([number(own.mass * each.radius**2)] * 3)
     text = (
         f"PART/{n + 2}, MASS={number(own.mass)}, CM={n + 2}, IP={inertia}, QG={triple(each.at)}\n"
