@@ -20,7 +20,7 @@ class Lookup(Protocol):
         """The statement of that kind with that id or name; None when there is none."""
 
 
-class Place(Protocol):
+class DrawnPlace(Protocol):
     """Where a marker sits on its body, or on the ground."""
 
     @property
@@ -33,7 +33,7 @@ class Place(Protocol):
     def axes(self) -> np.ndarray: ...
 
 
-class Body(Protocol):
+class DrawnBody(Protocol):
     """A moving body as the deck draws it: its mass centre and its attitude, in ground."""
 
     @property
@@ -46,9 +46,9 @@ class DrawnModel(Protocol):
     """The model in the posture that the deck draws, :class:`adamslite.model.model.Model`."""
 
     @property
-    def bodies(self) -> Sequence[Body]: ...
+    def bodies(self) -> Sequence[DrawnBody]: ...
 
-    def marker(self, marker_id: Key) -> Place:
+    def marker(self, marker_id: Key) -> DrawnPlace:
         """Where a marker sits."""
 
     def element(self, keyword: str, element_id: Key) -> Any:
