@@ -18,6 +18,7 @@ import sympy as sp
 from sample_scope import DIGITS, GROUND, MODULES, SampleScope
 
 import adamslite.functions  # noqa: F401  fills the registry
+from adamslite.functions.arrays import NUMBERED
 from adamslite.functions.forces import NET
 from adamslite.language.function import FUNCTIONS, Function
 from adamslite.symbolic.derivatives import Derivatives
@@ -47,8 +48,8 @@ def forms(function: Function) -> list[tuple]:
     return [form for form in itertools.product(*choices) if not function.mistakes(form)]
 
 
-# Net forces are written out as sums of other functions before anything is evaluated.
-EVALUATED = {name: f for name, f in sorted(FUNCTIONS.items()) if name not in NET}
+# Net forces and values by number are written out before anything is evaluated.
+EVALUATED = {name: f for name, f in sorted(FUNCTIONS.items()) if name not in (*NET, *NUMBERED)}
 CASES = [(name, form) for name, f in EVALUATED.items() for form in forms(f)]
 
 

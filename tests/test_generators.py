@@ -26,6 +26,7 @@ SLOW = {
 }
 #: Other folders of decks, whose generators take less than a third of a second.
 QUICK = (
+    "arrays",
     "beam-cantilever",
     "bushing",
     "conical-pendulum",

@@ -11,6 +11,7 @@ from adamslite.resources import find
 SHARE = 0.8
 FOLDERS = (
     "andrews",
+    "arrays",
     "bricard",
     "bushing",
     "cable-level3-n10",

@@ -122,6 +122,14 @@ def late_start_values(command: Redefinition[Any]) -> Iterator[Diagnostic]:
             yield diagnose(command, "no-effect", field, word=word, reason=reason)
 
 
+def fixed_lists(command: Redefinition[Any]) -> Iterator[Diagnostic]:
+    """What expressions have taken from an ARRAY when the deck was read."""
+    for field in ("kind", "variables") if command.keyword == "ARRAY" else ():
+        if field in command.changes:
+            word = "VARIABLES" if field == "variables" else "the kind"
+            yield diagnose(command, "array-fixed", field, word=word)
+
+
 def ends_in_order(deck: Deck) -> Iterator[Diagnostic]:
     if "SENSOR" in deck.names.ids:  # it may have ended the run before
         return

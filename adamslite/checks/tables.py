@@ -1,4 +1,4 @@
-"""Rules about SPLINEs and the functions that use them."""
+"""Rules about SPLINEs, ARRAYs and the functions that use them."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from collections.abc import Iterator, Sequence
 from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.elements.array import Array
 from adamslite.elements.spline import Spline
 from adamslite.language.diagnostics import Diagnostic
-from adamslite.language.expression import Call, Num, Ref, calls, fold
-from adamslite.language.statement import Statement
+from adamslite.language.expression import Call, Num, Ref, calls, fold, walk
+from adamslite.language.statement import Statement, expressions
 
 FITS = ("AKISPL", "CUBSPL")
 
@@ -62,4 +63,29 @@ def _misfit(deck: Deck, statement: Statement, field: str, call: Call) -> Iterato
         yield diagnose(statement, "spline-curve", field, word=call.name, spline=spline.label)
 
 
-TABLE_RULES: list[Rule] = [spline_points, spline_calls]
+def arrays(deck: Deck) -> Iterator[Diagnostic]:
+    for array in deck.of(Array):
+        filled = {"IC": "numbers", "U": "variables"}.get(array.kind, "")
+        for field in ("numbers", "variables"):
+            word, count = field.upper(), len(getattr(array, field))
+            if field == filled and not count:
+                yield diagnose(array, "missing-argument", word=word)
+            elif field != filled and count:
+                reason = f"an ARRAY {array.kind} has none"
+                yield diagnose(array, "no-effect", field, word=word, reason=reason)
+            elif count and array.size not in (None, count):
+                yield diagnose(array, "array-size", "size", size=array.size, count=count, word=word)
+
+
+def values_of_arrays(deck: Deck) -> Iterator[Diagnostic]:
+    """Whether what expressions have taken from an ARRAY is still there."""
+    known = {name for array in deck.of(Array) for name in array.constants()}
+    for statement in deck.statements if known else ():
+        for node in expressions(statement):
+            for each in walk(node):
+                lost = isinstance(each, Num) and each.name.startswith("ARYVAL")
+                if lost and each.name not in known:
+                    yield diagnose(statement, "value-lost", word=each.name)
+
+
+TABLE_RULES: list[Rule] = [spline_points, spline_calls, arrays, values_of_arrays]

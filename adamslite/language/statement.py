@@ -270,6 +270,10 @@ class Statement:
         """Numbers this statement gives a name that expressions may use, names in capitals."""
         return {}
 
+    def numbered(self) -> tuple[Node, ...]:
+        """Values that expressions take by their number, counted from 1 (ARYVAL)."""
+        return ()
+
     def given(self, field_name: str) -> bool:
         """Whether the deck has this argument."""
         return field_name in self.spans

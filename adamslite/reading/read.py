@@ -8,7 +8,7 @@ from pathlib import Path
 
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.rules import RULES
-from adamslite.checks.runs import RUN_RULES, inputs_with_rates, late_start_values
+from adamslite.checks.runs import RUN_RULES, fixed_lists, inputs_with_rates, late_start_values
 from adamslite.deck.deck import ANALYSES, Deck
 from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
@@ -85,6 +85,7 @@ def _caused(deck: Deck, commands: Iterable[Command]) -> list[Diagnostic]:
     for command in (*commands, None):
         if isinstance(command, Redefinition):
             deck, unchecked = deck.redefined(command), True
+            found |= dict.fromkeys(fixed_lists(command))
             if started:
                 found |= dict.fromkeys(late_start_values(command))
         elif unchecked and (command is None or command.keyword in ANALYSES):

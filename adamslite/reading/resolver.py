@@ -11,6 +11,7 @@ from typing import NamedTuple, NoReturn
 
 from adamslite import functions  # noqa: F401  registers the functions
 from adamslite.deck.names import RESERVED, Key, Names, to_number
+from adamslite.functions.arrays import NUMBERED
 from adamslite.language.expression import NEGATE, Call, Node, Num, Op, Ref, fold
 from adamslite.language.function import FUNCTIONS, Function, Parameter
 from adamslite.language.messages import Log, did_you_mean
@@ -55,6 +56,8 @@ class Resolver:
         self.log = log
         self.constants: dict[str, float] = {}
         """Numbers that statements of the deck give a name, unless a VARIABLE has it."""
+        self.numbered: dict[tuple[str, Key], tuple[Node, ...]] = {}
+        """Values that statements list, by keyword and id."""
         self.tokens: list[Lexeme] = []
         self.failed = False
         self._slots: dict[str, list[_Slot]] = {}
@@ -183,6 +186,8 @@ class Resolver:
         ]
         if function.ruled:
             self._rules(function, args, branches)
+        if name in NUMBERED:
+            return self._numbered(args[0], args[1], branches[1])
         args += [slot.default for slot in slots[len(args) :] if slot.default is not None]
         return Call(name, tuple(args))
 
@@ -275,6 +280,20 @@ class Resolver:
         if whole is not None and not isinstance(whole, list):
             return Call(function.name, (Ref("VARIABLE", whole),))
         return Call("DDT", (self._reference(function, "VARIABLE", top[3]),))
+
+    def _numbered(self, ref: Node, number: Node, branch: Tree) -> Node:
+        """The value that a statement lists under a number."""
+        if not (isinstance(ref, Ref) and isinstance(number, Num)):
+            return _STAND_IN
+        values = self.numbered.get((ref.kind, ref.id))
+        if values is None:  # the statement has mistakes of its own
+            return _STAND_IN
+        if number.value not in range(1, len(values) + 1):
+            token, label = self.tokens[branch[1]], f"{ref.kind}/{ref.id}"
+            self._refuse(
+                "no-such-value", token, label=label, number=f"{number.value:g}", count=len(values)
+            )
+        return values[int(number.value) - 1]
 
     def _rules(self, function: Function, args: list[Node], branches: tuple) -> None:
         if self.failed:

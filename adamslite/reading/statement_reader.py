@@ -55,6 +55,12 @@ def canonical(id: Key) -> Key:
     return id.upper() if isinstance(id, str) else id
 
 
+def _gives_values(cls: type[Statement]) -> bool:
+    """Whether expressions take values of such a statement when they are read."""
+    own = cls.constants, cls.numbered
+    return own != (Statement.constants, Statement.numbered)
+
+
 class Reading:
     """Reads one text.
 
@@ -245,15 +251,16 @@ class Reading:
     def _second_pass(self) -> tuple[Statement | Redefinition, ...]:
         resolver = Resolver(self.names, self.log)
         reader = ValueReader(self.names, resolver, self.log, self._ground)
-        givers = [cls for cls in STATEMENTS.values() if cls.constants is not Statement.constants]
         made: dict[int, Statement | Redefinition | None] = {}
         for number, entry in enumerate(self.entries):
-            if entry.cls in givers:
+            if _gives_values(entry.cls):
                 made[number] = self._statement(entry, reader)
-        for giver in givers:
+        for giver in filter(_gives_values, STATEMENTS.values()):
+            known = self.deck.of(giver) if self.deck else []
             given = [each for each in made.values() if type(each) is giver]
-            usual = self.deck.single(giver.keyword) if self.deck else giver()
-            resolver.constants |= (given[-1] if given else usual).constants()
+            for each in (giver(), *known, *given) if giver.singleton else (*known, *given):
+                resolver.constants |= each.constants()
+                resolver.numbered[each.keyword, each.key] = each.numbered()
         for number, entry in enumerate(self.entries):
             if number not in made:
                 made[number] = self._statement(entry, reader)

@@ -40,4 +40,34 @@ TABLES: dict[str, Message] = {
         "leave the order out; derivatives are those of a single curve",
         (_FAMILY + "AKISPL(TIME,0.5,1,1)", _FAMILY + "CUBSPL(TIME,0,1,2)"),
     ),
+    "array-size": Message(
+        "{label} has SIZE={size} and {count} {word}",
+        "leave SIZE out, or make it their number",
+        (
+            "ARRAY/1, IC, SIZE=3, NUMBERS=1,2",
+            "VARIABLE/1, FUNCTION=1\nARRAY/1, U, SIZE=2, VARIABLES=1",
+        ),
+    ),
+    "no-such-value": Message(
+        "{label} has no value number {number}: it has {count}",
+        "values are counted from 1; those of X and Y would be those of a system element",
+        (
+            "ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,3)",
+            "ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,0)",
+            "ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,1.5)",
+            "ARRAY/1, X, SIZE=2\nVARIABLE/1, FUNCTION=ARYVAL(1,1)",
+        ),
+    ),
+    "array-fixed": Message(
+        "{word} of {label} cannot change between analyses",
+        "NUMBERS can; expressions take VARIABLEs of an ARRAY when the deck is read",
+        commands=("ARRAY/1, VARIABLES=2",),
+        deck="VARIABLE/1, FUNCTION=1\nVARIABLE/2, FUNCTION=2\nARRAY/1, U, VARIABLES=1\n",
+    ),
+    "value-lost": Message(
+        "{label} uses {word}, which a command has removed",
+        "give NUMBERS as many values as before",
+        commands=("ARRAY/1, NUMBERS=1",),
+        deck="ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,2)\n",
+    ),
 }
