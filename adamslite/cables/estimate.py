@@ -133,7 +133,7 @@ def laws(spec: Spec, faults: Faults) -> Laws:
     return found
 
 
-def travel(spec: Spec, spans: list[FreeSpan], prescribed: Laws) -> Moves:
+def estimate_moves(spec: Spec, spans: list[FreeSpan], prescribed: Laws) -> Moves:
     """The travel of the rigid cable over the whole run."""
     ways = {i: way for i, way in prescribed.paid.items() if way}
     if spec.closed:  # all of it starts at that speed

@@ -3,7 +3,7 @@
 from adamslite.cables.brute_force_layout import length, stretches, way
 from adamslite.cables.deck_writer import write
 from adamslite.cables.demand import MOST
-from adamslite.cables.estimate import Moves, laws, travel
+from adamslite.cables.estimate import Moves, estimate_moves, laws
 from adamslite.cables.geometry import FreeSpan, reaches, spans, turned
 from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
@@ -36,7 +36,7 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     pieces = spans(spec, faults)
     prescribed = laws(spec, faults)
     _stop(faults, faults.errors)
-    moves = travel(spec, pieces, prescribed)
+    moves = estimate_moves(spec, pieces, prescribed)
     model = choose_model(spec, pieces, moves, faults)
     _check_form(spec, pieces, model, faults)
     _check_chain(spec, pieces, faults)
