@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import isfinite
 
 from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.array import Array
-from adamslite.elements.spline import Spline
+from adamslite.elements.bases.data_file import UnusableFile
+from adamslite.elements.spline import LEAST, Spline
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Num, Ref, calls, fold, walk
 from adamslite.language.statement import Statement, expressions
@@ -18,26 +20,54 @@ FITS = ("AKISPL", "CUBSPL")
 
 def spline_points(deck: Deck) -> Iterator[Diagnostic]:
     for spline in deck.of(Spline):
-        if not spline.y:
-            yield diagnose(spline, "missing-argument", word="Y", hint="Y: values at X")
-        yield from _ascending(spline, "x", spline.x)
-        counts = [len(row) for row in spline.y]
-        expected = len(spline.x) + spline.family
-        wrong = next((count for count in counts if count != expected), None)
-        if wrong is not None:
-            yield diagnose(spline, "spline-length", "y", count=wrong, expected=expected)
-        elif spline.family:
-            yield from _ascending(spline, "y", spline.places)
+        if spline.file is not None:
+            yield from _points_in_file(deck, spline)
+        elif spline.x is None or not spline.y:
+            word = "X" if spline.x is None else "Y"
+            yield diagnose(spline, "missing-argument", word=word, hint="give X and Y, or FILE")
+        else:
+            yield from _points_given(spline, spline.x)
+
+
+def _points_in_file(deck: Deck, spline: Spline) -> Iterator[Diagnostic]:
+    if spline.x is not None or spline.y:
+        yield diagnose(spline, "spline-sources", "file")
+        return
+    try:
+        x, curves, _ = spline.points(deck.folder)
+    except UnusableFile as fault:
+        yield diagnose(spline, "data-file", "file", file=spline.file, reason=fault)
+        return
+    reason = "" if len(x) >= LEAST else f"it has {len(x)} rows, and {LEAST} are needed"
+    if not all(map(isfinite, (*x, *curves[0]))):
+        reason = "a value is not a number"
+    if reason:
+        yield diagnose(spline, "data-file", "file", file=spline.file, reason=reason)
+    else:
+        yield from _ascending(spline, "file", x)
+
+
+def _points_given(spline: Spline, x: Sequence[float]) -> Iterator[Diagnostic]:
+    for field in ("channel", "block"):
+        if spline.given(field):
+            reason = "it chooses among the columns of a FILE"
+            yield diagnose(spline, "no-effect", field, word=field.upper(), reason=reason)
+    yield from _ascending(spline, "x", x)
+    expected = len(x) + spline.family
+    wrong = [len(row) for row in spline.y if len(row) != expected]
+    if wrong:
+        yield diagnose(spline, "spline-length", "y", count=wrong[0], expected=expected)
+    elif spline.family:
+        yield from _ascending(spline, "y", [row[0] for row in spline.y])
 
 
 def _ascending(spline: Spline, field: str, values: Sequence[float]) -> Iterator[Diagnostic]:
-    """The first value that is not above the one before it; z for those of ``y``."""
+    """The first value that is not above the one before it."""
+    word = {"x": "X", "y": "z", "file": "the first column"}[field]
     for low, high in zip(values, values[1:], strict=False):
         if not low < high:
-            word = "z" if field == "y" else "X"
-            yield diagnose(
-                spline, "not-ascending", field, word=word, low=f"{low:g}", high=f"{high:g}"
-            )
+            words = {"word": word, "low": f"{low:.10g}", "high": f"{high:.10g}"}
+            yield diagnose(spline, "not-ascending", field, **words)
             return
 
 
@@ -83,9 +113,9 @@ def values_of_arrays(deck: Deck) -> Iterator[Diagnostic]:
     for statement in deck.statements if known else ():
         for node in expressions(statement):
             for each in walk(node):
-                lost = isinstance(each, Num) and each.name.startswith("ARYVAL")
-                if lost and each.name not in known:
-                    yield diagnose(statement, "value-lost", word=each.name)
+                name = each.name if isinstance(each, Num) else ""
+                if name.startswith("ARYVAL") and name not in known:
+                    yield diagnose(statement, "value-lost", word=name)
 
 
 TABLE_RULES: list[Rule] = [spline_points, spline_calls, arrays, values_of_arrays]

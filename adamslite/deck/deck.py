@@ -167,6 +167,11 @@ class Deck:
         return deck
 
     @property
+    def folder(self) -> Path:
+        """Where the files are that the deck names: beside it; of a text, the current folder."""
+        return self.path.parent if self.path else Path()
+
+    @property
     def gravity(self) -> tuple[float, float, float]:
         """Acceleration of gravity [length/time^2], in ground."""
         accgrav = self.single("ACCGRAV")

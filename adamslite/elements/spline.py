@@ -7,35 +7,64 @@ points are joined)::
     a family    y(x_k, z_j) = Y_jk, linear in z between     X=x_1, ..., x_n,
                 neighbours, and beyond z_1 and z_m too      Y=z_1, y_11, ..., y_1n,
                                                             Y=z_2, y_21, ..., y_2n, ...
+    from a file y(x_k) = channel at x_k                     FILE=road.csv, BLOCK=left
 
-Beyond x_1 and x_n the curve continues as the parabola through the outermost three points; with
-LINEAR_EXTRAPOLATE along its tangent.
+Beyond x_1 and x_n a curve continues as the parabola through the outermost three points, one from a
+file with the value at the end; with LINEAR_EXTRAPOLATE both continue along the tangent.
+
+A file is a table beside the deck, comma-separated: the first column is x, each further one a
+channel; the first row may name them.  Results that ``adamslite solve -o NAME.csv`` writes are such
+tables, so that a run can be the input of another one.
 """
 
 from __future__ import annotations
 
 from functools import partial
+from pathlib import Path
+from typing import NamedTuple
 
+from adamslite.elements.bases import data_file
 from adamslite.language.interfaces import DrawnModel
-from adamslite.language.statement import Statement, flag, statement, vector, vectors
+from adamslite.language.statement import Statement, flag, integer, statement, text, vector, vectors
 from adamslite.symbolic.interpolant import Interpolant, interpolant
 
 LEAST, MOST = 4, 10**6
+KINDS = ("linear", "akima", "natural")
 
 
-@statement("SPLINE", planned=("FILE", "CHANNEL", "BLOCK", "ROUTINE"), data=True)
+class Points(NamedTuple):
+    """``x`` (n,); ``curves``: values at x, one row for each; ``places``: z of each curve."""
+
+    x: tuple[float, ...]
+    curves: tuple[tuple[float, ...], ...]
+    places: tuple[float, ...] = (0.0,)
+
+    def table(self, kind: str, beyond: str) -> Interpolant:
+        """The points joined as :mod:`adamslite.symbolic.interpolant` has it."""
+        import numpy as np
+
+        places = np.array(self.places)
+        return interpolant(np.array(self.x), np.array(self.curves).T, kind, beyond, places)
+
+
+@statement("SPLINE", planned=("ROUTINE",), data=True)
 class Spline(Statement):
     """Points for the functions AKISPL, CUBSPL and INTERP."""
 
-    x: tuple[float, ...] = vector(
-        "X", size=LEAST, most=MOST, required=True, unit="the user's", help="where the points are"
+    alternatives = ((("x", "y"), ("file", "channel", "block")),)
+
+    x: tuple[float, ...] | None = vector(
+        "X", size=LEAST, most=MOST, unit="the user's", help="where the points are"
     )
     y: tuple[tuple[float, ...], ...] = vectors(
         "Y", size=LEAST, most=MOST, unit="the user's",
         help="values at X; in a family z before them, and Y= once for each curve",
     )  # fmt: skip
+    file: str | None = text("FILE", help="a table .csv in the folder of the deck or below")
+    channel: int | None = integer("CHANNEL", help="number of the column, from 1 after that of x")
+    block: str | None = text("BLOCK", help="name of the column")
     linear_extrapolate: bool = flag(
-        "LINEAR_EXTRAPOLATE", help="beyond its ends the curve continues along its tangent"
+        "LINEAR_EXTRAPOLATE", help="beyond its ends a curve continues along its tangent"
     )
 
     @property
@@ -43,27 +72,28 @@ class Spline(Statement):
         """Whether there are several curves, one for each z."""
         return len(self.y) > 1
 
-    @property
-    def curves(self) -> tuple[tuple[float, ...], ...]:
-        """Values of each curve at X."""
-        return tuple(row[1:] for row in self.y) if self.family else self.y
+    def points(self, folder: Path) -> Points:
+        """The points, from a file where one is named."""
+        if self.file is not None:
+            x, y = data_file.points(folder, self.file, self.channel, self.block)
+            return Points(x, (y,))
+        assert self.x is not None  # a rule asks for it
+        if self.family:
+            rows = tuple(row[1:] for row in self.y)
+            return Points(self.x, rows, tuple(row[0] for row in self.y))
+        return Points(self.x, self.y)
 
     @property
-    def places(self) -> tuple[float, ...]:
-        """z of each curve; 0 of a single one."""
-        return tuple(row[0] for row in self.y) if self.family else (0.0,)
-
-    def table(self, kind: str) -> Interpolant:
-        """The points joined in a way of :mod:`adamslite.symbolic.interpolant`."""
-        import numpy as np
-
-        beyond = "tangent" if self.linear_extrapolate else "parabola"
-        return interpolant(np.array(self.x), np.array(self.curves).T, kind, beyond, self.places)
+    def beyond(self) -> str:
+        """How a curve continues beyond its ends."""
+        usual = "parabola" if self.file is None else "constant"
+        return "tangent" if self.linear_extrapolate else usual
 
     def derived(self, model: DrawnModel) -> dict[str, object]:
         """A table for each way to join the points."""
+        points = model.once(("SPLINE", self.key), partial(self.points, model.folder))
         tables = {
-            kind: model.once(("SPLINE", self.key, kind), partial(self.table, kind))
-            for kind in ("linear", "akima", "natural")
+            kind: model.once(("SPLINE", self.key, kind), partial(points.table, kind, self.beyond))
+            for kind in KINDS
         }
         return {**tables, "family": "yes" if self.family else None}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
 if TYPE_CHECKING:  # the modules that read a deck do without numpy
@@ -47,6 +48,8 @@ class DrawnModel(Protocol):
 
     @property
     def bodies(self) -> Sequence[DrawnBody]: ...
+    @property
+    def folder(self) -> Path: ...
 
     def marker(self, marker_id: Key) -> DrawnPlace:
         """Where a marker sits."""

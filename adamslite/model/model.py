@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any, TypeVar, overload
 
 import numpy as np
@@ -169,6 +170,11 @@ class Model:
         return self.bodies[body].width
 
     # variables and elements
+
+    @property
+    def folder(self) -> Path:
+        """Where the files are that the deck names."""
+        return self.deck.folder
 
     def acts(self, statement: Statement) -> bool:
         """Whether an element is switched on."""

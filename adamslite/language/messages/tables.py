@@ -40,6 +40,21 @@ TABLES: dict[str, Message] = {
         "leave the order out; derivatives are those of a single curve",
         (_FAMILY + "AKISPL(TIME,0.5,1,1)", _FAMILY + "CUBSPL(TIME,0,1,2)"),
     ),
+    "spline-sources": Message(
+        "{label} has both X, Y and FILE",
+        "give its points, or the file that has them",
+        ("SPLINE/1, X=0,1,2,3, Y=0,1,4,9, FILE=road.csv",),
+    ),
+    "data-file": Message(
+        "{label} cannot use {file}: {reason}",
+        "a table .csv in the folder of the deck or below: a column of x, then the channels",
+        (
+            "SPLINE/1, FILE=no-such-table.csv",
+            "SPLINE/1, FILE=../road.csv",
+            "SPLINE/1, FILE=/road.csv",
+            "SPLINE/1, FILE=road.rsp, CHANNEL=2",
+        ),
+    ),
     "array-size": Message(
         "{label} has SIZE={size} and {count} {word}",
         "leave SIZE out, or make it their number",
