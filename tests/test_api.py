@@ -63,3 +63,17 @@ def test_arguments_win_over_the_deck():
     coarse = al.simulate(al.read(deck), error=1e-2)
     assert coarse.summary["steps"] < fine.summary["steps"]
     assert al.simulate(al.read(deck), end=2.0, steps=8).time.size == 9
+
+
+def test_steps_of_the_last_run_are_replaced_and_not_its_end():
+    """DURATION counts from where the run before it ends: 1 s and another 0.5 s."""
+    runs = "SIMULATE/DYNAMICS, END=1, STEPS=4\nSIMULATE/DYNAMICS, DURATION=0.5, STEPS=4\nEND"
+    results = al.simulate(al.read(PENDULUM.replace("END", runs)), steps=2)
+    np.testing.assert_allclose(results.time, [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5], rtol=1e-15)
+
+
+def test_steps_alone_do_not_make_a_run_of_a_single_equilibrium():
+    from adamslite.errors import UsageError
+
+    with pytest.raises(UsageError, match="There is no end time"):
+        al.simulate(al.read(PENDULUM.replace("END", "SIMULATE/STATICS\nEND")), steps=2)

@@ -17,7 +17,7 @@ from tiers import slow
 import adamslite
 from adamslite.analyses.linearization.linearization import linear
 from adamslite.analyses.session import Session
-from adamslite.analyses.simulation import _Simulation
+from adamslite.elements.simulate import Simulate
 from adamslite.results.outcomes import Outcome
 
 JOINTS = ("REVOLUTE", "UNIVERSAL", "SPHERICAL", "CYLINDRICAL")
@@ -102,7 +102,7 @@ def settled(mechanism: Mechanism) -> Session:
     """The mechanism when its dampers have done their work."""
     flags = {"method": "RADAU", "error": 1e-9 * mechanism.long}
     session = Session(adamslite.read(mechanism.text), None, flags)
-    session.execute([_Simulation(SETTLED, 1, None)])
+    session.execute([Simulate(kind="DYNAMICS", end=SETTLED, steps=1)])
     assert session.outcome is Outcome.DONE
     return session
 

@@ -11,10 +11,11 @@ and counts as e^(3/2).
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.dynamic import Settings
+from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.language.method import FIXED, FIXED_BY_HINIT
 
@@ -37,7 +38,11 @@ MOVING = 0.1
 
 
 def accuracy_notes(
-    system: Any, settings: Any, counts: contract.Counts, names: tuple[str, ...], values: np.ndarray
+    system: System,
+    settings: Settings,
+    counts: contract.Counts,
+    names: tuple[str, ...],
+    values: np.ndarray,
 ) -> str:
     """What ERROR does not say about the accuracy of a run, in sentences; empty when it does.
 
@@ -76,7 +81,9 @@ def longest_way(names: tuple[str, ...], values: np.ndarray) -> tuple[float, floa
     return float(ways.max()), float(np.abs(found[:, moving]).max())
 
 
-def _of_method(settings: Any, steps: int, report: np.ndarray, off: float) -> Iterator[str]:
+def _of_method(
+    settings: Settings, steps: int, report: contract.Report, off: float
+) -> Iterator[str]:
     """What belongs to a formula."""
     method, (alpha, _, gamma) = settings.formula, settings.damping
     rough, divided = report.rough_steps, report.divided
@@ -109,7 +116,7 @@ def _of_method(settings: Any, steps: int, report: np.ndarray, off: float) -> Ite
         )
 
 
-def _added_up(settings: Any, steps: int, off: float, way: float) -> Iterator[str]:
+def _added_up(settings: Settings, steps: int, off: float, way: float) -> Iterator[str]:
     """What belongs to every method."""
     by_hinit = settings.formula.steps == FIXED_BY_HINIT
     fixed = settings.hinit and (by_hinit or settings.hinit == settings.hmin)
@@ -123,7 +130,7 @@ def _added_up(settings: Any, steps: int, off: float, way: float) -> Iterator[str
 
 
 def _of_small_states(
-    settings: Any, spent: float, names: tuple[str, ...], values: np.ndarray
+    settings: Settings, spent: float, names: tuple[str, ...], values: np.ndarray
 ) -> Iterator[str]:
     """DIFF states so small that ERROR, which is absolute below 1, is a share of them."""
     for k, name in enumerate(names):

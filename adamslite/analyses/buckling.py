@@ -13,10 +13,13 @@ Reference: Ziegler, Principles of Structural Stability, 1968, section 1.2.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable
 
 import numpy as np
 
+from adamslite.elements.sforce import Sforce
+from adamslite.elements.springdamper import Springdamper
+from adamslite.model.geometry import Place
 from adamslite.model.model import POINT, Model
 
 # The exponential of more is beyond the range of numbers.
@@ -24,7 +27,7 @@ EXP_LIMIT = 700.0
 ROUND_OFF = 2e-16
 # Share of the way that grown round-off may come to untold.
 FELT = 1e-3
-FORCES = ("SFORCE", "SPRINGDAMPER")
+Strut = Sforce | Springdamper
 # Numbers of records that are processed together.
 BLOCK = 2**18
 
@@ -51,12 +54,13 @@ def buckled(model: Model, names: tuple[str, ...], time: np.ndarray, values: np.n
     )
 
 
-def _struts(model: Model, column: dict[str, int]) -> list[Any]:
+def _struts(model: Model, column: dict[str, int]) -> list[Strut]:
     """Forces along the line between point masses, or one and the ground, that are recorded."""
     found = []
-    for element in (s for word in FORCES for s in model.deck.of(word)):
+    elements: list[Strut] = [*model.deck.of(Sforce), *model.deck.of(Springdamper)]
+    for element in elements:
         ends = [model.marker(end) for end in (element.i, element.j)]
-        if f"{element.label}.f" not in column or element.kind.startswith("ROT") or None in ends:
+        if f"{element.label}.f" not in column or element.kind == "ROTATIONAL":
             continue
         bodies = [end.body for end in ends]
         points = [b for b in bodies if b >= 0 and model.bodies[b].width == POINT]
@@ -65,15 +69,15 @@ def _struts(model: Model, column: dict[str, int]) -> list[Any]:
     return found
 
 
-def _pushed(struts: list[Any], column: dict[str, int], values: np.ndarray) -> list[Any]:
+def _pushed(struts: list[Strut], column: dict[str, int], values: np.ndarray) -> list[Strut]:
     """Those that push somewhere in the records."""
     forces = values[:, [column[f"{each.label}.f"] for each in struts]]
-    pushed = (~(forces <= 0.0)).any(axis=0).tolist()
-    return [each for each, is_one in zip(struts, pushed, strict=True) if is_one]
+    pushed = np.flatnonzero((~(forces <= 0.0)).any(axis=0))
+    return [struts[k] for k in pushed.tolist()]
 
 
 def _exponents(
-    model: Model, struts: list[Any], column: dict[str, int], time: np.ndarray, values: np.ndarray
+    model: Model, struts: list[Strut], column: dict[str, int], time: np.ndarray, values: np.ndarray
 ) -> np.ndarray:
     """Integral of the growth rate of each element over the records, (len(struts),)."""
     ends = [[model.marker(end) for end in (each.i, each.j)] for each in struts]
@@ -86,7 +90,7 @@ def _exponents(
 
 
 def _ends(
-    model: Model, places: Any, column: dict[str, int], values: np.ndarray
+    model: Model, places: Iterable[Place], column: dict[str, int], values: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Where ends are, (nt, n, 3), and what a force of 1 does to them, (n,)."""
     at, fixed, compliance = [], [], []

@@ -16,12 +16,13 @@ or round-off; psi and phi do not count where they are one angle.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from math import inf, pi
 from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.dynamic import Settings
 from adamslite.errors import UsageError
 from adamslite.language.method import FIXED, declared, method_of
 from adamslite.results.confirmation import Channel, Confirmation
@@ -45,7 +46,9 @@ KIND = {word: triple for triple in TRIPLES for word in triple.split()}
 ANGLES = ("psi", "theta", "phi")
 
 
-def confirmation(results: Results, settings: Any, again: Callable[..., Results]) -> Confirmation:
+def confirmation(
+    results: Results, settings: Settings, again: Callable[..., Results]
+) -> Confirmation:
     """Ask the witnesses of a run with these settings of its integrator.
 
     ``again(**options)`` runs the same deck with these options of `simulate` instead of its own.
@@ -84,7 +87,7 @@ def _run(again: Callable[..., Results], **options: Any) -> Results | str:
         return str(fault)
 
 
-def _tried(runs: Iterable[Results | str], results: Results) -> Iterable[Results | str]:
+def _tried(runs: Iterable[Results | str], results: Results) -> Iterator[Results | str]:
     """Those that end as the run does, then the first of the others."""
     failed: list[Results | str] = []
     for found in runs:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from math import isnan
-from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.initial.conditions import Unclosed
 from adamslite.equations.system import System
 from adamslite.equations.unknown_names import equation, placed, tested, unknown
 from adamslite.integrators import contract
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.integrators.verlet.method import LIMIT
+from adamslite.language.statement import Statement
 from adamslite.results.outcomes import Outcome
 
 # A step below this multiple of HMIN is HMIN.
@@ -28,7 +29,7 @@ MOST_NAMED = 4
 ROUND_OFF = 1e-12
 
 
-def explain(system: System, outcome: Outcome, unclosed: Any) -> str:
+def explain(system: System, outcome: Outcome, unclosed: Unclosed | None) -> str:
     """One paragraph for the user: where, when, what, and the outcome's own remedy."""
     if unclosed:
         return f"{_contradiction(unclosed)} {outcome.value}"
@@ -36,7 +37,7 @@ def explain(system: System, outcome: Outcome, unclosed: Any) -> str:
     return f"{text[:1].upper()}{text[1:]}. {outcome.value}"
 
 
-def _contradiction(unclosed: Any) -> str:
+def _contradiction(unclosed: Unclosed) -> str:
     """The constraint that stays open at the start, and those that keep it from closing."""
     found = f"{placed(unclosed.statement)}, {unclosed.equation},"
     if isnan(unclosed.size):
@@ -186,7 +187,7 @@ def _not_finite(system: System) -> str:
     return f"{text}, though no statement by itself lacks a value. Look at END, HMAX and ERROR too"
 
 
-def _without_value(system: System) -> Any:
+def _without_value(system: System) -> Statement | None:
     """The first statement that brings not-a-number or infinity into the equations."""
     groups, count = system.group, system.sizes.ng
     system.sizes.ng = 1
@@ -223,6 +224,7 @@ def _torn(system: System) -> str:
 def _broken_motion(system: System) -> str:
     """What drives a constraint and cannot be followed."""
     found = system.broken
+    assert found is not None
     return f"{placed(found.statement)}: at t = {found.time:.9g}, the {found.quantity} {found.how}"
 
 

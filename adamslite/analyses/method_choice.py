@@ -15,10 +15,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import sqrt
-from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.dynamic import Settings
 from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
@@ -42,11 +42,11 @@ SOLVED = {"VARIABLE": "is solved for", "DIFF": "is a state"}
 class MethodChoice:
     """``settings`` with a method that exists; ``reason`` why, empty when it was asked for."""
 
-    settings: Any
+    settings: Settings
     reason: str = ""
 
 
-def choose_method(system: System, times: np.ndarray, settings: Any) -> MethodChoice:
+def choose_method(system: System, times: np.ndarray, settings: Settings) -> MethodChoice:
     """The integrator of a run over ``times`` (nt,).
 
     Raises
@@ -65,7 +65,7 @@ def choose_method(system: System, times: np.ndarray, settings: Any) -> MethodCho
     return MethodChoice(replace(settings, method=method), reason)
 
 
-def what_is_unfit(system: System, settings: Any) -> str:
+def what_is_unfit(system: System, settings: Settings) -> str:
     """Why the method asked for cannot run a scene, and what can; empty when it can."""
     method = methods().get(settings.method)
     if method is None:

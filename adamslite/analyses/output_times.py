@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from adamslite.elements.simulate import MOST_STEPS, STEPS, output_steps
+from adamslite.elements.simulate import MOST_STEPS, STEPS, Simulate, output_steps
 from adamslite.errors import UsageError
 
 # A last interval shorter than this share of the whole is no interval of its own.
 ROUND_OFF = 1e-9
 
 
-def output_times(command: Any, start: float) -> np.ndarray:
+def output_times(command: Simulate, start: float) -> np.ndarray:
     """Times (nt,) from ``start`` to END (or over DURATION), STEPS of them or one every DTOUT.
 
     A SIMULATE without an end has the one time ``start``.

@@ -16,7 +16,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Iterable
 from dataclasses import fields, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -36,14 +36,28 @@ from adamslite.analyses.method_choice import MethodChoice, choose_method
 from adamslite.analyses.output_times import output_times
 from adamslite.analyses.planar_reduction import in_its_plane
 from adamslite.analyses.static import StaticSettings, run_static
+from adamslite.analyses.subject import Subject, kernels_of
+from adamslite.deck.deck import Deck
+from adamslite.deck.redefinition import Command
+from adamslite.elements.activate import Activate
+from adamslite.elements.deactivate import Deactivate
+from adamslite.elements.equilibrium import Equilibrium
+from adamslite.elements.integrator import Integrator
+from adamslite.elements.kinematics import Kinematics
+from adamslite.elements.linear import Linear
+from adamslite.elements.pinput import Pinput
+from adamslite.elements.poutput import Poutput
+from adamslite.elements.simulate import Simulate
 from adamslite.equations.engine import engine
 from adamslite.equations.result_columns import columns
 from adamslite.equations.system import System
 from adamslite.gc_pause import without_collection
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
-from adamslite.kernels.compile import Kernels, compile_model
-from adamslite.model.model import Model, assemble
+from adamslite.kernels.compile import compile_model
+from adamslite.model.model import assemble
+from adamslite.progress import Progress
+from adamslite.results.balance import Balance
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Linearized
 
@@ -52,6 +66,9 @@ STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
 # Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
 # pivot.
 PIVOTING = 1500
+
+
+S = TypeVar("S", Settings, StaticSettings)
 
 
 class Session:
@@ -76,8 +93,8 @@ class Session:
 
     def __init__(
         self,
-        scene: Any,
-        progress: Any,
+        scene: Subject,
+        progress: Progress | None,
         flags: dict[str, Any],
         without: frozenset[str] = frozenset(),
         audited: bool = False,
@@ -85,7 +102,7 @@ class Session:
         self.progress = progress
         self.flags = flags
         self.audited = audited
-        self.kernels = _compiled(scene, progress, without, audited)
+        self.kernels = kernels_of(scene, progress, without, audited)
         self.without = without | self.kernels.model.without
         engine(progress=progress)
         self.settings = replace(Settings(), **flags)
@@ -97,7 +114,7 @@ class Session:
         self.outcome = Outcome.DONE
         self.unclosed: Unclosed | None = None
         self.linearizations: list[Linearized] = []
-        self.balances: list[Any] = []
+        self.balances: list[Balance] = []
         self.counts = contract.Counts.zeros()
         self.ways_to_fall = 0
         self.out_of_law: dict[str, str] = {}
@@ -107,24 +124,25 @@ class Session:
         self._began_static = False
 
     @property
-    def deck(self) -> Any:
+    def deck(self) -> Deck:
+        """As the commands so far have left it."""
         return self.kernels.model.deck
 
     @property
     def system(self) -> System:
         """The equations, numbered and assembled when first needed."""
         if self._system is None:
-            self._system = self._numbered(False)
-            if self._is_driven():
-                self.unclosed = start_of_joints(self._system, self.progress)
-                self._assemble()
+            system = self._system = self._numbered(False)
+            if self._is_driven(system):
+                self.unclosed = start_of_joints(system, self.progress)
+                self._system = self._assembled(system)
         return self._system
 
     def prepare(self) -> None:
         """Number and assemble the equations now."""
         self._system = self.system
 
-    def execute(self, commands: Iterable[Any]) -> None:
+    def execute(self, commands: Iterable[Command]) -> None:
         """Carry out commands until one stops the run or an analysis ends early."""
         for command in commands:
             if command.keyword == "STOP" or self.outcome is not Outcome.DONE:
@@ -137,36 +155,36 @@ class Session:
 
     # settings
 
-    def _do_integrator(self, command: Any) -> None:
+    def _do_integrator(self, command: Integrator) -> None:
         self.settings = replace(_updated(self.settings, command), **self.flags)
 
-    def _do_equilibrium(self, command: Any) -> None:
+    def _do_equilibrium(self, command: Equilibrium) -> None:
         self.statics = _updated(StaticSettings() if command.default else self.statics, command)
 
-    def _do_kinematics(self, command: Any) -> None:
+    def _do_kinematics(self, command: Kinematics) -> None:
         """Its tolerances are looser than what is done anyway."""
 
     # changes of the model
 
-    def _do_activate(self, command: Any) -> None:
+    def _do_activate(self, command: Activate | Deactivate) -> None:
         self._change(self.deck.after(command))
 
     _do_deactivate = _do_activate
 
-    def _change(self, deck: Any) -> None:
+    def _change(self, deck: Deck) -> None:
         """Go on with another deck from the present state."""
         old = self._system
         self.kernels = compile_model(assemble(deck, self.without), self.progress, self.audited)
         self._system = None
         if old is not None:
-            self._system = self._numbered(False)
-            self._system.adopt(old)
-            if self._is_driven():
-                self._assemble()
+            system = self._system = self._numbered(False)
+            system.adopt(old)
+            if self._is_driven(system):
+                self._system = self._assembled(system)
 
     # analyses
 
-    def _do_simulate(self, command: Any) -> None:
+    def _do_simulate(self, command: Simulate) -> None:
         self.system.unfold()
         times = output_times(command, self.time)
         kind = command.kind
@@ -196,46 +214,44 @@ class Session:
         began = clock.process_time()
         engine(self.chosen.settings.formula.entry, self.progress)
         self.late_setup += clock.process_time() - began
-        self.outcome = self._integrated(times)
+        self.outcome = self._integrated(system, times)
         self.time = float(system.report.t)
-        self._keep(times, False)
-        if self.outcome in STALLED and self._rank_changed():
-            self._continue(times)
+        self._keep(system, times, False)
+        if self.outcome in STALLED and self._rank_changed(system):
+            self._continue(system, times)
 
-    def _integrated(self, times: np.ndarray) -> Outcome:
-        system, settings = self._system, self.chosen.settings
+    def _integrated(self, system: System, times: np.ndarray) -> Outcome:
+        settings = self.chosen.settings
 
         def run() -> Outcome:
             return run_dynamic(system, times, settings, self.progress, self.audited)
 
         outcome = run() if "plane" in self.without else in_its_plane(system, run)
-        self._note_balance()
+        self._note_balance(system)
         return outcome
 
-    def _note_balance(self) -> None:
+    def _note_balance(self, system: System) -> None:
         if self.audited:
             # Few runs are audited, and what an audit needs takes a while to load.
             from adamslite.analyses.audit import balance
 
-            self.balances.append(balance(self._system))
+            self.balances.append(balance(system))
 
-    def _rank_changed(self) -> bool:
+    def _rank_changed(self, system: System) -> bool:
         """Leave out other redundant rows when those kept have become redundant."""
-        if not badly_chosen(self._system):
+        if not badly_chosen(system):
             return False
-        leave_out_redundant(self._system)
+        leave_out_redundant(system)
         return True
 
-    def _continue(self, times: np.ndarray) -> None:
+    def _continue(self, system: System, times: np.ndarray) -> None:
         """Go on from where a run stalled to the rest of its output times."""
         self.outcome = Outcome.DONE
         rest = np.append(self.time, times[times > self.time])
-        self.outcome = run_dynamic(
-            self._system, rest, self.chosen.settings, self.progress, self.audited
-        )
-        self._note_balance()
-        self.time = float(self._system.report.t)
-        self._keep(rest, False, own_start=False)
+        self.outcome = run_dynamic(system, rest, self.chosen.settings, self.progress, self.audited)
+        self._note_balance(system)
+        self.time = float(system.report.t)
+        self._keep(system, rest, False, own_start=False)
 
     def _statics(self, times: np.ndarray) -> None:
         system = self.system
@@ -249,7 +265,7 @@ class Session:
             system.report.t = time
             if self.outcome is Outcome.DONE:
                 system.run(RECORD, 0)
-                self._keep(np.array([time]), True)
+                self._keep(system, np.array([time]), True)
 
     def _kinematics(self, times: np.ndarray) -> None:
         system = self.system
@@ -258,7 +274,7 @@ class Session:
             return
         self.outcome, self.unclosed = run_kinematic(system, times)
         self.time = float(system.report.t)
-        self._keep(times, False)
+        self._keep(system, times, False)
 
     def _initial(self, times: np.ndarray) -> None:
         self._kinematics_free(self.system)
@@ -271,13 +287,12 @@ class Session:
             self.outcome = Outcome.UNDETERMINED
             return
         system.run(RECORD, 0)
-        self._keep(np.array([self.time]), True)
+        self._keep(system, np.array([self.time]), True)
 
-    def _do_linear(self, command: Any) -> None:
-        ports = (("PINPUT", command.pinput), ("POUTPUT", command.poutput))
-        inputs, outputs = (
-            self.deck.find(kind, key).variables if key is not None else () for kind, key in ports
-        )
+    def _do_linear(self, command: Linear) -> None:
+        given = None if command.pinput is None else self.deck.find(Pinput, command.pinput)
+        seen = None if command.poutput is None else self.deck.find(Poutput, command.poutput)
+        inputs, outputs = (port.variables if port else () for port in (given, seen))
         from adamslite.analyses.linearization.linearization import linear
 
         found = linear(self.system, inputs, outputs, not command.nodamping, command.rm)
@@ -292,21 +307,20 @@ class Session:
         system.settings.t = self.time
         return system
 
-    def _is_driven(self) -> bool:
+    def _is_driven(self, system: System) -> bool:
         """Whether all that drives a constraint has a value at this time."""
-        self._system.broken = without_value(Clock(self.kernels), self.time)
-        if self._system.broken:
+        system.broken = without_value(Clock(self.kernels), self.time)
+        if system.broken:
             self.outcome = Outcome.BROKEN_MOTION
-            self._system.report.t = self.time
-        return self._system.broken is None
+            system.report.t = self.time
+        return system.broken is None
 
-    def _assemble(self) -> None:
+    def _assembled(self, system: System) -> System:
         """Consistent positions and velocities, redundant rows, a regular elimination order."""
-        system = self._system
         self.unclosed = self.unclosed or initial_conditions(system)
         if self.unclosed:
             self.outcome = self.unclosed.outcome
-            return
+            return system
         if self.time == 0.0 and not self.pieces:
             self.assembled = system.largest_changes()
             self.speeds = system.changed_speeds()
@@ -315,7 +329,8 @@ class Session:
         system.settings.t = self.time
         small = system.nz <= PIVOTING and not system.pivoting
         if small and system.run(ACCELERATIONS) != contract.DONE and np.isfinite(system.F).all():
-            self._system = self._renumbered(system, True)
+            return self._renumbered(system, True)
+        return system
 
     def _renumbered(self, system: System, pivoting: bool) -> System:
         """``system`` in its present state, in the formulation of the method that AUTO picked, or
@@ -346,12 +361,13 @@ class Session:
         system.count.add(spare.count)
         return outcome
 
-    def _keep(self, times: np.ndarray, static: bool, own_start: bool = True) -> None:
+    def _keep(
+        self, system: System, times: np.ndarray, static: bool, own_start: bool = True
+    ) -> None:
         """Append the records made; a state both ends and begins two analyses only once.
 
         ``own_start``: the first time was requested.
         """
-        system = self._system
         self.out_of_law = system.out_of_law() | self.out_of_law
         made = system.count.records
         row = system.nw + system.sizes.n_out
@@ -371,7 +387,7 @@ class Session:
         self.counts.add(system.count)
 
 
-def _updated(settings: Any, command: Any) -> Any:
+def _updated(settings: S, command: Integrator | Equilibrium) -> S:
     """Settings with what the command gives."""
     given = {
         each.name: getattr(command, each.name)
@@ -379,10 +395,3 @@ def _updated(settings: Any, command: Any) -> Any:
         if command.given(each.name) and getattr(command, each.name) is not None
     }
     return replace(settings, **given)
-
-
-def _compiled(scene: Any, progress: Any, without: frozenset[str], audited: bool) -> Kernels:
-    if isinstance(scene, Kernels):
-        return scene
-    model = scene if isinstance(scene, Model) else assemble(scene, without)
-    return compile_model(model, progress, audited)

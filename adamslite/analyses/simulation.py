@@ -17,14 +17,20 @@ from adamslite.analyses.initial.redundancy import row_name
 from adamslite.analyses.output_times import spread_times
 from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
+from adamslite.analyses.subject import Subject, deck_of
+from adamslite.deck.deck import Deck
+from adamslite.deck.redefinition import Command
+from adamslite.elements.marker import Marker
+from adamslite.elements.simulate import Simulate
+from adamslite.elements.units import Units
 from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
 from adamslite.integrators.linalg.dense import TINY
-from adamslite.kernels.compile import Kernels
+from adamslite.language.interfaces import Key
 from adamslite.language.messages import did_you_mean
 from adamslite.language.method import without_effect
-from adamslite.model.model import Model
 from adamslite.model.reduction import left_off
+from adamslite.progress import Progress
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
@@ -50,15 +56,15 @@ COUNTED = (
 
 
 def simulate(
-    scene: Any,
+    scene: Subject,
     end: float | None = None,
     steps: int | None = None,
     integrator: str | None = None,
     formulation: str | None = None,
     error: float | None = None,
     hmax: float | None = None,
-    commands: Iterable[Any] = (),
-    progress: Any = None,
+    commands: Iterable[Command] = (),
+    progress: Progress | None = None,
     no_reduction: Iterable[str] = (),
     audit: bool = False,
     confirm: bool = False,
@@ -93,7 +99,7 @@ def simulate(
     began, commands = clock.process_time(), tuple(commands)
     asked = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
     flags = {name: value for name, value in asked.items() if value is not None}
-    plan = _plan(_deck(scene), commands, end, steps)
+    plan = _plan(deck_of(scene), commands, end, steps)
     session = Session(scene, progress, flags, left_off(no_reduction), audit)
     first = next((k for k, c in enumerate(plan) if c.keyword not in SETTINGS), len(plan))
     session.execute(plan[:first])
@@ -105,8 +111,10 @@ def simulate(
     results = _results(session, cpu)
     if not confirm:
         return results
-    more = {"commands": commands, "progress": progress, "no_reduction": no_reduction}
-    return _confirmed(results, session, partial(simulate, scene, end, steps, **more))
+    again = partial(
+        simulate, scene, end, steps, commands=commands, progress=progress, no_reduction=no_reduction
+    )
+    return _confirmed(results, session, again)
 
 
 def _confirmed(results: Results, session: Session, again: Callable[..., Results]) -> Results:
@@ -119,7 +127,10 @@ def _confirmed(results: Results, session: Session, again: Callable[..., Results]
 
 
 def linearize(
-    scene: Any, commands: Iterable[Any] = (), time: float | None = None, rm: Any = None
+    scene: Subject,
+    commands: Iterable[Command] = (),
+    time: float | None = None,
+    rm: Key | None = None,
 ) -> Linearization:
     """The model about one state: at the end of the commands, or integrated to ``time``.
 
@@ -136,11 +147,11 @@ def linearize(
     """
     from adamslite.analyses.linearization.linearization import linear
 
-    deck = _deck(scene)
+    deck = deck_of(scene)
     marker = None if rm is None else _marker(deck, str(rm))
     session = Session(scene, None, {})
     plan = [s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM")]
-    session.execute([*plan, *commands, *([_Simulation(time, None, None)] if time else [])])
+    session.execute([*plan, *commands, *([_dynamics(time)] if time else [])])
     system = session.system
     if session.outcome is not Outcome.DONE:
         raise RunFailed(explain(system, session.outcome, session.unclosed))
@@ -148,52 +159,58 @@ def linearize(
     return made[-1].model if made and rm is None else linear(system, relative_to=marker)
 
 
-def _marker(deck: Any, word: str) -> Any:
+def _marker(deck: Deck, word: str) -> Key:
     """The id of a MARKER that a flag names."""
-    found = deck.find("MARKER", int(word) if word.isdigit() else word)
+    found = deck.find(Marker, int(word) if word.isdigit() else word)
     if found is None:
         hint = did_you_mean(word, deck.names.known("MARKER"))
         raise UsageError(f"--rm: there is no MARKER/{word}" + (f"; {hint}" if hint else ""))
     return found.key
 
 
-class _Simulation:
-    """A dynamic run requested by flags instead of a SIMULATE statement."""
+def _dynamics(
+    end: float | None,
+    duration: float | None = None,
+    steps: int | None = None,
+    dtout: float | None = None,
+) -> Simulate:
+    """A dynamic run requested by flags instead of a SIMULATE statement.
 
-    keyword, kind = "SIMULATE", "DYNAMICS"
+    Raises
+    ------
+    UsageError
+        When it has no end, or one before zero, or too many steps.
+    """
+    least = end if end is not None else duration
+    if least is None:
+        raise UsageError(Outcome.NO_END_TIME.value)
+    spread_times(0.0, least, steps, dtout)
+    return Simulate(kind="DYNAMICS", end=end, duration=duration, steps=steps, dtout=dtout)
 
-    def __init__(self, end: float, steps: int | None, dtout: float | None) -> None:
-        spread_times(0.0, end, steps, dtout)
-        self.end, self.steps, self.dtout, self.duration = end, steps, dtout, None
 
-
-def _plan(deck: Any, commands: tuple[Any, ...], end: float | None, steps: int | None) -> list[Any]:
+def _plan(
+    deck: Deck, commands: tuple[Command, ...], end: float | None, steps: int | None
+) -> list[Command]:
     """What to carry out: settings of the deck, then the commands, or the deck's own SIMULATE
     statements.
 
     Flags replace the last SIMULATE/DYNAMICS and what follows it.
     """
     own = [s for s in deck.statements if s.keyword in SETTINGS]
-    runs = [s for s in deck.statements if s.keyword == "SIMULATE"]
-    given = any(c.keyword == "SIMULATE" for c in commands)
-    plan = [*own, *([] if given else runs), *commands]
-    runs = [k for k, s in enumerate(plan) if s.keyword == "SIMULATE"]
-    if end is None and not runs:
+    given = any(isinstance(c, Simulate) for c in commands)
+    plan: list[Command] = [*own, *([] if given else deck.of(Simulate)), *commands]
+    last = next((s for s in reversed(plan) if isinstance(s, Simulate)), None)
+    if end is None and last is None:
         raise UsageError(Outcome.NO_END_TIME.value)
     if end is None and steps is None:
         return plan
-    last = plan[runs[-1]] if runs else None
-    stop = end if end is not None else last.end if last.end is not None else last.duration
-    dtout = last.dtout if last is not None and steps is None else None
-    chosen = steps if steps is not None or end is not None or last is None else last.steps
-    keep = [s for k, s in enumerate(plan) if k not in runs[-1:]]
-    return [*(s for s in keep if s.keyword != "STOP"), _Simulation(stop, chosen, dtout)]
-
-
-def _deck(scene: Any) -> Any:
-    if isinstance(scene, Kernels):
-        return scene.model.deck
-    return scene.deck if isinstance(scene, Model) else scene
+    keep = [s for s in plan if s is not last and s.keyword != "STOP"]
+    if last is None:
+        return [*keep, _dynamics(end, steps=steps)]
+    dtout = last.dtout if steps is None else None
+    if end is not None:
+        return [*keep, _dynamics(end, steps=steps, dtout=dtout)]
+    return [*keep, _dynamics(last.end, last.duration, steps, dtout)]
 
 
 def _without_value(time: np.ndarray, names: tuple[str, ...], values: np.ndarray) -> str:
@@ -215,7 +232,7 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
         np.concatenate([v for _, v in session.pieces]) if session.pieces else np.zeros((0, width))
     )
     counts = session.counts.values()
-    summary = {
+    summary: dict[str, Any] = {
         "outcome": session.outcome.name, "t_end": session.time, "dof": system.dof,
         **{name: counts[name] for name in COUNTED}, "setup_cpu_s": cpu[0], "solve_cpu_s": cpu[1],
         "max_violation": float(system.report.violation),
@@ -235,7 +252,7 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
 
 def _meta(session: Session) -> Mapping[str, str]:
     deck, settings = session.deck, session.chosen.settings
-    units = deck.single("UNITS").names
+    units = deck.single(Units).names
     hurried = ", ".join(dict.fromkeys(map(placed, session.system.hurried)))
     return {
         "deck": deck.title,

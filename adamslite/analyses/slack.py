@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+
+from adamslite.deck.deck import Deck
 
 FORCES = ("SFORCE", "SPRINGDAMPER")
 # Pushes below this share of the largest pull are those of waves that sections cannot follow.
@@ -12,7 +12,7 @@ FELT = 0.02
 REMEDY = "a slack cable carries nothing: write its pull as MAX(0, pull); described: pulls_only"
 
 
-def compressed(deck: Any, names: tuple[str, ...], time: np.ndarray, values: np.ndarray) -> str:
+def compressed(deck: Deck, names: tuple[str, ...], time: np.ndarray, values: np.ndarray) -> str:
     """The sections of cables that pushed, how hard and since when; empty when none did.
 
     names, values : columns of the records, (nt, len(names));  time : (nt,)
@@ -46,7 +46,7 @@ def _pushing(places: dict[str, int], values: np.ndarray) -> dict[str, float]:
     return {label: push for label, push, is_one in sections if is_one}
 
 
-def _sections(deck: Any) -> set[str]:
+def _sections(deck: Deck) -> set[str]:
     """Labels of the forces that are sections of cables."""
     from adamslite.cables.chain_finder import chains
     from adamslite.cables.posture import Posture

@@ -18,6 +18,9 @@ from adamslite.model.model import PART
 class Elimination(Instances):
     """Where every block of the Jacobian stands in the factors."""
 
+    z: np.ndarray
+    dead: np.ndarray
+
     def __init__(self, kernels: Kernels, stabilised: bool, pivoting: bool) -> None:
         super().__init__(kernels, stabilised)
         self.pivoting = pivoting

@@ -144,7 +144,8 @@ def _order(
 ) -> tuple[list[int], list[list[int]]]:
     """Minimum degree order, and for each node those that stay coupled to it below."""
     graph = _Graph(count, pairs, late)
-    order, below = [], []
+    order: list[int] = []
+    below: list[list[int]] = []
     while len(order) < count:
         order.append(graph.least())
         below.append(graph.eliminate(order[-1]))

@@ -8,8 +8,9 @@ when a run first needs it.
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable, Iterable
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,23 +18,27 @@ from adamslite.caching.entries import recall
 from adamslite.caching.sources import version_of
 from adamslite.native import compiler
 from adamslite.native.translate import translate
+from adamslite.progress import Progress
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 OPERATIONS = "adamslite.equations.operations.run"
 #: Where modules lie whose sources are known to :mod:`adamslite.caching.sources`.
 HERE = "adamslite."
 
 
-def engine(entry: str = OPERATIONS, progress: Any = None) -> Any:
+def engine(entry: str = OPERATIONS, progress: Progress | None = None) -> Callable[..., int]:
     """The native code of an entry, as a function of Python."""
     if entry not in _built:
         _built[entry] = _build(entry, progress)
     return _built[entry]
 
 
-_built: dict[str, Any] = {}
+_built: dict[str, Callable[..., int]] = {}
 
 
-def _build(entry: str, progress: Any) -> Any:
+def _build(entry: str, progress: Progress | None) -> Callable[..., int]:
     symbol = entry.removeprefix(HERE)
 
     def compiled() -> bytes:
@@ -63,11 +68,11 @@ def engine_text(entry: str) -> str:
     return translate(getattr(import_module(module), name))
 
 
-def ints(values: list[int]) -> np.ndarray:
+def ints(values: Iterable[int]) -> np.ndarray:
     """An array of integers as native code reads it."""
     return np.array(values, dtype=np.int64)
 
 
-def reals(values: list[float]) -> np.ndarray:
+def reals(values: ArrayLike) -> np.ndarray:
     """An array of reals as native code reads it."""
     return np.array(values, dtype=float)

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from math import inf
-from typing import Any
 
 import numpy as np
 
+from adamslite.elements.bases.constraint import Constraint
 from adamslite.equations.engine import ints
 from adamslite.equations.numbering import Numbering
 from adamslite.integrators import contract
 from adamslite.integrators.contract import KernelGroup
 from adamslite.kernels.binding import Binding
 from adamslite.kernels.compile import Kernels, ShapeGroup
+from adamslite.language.interfaces import Key
+from adamslite.language.statement import Statement
+from adamslite.model.model import NodeKey
 from adamslite.native.translate import Rows
 
 PHASES = {
@@ -29,6 +32,10 @@ PHASES = {
 }
 
 
+Owner = tuple[str, str, Key]
+"""Name of a kernel, keyword and id of the statement that it belongs to."""
+
+
 class Instances(Numbering):
     """Kernels bound to the numbered unknowns."""
 
@@ -42,8 +49,9 @@ class Instances(Numbering):
         self.size_j = 0
         for b in range(len(self.model.bodies)):
             self.block(b, b)
-        rows, self.keep = [], []
-        self.out_at: dict[Any, int] = {}
+        rows: list[int] = []
+        self.keep: list[np.ndarray] = []
+        self.out_at: dict[Statement, int] = {}
         for statement, names in self.kernels.outputs:
             self.out_at[statement] = self._out_next(names)
         for group in self.kernels.groups:
@@ -56,7 +64,8 @@ class Instances(Numbering):
         return first
 
     def _is_rate(self, group: ShapeGroup) -> bool:
-        return group.instances[0][0].is_rate(self.model)
+        first = group.instances[0][0]
+        return isinstance(first, Constraint) and first.is_rate(self.model)
 
     def _group(self, group: ShapeGroup) -> list[int]:
         phase = PHASES[group.face]
@@ -89,7 +98,7 @@ class Instances(Numbering):
         one.reals += 8 * instance * (of_reals // count)
         return row
 
-    def memories(self) -> Iterator[tuple[tuple[Any, ...], np.ndarray]]:
+    def memories(self) -> Iterator[tuple[Owner, np.ndarray]]:
         """Whose it is and what it remembers: angles, then times of leaving its law."""
         for group, reals in zip(self.kernels.groups, self.keep[1::2], strict=True):
             count = group.meta["angles"] + group.meta["limits"]
@@ -98,7 +107,7 @@ class Instances(Numbering):
                 first = len(binding.params)
                 yield (group.name, statement.keyword, statement.key), row[first : first + count]
 
-    def remember(self, known: Iterable[tuple[tuple[Any, ...], np.ndarray]]) -> None:
+    def remember(self, known: Iterable[tuple[Owner, np.ndarray]]) -> None:
         """Take memories over, of instances that are known."""
         found = dict(known)
         for whose, values in self.memories():
@@ -108,8 +117,8 @@ class Instances(Numbering):
         """Elements that were beyond what their law is meant for: how, and when first."""
         limited = {g.name: g.meta["limits"] for g in self.kernels.groups if g.face == "loads"}
         found = {}
-        for (name, *node), values in self.memories():
-            statement = self.model.element(*node)
+        for (name, keyword, key), values in self.memories():
+            statement = self.model.element(keyword, key)
             limits = limited.get(name, 0)
             time = min(values[len(values) - limits :], default=inf)
             if hasattr(statement, "beyond") and time < inf:
@@ -117,7 +126,7 @@ class Instances(Numbering):
         return found
 
     def _integers(self, group: ShapeGroup, binding: Binding, instance: int) -> list[int]:
-        nodes = [("BODY", b) for b in binding.bodies] + binding.nodes
+        nodes: list[NodeKey] = [("BODY", b) for b in binding.bodies] + binding.nodes
         found = [self.w_at.get(node, 0) for node in nodes]
         found += [self.w_at["SIGNAL", s] for s in binding.signals]
         found += [self._row(group, node) for node in nodes]
@@ -134,13 +143,13 @@ class Instances(Numbering):
             found += [self.block(rows[r], columns[c]) for r, c in group.meta["blocks"]]
         return found
 
-    def _row_node(self, group: ShapeGroup, node: tuple[str, Any]) -> int:
+    def _row_node(self, group: ShapeGroup, node: NodeKey) -> int:
         """Node whose rows an instance writes: velocity rows stand at mu."""
         if group.face == "velocity" and ("MU", node) in self.node_at:
             return self.node_at["MU", node]
         return self.node_at[node]
 
-    def _row(self, group: ShapeGroup, node: tuple[str, Any]) -> int:
+    def _row(self, group: ShapeGroup, node: NodeKey) -> int:
         if node[0] == "OUTPUT":
             return self.out_at[node[1]]
         if node[0] == "SIGNAL":
@@ -154,6 +163,8 @@ class Instances(Numbering):
         values += [inf] * group.meta["limits"]
         for marker_id in binding.markers:
             place = self.model.marker(marker_id)
+            if place is None:
+                continue
             if place.offset:
                 values += place.p.tolist()
             if place.turned:

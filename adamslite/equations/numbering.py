@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from adamslite.elements.diff import Diff
+from adamslite.elements.variable import Variable
 from adamslite.equations.engine import ints
 from adamslite.kernels.compile import Kernels
-from adamslite.model.model import PART
+from adamslite.language.statement import Statement
+from adamslite.model.model import PART, NodeKey
 
 HEAD = 2
 POINT_SIZE, PART_SIZE = 9, 24
@@ -26,12 +27,12 @@ class Numbering:
     def _number(self) -> None:
         """Nodes, first unknowns and workspace offsets."""
         model = self.model
-        self.nodes: list[tuple[str, Any]] = [("BODY", b) for b in range(len(model.bodies))]
+        self.nodes: list[NodeKey] = [("BODY", b) for b in range(len(model.bodies))]
         self.widths = [body.width for body in model.bodies]
         self.n = sum(self.widths)
         constraints = [(c.keyword, c.key) for c in model.constraints]
-        loops = [v for v in model.deck.of("VARIABLE") if model.variable_kind(v.key) == "loop"]
-        states = model.deck.of("DIFF")
+        loops = [v for v in model.deck.of(Variable) if model.variable_kind(v.key) == "loop"]
+        states = model.deck.of(Diff)
         scalars = constraints + [("VARIABLE", v.key) for v in loops]
         scalars += [("DIFF", d.key) for d in states]
         self.nodes += scalars
@@ -48,11 +49,11 @@ class Numbering:
         self.node_at = {node: k for k, node in enumerate(self.nodes)}
         self._workspace(scalars)
 
-    def _workspace(self, scalars: list[tuple[str, Any]]) -> None:
+    def _workspace(self, scalars: list[NodeKey]) -> None:
         model = self.model
         at = HEAD
-        self.w_at: dict[Any, int] = {}
-        for variable in model.deck.of("VARIABLE"):
+        self.w_at: dict[NodeKey, int] = {}
+        for variable in model.deck.of(Variable):
             if model.variable_kind(variable.key) == "signal":
                 self.w_at["SIGNAL", variable.key] = at
                 at += 3
@@ -60,7 +61,7 @@ class Numbering:
         for b, body in enumerate(model.bodies):
             self.w_at["BODY", b] = at
             at += PART_SIZE if body.width == PART else POINT_SIZE
-        offsets = []
+        offsets: list[int] = []
         for node in scalars:
             self.w_at[node] = at
             width = model.node_width(node)
@@ -72,7 +73,11 @@ class Numbering:
 
     def _branches(self) -> None:
         """Guards and zones of all instances; branches stand behind the workspace."""
-        self.guarded: dict[str, list[tuple[Any, int]]] = {"clock": [], "watch": [], "zone": []}
+        self.guarded: dict[str, list[tuple[Statement, int]]] = {
+            "clock": [],
+            "watch": [],
+            "zone": [],
+        }
         self.first_branch: dict[tuple[str, str], int] = {}
         at = self.nw
         for place, found in self.guarded.items():

@@ -7,19 +7,25 @@ in the stabilised form, multipliers of the velocity rows; every equation has the
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.equations.broken_motion import Break
 from adamslite.equations.elimination import Elimination
 from adamslite.equations.engine import engine, ints, reals
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
-from adamslite.integrators.event_rows import MARGIN_ROWS
+from adamslite.integrators.audit_record import Audit
+from adamslite.integrators.event_rows import MARGIN_ROWS, Search
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.kernels.compile import Kernels
-from adamslite.model.model import PART, Model
+from adamslite.language.statement import Statement
+from adamslite.model.model import PART, Model, NodeKey
 from adamslite.native.translate import Rows
+
+if TYPE_CHECKING:  # few runs need sparse matrices
+    from scipy.sparse import csr_array
 
 # Moves of the assembly below this are round-off.
 MOVED = 1e-9
@@ -32,6 +38,21 @@ class System(Elimination):
 
     Every field of ``Problem`` is an attribute of that name; arrays may be replaced between runs.
     """
+
+    sizes: contract.Sizes
+    settings: contract.RunSettings
+    count: contract.Counts
+    uncounted: contract.Counts
+    report: contract.Report
+    search: Search
+    undoing: contract.Undoing
+    audit: Audit
+    q: np.ndarray
+    u: np.ndarray
+    a: np.ndarray
+    ra: np.ndarray
+    rz: np.ndarray
+    pz: np.ndarray
 
     def __init__(self, kernels: Kernels, stabilised: bool, pivoting: bool = False) -> None:
         """``pivoting``: eliminate the whole matrix with row pivoting, whatever its size."""
@@ -66,7 +87,8 @@ class System(Elimination):
         self.margin = np.zeros(MARGIN_ROWS * len(self.guarded["watch"]))
         self.zone = np.zeros(5 * len(self.guarded["zone"]))
         self.stops, self.pattern = np.zeros(1), ints([])
-        self.broken, self.hurried = None, []
+        self.broken: Break | None = None
+        self.hurried: list[Statement] = []
         self.paces = Rows(contract.Pace, np.array(contract.NO_PACE))
         self.pivot0 = np.zeros(nz + 1)
         # What equilibria remember; a method makes the room that it needs.
@@ -140,7 +162,7 @@ class System(Elimination):
             elif node[0] != "MU":
                 self.z[i - self.n : i - self.n + w] = other.z[j - other.n : j - other.n + w]
 
-    def _named(self, node: tuple[str, Any], other: System) -> tuple[str, Any]:
+    def _named(self, node: NodeKey, other: System) -> NodeKey:
         """The node of another system that is the same statement."""
         if node[0] != "BODY":
             return node
@@ -189,7 +211,7 @@ class System(Elimination):
             full[r : r + h, c : c + w] = self.J[at : at + h * w].reshape(h, w)
         return full
 
-    def sparse_jacobian(self) -> Any:
+    def sparse_jacobian(self) -> csr_array:
         """The Jacobian blocks as one sparse matrix (nz, nz)."""
         from scipy.sparse import coo_array
 
@@ -206,7 +228,8 @@ class System(Elimination):
             rows, columns = np.divmod(np.arange(h * w), w)
             places = at + np.arange(h * w)
             found.append((self.starts[row] + rows, self.starts[column] + columns, places))
-        return tuple(np.concatenate(each) for each in zip(*found, strict=True))
+        rows, columns, places = (np.concatenate(each) for each in zip(*found, strict=True))
+        return rows, columns, places
 
     def release_guards(self) -> None:
         """Let every expression take the branch of the moment again."""

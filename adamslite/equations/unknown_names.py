@@ -7,9 +7,8 @@ PART/3 (scene.adm:12:1), forces along x          the equation of a body
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.equations.system import System
+from adamslite.language.statement import Statement
 
 AXES = ("x", "y", "z")
 COORDINATES = (*AXES, *(f"rotation about {axis}" for axis in AXES))
@@ -23,7 +22,7 @@ BALANCES = (
 )
 
 
-def placed(statement: Any) -> str:
+def placed(statement: Statement) -> str:
     """``PART/3 (scene.adm:12:1)``"""
     return f"{statement.label} ({statement.span})"
 

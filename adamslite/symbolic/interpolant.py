@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # reading a deck does without numpy
     import numpy as np
+    from numpy.typing import ArrayLike
 
 BEYOND = ("parabola", "tangent", "constant", "piece")
 KINDS = ("linear", "akima", "natural", "not-a-knot", "periodic")
@@ -68,11 +69,7 @@ def pieces_at(knots: np.ndarray, x: np.ndarray) -> np.ndarray:
 
 
 def interpolant(
-    x: np.ndarray,
-    y: np.ndarray,
-    kind: str,
-    beyond: str = "parabola",
-    places: np.ndarray | None = None,
+    x: ArrayLike, y: ArrayLike, kind: str, beyond: str = "parabola", places: ArrayLike | None = None
 ) -> Interpolant:
     """Curves of a kind through the columns of ``y`` (n, m) at ``x`` (n,), which ascends.
 
@@ -86,7 +83,7 @@ def interpolant(
     return joined(x, np.concatenate([ends[0][None], inner, ends[1][None]]), places)
 
 
-def joined(knots: np.ndarray, pieces: np.ndarray, places: np.ndarray | None = None) -> Interpolant:
+def joined(knots: np.ndarray, pieces: np.ndarray, places: ArrayLike | None = None) -> Interpolant:
     """The table of given ``pieces`` (n + 1, m, 4) over ``knots`` (n,)."""
     import numpy as np
 

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from functools import partial
+from operator import add
 
 from adamslite.analyses.clock.enclosures import Instruction
+from adamslite.kernels.binding import Binding
+from adamslite.kernels.code.clock_program import Instruction as Written
+from adamslite.kernels.compile import Kernels
+from adamslite.language.interfaces import Key
+from adamslite.language.statement import Statement
+from adamslite.symbolic.interpolant import Interpolant
 from adamslite.symbolic.sympy_nodes import LOOKUPS
 
 Program = tuple[Instruction, ...]
+Used = float | Key | Interpolant
 
 
 class Clock:
@@ -16,7 +24,7 @@ class Clock:
     :mod:`adamslite.kernels.code.clock_program` for what they compute.
     """
 
-    def __init__(self, kernels: Any) -> None:
+    def __init__(self, kernels: Kernels) -> None:
         self.kernels = kernels
         self._signals = {
             binding.nodes[0][1]: (group.meta["clock"]["rows"], binding)
@@ -24,27 +32,27 @@ class Clock:
             if group.face == "signal"
             for _, binding in group.instances
         }
-        self._rates: dict[tuple[Any, int], Program] = {}
+        self._rates: dict[tuple[Key, int], Program] = {}
 
-    def programs(self, kind: str) -> dict[Program, Any]:
+    def programs(self, kind: str) -> dict[Program, Statement]:
         """Every different program of a kind, with the first statement that has it."""
         return {program: statement for _, statement, program in self._each(kind)}
 
-    def driven(self) -> Iterator[tuple[str, Any, Program]]:
+    def driven(self) -> Iterator[tuple[str, Statement, Program]]:
         """Level, statement and program of what drives a constraint."""
         yield from self._each("driven")
 
-    def _each(self, kind: str) -> Iterator[tuple[str, Any, Program]]:
+    def _each(self, kind: str) -> Iterator[tuple[str, Statement, Program]]:
         for group in self.kernels.groups:
             for code in group.meta["clock"].get(kind, ()):
-                seen: set[Any] = set()
+                seen: set[tuple[Used, ...]] = set()
                 for statement, binding in group.instances:
                     used = tuple(_used(code, binding))
                     if used not in seen:
                         seen.add(used)
                         yield group.face, statement, self._bound(code, binding)
 
-    def _bound(self, code: list[list[Any]], binding: Any) -> Program:
+    def _bound(self, code: list[Written], binding: Binding) -> Program:
         """A program with numbers for parameters and the expressions of VARIABLEs put in."""
         found: list[Instruction] = []
         place: list[int] = []
@@ -57,20 +65,20 @@ class Clock:
             elif name == "sig":
                 inner = self._rate(binding.signals[given[0]], given[1])
                 shift = len(found)
-                found += [_moved(each, lambda n, by=shift: n + by) for each in inner]
+                found += [_moved(each, partial(add, shift)) for each in inner]
             else:
                 found.append(_moved((name, *given), place.__getitem__))
             place.append(len(found) - 1)
         return tuple(found)
 
-    def _rate(self, variable: Any, order: int) -> Program:
+    def _rate(self, variable: Key, order: int) -> Program:
         if (variable, order) not in self._rates:
             rows, binding = self._signals[variable]
             self._rates[variable, order] = self._bound(rows[order], binding)
         return self._rates[variable, order]
 
 
-def _used(code: list[list[Any]], binding: Any) -> Iterator[Any]:
+def _used(code: list[Written], binding: Binding) -> Iterator[Used]:
     """The parameters and VARIABLEs of an instance that a program needs."""
     for name, *given in code:
         if name == "p":
@@ -81,7 +89,7 @@ def _used(code: list[list[Any]], binding: Any) -> Iterator[Any]:
             yield binding.tables[given[0]]
 
 
-def _moved(instruction: Instruction, place: Any) -> Instruction:
+def _moved(instruction: Instruction, place: Callable[[int], int]) -> Instruction:
     """An instruction whose operands stand elsewhere."""
     name, *given = instruction
     if name in ("number", "decided"):

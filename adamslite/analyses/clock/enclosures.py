@@ -12,15 +12,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from adamslite.analyses.clock.table_ranges import ranges
 from adamslite.symbolic.interpolant import Interpolant
 
-Interval = tuple[Any, Any]
+Bound: TypeAlias = Any
+"""One number for all spans of time, or one for each, (n,)."""
+Interval = tuple[Bound, Bound]
+Enclosure = tuple[Any, Any]
+"""Intervals of a value and of its rate; of a condition whether it may hold, and may not."""
+Values = list[Enclosure]
 Instruction = tuple[Any, ...]
+"""A word, and what its rule takes after the values."""
 # The kind of analysis, as MODE gives it.
 DYNAMICS = 4.0
 WHOLE: Interval = (-math.inf, math.inf)
@@ -28,7 +34,7 @@ WHOLE: Interval = (-math.inf, math.inf)
 
 def enclose(code: Sequence[Instruction], low: np.ndarray, high: np.ndarray) -> np.ndarray:
     """Least and largest value and rate of the last instruction over spans of time, (4, n)."""
-    values: list[Any] = []
+    values: Values = []
     with np.errstate(all="ignore"):
         for name, *given in code:
             if name == "t":
@@ -59,7 +65,7 @@ def _inverse(a: Interval) -> Interval:
     return low, np.where(across | (a[0] == 0.0), np.inf, high)
 
 
-def _even(a: Interval, power: Callable[[Any], Any]) -> Interval:
+def _even(a: Interval, power: Callable[[Bound], Bound]) -> Interval:
     """An even function that grows away from zero."""
     one, other = power(np.abs(a[0])), power(np.abs(a[1]))
     across = (a[0] < 0.0) & (a[1] > 0.0)
@@ -98,7 +104,7 @@ def _tangent(a: Interval) -> Interval:
 
 
 def _rising(
-    function: Callable[[Any], Any], least: float, most: float
+    function: Callable[[Bound], Bound], least: float, most: float
 ) -> Callable[[Interval], Interval]:
     """A function that rises where it is defined, from ``least`` to ``most``."""
     return lambda a: (function(np.clip(a[0], least, most)), function(np.clip(a[1], least, most)))
@@ -151,19 +157,19 @@ FUNCTIONS: dict[str, tuple[Callable[[Interval], Interval], Callable[[Interval], 
 }
 
 
-def _number(values: list[Any], value: float) -> Any:
+def _number(values: Values, value: float) -> Enclosure:
     exact, still = np.float64(value), np.float64(0.0)
     return (exact, exact), (still, still)
 
 
-def _add(values: list[Any], *terms: int) -> Any:
+def _add(values: Values, *terms: int) -> Enclosure:
     value, rate = values[terms[0]]
     for each in terms[1:]:
         value, rate = _plus(value, values[each][0]), _plus(rate, values[each][1])
     return value, rate
 
 
-def _multiply(values: list[Any], *factors: int) -> Any:
+def _multiply(values: Values, *factors: int) -> Enclosure:
     value, rate = values[factors[0]]
     for each in factors[1:]:
         other, its_rate = values[each]
@@ -172,31 +178,31 @@ def _multiply(values: list[Any], *factors: int) -> Any:
     return value, rate
 
 
-def _root(values: list[Any], base: int, p: int, q: int) -> Any:
+def _root(values: Values, base: int, p: int, q: int) -> Enclosure:
     """A rational power; its rate is (p/q) a**(p/q - 1) a'."""
     value, rate = values[base]
     slope = _power(value, p - q, q) if p != q else (1.0, 1.0)
     return _power(value, p, q), _times(_times((p / q, p / q), slope), rate)
 
 
-def _pow(values: list[Any], base: int, exponent: int) -> Any:
+def _pow(values: Values, base: int, exponent: int) -> Enclosure:
     """a**b = exp(b log a)."""
     logarithm = _of_one("log")(values, base)
     kept = [logarithm, values[exponent]]
     return _of_one("exp")([_multiply(kept, 0, 1)], 0)
 
 
-def _of_one(name: str) -> Callable[..., Any]:
+def _of_one(name: str) -> Callable[..., Enclosure]:
     function, slope = FUNCTIONS[name]
 
-    def rule(values: list[Any], argument: int) -> Any:
+    def rule(values: Values, argument: int) -> Enclosure:
         value, rate = values[argument]
         return function(value), _times(slope(value), rate)
 
     return rule
 
 
-def _atan2(values: list[Any], sine: int, cosine: int) -> Any:
+def _atan2(values: Values, sine: int, cosine: int) -> Enclosure:
     """The angle of a point (c, s): at the corners of its box, unless that meets the cut."""
     (s, ds), (c, dc) = values[sine], values[cosine]
     angles = [np.arctan2(y, x) for y in s for x in c]
@@ -208,55 +214,56 @@ def _atan2(values: list[Any], sine: int, cosine: int) -> Any:
     return (low, high), (np.where(cut, -np.inf, turn[0]), np.where(cut, np.inf, turn[1]))
 
 
-def _floor(values: list[Any], argument: int) -> Any:
+def _floor(values: Values, argument: int) -> Enclosure:
     (low, high), _ = values[argument]
     low, high = np.floor(low), np.floor(high)
     unknown = np.where(low == high, 0.0, np.inf)
     return (low, high), (-unknown, unknown)
 
 
-def _choose(values: list[Any], jumps: bool, *pieces: int) -> Any:
+def _choose(values: Values, jumps: bool, *pieces: int) -> Enclosure:
     """All pieces that may be chosen; ``pieces``: conditions and values in turn."""
-    open_, several = True, False
-    low, high, slow, fast = np.inf, -np.inf, np.inf, -np.inf
+    open_: np.ndarray | bool = True
+    several: np.ndarray | bool = False
+    reach: Interval = (np.inf, -np.inf)
+    rates: Interval = (np.inf, -np.inf)
     for condition, piece in zip(pieces[::2], pieces[1::2], strict=True):
         may, may_not = values[condition]
         taken, (value, rate) = open_ & may, values[piece]
-        low, high = _joined(taken, (low, high), value)
-        slow, fast = _joined(taken, (slow, fast), rate)
+        reach, rates = _joined(taken, reach, value), _joined(taken, rates, rate)
         several = several | (taken & may_not)
         open_ = open_ & may_not
     if jumps:
-        slow, fast = np.where(several, -np.inf, slow), np.where(several, np.inf, fast)
-    return (low, high), (slow, fast)
+        rates = np.where(several, -np.inf, rates[0]), np.where(several, np.inf, rates[1])
+    return reach, rates
 
 
-def _joined(taken: Any, a: Interval, b: Interval) -> Interval:
+def _joined(taken: np.ndarray | bool, a: Interval, b: Interval) -> Interval:
     """The span of both where ``taken``."""
     return np.where(taken, np.fmin(a[0], b[0]), a[0]), np.where(taken, np.fmax(a[1], b[1]), a[1])
 
 
-def _relation(compare: Callable[[Interval, Interval], Any]) -> Callable[..., Any]:
+def _relation(compare: Callable[[Interval, Interval], Enclosure]) -> Callable[..., Enclosure]:
     return lambda values, a, b: compare(values[a][0], values[b][0])
 
 
-def _equal(a: Interval, b: Interval) -> tuple[Any, Any]:
+def _equal(a: Interval, b: Interval) -> Enclosure:
     return (a[0] <= b[1]) & (b[0] <= a[1]), (a[0] != a[1]) | (b[0] != b[1]) | (a[0] != b[0])
 
 
-def _both(values: list[Any], *terms: int) -> Any:
+def _both(values: Values, *terms: int) -> Enclosure:
     may, may_not = values[terms[0]]
     for each in terms[1:]:
         may, may_not = may & values[each][0], may_not | values[each][1]
     return may, may_not
 
 
-def _either(values: list[Any], *terms: int) -> Any:
+def _either(values: Values, *terms: int) -> Enclosure:
     may_not, may = _both([each[::-1] for each in values], *terms)
     return may, may_not
 
 
-def _lookup(values: list[Any], table: Interpolant, curve: int, order: int, at: int) -> Any:
+def _lookup(values: Values, table: Interpolant, curve: int, order: int, at: int) -> Enclosure:
     """A curve of a table; its rate is that of the argument times the next derivative."""
     (low, high), rate = values[at]
     here, slope = (_of_curve(table, curve, order + k, (low, high)) for k in range(2))
@@ -265,8 +272,8 @@ def _lookup(values: list[Any], table: Interpolant, curve: int, order: int, at: i
 
 
 def _lookup_between(
-    values: list[Any], table: Interpolant, order: int, z_order: int, x: int, z: int
-) -> Any:
+    values: Values, table: Interpolant, order: int, z_order: int, x: int, z: int
+) -> Enclosure:
     """A table of two arguments: the sum of both slopes times the rates of their arguments."""
     (at, its_rate), (across, z_rate) = values[x], values[z]
     by_x = _times(_between(table, order + 1, z_order, at, across), its_rate)
@@ -302,7 +309,7 @@ def _of_curve(table: Interpolant, curve: int, order: int, x: Interval) -> Interv
     return ranges(table, curve, order).within(*_arrays(*x)) if order < 4 else _both_ends(0.0)
 
 
-def _arrays(low: Any, high: Any) -> tuple[np.ndarray, np.ndarray]:
+def _arrays(low: Bound, high: Bound) -> tuple[np.ndarray, np.ndarray]:
     one, other = np.broadcast_arrays(np.atleast_1d(low), np.atleast_1d(high))
     return one, other
 
@@ -311,12 +318,12 @@ def _both_ends(x: float) -> Interval:
     return np.float64(x), np.float64(x)
 
 
-def _unbounded(where: Any, rate: Interval) -> Interval:
+def _unbounded(where: np.ndarray | bool, rate: Interval) -> Interval:
     return np.where(where, -np.inf, rate[0]), np.where(where, np.inf, rate[1])
 
 
 # Conditions are (may be true, may be false).
-RULES: dict[str, Callable[..., Any]] = {
+RULES: dict[str, Callable[..., Enclosure]] = {
     "Add": _add, "Mul": _multiply, "root": _root, "Pow": _pow, "atan2": _atan2,
     "floor": _floor, "choose": _choose, "And": _both, "Or": _either,
     "Lookup": _lookup, "LookupBetween": _lookup_between,

@@ -10,25 +10,15 @@ counts as a jump.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
-
 import numpy as np
 
-from adamslite.analyses.clock.clock import Clock
+from adamslite.analyses.clock.clock import Clock, Program
 from adamslite.analyses.clock.enclosures import enclose
+from adamslite.equations.broken_motion import Break
 
 # Distances from a stop, as shares of the run, and what must be left of a jump at the smaller one.
 FAR, NEAR, LEFT = 1e-8, 1e-11, 0.5
 WORDS = {"position": "displacement", "velocity": "velocity"}
-
-
-class Break(NamedTuple):
-    """Where a run cannot continue: statement, time, and what becomes of which quantity."""
-
-    statement: Any
-    time: float
-    quantity: str
-    how: str
 
 
 def first_jump(clock: Clock, stops: np.ndarray, start: float, error: float) -> Break | None:
@@ -48,7 +38,7 @@ def first_jump(clock: Clock, stops: np.ndarray, start: float, error: float) -> B
     return min(found, key=lambda each: each.time, default=None)
 
 
-def _jump(program: Any, times: np.ndarray, e: float) -> np.ndarray:
+def _jump(program: Program, times: np.ndarray, e: float) -> np.ndarray:
     before, behind = (enclose(program, times + side * e, times + side * e) for side in (-1, 1))
     with np.errstate(all="ignore"):
         return np.abs((behind[0] - e * behind[2]) - (before[0] + e * before[2]))

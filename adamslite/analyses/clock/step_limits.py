@@ -14,7 +14,6 @@ its length, trapezoids leave n^-2.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -23,6 +22,7 @@ from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.stops import SAME, edges, merged
 from adamslite.equations.system import System
 from adamslite.integrators import contract
+from adamslite.language.statement import Statement
 
 # From a step as short as round-off of the run to one of its length.
 DOUBLINGS = 64
@@ -51,8 +51,8 @@ class Timetable:
 
     stops: np.ndarray
     paces: np.ndarray
-    paced: list[Any]
-    overfull: list[Any]
+    paced: list[Statement]
+    overfull: list[Statement]
 
 
 def timetable(
@@ -185,7 +185,8 @@ def _with_fences(rows: list[tuple[float, float]]) -> np.ndarray:
     """Rows of (since when, longest step, fence): the fence is where a later row first requires
     shorter steps.
     """
-    table, later = [], []
+    table: list[tuple[float, float, float]] = []
+    later: list[tuple[float, float]] = []
     for when, step in reversed(rows):
         while later and later[-1][1] >= step:
             later.pop()

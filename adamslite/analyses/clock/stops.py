@@ -10,14 +10,13 @@ are found before the run:
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from adamslite.analyses.clock.changes import around_changes
 from adamslite.analyses.clock.clock import Clock
 from adamslite.equations.system import System
 from adamslite.integrators.contract import CLOCK
+from adamslite.language.statement import Statement
 from adamslite.symbolic.guards import FLOOR, STRICT
 
 # Changes nearer to each other, or to an output time, than this share of the run are one; they are
@@ -30,7 +29,7 @@ def stops(system: System, times: np.ndarray) -> np.ndarray:
     return edges(system, Clock(system.kernels), times)[0]
 
 
-def edges(system: System, clock: Clock, times: np.ndarray) -> tuple[np.ndarray, list[Any]]:
+def edges(system: System, clock: Clock, times: np.ndarray) -> tuple[np.ndarray, list[Statement]]:
     """The stops, and the statements whose changes are too many to find all of them."""
     start, end = float(times[0]), float(times[-1])
     if not system.guarded["clock"] or not end > start:
@@ -49,7 +48,7 @@ def merged(found: np.ndarray, times: np.ndarray) -> np.ndarray:
     return np.append(inside[np.diff(inside, prepend=-np.inf) > same], end)
 
 
-def _grid(clock: Clock, start: float, end: float) -> tuple[np.ndarray, list[Any]]:
+def _grid(clock: Clock, start: float, end: float) -> tuple[np.ndarray, list[Statement]]:
     """Times so dense that every guard changes once at most between two of them, and the
     statements of which that could not be reached.
     """

@@ -7,7 +7,6 @@ that is known from before, for every run of 2^k neighbours.
 from __future__ import annotations
 
 from math import factorial
-from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -57,7 +56,9 @@ class Ranges:
         most = np.maximum.reduce([part[1] for part in parts])
         return np.where(np.isnan(least), -np.inf, least), np.where(np.isnan(most), np.inf, most)
 
-    def _on_piece(self, piece: np.ndarray, low: Any, high: Any) -> tuple[Any, Any]:
+    def _on_piece(
+        self, piece: np.ndarray, low: np.ndarray, high: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
         origin = self.knots[np.maximum(piece - 1, 0)]
         return extent(self.cubics[piece], low - origin, high - origin)
 
@@ -78,12 +79,12 @@ class Ranges:
         return self.jumps[last] > self.jumps[first]
 
 
-def value(a: np.ndarray, t: Any) -> np.ndarray:
+def value(a: np.ndarray, t: np.ndarray) -> np.ndarray:
     """a_0 + a_1 t + a_2 t^2 + a_3 t^3; ``a`` (n, 4), ``t`` (n,)."""
     return a[:, 0] + t * (a[:, 1] + t * (a[:, 2] + t * a[:, 3]))
 
 
-def extent(a: np.ndarray, low: Any, high: Any) -> tuple[np.ndarray, np.ndarray]:
+def extent(a: np.ndarray, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Least and largest value of cubics ``a`` (n, 4) from ``low`` to ``high`` (n,)."""
     with np.errstate(all="ignore"):
         q = a[:, 2] + np.copysign(np.sqrt(a[:, 2] ** 2 - 3.0 * a[:, 3] * a[:, 1]), a[:, 2])

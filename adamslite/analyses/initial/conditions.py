@@ -13,10 +13,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from math import isnan
-from typing import Any
 
 import numpy as np
 
+from adamslite.elements.bases.constraint import Constraint
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
@@ -51,11 +51,11 @@ class Unclosed:
     contradicts.
     """
 
-    statement: Any
+    statement: Constraint
     size: float
     level: str
     equation: str
-    others: list[Any] = field(default_factory=list)
+    others: list[Constraint] = field(default_factory=list)
 
     @property
     def outcome(self) -> Outcome:
@@ -63,7 +63,7 @@ class Unclosed:
         return Outcome.NOT_FINITE if isnan(self.size) else Outcome.INITIAL_CONDITIONS_FAILED
 
 
-def initial_conditions(system: System, free: Iterable[Any] = ()) -> Unclosed | None:
+def initial_conditions(system: System, free: Iterable[Constraint] = ()) -> Unclosed | None:
     """Put the nearest consistent positions and velocities into ``system``; None when it worked.
 
     ``free``: constraints that leave the velocities alone.
@@ -124,7 +124,7 @@ def _largest_turn(system: System, step: np.ndarray) -> float:
     return max(turns, default=0.0)
 
 
-def _velocities(system: System, free: Iterable[Any]) -> Unclosed | None:
+def _velocities(system: System, free: Iterable[Constraint]) -> Unclosed | None:
     kept = np.setdiff1d(np.arange(system.m), [row for c in free for row in _rows_of(system, c)])
     rows = velocity_rows(system)[kept]
     if not len(rows):
@@ -166,7 +166,7 @@ def consistent_velocities(system: System) -> Unclosed | None:
     return _velocities(system, ()) if np.abs(defect).max() > OPEN * size else None
 
 
-def speed_defects(system: System, constraints: Iterable[Any]) -> list[np.ndarray]:
+def speed_defects(system: System, constraints: Iterable[Constraint]) -> list[np.ndarray]:
     """What the velocity rows of each constraint are off by."""
     defect = _residual(system, SPEEDS)[velocity_rows(system)]
     return [defect[_rows_of(system, each)] for each in constraints]
@@ -258,7 +258,7 @@ def _cayley(c: np.ndarray) -> np.ndarray:
     return np.eye(3) + (skew + 0.5 * skew @ skew) / (1.0 + 0.25 * c @ c)
 
 
-def _rows_of(system: System, constraint: Any) -> range:
+def _rows_of(system: System, constraint: Constraint) -> range:
     """Numbers of the rows of a constraint, counted from the first multiplier."""
     first = 0
     for each in system.model.constraints:
@@ -268,7 +268,7 @@ def _rows_of(system: System, constraint: Any) -> range:
     return range(0)
 
 
-def _owner(system: System, row: int) -> tuple[Any, str]:
+def _owner(system: System, row: int) -> tuple[Constraint, str]:
     """The constraint that owns multiplier row ``row``, and what the row keeps at zero."""
     for constraint in system.model.constraints:
         if row < constraint.n_rows:

@@ -8,15 +8,15 @@ of a freedom with a displacement alone, and of a MOTION/ACCELERATION without ICV
 
 from __future__ import annotations
 
-from typing import Any
-
 from adamslite.analyses.initial.conditions import Unclosed, initial_conditions, speed_defects
+from adamslite.elements.joint import Joint
 from adamslite.elements.motion import Motion
 from adamslite.equations.system import System
 from adamslite.kernels.compile import compile_model
 from adamslite.language.expression import Num
-from adamslite.language.statement import Statement
+from adamslite.language.interfaces import Key
 from adamslite.model.model import assemble
+from adamslite.progress import Progress
 
 
 class Condition(Motion):
@@ -33,17 +33,17 @@ class Condition(Motion):
         return ("speed" if self.level == "VELOCITY" else "displacement",)
 
 
-def start_of_joints(system: System, progress: Any) -> Unclosed | None:
+def start_of_joints(system: System, progress: Progress | None) -> Unclosed | None:
     """Put the state that satisfies all constraints and initial conditions into ``system``."""
     deck = system.model.deck
-    active = [s for s in deck.statements if hasattr(s, "initial") and deck.is_active(s)]
+    active = [s for s in deck.statements if isinstance(s, Joint | Motion) and deck.is_active(s)]
     extra = [condition for s in active for condition in _conditions(s)]
-    coasting = [s for s in active if _coasts(s)]
+    coasting = [s for s in active if isinstance(s, Motion) and _coasts(s)]
     if not extra and not coasting:
         return None
     model = assemble(deck.with_more(extra))
     asked = System(compile_model(model, progress), system.stabilised)
-    free = [c for c in extra if c.level == "DISPLACEMENT"] + coasting
+    free: list[Motion] = [c for c in extra if c.level == "DISPLACEMENT"] + coasting
     unclosed = initial_conditions(asked, free)
     if unclosed is None:
         _take_speeds(asked, coasting)
@@ -51,10 +51,10 @@ def start_of_joints(system: System, progress: Any) -> Unclosed | None:
     return unclosed
 
 
-def _conditions(statement: Statement) -> list[Condition]:
+def _conditions(statement: Joint | Motion) -> list[Condition]:
     """A motion for each requested displacement and speed."""
-    where = {"joint": statement.key}
-    if statement.keyword == "MOTION":
+    where: dict[str, Key | None] = {"joint": statement.key}
+    if isinstance(statement, Motion):
         where = {"joint": statement.joint, "i": statement.i, "j": statement.j}
     return [
         Condition(
@@ -72,12 +72,12 @@ def _conditions(statement: Statement) -> list[Condition]:
     ]
 
 
-def _coasts(statement: Statement) -> bool:
+def _coasts(motion: Motion) -> bool:
     """Whether a motion begins with the speed that the bodies have."""
-    return getattr(statement, "level", "") == "ACCELERATION" and statement.icvel is None
+    return motion.level == "ACCELERATION" and motion.icvel is None
 
 
-def _take_speeds(system: System, motions: list[Any]) -> None:
+def _take_speeds(system: System, motions: list[Motion]) -> None:
     """Let the states s of accelerations start at the speeds there are: their rows are dq/dt - s."""
     for motion, (defect,) in zip(motions, speed_defects(system, motions), strict=True):
         place = system.starts[system.node_at["DIFF", motion.state.upper()]] - system.n

@@ -29,7 +29,6 @@ stiffen as they should.  References: P. E. Nikravesh, Computer-Aided Analysis of
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -198,7 +197,7 @@ def still(
     return Basis((n, 0.0 * n, 0.0 * n), (b, 0.0 * b))
 
 
-def moving(before: Any, now: Any, after: Any, h: float) -> Basis:
+def moving(before: FirstOrder, now: FirstOrder, after: FirstOrder, h: float) -> Basis:
     """The basis of ``now`` with its derivatives by differences; of three :class:`FirstOrder`."""
     n = [each.basis.positions[0] for each in (before, now, after)]
     b = [each.basis.speeds[0] for each in (before, now, after)]

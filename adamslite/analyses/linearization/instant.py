@@ -10,7 +10,7 @@ The neighbours at t +- h lie on the trajectory: with j = (a(t + h) - a(t - h)) /
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, JACOBIAN
 from adamslite.model.model import PART
+
+if TYPE_CHECKING:  # few runs need sparse matrices
+    from scipy.sparse import csr_array
 
 PHASES = contract.LOADS | contract.REACTIONS | contract.ROWS
 RATES = contract.VELOCITY_ROWS | contract.RATE_ROWS
@@ -45,13 +48,13 @@ class Instant:
     u: np.ndarray
     a: np.ndarray
     attitude: np.ndarray
-    by_place: Any
-    by_velocity: Any
-    by_acceleration: Any
-    by_algebraic: Any
-    by_rate: Any
+    by_place: csr_array
+    by_velocity: csr_array
+    by_acceleration: csr_array
+    by_algebraic: csr_array
+    by_rate: csr_array
     gradient: np.ndarray
-    drift: Any
+    drift: csr_array
 
 
 def skew(x: np.ndarray) -> np.ndarray:
@@ -72,19 +75,20 @@ def neighbours(system: System, h: float) -> tuple[Instant, Instant] | None:
     jerk, curve = np.zeros_like(system.a), np.zeros_like(system.rd)
     try:
         for _correction in range(2):
-            found = []
+            found: list[tuple[np.ndarray, np.ndarray, Instant]] = []
             for step in (-h, h):
                 _advance(system, kept, attitude, step, jerk, curve)
                 system.settings.t = time + step
                 if system.run(ACCELERATIONS) != contract.DONE:
                     return None
                 found.append((system.a.copy(), system.rd.copy(), _instant(system)))
-            jerk, curve = ((found[1][k] - found[0][k]) / (2.0 * h) for k in range(2))
+            (a0, rd0, before), (a1, rd1, after) = found
+            jerk, curve = (a1 - a0) / (2.0 * h), (rd1 - rd0) / (2.0 * h)
     finally:
         system.settings.t = time
         for name, values in kept.items():
             getattr(system, name)[:] = values
-    return found[0][2], found[1][2]
+    return before, after
 
 
 def _advance(
@@ -131,16 +135,19 @@ def _instant(system: System) -> Instant:
     """The workspace's state and its derivatives."""
     n = system.n
     attitude = _attitudes(system)
-    kinds = [_matrix(system, kind, PHASES) for kind in range(5)]
+    places, velocities, accelerations, algebraic, rates = (
+        _matrix(system, kind, PHASES) for kind in range(5)
+    )
     rows = velocity_rows(system)
     drift, gradient = (_matrix(system, kind, RATES)[rows] for kind in range(2))
     return Instant(
-        system.q[:n].copy(), system.u[:n].copy(), system.a[:n].copy(), attitude, *kinds,
-        gradient[:, :n].toarray(), drift,
+        q=system.q[:n].copy(), u=system.u[:n].copy(), a=system.a[:n].copy(), attitude=attitude,
+        by_place=places, by_velocity=velocities, by_acceleration=accelerations,
+        by_algebraic=algebraic, by_rate=rates, gradient=gradient[:, :n].toarray(), drift=drift,
     )  # fmt: skip
 
 
-def _matrix(system: System, kind: int, phases: int) -> Any:
+def _matrix(system: System, kind: int, phases: int) -> csr_array:
     """Derivative of the equations of ``phases``: kind 0 by q and s, 1 u, 2 a, 3 lam and V, 4 s'."""
     system.coef[:5] = 0.0
     system.coef[kind] = 1.0

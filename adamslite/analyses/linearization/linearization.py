@@ -11,8 +11,6 @@ Undamped frequencies come from the columns of y and p' alone.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from adamslite.analyses.initial.conditions import consistent_velocities
@@ -21,6 +19,7 @@ from adamslite.analyses.linearization.first_order import Ports
 from adamslite.analyses.linearization.observer import Observer
 from adamslite.analyses.linearization.stationarity import Trajectory
 from adamslite.equations.system import System
+from adamslite.language.interfaces import Key
 from adamslite.results.linearization import Linearization
 
 # Displacements that differ by less than this share are equally large: the first one counts.
@@ -29,10 +28,10 @@ ALIKE = 1e-6
 
 def linear(
     system: System,
-    inputs: tuple[Any, ...] = (),
-    outputs: tuple[Any, ...] = (),
+    inputs: tuple[Key, ...] = (),
+    outputs: tuple[Key, ...] = (),
     damping: bool = True,
-    relative_to: Any = None,
+    relative_to: Key | None = None,
 ) -> Linearization:
     """Linearise ``system`` at the state it holds.
 
@@ -45,14 +44,14 @@ def linear(
     relative_to : id
         A MARKER: motions are those that an observer on its body sees, with its axes.
     """
-    places = [
+    taken, seen = (
         tuple(system.starts[system.node_at["VARIABLE", key]] for key in keys)
         for keys in (inputs, outputs)
-    ]
+    )
     system.unfold()
     consistent_velocities(system)
     observer = Observer(system, relative_to)
-    trajectory = Trajectory(system, Ports(*places, damping))
+    trajectory = Trajectory(system, Ports(taken, seen, damping))
     found, steady = trajectory.seen(observer)
     steady_for = "" if steady else trajectory.steady_observer(observer)
     nx = found.whole.shape[1] - len(inputs)
@@ -69,9 +68,11 @@ def linear(
     modes = (n @ vectors[:f] * _factors(moved, speed))[:, order]
     modes[observer.own] = 0.0
     return Linearization(
-        values[order], _undamped(found.minus_stiffness), modes, a, _names(system), b, c, d,
-        *(tuple(f"VARIABLE/{key}" for key in keys) for keys in (inputs, outputs)),
-        steady, steady_for,
+        eigenvalues=values[order], undamped=_undamped(found.minus_stiffness), modes=modes,
+        state_matrix=a, coordinates=_names(system), input_matrix=b, output_matrix=c, feedthrough=d,
+        inputs=tuple(f"VARIABLE/{key}" for key in inputs),
+        outputs=tuple(f"VARIABLE/{key}" for key in outputs),
+        steady=steady, steady_for=steady_for,
     )  # fmt: skip
 
 

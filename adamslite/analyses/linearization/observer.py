@@ -19,12 +19,12 @@ On the ground E is constant, and no body is special.
 from __future__ import annotations
 
 from math import comb
-from typing import Any
 
 import numpy as np
 
 from adamslite.analyses.linearization.instant import Instant, skew
 from adamslite.equations.system import System
+from adamslite.language.interfaces import Key
 from adamslite.model.model import PART
 
 Jet = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -33,7 +33,7 @@ Jet = tuple[np.ndarray, np.ndarray, np.ndarray]
 class Observer:
     """On the body of ``marker``, with its axes; None stands on the ground, with ground axes."""
 
-    def __init__(self, system: System, marker: Any = None) -> None:
+    def __init__(self, system: System, marker: Key | None = None) -> None:
         place = None if marker is None else system.model.marker(marker)
         self.body = None if place is None or place.kind == "ground" else place.body
         self.axes = np.eye(3) if place is None else place.axes
@@ -51,7 +51,8 @@ class Observer:
     def view(self, instant: Instant) -> Jet:
         """P, P' and P'' (n, n)."""
         axes = self._axes(instant)
-        return tuple(self._derivative(instant, axes, k) for k in range(3))
+        p0, p1, p2 = (self._derivative(instant, axes, k) for k in range(3))
+        return p0, p1, p2
 
     def _axes(self, instant: Instant) -> Jet:
         """E, E' and E'' (3, 3)."""

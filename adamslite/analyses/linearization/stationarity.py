@@ -8,14 +8,15 @@ at rest, turning with him, or turning about an axis of symmetry.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
 from adamslite.analyses.linearization.first_order import FirstOrder, Ports, moving, still
 from adamslite.analyses.linearization.instant import neighbours, present
 from adamslite.analyses.linearization.observer import Observer
+from adamslite.elements.marker import Marker
 from adamslite.equations.system import System
+from adamslite.language.interfaces import Key
 from adamslite.model.model import PART
 
 # Time to the neighbours, as a share of that in which the motion turns or crosses the model.
@@ -83,8 +84,8 @@ class Trajectory:
         f, g = three[1].basis.speeds[0].shape
         rest, rate = np.ones(self.system.ns), self.rate
         columns = [np.ones(f), np.full(g, rate), rest, np.ones(len(self.ports.inputs))]
-        rows = [np.full(f, 1.0 / rate), np.full(g, rate**-2), rest / rate]
-        rows = np.concatenate([*rows, np.ones(len(self.ports.outputs))])
+        states = [np.full(f, 1.0 / rate), np.full(g, rate**-2), rest / rate]
+        rows = np.concatenate([*states, np.ones(len(self.ports.outputs))])
         matrices = [rows[:, None] * each.whole * np.concatenate(columns) for each in three]
         watched = [
             [each.basis.positions[0] for each in three],
@@ -151,12 +152,12 @@ class Trajectory:
             if len(tried) == MOST_TRIED:
                 return
 
-    def _turning_bodies(self) -> list[tuple[int, Any]]:
+    def _turning_bodies(self) -> list[tuple[int, Key]]:
         """Parts that turn, the least free ones first, each with a marker of its own."""
         model = self.system.model
         free = still(self.system, self.now, Observer(self.system).view(self.now), self.unit)
-        found = []
-        for marker in model.deck.of("MARKER"):
+        found: list[tuple[float, int, Key]] = []
+        for marker in model.deck.of(Marker):
             place = None if marker.floating else model.marker(marker.key)
             if place is None or place.kind != "part" or place.body in [b for _, b, _ in found]:
                 continue
