@@ -12,8 +12,10 @@ from __future__ import annotations
 import os
 import resource
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
+from statistics import median
 from typing import TYPE_CHECKING
 
 import pytest
@@ -37,9 +39,8 @@ TEXTUAL = {
 
 
 #: CPU that a test of the fast tier may need, from an empty cache and without the engine, which is
-#: compiled once for all [s]. What needs more than a third of it on the machine at hand is marked
-#: `slow`: processors differ, and a busy one is slower.
-MOST = 5.0
+#: compiled once for all [s], on a processor that sums a million squares in ``SQUARES`` [s].
+MOST, SQUARES = 5.0, 0.038
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -67,6 +68,16 @@ def cpu() -> float:
     return sum(each.ru_utime + each.ru_stime for each in used) - Engine.spent
 
 
+def slowness() -> float:
+    """How much slower than that processor this one is now, at least 1."""
+    taken = []
+    for _ in range(5):
+        start = time.process_time()
+        sum(k * k for k in range(1_000_000))
+        taken.append(time.process_time() - start)
+    return max(1.0, median(taken) / SQUARES)
+
+
 STARTED = pytest.StashKey[float]()
 
 
@@ -78,14 +89,20 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
-    """Fail a test of the fast tier that is not fast."""
+    """Judge what a test has used since its set-up began."""
     result = yield
-    used = cpu() - item.stash[STARTED]
-    if used > MOST and item.get_closest_marker("slow") is None:
+    judge(item, cpu() - item.stash[STARTED])
+    return result
+
+
+def judge(item: pytest.Item, used: float) -> None:
+    """Fail a test of the fast tier that is not fast, on a processor that is."""
+    if item.get_closest_marker("slow") or used <= MOST:
+        return
+    if used > MOST * slowness():
         pytest.fail(
             f"{used:.1f} s of CPU, more than {MOST:g} s: mark it with @pytest.mark.slow", False
         )
-    return result
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -28,7 +28,7 @@ def attitude(results: al.Results, part: str, row: int) -> np.ndarray:
     return about(2, a) @ about(0, b) @ about(2, c)
 
 
-@pytest.mark.parametrize("seed", fast(range(60), *range(5, 60, 9)))
+@pytest.mark.parametrize("seed", fast(range(60), *range(5, 40, 9)))
 def test_motion_and_reactions_of_a_random_mechanism(seed: int) -> None:
     made = make(seed)
     assembly, length = made.assembly, made.length

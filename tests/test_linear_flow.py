@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from small_motions import Flow, distance
-from tiers import slow
 
 import adamslite
 from adamslite.analyses.linearization.linearization import linear
@@ -121,13 +120,14 @@ def differs(mechanism: Mechanism, observer: int | None, seed: int) -> float:
     return distance(found.eigenvalues, flow.exponents(count, time, 1e-4, seed))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "unit", "observer"),
     [
-        slow(0, "METER", 20),
-        slow(1, "METER", 30),
-        slow(2, "METER", 20),
-        slow(2, "METER", 40),
+        (0, "METER", 20),
+        (1, "METER", 30),
+        (2, "METER", 20),
+        (2, "METER", 40),
         (4, "CENTIMETER", 20),
     ],
 )
