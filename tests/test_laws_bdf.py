@@ -22,7 +22,7 @@ from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
 from adamslite.integrators.bdf import differences as past
-from adamslite.integrators.records import interpolate
+from adamslite.integrators.bdf.dense_output import interpolate
 
 FORMULATIONS = ("SI2", "I3")
 # theta'' = -m g L/(m L^2 + J) cos(theta), J about z.
@@ -70,7 +70,7 @@ def test_the_formula_of_order_k_is_exact_for_polynomials_of_degree_k(k):
     for factor in (1.0, 0.37, 1.9):
         past.change_step(d, 1, k, factor)
         h *= factor
-        past.predict(d, 1, k, yp, psi)
+        past.extrapolate(d, 1, k, yp, psi)
         assert d[0] + yp[0] == pytest.approx(p(t + h), abs=1e-12)
         assert psi[0] * past.gamma(k) / h == pytest.approx(p.deriv()(t + h), abs=1e-10)
         interpolate(d, 1, k, t, h, t - 0.3 * h, yp)

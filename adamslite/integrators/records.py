@@ -2,49 +2,13 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.contract import OUTPUTS, POSITION_ROWS, Problem
-from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import run_groups
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import native
 
 # A redundant row is as exact as the deck, whose lengths may have four digits, and as the rows it
 # follows from: within some errors of positions.
 LOOSE = 1e-4
-
-
-@native
-def interpolate(D: Reals, w: int, k: int, t: float, h: float, at: float, y: Reals) -> None:
-    """The history's polynomial at time ``at``, into ``y``."""
-    for i in range(w):
-        y[i] = D[i]
-    p = 1.0
-    for j in range(k):
-        p *= (at - t + h * j) / (h * (j + 1))
-        for i in range(w):
-            y[i] += p * D[(j + 1) * w + i]
-
-
-@native
-def record_at(
-    P: Problem, L: Plan, D: Reals, w: int, k: int, t: float, h: float, following: int
-) -> int:
-    """Write every output time up to ``t``; returns the next one to write, -1 when it failed.
-
-    Positions, velocities and states are interpolated; accelerations, multipliers and variables
-    are then solved for, so that reactions are as exact as the motion.
-    """
-    n, first = P.sizes.n, P.sizes.m + P.sizes.nv
-    while following < P.times.size and P.times[following] <= t + 1e-9 * h:
-        y = P.trial[0:]
-        interpolate(D, w, k, t, h, P.times[following], y)
-        for i in range(P.sizes.ns):
-            P.z[first + i] = y[2 * n + i]
-        if not accelerations(P, L, P.times[following], y, y[n:], P.a, P.z, P.rd):
-            return -1
-        write_record(P, following)
-        following += 1
-    return following
 
 
 @native

@@ -7,6 +7,13 @@ from adamslite.integrators.implicit.control import ImplicitControl
 
 
 class Control(ImplicitControl):
-    """The numbers of the BDF: with the cap on its order."""
+    """The numbers of the BDF.
 
+    width                numbers of a row of the history: q, u and s
+    cu                   gamma_k / h: how y' follows from y
+    cap                  on the order
+    """
+
+    width: int
+    cu: float
     cap: OrderCap

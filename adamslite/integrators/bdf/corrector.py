@@ -11,9 +11,9 @@ Reference: Brenan, Campbell, Petzold, Numerical Solution of IVP in DAE, 1996, se
 from __future__ import annotations
 
 from adamslite.integrators.bdf.control import Control
-from adamslite.integrators.bdf.differences import predict
 from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import Problem
+from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
 from adamslite.integrators.implicit.tolerance import asked
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import Plan
@@ -22,7 +22,6 @@ from adamslite.integrators.motion_equations import (
     put_motion,
     put_pose,
     put_scalars,
-    put_time,
     residual,
     velocities,
 )
@@ -34,13 +33,16 @@ from adamslite.integrators.newton import (
     renews,
     velocity_change,
 )
+from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.native.translate import Reals, native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
 CORRECTOR_SHARE = 0.02
-# Near a singular posture round-off keeps increments of velocities from shrinking further: with a
-# new matrix this share of ERROR is as good as it gets.
-STALL_SHARE = 0.2
+# Near a singular posture round-off keeps increments of velocities from shrinking further, to less
+# than this of the one before: with a new matrix this share of ERROR is as good as it gets.
+STALLED, STALL_SHARE = 0.5, 0.2
+# Increments that shrink by less than this do not converge within a reasonable number.
+SLOWEST = 0.9
 # The factored matrix is kept while its cu is within this ratio of the present one.
 KEEP_RATIO = 0.25
 # ... and for this many steps.
@@ -48,6 +50,8 @@ KEEP_STEPS = 20.0
 # The rate of convergence is not believed to be better than this, and is doubted twice as much
 # after every step that needed one iteration, because the matrix grows old unseen.
 LEAST_RATE = 0.02
+# ... or worse than this, at which the remaining error is that of the last increment anyway.
+WORST_RATE = 0.999
 
 
 @native
@@ -78,11 +82,10 @@ def motion_from_increments(P: Problem, cu: float, yp: Reals, psi: Reals, si2: bo
 
 
 @native
-def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
+def correct(P: Problem, L: Plan, C: Control) -> bool:
     """Newton iterations from the predictor; True when converged."""
-    C = Control(P.control)
-    n = P.sizes.n
-    w = 2 * n + P.sizes.ns
+    cu, phases, si2 = C.cu, equations_kept(P), is_stabilised(P)
+    n, w = P.sizes.n, C.width
     yp, psi, v, e = P.trial[0:], P.trial[w:], P.trial[2 * w :], P.trial[2 * w + n :]
     error = asked(P, P.settings.fixed_step)
     tolerance = CORRECTOR_SHARE * error + P.settings.adaptivity / C.h
@@ -91,7 +94,7 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
     motion_from_increments(P, cu, yp, psi, si2)
     for iteration in range(P.settings.max_it):
         P.report.iteration = iteration + 1
-        if not fits_step(C, cu) or renews(P, iteration, C.age < KEEP_STEPS):
+        if not fits_step(C) or renews(P, iteration, C.age < KEEP_STEPS):
             if not newton_matrix(P, L, phases, cu, P.q, v, P.u):
                 C.factored = 0.0
                 return False
@@ -111,9 +114,9 @@ def correct(P: Problem, L: Plan, phases: int, cu: float, si2: bool) -> bool:
         P.count.newton += 1
         if iteration > 0:
             C.rate = max(LEAST_RATE, size / last)
-        if iteration > 1 and C.rate > 0.5 and C.fresh and size <= STALL_SHARE * error:
+        if iteration > 1 and C.rate > STALLED and C.fresh and size <= STALL_SHARE * error:
             return True
-        if not size < 1e12 or (C.rate > 0.9 and iteration > 0 and size > tolerance):
+        if not size < OVERFLOW or (C.rate > SLOWEST and iteration > 0 and size > tolerance):
             return False
         if remaining(C, size) <= tolerance:
             if iteration == 0:
@@ -137,13 +140,13 @@ def further_change(P: Problem, cu: float, si2: bool) -> float:
 @native
 def remaining(C: Control, size: float) -> float:
     """Error left after an increment of ``size`` when increments shrink by RATE each time."""
-    return size * min(1.0, C.rate / max(1e-3, 1.0 - min(C.rate, 0.999)))
+    return size * min(1.0, C.rate / (1.0 - min(C.rate, WORST_RATE)))
 
 
 @native
-def fits_step(C: Control, cu: float) -> bool:
-    """Whether there is a factored matrix for about this ``cu``."""
-    return C.factored != 0.0 and abs(cu / C.factored - 1.0) <= KEEP_RATIO
+def fits_step(C: Control) -> bool:
+    """Whether there is a factored matrix for about this cu."""
+    return C.factored != 0.0 and abs(C.cu / C.factored - 1.0) <= KEEP_RATIO
 
 
 @native
@@ -152,25 +155,3 @@ def scale_increment(P: Problem, ratio: float) -> None:
     if ratio != 1.0:
         for k in range(P.sizes.nz):
             P.F[k] *= ratio
-
-
-@native
-def start_try(P: Problem, w: int) -> None:
-    """Predicted values of all unknowns at the end of the step; of q only the change is kept."""
-    C = Control(P.control)
-    n, ns = P.sizes.n, P.sizes.ns
-    first = P.sizes.m + P.sizes.nv
-    yp, e = P.trial[0:], P.trial[2 * w + n :]
-    predict(P.history, w, C.order, yp, P.trial[w:])
-    for i in range(n, w):
-        yp[i] += P.history[i]
-    for i in range(n):
-        P.q[i], e[i] = P.history[i] + yp[i], 0.0
-    for i in range(ns):
-        P.z[first + i] = yp[2 * n + i]
-    ahead = C.h / C.h_last if C.h_last > 0.0 else 0.0
-    for i in range(first):
-        P.z[i] = P.rz[i] + min(ahead, 2.0) * (P.rz[i] - P.pz[i])
-    for i in range(P.mu.size):
-        P.mu[i] = 0.0
-    put_time(P, C.t + C.h)

@@ -38,7 +38,7 @@ def gamma(k: int) -> float:
 
 
 @native
-def predict(D: Reals, w: int, k: int, yp: Reals, psi: Reals) -> None:
+def extrapolate(D: Reals, w: int, k: int, yp: Reals, psi: Reals) -> None:
     """Extrapolate the history: the change of the value and the known part of the derivative."""
     for i in range(w):
         yp[i] = D[LOST * w + i]

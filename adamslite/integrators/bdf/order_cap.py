@@ -67,6 +67,12 @@ def start_watch(C: OrderCap) -> None:
 
 
 @native
+def forget_window(C: OrderCap) -> None:
+    """A new window of tries begins."""
+    C.tries, C.travelled, C.suspect, C.bad = 0.0, 0.0, 0.0, 0.0
+
+
+@native
 def suspect(C: OrderCap, order: int, low: float, high: float, error: float, steps: float) -> None:
     """Judge by |D_k| and |D_(k+1)| what set the last ``steps`` steps."""
     if order < 3 or not (low > 0.0 and high > 0.0):
@@ -82,7 +88,7 @@ def highest_order(C: OrderCap, top: int, most: int, h_max: float) -> int:
         return top
     pace, tries = C.travelled / C.tries, C.tries
     suspected = C.suspect >= SUSPECT_SHARE * WINDOW or C.bad >= REJECTED_SHARE * WINDOW
-    C.tries, C.travelled, C.suspect, C.bad = 0.0, 0.0, 0.0, 0.0
+    forget_window(C)
     if C.state != WATCHING:
         return after_window(C, pace, most)
     growing = pace > STEADY * C.pace

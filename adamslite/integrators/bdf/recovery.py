@@ -2,40 +2,34 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import mass_vanishes
 from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.order import SAFETY
 from adamslite.integrators.bdf.state import resize, restore_state
-from adamslite.integrators.contract import (
-    CHATTERING,
-    INDEX3,
-    NEWTON_FAILED,
-    NOT_FINITE,
-    SINGULAR_MASS,
-    STABILISED,
-    STEP_TOO_SMALL,
-    Problem,
-)
+from adamslite.integrators.contract import NEWTON_FAILED, NOT_FINITE, SINGULAR_MASS, Problem
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.implicit.failures import wildest
+from adamslite.integrators.implicit.formulation import equations_kept
 from adamslite.integrators.implicit.step_size import CUTS, retry_factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.step_back import before_trouble
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.outcome import SINGULAR_RESOLUTION, corrector_failed
+from adamslite.integrators.stepping.outcome import OVERFLOW, SINGULAR_RESOLUTION, why_stuck
 from adamslite.integrators.stepping.step_size import cut
 from adamslite.native.translate import native
 
 # A step is noise, not truncation, when the error estimates of this many tries in turn keep more
 # than this share of the one before, although each was shorter.
 NOISY_TRIES, NOISY_SHARE = 2.0, 0.3
+# A rejected step is not shortened by more than this at once.
+MOST_SHRINK = 0.2
+# Below this share of HMAX the error is round-off, and anybody's.
+TINY = 1e-9
 
 
 @native
-def after_failure(P: Problem, w: int) -> int:
+def after_failure(P: Problem, C: Control) -> int:
     """The corrector failed: renew an old matrix, else cut the step."""
-    C = Control(P.control)
     P.count.failures += 1
     old = not C.fresh and C.factored != 0.0
     C.factored = 0.0
@@ -45,76 +39,65 @@ def after_failure(P: Problem, w: int) -> int:
     P.undoing.trouble += 1.0
     C.fresh = False
     C.blamed = wildest(P)
-    stabilised = P.sizes.si2 and P.sizes.holonomic > 0
-    note_trouble(P, STABILISED if stabilised else INDEX3, P.report.iteration)
+    note_trouble(P, equations_kept(P), P.report.iteration)
     if P.settings.fixed_step > 0.0:
         P.report.where = C.blamed
         return NEWTON_FAILED
-    if C.retries != CUTS or not land_elsewhere(P, w):
-        resize(P, w, cut(P, C, retry_factor(C)))
+    if C.retries != CUTS or not land_elsewhere(P, C):
+        resize(P, C, cut(P, C, retry_factor(C)))
     return RUNNING
 
 
 @native
-def land_elsewhere(P: Problem, w: int) -> bool:
+def land_elsewhere(P: Problem, C: Control) -> bool:
     """Back to before the trouble, with a shorter step; False when that was tried enough."""
-    C = Control(P.control)
     share = before_trouble(P, C.t + C.h)
     if share == 0.0:
         return False
     C.factored, C.retries, C.fresh, C.norm, C.noisy = 0.0, 0, False, 0.0, 0
-    restore_state(P, P.history, w, C.t)
-    resize(P, w, share)
+    restore_state(P, C)
+    resize(P, C, share)
     return True
 
 
 @native
-def after_rejection(P: Problem, w: int, norm: float) -> int:
+def after_rejection(P: Problem, C: Control, norm: float) -> int:
     """The error was too large: a smaller step."""
-    C = Control(P.control)
     P.count.rejected += 1
     C.fresh = False
     P.undoing.trouble += 1.0
-    if not norm < 1e12:
+    if not norm < OVERFLOW:
         return NOT_FINITE
-    factor = max(0.2, (SAFETY * norm) ** (-1.0 / (C.order + 1.0)))
-    # At the last, tiny steps the error is round-off, and anybody's.
-    if C.h > 1e-9 * P.settings.h_max:
+    factor = max(MOST_SHRINK, (SAFETY * norm) ** (-1.0 / (C.order + 1.0)))
+    if C.h > TINY * P.settings.h_max:
         C.blamed = P.report.where
     C.noisy = C.noisy + 1 if norm > NOISY_SHARE * C.norm and C.norm > 0.0 else 0
     C.norm = norm
-    if C.noisy >= NOISY_TRIES and land_elsewhere(P, w):
+    if C.noisy >= NOISY_TRIES and land_elsewhere(P, C):
         return RUNNING
     if C.order > 2:
         cap = C.cap
         cap.bad += 1.0
-    resize(P, w, cut(P, C, factor))
+    resize(P, C, cut(P, C, factor))
     return RUNNING
 
 
 @native
-def near_singularity(P: Problem, w: int) -> int:
+def near_singularity(P: Problem, C: Control) -> int:
     """The acceleration matrix became singular within the step: approach the place, never pass
     it.
     """
-    C = Control(P.control)
     if C.h < SINGULAR_RESOLUTION * P.settings.h_max or P.settings.fixed_step > 0.0:
         return SINGULAR_MASS
     C.fresh = False
-    resize(P, w, 0.25)
+    resize(P, C, 0.25)
     return RUNNING
 
 
 @native
-def stuck(P: Problem, L: Plan, w: int) -> int:
-    """Why the step became too small: a vanishing pivot of the acceleration matrix, or something
-    else.
-    """
-    C = Control(P.control)
-    restore_state(P, P.history, w, C.t)
-    if mass_vanishes(P, L, C.signature):
-        return SINGULAR_MASS
-    P.report.where = C.blamed
-    if P.search.freed > 0:
-        return CHATTERING
-    return NEWTON_FAILED if corrector_failed(C) else STEP_TOO_SMALL
+def stuck(P: Problem, L: Plan, C: Control) -> int:
+    """The step became too small: another start, or the end of the run."""
+    if land_elsewhere(P, C):
+        return RUNNING
+    restore_state(P, C)
+    return why_stuck(P, L, C)

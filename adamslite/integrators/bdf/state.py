@@ -1,6 +1,6 @@
-"""The state of the BDF between steps: control numbers, history, last accepted state.
+"""The state of the BDF between steps: its history, and the last accepted state.
 
-D_0 = y and D_1 = h y' start a history of order 1, on a first step with h^2 |y''| = 0.09 ERROR.
+D_0 = y and D_1 = h y' start a history of order 1.
 """
 
 from __future__ import annotations
@@ -8,17 +8,15 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.differences import change_step
-from adamslite.integrators.contract import (
-    Problem,
-)
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.motion_equations import vector_rates
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import native
 
 
 @native
-def start_values(P: Problem, D: Reals, w: int, h: float) -> None:
+def start_values(P: Problem, C: Control) -> None:
     """Order 1: D_0 = y, D_1 = h y'."""
-    n = P.sizes.n
+    D, n, w, h = P.history, P.sizes.n, C.width, C.h
     first = P.sizes.m + P.sizes.nv
     for k in range(P.history.size):
         D[k] = 0.0
@@ -33,10 +31,16 @@ def start_values(P: Problem, D: Reals, w: int, h: float) -> None:
 
 
 @native
-def resize(P: Problem, w: int, factor: float) -> None:
+def forget_multipliers(P: Problem) -> None:
+    """Multipliers of the accepted state are those of the one before, too."""
+    for i in range(P.z.size):
+        P.pz[i] = P.rz[i]
+
+
+@native
+def resize(P: Problem, C: Control, factor: float) -> None:
     """Change the step and with it the history."""
-    C = Control(P.control)
-    change_step(P.history, w, C.order, factor)
+    change_step(P.history, C.width, C.order, factor)
     C.h *= factor
     C.equal = 0
 
@@ -50,13 +54,13 @@ def tests_velocities(P: Problem) -> bool:
 
 
 @native
-def restore_state(P: Problem, D: Reals, w: int, t: float) -> None:
-    """The accepted state back into q, u, z and the workspace after records were made."""
-    n, first = P.sizes.n, P.sizes.m + P.sizes.nv
+def restore_state(P: Problem, C: Control) -> None:
+    """The accepted state into the unknowns and the workspace."""
+    D, n, first = P.history, P.sizes.n, P.sizes.m + P.sizes.nv
     for i in range(n):
-        P.q[i], P.u[i] = D[i], D[n + i]
+        P.q[i], P.u[i], P.a[i] = D[i], D[n + i], P.ra[i]
     for i in range(first):
         P.z[i] = P.rz[i]
     for i in range(P.sizes.ns):
         P.z[first + i] = D[2 * n + i]
-    put_state(P, t, P.q, P.u, P.ra, P.z, P.rd)
+    put_state(P, C.t, P.q, P.u, P.a, P.z, P.rd)

@@ -77,6 +77,7 @@ from adamslite.integrators.newton import renews
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import SINGULAR_RESOLUTION, corrector_failed
+from adamslite.integrators.stepping.output import record_start
 from adamslite.integrators.stepping.step_size import cut, too_small
 from adamslite.native.translate import native
 
@@ -132,9 +133,7 @@ def start_hht(P: Problem, L: Plan) -> int:
     if good:
         if P.sizes.implicit_mass:
             C.signature = mass_signature(P, L, P.pivot0)
-        while C.row < P.times.size and P.times[C.row] <= s.t:
-            write_record(P, C.row)
-            C.row += 1
+        record_start(P, C)
         track(P)
     start_from_here(P)
     return RUNNING if good else BROKEN_START

@@ -27,6 +27,7 @@ from adamslite.integrators.motion_equations import (
     velocities,
 )
 from adamslite.integrators.newton import ROUND_OFF, multiplier_change
+from adamslite.integrators.stepping.accepted import count_from_here
 from adamslite.native.translate import Reals, native
 
 # Rotations within a step below this change the matrix less than a kept one is allowed to be off.
@@ -289,13 +290,7 @@ def keep_second_order(P: Problem) -> None:
 def start_from_here(P: Problem) -> None:
     """The workspace's state starts the next step; its attitudes become the base."""
     D, n, first = P.history, P.sizes.n, P.sizes.m + P.sizes.nv
-    for b in range(P.sizes.nb):
-        if P.body[b].width == PART:
-            i, o = P.body[b].first, P.body[b].at
-            for k in range(9):
-                P.base[9 * b + k] = P.W[o + 15 + k]
-            for k in range(3, 6):
-                P.q[i + k] = 0.0
+    count_from_here(P)
     for i in range(n):
         D[i], D[n + i] = P.q[i], P.u[i]
     for k in range(P.sizes.ns):

@@ -7,6 +7,7 @@ from adamslite.integrators.contract import (
     Problem,
 )
 from adamslite.integrators.events.stops import longest_step
+from adamslite.integrators.implicit.formulation import is_stabilised
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.stepping.control import StepControl
@@ -40,8 +41,7 @@ def first_step(P: Problem, w: int) -> float:
     # Constraints hand round-off of positions, 1e-14 of the longest, on to the velocities: reach/h
     # times as much, which is below ERROR of the fastest for steps above this.  In other units of
     # length both, reach and speed, are others: the step is the same.
-    stabilised = P.sizes.si2 and P.sizes.holonomic > 0
-    noise = 1e-14 * reach / (tol * speed) if stabilised else 0.0
+    noise = 1e-14 * reach / (tol * speed) if is_stabilised(P) else 0.0
     noise = max(noise, P.settings.h_min)
     return min(0.05 * h, max(noise, tol**0.5 / max(fastest, 1e-12) * 0.3))
 
@@ -109,3 +109,9 @@ def jerk(P: Problem, L: Plan, t: float, ahead: float) -> float:
 
 # A jump at a stop that moves velocities by less than this share of ERROR within a step is none.
 SMOOTH = 0.02
+
+
+@native
+def jumped(P: Problem, C: StepControl) -> bool:
+    """Whether accelerations jumped at the event just passed, so that the past is worthless."""
+    return P.search.jump * C.h_last > SMOOTH * P.settings.error

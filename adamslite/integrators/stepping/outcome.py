@@ -14,7 +14,7 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.stepping.control import RUNNING, StepControl
-from adamslite.native.translate import native
+from adamslite.native.translate import Reals, native
 
 # A sign change of the effective mass is approached to this share of HMAX.
 SINGULAR_RESOLUTION = 1e-6
@@ -43,6 +43,13 @@ def end_of_step(C: StepControl, limit: float) -> float:
     """The time at which the tried step ends: ``limit`` where it all but reaches that."""
     t = C.t + C.h
     return limit if t + ALMOST * C.h > limit else t
+
+
+@native
+def note_signature(P: Problem, L: Plan, C: StepControl, pivots: Reals) -> None:
+    """Remember signs of the pivots of the acceleration matrix at the workspace's state."""
+    if P.sizes.implicit_mass:
+        C.signature = mass_signature(P, L, pivots)
 
 
 @native
