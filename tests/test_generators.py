@@ -38,6 +38,7 @@ QUICK = (
     "paper-sforce",
     "pendulum-gcon",
     "pendulum-revolute",
+    "replay",
     "splines",
 )
 CHEAP = [

@@ -27,6 +27,7 @@ FOLDERS = (
     "heavy-top",
     "paper-sforce",
     "pendulum-gcon",
+    "replay",
     "slider-crank",
     "sliding-mass",
     "splines",
