@@ -86,6 +86,10 @@ class Arc:
         return -self.turn * sin(a), self.turn * cos(a)
 
 
+Tension = Callable[[Straight | Arc, float, Vector], float]
+"""Of a part, the way along it, and the place there."""
+
+
 @dataclass(frozen=True)
 class Plane:
     """Coordinates in the plane of the cable: x along `ahead`, y along `across`."""
@@ -186,7 +190,7 @@ def _from_the_middle(parts: list[Straight | Arc]) -> list[Straight | Arc]:
     ]  # fmt: skip
 
 
-def _arc(spec: Spec, flat: Plane, i: int, at: Vector, length: float, spans) -> Arc:
+def _arc(spec: Spec, flat: Plane, i: int, at: Vector, length: float, spans: tuple[int, int]) -> Arc:
     each = spec.route[i]
     centre, (x, y) = flat.seen(each.at), flat.seen(at)
     angle = atan2(y - centre[1], x - centre[0])
@@ -207,7 +211,7 @@ def lay(
     spec: Spec,
     parts: list[Straight | Arc],
     count: int,
-    tension: Callable[[Straight | Arc, float, Vector], float],
+    tension: Tension,
     contact: float,
 ) -> Layout:
     """A stretch laid out as `count` sections.

@@ -13,7 +13,7 @@ guide of some mass, and slides along the axle against a spring and a damper.
 
 from adamslite.cables.statements import AXES, number, rounded
 from adamslite.cables.vectors import ZERO, Vector, add, cross, dot
-from adamslite.cables.vocabulary import Spec
+from adamslite.cables.vocabulary import Spec, Station
 from adamslite.cables.wheels import carrier, marker, travel, triple
 
 AXLE = 900
@@ -54,11 +54,11 @@ def _own_axis(axis: Vector) -> str:
     return "" if axis == (0.0, 0.0, 1.0) else f", ZP={triple(axis)}"
 
 
-def _mass(each, m: int) -> str:
+def _mass(each: Station, m: int) -> str:
     return f", MASS={number(each.wander.mass)}, CM={m}" if each.wander else ""
 
 
-def _start(each, out: Vector, spin: float) -> str:
+def _start(each: Station, out: Vector, spin: float) -> str:
     turn = add(ZERO, each.axis, spin)
     moves = cross(turn, out) if each.wander else ZERO
     return "".join(

@@ -12,7 +12,17 @@ weights, is MARKER/1000 s + k.
 from dataclasses import dataclass
 from math import atan2, ceil, cos, inf, pi, sin, sqrt
 
-from adamslite.cables.brute_force_layout import Layout, Straight, lay, length, plane, stretches, way
+from adamslite.cables.brute_force_layout import (
+    Arc,
+    Layout,
+    Straight,
+    Tension,
+    lay,
+    length,
+    plane,
+    stretches,
+    way,
+)
 from adamslite.cables.demand import loaded
 from adamslite.cables.ends import end
 from adamslite.cables.estimate import Moves
@@ -111,7 +121,7 @@ def start_speed(spec: Spec, moves: Moves) -> float:
     return starts[0] if spec.closed and starts else 0.0
 
 
-def _tension(spec: Spec, spans: list[FreeSpan]):
+def _tension(spec: Spec, spans: list[FreeSpan]) -> Tension:
     """At rest: that of the span less the weight of the cable above its free end; one with bends
     hangs from both its ends."""
     pulls, last = tensions(spec, spans), len(spans) - 1
@@ -121,7 +131,7 @@ def _tension(spec: Spec, spans: list[FreeSpan]):
         free = _lowest(spec) if spec.bends else free
         return pulls[p] - spec.cable.density * dot(spec.gravity, add(place, free, -1))
 
-    def tension(part, at: float, place: Vector) -> float:
+    def tension(part: Straight | Arc, at: float, place: Vector) -> float:
         if isinstance(part, Straight):
             return pull(part.span, place)
         share = min(max(at / part.length, 0.0), 1.0) if part.length else 0.0

@@ -18,6 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from textwrap import wrap
 
+from adamslite.cables.vectors import Vector
 from adamslite.cables.vocabulary import Cable
 
 # Of a component, as a share of the largest.
@@ -76,7 +77,7 @@ def tail(integrator: str, end: float, steps: int) -> str:
     return f"\nINTEGRATOR/{integrator}\nSIMULATE/DYNAMIC, END={number(end)}, STEPS={steps}\nEND\n"
 
 
-def point(i: int, mass: float, place, speed=()) -> str:
+def point(i: int, mass: float, place: Vector, speed: Sequence[float] = ()) -> str:
     """A mass with a marker of its number."""
     ways = zip(AXES, rounded(speed), strict=False)
     start = "".join(f", V{a}={number(v)}" for a, v in ways if v)

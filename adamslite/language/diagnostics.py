@@ -218,7 +218,8 @@ def render(diagnostics: Iterable[Diagnostic]) -> str:
 class DeckError(Exception):
     """A deck (or command file) with mistakes; carries every one of them.
 
-    ``deck`` is what could be read, so that the command file can be checked as well.
+    ``deck`` is what could be read, so that the command file can be checked as well; the class
+    of a deck lies above this room.
     """
 
     def __init__(self, diagnostics: Iterable[Diagnostic], deck: Any = None) -> None:

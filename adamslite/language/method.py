@@ -23,9 +23,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Protocol, overload
 
 from adamslite.language.abbreviations import forget_vocabularies
+from adamslite.language.interfaces import DrawnModel
+
+if TYPE_CHECKING:  # the modules that read a deck do without numpy
+    import numpy as np
 
 #: The arguments of INTEGRATOR that a method may use, in the order of their table.
 ARGUMENTS = (
@@ -41,6 +45,49 @@ VARIABLE, FIXED, FIXED_BY_HINIT = "variable", "fixed", "fixed by HINIT"
 #: What of a scene a method may be unable to follow.
 CONSTRAINTS, ROTATIONS, STATE_JUMPS = "constraints", "rotations", "jumps with the state"
 UNUSED = "its formula does not use it"
+
+
+class Settings(Protocol):
+    """What a method may ask of the settings of a run: arguments of INTEGRATOR, or their defaults;
+    ``damping``: alpha, beta and gamma that hold with them.
+    """
+
+    @property
+    def alpha(self) -> float: ...
+    @property
+    def beta(self) -> float: ...
+    @property
+    def gamma(self) -> float: ...
+    @property
+    def scale(self) -> tuple[float, ...]: ...
+    @property
+    def damping(self) -> tuple[float, float, float]: ...
+
+
+class Equations(Protocol):
+    """What a method may ask of the numbered equations,
+    :class:`adamslite.equations.system.System`.
+    """
+
+    n: int
+    m: int
+    nv: int
+    ns: int
+    holonomic: int
+    nz: int
+    starts: list[int]
+    widths: list[int]
+    plan: dict[str, np.ndarray]
+    history: np.ndarray
+    tableau: np.ndarray
+    J: np.ndarray
+    LV: np.ndarray
+
+    @property
+    def model(self) -> DrawnModel: ...
+
+    def make_room(self, **sizes: int) -> None:
+        """Have arrays of at least these sizes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,9 +149,9 @@ class Method:
     steps: str = VARIABLE
     interpolates: bool = True
     least_step: float = 1e-14
-    damping: Callable[[Any], tuple[float, float, float]] | None = None
-    unfit: Callable[[Any, str], str] | None = None
-    prepare: Callable[[Any, Any], None] = lambda system, settings: None
+    damping: Callable[[Settings], tuple[float, float, float]] | None = None
+    unfit: Callable[[Settings, str], str] | None = None
+    prepare: Callable[[Equations, Settings], None] = lambda system, settings: None
 
     @property
     def name(self) -> str:
@@ -184,7 +231,11 @@ class MethodNames(Sequence[str]):
     def __init__(self, *more: str) -> None:
         self.more = more
 
-    def __getitem__(self, index: Any) -> Any:
+    @overload
+    def __getitem__(self, index: int) -> str: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[str]: ...
+    def __getitem__(self, index: int | slice) -> str | list[str]:
         return sorted({*methods(), *self.more})[index]
 
     def __len__(self) -> int:

@@ -10,10 +10,14 @@ from dataclasses import dataclass
 from io import BytesIO
 from math import log10
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from adamslite.errors import UsageError
 from adamslite.outputs.whole_files import whole_file
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes as Plot
+    from matplotlib.figure import Figure
 
 ABSENT = "charts are drawn by matplotlib, which is not installed: python -m pip install matplotlib"
 
@@ -86,7 +90,7 @@ def draw(lines: Sequence[Line], axes: Axes, paths: Sequence[Path]) -> None:
             _save(figure, path)
 
 
-def _frame(plot: Any, axes: Axes) -> None:
+def _frame(plot: Plot, axes: Axes) -> None:
     from matplotlib.ticker import LogFormatter
 
     plot.set_xscale("log")
@@ -102,7 +106,7 @@ def _frame(plot: Any, axes: Axes) -> None:
         plot.invert_xaxis()
 
 
-def _names(plot: Any, lines: Sequence[Line]) -> None:
+def _names(plot: Plot, lines: Sequence[Line]) -> None:
     """Names in a column on the right, in the order of the ends of their lines."""
     low, high = (log10(y) for y in plot.get_ylim())
     heights = [(log10(line.y[-1]) - low) / (high - low) for line in lines]
@@ -142,7 +146,7 @@ def _middle(start: float, count: int, least: float) -> float:
     return start + (count - 1) * least / 2.0
 
 
-def _save(figure: Any, path: Path) -> None:
+def _save(figure: Figure, path: Path) -> None:
     kind = path.suffix.lstrip(".")
     content = BytesIO()
     figure.savefig(content, format=kind, dpi=130, metadata={"Date": None} if kind == "svg" else {})

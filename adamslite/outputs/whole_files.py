@@ -2,13 +2,17 @@
 
 import os
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, Literal, overload
 
 from adamslite.errors import UsageError
 
 
+@overload
+def whole_file(path: str | Path) -> AbstractContextManager[IO[str]]: ...
+@overload
+def whole_file(path: str | Path, binary: Literal[True]) -> AbstractContextManager[IO[bytes]]: ...
 @contextmanager
 def whole_file(path: str | Path, binary: bool = False) -> Iterator[IO[Any]]:
     """Open `path` for writing text or bytes; it changes only when the block succeeds.

@@ -1,8 +1,6 @@
 """GSTIFF, WSTIFF, CONSTANT_BDF: backward differentiation formulas."""
 
-from typing import Any
-
-from adamslite.language.method import FIXED, Method, register
+from adamslite.language.method import FIXED, Equations, Method, Settings, register
 
 ENTRY = "adamslite.integrators.bdf.method.bdf"
 FAMILY = "differences"
@@ -16,7 +14,7 @@ CORRECTOR = {
 }
 
 
-def prepare(system: Any, settings: Any) -> None:
+def prepare(system: Equations, settings: Settings) -> None:
     """Room for the differences."""
     from adamslite.integrators.bdf.differences import room
 

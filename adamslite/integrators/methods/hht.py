@@ -3,32 +3,31 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
-from adamslite.language.method import Method, register
+from adamslite.language.method import Equations, Method, Settings, register
 
 # Share of an error across a constraint that may be left after a step.  HHT: ALPHA of -0.016; with
 # -0.01 the ringing costs a pendulum twenty times the steps of -0.05.
 LOUDEST = 0.97
 
 
-def damping_of_hht(settings: Any) -> tuple[float, float, float]:
+def damping_of_hht(settings: Settings) -> tuple[float, float, float]:
     """alpha, and beta and gamma that make the formula of order 2."""
     alpha = settings.alpha
     return alpha, (1.0 - alpha) ** 2 / 4.0, 0.5 - alpha
 
 
-def damping_of_newmark(settings: Any) -> tuple[float, float, float]:
+def damping_of_newmark(settings: Settings) -> tuple[float, float, float]:
     """No alpha, beta and gamma as given."""
     return 0.0, settings.beta, settings.gamma
 
 
-def prepare(system: Any, settings: Any) -> None:
+def prepare(system: Equations, settings: Settings) -> None:
     """Room for q, u and two accelerations; s, s' and two more of these."""
     system.make_room(history=4 * (system.n + system.ns))
 
 
-def ringing(settings: Any, tied: str) -> str:
+def ringing(settings: Settings, tied: str) -> str:
     """Why constraints make a formula with little damping unusable."""
     _, beta, gamma = settings.damping
     if not tied or echo(beta, gamma) <= LOUDEST:

@@ -1,11 +1,9 @@
 """RADAU: an implicit Runge-Kutta formula of order 5."""
 
-from typing import Any
-
-from adamslite.language.method import Method, register
+from adamslite.language.method import Equations, Method, Settings, register
 
 
-def prepare(system: Any, settings: Any) -> None:
+def prepare(system: Equations, settings: Settings) -> None:
     """Coefficients, and room for the stages and the complex factors."""
     from adamslite.integrators.radau.coefficients import coefficients
     from adamslite.integrators.radau.stages import Y_ROWS, Z_ROWS

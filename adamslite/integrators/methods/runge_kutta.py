@@ -1,13 +1,18 @@
 """ABAM, RKF45: an explicit Runge-Kutta formula of order 8."""
 
-from typing import Any
+from __future__ import annotations
 
-from adamslite.language.method import Method, register
+from typing import TYPE_CHECKING
+
+from adamslite.language.method import Equations, Method, Settings, register
+
+if TYPE_CHECKING:  # methods are declared without numpy
+    import numpy as np
 
 NO_CORRECTOR = "-an explicit formula has no corrector"
 
 
-def prepare(system: Any, settings: Any) -> None:
+def prepare(system: Equations, settings: Settings) -> None:
     """Coefficients, room for the stages and for inverse inertias, factors of ERROR."""
     from adamslite.integrators.explicit.dop853 import tableau
     from adamslite.integrators.explicit.state import HISTORY_ROWS, SCALES
@@ -18,7 +23,7 @@ def prepare(system: Any, settings: Any) -> None:
     system.history[SCALES * w : (SCALES + 1) * w] = error_scales(system, settings.scale)
 
 
-def error_scales(system: Any, scale: tuple[float, ...]) -> Any:
+def error_scales(system: Equations, scale: tuple[float, ...]) -> np.ndarray:
     """Factors of ERROR (2 n + ns,): SCALE for bodies, 1 for states and what is not given."""
     import numpy as np
 

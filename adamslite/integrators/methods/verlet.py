@@ -1,18 +1,18 @@
 """VERLET: the leapfrog formula for point masses that nothing ties together."""
 
-from typing import Any
-
 from adamslite.language.method import (
     CONSTRAINTS,
     FIXED_BY_HINIT,
     ROTATIONS,
     STATE_JUMPS,
+    Equations,
     Method,
+    Settings,
     register,
 )
 
 
-def prepare(system: Any, settings: Any) -> None:
+def prepare(system: Equations, settings: Settings) -> None:
     """Room for inverse inertias."""
     system.make_room(history=9 * len(system.model.bodies))
 

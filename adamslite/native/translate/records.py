@@ -83,7 +83,7 @@ class RecordField:
 class Scalar(RecordField):
     """An ``int``, ``float`` or ``bool``."""
 
-    def __get__(self, record: Record | None, owner: Any = None) -> Any:
+    def __get__(self, record: Record | None, owner: object = None) -> Any:
         if record is None:
             return self
         if self.kind == "double":
@@ -105,7 +105,7 @@ class Nested(RecordField):
         super().__init__(kind, at)
         self.slots = kind.slots
 
-    def __get__(self, record: Record | None, owner: Any = None) -> Any:
+    def __get__(self, record: Record | None, owner: object = None) -> Any:
         if record is None:
             return self
         if self.at not in record._kept:
@@ -123,7 +123,7 @@ class Inside(RecordField):
         super().__init__(kind, at)
         self.slots = length
 
-    def __get__(self, record: Record | None, owner: Any = None) -> Any:
+    def __get__(self, record: Record | None, owner: object = None) -> Any:
         if record is None:
             return self
         numbers = record._reals if self.kind == "Reals" else record._ints
@@ -138,7 +138,7 @@ class ByReference(RecordField):
 
     slots = 2
 
-    def __get__(self, record: Record | None, owner: Any = None) -> Any:
+    def __get__(self, record: Record | None, owner: object = None) -> Any:
         if record is None:
             return self
         return record._kept[self.at]
@@ -210,7 +210,7 @@ class Record:
                 else:
                     setattr(self, name, np.zeros(0, TYPES[ARRAYS[field.kind]]))
 
-    def __setattr__(self, name: str, value: Any) -> None:
+    def __setattr__(self, name: str, value: object) -> None:
         if name not in self.fields and not name.startswith("_"):
             raise AttributeError(f"{type(self).__name__} has no field {name}")
         object.__setattr__(self, name, value)
@@ -253,13 +253,15 @@ R = TypeVar("R", bound=Record)
 class Rows(Generic[R]):
     """Records of one kind behind each other: ``size`` of them."""
 
-    def __init__(self, kind: type[R], numbers: Any) -> None:
+    def __init__(self, kind: type[R], numbers: int | np.ndarray) -> None:
         """``numbers``: how many cleared ones, or what all of them hold (size, slots) as 64-bit
         numbers, which are not copied.
         """
         self.kind = kind
-        cleared = isinstance(numbers, int)
-        self.numbers = np.zeros(numbers * kind.slots, np.int64) if cleared else numbers.reshape(-1)
+        if isinstance(numbers, int):
+            self.numbers = np.zeros(numbers * kind.slots, np.int64)
+        else:
+            self.numbers = numbers.reshape(-1)
         self.size = self.numbers.size // kind.slots
 
     def __len__(self) -> int:
