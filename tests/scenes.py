@@ -18,6 +18,7 @@ from adamslite.kernels.compile import Kernels
 from adamslite.native import compiler, translate
 from adamslite.native import compiler as code
 from adamslite.native.translate import Record
+from adamslite.native.translate.statements import translate as assembly_of
 from adamslite.results.results import Results
 
 GROUND = "a scene\nPART/1, GROUND\nMARKER/1, PART=1\n"
@@ -163,7 +164,7 @@ def interpreted(monkeypatch: Any) -> None:
 def native_call(entry: Callable[..., Any], arrays: list[Any]) -> float:
     """Compile ``entry`` and call it on numpy arrays and records."""
     name = translate.symbol(entry)
-    address = code.addresses([(code.object_code(translate.translate(entry)), [name])])[name]
+    address = code.addresses([(code.object_code(assembly_of(entry)), [name])])[name]
     places = [a.address if isinstance(a, Record) else a.ctypes.data for a in arrays]
     return ctypes.CFUNCTYPE(ctypes.c_double, *[ctypes.c_void_p] * len(places))(address)(*places)
 

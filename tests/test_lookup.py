@@ -18,7 +18,8 @@ from adamslite.kernels.code.lookup import on_piece, piece_at
 from adamslite.language.function import FUNCTIONS, function
 from adamslite.language.statement import STATEMENTS, Statement, choice, statement, vector
 from adamslite.native import compiler
-from adamslite.native.translate import symbol, translate
+from adamslite.native.translate import symbol
+from adamslite.native.translate.statements import translate
 from adamslite.results.outcomes import Outcome
 from adamslite.symbolic.interpolant import BEYOND, Interpolant, interpolant
 from adamslite.symbolic.sympy_nodes import lookup, lookup_between

@@ -18,7 +18,7 @@ import numpy as np
 
 from adamslite.equations.engine import ints
 from adamslite.equations.system import System
-from adamslite.integrators.audit.work import POINTS, ROWS_OF_GUARDS
+from adamslite.integrators.audit_record import POINTS, ROWS_OF_GUARDS
 from adamslite.integrators.contract import ACCELERATIONS, AUDIT
 from adamslite.results.balance import Balance
 

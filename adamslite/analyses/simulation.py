@@ -25,7 +25,7 @@ from adamslite.elements.simulate import Simulate
 from adamslite.elements.units import Units
 from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
-from adamslite.integrators.linalg.dense import TINY
+from adamslite.integrators.linalg.plan import TINY
 from adamslite.language.interfaces import Key
 from adamslite.language.messages import did_you_mean
 from adamslite.language.method import without_effect

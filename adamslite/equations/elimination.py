@@ -10,7 +10,7 @@ from adamslite.equations.elimination_order import analyse
 from adamslite.equations.engine import ints
 from adamslite.equations.instances import Instances
 from adamslite.equations.spanning_tree import prerequisites
-from adamslite.integrators.motion_equations import WORK
+from adamslite.integrators.contract import WORK
 from adamslite.kernels.compile import Kernels
 from adamslite.model.model import PART
 

@@ -17,7 +17,6 @@ import numpy as np
 from adamslite.caching.entries import recall
 from adamslite.caching.sources import version_of
 from adamslite.native import compiler
-from adamslite.native.translate import translate
 from adamslite.progress import Progress
 
 if TYPE_CHECKING:
@@ -64,6 +63,9 @@ def _version(entry: str) -> str:
 
 def engine_text(entry: str) -> str:
     """LLVM assembly of an entry."""
+    # Only what is compiled anew needs the translator.
+    from adamslite.native.translate.statements import translate
+
     module, _, name = entry.rpartition(".")
     return translate(getattr(import_module(module), name))
 

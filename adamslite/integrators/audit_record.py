@@ -81,3 +81,6 @@ class Audit(Record):
     moving: Reals
     matrix: Reals
     pivots: Ints
+
+
+POINTS, ROWS_OF_GUARDS = 10, 7

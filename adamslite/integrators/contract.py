@@ -340,3 +340,7 @@ class Problem(Record):
     pattern: Ints
     audit: Audit
     uncounted: Counts
+
+
+# Numbers of ``P.work`` that this module uses.
+WORK = 54

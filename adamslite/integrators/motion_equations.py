@@ -17,8 +17,6 @@ from adamslite.integrators.contract import REACTIONS, SIGNALS, Problem
 from adamslite.native.translate import Reals, call_address, native
 
 POINT, PART = 3, 6
-# Numbers of ``P.work`` that this module uses.
-WORK = 54
 # Guards of the clock and of the watch.
 CLOCK, WATCH = 0, 1
 

@@ -20,7 +20,7 @@ from adamslite.elements.bases.constraint import Constraint
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
-from adamslite.integrators.linalg.dense import TINY
+from adamslite.integrators.linalg.plan import TINY
 from adamslite.model.model import PART
 from adamslite.results.outcomes import Outcome
 

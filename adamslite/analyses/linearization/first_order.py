@@ -35,7 +35,7 @@ import numpy as np
 from adamslite.analyses.linearization.instant import Instant, skew
 from adamslite.analyses.linearization.observer import Jet
 from adamslite.equations.system import System
-from adamslite.integrators.linalg.dense import TINY
+from adamslite.integrators.linalg.plan import TINY
 from adamslite.model.model import PART
 
 # Singular values below this share of the largest are redundant rows.

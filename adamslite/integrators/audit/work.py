@@ -15,6 +15,7 @@ from __future__ import annotations
 from math import floor
 
 from adamslite.integrators.audit.path import put_on_path, solve_on_path
+from adamslite.integrators.audit_record import POINTS, ROWS_OF_GUARDS
 from adamslite.integrators.contract import ELASTIC, LOADS, REACTIONS, Problem
 from adamslite.integrators.event_rows import STRICT, WEAK
 from adamslite.integrators.linalg.plan import Plan
@@ -27,7 +28,6 @@ OUTER, INNER, MIDDLE = 0.2369268850561891, 0.4786286704993665, 0.568888888888888
 ROUGH_OUTER, ROUGH_MIDDLE = 0.4059280294219, 1.1881439411562
 # How a place within a zone is read (:mod:`adamslite.symbolic.guards`).
 ZONED = 3
-POINTS, ROWS_OF_GUARDS = 10, 7
 # A change nearer to the end of a panel than this share of the step is at that end; guards are
 # evaluated within, where they have left it.
 SAME_PLACE = 1e-9

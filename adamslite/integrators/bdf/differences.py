@@ -10,22 +10,14 @@ nanoseconds, velocities and differences do not (Higham, Accuracy and Stability, 
 
 from __future__ import annotations
 
+from adamslite.integrators.bdf.history import LOST, ROWS
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.rotation_count import count_anew
 from adamslite.integrators.motion_equations import PART, put_pose
 from adamslite.native.translate import Reals, as_written, native
 
-MAX_ORDER = 5
-ROWS = MAX_ORDER + 3
-LOST = ROWS
 # Rotation vectors are counted from the present attitude again beyond this length (squared).
 REBASE = 0.0025
-
-
-def room(w: int) -> int:
-    """Numbers of a history of rows of ``w``, with the matrices of :func:`change_step` behind it."""
-    size = MAX_ORDER + 1
-    return (LOST + 1) * w + 3 * size * size + size
 
 
 @native

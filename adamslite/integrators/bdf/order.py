@@ -8,7 +8,7 @@ Reference: Shampine, Reichelt, SIAM J. Sci. Comput. 18 (1997) 1, section 2.
 from __future__ import annotations
 
 from adamslite.integrators.bdf.control import Control
-from adamslite.integrators.bdf.differences import MAX_ORDER
+from adamslite.integrators.bdf.history import MAX_ORDER
 from adamslite.integrators.bdf.order_cap import CAPPED, highest_order, suspect
 from adamslite.integrators.bdf.state import resize, tests_velocities
 from adamslite.integrators.contract import Problem

@@ -16,8 +16,8 @@ Matrices, 2017, ch. 7 and 11.
 
 from __future__ import annotations
 
-from adamslite.integrators.linalg.dense import TINY, lu_dense, negative_pivots, solve_dense
-from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.linalg.dense import lu_dense, negative_pivots, solve_dense
+from adamslite.integrators.linalg.plan import TINY, Plan
 from adamslite.native.translate import Ints, Reals, native
 
 

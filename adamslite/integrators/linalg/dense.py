@@ -9,9 +9,9 @@ takes four.  Reference: Golub, Van Loan, Matrix Computations, 2013, section 3.2.
 
 from __future__ import annotations
 
+from adamslite.integrators.linalg.plan import TINY
 from adamslite.native.translate import Alone, Ints, Reals, native
 
-TINY = 1e-300
 # Share of the largest entry of its row below which a pivot is round-off.
 NOISE = 1e-15
 WIDTH = 4

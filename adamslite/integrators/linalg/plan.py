@@ -15,3 +15,6 @@ class Plan(Record):
     upper: Ints
     target: Ints
     place: Ints
+
+
+TINY = 1e-300

@@ -16,7 +16,7 @@ CORRECTOR = {
 
 def prepare(system: Equations, settings: Settings) -> None:
     """Room for the differences."""
-    from adamslite.integrators.bdf.differences import room
+    from adamslite.integrators.bdf.history import room
 
     system.make_room(history=room(2 * system.n + system.ns))
 

@@ -6,7 +6,9 @@ from adamslite.kernels.code.clock_program import clock_programs
 from adamslite.kernels.code.jacobian_writer import JacobianWriter
 from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Shape
-from adamslite.native.translate import METADATA, REGISTERED, definitions
+from adamslite.native.translate import REGISTERED
+from adamslite.native.translate.statements import definitions
+from adamslite.native.translate.writer import METADATA
 from adamslite.symbolic.guards import guards
 from adamslite.symbolic.scope import Scope
 

@@ -10,7 +10,8 @@ Sums may be reordered except in functions marked :func:`as_written`. There is no
 division follows the processor.
 
 The same functions run under plain Python on numpy arrays and records, which is how tests compare
-the two.
+the two. The translator itself is in :mod:`adamslite.native.translate.statements`: what is compiled
+already does not need it.
 """
 
 from adamslite.native.translate.language import (
@@ -23,11 +24,8 @@ from adamslite.native.translate.language import (
     symbol,
 )
 from adamslite.native.translate.records import Alone, Ints, Reals, Record, Rows, array
-from adamslite.native.translate.statements import definitions, translate
-from adamslite.native.translate.writer import METADATA
 
 __all__ = [
-    "METADATA",
     "REGISTERED",
     "Alone",
     "Ints",
@@ -39,8 +37,6 @@ __all__ = [
     "as_written",
     "call_address",
     "copy",
-    "definitions",
     "native",
     "symbol",
-    "translate",
 ]
