@@ -31,7 +31,7 @@ from adamslite.symbolic.scope import Scope, UndefinedRate
 from adamslite.symbolic.types import Expr, Tree
 
 if TYPE_CHECKING:  # a deck whose shapes are cached needs no sympy
-    from adamslite.kernels.code import Outputs
+    from adamslite.kernels.code.shape import Outputs
 
 
 Meta = dict[str, Any]
@@ -171,7 +171,8 @@ class FaceWriter:
 
     def kernels(self, name: str) -> tuple[str, Meta]:
         """LLVM text of all kernels of the shape, and what an instance must provide."""
-        from adamslite.kernels.code import Shape, write_kernels
+        from adamslite.kernels.code.module_text import write_kernels
+        from adamslite.kernels.code.shape import Shape
 
         at, model = self.binder.instance, self.binder.model
         widths = [model.body_width(b) for b in at.bodies]
@@ -181,7 +182,7 @@ class FaceWriter:
         return write_kernels(shape, name, self.face, self.face in WITH_JACOBIAN)
 
     def __call__(self, scope: Scope) -> Outputs:
-        from adamslite.kernels.code import Outputs
+        from adamslite.kernels.code.shape import Outputs
 
         scope.read = ExpressionReader(scope, self.n_bodies)
         widths = self.binder.model.node_width

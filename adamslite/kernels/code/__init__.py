@@ -21,10 +21,3 @@ integers of an instance are
 
 and its reals: parameters, remembered angles, times of leaving its law, marker levers and axes.
 """
-
-from __future__ import annotations
-
-from adamslite.kernels.code.module_text import write_kernels
-from adamslite.kernels.code.shape import Outputs, Shape
-
-__all__ = ["Outputs", "Shape", "write_kernels"]
