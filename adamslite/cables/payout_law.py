@@ -38,6 +38,7 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
 
 def parse(text: str, path: Path, faults: Faults) -> Node | None:
     """The expression; None after saying what is wrong with it."""
+    from adamslite.elements.variable import Variable
     from adamslite.language.diagnostics import DeckError
     from adamslite.reading.read import read
 
@@ -45,7 +46,7 @@ def parse(text: str, path: Path, faults: Faults) -> Node | None:
     names = "VARIABLE/S, FUNCTION=0\nVARIABLE/SD, FUNCTION=0\n" if moved else ""
     deck = f"a law\nPART/1, GROUND\n{names}VARIABLE/1, FUNCTION={text}\n"
     try:
-        return read(deck).of("VARIABLE")[-1].function
+        return read(deck).of(Variable)[-1].function
     except DeckError as fault:
         for each in fault.errors:
             faults.add("expression", path, word=path[-1], why=each.message, hint=each.hint)

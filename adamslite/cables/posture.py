@@ -12,11 +12,14 @@ from math import atan2
 from adamslite.cables.payout_law import Unknown, evaluate
 from adamslite.cables.vectors import ZERO, Vector, add, dot, norm
 from adamslite.deck.deck import Deck
+from adamslite.elements.diff import Diff
 from adamslite.elements.gcon import Gcon
+from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
 from adamslite.elements.motion import Motion
 from adamslite.elements.part import Part
 from adamslite.elements.point_mass import PointMass
+from adamslite.elements.variable import Variable
 from adamslite.language.expression import Call, Node, Ref, Time, walk
 from adamslite.language.interfaces import Key
 
@@ -71,7 +74,7 @@ class Posture:
     def body(self, marker: Key) -> Body:
         """The body a marker is on; all of the ground is one."""
         if marker not in self._bodies:
-            found = self.deck.find("MARKER", marker) if marker != 0 else None
+            found = self.deck.find(Marker, marker) if marker != 0 else None
             owner = found.owner if found else None
             part = self.deck.find(*owner) if owner else None
             if owner and part and not getattr(part, "ground", False):
@@ -90,7 +93,7 @@ class Posture:
     def _placed(self, marker: Key) -> Vector:
         if marker == 0:
             return 0.0, 0.0, 0.0
-        found = self.deck.find("MARKER", marker)
+        found = self.deck.get(Marker, marker)
         part = self.deck.find(*found.owner) if found.owner else None
         if found.floating or part is None:
             raise Unknown
@@ -104,8 +107,11 @@ class Posture:
         """Axes of a marker, in ground."""
         if marker == 0:
             return AXES
-        found = self.deck.find("MARKER", marker)
-        outer, own = _axes(self.deck.find(*found.owner)), _axes(found)
+        found = self.deck.get(Marker, marker)
+        part = self.deck.find(*found.owner) if found.owner else None
+        if part is None:
+            raise Unknown
+        outer, own = _axes(part), _axes(found)
         if own is AXES:
             return outer
         x, y, z = (add(add(add(ZERO, outer[0], a), outer[1], b), outer[2], c) for a, b, c in own)
@@ -135,7 +141,7 @@ class Posture:
         if node.name == "VARVAL":
             return self._variable(ids[0])
         if node.name == "DIF":
-            return self.deck.find("DIFF", ids[0]).ic[0]
+            return self.deck.get(Diff, ids[0]).ic[0]
         if node.name in PLACES:
             return self._distance(node.name, ids)
         if node.name == "AZ":
@@ -147,7 +153,7 @@ class Posture:
             return self._constants[key]
         if key not in self._variables:
             self._variables[key] = float("nan")  # one that depends on itself is not known
-            function = self.deck.find("VARIABLE", key).function
+            function = self.deck.get(Variable, key).function
             self._variables[key] = self.value(function)
             if self._is_constant(function):
                 self._constants[key] = self._variables[key]
@@ -193,7 +199,7 @@ class Posture:
                 yield each
                 if isinstance(each, Ref) and each.kind == "VARIABLE" and each.id not in seen:
                     seen.add(each.id)
-                    pending.append(self.deck.find("VARIABLE", each.id).function)
+                    pending.append(self.deck.get(Variable, each.id).function)
 
     def follow(self, call: Call) -> bool:
         """Let a measure follow what prescribes it, or continue as it starts; whether it is
@@ -228,7 +234,7 @@ class Posture:
     def _motion(self, call: Call) -> Law | None:
         ids = [arg.id for arg in call.args if isinstance(arg, Ref)][:2]
         for motion in self.deck.of(Motion):
-            joint = self.deck.find("JOINT", motion.joint) if motion.joint is not None else None
+            joint = self.deck.get(Joint, motion.joint) if motion.joint is not None else None
             driven = (
                 joint and [joint.i, joint.j] == ids and FREEDOMS.get(motion.axis or "") == call.name
             )

@@ -101,6 +101,13 @@ class Deck:
             found = self._by_key.get((keyword, key)) if isinstance(key, int | str) else None
         return found
 
+    def get(self, kind: type[S], id: Key) -> S:
+        """The statement that a reference means: readers have found that there is one."""
+        found = self.find(kind, id)
+        if found is None:
+            raise LookupError(f"there is no {kind.keyword}/{id}")
+        return found
+
     @overload
     def single(self, kind: type[S]) -> S: ...
     @overload

@@ -7,6 +7,7 @@ PART/3 (scene.adm:12:1), forces along x          the equation of a body
 
 from __future__ import annotations
 
+from adamslite.elements.diff import Diff
 from adamslite.equations.system import System
 from adamslite.language.statement import Statement
 
@@ -43,7 +44,7 @@ def tested(system: System, k: int) -> str:
         return _named(system, k, COORDINATES, "")
     if k < 2 * system.n:
         return _named(system, k - system.n, SPEEDS, "")
-    return placed(system.model.deck.of("DIFF")[k - 2 * system.n])
+    return placed(system.model.deck.of(Diff)[k - 2 * system.n])
 
 
 def _named(system: System, k: int, components: tuple[str, ...], of_row: str) -> str:

@@ -121,7 +121,7 @@ class Model:
         """Origin and axes of a marker in its body frame."""
         if marker_id is None:
             return np.zeros(3), IDENTITY
-        marker = self._marker(marker_id)
+        marker = self.deck.get(Marker, marker_id)
         origin = np.asarray(marker.qp, dtype=float)
         return origin, frame_axes(marker, origin)
 
@@ -132,11 +132,6 @@ class Model:
         origin, axes = self._marker_in_body(part.im if part.im is not None else part.cm)
         d = cm - origin
         return axes @ given @ axes.T - mass * (d @ d * IDENTITY - np.outer(d, d))
-
-    def _marker(self, marker_id: Key) -> Marker:
-        found = self.deck.find(Marker, marker_id)
-        assert found is not None  # readers report references to what is not there
-        return found
 
     @overload
     def marker(self, marker_id: Key) -> Place: ...
@@ -152,7 +147,7 @@ class Model:
         if isinstance(marker_id, tuple):
             at = self.body_index.get(marker_id)
             return None if at is None else Place("part", at, np.zeros(3), IDENTITY)
-        owner = self._marker(marker_id).owner
+        owner = self.deck.get(Marker, marker_id).owner
         assert owner is not None  # a rule asks for it
         body = self.body_index.get(owner)
         origin, axes = self._marker_in_body(marker_id)
@@ -186,9 +181,7 @@ class Model:
 
     def variable(self, variable_id: Key) -> Variable:
         """The VARIABLE of that id."""
-        found = self.deck.find(Variable, variable_id)
-        assert found is not None  # readers report references to what is not there
-        return found
+        return self.deck.get(Variable, variable_id)
 
     def has_unknowns(self, node: NodeKey) -> bool:
         """Whether a statement brings unknowns of its own."""

@@ -13,6 +13,7 @@ from typing import Protocol
 
 from adamslite.deck.deck import Deck
 from adamslite.elements.gcon import Gcon
+from adamslite.elements.joint import Joint
 from adamslite.functions.forces import MEASURES, NET
 from adamslite.language.expression import GROUND_FRAME, Call, Node, Num, Op, Ref, measure
 from adamslite.language.interfaces import DrawnModel, Key
@@ -52,7 +53,7 @@ def ends(deck: Deck, element: Statement) -> tuple[Key | None, Key | None]:
     """The I and J markers of an element, or of the joint it drives."""
     joint = getattr(element, "joint", None)
     if joint is not None:
-        return ends(deck, deck.find("JOINT", joint))
+        return ends(deck, deck.get(Joint, joint))
     i, j = getattr(element, "i", None), getattr(element, "jfloat", None)
     return i, j if j is not None else getattr(element, "j", None)
 

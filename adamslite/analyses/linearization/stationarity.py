@@ -113,7 +113,7 @@ class Trajectory:
         """The largest extent of mass centres, markers and radii of gyration [length]."""
         system, now = self.system, self.now
         points = list(now.q[system.places])
-        for marker in system.model.deck.of("MARKER"):
+        for marker in system.model.deck.of(Marker):
             place = None if marker.floating else system.model.marker(marker.key)
             if place is not None:
                 i = system.starts[place.body]
