@@ -15,7 +15,7 @@ import mpmath as mp
 import numpy as np
 import sympy as sp
 
-from adamslite.symbolic.interpolant import Interpolant, interpolant
+from adamslite.symbolic.interpolant import Interpolant, interpolant, piece_numbers
 
 GROUND = -1
 NOW = mp.mpf("0.7")
@@ -29,7 +29,9 @@ KNOTS, VALUES = np.array([-1.5, -0.7, -0.1, 0.4, 1.3]), np.array([1.0, -2.0, 0.5
 
 @cache
 def sample_table(number: int) -> Interpolant:
-    """A table by its number."""
+    """A table by its number; after those of all kinds that of the numbers of pieces."""
+    if number == len(KINDS):
+        return piece_numbers(KNOTS)
     return interpolant(KNOTS, VALUES[:, None], KINDS[number])
 
 
@@ -45,8 +47,14 @@ def table_value(number: int, curve: int, order: int, x) -> mp.mpf:
     )
 
 
+def held_value(number: int, curve: int, order: int, piece, x) -> mp.mpf:
+    """The same of the straight line that runs through piece ``piece``."""
+    assert piece == bisect(KNOTS, x)
+    return table_value(number, curve, order, x)
+
+
 # What sympy does not know of; for lambdify.
-MODULES = [{"Lookup": table_value}, "mpmath"]
+MODULES = [{"Lookup": table_value, "LookupHeld": held_value}, "mpmath"]
 
 
 def turn(axis: int, angle) -> mp.matrix:
@@ -183,8 +191,11 @@ class SampleScope:
         tables = {kind: number for number, kind in enumerate(KINDS)}
         return SimpleNamespace(
             **{name: self.symbol(f"{name}_{id}", value) for name, value in values.items()},
-            **tables, family=None,
+            **tables, pieces=len(KINDS), family=None,
         )  # fmt: skip
+
+    def of_time(self, expr) -> bool:
+        return False
 
     def derivative(self, expr):
         return sum(

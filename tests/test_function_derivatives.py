@@ -29,7 +29,7 @@ PRINTABLE = {
     *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log"),
     *("StrictLessThan", "StrictGreaterThan", "LessThan", "GreaterThan", "Equality", "Unequality"),
     *("And", "Or", "Not", "BooleanTrue", "BooleanFalse", "Exp1", "Pi"),
-    "Lookup",
+    *("Lookup", "LookupHeld"),
 }
 REPEATS = 4
 SAMPLES = 8

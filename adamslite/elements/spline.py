@@ -26,7 +26,7 @@ from typing import NamedTuple
 from adamslite.elements.bases import data_file
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, flag, integer, statement, text, vector, vectors
-from adamslite.symbolic.interpolant import Interpolant, interpolant
+from adamslite.symbolic.interpolant import Interpolant, interpolant, piece_numbers
 
 LEAST, MOST = 4, 10**6
 KINDS = ("linear", "akima", "natural")
@@ -45,6 +45,12 @@ class Points(NamedTuple):
 
         places = np.array(self.places)
         return interpolant(np.array(self.x), np.array(self.curves).T, kind, beyond, places)
+
+    def numbers(self) -> Interpolant:
+        """The numbers of the pieces between the points."""
+        import numpy as np
+
+        return piece_numbers(np.array(self.x))
 
 
 @statement("SPLINE", planned=("ROUTINE",), data=True)
@@ -96,4 +102,5 @@ class Spline(Statement):
             kind: model.once(("SPLINE", self.key, kind), partial(points.table, kind, self.beyond))
             for kind in KINDS
         }
+        tables["pieces"] = model.once(("SPLINE", self.key, "pieces"), points.numbers)
         return {**tables, "family": "yes" if self.family else None}

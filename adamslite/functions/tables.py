@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import lookup, lookup_between
+from adamslite.symbolic.sympy_nodes import lookup, lookup_between, lookup_with_corners
 from adamslite.symbolic.types import Expr, Tree
 
 # Methods of INTERP.
@@ -38,9 +38,13 @@ def cubspl(scope: Scope, x: Expr, z: Expr, id: Tree, iord: int = 0) -> Expr:
 def interp(scope: Scope, x: Expr, method: int, id: Tree, iord: int = 0) -> Expr:
     """SPLINE id, a single curve, at x; method 1: straight lines, 3: the cubic spline of CUBSPL.
 
+    At the corners of straight lines steps end, as where IF changes its branch.
     Unit: that of Y, per x for each order iord.  Source: Adams/Solver function INTERP, there for
     time histories in files alone.
     """
+    if METHODS[method] == "linear" and not scope.of_time(x):
+        spline = scope.statement(id)
+        return lookup_with_corners(spline.linear, spline.pieces, x, iord)
     return _value(scope, id, METHODS[method], x, 0, iord)
 
 

@@ -94,6 +94,20 @@ def joined(knots: np.ndarray, pieces: np.ndarray, places: ArrayLike | None = Non
     return Interpolant(data, views[0], views[1], views[2].reshape(pieces.shape))
 
 
+def piece_numbers(x: np.ndarray) -> Interpolant:
+    """A table whose whole part is the number of the piece that a place lies on: it rises from k to
+    k + 1 on piece k, and is 1/2 and n + 1/2 before and beyond all knots.
+    """
+    import numpy as np
+
+    count = np.arange(len(x) + 1.0)
+    pieces = np.zeros((len(x) + 1, 1, 4))
+    pieces[:, 0, 0] = count
+    pieces[[0, -1], 0, 0] += 0.5
+    pieces[1:-1, 0, 1] = 1.0 / np.diff(x)
+    return joined(np.asarray(x, dtype=float), pieces)
+
+
 def _inner(x: np.ndarray, y: np.ndarray, kind: str) -> np.ndarray:
     """Coefficients (n - 1, m, 4) between the knots, from the slopes at them."""
     import numpy as np

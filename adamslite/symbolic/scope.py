@@ -26,6 +26,7 @@ from contextlib import contextmanager
 from typing import NamedTuple
 
 from adamslite.symbolic.derivatives import Derivatives
+from adamslite.symbolic.guards import CLOCK_LEAVES, FIXED_LEAVES
 from adamslite.symbolic.sympy_nodes import sp
 from adamslite.symbolic.types import Expr, Frame, Leaf, Read, Seen, Symbol, Tree
 
@@ -200,6 +201,11 @@ class Scope:
         if wrapped not in self.angles:
             self.angles.append(wrapped)
         return wrapped + self.symbol("turn", self.angles.index(wrapped))
+
+    def of_time(self, expr: Expr) -> bool:
+        """Whether an expression depends on TIME alone, or on nothing that changes in a run."""
+        kinds = {self.leaves[symbol][0] for symbol in self.slope.symbols(sp.S.Zero + expr)}
+        return kinds <= {*CLOCK_LEAVES, *FIXED_LEAVES}
 
     def limit(self, expr: Expr) -> None:
         """The law that is being written means nothing once ``expr`` is below zero; the time of the

@@ -119,8 +119,8 @@ LOOKUPS = ("Lookup", "LookupBetween")
 
 
 @cache
-def _lookups() -> tuple[type, type]:
-    """The nodes of ``LOOKUPS``."""
+def _lookups() -> tuple[type, type, type]:
+    """The nodes of ``LOOKUPS``, and that of a piece that is held."""
 
     class Lookup(sp.Function):
         """(table, curve, order, x)"""
@@ -142,7 +142,17 @@ def _lookups() -> tuple[type, type]:
                 return self.func(table, order + 1, z_order, x, z) if order < 3 else sp.S.Zero
             return self.func(table, order, z_order + 1, x, z) if z_order < 1 else sp.S.Zero
 
-    return Lookup, LookupBetween
+    class LookupHeld(sp.Function):
+        """(table, curve, order, piece, x)"""
+
+        is_extended_real = True
+
+        def fdiff(self, argindex: int = 5) -> Expr:
+            table, curve, order, piece, x = self.args
+            further = argindex == 5 and order < 3
+            return self.func(table, curve, order + 1, piece, x) if further else sp.S.Zero
+
+    return Lookup, LookupBetween, LookupHeld
 
 
 def lookup(table: int, x: Expr, curve: int = 0, order: int = 0) -> Expr:
@@ -156,3 +166,14 @@ def lookup(table: int, x: Expr, curve: int = 0, order: int = 0) -> Expr:
 def lookup_between(table: int, x: Expr, z: Expr, order: int = 0, z_order: int = 0) -> Expr:
     """A table of two arguments at ``x`` and ``z``, or its derivatives."""
     return _lookups()[1](table, order, z_order, x, z)
+
+
+def lookup_with_corners(table: int, pieces: int, x: Expr, order: int = 0) -> Expr:
+    """A table of straight lines at ``x``, or its derivative, on the piece that an integrator holds:
+    a corner is an event.
+
+    ``pieces``: the table of the numbers of its pieces, see
+    :func:`adamslite.symbolic.interpolant.piece_numbers`.
+    """
+    piece = floor(lookup(pieces, x), order=-1 if order else 0)
+    return _lookups()[2](table, 0, order, piece, x)

@@ -65,6 +65,13 @@ def on_piece(T: Reals, piece: int, curve: int, x: float, order: int) -> float:
 
 
 @native
+def on_held_piece(T: Reals, piece: float, curve: int, x: float, order: int) -> float:
+    """Derivative of one curve by x on a piece that a branch holds, also where x has left it."""
+    held = piece if piece > 0.0 else 0.0  # also for what is not a number
+    return on_piece(T, int(min(held, T[0])), curve, x, order)
+
+
+@native
 def strip_at(T: Reals, z: float) -> int:
     """Number of the curve from which ``z`` leads to the next one; 0 where there is only one."""
     n, m = int(T[0]), int(T[1])

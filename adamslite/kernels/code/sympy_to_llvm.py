@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-from adamslite.kernels.code.lookup import on_piece, on_strip, piece_at, strip_at
+from adamslite.kernels.code.lookup import on_held_piece, on_piece, on_strip, piece_at, strip_at
 from adamslite.native.llvm_builder import LIBRARY, Builder, Value
 from adamslite.native.translate import symbol
 from adamslite.symbolic.types import Expr, Symbol
@@ -114,6 +114,12 @@ class Lowering:
         piece = self.b.call_native(symbol(piece_at), "i64", table, at)
         known = (table, ("i64", piece), ("i64", int(curve)))
         return self.b.call_native(symbol(on_piece), "double", *known, at, ("i64", int(order)))
+
+    def _LookupHeld(self, expr: Expr) -> Value:
+        number, curve, order, piece, x = expr.args
+        held, at = ("double", self(piece)), ("double", self(x))
+        given = (self._table(number), held, ("i64", int(curve)), at, ("i64", int(order)))
+        return self.b.call_native(symbol(on_held_piece), "double", *given)
 
     def _LookupBetween(self, expr: Expr) -> Value:
         number, order, z_order, x, z = expr.args
