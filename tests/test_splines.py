@@ -160,8 +160,8 @@ def test_the_corners_of_straight_lines_are_events(formula: str) -> None:
 
 
 def test_beyond_all_corners_and_on_the_way_back() -> None:
-    """No force up to 2, -3 (x - 2) from there on, also beyond the table: 1 kg comes with 3 m/s, turns
-    at 2 + 3/sqrt(3) and is back with -3 m/s after half a period of the spring.
+    """No force up to 2, -3 (x - 2) from there on, also beyond the table: 1 kg comes with 3 m/s,
+    turns at 2 + 3/sqrt(3) and is back with -3 m/s after half a period of the spring.
     """
     table = "SPLINE/1, X=-2,0,1,2,2.5, Y=0,0,0,0,-1.5, LINEAR_EXTRAPOLATE\n"
     deck = oscillator("INTERP(DX(2),1,1)", table).replace("QG=0.9,0,0", "QG=0.9,0,0, VX=3")
