@@ -53,7 +53,7 @@ class Newton:
         self.system = s = system
         rng = np.random.default_rng(1)
         self.P, self.L = s.records()
-        self.tied = s.stabilised and s.holonomic > 0
+        self.tied = s.numbering.stabilised and s.holonomic > 0
         self.phases = contract.STABILISED if self.tied else contract.INDEX3
         self.yp, self.psi = self.P.trial[: s.n * 2 + s.ns], self.P.trial[s.n * 2 + s.ns :]
         self.psi = self.psi[: self.yp.size]
@@ -83,7 +83,7 @@ class Newton:
         self.residual(*self.start)
         newton.newton_matrix(P, self.L, self.phases, 1 / H, P.q, P.trial[2 * self.yp.size :], P.u)
         full = np.zeros((s.nz, s.nz))
-        for (row, column), at in s.blocks.items():
+        for (row, column), at in s.blocks.offsets.items():
             h, w = s.widths[row], s.widths[column]
             r, c = s.starts[row], s.starts[column]
             full[r : r + h, c : c + w] = P.J[at : at + h * w].reshape(h, w)

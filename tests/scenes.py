@@ -205,7 +205,7 @@ def exact(scene: System, phases: int, kind: int) -> np.ndarray:
     scene.coef[kind] = 1.0
     scene.run(JACOBIAN, phases)
     full = np.zeros((scene.nz, scene.nz))
-    for (row, column), at in scene.blocks.items():
+    for (row, column), at in scene.blocks.offsets.items():
         r, c, h, w = *(scene.starts[k] for k in (row, column)), scene.widths[row], 0
         w = scene.widths[column]
         full[r : r + h, c : c + w] = scene.J[at : at + h * w].reshape(h, w)

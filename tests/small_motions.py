@@ -36,7 +36,7 @@ class Flow:
     def __init__(self, session: Session, error: float, observer: Any = None) -> None:
         self.session, self.system = session, session.system
         self.settings = replace(session.chosen.settings, error=error)
-        self.system.unfold()
+        self.system.elimination.unfold()
         self.start = {name: getattr(self.system, name).copy() for name in STATE}
         place = None if observer is None else self.system.model.marker(observer)
         self.body = None if place is None or place.kind == "ground" else place.body

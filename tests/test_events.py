@@ -274,4 +274,4 @@ def test_dry_friction_written_with_sign_is_never_wrong_in_silence(formula, error
 def test_a_smooth_scene_has_no_guards_but_a_zone():
     scene = system(moved_by("-STEP(DX(2),0,0,1,1)"))
     assert [len(found) for found in scene.guarded.values()] == [0, 0, 1]
-    assert system(moved_by("-SIN(DX(2))")).kind.size == 0
+    assert system(moved_by("-SIN(DX(2))")).numbering.kind.size == 0

@@ -154,5 +154,5 @@ def test_a_chain_has_no_fill():
 def test_the_work_grows_like_the_number_of_bodies(scene, stabilised):
     """Block updates and entries of the plan of a hanging chain and of a chain of hinged rods."""
     small, large = (system(scene(n), stabilised) for n in (30, 60))
-    for measure in (lambda s: len(s.plan["target"]), lambda s: s.LV.size):
+    for measure in (lambda s: len(s.elimination.plan["target"]), lambda s: s.elimination.LV.size):
         assert measure(large) < 2.2 * measure(small)

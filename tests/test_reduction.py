@@ -47,7 +47,7 @@ def folded(deck: str) -> int:
     session = Session(scene.deck, None, {})
     session.prepare()
     planar_reduction.reduce_to_plane(session.system)
-    return session.system.held.size
+    return session.system.elimination.held.size
 
 
 def sizes(results: adamslite.Results) -> np.ndarray:

@@ -122,7 +122,7 @@ def test_other_rows_are_left_out_only_when_those_kept_depend(angle, drop, wrong)
     deck = parallelogram().replace("90D", repr(float(angle))).replace("QG=0,1,0", f"QG={c},{s},0")
     session = Session(adamslite.read(deck), None, {})
     system = session.system
-    kept = [row for row in range(system.m) if row not in system.dropped]
+    kept = [row for row in range(system.m) if row not in system.elimination.dropped]
     if drop:
-        system.drop([kept[0], *system.dropped[1:]])
+        system.drop([kept[0], *system.elimination.dropped[1:]])
     assert badly_chosen(system) is wrong

@@ -54,7 +54,8 @@ def _make_room(system: System) -> None:
     A.previous, A.previous_before, A.present = (np.zeros(system.W.size) for _ in range(3))
     A.curve, A.vectors = np.zeros(6 * n), np.zeros(2 * n + rest + system.ns)
     A.points = np.zeros(POINTS + (ROWS_OF_GUARDS + 1) * guards)
-    A.matrix, A.pivots = np.zeros(system.LA.size), ints([0] * system.pivots_a.size)
+    A.matrix = np.zeros(system.elimination.LA.size)
+    A.pivots = ints([0] * system.elimination.pivots_a.size)
     A.moving = np.zeros(m)
     for node, start, width in zip(system.nodes, system.starts, system.widths, strict=True):
         if node[0] in DRIVING:

@@ -184,7 +184,7 @@ def _named(system: System, code: int) -> Outcome:
     """
     report, cancels = system.report, bool(system.sizes.implicit_mass)
     if code == contract.BROKEN_START or (code == contract.SINGULAR_MASS and not cancels):
-        if not (np.isfinite(system.F).all() and np.isfinite(system.LA).all()):
+        if not (np.isfinite(system.F).all() and np.isfinite(system.elimination.LA).all()):
             return Outcome.NOT_FINITE
         return Outcome.SINGULAR_ACCELERATION if cancels else Outcome.UNDETERMINED
     if code == contract.INTERRUPTED and report.torn:

@@ -139,7 +139,7 @@ def _acceleration_matrix(system: System) -> tuple[np.ndarray, list[int]]:
     system.coef[:5], system.settings.t = (0.0, 0.0, 1.0, 1.0, 1.0), system.report.t
     system.run(JACOBIAN, contract.ACCELERATION)
     count = system.n + system.m + system.nv + system.ns
-    kept = [k for k in range(count) if k - system.n not in system.dropped]
+    kept = [k for k in range(count) if k - system.n not in system.elimination.dropped]
     return system.dense_jacobian()[np.ix_(kept, kept)], kept
 
 
@@ -194,7 +194,7 @@ def _without_value(system: System) -> Statement | None:
     guilty = None
     for k, group in enumerate(system.kernels.groups):
         for instance, (statement, _) in enumerate(group.instances):
-            system.group = system.one_instance(groups, k, instance)
+            system.group = system.instances.one_instance(groups, k, instance)
             system.run(RESIDUAL, contract.ACCELERATION)
             if guilty is None and not np.isfinite(system.F[: system.nz]).all():
                 guilty = statement

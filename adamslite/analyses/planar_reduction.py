@@ -33,14 +33,14 @@ def in_its_plane(system: System, run: Callable[[], Outcome]) -> Outcome:
     if not reduce_to_plane(system):
         return run()
     before = {name: getattr(system, name).copy() for name in STATE}
-    memories = [(whose, values.copy()) for whose, values in system.memories()]
+    memories = [(whose, values.copy()) for whose, values in system.instances.memories()]
     outcome = run()
     if not system.report.left_plane:
         return outcome
     for name, values in before.items():
         getattr(system, name)[:] = values
-    system.remember(memories)
-    system.unfold()
+    system.instances.remember(memories)
+    system.elimination.unfold()
     return run()
 
 
@@ -60,7 +60,7 @@ def reduce_to_plane(system: System) -> bool:
             if rows is not None:
                 system.u[out] = system.a[out] = 0.0
                 system.z[rows] = 0.0
-                system.fold(out, rows, LOOSE * max(1.0, _largest_force(system)))
+                system.elimination.fold(out, rows, LOOSE * max(1.0, _largest_force(system)))
                 return True
     return False
 

@@ -185,7 +185,7 @@ class Session:
     # analyses
 
     def _do_simulate(self, command: Simulate) -> None:
-        self.system.unfold()
+        self.system.elimination.unfold()
         times = output_times(command, self.time)
         kind = command.kind
         if kind == "TRANSIENT":
@@ -210,7 +210,7 @@ class Session:
                 return
         self.chosen = choose_method(system, times, self.settings)
         if system.sizes.si2 and system.holonomic and self.chosen.settings.form != "SI2":
-            system = self._system = self._renumbered(system, system.pivoting)
+            system = self._system = self._renumbered(system, system.elimination.pivoting)
         began = clock.process_time()
         engine(self.chosen.settings.formula.entry, self.progress)
         self.late_setup += clock.process_time() - began
@@ -327,7 +327,7 @@ class Session:
         settle_variables(system)
         leave_out_redundant(system)
         system.settings.t = self.time
-        small = system.nz <= PIVOTING and not system.pivoting
+        small = system.nz <= PIVOTING and not system.elimination.pivoting
         if small and system.run(ACCELERATIONS) != contract.DONE and np.isfinite(system.F).all():
             return self._renumbered(system, True)
         return system
@@ -338,7 +338,7 @@ class Session:
         """
         other = self._numbered(pivoting, self.chosen.settings.form)
         other.adopt(system)
-        other.drop(system.dropped)
+        other.drop(system.elimination.dropped)
         return other
 
     def _at_rest(self, system: System) -> Outcome:
@@ -350,7 +350,7 @@ class Session:
         start = [(x, x.copy()) for x in (system.q, system.z, system.base)]
         outcome = run_static(system, self.statics)
         self.ways_to_fall = system.report.ways_to_fall
-        if outcome is Outcome.DONE or system.pivoting or system.nz > PIVOTING:
+        if outcome is Outcome.DONE or system.elimination.pivoting or system.nz > PIVOTING:
             return outcome
         for array, before in start:
             array[:] = before
@@ -368,7 +368,7 @@ class Session:
 
         ``own_start``: the first time was requested.
         """
-        self.out_of_law = system.out_of_law() | self.out_of_law
+        self.out_of_law = system.instances.out_of_law() | self.out_of_law
         made = system.count.records
         row = system.nw + system.sizes.n_out
         self.names, values = columns(system, system.record[: made * row].reshape(made, row))

@@ -315,7 +315,7 @@ def _notes(session: Session) -> dict[str, str]:
     if idle:
         text = "; ".join(f"{word}, because {reason}" for word, reason in idle)
         found["integrator arguments"] = f"without effect: {text}"
-    rows = [row_name(session.system, row) for row in session.system.dropped]
+    rows = [row_name(session.system, row) for row in session.system.elimination.dropped]
     if rows:
         found["redundant"] = f"left out, their reactions are zero: {'; '.join(rows)}"
     return found

@@ -8,29 +8,34 @@ import numpy as np
 
 from adamslite.equations.elimination_order import analyse
 from adamslite.equations.engine import ints
-from adamslite.equations.instances import Instances
+from adamslite.equations.jacobian_blocks import JacobianBlocks
+from adamslite.equations.numbering import Numbering
 from adamslite.equations.spanning_tree import prerequisites
 from adamslite.integrators.contract import WORK
-from adamslite.kernels.compile import Kernels
 from adamslite.model.model import PART
 
 
-class Elimination(Instances):
-    """Where every block of the Jacobian stands in the factors."""
+class Elimination:
+    """Where every block of the Jacobian stands in the factors.
 
-    z: np.ndarray
+    ``dropped``: redundant constraint rows; ``held``: unknowns that a reduction keeps where they
+    are, with their multipliers; ``dead``: all unknowns that are left out.
+    """
+
     dead: np.ndarray
 
-    def __init__(self, kernels: Kernels, stabilised: bool, pivoting: bool) -> None:
-        super().__init__(kernels, stabilised)
-        self.pivoting = pivoting
+    def __init__(self, numbering: Numbering, blocks: JacobianBlocks, pivoting: bool) -> None:
+        """``pivoting``: eliminate the whole matrix with row pivoting, whatever its size."""
+        self.numbering, self.blocks, self.pivoting = numbering, blocks, pivoting
+        self.nodes, self.node_at = numbering.nodes, numbering.node_at
+        self.starts, self.widths = numbering.starts, numbering.widths
         self.plan: dict[str, np.ndarray] = {}
         self._derive()
+        self.drop([])
 
     def drop(self, rows: list[int]) -> None:
         """Leave out redundant constraint rows (counted from the first multiplier): lam = mu = 0."""
         self.dropped = rows
-        self.z[rows] = 0.0
         self.unfold()
 
     def fold(self, coordinates: Iterable[int], rows: Iterable[int], loose: float) -> None:
@@ -50,9 +55,9 @@ class Elimination(Instances):
     def _multipliers(self, rows: Iterable[int]) -> Iterator[int]:
         """Unknowns of constraint rows: lam and, stabilised, mu."""
         for row in rows:
-            yield self.n + row
-            if self.stabilised and row < self.holonomic:
-                yield self.nz - self.holonomic + row
+            yield self.numbering.n + row
+            if self.numbering.stabilised and row < self.numbering.holonomic:
+                yield self.numbering.nz - self.numbering.holonomic + row
 
     def _leave_out(self, dead: list[int]) -> None:
         """Plan the elimination without some unknowns and their equations."""
@@ -68,13 +73,13 @@ class Elimination(Instances):
 
     def _derive(self) -> None:
         """Blocks made of others, and room for all."""
-        self.mixed = ints(self._mixed_products() if self.stabilised else [])
+        self.mixed = ints(self._mixed_products() if self.numbering.stabilised else [])
         self.turning = ints(self._turning_blocks())
         self.product = ints(
             [
                 value
-                for (row, column), offset in self.blocks.items()
-                if max(row, column) < len(self.model.bodies)
+                for (row, column), offset in self.blocks.offsets.items()
+                if max(row, column) < len(self.numbering.model.bodies)
                 for value in (
                     offset,
                     self.widths[row],
@@ -84,7 +89,6 @@ class Elimination(Instances):
                 )  # fmt: skip
             ]
         )
-        self.J, self.D = np.zeros(self.size_j + 1), np.zeros(self.size_j + 1)
 
     def _plan(self) -> None:
         """The order of elimination and where blocks are copied to."""
@@ -99,7 +103,7 @@ class Elimination(Instances):
         }
         for k in mu:
             late[at[k]] = {at[self.node_at[self.nodes[k][1]]]}
-        kept = [(r, c) for r, c in self.blocks if r in at and c in at]
+        kept = [(r, c) for r, c in self.blocks.offsets if r in at and c in at]
         pairs = {(at[r], at[c]) for r, c in kept} | {(k, k) for k in range(len(nodes))}
         widths = [counts[k] for k in nodes]
         starts = np.concatenate([[0], np.cumsum(widths)]).astype(int)[:-1].tolist()
@@ -116,19 +120,20 @@ class Elimination(Instances):
             ]
         )
         self.LV, self.LA = np.zeros(found.size + 1), np.zeros(found.size + 1)
-        self.pivots, self.pivots_a = ints([0] * (self.nz + 1)), ints([0] * (self.nz + 1))
+        nz = self.numbering.nz
+        self.pivots, self.pivots_a = ints([0] * (nz + 1)), ints([0] * (nz + 1))
         self.work = np.zeros(max(WORK, found.widest**2))
 
     def _places(self, place: np.ndarray) -> np.ndarray:
         """Of every unknown in the order of elimination; those left out share the one behind."""
-        places = np.full(self.nz, place.size, dtype=np.int64)
+        places = np.full(self.numbering.nz, place.size, dtype=np.int64)
         live = [s + k for s, own in zip(self.starts, self.live, strict=True) for k in own]
         places[live] = place
         return places
 
     def _copies(self, row: int, column: int, at: int, lead: int) -> Iterator[int]:
         """What of a block goes where: the whole of it, or runs of neighbours in its rows."""
-        offset, width = self.blocks[row, column], self.widths[column]
+        offset, width = self.blocks.offsets[row, column], self.widths[column]
         rows, columns = self.live[row], self.live[column]
         if len(rows) == self.widths[row] and len(columns) == width:
             yield from (offset, len(rows), width, at, lead)
@@ -141,36 +146,37 @@ class Elimination(Instances):
     def _late_nodes(self, counts: list[int]) -> dict[int, set[int]]:
         """For each constraint's node, what must be eliminated before it, by unknowns of a node."""
         held: dict[int, set[int]] = {}
-        for row, column in self.blocks:
+        for row, column in self.blocks.offsets:
             if self._is_multiplier(row) and self.nodes[column][0] == "BODY":
                 held.setdefault(row, set()).add(column)
         constraints = [(k, frozenset(b), counts[k]) for k, b in sorted(held.items()) if counts[k]]
-        return prerequisites(constraints, counts[: len(self.model.bodies)])
+        return prerequisites(constraints, counts[: len(self.numbering.model.bodies)])
 
     def _is_multiplier(self, node: int) -> bool:
-        return self.nodes[node] in self.model.held
+        return self.nodes[node] in self.numbering.model.held
 
     def _mixed_products(self) -> list[int]:
         """Columns of mu: D[row, body] W G[constraint, body]^T for every block of D."""
         touched: dict[int, list[int]] = {}
-        for row, column in self.blocks:
+        for row, column in self.blocks.offsets:
             if self._is_multiplier(row) and ("MU", self.nodes[row]) in self.node_at:
                 if self.nodes[column][0] == "BODY":
                     touched.setdefault(column, []).append(row)
         products = []
-        for (row, body), offset in list(self.blocks.items()):
+        for (row, body), offset in list(self.blocks.offsets.items()):
             if self.nodes[body][0] != "BODY":
                 continue
             for constraint in touched.get(body, ()):
                 mu = self.node_at["MU", self.nodes[constraint]]
-                target, gradient = self.block(row, mu), self.blocks[constraint, body]
+                target = self.blocks.offset(row, mu)
+                gradient = self.blocks.offsets[constraint, body]
                 products += [target, self.widths[mu], offset, self.widths[row]]
                 products += [self.widths[body], gradient, body]
         return products
 
     def _turning_blocks(self) -> list[int]:
         found = []
-        for (row, column), offset in self.blocks.items():
+        for (row, column), offset in self.blocks.offsets.items():
             if self.nodes[column][0] == "BODY" and self.widths[column] == PART:
                 found += [offset, self.widths[row], column]
         return found

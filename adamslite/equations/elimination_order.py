@@ -20,7 +20,7 @@ DENSE, WASTE = 96, 20
 
 
 @dataclass
-class Elimination:
+class EliminationOrder:
     """The plan for :mod:`adamslite.integrators.linalg.blocks` and where each block is copied to.
 
     ``places[(row, column)]``: offset and leading dimension in the factor array of ``size`` entries.
@@ -38,7 +38,7 @@ def analyse(
     pairs: set[tuple[int, int]],
     late: dict[int, set[int]],
     pivoting: bool = False,
-) -> Elimination:
+) -> EliminationOrder:
     """Order and fill for nodes of ``widths`` unknowns at ``starts`` coupled by ``pairs``.
 
     ``late[node]``: nodes that must have been eliminated before ``node``; ``pivoting``: treat the
@@ -71,7 +71,7 @@ def _place(widths: list[int], starts: list[int], first: list[int]) -> np.ndarray
 
 def _dense(
     widths: list[int], starts: list[int], pairs: set[tuple[int, int]], total: int
-) -> Elimination:
+) -> EliminationOrder:
     places = {(r, c): (starts[r] * total + starts[c], total) for r, c in pairs}
     empty = np.zeros(1, dtype=np.int64)
     plan = {name: empty for name in ("start", "diagonal", "node", "lower", "upper", "target")}
@@ -80,7 +80,7 @@ def _dense(
         "first": np.zeros(2, dtype=np.int64),
         "place": np.arange(total, dtype=np.int64),
     }
-    return Elimination(plan, places, total * total, total)
+    return EliminationOrder(plan, places, total * total, total)
 
 
 class _Graph:
@@ -154,7 +154,7 @@ def _order(
 
 def _block_plan(
     widths: list[int], starts: list[int], order: list[int], below: list[list[int]]
-) -> Elimination:
+) -> EliminationOrder:
     rank = {node: k for k, node in enumerate(order)}
     places: dict[tuple[int, int], tuple[int, int]] = {}
     size = 0
@@ -193,4 +193,4 @@ def _block_plan(
         "place": _place(widths, starts, at),
     }
     plan = {name: np.ascontiguousarray(values, dtype=np.int64) for name, values in arrays.items()}
-    return Elimination(plan, places, size, max(widths, default=0))
+    return EliminationOrder(plan, places, size, max(widths, default=0))

@@ -9,11 +9,12 @@ import numpy as np
 
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.equations.engine import ints
+from adamslite.equations.jacobian_blocks import JacobianBlocks
 from adamslite.equations.numbering import Numbering
 from adamslite.integrators import contract
 from adamslite.integrators.contract import KernelGroup
 from adamslite.kernels.binding import Binding
-from adamslite.kernels.compile import Kernels, ShapeGroup
+from adamslite.kernels.compile import ShapeGroup
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 from adamslite.model.model import NodeKey
@@ -36,32 +37,26 @@ Owner = tuple[str, str, Key]
 """Name of a kernel, keyword and id of the statement that it belongs to."""
 
 
-class Instances(Numbering):
-    """Kernels bound to the numbered unknowns."""
+class Instances:
+    """Kernels bound to the numbered unknowns.
 
-    def __init__(self, kernels: Kernels, stabilised: bool) -> None:
-        super().__init__(kernels, stabilised)
-        self._groups()
+    ``groups``: the rows that native code goes through; ``outputs``: where the values of each
+    statement stand among all ``n_out`` that are written.
+    """
 
-    def _groups(self) -> None:
-        """Instances as integers and reals, and the Jacobian blocks they write."""
-        self.blocks: dict[tuple[int, int], int] = {}
-        self.size_j = 0
-        for b in range(len(self.model.bodies)):
-            self.block(b, b)
-        rows: list[int] = []
+    def __init__(self, numbering: Numbering, blocks: JacobianBlocks) -> None:
+        self.numbering, self.blocks = numbering, blocks
+        self.kernels, self.model = numbering.kernels, numbering.model
         self.keep: list[np.ndarray] = []
-        self.out_at: dict[Statement, int] = {}
+        self.outputs: dict[Statement, int] = {}
+        self.n_out = 0
+        for b in range(len(self.model.bodies)):
+            blocks.offset(b, b)
         for statement, names in self.kernels.outputs:
-            self.out_at[statement] = self._out_next(names)
-        for group in self.kernels.groups:
-            rows += self._group(group)
-        self.group = Rows(KernelGroup, ints(rows))
-
-    def _out_next(self, names: tuple[str, ...]) -> int:
-        first = getattr(self, "n_out", 0)
-        self.n_out = first + len(names)
-        return first
+            self.outputs[statement] = self.n_out
+            self.n_out += len(names)
+        rows = [number for group in self.kernels.groups for number in self._group(group)]
+        self.groups = Rows(KernelGroup, ints(rows))
 
     def _is_rate(self, group: ShapeGroup) -> bool:
         first = group.instances[0][0]
@@ -127,36 +122,36 @@ class Instances(Numbering):
 
     def _integers(self, group: ShapeGroup, binding: Binding, instance: int) -> list[int]:
         nodes: list[NodeKey] = [("BODY", b) for b in binding.bodies] + binding.nodes
-        found = [self.w_at.get(node, 0) for node in nodes]
-        found += [self.w_at["SIGNAL", s] for s in binding.signals]
+        found = [self.numbering.w_at.get(node, 0) for node in nodes]
+        found += [self.numbering.w_at["SIGNAL", s] for s in binding.signals]
         found += [self._row(group, node) for node in nodes]
         found += [table.data.ctypes.data for table in binding.tables]
         guards = group.meta["guards"]
         if any(guards.values()):
             found += [
-                self.first_branch[place, group.name] + instance * len(each)
+                self.numbering.first_branch[place, group.name] + instance * len(each)
                 for place, each in guards.items()
             ]
         if group.meta["blocks"]:
             rows = [self._row_node(group, node) for node in nodes]
-            columns = [self.node_at[node] for node in nodes]
-            found += [self.block(rows[r], columns[c]) for r, c in group.meta["blocks"]]
+            columns = [self.numbering.node_at[node] for node in nodes]
+            found += [self.blocks.offset(rows[r], columns[c]) for r, c in group.meta["blocks"]]
         return found
 
     def _row_node(self, group: ShapeGroup, node: NodeKey) -> int:
         """Node whose rows an instance writes: velocity rows stand at mu."""
-        if group.face == "velocity" and ("MU", node) in self.node_at:
-            return self.node_at["MU", node]
-        return self.node_at[node]
+        if group.face == "velocity" and ("MU", node) in self.numbering.node_at:
+            return self.numbering.node_at["MU", node]
+        return self.numbering.node_at[node]
 
     def _row(self, group: ShapeGroup, node: NodeKey) -> int:
         if node[0] == "OUTPUT":
-            return self.out_at[node[1]]
+            return self.outputs[node[1]]
         if node[0] == "SIGNAL":
-            return self.w_at[node]
+            return self.numbering.w_at[node]
         if node[0] == "STORED":
             return 0  # all add up in one number
-        return self.starts[self._row_node(group, node)]
+        return self.numbering.starts[self._row_node(group, node)]
 
     def _reals(self, group: ShapeGroup, binding: Binding) -> list[float]:
         values = list(binding.params) + [0.0] * group.meta["angles"]
@@ -170,10 +165,3 @@ class Instances(Numbering):
             if place.turned:
                 values += place.axes.ravel().tolist()
         return values
-
-    def block(self, row: int, column: int) -> int:
-        """Offset of a Jacobian block, made on first use."""
-        if (row, column) not in self.blocks:
-            self.blocks[row, column] = self.size_j
-            self.size_j += self.widths[row] * self.widths[column]
-        return self.blocks[row, column]

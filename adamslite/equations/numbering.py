@@ -16,7 +16,11 @@ POINT_SIZE, PART_SIZE = 9, 24
 
 
 class Numbering:
-    """The unknowns of a model in one formulation."""
+    """The unknowns of a model in one formulation.
+
+    ``nodes``, ``widths``, ``starts``: what is eliminated together, how many unknowns it has and
+    its first one; ``node_at``: its number.  ``w_at``: where it begins in the workspace.
+    """
 
     def __init__(self, kernels: Kernels, stabilised: bool) -> None:
         self.kernels = kernels

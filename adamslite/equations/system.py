@@ -6,7 +6,6 @@ in the stabilised form, multipliers of the velocity rows; every equation has the
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +13,9 @@ import numpy as np
 from adamslite.equations.broken_motion import Break
 from adamslite.equations.elimination import Elimination
 from adamslite.equations.engine import engine, ints, reals
+from adamslite.equations.instances import Instances
+from adamslite.equations.jacobian_blocks import JacobianBlocks
+from adamslite.equations.numbering import Numbering
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
 from adamslite.integrators.audit_record import Audit
@@ -33,10 +35,32 @@ MOVED = 1e-9
 LEVER = 0.1
 
 
-class System(Elimination):
+#: Arrays of ``Problem`` that a part of the system keeps, by the part.
+KEPT_BY = {
+    **dict.fromkeys("scalar kind".split(), "numbering"),
+    **dict.fromkeys("copies product turning mixed unit dead held loose".split(), "elimination"),
+    **dict.fromkeys("LV LA work pivots pivots_a".split(), "elimination"),
+}
+
+
+class System:
     """Arrays of one model in one formulation, and the operations on them.
 
-    Every field of ``Problem`` is an attribute of that name; arrays may be replaced between runs.
+    Every field of ``Problem`` is an attribute of that name, here or of one of the parts
+    (``KEPT_BY``); arrays may be replaced between runs.
+
+    Attributes
+    ----------
+    numbering : Numbering
+    blocks : JacobianBlocks
+    instances : Instances
+    elimination : Elimination
+    n, m, nv, ns, nz : int
+        Unknowns of bodies, constraint rows, VARIABLEs that are solved for, states of DIFF, and all.
+    holonomic : int
+        Constraint rows of positions; they come first.
+    nodes, node_at, starts, widths, w_at, nw, guarded
+        As in the numbering.
     """
 
     sizes: contract.Sizes
@@ -52,21 +76,35 @@ class System(Elimination):
     a: np.ndarray
     ra: np.ndarray
     rz: np.ndarray
+    z: np.ndarray
     pz: np.ndarray
 
     def __init__(self, kernels: Kernels, stabilised: bool, pivoting: bool = False) -> None:
         """``pivoting``: eliminate the whole matrix with row pivoting, whatever its size."""
-        super().__init__(kernels, stabilised, pivoting)
+        self.kernels, self.model = kernels, kernels.model
+        self.numbering = numbering = Numbering(kernels, stabilised)
+        self.blocks = JacobianBlocks(numbering)
+        self.instances = Instances(numbering, self.blocks)
+        self.elimination = Elimination(numbering, self.blocks, pivoting)
+        self.n, self.m, self.nz = numbering.n, numbering.m, numbering.nz
+        self.nv, self.ns, self.holonomic = numbering.nv, numbering.ns, numbering.holonomic
+        self.nodes, self.node_at = numbering.nodes, numbering.node_at
+        self.starts, self.widths = numbering.starts, numbering.widths
+        self.w_at, self.nw, self.guarded = numbering.w_at, numbering.nw, numbering.guarded
         self._allocate()
         self._bodies()
         self._scalars()
         self._tables()
-        self.drop([])
+
+    def drop(self, rows: list[int]) -> None:
+        """Leave out redundant constraint rows (counted from the first multiplier): lam = mu = 0."""
+        self.z[rows] = 0.0
+        self.elimination.drop(rows)
 
     @property
     def dof(self) -> int:
         """Degrees of freedom: unknowns of the bodies less independent constraint rows."""
-        return self.n - self.m + len(self.dropped)
+        return self.n - self.m + len(self.elimination.dropped)
 
     def _allocate(self) -> None:
         n, nz = self.n, self.nz
@@ -80,9 +118,11 @@ class System(Elimination):
         for name in ("z", "rz", "pz"):
             setattr(self, name, np.zeros(rest + 1))
         self.rd, self.mu = np.zeros(self.ns + 1), np.zeros(self.holonomic + 1)
+        self.group = self.instances.groups
+        self.J, self.D = np.zeros(self.blocks.size + 1), np.zeros(self.blocks.size + 1)
         self.W, self.F, self.x = np.zeros(self.nw + 1), np.zeros(nz + 1), np.zeros(nz + 1)
-        if self.kind.size:
-            self.W = np.zeros(self.nw + self.kind.size)
+        if self.numbering.kind.size:
+            self.W = np.zeros(self.nw + self.numbering.kind.size)
         self.guard = np.zeros(self.W.size)
         self.margin = np.zeros(MARGIN_ROWS * len(self.guarded["watch"]))
         self.zone = np.zeros(5 * len(self.guarded["zone"]))
@@ -132,14 +172,14 @@ class System(Elimination):
     def _tables(self) -> None:
         body = []
         for b in range(len(self.model.bodies)):
-            body += [self.widths[b], self.starts[b], self.w_at["BODY", b], self.blocks[b, b]]
+            body += [self.widths[b], self.starts[b], self.w_at["BODY", b], self.blocks.offset(b, b)]
         self.body = Rows(contract.BodyRow, ints(body))
         mass = any(g.meta["mass"] for g in self.kernels.groups if g.face in ("loads", "equation"))
         facts = {
             "nb": len(self.model.bodies), "n": self.n, "m": self.m, "nv": self.nv, "ns": self.ns,
-            "nw": self.nw, "ng": self.group.size, "si2": self.stabilised,
-            "implicit_mass": mass, "n_out": getattr(self, "n_out", 0), "nz": self.nz,
-            "holonomic": self.holonomic, "n_head": self.n_head,
+            "nw": self.nw, "ng": self.group.size, "si2": self.numbering.stabilised,
+            "implicit_mass": mass, "n_out": self.instances.n_out, "nz": self.nz,
+            "holonomic": self.holonomic, "n_head": self.numbering.n_head,
             "clocks": len(self.guarded["clock"]), "watched": len(self.guarded["watch"]),
             "zones": len(self.guarded["zone"]),
         }  # fmt: skip
@@ -148,7 +188,7 @@ class System(Elimination):
 
     def adopt(self, other: System) -> None:
         """Take over the state of another system of (almost) the same model."""
-        self.remember(other.memories())
+        self.instances.remember(other.instances.memories())
         for node, k in self.node_at.items():
             at = other.node_at.get(self._named(node, other))
             if at is None or other.widths[at] != self.widths[k]:
@@ -200,36 +240,11 @@ class System(Elimination):
 
     def dense_jacobian(self) -> np.ndarray:
         """The Jacobian blocks as one matrix (nz, nz)."""
-        full = np.zeros((self.nz, self.nz))
-        for (row, column), at in self.blocks.items():
-            r, c, h, w = (
-                self.starts[row],
-                self.starts[column],
-                self.widths[row],
-                self.widths[column],
-            )
-            full[r : r + h, c : c + w] = self.J[at : at + h * w].reshape(h, w)
-        return full
+        return self.blocks.dense(self.J)
 
     def sparse_jacobian(self) -> csr_array:
         """The Jacobian blocks as one sparse matrix (nz, nz)."""
-        from scipy.sparse import coo_array
-
-        rows, columns, places = self._entries
-        values = self.J[places]
-        return coo_array((values, (rows, columns)), shape=(self.nz, self.nz)).tocsr()
-
-    @cached_property
-    def _entries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Row, column and place in ``J`` of every entry of every block."""
-        found = [(ints([]), ints([]), ints([]))]
-        for (row, column), at in self.blocks.items():
-            h, w = self.widths[row], self.widths[column]
-            rows, columns = np.divmod(np.arange(h * w), w)
-            places = at + np.arange(h * w)
-            found.append((self.starts[row] + rows, self.starts[column] + columns, places))
-        rows, columns, places = (np.concatenate(each) for each in zip(*found, strict=True))
-        return rows, columns, places
+        return self.blocks.sparse(self.J)
 
     def release_guards(self) -> None:
         """Let every expression take the branch of the moment again."""
@@ -238,9 +253,13 @@ class System(Elimination):
     def make_room(self, **sizes: int) -> None:
         """Have arrays of at least these sizes; one that is replaced begins with zeros."""
         for name, size in sizes.items():
-            present = getattr(self, name)
+            part = self._keeper(name)
+            present = getattr(part, name)
             if present.size < size:
-                setattr(self, name, np.zeros(size, dtype=present.dtype))
+                setattr(part, name, np.zeros(size, dtype=present.dtype))
+
+    def _keeper(self, name: str) -> object:
+        return getattr(self, KEPT_BY[name]) if name in KEPT_BY else self
 
     def start_record(self, times: np.ndarray) -> None:
         """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier
@@ -279,9 +298,9 @@ class System(Elimination):
     def records(self) -> tuple[contract.Problem, Plan]:
         """The arrays as native code takes them."""
         for name in contract.Problem.references:
-            setattr(self.problem, name, getattr(self, name))
+            setattr(self.problem, name, getattr(self._keeper(name), name))
         for name in Plan.fields:
-            setattr(self.order, name, self.plan[name])
+            setattr(self.order, name, self.elimination.plan[name])
         return self.problem, self.order
 
 

@@ -83,7 +83,7 @@ def _changes(system: System, grid: np.ndarray) -> np.ndarray:
 def _branches(system: System, times: np.ndarray) -> np.ndarray:
     """Branch of every guard of the clock at ``times``, (nt, guards)."""
     values = sample(system, times)
-    kind = system.kind[: values.shape[1]]
+    kind = system.numbering.kind[: values.shape[1]]
     relation = np.where(kind == STRICT, values > 0.0, values >= 0.0).astype(float)
     return np.where(kind == FLOOR, np.floor(values), relation)
 

@@ -220,7 +220,7 @@ def constraint_gradient(system: System) -> np.ndarray:
 
 def velocity_rows(system: System) -> np.ndarray:
     """Rows of the velocity conditions: holonomic ones (at mu when there is one), then rates."""
-    first = system.nz - system.holonomic if system.stabilised else system.n
+    first = system.nz - system.holonomic if system.numbering.stabilised else system.n
     rates = np.arange(system.n + system.holonomic, system.n + system.m)
     return np.concatenate([np.arange(first, first + system.holonomic), rates])
 

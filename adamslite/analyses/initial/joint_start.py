@@ -42,7 +42,7 @@ def start_of_joints(system: System, progress: Progress | None) -> Unclosed | Non
     if not extra and not coasting:
         return None
     model = assemble(deck.with_more(extra))
-    asked = System(compile_model(model, progress), system.stabilised)
+    asked = System(compile_model(model, progress), system.numbering.stabilised)
     free: list[Motion] = [c for c in extra if c.level == "DISPLACEMENT"] + coasting
     unclosed = initial_conditions(asked, free)
     if unclosed is None:

@@ -41,11 +41,12 @@ def badly_chosen(system: System) -> bool:
     of all rows: where constraints lose rank (a flattened parallelogram) both vanish, and leaving
     out another row there would let the mechanism come apart.
     """
-    kept = system.m - len(system.dropped)
+    kept = system.m - len(system.elimination.dropped)
     if kept in (0, system.m):
         return False
     scaled = _scaled_rows(system)
-    least = np.linalg.svd(np.delete(scaled, system.dropped, axis=0), compute_uv=False)[kept - 1]
+    independent = np.delete(scaled, system.elimination.dropped, axis=0)
+    least = np.linalg.svd(independent, compute_uv=False)[kept - 1]
     return bool(least < WORSE * np.linalg.svd(scaled, compute_uv=False)[kept - 1])
 
 
@@ -59,7 +60,7 @@ def _scaled_rows(system: System) -> np.ndarray:
 def leave_out_redundant(system: System) -> list[str]:
     """Drop the redundant rows of the present posture; returns their names."""
     system.drop(redundant_rows(system))
-    return [row_name(system, row) for row in system.dropped]
+    return [row_name(system, row) for row in system.elimination.dropped]
 
 
 def row_name(system: System, row: int) -> str:

@@ -48,7 +48,7 @@ def linear(
         tuple(system.starts[system.node_at["VARIABLE", key]] for key in keys)
         for keys in (inputs, outputs)
     )
-    system.unfold()
+    system.elimination.unfold()
     consistent_velocities(system)
     observer = Observer(system, relative_to)
     trajectory = Trajectory(system, Ports(taken, seen, damping))

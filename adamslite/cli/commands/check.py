@@ -95,7 +95,7 @@ def _dropped(deck: "Deck") -> list[str]:
     from adamslite.analyses.session import Session
 
     system = Session(deck, None, {}).system
-    return [row_name(system, row) for row in system.dropped]
+    return [row_name(system, row) for row in system.elimination.dropped]
 
 
 def _many(number: int, one: str, several: str = "") -> str:

@@ -1,0 +1,62 @@
+"""The blocks of the Jacobian: where each begins in the array of all, and the whole as a matrix."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from adamslite.equations.engine import ints
+from adamslite.equations.numbering import Numbering
+
+if TYPE_CHECKING:  # few runs need sparse matrices
+    from scipy.sparse import csr_array
+
+
+class JacobianBlocks:
+    """Blocks by (node of the rows, node of the columns); ``size``: entries of all of them."""
+
+    def __init__(self, numbering: Numbering) -> None:
+        self.starts, self.widths, self.nz = numbering.starts, numbering.widths, numbering.nz
+        self.offsets: dict[tuple[int, int], int] = {}
+        self.size = 0
+
+    def offset(self, row: int, column: int) -> int:
+        """Where a block begins; it is made on first use."""
+        if (row, column) not in self.offsets:
+            self.offsets[row, column] = self.size
+            self.size += self.widths[row] * self.widths[column]
+        return self.offsets[row, column]
+
+    def dense(self, entries: np.ndarray) -> np.ndarray:
+        """Their entries (size,) as one matrix (nz, nz)."""
+        full = np.zeros((self.nz, self.nz))
+        for (row, column), at in self.offsets.items():
+            r, c, h, w = (
+                self.starts[row],
+                self.starts[column],
+                self.widths[row],
+                self.widths[column],
+            )
+            full[r : r + h, c : c + w] = entries[at : at + h * w].reshape(h, w)
+        return full
+
+    def sparse(self, entries: np.ndarray) -> csr_array:
+        """Their entries (size,) as one sparse matrix (nz, nz)."""
+        from scipy.sparse import coo_array
+
+        rows, columns, places = self._entries
+        return coo_array((entries[places], (rows, columns)), shape=(self.nz, self.nz)).tocsr()
+
+    @cached_property
+    def _entries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Row, column and place in the array of every entry of every block."""
+        found = [(ints([]), ints([]), ints([]))]
+        for (row, column), at in self.offsets.items():
+            h, w = self.widths[row], self.widths[column]
+            rows, columns = np.divmod(np.arange(h * w), w)
+            places = at + np.arange(h * w)
+            found.append((self.starts[row] + rows, self.starts[column] + columns, places))
+        rows, columns, places = (np.concatenate(each) for each in zip(*found, strict=True))
+        return rows, columns, places
