@@ -11,7 +11,7 @@ from __future__ import annotations
 from adamslite.integrators.contract import ACCELERATION, MODE_DYNAMICS, Problem
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.linalg.blocks import factor, signature, solve
-from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import (
     jacobian,
     put_motion,
@@ -25,6 +25,10 @@ from adamslite.native.translate import Reals, native
 
 MAX_ITERATIONS = 12
 ROUND_OFF = 1e-11
+# Increments below this that no longer shrink are round-off of a badly conditioned matrix.
+STALLED = 1e-7
+# The size of an increment that is not finite: beyond HUGE.
+NOT_A_NUMBER = 1e301
 # The equations are linear but for loops of variables: a worse rate of convergence requires a new
 # matrix.
 SLOW = 0.03
@@ -69,7 +73,7 @@ def accelerations(
 @native
 def settle(P: Problem, L: Plan, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool:
     """Newton at the workspace's state with the matrix that is factored, renewed when it is slow."""
-    last = 1e300
+    last = HUGE
     for iteration in range(MAX_ITERATIONS):
         P.report.iteration = iteration + 1
         residual(P, ACCELERATION, P.F)
@@ -77,11 +81,11 @@ def settle(P: Problem, L: Plan, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool
             P.F[P.sizes.nz - 1 - k] = 0.0
         solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
         size = correct_rates(P, a, z, sd)
-        if not size < 1e300:
+        if not size < HUGE:
             break
         put_motion(P, u, a)
         put_scalars(P, z, sd)
-        if size <= ROUND_OFF or (iteration > 1 and size >= 0.5 * last and size < 1e-7):
+        if size <= ROUND_OFF or (iteration > 1 and size >= 0.5 * last and size < STALLED):
             return True
         if iteration > 0 and size > SLOW * last:
             acceleration_matrix(P)
@@ -110,8 +114,8 @@ def correct_rates(P: Problem, a: Reals, z: Reals, sd: Reals) -> float:
         change, top = max(change, abs(P.F[n + algebraic + k])), max(top, abs(sd[k]))
     size = max(size, change / max(1.0, top))
     for k in range(n + algebraic + P.sizes.ns):
-        if not abs(P.F[k]) < 1e300:
-            return 1e301
+        if not abs(P.F[k]) < HUGE:
+            return NOT_A_NUMBER
     return size
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from adamslite.integrators.contract import POSITION_ROWS, RATE_ROWS, VELOCITY_ROWS, Problem
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.norms import exceeds
-from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import (
     PART,
     back_rotate,
@@ -26,6 +26,8 @@ from adamslite.native.translate import Reals, native
 SWEEPS = 8
 # Violations below this share of the largest coordinate are round-off.
 ROUND_OFF = 4e-16
+# Smaller ones that no longer shrink are, too; and what is small enough after all sweeps.
+STALLED, CLOSED = 1e-12, 1e-10
 
 RATES = VELOCITY_ROWS | RATE_ROWS
 
@@ -37,7 +39,7 @@ def project(P: Problem, L: Plan, q: Reals, u: Reals) -> bool:
     ``P.report.moved`` is the largest change of a position, rotation or velocity, against
     max(1, |value|).
     """
-    last = 1e300
+    last = HUGE
     reach = 1.0
     P.report.moved = 0.0
     for i in range(P.sizes.n):
@@ -45,7 +47,7 @@ def project(P: Problem, L: Plan, q: Reals, u: Reals) -> bool:
     for _sweep in range(SWEEPS):
         put_pose(P, q)
         size = violation(P, POSITION_ROWS)
-        if size <= ROUND_OFF * reach or (size < 1e-12 * reach and size > 0.5 * last):
+        if size <= ROUND_OFF * reach or (size < STALLED * reach and size > 0.5 * last):
             put_motion(P, u, P.a)
             violation(P, RATES)
             solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
@@ -59,7 +61,7 @@ def project(P: Problem, L: Plan, q: Reals, u: Reals) -> bool:
         solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
         note_move(P, q)
         move(P, q)
-    return last < 1e-10 * reach
+    return last < CLOSED * reach
 
 
 @native

@@ -18,7 +18,7 @@ from adamslite.integrators.audit.path import put_on_path, solve_on_path
 from adamslite.integrators.audit_record import POINTS, ROWS_OF_GUARDS
 from adamslite.integrators.contract import ELASTIC, LOADS, REACTIONS, Problem
 from adamslite.integrators.event_rows import STRICT, WEAK
-from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.linalg.plan import TINY, Plan
 from adamslite.integrators.motion_equations import CLOCK, PART, WATCH, guard_values, run_groups
 from adamslite.native.translate import Reals, native
 
@@ -74,7 +74,7 @@ def work_on_panel(P: Problem, L: Plan, a: float, b: float) -> float:
     rough = ROUGH_OUTER * (points[0] + points[4]) + ROUGH_MIDDLE * points[2]
     size, width = 2.0 * top, half * A.span
     # Orders 10 and 4: the square of the relative difference is a safe estimate of the better one.
-    error = width * abs(fine - rough) * min(1.0, abs(fine - rough) / max(size, 1e-300))
+    error = width * abs(fine - rough) * min(1.0, abs(fine - rough) / max(size, TINY))
     if error > SHARE_OF_ERROR * P.settings.error * A.size and b - a > LEAST_PANEL:
         if A.budget > 0:
             s = 0.5 * (a + b)
@@ -195,7 +195,7 @@ def note_external(P: Problem) -> None:
                 net[3 + k] += F[i + 3 + k]
                 net[7] += abs(F[i + 3 + k])
     for k in range(3):
-        size = max(size, abs(net[k]) / max(net[6], 1e-300), abs(net[3 + k]) / max(net[7], 1e-300))
+        size = max(size, abs(net[k]) / max(net[6], TINY), abs(net[3 + k]) / max(net[7], TINY))
     P.audit.now.external = max(P.audit.now.external, size)
 
 

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.event_rows import END, INSIDE, NONE, START, ZONE_EARLY, ZONE_LATE
+from adamslite.integrators.linalg.plan import HUGE
 from adamslite.native.translate import native
 
 # Rates are differences over this share of the step.
@@ -118,7 +119,7 @@ def share_into_zones(P: Problem) -> float:
         # The cubic stays between these: most steps are outside of most zones.
         low = min(a, b) - DEEPEST * (abs(r) + abs(s))
         high = max(a, b) + DEEPEST * (abs(r) + abs(s))
-        if low < 1.0 and high > 0.0 and high - low > span and high - low < 1e300:
+        if low < 1.0 and high > 0.0 and high - low > span and high - low < HUGE:
             # Downwards is upwards in 1 - D.
             least = min(least, share_into(a, b, r, s, span))
             least = min(least, share_into(1.0 - a, 1.0 - b, 0.0 - r, 0.0 - s, span))

@@ -15,7 +15,7 @@ from adamslite.integrators.events.guards import (
 )
 from adamslite.integrators.events.search import ends_beyond
 from adamslite.integrators.linalg.blocks import solve
-from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import residual
 from adamslite.native.translate import native
 
@@ -73,7 +73,7 @@ def small_change(P: Problem, L: Plan, phases: int, cu: float) -> bool:
         size = abs(P.F[i])
         largest = max(largest, size / max(1.0, abs(P.q[i])), cu * size / max(1.0, abs(P.u[i])))
     for k in range(P.sizes.nz):
-        if not abs(P.F[k]) < 1e300:
+        if not abs(P.F[k]) < HUGE:
             return False
     return largest <= HARMLESS * P.settings.error
 

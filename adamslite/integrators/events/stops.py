@@ -19,6 +19,8 @@ from adamslite.native.translate import native
 LEAST_STEP = 1e-14
 # Further from an output time than this many steps they need not fit.
 MANY_STEPS = 100.0
+# What a number of steps may exceed a whole one by without one step more.
+WHOLE = 1e-7
 
 
 @native
@@ -71,7 +73,7 @@ def step_limit(P: Problem, following: int) -> float:
 @native
 def fitted(P: Problem, h: float, left: float) -> float:
     """The step not longer than ``h`` that reaches an output time ``left`` away in equal steps."""
-    count = floor(left / h + 1.0 - 1e-7)
+    count = floor(left / h + 1.0 - WHOLE)
     return left / max(1.0, count) if count < MANY_STEPS else h
 
 

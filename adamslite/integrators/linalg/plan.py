@@ -2,6 +2,9 @@
 
 from adamslite.native.translate import Ints, Record
 
+# Keeps a quotient finite; a size from HUGE on is no number to continue with.
+TINY, HUGE = 1e-300, 1e300
+
 
 class Plan(Record):
     """The order of elimination (:mod:`adamslite.equations.elimination_order`)."""
@@ -15,6 +18,3 @@ class Plan(Record):
     upper: Ints
     target: Ints
     place: Ints
-
-
-TINY = 1e-300
