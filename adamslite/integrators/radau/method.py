@@ -45,9 +45,10 @@ from adamslite.integrators.radau.recovery import (
     stuck,
 )
 from adamslite.integrators.radau.stages import ORIGIN, keep_stages
-from adamslite.integrators.radau.state import count_from_here, put_end, stand_at_start
+from adamslite.integrators.radau.state import put_end, stand_at_start
 from adamslite.integrators.radau.step_size import choose_step, limit_step
 from adamslite.integrators.records import note_violation, write_record
+from adamslite.integrators.stepping.accepted import count_from_here
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
     ALMOST,

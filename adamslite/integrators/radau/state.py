@@ -4,22 +4,9 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.motion_equations import PART
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.stages import ORIGIN, stage_z
 from adamslite.native.translate import native
-
-
-@native
-def count_from_here(P: Problem) -> None:
-    """The workspace's attitudes become the base of rotation vectors."""
-    for b in range(P.sizes.nb):
-        if P.body[b].width == PART:
-            i, o = P.body[b].first, P.body[b].at
-            for k in range(9):
-                P.base[9 * b + k] = P.W[o + 15 + k]
-            for k in range(3, 6):
-                P.q[i + k] = 0.0
 
 
 @native
