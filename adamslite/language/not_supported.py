@@ -20,6 +20,7 @@ FUNCTIONS = frozenset(
 
 _TABULATE = "write points of the curve into a MATRIX: CURVE/id, MATRIX=id, CURVE_POINTS"
 INSTEAD = {
+    "ARYVAL of states and outputs": "an ARRAY X or Y gets its values from an LSE, GSE or TFSISO",
     "CURVE FUNCTION": _TABULATE,
     "CURVE MINPAR": _TABULATE,
     "CURVE MAXPAR": _TABULATE,

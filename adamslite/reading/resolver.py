@@ -187,7 +187,7 @@ class Resolver:
         if function.ruled:
             self._rules(function, args, branches)
         if name in NUMBERED:
-            return self._numbered(args[0], args[1], branches[1])
+            return self._numbered(name, args[0], args[1], branches[1])
         args += [slot.default for slot in slots[len(args) :] if slot.default is not None]
         return Call(name, tuple(args))
 
@@ -281,18 +281,21 @@ class Resolver:
             return Call(function.name, (Ref("VARIABLE", whole),))
         return Call("DDT", (self._reference(function, "VARIABLE", top[3]),))
 
-    def _numbered(self, ref: Node, number: Node, branch: Tree) -> Node:
+    def _numbered(self, name: str, ref: Node, number: Node, branch: Tree) -> Node:
         """The value that a statement lists under a number."""
         if not (isinstance(ref, Ref) and isinstance(number, Num)):
             return _STAND_IN
         values = self.numbered.get((ref.kind, ref.id))
         if values is None:  # the statement has mistakes of its own
             return _STAND_IN
+        token = self.tokens[branch[1]]
+        if not values:
+            word = f"{name} of states and outputs"
+            self.log.tally("planned-function", word, token[2], end_of(token), word=word)
+            raise Unresolved
         if number.value not in range(1, len(values) + 1):
-            token, label = self.tokens[branch[1]], f"{ref.kind}/{ref.id}"
-            self._refuse(
-                "no-such-value", token, label=label, number=f"{number.value:g}", count=len(values)
-            )
+            words = {"number": f"{number.value:g}", "count": len(values)}
+            self._refuse("no-such-value", token, label=f"{ref.kind}/{ref.id}", **words)
         return values[int(number.value) - 1]
 
     def _rules(self, function: Function, args: list[Node], branches: tuple) -> None:

@@ -65,12 +65,11 @@ TABLES: dict[str, Message] = {
     ),
     "no-such-value": Message(
         "{label} has no value number {number}: it has {count}",
-        "values are counted from 1; those of X and Y would be those of a system element",
+        "values are counted from 1",
         (
             "ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,3)",
             "ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,0)",
             "ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,1.5)",
-            "ARRAY/1, X, SIZE=2\nVARIABLE/1, FUNCTION=ARYVAL(1,1)",
         ),
     ),
     "array-fixed": Message(
