@@ -64,6 +64,13 @@ class Settings(Protocol):
     def damping(self) -> tuple[float, float, float]: ...
 
 
+class Factors(Protocol):
+    """The elimination of the matrix of Newton: its plan, and the factors."""
+
+    plan: dict[str, np.ndarray]
+    LV: np.ndarray
+
+
 class Equations(Protocol):
     """What a method may ask of the numbered equations,
     :class:`adamslite.equations.system.System`.
@@ -77,14 +84,15 @@ class Equations(Protocol):
     nz: int
     starts: list[int]
     widths: list[int]
-    plan: dict[str, np.ndarray]
     history: np.ndarray
     tableau: np.ndarray
     J: np.ndarray
-    LV: np.ndarray
 
     @property
     def model(self) -> DrawnModel: ...
+
+    @property
+    def elimination(self) -> Factors: ...
 
     def make_room(self, **sizes: int) -> None:
         """Have arrays of at least these sizes."""
