@@ -215,7 +215,9 @@ class Resolver:
             hint = did_you_mean(name, [*FUNCTIONS, *PLANNED])
         self._refuse("unknown-function", token, word=token[1], hint=hint)
 
-    def _count(self, function: Function, at: int, separators: str, branches: tuple) -> None:
+    def _count(
+        self, function: Function, at: int, separators: str, branches: tuple[Tree, ...]
+    ) -> None:
         count, most = len(branches), function.maximum
         if count < function.minimum or (most is not None and count > most):
             self._refuse(
@@ -294,11 +296,11 @@ class Resolver:
             self.log.tally("planned-function", word, token[2], end_of(token), word=word)
             raise Unresolved
         if number.value not in range(1, len(values) + 1):
-            words = {"number": f"{number.value:g}", "count": len(values)}
-            self._refuse("no-such-value", token, label=f"{ref.kind}/{ref.id}", **words)
+            label, asked = f"{ref.kind}/{ref.id}", f"{number.value:g}"
+            self._refuse("no-such-value", token, label=label, number=asked, count=len(values))
         return values[int(number.value) - 1]
 
-    def _rules(self, function: Function, args: list[Node], branches: tuple) -> None:
+    def _rules(self, function: Function, args: list[Node], branches: tuple[Tree, ...]) -> None:
         if self.failed:
             return
         for index, sentence in function.mistakes([fold(arg) for arg in args]):
