@@ -16,6 +16,8 @@ from adamslite.native.translate import Reals, native
 # A part's inertia below this share of its largest entry is singular.
 SINGULAR = 1e-12
 POWERS = 30
+# Squares of accelerations below this are those of a model on which no force depends.
+NOTHING = 1e-200
 
 
 @native
@@ -155,7 +157,7 @@ def radius(P: Problem, cq: float, cu: float) -> float:
     c[0], c[1], c[2], c[3], c[4] = cq, cu, 0.0, 0.0, 0.0
     jacobian(P, LOADS, c, P.J)
     size, found = 0.0, 0.0
-    for i in range(n):
+    for i in range(n):  # a vector without symmetry, the same in every run
         x[i] = float((i * 7919 + 3) % 101) - 50.3
         size += x[i] * x[i]
     for _iteration in range(POWERS):
@@ -168,7 +170,7 @@ def radius(P: Problem, cq: float, cu: float) -> float:
         size = 0.0
         for i in range(n):
             size += x[i] * x[i]
-        if not size > 1e-200:
+        if not size > NOTHING:
             return 0.0
         found = size**0.5
     return found

@@ -47,6 +47,9 @@ from adamslite.native.translate import native
 # seen, or this multiple of ERROR.
 CLOSE, CLOSE_ERROR = 1e-6, 0.01
 TIME_ROUND_OFF = 4e-15
+# The secant root is moved towards the middle by this times the square of the width (k1 of ITP), or
+# this share of the tolerance.
+NUDGE, LEAST_NUDGE = 0.2, 0.1
 
 
 @native
@@ -182,7 +185,7 @@ def next_share(P: Problem) -> float:
             before = max(0.0, P.margin[LOW_ROW * count + k])
             secant = min(secant, low + width * before / (before - after))
     towards = 1.0 if middle >= secant else -1.0
-    nudge = max(0.2 * width * width, 0.1 * S.tolerance / S.size)
+    nudge = max(NUDGE * width * width, LEAST_NUDGE * S.tolerance / S.size)
     share = secant + towards * nudge if nudge <= abs(middle - secant) else middle
     reach = max(2.0 * S.budget - 0.5 * width, 0.0)
     return share if abs(share - middle) <= reach else middle - towards * reach

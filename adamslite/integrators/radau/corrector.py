@@ -32,6 +32,10 @@ QUICK, KEEP_STEPS = 0.01, 20.0
 DIVERGING = 3.0
 # What RATE/(1 - RATE) is not believed to be below.
 LEAST_RATE = 0.01
+# Power by which the rate of the step before is trusted less.
+AGED = 0.8
+# Increments that shrink by less than this do not converge; what 1 - RATE counts at least.
+STALLED, LEAST_REST = 0.99, 0.01
 # Factors made for a step that differs by this share serve.
 SAME_STEP = 1e-6
 
@@ -52,7 +56,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     """Newton from the prediction; True when converged."""
     h, last = C.h, 0.0
     tolerance, most = CORRECTOR_SHARE * P.settings.error, P.settings.max_it
-    C.rate, C.theta = max(C.rate, LEAST_RATE) ** 0.8, 0.0
+    C.rate, C.theta = max(C.rate, LEAST_RATE) ** AGED, 0.0
     for turn in range(most):
         if not ready(P, L, C, turn):
             return False
@@ -65,9 +69,9 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
             return False
         if turn > 0 and last > 0.0:
             C.theta = size / last
-            if C.theta > (DIVERGING if turn == 1 else 0.99):
+            if C.theta > (DIVERGING if turn == 1 else STALLED):
                 return size <= round_off(P, C)
-            rest = max(0.01, 1.0 - C.theta)
+            rest = max(LEAST_REST, 1.0 - C.theta)
             C.rate = max(LEAST_RATE, C.theta / rest)
             if turn > 1 and C.theta ** (most - 1.0 - turn) / rest * size > tolerance:
                 return False
