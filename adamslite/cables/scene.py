@@ -174,9 +174,7 @@ def _check_slack(
         )
         if i not in (0, last) or load.kind not in ("mass", "free"):
             continue
-        fall, own = (
-            sense * dot(way, span.along) for way in (spec.gravity, load.velocity or (0, 0, 0))
-        )
+        fall, own = (sense * dot(way, span.along) for way in (spec.gravity, load.velocity))
         path = ("route", i, "payout")
         if paid.start > own + FASTER * paid.speed:
             faults.add("pushed-at-once", path, speed=paid.start, own=own)

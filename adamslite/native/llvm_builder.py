@@ -47,7 +47,7 @@ class Builder:
 
     def __init__(self) -> None:
         self.lines: list[str] = []
-        self.numbered: dict[tuple, str] = {}
+        self.numbered: dict[tuple[object, ...], str] = {}
         self.declared: set[str] = set()
         self.called: set[str] = set()
         self.count = 0
@@ -56,7 +56,7 @@ class Builder:
         self.count += 1
         return f"%v{self.count}"
 
-    def emit(self, key: tuple, text: str) -> str:
+    def emit(self, key: tuple[object, ...], text: str) -> str:
         """One numbered instruction; an equal earlier one is reused."""
         if key in self.numbered:
             return self.numbered[key]

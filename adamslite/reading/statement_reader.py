@@ -12,7 +12,7 @@ from typing import NamedTuple
 import adamslite.elements  # noqa: F401  registers the statements
 from adamslite.deck.deck import Deck
 from adamslite.deck.names import Key, Names
-from adamslite.deck.redefinition import Redefinition
+from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.part import Part
 from adamslite.language.abbreviations import Ambiguous, match, vocabulary
 from adamslite.language.diagnostics import Source, Spans
@@ -98,7 +98,7 @@ class Reading:
         if slash and keyword.strip().upper() in STATEMENTS:
             self.log.add("title-like-statement", 0, len(line))
 
-    def statements(self, start: int) -> tuple[Statement | Redefinition, ...]:
+    def statements(self, start: int) -> tuple[Command, ...]:
         """All statements from offset ``start`` on; those with mistakes are left out."""
         text = self.log.source.text
         for logical in join(scan(text, start), ampersand=self.place == "command"):
@@ -248,10 +248,10 @@ class Reading:
 
     # ---- second pass --------------------------------------------------------------------------
 
-    def _second_pass(self) -> tuple[Statement | Redefinition, ...]:
+    def _second_pass(self) -> tuple[Command, ...]:
         resolver = Resolver(self.names, self.log)
         reader = ValueReader(self.names, resolver, self.log, self._ground)
-        made: dict[int, Statement | Redefinition | None] = {}
+        made: dict[int, Command | None] = {}
         for number, entry in enumerate(self.entries):
             if _gives_values(entry.cls):
                 made[number] = self._statement(entry, reader)
@@ -280,7 +280,7 @@ class Reading:
                         return canonical(entry.id)
         return None
 
-    def _statement(self, entry: Entry, reader: ValueReader) -> Statement | Redefinition | None:
+    def _statement(self, entry: Entry, reader: ValueReader) -> Command | None:
         """The statement with its arguments; None when something is wrong with it."""
         cls, syntax = entry.cls, entry.syntax
         if cls.ignored or cls.ends:

@@ -68,7 +68,7 @@ def _number(token: Token) -> int:
     return token.start_pos
 
 
-class _Forms(Transformer):
+class _Forms(Transformer[Token, Any]):
     """Builds items and trees while parsing."""
 
     def item(self, tokens: list[Token]) -> Item:

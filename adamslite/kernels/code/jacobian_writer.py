@@ -12,7 +12,7 @@ from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.native.llvm_builder import Value
 from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
-from adamslite.symbolic.types import Expr
+from adamslite.symbolic.types import Expr, Leaf
 
 
 class JacobianWriter(ResidualWriter):
@@ -38,7 +38,13 @@ class JacobianWriter(ResidualWriter):
             self._scatter(node, component, self.columns(expr), 1.0)
 
     def _load_rows(
-        self, load: Load, slot: Slot, lever: Vec, force: list, torque: list, reaction: bool
+        self,
+        load: Load,
+        slot: Slot,
+        lever: Vec,
+        force: list[tuple[Value, Columns]],
+        torque: list[Columns],
+        reaction: bool,
     ) -> list[Columns]:
         """Rows of a load on one body: force, and for a part torque about its mass centre."""
         rows = [columns for _, columns in force]
@@ -84,7 +90,7 @@ class JacobianWriter(ResidualWriter):
         """Derivative of one scalar with respect to every unknown it touches."""
         expr = sp.S.Zero + expr
         total = Columns(self.g)
-        vectors: dict[tuple, Vec] = {}
+        vectors: dict[Leaf, Vec] = {}
         for symbol in sorted(self.scope.slope.symbols(expr), key=str):
             leaf = self.scope.leaves[symbol]
             if leaf[0] in ("p", "t", "mode", "sig", "turn", "nan"):
@@ -100,12 +106,12 @@ class JacobianWriter(ResidualWriter):
             self._vector_columns(total, leaf, row)
         return total
 
-    def _scalar_column(self, total: Columns, leaf: tuple, slope: Value) -> None:
+    def _scalar_column(self, total: Columns, leaf: Leaf, slope: Value) -> None:
         weight = {"z": 3, "dif": 0, "dif1": 4}[leaf[0]]
         component = leaf[2] if leaf[0] == "z" else 0
         total.scalar(leaf[1], component, self.b.mul(self._coefficient(weight), slope))
 
-    def _vector_columns(self, total: Columns, leaf: tuple, row: Vec) -> None:
+    def _vector_columns(self, total: Columns, leaf: Leaf, row: Vec) -> None:
         cq, cu, ca = (self._coefficient(n) for n in range(3))
         g = self.g
         if leaf[0] == "x":

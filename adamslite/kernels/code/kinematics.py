@@ -43,7 +43,7 @@ class Geometry:
         self.reals = reals
         self.memo: dict[Leaf, Vec] = {}
 
-    def _once(self, key: tuple, make: Callable[[], Vec]) -> Vec:
+    def _once(self, key: Leaf, make: Callable[[], Vec]) -> Vec:
         if key not in self.memo:
             self.memo[key] = make()
         return self.memo[key]
@@ -146,7 +146,7 @@ class Geometry:
             return attitude[c::3]
         return self._once(("x", frame, c), lambda: self._matrix_times(attitude, fixed))
 
-    def leaf(self, leaf: tuple) -> Value:
+    def leaf(self, leaf: Leaf) -> Value:
         """The value of a kinematic leaf of :class:`adamslite.symbolic.scope.Scope`."""
         if leaf[0] == "x":
             return self.axis(leaf[1], leaf[2])[leaf[3]]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from adamslite.kernels.code.clock_program import clock_programs
+from typing import Any
+
+from adamslite.kernels.code.clock_program import Instruction, clock_programs
 from adamslite.kernels.code.jacobian_writer import JacobianWriter
 from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Shape
@@ -40,7 +42,9 @@ exit:
 """
 
 
-def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tuple[str, dict]:
+def write_kernels(
+    shape: Shape, name: str, face: str, with_jacobian: bool
+) -> tuple[str, dict[str, Any]]:
     """LLVM text of a shape's kernels and what an instance must provide.
 
     Choices keep their branch within a step, except in what is written: the ``face`` "output".
@@ -57,7 +61,7 @@ def write_kernels(shape: Shape, name: str, face: str, with_jacobian: bool) -> tu
     scope = Scope(shape.slots)
     out = shape.outputs(scope)
     shape.n_angles, shape.n_limits = len(scope.angles), len(scope.limits)
-    clock: dict = {}
+    clock: dict[str, list[list[Instruction]]] = {}
     if face != "output":
         shape.guards = guards(out.expressions, scope.leaves)
         clock = clock_programs(face, out.expressions, shape.guards.clock, scope.leaves)

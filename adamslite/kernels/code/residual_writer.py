@@ -10,7 +10,7 @@ from adamslite.kernels.code.sympy_to_llvm import Lowering
 from adamslite.native.llvm_builder import Builder, Value
 from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
-from adamslite.symbolic.types import Expr, Frame
+from adamslite.symbolic.types import Expr, Frame, Leaf
 
 
 class ResidualWriter:
@@ -35,7 +35,7 @@ class ResidualWriter:
                 self.lower.leaves[symbol] = self.leaf(self.scope.leaves[symbol])
         return self.lower(expr)
 
-    def leaf(self, leaf: tuple) -> Value:
+    def leaf(self, leaf: Leaf) -> Value:
         kind = leaf[0]
         if kind in ("d", "v", "a", "w", "al", "x"):
             return self.g.leaf(leaf)
