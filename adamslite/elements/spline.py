@@ -52,6 +52,12 @@ class Points(NamedTuple):
 
         return piece_numbers(np.array(self.x))
 
+    def strips(self) -> Interpolant:
+        """The numbers, from 0, of the strips between the curves: all but the outer two end them."""
+        import numpy as np
+
+        return piece_numbers(np.array(self.places[1:-1]))
+
 
 @statement("SPLINE", planned=("ROUTINE",), data=True)
 class Spline(Statement):
@@ -103,4 +109,6 @@ class Spline(Statement):
             for kind in KINDS
         }
         tables["pieces"] = model.once(("SPLINE", self.key, "pieces"), points.numbers)
-        return {**tables, "family": "yes" if self.family else None}
+        inner = len(points.places) > 2
+        strips = model.once(("SPLINE", self.key, "strips"), points.strips) if inner else None
+        return {**tables, "strips": strips, "family": "yes" if self.family else None}

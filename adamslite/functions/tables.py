@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import lookup, lookup_between, lookup_with_corners
+from adamslite.symbolic.sympy_nodes import (
+    lookup,
+    lookup_between,
+    lookup_between_with_corners,
+    lookup_with_corners,
+)
 from adamslite.symbolic.types import Expr, Tree
 
 # Methods of INTERP.
@@ -17,8 +22,9 @@ def akispl(scope: Scope, x: Expr, z: Expr, id: Tree, iord: int = 0) -> Expr:
 
     The slope at a point follows from the chords next to it: little overshoot, bends that jump at
     the points.  z chooses among a family of curves, linear between neighbours; 0 for a single
-    curve.  Unit: that of Y, per x for each order.  Source: Adams/Solver function AKISPL; Akima,
-    J. ACM 17 (1970) 589-602.
+    curve.  Where z meets a curve, steps end.
+    Unit: that of Y, per x for each order.  Source: Adams/Solver function AKISPL; Akima, J. ACM 17
+    (1970) 589-602.
     """
     return _value(scope, id, "akima", x, z, iord)
 
@@ -52,4 +58,8 @@ def _value(scope: Scope, id: Tree, kind: str, x: Expr, z: Expr, order: int) -> E
     """A table of a statement, or its derivative by x."""
     spline = scope.statement(id)
     table = getattr(spline, kind)
-    return lookup_between(table, x, z, order) if spline.family else lookup(table, x, order=order)
+    if not spline.family:
+        return lookup(table, x, order=order)
+    if spline.strips is None or scope.of_time(z):
+        return lookup_between(table, x, z)
+    return lookup_between_with_corners(table, spline.strips, x, z)

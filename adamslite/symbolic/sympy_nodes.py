@@ -119,8 +119,8 @@ LOOKUPS = ("Lookup", "LookupBetween")
 
 
 @cache
-def _lookups() -> tuple[type, type, type]:
-    """The nodes of ``LOOKUPS``, and that of a piece that is held."""
+def _lookups() -> tuple[type, type, type, type]:
+    """The nodes of ``LOOKUPS``, and those of a piece and of a strip that are held."""
 
     class Lookup(sp.Function):
         """(table, curve, order, x)"""
@@ -152,7 +152,19 @@ def _lookups() -> tuple[type, type, type]:
             further = argindex == 5 and order < 3
             return self.func(table, curve, order + 1, piece, x) if further else sp.S.Zero
 
-    return Lookup, LookupBetween, LookupHeld
+    class LookupBetweenHeld(sp.Function):
+        """(table, order by x, order by z, strip, x, z)"""
+
+        is_extended_real = True
+
+        def fdiff(self, argindex: int = 5) -> Expr:
+            table, order, z_order, strip, x, z = self.args
+            if argindex == 5:
+                return self.func(table, order + 1, z_order, strip, x, z) if order < 3 else sp.S.Zero
+            further = argindex == 6 and z_order < 1
+            return self.func(table, order, z_order + 1, strip, x, z) if further else sp.S.Zero
+
+    return Lookup, LookupBetween, LookupHeld, LookupBetweenHeld
 
 
 def lookup(table: int, x: Expr, curve: int = 0, order: int = 0) -> Expr:
@@ -177,3 +189,12 @@ def lookup_with_corners(table: int, pieces: int, x: Expr, order: int = 0) -> Exp
     """
     piece = floor(lookup(pieces, x), order=-1 if order else 0)
     return _lookups()[2](table, 0, order, piece, x)
+
+
+def lookup_between_with_corners(table: int, strips: int, x: Expr, z: Expr) -> Expr:
+    """A table of two arguments, on the strip between two curves that an integrator holds: where z
+    meets a curve is an event.
+
+    ``strips``: the table of the numbers of its strips.
+    """
+    return _lookups()[3](table, 0, 0, floor(lookup(strips, z), order=0), x, z)

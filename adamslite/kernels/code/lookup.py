@@ -95,6 +95,13 @@ def on_strip(
 
 
 @native
+def on_held_strip(T: Reals, strip: float, x: float, z: float, order: int, z_order: int) -> float:
+    """The same on a strip that a branch holds, also where z has left it."""
+    held = strip if strip > 0.0 else 0.0  # also for what is not a number
+    return on_strip(T, piece_at(T, x), int(min(held, max(T[1] - 2.0, 0.0))), x, z, order, z_order)
+
+
+@native
 def lookup(T: Reals, x: float, z: float, order: int, z_order: int) -> float:
     """The table, or its derivative of ``order`` by x and ``z_order`` by z."""
     return on_strip(T, piece_at(T, x), strip_at(T, z), x, z, order, z_order)

@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-from adamslite.kernels.code.lookup import on_held_piece, on_piece, on_strip, piece_at, strip_at
+from adamslite.kernels.code.lookup import (
+    on_held_piece,
+    on_held_strip,
+    on_piece,
+    on_strip,
+    piece_at,
+    strip_at,
+)
 from adamslite.native.llvm_builder import LIBRARY, Builder, Value
 from adamslite.native.translate import symbol
 from adamslite.symbolic.types import Expr, Symbol
@@ -120,6 +127,14 @@ class Lowering:
         held, at = ("double", self(piece)), ("double", self(x))
         given = (self._table(number), held, ("i64", int(curve)), at, ("i64", int(order)))
         return self.b.call_native(symbol(on_held_piece), "double", *given)
+
+    def _LookupBetweenHeld(self, expr: Expr) -> Value:
+        number, order, z_order, strip, x, z = expr.args
+        at = [("double", self(each)) for each in (strip, x, z)]
+        orders = (("i64", int(order)), ("i64", int(z_order)))
+        return self.b.call_native(
+            symbol(on_held_strip), "double", self._table(number), *at, *orders
+        )
 
     def _LookupBetween(self, expr: Expr) -> Value:
         number, order, z_order, x, z = expr.args
