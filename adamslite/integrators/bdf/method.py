@@ -28,7 +28,6 @@ from adamslite.integrators.bdf.differences import extend_history, rebase
 from adamslite.integrators.bdf.events import end_at_crossing, pass_on, passes_crossing
 from adamslite.integrators.bdf.order import (
     choose_order,
-    is_allowed,
     local_error,
     most_order,
     watch_order,
@@ -53,6 +52,7 @@ from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
 from adamslite.integrators.implicit.step_size import first_step
+from adamslite.integrators.implicit.tolerance import is_allowed
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation
@@ -122,7 +122,7 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
     if not correct(P, L, C):
         return after_failure(P, C)
     norm = local_error(P, C)
-    if not is_allowed(P, norm):
+    if not is_allowed(norm, P.settings.fixed_step):
         return after_rejection(P, C, norm)
     if passed_singularity(P, L, C):
         return near_singularity(P, C)

@@ -13,8 +13,8 @@ from adamslite.integrators.bdf.order_cap import CAPPED, highest_order, suspect
 from adamslite.integrators.bdf.state import resize, tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
+from adamslite.integrators.implicit.step_size import step_ratio
 from adamslite.integrators.implicit.tolerance import weighted
-from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.integrators.stepping.step_size import LONGER, cut
 from adamslite.native.translate import native
 
@@ -23,8 +23,6 @@ from adamslite.native.translate import native
 SAFETY, SAFETY_UP = 3.0, 4.5
 # A step changes only when that pays for a new matrix, and never grows by more than this at once.
 LEAST_GROWTH, LEAST_SHRINK, MOST_GROWTH = 1.2, 0.9, 10.0
-# An estimate below this share of ERROR is as good as none.
-LEAST_ERROR = 1e-10
 # Steps that double again and again amplify the noise of higher orders.
 GROWING_ORDER = 3.0
 
@@ -58,12 +56,6 @@ def local_error(P: Problem, C: Control) -> float:
 
 
 @native
-def is_allowed(P: Problem, norm: float) -> bool:
-    """Whether a step with this error is accepted; fixed steps have no error test."""
-    return norm <= 1.0 or (P.settings.fixed_step > 0.0 and norm < OVERFLOW)
-
-
-@native
 def choose_order(P: Problem, C: Control, norm: float) -> None:
     """Order and size of the next step; a history of unequal steps says nothing about orders."""
     if P.settings.fixed_step > 0.0:
@@ -87,12 +79,6 @@ def watch_order(P: Problem, C: Control) -> None:
 def most_order(P: Problem) -> int:
     """KMAX, as far as there are formulas."""
     return min(MAX_ORDER, P.settings.k_max)
-
-
-@native
-def step_ratio(error: float, order: int) -> float:
-    """The step, against the present one with this error over ERROR, that has the error ERROR."""
-    return max(error, LEAST_ERROR) ** (-1.0 / (order + 1))
 
 
 @native

@@ -10,19 +10,17 @@ from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.implicit.failures import wildest
 from adamslite.integrators.implicit.formulation import equations_kept
-from adamslite.integrators.implicit.step_size import CUTS, retry_factor
+from adamslite.integrators.implicit.step_size import CUTS, retry_factor, shrunk
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.step_back import before_trouble
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.outcome import OVERFLOW, SINGULAR_RESOLUTION, why_stuck
+from adamslite.integrators.stepping.outcome import NEARER, OVERFLOW, SINGULAR_RESOLUTION, why_stuck
 from adamslite.integrators.stepping.step_size import cut
 from adamslite.native.translate import native
 
 # A step is noise, not truncation, when the error estimates of this many tries in turn keep more
 # than this share of the one before, although each was shorter.
 NOISY_TRIES, NOISY_SHARE = 2.0, 0.3
-# A rejected step is not shortened by more than this at once.
-MOST_SHRINK = 0.2
 # Below this share of HMAX the error is round-off, and anybody's.
 TINY = 1e-9
 
@@ -68,7 +66,7 @@ def after_rejection(P: Problem, C: Control, norm: float) -> int:
     P.undoing.trouble += 1.0
     if not norm < OVERFLOW:
         return NOT_FINITE
-    factor = max(MOST_SHRINK, (SAFETY * norm) ** (-1.0 / (C.order + 1.0)))
+    factor = shrunk(SAFETY * norm, C.order)
     if C.h > TINY * P.settings.h_max:
         C.blamed = P.report.where
     C.noisy = C.noisy + 1 if norm > NOISY_SHARE * C.norm and C.norm > 0.0 else 0
@@ -90,7 +88,7 @@ def near_singularity(P: Problem, C: Control) -> int:
     if C.h < SINGULAR_RESOLUTION * P.settings.h_max or P.settings.fixed_step > 0.0:
         return SINGULAR_MASS
     C.fresh = False
-    resize(P, C, 0.25)
+    resize(P, C, NEARER)
     return RUNNING
 
 

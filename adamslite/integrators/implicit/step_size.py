@@ -74,6 +74,24 @@ def retry_factor(C: StepControl) -> float:
     return 0.25
 
 
+# A rejected step is not shortened by more than this at once.
+MOST_SHRINK = 0.2
+# An estimate below this share of ERROR is as good as none.
+LEAST_ERROR = 1e-10
+
+
+@native
+def step_ratio(error: float, order: int) -> float:
+    """The step, against the present one with this error over ERROR, that has the error ERROR."""
+    return max(error, LEAST_ERROR) ** (-1.0 / (order + 1))
+
+
+@native
+def shrunk(error: float, order: int) -> float:
+    """The same after a rejection."""
+    return max(MOST_SHRINK, step_ratio(error, order))
+
+
 # Where accelerations are evaluated after an event, as a share of the step that is thought of.
 LOOK_AHEAD = 0.1
 

@@ -7,6 +7,7 @@ from adamslite.integrators.contract import (
     Report,
 )
 from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.native.translate import Reals, native
 
 # Fixed steps have no error test: a corrector looser than this would be all that errs.
@@ -17,6 +18,12 @@ LOOSEST = 1e-3
 def asked(P: Problem, fixed: float) -> float:
     """ERROR; with ``fixed`` steps at most LOOSEST."""
     return min(P.settings.error, LOOSEST) if fixed > 0.0 else P.settings.error
+
+
+@native
+def is_allowed(norm: float, fixed: float) -> bool:
+    """Whether a step with this error over ERROR is accepted; ``fixed`` steps have no error test."""
+    return norm <= 1.0 or (fixed > 0.0 and norm < OVERFLOW)
 
 
 @native

@@ -24,7 +24,7 @@ def damping_of_newmark(settings: Settings) -> tuple[float, float, float]:
 
 def prepare(system: Equations, settings: Settings) -> None:
     """Room for q, u and two accelerations; s, s' and two more of these."""
-    system.make_room(history=4 * (system.n + system.ns))
+    system.make_room(history=3 * system.n + 4 * system.ns)
 
 
 def ringing(settings: Settings, tied: str) -> str:

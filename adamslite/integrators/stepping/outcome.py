@@ -18,6 +18,8 @@ from adamslite.native.translate import Reals, native
 
 # A sign change of the effective mass is approached to this share of HMAX.
 SINGULAR_RESOLUTION = 1e-6
+# Change of the step where it passed that.
+NEARER = 0.25
 # A step that ends before a limit by less than this share of its size ends there.
 ALMOST = 1e-7
 # An error or an increment from here on, against ERROR or as it is, is no number to continue with.
@@ -60,6 +62,13 @@ def passed_singularity(P: Problem, L: Plan, C: StepControl) -> bool:
     if not P.sizes.implicit_mass:
         return False
     return mass_signature(P, L, P.x) != C.signature
+
+
+@native
+def near_singularity(P: Problem, C: StepControl) -> int:
+    """The acceleration matrix became singular within the step: approach that, never pass it."""
+    C.h *= NEARER
+    return RUNNING if C.h > SINGULAR_RESOLUTION * P.settings.h_max else SINGULAR_MASS
 
 
 @native
