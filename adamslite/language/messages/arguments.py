@@ -54,7 +54,8 @@ ARGUMENTS: dict[str, Message] = {
     "value-count": Message(
         "{word} takes {expected} and has {count}",
         "values are separated by commas",
-        ("MARKER/4, PART=1, QP=1,2", "PART/4, MASS=1, CM=2, IP=1,2,3,4,5,6,7"),
+        ("MARKER/4, PART=1, QP=1,2", "PART/4, MASS=1, CM=2, IP=1,2,3,4,5,6,7",
+         "SPLINE/1, X=0,1,2, Y=0,1,4"),
     ),
     "not-a-number": Message(
         "{text} is not a number",
