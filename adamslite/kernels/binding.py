@@ -165,11 +165,11 @@ class Binder:
 
     def _bound(self, node: Node) -> tuple[Tree, float | None]:
         """An expression, with its value if nothing in it changes."""
-        if isinstance(node, Num):
+        if type(node) is Num:
             return self.number(node.value), node.value
-        if isinstance(node, Op):
+        if type(node) is Op:
             return self._operation(node)
-        if isinstance(node, Call):
+        if type(node) is Call:
             constant = self.model.constant(node)
             return (
                 (self.call(node), None) if constant is None else (self.number(constant), constant)
@@ -182,17 +182,15 @@ class Binder:
         """Numbers are parameters, except what they are folded from, and constant exponents."""
         params = self.instance.params
         mark = len(params)
-        bound = [self._bound(each) for each in node.args]
-        trees = tuple(tree for tree, _ in bound)
-        values = [value for _, value in bound if value is not None]
-        if len(values) == len(bound):
+        trees, values = zip(*[self._bound(each) for each in node.args], strict=True)
+        if None not in values:
             del params[mark:]
             value = folded(node.op, values)
             return self.number(value), value
-        if node.op == "**" and bound[1][1] is not None:
+        if node.op == "**" and values[1] is not None:
             if trees[1][0] == "p":
                 params.pop()
-            trees = (trees[0], ("c", bound[1][1]))
+            trees = (trees[0], ("c", values[1]))
         return ("o", node.op, trees), None
 
     def output(self, node: Node, statement: Statement) -> Tree:
@@ -206,16 +204,18 @@ class Binder:
             if type(arg) is Ref and arg.kind not in LASTING and self._is_off(arg):
                 return ("c", 0.0)
         function = FUNCTIONS[node.name]
-        match node:
-            case Call("GCON", (Ref(_, id), _, Num(0.0), _)):
-                # its multiplier, and nothing of its kind
-                own = ("s", "GCON", (("multiplier", ("z", self.node_slot(("GCON", id)), 0)),))
-                return ("f", "GCON", (own, ("c", 0), ("c", 0), self.marker(0)))
+        if node.name == "GCON" and node.args[2] == Num(0.0):  # its multiplier
+            own = ("s", "GCON", (("multiplier", self._multiplier(node.args[0])),))
+            return ("f", "GCON", (own, ("c", 0), ("c", 0), self.marker(0)))
         before = self.takes_rates
         self.takes_rates = before or node.name == "DDT"
         taken = tuple([self._taken(function, n, a) for n, a in enumerate(node.args)])
         self.takes_rates = before
         return ("f", node.name, taken)
+
+    def _multiplier(self, gcon: Node) -> Tree:
+        assert isinstance(gcon, Ref)
+        return ("z", self.node_slot(("GCON", gcon.id)), 0)
 
     def _is_off(self, ref: Ref) -> bool:
         """A reference to an element that is switched off: whatever it measures is zero."""
@@ -223,9 +223,9 @@ class Binder:
 
     def _taken(self, function: Function, n: int, node: Node) -> Tree:
         """Argument number ``n`` of a call."""
-        if isinstance(node, Ref):
+        if type(node) is Ref:
             return self.reference(node)
-        if isinstance(node, Num) and function.parameter(n).kind == "constant":
+        if type(node) is Num and function.parameter(n).kind == "constant":
             return ("c", int(node.value))
         return self.expression(node)
 

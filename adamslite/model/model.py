@@ -197,14 +197,14 @@ class Model:
 
     def constant(self, node: Node) -> float | None:
         """Value of an expression without anything that changes; None when something does."""
-        match node:
-            case Num(value):
-                return value
-            case Op(op, args):
-                values = [value for value in map(self.constant, args) if value is not None]
-                return folded(op, values) if len(values) == len(args) else None
-            case Call("VARVAL", (Ref(_, id),)):
-                return self.constant_variable(id)
+        if type(node) is Num:
+            return node.value
+        if type(node) is Op:
+            values = [value for value in map(self.constant, node.args) if value is not None]
+            return folded(node.op, values) if len(values) == len(node.args) else None
+        if type(node) is Call and node.name == "VARVAL":
+            variable = node.args[0]
+            return self.constant_variable(variable.id) if isinstance(variable, Ref) else None
         return None
 
     def constant_variable(self, variable_id: Key) -> float | None:
