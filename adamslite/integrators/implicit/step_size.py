@@ -15,6 +15,14 @@ from adamslite.native.translate import native
 
 # Fixed steps begin with this part of the step, because order 1 starts.
 START_PARTS = 1024.0
+# The first step is at most this share of the longest one.
+FIRST = 0.05
+# Of positions, as a share of the largest.
+ROUND_OFF = 1e-14
+# Relative accelerations below this are none.
+AT_REST = 1e-12
+# The error of a step of order 1 goes with the square of the step.
+ROOT_OF_TENTH = 0.3
 
 
 @native
@@ -36,18 +44,20 @@ def first_step(P: Problem, w: int) -> float:
         return P.settings.fixed_step / START_PARTS
     if P.settings.h_init > 0.0:
         return min(h, P.settings.h_init)
-    if P.settings.h_min >= 0.05 * h:
+    if P.settings.h_min >= FIRST * h:
         return min(h, P.settings.h_min)
-    # Constraints hand round-off of positions, 1e-14 of the longest, on to the velocities: reach/h
+    # Constraints hand round-off of positions on to the velocities: reach/h
     # times as much, which is below ERROR of the fastest for steps above this.  In other units of
     # length both, reach and speed, are others: the step is the same.
-    noise = 1e-14 * reach / (tol * speed) if is_stabilised(P) else 0.0
+    noise = ROUND_OFF * reach / (tol * speed) if is_stabilised(P) else 0.0
     noise = max(noise, P.settings.h_min)
-    return min(0.05 * h, max(noise, tol**0.5 / max(fastest, 1e-12) * 0.3))
+    return min(FIRST * h, max(noise, tol**0.5 / max(fastest, AT_REST) * ROOT_OF_TENTH))
 
 
 # Cuts of the step after corrector failures before other lengths are tried.
 CUTS = 3
+# The first cut of a step, and the later ones.
+FIRST_CUT, CUT = 0.6, 0.25
 
 
 @native
@@ -59,7 +69,7 @@ def retry_factor(C: StepControl) -> float:
     """
     tried = C.retries
     if tried == 1:
-        return 0.6
+        return FIRST_CUT
     if C.h_last > 0.0 and tried > CUTS and tried <= CUTS + 5:
         leap = 0.7
         if tried == CUTS + 1:
@@ -71,7 +81,7 @@ def retry_factor(C: StepControl) -> float:
         if tried == CUTS + 4:
             leap = 4.0
         return leap * C.h_last / C.h
-    return 0.25
+    return CUT
 
 
 # A rejected step is not shortened by more than this at once.
