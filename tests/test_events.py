@@ -65,6 +65,8 @@ def test_stops_are_the_zeros_of_guards_of_time():
     assert stops_of("STEP(TIME,0.2,0,0.3,1)+MAX(0,TIME-0.3)", 1.0, 10) == approx([0.2, 0.3, 1.0])
     assert stops_of("SIGN(1,SIN(2*PI*TIME)-0.5)", 1.0, 4) == approx([1 / 12, 5 / 12, 1.0])
     assert stops_of("MOD(TIME,0.25)", 1.0, 4) == [0.25, 0.5, 0.75, 1.0]
+    assert stops_of("INT(4*TIME)", 1.0, 4) == [0.25, 0.5, 0.75, 1.0]
+    assert stops_of("NINT(4*TIME)", 1.0, 4) == approx([0.125, 0.375, 0.625, 0.875, 1.0])
     assert stops_of("ABS(TIME)+IF(TIME-1: 0, 1, 1)+MAX(TIME,-1)", 1.0, 4) == [1.0]
     assert stops_of("STEP(DX(2),0,0,1,1)", 1.0, 4) == [1.0]
 

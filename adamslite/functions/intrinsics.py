@@ -15,6 +15,10 @@ def _truncated(x: Expr) -> Expr:
     return piecewise((floor(x, -1), x >= 0), otherwise=-floor(-x, -1), order=-1)
 
 
+def _nearest(x: Expr) -> Expr:
+    return piecewise((floor(x + 0.5, -1), x >= 0), otherwise=-floor(0.5 - x, -1), order=-1)
+
+
 def _larger(a: Expr, b: Expr) -> Expr:
     return piecewise((a, a >= b), otherwise=b, order=0)
 
@@ -91,13 +95,31 @@ def aint(scope: Scope, x: Expr) -> Expr:
     return _truncated(x)
 
 
+@function("INT", "x:number", edges=lambda x: (sp.sin(math.pi * x),), order=-1)
+def int_(scope: Scope, x: Expr) -> Expr:
+    """x without its fraction (towards 0): another name of AINT.
+
+    Unit: none.  Source: FORTRAN intrinsic INT.
+    """
+    return _truncated(x)
+
+
 @function("ANINT", "x:number", edges=lambda x: (sp.cos(math.pi * x),), order=-1)
 def anint(scope: Scope, x: Expr) -> Expr:
     """The whole number nearest to x, halves away from 0.
 
     Unit: none.  Source: FORTRAN intrinsic ANINT.
     """
-    return piecewise((floor(x + 0.5, -1), x >= 0), otherwise=-floor(0.5 - x, -1), order=-1)
+    return _nearest(x)
+
+
+@function("NINT", "x:number", edges=lambda x: (sp.cos(math.pi * x),), order=-1)
+def nint(scope: Scope, x: Expr) -> Expr:
+    """The whole number nearest to x, halves away from 0: another name of ANINT.
+
+    Unit: none.  Source: FORTRAN intrinsic NINT.
+    """
+    return _nearest(x)
 
 
 @function("SQRT", "x:number")
