@@ -180,16 +180,20 @@ def contents() -> str:
 
 
 def _module_doc(cls: type[Statement]) -> str:
-    return sys.modules[cls.__module__].__doc__ or ""
+    return getattr(cls, "heading", "") or sys.modules[cls.__module__].__doc__ or ""
 
 
 def statement(cls: type[Statement]) -> str:
     """One statement: equation and sign from its module, its meaning, its arguments."""
     title, _, equation = _module_doc(cls).partition("\n\n")
-    parts = [f"## {title}\n", _markdown(cls.__doc__), _markdown(equation)]
+    parts = [f"## {title}\n", _markdown(cls.__doc__)]
+    parts += [_markdown(equation)] if equation else []
     if cls.arguments:
         head = ("argument", "value", "unit", "default", "meaning")
         parts.append(table(head, [_argument_row(each) for each in cls.arguments.values()]))
+    if known := getattr(cls, "known", ()):
+        rows = [(_listed(names.split(", ")), meaning) for names, meaning in known]
+        parts.append(table(("argument", "meaning"), rows))
     names = getattr_static(cls, "result_names")
     if names is not getattr_static(Statement, "result_names"):
         parts.append(f"Results: {_lower_first(_heading(names.__doc__))}.\n")
@@ -229,7 +233,8 @@ def table(head: Row, rows: Iterable[Row]) -> str:
 def _argument_row(each: Argument) -> Row:
     key = "(a word)" if each.bare else f"`{each.key}`"
     aliases = f" ({_listed(each.keys[1:])})" if each.keys[1:] else ""
-    return (key + aliases, _value(each), each.unit, _default(each), each.help)
+    passed = "; passed over" if each.inert else ""
+    return (key + aliases, _value(each), each.unit, _default(each), each.help + passed)
 
 
 def _value(each: Argument) -> str:

@@ -241,7 +241,8 @@ def test_an_analysis_at_once_writes_once() -> None:
         ("SIM/INITIAL, END=1", "no-effect"),
         ("SIM/DYN, ACCEL, END=1, STEPS=1", "no-effect"),
         ("LINEAR/EIGENSOL, FILE=a.mat", "no-effect"),
-        ("LINEAR/STATEMAT, FORMAT=MATLAB", "planned-argument"),
+        ("LINEAR/STATEMAT, FORMAT=MATLAB", "passed-over"),
+        ("LINEAR/STATEMAT, PSTATE=1", "planned-argument"),
         ("LINEAR/STATEMAT, PINPUT=2", "missing-reference"),
     ],
 )

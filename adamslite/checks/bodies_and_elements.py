@@ -26,7 +26,6 @@ from adamslite.elements.gforce import Gforce
 from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
 from adamslite.elements.part import Part
-from adamslite.elements.ptcv import Ptcv
 from adamslite.elements.request import Request
 from adamslite.elements.sforce import Sforce
 from adamslite.elements.springdamper import Springdamper
@@ -35,7 +34,6 @@ from adamslite.elements.variable import Variable
 from adamslite.elements.vforce import Vforce
 from adamslite.elements.vtorque import Vtorque
 from adamslite.language.diagnostics import Diagnostic
-from adamslite.language.expression import Ref, walk
 from adamslite.language.interfaces import Key
 from adamslite.language.messages import compose
 from adamslite.language.statement import Statement
@@ -135,57 +133,6 @@ def markers_of_bodies(deck: Deck) -> Iterator[Diagnostic]:
                     yield diagnose(
                         body, "foreign-marker", field, word=word, key=marker, owner=label
                     )
-
-
-# ---- markers ----------------------------------------------------------------------------------
-
-
-def owners(deck: Deck) -> Iterator[Diagnostic]:
-    for marker in deck.of(Marker):
-        if marker.part is not None and marker.point_mass is not None:
-            yield diagnose(marker, "two-owners", "point_mass")
-        elif marker.owner is None and not deck.incomplete & {"PART", POINT, "FLEX_BODY"}:
-            yield diagnose(marker, "no-owner")
-
-
-def floating_alone(deck: Deck) -> Iterator[Diagnostic]:
-    for marker in deck.of(Marker):
-        placed = [f for f in ("qp", "reuler", "zp", "xp", "usexp") if marker.given(f)]
-        if marker.floating and placed:
-            yield diagnose(marker, "floating-placed", placed[0])
-
-
-def _uses(statement: Statement) -> Iterator[tuple[str, Key]]:
-    """The markers a statement refers to, with the field."""
-    for field, argument in statement.arguments.items():
-        value = getattr(statement, field)
-        if argument.kind == "reference" and argument.to == "MARKER" and value not in (None, 0):
-            yield field, value
-        elif argument.kind == "expression" and value is not None:
-            for node in walk(value):
-                if type(node) is Ref and node.kind == "MARKER":
-                    yield field, node.id
-
-
-def floating_use(deck: Deck) -> Iterator[Diagnostic]:
-    floating = {marker.key for marker in deck.of(Marker) if marker.floating}
-    for force in _following(deck):
-        if force.jfloat is not None and force.jfloat not in floating:
-            if deck.find(Marker, force.jfloat):
-                yield diagnose(force, "not-floating", "jfloat", key=force.jfloat)
-    for statement in deck.statements if floating else ():
-        for field, key in _uses(statement):
-            if key in floating and field != "jfloat":
-                word = statement.arguments[field].key
-                yield diagnose(statement, "floating-misused", field, word=word, key=key)
-
-
-@needs(*FOLLOWING, "PTCV", "CVCV")
-def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
-    used = {each.jfloat for each in (*_following(deck), *deck.of(Ptcv))}
-    for marker in deck.of(Marker):
-        if marker.floating and marker.key not in used:
-            yield diagnose(marker, "floating-unused")
 
 
 # ---- forces and constraints -------------------------------------------------------------------

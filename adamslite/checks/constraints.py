@@ -11,6 +11,7 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.coupler import Coupler
 from adamslite.elements.curve import Curve
+from adamslite.elements.gcon import Gcon
 from adamslite.elements.gear import Gear
 from adamslite.elements.joint import Joint
 from adamslite.elements.jprim import Jprim
@@ -48,7 +49,7 @@ def _turns(deck: Deck, owner: tuple[str, Key] | None) -> bool:
     if owner is None:
         return True
     body = deck.find(*owner)
-    return owner[0] != POINT and not (body and body.ground)
+    return owner[0] != POINT and not getattr(body, "ground", False)
 
 
 def pairs(deck: Deck) -> Iterator[Diagnostic]:
@@ -260,7 +261,21 @@ def floating_markers(deck: Deck) -> Iterator[Diagnostic]:
             )
 
 
+@needs("VARIABLE")
+def measured_markers(deck: Deck) -> Iterator[Diagnostic]:
+    """Reactions of a GCON are known where its FUNCTION measures."""
+    for gcon in deck.of(Gcon):
+        measured = gcon.measured(lambda id: deck.get(Variable, id).function)
+        known = dict.fromkeys(key for pair in measured for key in pair)
+        for field in ("i", "j"):
+            key = getattr(gcon, field)
+            if key is not None and key not in known:
+                listed = ", ".join(f"MARKER/{each}" for each in known) or "none"
+                yield diagnose(gcon, "gcon-marker", field, key=key, listed=listed)
+
+
 CONSTRAINT_RULES: list[Rule] = [
+    measured_markers,
     matrices,
     curves,
     floating_markers,

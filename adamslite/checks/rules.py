@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from adamslite.checks.bodies_and_elements import (
     distinct_ends,
-    floating_alone,
-    floating_unused,
-    floating_use,
     frictions,
     ground_without_data,
     held_states,
@@ -15,7 +12,6 @@ from adamslite.checks.bodies_and_elements import (
     markers_of_bodies,
     masses,
     one_ground,
-    owners,
     reactions,
     requests,
     reserved_names,
@@ -27,6 +23,13 @@ from adamslite.checks.bodies_and_elements import (
 from adamslite.checks.constraints import CONSTRAINT_RULES
 from adamslite.checks.effective_mass import effective_masses
 from adamslite.checks.equations import unformed_equations
+from adamslite.checks.inert import acts_on_flexible, passed_over
+from adamslite.checks.markers import (
+    floating_alone,
+    floating_unused,
+    floating_use,
+    owners,
+)
 from adamslite.checks.posture import (
     facing_markers,
     inertia_at_mass_centre,
@@ -55,6 +58,7 @@ RULES: list[Rule] = [
     floating_alone,
     floating_use,
     floating_unused,
+    acts_on_flexible,
     reactions,
     distinct_ends,
     torques_on_points,
@@ -69,6 +73,7 @@ RULES: list[Rule] = [
     *CONSTRAINT_RULES,
     *TABLE_RULES,
     *RUN_RULES,
+    passed_over,
 ]
 
 

@@ -130,7 +130,7 @@ class Friction(Wrench, Statement):
         "INPUTS", options=("ALL", "NONE", *INPUTS), help="loads that cause friction; default ALL"
     )
     inactive: str | None = choice(
-        "INACTIVE", options=("STATIC",), help="no friction in statics: always so"
+        "INACTIVE", "INACTIVE_DURING", options=("STATIC",), help="no friction in statics: always so"
     )
 
     held: ClassVar[tuple[str, ...]] = ("REVOLUTE", "TRANSLATIONAL")

@@ -6,16 +6,18 @@ Equation::
     force on the model   -(d FUNCTION/dq)^T lam
 
 The force acts between the markers i and j of the measures in FUNCTION: FX(i, j) and REQUEST/FORCE
-include it, GCON(id, 0, comp) is what acts on the first of them.
+include it, GCON(id, 0, comp) is what acts on the first of them, or on I where that is given.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.language.expression import Call, Node, Ref, measure, walk
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import DrawnModel, Key
-from adamslite.language.statement import expression, statement
+from adamslite.language.statement import expression, reference, statement
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Seen
 
@@ -29,6 +31,13 @@ class Gcon(Constraint):
 
     function: Node = expression(
         "FUNCTION", required=True, unit="the user's", help="the expression that is kept at zero"
+    )
+    i: int | str | None = reference(
+        "I", to="MARKER", help="marker of FUNCTION whose reaction GCON(id, 0, comp) is"
+    )
+    j: int | str | None = reference("J", to="MARKER", help="marker of FUNCTION it is relative to")
+    rm: int | str | None = reference(
+        "RM", to="MARKER", inert=True, help="axes of reactions; functions name their own"
     )
 
     @property
@@ -54,16 +63,20 @@ class Gcon(Constraint):
         return False
 
     def pairs(self, model: DrawnModel) -> list[tuple[Key, Key]]:
-        """Markers (i, j) of the measures in FUNCTION, itself and through variables, both ways
-        round.
-        """
+        """Markers (i, j) of the measures in FUNCTION, both ways round; those of I and J first."""
+        found = self.measured(lambda id: model.variable(id).function)
+        wanted = self.i, self.j
+        return sorted(found, key=lambda pair: tuple(map(_differs, pair, wanted)))
+
+    def measured(self, variable: Callable[[Key], Node]) -> list[tuple[Key, Key]]:
+        """Pairs of markers in the order of FUNCTION, itself and through variables."""
         found: dict[tuple[Key, Key], None] = {}
         pending, seen = [self.function], set()
         while pending:
             for node in walk(pending.pop()):
                 if isinstance(node, Ref) and node.kind == "VARIABLE" and node.id not in seen:
                     seen.add(node.id)
-                    pending.append(model.variable(node.id).function)
+                    pending.append(variable(node.id))
                 if isinstance(node, Call):
                     ends = _ends(node)
                     if len(ends) == 2 and ends[0] != ends[1]:
@@ -110,6 +123,11 @@ class Gcon(Constraint):
     def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
         return [measure("GCON", Ref("GCON", self.key), 0)]
+
+
+def _differs(marker: Key, wanted: Key | None) -> bool:
+    """Whether a marker is another than the one that is given."""
+    return wanted is not None and marker != wanted
 
 
 def _ends(call: Call) -> tuple[Key, ...]:

@@ -14,7 +14,6 @@ from adamslite.language.statement import Statement, flag, integer, number, state
 
 @statement(
     "KINEMATICS", singleton=True, repeatable=True, place="both",
-    planned=("HMAX", "APATTERN", "AMAXIT"),
 )  # fmt: skip
 class Kinematics(Statement):
     """How SIMULATE/KINEMATICS solves; omitted arguments keep their values."""
@@ -33,4 +32,12 @@ class Kinematics(Statement):
     maxit: int = integer("MAXIT", default=25, help="largest number of iterations")
     pattern: tuple[str, ...] = words(
         "PATTERN", options=("T", "F"), help="iterations that renew the Jacobian; all unless given"
+    )
+    hmax: float | None = number("HMAX", unit="time", inert=True, help="largest step")
+    apattern: tuple[str, ...] = words(
+        "APATTERN", options=("T", "F"), inert=True,
+        help="the same of accelerations, which take one linear solution",
+    )  # fmt: skip
+    amaxit: int | None = integer(
+        "AMAXIT", inert=True, help="iterations for accelerations, which take one linear solution"
     )

@@ -23,15 +23,25 @@ NODAMPING leaves out all terms that depend on speeds, also gyroscopic ones.
 
 from __future__ import annotations
 
-from adamslite.language.statement import Statement, choice, flag, reference, statement, text
+from adamslite.language.statement import (
+    Statement,
+    choice,
+    flag,
+    reference,
+    statement,
+    text,
+    texts,
+)
+
+
+def _modes(key: str, what: str, short: str = "") -> tuple[str, ...]:
+    keys = (key, short) if short else (key,)
+    return texts(*keys, inert=True, help=f"first and last mode whose {what} ADAMS prints")
 
 
 @statement(
     "LINEAR", singleton=True, repeatable=True, place="command",
-    planned=(
-        "COORDS", "DISSIPATION", "ENERGY", "FORMAT", "KINETIC", "NOVECTOR", "ORIGINAL", "PSTATE",
-        "STRAIN",
-    ),
+    planned=("ORIGINAL", "PSTATE"),
 )  # fmt: skip
 class Linear(Statement):
     """Eigenvalues and mode shapes, or the matrices of the linearised model."""
@@ -48,3 +58,10 @@ class Linear(Statement):
     )
     pinput: int | str | None = reference("PINPUT", to="PINPUT", help="the inputs u")
     poutput: int | str | None = reference("POUTPUT", to="POUTPUT", help="the outputs y")
+    novector: bool = flag("NOVECTOR", inert=True, help="no table of mode shapes")
+    format: str | None = text("FORMAT", inert=True, help="form of the files of ADAMS")
+    coords: tuple[str, ...] = _modes("COORDS", "mode shapes")
+    energy: tuple[str, ...] = _modes("ENERGY", "energies")
+    kinetic: tuple[str, ...] = _modes("KINETIC", "kinetic energies", "KENERGY")
+    strain: tuple[str, ...] = _modes("STRAIN", "strain energies", "SENERGY")
+    dissipation: tuple[str, ...] = _modes("DISSIPATION", "dissipated energies", "DENERGY")

@@ -8,10 +8,13 @@ Equation (position and axes in ground of a marker on a body at ``r`` with attitu
 from __future__ import annotations
 
 from adamslite.language.interfaces import Key
-from adamslite.language.statement import Statement, flag, reference, statement, vector
+from adamslite.language.statement import Statement, flag, reference, statement, texts, vector
+
+BODIES = ("POINT_MASS", "PART", "FLEX_BODY", "FE_PART")
+"""What a marker may be on, by arguments of the same name."""
 
 
-@statement("MARKER", planned=("FLEX_BODY", "NODE", "RM"))
+@statement("MARKER", planned=("RM",))
 class Marker(Statement):
     """A frame fixed to a PART or POINT_MASS.
 
@@ -19,12 +22,20 @@ class Marker(Statement):
     A FLOATING marker is placed by the solver and serves as JFLOAT of a force.
     """
 
-    alternatives = ((("part",), ("point_mass",)), (("reuler",), ("zp", "xp", "usexp")))
+    alternatives = (
+        (("part",), ("point_mass",), ("flex_body",), ("fe_part",)),
+        (("reuler",), ("zp", "xp", "usexp")),
+    )
 
     part: int | str | None = reference("PART", to="PART", help="the part it is fixed to")
     point_mass: int | str | None = reference(
         "POINT_MASS", to="POINT_MASS", help="the point mass it is fixed to"
     )
+    flex_body: int | str | None = reference(
+        "FLEX_BODY", to="FLEX_BODY", help="the flexible body it is on"
+    )
+    fe_part: int | str | None = reference("FE_PART", to="FE_PART", help="the FE_PART it is on")
+    node_id: tuple[str, ...] = texts("NODE_ID", "NODE", help="node of the flexible body")
     qp: tuple[float, ...] = vector(
         "QP", size=3, unit="length", default=(0.0, 0.0, 0.0), help="origin, in the body frame"
     )
@@ -48,14 +59,13 @@ class Marker(Statement):
         cls, values: dict[str, object], body: tuple[str, Key | None] | None
     ) -> dict[str, object]:
         """The nearest body before it owns a marker that names none."""
-        if body is None or "part" in values or "point_mass" in values:
+        if body is None or any(keyword.lower() in values for keyword in BODIES):
             return {}
         keyword, id = body
-        return {"part" if keyword == "PART" else "point_mass": id}
+        return {keyword.lower(): id}
 
     @property
     def owner(self) -> tuple[str, int | str] | None:
         """Keyword and id of the body it is fixed to."""
-        if self.point_mass is not None:
-            return "POINT_MASS", self.point_mass
-        return None if self.part is None else ("PART", self.part)
+        owners = ((keyword, getattr(self, keyword.lower())) for keyword in BODIES)
+        return next((owner for owner in owners if owner[1] is not None), None)

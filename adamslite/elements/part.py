@@ -73,4 +73,4 @@ class Part(Statement):
         "EXACT", start=True, options=("X", "Y", "Z", "PSI", "THETA", "PHI"),
         help="coordinates the initial conditions must keep",
     )  # fmt: skip
-    material: str | None = text("MATERIAL", help="for display; not used")
+    material: str | None = text("MATERIAL", inert=True, help="for display; not used")

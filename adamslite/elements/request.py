@@ -58,7 +58,7 @@ class Request(Statement):
     f6: Node | None = _component(6)
     f7: Node | None = _component(7)
     f8: Node | None = _component(8)
-    comment: str | None = text("COMMENT", help="a title")
+    comment: str | None = text("COMMENT", "C", help="a title")
     title: str | None = text("TITLE", help="titles of the components")
     cnames: tuple[str, ...] = texts("CNAMES", help="names of the components")
     clabels: tuple[str, ...] = texts("CLABELS", help="labels of the components")

@@ -13,6 +13,7 @@ from typing import Any
 
 ERROR = "error"
 WARNING = "warning"
+NOTE = "note"
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +164,7 @@ class Diagnostic:
         Short name of the kind of message, the key into
         :data:`adamslite.language.messages.MESSAGES`.
     severity : str
-        ``"error"`` or ``"warning"``.
+        ``"error"``, ``"warning"`` (looks wrong), or ``"note"`` (has no consequence).
     message : str
         One sentence.
     span : Span

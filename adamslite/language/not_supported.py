@@ -5,12 +5,12 @@ registered elsewhere is supported, whether or not it still stands here.
 """
 
 STATEMENTS = frozenset(
-    """CONTACT CVCV DEBUG FLEX_BODY
+    """CONTACT CVCV
     GSE IC LSE LSSMATRIX MREQUEST NFORCE PFORCE
-    PREFERENCES SENSOR SYSVAR TFSISO UCON""".split()
+    SENSOR SYSVAR TFSISO UCON""".split()
 )
 
-COMMANDS = frozenset("CONTROL ENVIRONMENT HELP INFO MENU RELOAD SAVE SHOW TIME".split())
+COMMANDS = frozenset("CONTROL HELP INFO MENU RELOAD SAVE SHOW TIME".split())
 
 FUNCTIONS = frozenset(
     """ACCXYZ CONTACT CURVE CVCV DXYZ

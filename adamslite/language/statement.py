@@ -57,6 +57,8 @@ class Argument:
         A choice whose options are written as flags, without ``KEY=``.
     start : bool
         A value that counts only where a model starts from.
+    inert : bool
+        It does not change the motion: it is read, and one note reports that it is passed over.
     name : str
         Name of the field.
     """
@@ -74,6 +76,7 @@ class Argument:
     discontinued: tuple[tuple[str, str], ...] = ()
     bare: bool = False
     start: bool = False
+    inert: bool = False
     name: str = ""
 
     @property
@@ -89,6 +92,7 @@ class ListFacts(TypedDict, total=False):
     supported: Sequence[str]
     discontinued: tuple[tuple[str, str], ...]
     start: bool
+    inert: bool
 
 
 class Facts(ListFacts, total=False):
@@ -125,9 +129,9 @@ def integer(*keys: str, help: str, unit: str = "", **facts: Unpack[Facts]) -> Fi
     return _declare(Argument("integer", keys, help=help, unit=unit, **facts))
 
 
-def flag(*keys: str, help: str) -> Field:
+def flag(*keys: str, help: str, inert: bool = False) -> Field:
     """A word without a value."""
-    return _declare(Argument("flag", keys, help=help, default=False))
+    return _declare(Argument("flag", keys, help=help, default=False, inert=inert))
 
 
 def choice(*keys: str, options: Sequence[str], help: str, **facts: Unpack[Facts]) -> Field:
@@ -194,6 +198,8 @@ class Statement:
     place: ClassVar[str] = "deck"
     ends: ClassVar[bool] = False
     ignored: ClassVar[bool] = False
+    inert: ClassVar[bool] = False
+    inert_fields: ClassVar[tuple[str, ...]] = ()
     planned: ClassVar[tuple[str, ...]] = ()
     body: ClassVar[bool] = False
     redefinable: ClassVar[bool] = False
@@ -297,6 +303,7 @@ def statement(
     place: str = "deck",
     ends: bool = False,
     ignored: bool = False,
+    inert: bool = False,
     planned: tuple[str, ...] = (),
     body: bool = False,
     redefinable: bool = False,
@@ -317,7 +324,9 @@ def statement(
     ends : bool
         Reading stops after it.
     ignored : bool
-        Its arguments are not read.
+        Its arguments are not read, at most kept as written.
+    inert : bool
+        It does not change the motion: one note reports that it is passed over.
     planned : tuple of str
         Keywords that are part of the language and cannot be run yet.
     body : bool
@@ -339,7 +348,8 @@ def statement(
         made.field_names = frozenset(f.name for f in dataclasses.fields(made))
         made.singleton, made.repeatable, made.place = singleton, repeatable, place
         made.ends, made.ignored, made.planned, made.body = ends, ignored, planned, body
-        made.data = data
+        made.data, made.inert = data, inert
+        made.inert_fields = tuple(name for name, each in made.arguments.items() if each.inert)
         made.redefinable = redefinable or (place == "deck" and not singleton and not ignored)
         STATEMENTS[keyword] = made
         return made

@@ -6,6 +6,7 @@ from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from adamslite.checks.inert import note_of_inert
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.rules import RULES
 from adamslite.checks.runs import RUN_RULES, fixed_lists, inputs_with_rates, late_start_values
@@ -69,7 +70,9 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
     commands = Commands(reading.statements(0))
     plain = tuple(each for each in commands if isinstance(each, Statement))
     run = Deck(reading.log.source, "", plain, deck.names, path)
-    reading.log.diagnostics += [*_caused(deck, commands), *inputs_with_rates(deck, plain)]
+    reading.log.diagnostics += [
+        *_caused(deck, commands), *inputs_with_rates(deck, plain), *note_of_inert(commands)
+    ]  # fmt: skip
     commands.warnings = _judged(run, reading, RUN_RULES)
     return commands
 

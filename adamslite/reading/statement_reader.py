@@ -105,10 +105,10 @@ class Reading:
             syntax, found = statement_syntax(logical)
             if self._is_model_name(syntax):
                 continue
-            for mistake, tokens in found:
+            cls = self._class(syntax) if syntax else None
+            for mistake, tokens in found if not (cls and cls.ignored) else ():
                 first, last = tokens[mistake.first], tokens[mistake.last]
                 self.log.add(mistake.code, first[2], end_of(last), **mistake.words)
-            cls = self._class(syntax) if syntax else None
             if syntax and cls is not None:
                 self._enter(cls, syntax)
                 if cls.ends:
@@ -183,8 +183,6 @@ class Reading:
         id = to_id(syntax.tokens[first.start : first.end]) if first else None
         if id is not None:
             self.names.add(keyword, canonical(id), syntax.name, syntax.tokens[0][2])
-        if keyword == "FLEX_BODY":
-            self._body = (keyword, None)
 
     def _enter(self, cls: type[Statement], syntax: Syntax) -> None:
         if self._changes(cls):
@@ -235,7 +233,7 @@ class Reading:
         """The id of a statement; None, with a message, when there is none."""
         first = syntax.items[0] if syntax.items else None
         if first is None or first.key >= 0:
-            if syntax.whole:
+            if syntax.whole or cls.ignored:
                 self.log.add("missing-id", *syntax.range, word=cls.keyword)
             return None
         tokens = syntax.tokens[first.start : first.end]
@@ -280,11 +278,19 @@ class Reading:
                         return canonical(entry.id)
         return None
 
+    def _as_written(self, entry: Entry) -> dict[str, object]:
+        """The arguments of a statement that only keeps its text."""
+        if "written" not in entry.cls.field_names or entry.changes:
+            return {}
+        start, end = entry.syntax.range
+        _, _, written = self.log.source.text[start:end].partition("/")
+        return {"written": written.strip()}
+
     def _statement(self, entry: Entry, reader: ValueReader) -> Command | None:
         """The statement with its arguments; None when something is wrong with it."""
         cls, syntax = entry.cls, entry.syntax
         if cls.ignored or cls.ends:
-            values: dict[str, object] = {}
+            values = self._as_written(entry)
             ranges: dict[str, tuple[int, int]] = {}
         else:
             errors = self.log.errors

@@ -8,6 +8,7 @@ warnings alone do not count.
 import argparse
 import sys
 from collections import Counter
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,7 @@ from adamslite.cli.commands.codes import DECK_ERRORS, DONE
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
-    from adamslite.language.diagnostics import DeckError
+    from adamslite.language.diagnostics import DeckError, Diagnostic
     from adamslite.scene import Scene
 
 
@@ -42,15 +43,20 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _tally(fault: "DeckError") -> str:
-    errors = len(fault.errors)
-    warnings = len(fault.diagnostics) - errors
-    return f"{_many(errors, 'error')}, {_many(warnings, 'warning')}"
+    return _counted(fault.diagnostics, always=("error", "warning"))
+
+
+def _counted(diagnostics: "Iterable[Diagnostic]", always: Sequence[str] = ()) -> str:
+    """How many there are of each severity; those of `always` also where there are none."""
+    counted = Counter(each.severity for each in diagnostics)
+    shown = [each for each in ("error", "warning", "note") if counted[each] or each in always]
+    return ", ".join(_many(counted[each], each) for each in shown)
 
 
 def _contents(scene: "Scene") -> str:
     counted = Counter(statement.keyword for statement in scene.deck.statements)
     listed = ", ".join(f"{number} {keyword}" for keyword, number in counted.items())
-    warnings = _many(len(scene.warnings), "warning") if scene.warnings else "no mistakes found"
+    warnings = _counted(scene.warnings) or "no mistakes found"
     return "".join(
         f"{line}\n"
         for line in (

@@ -126,6 +126,11 @@ CONSTRAINTS: dict[str, Message] = {
             "VARIABLE/1, FUNCTION=ACCX(2)\nSFORCE/1, I=2, J=1, FUNCTION=VARVAL(d(1)/dt)",
         ),
     ),
+    "gcon-marker": Message(
+        "FUNCTION of {label} does not measure at MARKER/{key}",
+        "the reaction of a GCON is known at the markers of its FUNCTION: {listed}",
+        ("GCON/1, I=3, FUNCTION=DM(2,1)-1", "GCON/1, I=2, J=1, FUNCTION=DY(2)"),
+    ),
     "force-loop": Message(
         "{label} needs the force of {other}, which depends on itself",
         "measure it in a VARIABLE, which is solved for, or name the other forces one by one",

@@ -23,7 +23,7 @@ class Message:
     deck : str
         What these command files need in the deck.
     severity : str
-        ``"error"`` or ``"warning"``.
+        ``"error"``, ``"warning"`` or ``"note"``.
     """
 
     sentence: str

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from adamslite.language.diagnostics import WARNING
+from adamslite.language.diagnostics import NOTE, WARNING
 from adamslite.language.messages.constraints import LINE
 from adamslite.language.messages.entry import Message
 
@@ -113,16 +113,37 @@ MODEL: dict[str, Message] = {
         ("MARKER/4, PART=1, FLOATING, QP=1,2,3\nVFORCE/1, I=2, JFLOAT=4, FX=1",),
     ),
     "floating-unused": Message(
-        "{label} is FLOATING but no force uses it as JFLOAT",
+        "FLOATING and used by no force: {listed}",
+        "leave them out, or name them as JFLOAT",
+        ("MARKER/4, PART=1, FLOATING", "MARKER/4, PART=1, FLOATING\nMARKER/5, PART=2, FLOATING"),
+        severity=NOTE,
+    ),
+    "flexible-body": Message(
+        "{label} uses MARKER/{key} of {body}, and flexible bodies are not supported",
+        "{instead}",
+        ("FLEX_BODY/4, MTX_FILE=a.mtx\nMARKER/4, FLEX_BODY=4, NODE_ID=1000\n"
+         "JOINT/1, FIXED, I=2, J=4", "FE_PART/4\nMARKER/4\nREQUEST/1, F1=DX(4)"),
+    ),
+    "passed-over": Message(
+        "passed over, as it does not change the motion: {listed}",
         "",
-        ("MARKER/4, PART=1, FLOATING",),
+        ("PREFERENCES/SOLVER=CXX\nSTRING/1, STRING=a\nSTRING/2, STRING=b",
+         "KINEMATICS/HMAX=0.1", "MATERIAL/1, NAME=steel, DENSITY=7801.0",
+         "FLEX_BODY/4\nMARKER/4, FLEX_BODY=4"),
+        commands=("ENVIRONMENT/NAME=A, VALUE=C:\\b", "OUTPUT/NOSEP\nRESULTS/\nRESULTS/"),
+        severity=NOTE,
     ),
     "floating-misused": Message(
         "{word} of {label} is a FLOATING marker",
-        "only JFLOAT may be floating; MARKER/{key} has no place of its own",
+        "MARKER/{key} has no position of its own; it may be JFLOAT, or a marker between which "
+        "REQUEST/FORCE and FX, FY ... TZ measure",
         ("MARKER/4, PART=1, FLOATING\nVFORCE/1, I=2, JFLOAT=4, FX=1\n"
          "SFORCE/1, I=2, J=4, FUNCTION=1",
-         "MARKER/4, PART=1, FLOATING\nVFORCE/1, I=2, JFLOAT=4, FX=DX(2,4)"),
+         "MARKER/4, PART=1, FLOATING\nVFORCE/1, I=2, JFLOAT=4, FX=DX(2,4)",
+         "MARKER/4, PART=1, FLOATING\nVFORCE/1, I=2, JFLOAT=4, FX=1\n"
+         "REQUEST/1, FORCE, I=2, J=4, RM=4",
+         "MARKER/4, PART=1, FLOATING\nVFORCE/1, I=2, JFLOAT=4, FX=1\n"
+         "REQUEST/1, F2=FX(2,4,4)"),
     ),
     "not-floating": Message(
         "JFLOAT of {label} is not a FLOATING marker",

@@ -73,7 +73,7 @@ STATEMENTS: dict[str, Message] = {
     "statement-in-commands": Message(
         "not supported yet: {word} as a command{times}",
         "put the statement in the deck",
-        commands=("UNITS/SYSTEM=MKS\nstop", "RESULTS/\nRESULTS/"),
+        commands=("UNITS/SYSTEM=MKS\nstop", "END"),
     ),
     "after-end": Message(
         "{word} follows END and is not read",

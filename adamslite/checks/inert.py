@@ -1,0 +1,68 @@
+"""What is passed over as it does not change the motion, and what cannot be."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+
+from adamslite.checks.markers import references
+from adamslite.deck.deck import Deck
+from adamslite.deck.redefinition import Command
+from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.elements.marker import Marker
+from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.interfaces import Key
+from adamslite.language.statement import Statement
+
+Body = tuple[str, Key]
+INSTEAD = {
+    "FLEX_BODY": "write it as a rigid PART, or as PARTs that BEAM or FIELD elements join",
+    "FE_PART": "write it as a chain of PARTs that BEAM elements join",
+}
+
+
+def acts_on_flexible(deck: Deck) -> Iterator[Diagnostic]:
+    """Flexible bodies are passed over as long as nothing refers to their markers."""
+    for statement, field, key, (keyword, id) in _flexible_uses(deck):
+        yield diagnose(
+            statement, "flexible-body", field,
+            key=key, body=f"{keyword}/{id}", instead=INSTEAD[keyword],
+        )  # fmt: skip
+
+
+def _flexible_uses(deck: Deck) -> Iterator[tuple[Statement, str, Key, Body]]:
+    """Statements, with the field, that refer to a marker of a flexible body."""
+    owner = {marker.key: marker.owner for marker in deck.of(Marker)}
+    flexible = {key: body for key, body in owner.items() if body and body[0] in INSTEAD}
+    for statement in deck.statements if flexible else ():
+        for field, key in references(statement):
+            if key in flexible:
+                yield statement, field, key, flexible[key]
+
+
+def passed_over(deck: Deck) -> Iterator[Diagnostic]:
+    needed = {body for *_, body in _flexible_uses(deck)}
+    yield from note_of_inert(s for s in deck.own if (s.keyword, s.key) not in needed)
+
+
+def note_of_inert(statements: Iterable[Command]) -> Iterator[Diagnostic]:
+    """One note for everything that does not change the motion, at the first of it."""
+    counts: Counter[str] = Counter()
+    first: tuple[Command, str] | None = None
+    for each in statements:
+        for field, name in _inert(each):
+            first = first or (each, field)
+            counts[name] += 1
+    if first:
+        listed = (f"{name} ({n})" if n > 1 else name for name, n in counts.items())
+        yield diagnose(first[0], "passed-over", first[1], listed=", ".join(listed))
+
+
+def _inert(command: Command) -> Iterator[tuple[str, str]]:
+    """What of a statement is passed over: itself, or arguments of it, with their fields."""
+    cls = type(command) if isinstance(command, Statement) else command.of
+    if cls.inert:
+        yield "", command.keyword
+    for field in cls.inert_fields:
+        if field in command.spans:
+            yield field, f"{command.keyword} {cls.arguments[field].key}"
