@@ -90,7 +90,7 @@ def restart(P: Problem, L: Plan, C: Control) -> None:
     P.count.restarts += 1
     keep_solution(P)
     forget_multipliers(P)
-    C.h = restart_step(P, L, C.t, first_step(P, 0))
+    C.h = restart_step(P, L, C.t, first_step(P))
     C.order, C.equal, C.h_last, C.factored = 1, 0, 0.0, 0.0
     forget_window(C.cap)
     start_values(P, C)

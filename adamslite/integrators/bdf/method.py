@@ -97,7 +97,7 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     start_events(P, True, tests_velocities(P))
     started = accelerations(P, L, C.t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
-    C.h = first_step(P, 0)
+    C.h = first_step(P)
     start_values(P, C)
     if not started:
         return BROKEN_START

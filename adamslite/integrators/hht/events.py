@@ -94,7 +94,7 @@ def restart(P: Problem, L: Plan, C: Control) -> None:
     P.count.restarts += 1
     C.h_last, C.equal, C.factored = 0.0, 0, 0.0
     start_values(P)
-    h = first_step(P, 0)
+    h = first_step(P)
     change = abs(P.settings.beta - 1.0 / 6.0) * jerk(P, L, C.t, LOOK_AHEAD * h)
     C.h = P.settings.h_max
     if change > 0.0:

@@ -87,7 +87,7 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     start_events(P, C.fixed == 0.0, first_order_share(P) > 0.0)
     started = accelerations(P, L, C.t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
-    C.h = first_step(P, 0)
+    C.h = first_step(P)
     start_values(P)
     if started:
         note_signature(P, L, C, P.pivot0)

@@ -1,12 +1,8 @@
-"""Control numbers of an implicit method between steps, and its last accepted multipliers."""
+"""Control numbers of an implicit method between steps."""
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import (
-    Problem,
-)
 from adamslite.integrators.stepping.control import StepControl
-from adamslite.native.translate import native
 
 
 class ImplicitControl(StepControl):
@@ -28,10 +24,3 @@ class ImplicitControl(StepControl):
     fresh: bool
     age: int
     noisy: int
-
-
-@native
-def keep_algebraic(P: Problem) -> None:
-    """Remember multipliers and variables of the accepted state."""
-    for i in range(P.z.size):
-        P.rz[i] = P.z[i]

@@ -26,7 +26,7 @@ ROOT_OF_TENTH = 0.3
 
 
 @native
-def first_step(P: Problem, w: int) -> float:
+def first_step(P: Problem) -> float:
     """A step whose first-order error is a tenth of ERROR, judged by the accelerations."""
     n = P.sizes.n
     tol = P.settings.error

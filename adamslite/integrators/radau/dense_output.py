@@ -2,34 +2,29 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import accelerations, put_state
+from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.coefficients import NODE
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.stages import ORIGIN, RATES, stage_z
-from adamslite.integrators.records import write_record
+from adamslite.integrators.stepping.output import is_due, record_next
 from adamslite.native.translate import Reals, native
-
-# A time that lies behind the end of a step by this share of the step is one of it.
-DUE = 1e-9
 
 
 @native
-def record(P: Problem, L: Plan, C: Control, h: float) -> bool:
+def record(P: Problem, L: Plan, C: Control) -> bool:
     """Write every output time of the accepted step; False when accelerations are not determined."""
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
-    y, w = P.trial[0:], 2 * n + ns
-    while C.row < P.times.size and P.times[C.row] <= C.t + DUE * h:
+    y, w, h = P.trial[0:], 2 * n + ns, C.h_last
+    while is_due(P, C):
         collocated(P, P.history, w, min(1.0, 1.0 + (P.times[C.row] - C.t) / h), y)
         for i in range(n):
             y[i] += P.history[ORIGIN * w + i]
         for k in range(ns):
             P.z[first + k] = y[2 * n + k]
-        if not accelerations(P, L, P.times[C.row], y, y[n:], P.a, P.z, P.rd):
+        if not record_next(P, L, C, y):
             return False
-        write_record(P, C.row)
-        C.row += 1
     return True
 
 

@@ -10,6 +10,7 @@ Reference: Hairer, Wanner, Solving ODE II, 1996, section IV.8 (eq. 8.19, 8.20).
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
+from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
 from adamslite.integrators.implicit.tolerance import weighted
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import Plan
@@ -24,7 +25,7 @@ from adamslite.integrators.motion_equations import (
 from adamslite.integrators.newton import apply_increment
 from adamslite.integrators.radau.coefficients import REAL, WEIGHT
 from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.stages import ORIGIN, equations_kept, is_tied, put_counted
+from adamslite.integrators.radau.stages import ORIGIN, put_counted
 from adamslite.native.translate import Reals, native
 
 
@@ -65,7 +66,7 @@ def newton_error(P: Problem, L: Plan, C: Control, base: Reals, error: Reals) -> 
     error_motion(P, cu, base, error, v)
     residual(P, equations_kept(P), P.F)
     solve(L, P.LV, P.pivots, P.F, P.x, P.work)
-    apply_increment(P, P.F, error, P.z, P.mu, is_tied(P))
+    apply_increment(P, P.F, error, P.z, P.mu, is_stabilised(P))
     for k in range(ns):
         error[2 * n + k] = P.z[first + k] - base[2 * n + k]
     error_motion(P, cu, base, error, v)
@@ -83,7 +84,7 @@ def error_motion(P: Problem, cu: float, base: Reals, error: Reals, v: Reals) -> 
         P.q[i] = base[i] + error[i]
     velocities(P, P.q, P.a, P.u)
     put_counted(P, P.q)
-    if is_tied(P):
+    if is_stabilised(P):
         project_on_constraints(P, P.mu, P.x)
         for i in range(n):
             P.u[i] += P.x[i]

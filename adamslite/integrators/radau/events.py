@@ -15,7 +15,6 @@ Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6 (discontin
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import mass_signature
 from adamslite.integrators.contract import NEWTON_FAILED, Problem
 from adamslite.integrators.event_rows import END, INSIDE, NONE
 from adamslite.integrators.events.events import change_here, pass_event
@@ -29,21 +28,20 @@ from adamslite.integrators.events.search import (
     shorter,
     starts_there,
 )
-from adamslite.integrators.implicit.control import keep_algebraic
-from adamslite.integrators.implicit.step_size import SMOOTH, first_step
+from adamslite.integrators.implicit.formulation import equations_kept
+from adamslite.integrators.implicit.step_size import first_step, jumped
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.coefficients import REAL
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.corrector import round_off
 from adamslite.integrators.radau.dense_output import put_inside
-from adamslite.integrators.radau.stages import (
-    equations_kept,
-)
 from adamslite.integrators.radau.state import (
     put_end,
     stand_at_start,
 )
+from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
+from adamslite.integrators.stepping.outcome import note_signature
 from adamslite.native.translate import native
 
 # A step to a crossing that ends before it by less than this share is taken again, longer, but not
@@ -134,27 +132,18 @@ def pass_on(P: Problem, L: Plan, C: Control) -> int:
     if not pass_event(P, L, C.t):
         return NEWTON_FAILED
     C.known = False
-    if P.search.jump * C.h_last > SMOOTH * P.settings.error:
+    if jumped(P, C):
         restart(P, L, C)
     else:
-        take_accelerations(P)
+        keep_solution(P)
     return RUNNING
-
-
-@native
-def take_accelerations(P: Problem) -> None:
-    """Accelerations and algebraic unknowns in place are those of the accepted state."""
-    for i in range(P.sizes.n):
-        P.ra[i] = P.a[i]
-    keep_algebraic(P)
 
 
 @native
 def restart(P: Problem, L: Plan, C: Control) -> None:
     """The next step is predicted from the accelerations in place, and chosen like the first."""
     P.count.restarts += 1
-    take_accelerations(P)
+    keep_solution(P)
     C.h_last, C.last_size, C.known, C.cautious = 0.0, 0.0, False, True
-    C.h = first_step(P, 0)
-    if P.sizes.implicit_mass:
-        C.signature = mass_signature(P, L, P.x)
+    C.h = first_step(P)
+    note_signature(P, L, C, P.x)

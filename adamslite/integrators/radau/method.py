@@ -17,13 +17,12 @@ References: Hairer, Wanner, Solving ODE II, 1996, sections IV.8 (iteration, erro
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import accelerations, mass_signature, put_state
+from adamslite.integrators.accelerations import accelerations, put_state
 from adamslite.integrators.audit.balance import audit
 from adamslite.integrators.contract import BROKEN_START, NOT_FINITE, SINGULAR_MASS, Problem
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.stops import horizon
-from adamslite.integrators.implicit.control import keep_algebraic
 from adamslite.integrators.implicit.step_size import first_step
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
@@ -41,23 +40,25 @@ from adamslite.integrators.radau.prediction import predict
 from adamslite.integrators.radau.recovery import (
     after_failure,
     after_rejection,
-    near_singularity,
     stuck,
 )
 from adamslite.integrators.radau.stages import ORIGIN, keep_stages
 from adamslite.integrators.radau.state import put_end, stand_at_start
 from adamslite.integrators.radau.step_size import choose_step, limit_step
-from adamslite.integrators.records import note_violation, write_record
-from adamslite.integrators.stepping.accepted import count_from_here
+from adamslite.integrators.records import note_violation
+from adamslite.integrators.stepping.accepted import count_from_here, keep_solution
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
     ALMOST,
     OVERFLOW,
     end_of_run,
     end_of_step,
+    near_singularity,
+    note_signature,
     note_try,
     passed_singularity,
 )
+from adamslite.integrators.stepping.output import record_start
 from adamslite.integrators.stepping.step_size import too_small
 from adamslite.native.translate import native
 
@@ -89,21 +90,18 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     start_events(P, True, True)
     good = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
-    C.h = first_step(P, 0)
+    C.h = first_step(P)
     if good:
-        if P.sizes.implicit_mass:
-            C.signature = mass_signature(P, L, P.pivot0)
-        while C.row < P.times.size and P.times[C.row] <= t:
-            write_record(P, C.row)
-            C.row += 1
+        note_signature(P, L, C, P.pivot0)
+        record_start(P, C)
         track(P)
         count_from_here(P)
     origin = Y[ORIGIN * (2 * n + ns) :]
     for i in range(n):
-        origin[i], origin[n + i], Y[n + i], P.ra[i] = P.q[i], P.u[i], P.u[i], P.a[i]
+        origin[i], origin[n + i], Y[n + i] = P.q[i], P.u[i], P.u[i]
     for k in range(ns):
         origin[2 * n + k], Y[2 * n + k] = P.z[first + k], P.z[first + k]
-    keep_algebraic(P)
+    keep_solution(P)
     return RUNNING if good else BROKEN_START
 
 
@@ -154,13 +152,11 @@ def accept(P: Problem, L: Plan, C: Control, error: float) -> int:
     if row < P.times.size and abs(P.times[row] - t) < ALMOST * h:
         t = P.times[row]
     put_end(P, C)
-    keep_algebraic(P)
-    for i in range(P.sizes.n):
-        P.ra[i] = P.a[i]
+    keep_solution(P)
     note_violation(P, t)
     audit(P, L, t)
-    C.t = t
-    good = record(P, L, C, h)
+    C.t, C.h_last = t, h
+    good = record(P, L, C)
     put_end(P, C)
     track(P)
     count_from_here(P)

@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import SINGULAR_MASS, Problem
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.implicit.failures import wildest
+from adamslite.integrators.implicit.formulation import equations_kept
 from adamslite.integrators.implicit.step_size import retry_factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.events import is_at_crossing, switch_behind
-from adamslite.integrators.radau.stages import equations_kept, put_stage
+from adamslite.integrators.radau.stages import put_stage
 from adamslite.integrators.radau.state import stand_at_start
 from adamslite.integrators.radau.step_size import step_factor
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.outcome import SINGULAR_RESOLUTION, why_stuck
+from adamslite.integrators.stepping.outcome import why_stuck
 from adamslite.integrators.stepping.step_size import cut
 from adamslite.native.translate import native
 
 # Below this share of HMAX the error of a step is round-off, and nobody's.
 BLAMELESS = 1e-9
-# Change of the step where the acceleration matrix became singular within it.
-NEARER = 0.25
 
 
 @native
@@ -54,13 +53,6 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
     if C.h > BLAMELESS * P.settings.h_max:
         C.blamed = P.report.where
     return RUNNING
-
-
-@native
-def near_singularity(P: Problem, C: Control) -> int:
-    """The acceleration matrix became singular within the step: approach that, never pass it."""
-    C.h *= NEARER
-    return RUNNING if C.h > SINGULAR_RESOLUTION * P.settings.h_max else SINGULAR_MASS
 
 
 @native

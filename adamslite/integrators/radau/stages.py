@@ -24,7 +24,8 @@ residuals and workspace of the complex system.
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import INDEX3, STABILISED, Problem
+from adamslite.integrators.contract import Problem
+from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
 from adamslite.integrators.implicit.rotation_count import count_anew
 from adamslite.integrators.linalg.blocks import factor, solve
 from adamslite.integrators.linalg.complex_blocks import factor_complex, solve_complex
@@ -73,18 +74,6 @@ def stage_z(P: Problem, row: int) -> int:
     first = P.sizes.m + P.sizes.nv
     w, e = 2 * P.sizes.n + P.sizes.ns, first + P.sizes.ns + P.sizes.holonomic
     return Y_ROWS * w + row * e
-
-
-@native
-def is_tied(P: Problem) -> bool:
-    """Whether constraints are kept on positions and velocities."""
-    return P.sizes.si2 and P.sizes.holonomic > 0
-
-
-@native
-def equations_kept(P: Problem) -> int:
-    """The groups of kernels that make the equations of a stage."""
-    return STABILISED if is_tied(P) else INDEX3
 
 
 @native
@@ -166,7 +155,7 @@ def stage_velocities(P: Problem, stage: int, h: float) -> None:
         y[i] = z[first + k]
         d[i] = a * (Y[w + i] - s) + b * (Y[2 * w + i] - s) + c * (Y[3 * w + i] - s)
     velocities(P, y, d, y[n:])
-    if is_tied(P):
+    if is_stabilised(P):
         put_time(P, C.t + P.tableau[NODE + stage - 1] * h)
         put_counted(P, y)
         project_on_constraints(P, z[first + ns :], P.F)
@@ -243,7 +232,7 @@ def move_stages(P: Problem, h: float) -> float:
     as they are (see :func:`adamslite.integrators.newton.increment_norm`); variables and states.
     """
     n, ns, nz, first = P.sizes.n, P.sizes.ns, P.sizes.nz, P.sizes.m + P.sizes.nv
-    w, Y, tied, largest = 2 * n + ns, P.history, is_tied(P), 0.0
+    w, Y, tied, largest = 2 * n + ns, P.history, is_stabilised(P), 0.0
     R, origin = Y[stage_z(P, Z_ROWS) :], Y[ORIGIN * w :]
     for stage in range(3):
         y, z, dz = Y[(1 + stage) * w :], Y[stage_z(P, stage) :], R[stage * nz :]

@@ -53,7 +53,7 @@ def choose_step(P: Problem, C: Control, error: float) -> None:
         factor = min(factor, max(LEAST_SHRINK, SAFETY * trend))
     if C.cautious and C.last_size > 0.0:
         factor = min(factor, 1.0)
-    C.last_size, C.last_norm, C.h_last = h, max(LEAST_REMEMBERED, error), h
+    C.last_size, C.last_norm = h, max(LEAST_REMEMBERED, error)
     C.retries, C.fresh, C.cautious, C.norm = 0, False, False, 0.0
     C.age += 1
     if C.theta > QUICK:
