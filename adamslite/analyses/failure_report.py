@@ -11,7 +11,7 @@ from adamslite.equations.system import System
 from adamslite.equations.unknown_names import equation, placed, tested, unknown
 from adamslite.integrators import contract
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
-from adamslite.integrators.verlet.method import LIMIT
+from adamslite.integrators.verlet.control import Control
 from adamslite.language.statement import Statement
 from adamslite.results.outcomes import Outcome
 
@@ -229,7 +229,7 @@ def _broken_motion(system: System) -> str:
 
 
 def _unstable(system: System) -> str:
-    return f"{_when(system)}; stable are steps up to {system.control[LIMIT]:.3g}"
+    return f"{_when(system)}; stable are steps up to {Control(system.control).limit:.3g}"
 
 
 def _not_kinematic(system: System) -> str:

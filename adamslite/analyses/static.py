@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import pi
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import EQUILIBRIUM
+from adamslite.integrators.equilibrium import Control
 from adamslite.results.outcomes import Outcome
 
 
@@ -32,13 +33,12 @@ class StaticSettings:
 
 def run_static(system: System, settings: StaticSettings) -> Outcome:
     """Move ``system`` to an equilibrium at its present time."""
-    control = system.control
-    control[:] = 0.0
-    control[:6] = (
-        settings.alimit, settings.tlimit, settings.error, settings.imbalance, settings.stability,
-        settings.maxit,
-    )  # fmt: skip
-    control[9] = model_size(system)
+    system.make_room(control=Control.slots)
+    C = Control(system.control)
+    C[:] = 0
+    for name, value in asdict(settings).items():
+        setattr(C, name, value)
+    C.length = model_size(system)
     outcome = system.run(EQUILIBRIUM)
     return Outcome.DONE if outcome == contract.DONE else Outcome.NO_EQUILIBRIUM
 

@@ -20,12 +20,8 @@ from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART, jacobian, put_pose, residual, spread
 from adamslite.integrators.newton import apply_increment
-from adamslite.native.translate import native
+from adamslite.native.translate import Record, native
 
-# Places in P.control.
-ALIMIT, TLIMIT, CHANGE, IMBALANCE, STABILITY, ITERATIONS, SIGMA, WORST, MOVED, LENGTH = range(10)
-# Newton settled, before anything was judged.
-FOUND = 10
 RELAXATIONS = 3000
 GROWTH, UPHILL = 1.6, 4.0
 # An equilibrium is far from the start beyond this share of the model, or this turn [rad].
@@ -34,13 +30,40 @@ FAR = 0.02
 SMALL = 1e-13
 
 
+class Control(Record):
+    """Limits of the search, and what it has come to.
+
+    alimit, tlimit       of the increments of an iteration [rad], [length]
+    error, imbalance     relative correction, residual [force] at which it is done
+    stability            times the mass matrix is added to the stiffness
+    maxit                iterations of Newton
+    length               of the model
+    sigma                times the mass matrix is added now
+    worst, moved         largest residual [force], relative correction of the last iteration
+    found                Newton settled, before anything was judged
+    """
+
+    alimit: float
+    tlimit: float
+    error: float
+    imbalance: float
+    stability: float
+    maxit: int
+    length: float
+    sigma: float
+    worst: float
+    moved: float
+    found: bool
+
+
 @native
 def equilibrium(P: Problem, L: Plan) -> int:
     """Move to the nearest equilibrium; DONE or NOT_SETTLED."""
+    C = Control(P.control)
     keep_start(P)
     if newton(P, L) and not (wandered(P) and unstable_ways(P, L) != 0):
         return noted(P, L)
-    if P.control[FOUND] == 1.0:
+    if C.found:
         # Newton finds unstable equilibria as well as stable ones, and here it went far to do so.
         back_to_start(P)
     if relaxed(P, L):
@@ -51,13 +74,13 @@ def equilibrium(P: Problem, L: Plan) -> int:
 @native
 def newton(P: Problem, L: Plan) -> bool:
     """Limited Newton steps; True when settled."""
-    C = P.control
-    C[SIGMA], C[FOUND] = C[STABILITY], 0.0
-    for _iteration in range(int(C[ITERATIONS])):
+    C = Control(P.control)
+    C.sigma, C.found = C.stability, False
+    for _iteration in range(C.maxit):
         if not static_step(P, L):
-            C[SIGMA] = max(10.0 * C[SIGMA], 1e-8)
+            C.sigma = max(10.0 * C.sigma, 1e-8)
         elif settled(P):
-            C[FOUND] = 1.0
+            C.found = True
             return True
     return False
 
@@ -65,22 +88,22 @@ def newton(P: Problem, L: Plan) -> bool:
 @native
 def relaxed(P: Problem, L: Plan) -> bool:
     """Relaxation from where the model is; True when settled."""
-    C = P.control
-    C[SIGMA] = first_sigma(P)
+    C = Control(P.control)
+    C.sigma = first_sigma(P)
     last, signs = 1e300, pivot_signs(P, L, SMALL, 1.0)
     for _iteration in range(RELAXATIONS):
-        if signs >= 0 and pivot_signs(P, L, 1.0, C[SIGMA]) != signs:
+        if signs >= 0 and pivot_signs(P, L, 1.0, C.sigma) != signs:
             # Too long a step: it would go uphill, to an unstable equilibrium.
-            C[SIGMA] *= UPHILL
+            C.sigma *= UPHILL
         elif not static_step(P, L):
-            C[SIGMA] *= 16.0
+            C.sigma *= 16.0
         elif settled(P):
             return True
-        elif C[WORST] > 10.0 * last:
-            C[SIGMA] *= 16.0
+        elif C.worst > 10.0 * last:
+            C.sigma *= 16.0
         else:
-            C[SIGMA] /= GROWTH * GROWTH
-        last = C[WORST]
+            C.sigma /= GROWTH * GROWTH
+        last = C.worst
     return False
 
 
@@ -113,11 +136,12 @@ def back_to_start(P: Problem) -> None:
 @native
 def wandered(P: Problem) -> bool:
     """Whether the posture is far from the one the search began with."""
+    C = Control(P.control)
     n, away = P.q.size, 0.0
     for b in range(P.sizes.nb):
         i = P.body[b].first
         for k in range(3):
-            away = max(away, abs(P.q[i + k] - P.history[i + k]) / P.control[LENGTH])
+            away = max(away, abs(P.q[i + k] - P.history[i + k]) / C.length)
         for k in range(9):
             away = max(away, abs(P.base[9 * b + k] - P.history[n + 9 * b + k]))
     return away > FAR
@@ -130,7 +154,8 @@ def unstable_ways(P: Problem, L: Plan) -> int:
     K + sigma M becomes singular once for every sigma > 0 with a motion that grows like
     exp(sqrt(sigma) t), and changes the sign of one pivot there.
     """
-    stiff = pivot_signs(P, L, 1.0, P.control[STABILITY])
+    C = Control(P.control)
+    stiff = pivot_signs(P, L, 1.0, C.stability)
     heavy = pivot_signs(P, L, SMALL, 1.0)
     return stiff - heavy if stiff >= 0 and heavy >= 0 else 0
 
@@ -152,6 +177,7 @@ def pivot_signs(P: Problem, L: Plan, stiffness: float, mass: float) -> int:
 @native
 def first_sigma(P: Problem) -> float:
     """1/h^2 for a step that moves the most accelerated body by a hundredth of the model."""
+    C = Control(P.control)
     imbalance(P)
     fastest = 1e-12
     for b in range(P.sizes.nb):
@@ -159,12 +185,13 @@ def first_sigma(P: Problem) -> float:
         if P.mass[b] > 0.0:
             for k in range(3):
                 fastest = max(fastest, abs(P.F[i + k]) / P.mass[b])
-    return 100.0 * fastest / P.control[LENGTH]
+    return 100.0 * fastest / C.length
 
 
 @native
 def imbalance(P: Problem) -> None:
-    """Residual at rest; the largest force left over goes to C[WORST]."""
+    """Residual at rest; the largest force left over is the worst."""
+    C = Control(P.control)
     n = P.sizes.n
     for i in range(n):
         P.u[i] = 0.0
@@ -178,17 +205,18 @@ def imbalance(P: Problem) -> None:
     for i in range(n):
         if exceeds(abs(P.F[i]), worst):
             worst = abs(P.F[i])
-    P.control[WORST] = worst
+    C.worst = worst
 
 
 @native
 def static_step(P: Problem, L: Plan) -> bool:
     """One limited Newton step; False when the matrix is singular or the residual is not finite."""
-    C, c = P.control, P.coef
+    C = Control(P.control)
+    c = P.coef
     imbalance(P)
-    if not C[WORST] < 1e200:
+    if not C.worst < 1e200:
         return False
-    c[0], c[1], c[2], c[3], c[4] = 1.0, 0.0, C[SIGMA], 1.0, 0.0
+    c[0], c[1], c[2], c[3], c[4] = 1.0, 0.0, C.sigma, 1.0, 0.0
     jacobian(P, STATIC, c, P.J)
     spread(P, P.LV)
     for k in range(P.unit.size):
@@ -206,7 +234,8 @@ def limited_move(P: Problem) -> bool:
     """Apply the increment in P.F, shortened to TLIMIT and ALIMIT; attitudes are counted from the
     new ones.
     """
-    C, shrink, moved = P.control, 1.0, 0.0
+    C = Control(P.control)
+    shrink, moved = 1.0, 0.0
     for b in range(P.sizes.nb):
         i, kind = P.body[b].first, P.body[b].width
         for k in range(kind):
@@ -214,9 +243,9 @@ def limited_move(P: Problem) -> bool:
             moved = max(moved, size / max(1.0, abs(P.q[i + k])))
             if not size < 1e200:
                 return False
-            limit = C[TLIMIT] if k < 3 else C[ALIMIT]
+            limit = C.tlimit if k < 3 else C.alimit
             shrink = min(shrink, limit / max(size, 1e-300))
-    C[MOVED] = moved
+    C.moved = moved
     if shrink < 1.0:
         for i in range(P.sizes.n):
             P.F[i] *= shrink
@@ -235,10 +264,10 @@ def limited_move(P: Problem) -> bool:
 @native
 def settled(P: Problem) -> bool:
     """Small correction, and small residual of forces and constraints after it."""
-    C = P.control
+    C = Control(P.control)
     imbalance(P)
     first = P.sizes.n + P.sizes.m + P.sizes.nv
     for k in range(P.sizes.n, first):
-        if not abs(P.F[k]) <= C[CHANGE] * 1e-3 * max(1.0, C[LENGTH]):
+        if not abs(P.F[k]) <= C.error * 1e-3 * max(1.0, C.length):
             return False
-    return C[WORST] <= C[IMBALANCE] and C[MOVED] <= C[CHANGE]
+    return C.worst <= C.imbalance and C.moved <= C.error

@@ -42,6 +42,7 @@ from adamslite.integrators.motion_equations import put_time, run_groups, track
 from adamslite.integrators.records import write_record
 from adamslite.integrators.step_back import bring_audit_back, keep_audit
 from adamslite.integrators.unconstrained import divide_by_mass, put_free, radius
+from adamslite.integrators.verlet.control import Control
 from adamslite.native.translate import native
 
 # Steps from one look at the local error to the next, where no force changes its law (a contact may
@@ -51,29 +52,26 @@ SAMPLE = 8
 # ... and with equal steps, whose length nothing changes.
 FIXED_SAMPLE = 32
 # Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
-WORTH = 200.0
+WORTH = 200
 SHRINK, GROW = 0.25, 2.0
 # Tries of one interval that may blow up: steps 4^8 times as short take every jump of a stiffness
 # that a run can be meant to have; what still blows up has no value there, with any step.
 MOST_BLOWN = 8
 
-# Places in P.control.
-LIMIT, WANTED, SINCE, SUM = range(4)
-
 
 @native
 def verlet(P: Problem, L: Plan) -> int:
     """Integrate over the output times; returns an outcome."""
-    C, fixed = P.control, P.settings.h_init > 0.0
-    for i in range(P.control.size):
-        C[i] = 0.0
+    C = Control(P.control)
+    fixed = P.settings.h_init > 0.0
+    C[:] = 0
     P.report.order = 2
     start_events(P, False, False)
     P.report.stable_step = 1e300
     synchronise(P, P.times[0], 0)
     P.report.t = P.times[0]
-    C[SINCE] = WORTH
-    C[WANTED] = P.settings.h_init if fixed else P.settings.h_max
+    C.since = WORTH
+    C.wanted = P.settings.h_init if fixed else P.settings.h_max
     for row in range(1, P.times.size):
         if P.settings.stop:
             return INTERRUPTED
@@ -122,39 +120,40 @@ def stand(P: Problem, t: float) -> None:
 @native
 def look_at_stability(P: Problem) -> None:
     """The longest stable step at the workspace's state, when enough steps were taken since."""
-    C = P.control
-    if C[SINCE] < WORTH:
+    C = Control(P.control)
+    if C.since < WORTH:
         return
-    C[SINCE] = 0.0
+    C.since = 0
     kappa, c = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
     bottom = c + (c * c + 4.0 * kappa) ** 0.5
-    C[LIMIT] = 4.0 * STABLE / bottom if bottom > 0.0 else 1e300
-    P.report.stable_step = min(P.report.stable_step, C[LIMIT] / STABLE)
+    C.limit = 4.0 * STABLE / bottom if bottom > 0.0 else 1e300
+    P.report.stable_step = min(P.report.stable_step, C.limit / STABLE)
 
 
 @native
 def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
     """From one output time or stop to the next; returns an outcome."""
-    C, n = P.control, P.sizes.n
+    C = Control(P.control)
+    n = P.sizes.n
     old = P.trial[0:]
     for i in range(n):
         old[i], old[n + i] = P.q[i], P.u[i]
     keep_audit(P)
-    wanted, blown = min(C[WANTED], longest_step(P)), 0
+    wanted, blown = min(C.wanted, longest_step(P)), 0
     while not P.settings.stop:
         if not fixed:
-            wanted = min(wanted, C[LIMIT])
+            wanted = min(wanted, C.limit)
         h = (end - t) / max(1.0, 0.0 - floor(1e-9 - (end - t) / wanted))
         P.report.h = h
         if wanted < P.settings.h_min or blown == MOST_BLOWN:
             return STEP_TOO_SMALL
-        if fixed and STABLE * h > C[LIMIT]:
+        if fixed and STABLE * h > C.limit:
             return UNSTABLE
         error = march(P, L, t, h, int((end - t) / h + 0.5), fixed)
         P.report.error = error
         if error <= 1.0:
-            P.report.spent += C[SUM]
-            C[WANTED] = following(P, error, h, wanted, fixed)
+            P.report.spent += C.spent
+            C.wanted = following(P, error, h, wanted, fixed)
             return DONE
         P.count.rejected += 1
         if fixed:
@@ -170,8 +169,9 @@ def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
 @native
 def following(P: Problem, error: float, h: float, wanted: float, fixed: bool) -> float:
     """The step to try next: what was before, when these were short for the sake of a pulse."""
+    C = Control(P.control)
     if longest_step(P) < P.settings.h_max:
-        return P.control[WANTED]
+        return C.wanted
     if fixed or error >= 0.5:
         return wanted
     return min(GROW, 0.9 * max(error, 1e-3) ** (-1.0 / 3.0)) * h
@@ -180,8 +180,9 @@ def following(P: Problem, error: float, h: float, wanted: float, fixed: bool) ->
 @native
 def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> float:
     """``count`` steps; returns the largest local error seen against ERROR, 1e300 for a blow-up."""
-    top, every, P.control[SUM] = 0.0, FIXED_SAMPLE if fixed else 1, 0.0
-    if not fixed and P.sizes.watched == 0 and 2.0 * h > P.control[LIMIT]:
+    C = Control(P.control)
+    top, every, C.spent = 0.0, FIXED_SAMPLE if fixed else 1, 0.0
+    if not fixed and P.sizes.watched == 0 and 2.0 * h > C.limit:
         every = SAMPLE
     put_free(P, t, P.q, P.u)
     for s in range(count + 1):
@@ -195,7 +196,7 @@ def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> f
             top = max(top, error)
             if not top < 1e6 and not fixed:
                 return top
-            P.control[SUM] += every * error
+            C.spent += every * error
         if s % every == 0:
             divide_by_mass(P, P.F, P.history, 0.0, P.ra)
         kick = 0.5 * h if s == 0 or s == count else h
@@ -204,7 +205,7 @@ def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> f
         return 1e300
     P.count.steps += count
     P.count.residuals += count + 1
-    P.control[SINCE] += float(count)
+    C.since += count
     return 0.0 if fixed else top
 
 
