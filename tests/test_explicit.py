@@ -66,6 +66,29 @@ def test_projection_leaves_nothing_but_round_off(error: float):
     np.testing.assert_allclose(vy, w * x, rtol=0, atol=1e-11)
 
 
+@pytest.mark.parametrize("masses", [0, 1, 2, 5])
+def test_a_part_behind_point_masses_spins_as_if_alone(masses: int):
+    """A symmetric top without torque: w turns about L with |L|/I1.
+
+    PART/9, MASS=1, CM=9, IP=1,1,2, WX=1, WZ=2        L = (1, 0, 4), recorded within long steps
+    """
+    flying = "".join(
+        f"POINT_MASS/{k}, MASS=1, CM={k}, QG={k},0,0, VX=0.3\nMARKER/{k}, POINT_MASS={k}\n"
+        for k in range(2, 2 + masses)
+    )
+    top = "PART/9, MASS=1, CM=9, IP=1,1,2, WX=1, WZ=2\nMARKER/9, PART=9\n"
+    deck = f"a top\nPART/1, GROUND\nMARKER/1, PART=1\n{flying}{top}END\n"
+    settings = {"integrator": "ABAM", "error": 1e-9, "hmax": 1.0}
+    results = al.simulate(al.read(deck), end=5.0, steps=100, **settings)
+    assert results.summary["steps"] < 80
+    moment, start = np.array([1.0, 0.0, 4.0]), np.array([1.0, 0.0, 2.0])
+    axis, angle = moment / np.sqrt(17.0), np.sqrt(17.0) * results.time[:, None]
+    along = axis * (axis @ start)
+    expected = along + np.cos(angle) * (start - along) + np.sin(angle) * np.cross(axis, start)
+    found = np.column_stack([results[f"PART/9.w{c}"] for c in "xyz"])
+    np.testing.assert_allclose(found, expected, atol=1e-7)
+
+
 def test_verlet_is_of_order_two():
     """Half the step, a quarter of the error."""
     known = run(SPRING, "ABAM", error=1e-10)["POINT_MASS/3.x"][-1]

@@ -10,10 +10,6 @@ import numpy as np
 import pytest
 from scenes import native_call
 
-from adamslite.integrators import contract
-from adamslite.integrators.bdf.control import Control as BdfControl
-from adamslite.integrators.hht.control import Control as HhtControl
-from adamslite.integrators.radau.control import Control as RadauControl
 from adamslite.native.translate import (
     Ints,
     Reals,
@@ -149,11 +145,6 @@ def test_records_refuse_what_native_code_would_not_see():
         type("Odd", (Record,), {"__annotations__": {"slots": int}, "__module__": __name__})
     with pytest.raises(TypeError, match="Odd.x: .* is no type"):
         type("Odd", (Record,), {"__annotations__": {"x": "complex"}, "__module__": __name__})
-
-
-@pytest.mark.parametrize("control", [BdfControl, HhtControl, RadauControl])
-def test_the_numbers_of_a_method_have_room(control):
-    assert control.slots <= contract.CONTROL
 
 
 # ---- what is refused -----------------------------------------------------------------------------

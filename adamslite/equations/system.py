@@ -134,7 +134,7 @@ class System:
         # What equilibria remember; a method makes the room that it needs.
         self.history = np.zeros(self.q.size + 9 * len(self.model.bodies))
         self.trial = np.zeros(3 * w + 3)
-        self.control, self.tableau = np.zeros(contract.CONTROL), np.zeros(1)
+        self.control, self.tableau = np.zeros(0), np.zeros(1)
         self.parts, self.LC, self.pivots_c = np.zeros(1), np.zeros(1), ints([0])
         self.coef = np.zeros(contract.COEFFICIENTS)
         self.times, self.record, self.undo = np.zeros(1), np.zeros(1), np.zeros(0)

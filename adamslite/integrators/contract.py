@@ -86,8 +86,6 @@ ACCELERATION = LOADS | REACTIONS | ACCELERATION_ROWS | ROWS
 
 # Coefficients of a Jacobian: of its derivatives by q, u, a, (lam, V) and s'.
 COEFFICIENTS = 5
-# Room for the numbers of any integrator.
-CONTROL = 48
 
 # The one pace of a run whose steps are not held back.
 NO_PACE = (-1e300, 1e300, 1e300)

@@ -140,7 +140,7 @@ class Method:
         does.
     prepare : callable
         ``prepare(system, settings)`` comes before every run: it makes the arrays of the numbered
-        equations as long as the formula needs (``system.make_room``) and fills in coefficients.
+        equations as long as the formula needs (``system.make_room``), ``control`` for its numbers first, and fills in coefficients.
     """
 
     names: tuple[str, ...]

@@ -14,6 +14,7 @@ References: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6; Enright,
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
+from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.dop853 import LATE, POWERS, ROW, TIMES
 from adamslite.integrators.explicit.stages import (
     add_combined,
@@ -24,14 +25,11 @@ from adamslite.integrators.explicit.stages import (
 )
 from adamslite.integrators.explicit.state import (
     BETWEEN,
-    CLOCK,
-    FOLLOWING,
     K_NEW,
+    LATE_STAGES,
     NEXT_STATE,
     OLD,
     SLOPE,
-    WIDTH,
-    H,
 )
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.records import write_record
@@ -45,12 +43,13 @@ DEFECT = 7.0
 @native
 def write_dense(P: Problem, L: Plan, w: int, t: float) -> bool:
     """Write every output time up to ``t``, the end of the step."""
-    C, K = P.control, P.history
-    following, ready, apart, h = int(C[FOLLOWING]), False, False, C[H]
+    C = Control(P.control)
+    K = P.history
+    following, ready, apart, h = C.row, False, False, C.h
     while following < P.times.size and P.times[following] <= t + 1e-9 * h:
         at = P.times[following]
         if at < t - 1e-9 * h:
-            x, y = (at - C[CLOCK]) / h, K[BETWEEN * w :]
+            x, y = (at - C.t) / h, K[BETWEEN * w :]
             if not ready and not late_stages(P, L, w, h):
                 return False
             ready = True
@@ -66,7 +65,7 @@ def write_dense(P: Problem, L: Plan, w: int, t: float) -> bool:
             return False
         write_record(P, following)
         following += 1
-    C[FOLLOWING] = float(following)
+    C.row = following
     return True
 
 
@@ -75,13 +74,14 @@ def step_to(P: Problem, L: Plan, w: int, t: float, h: float) -> bool:
     """The state at ``t`` by a step of size ``h`` from the start of this one; the new state stays,
     the stages of this step do not.
     """
-    K, whole = P.history, P.control[H]
+    C = Control(P.control)
+    K, whole = P.history, C.h
     new, y = K[NEXT_STATE * w :], K[BETWEEN * w :]
     for i in range(w):
         y[i] = new[i]
-    P.control[H] = h
+    C.h = h
     good = run_stages(P, L, w, h)
-    P.control[H] = whole
+    C.h = whole
     for i in range(w):
         kept = y[i]
         y[i] = new[i]
@@ -92,11 +92,12 @@ def step_to(P: Problem, L: Plan, w: int, t: float, h: float) -> bool:
 @native
 def late_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
     """Three more stages for the interpolation."""
+    C = Control(P.control)
     K, y = P.history, P.history[BETWEEN * w :]
-    for i in range(K_NEW + 1, K_NEW + 4):
+    for i in range(K_NEW + 1, K_NEW + 1 + LATE_STAGES):
         combine(P, LATE + i - K_NEW - 1, w, h, K[OLD * w :], y)
-        at = P.control[CLOCK] + h * P.tableau[ROW * TIMES + i]
-        if not rates_at(P, L, at, y, K[i * int(P.control[WIDTH]) :]):
+        at = C.t + h * P.tableau[ROW * TIMES + i]
+        if not rates_at(P, L, at, y, K[i * C.width :]):
             return False
     return True
 
@@ -104,12 +105,13 @@ def late_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
 @native
 def interpolated(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
     """The state at t + x h: order 7."""
+    C = Control(P.control)
     K, z = P.history, 1.0 - x
     old, new = K[OLD * w :], K[NEXT_STATE * w :]
     a, b, c = x, x * z, x * x * z
     for i in range(w):
         y[i] = old[i] + (a - b + 2.0 * c) * (new[i] - old[i])
-    width = int(P.control[WIDTH])
+    width = C.width
     for i in range(width):
         y[w - width + i] += h * ((b - c) * K[i] - c * K[K_NEW * width + i])
     for i in range(w - width):
@@ -123,12 +125,13 @@ def interpolated(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
 @native
 def slope(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
     """h times the rate of the interpolation at t + x h."""
+    C = Control(P.control)
     K, z = P.history, 1.0 - x
     old, new = K[OLD * w :], K[NEXT_STATE * w :]
     b, c = z - x, 2.0 * x * z - x * x
     for i in range(w):
         y[i] = (1.0 - b + 2.0 * c) * (new[i] - old[i])
-    width = int(P.control[WIDTH])
+    width = C.width
     for i in range(width):
         y[w - width + i] += h * ((b - c) * K[i] - c * K[K_NEW * width + i])
     for i in range(w - width):
@@ -143,7 +146,8 @@ def slope(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
 @native
 def defect(P: Problem, w: int, h: float) -> float:
     """max |p' - h f(p)| / max(1, |p|), of what has rates in ``P.trial``."""
-    width, top = int(P.control[WIDTH]), 0.0
+    C = Control(P.control)
+    width, top = C.width, 0.0
     y, rate = P.history[BETWEEN * w :], P.history[SLOPE * w :]
     for i in range(w - width, w):
         off = abs(rate[i] - h * P.trial[i - (w - width)])

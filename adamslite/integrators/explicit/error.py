@@ -9,18 +9,14 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
+from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.dop853 import ERROR3, ERROR5
 from adamslite.integrators.explicit.stages import combine, rates_at
 from adamslite.integrators.explicit.state import (
     BETWEEN,
-    CAUTIOUS,
-    CLOCK,
-    LAST_ERROR,
     NEXT_STATE,
     OLD,
     SCALES,
-    WIDTH,
-    H,
 )
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
@@ -51,11 +47,12 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
     """A step whose errors are small, from the rates here and one small step further (section
     II.4).
     """
-    t = P.control[CLOCK]
+    C = Control(P.control)
+    t = C.t
     room = min(longest_step(P), P.settings.t_end - t)
     if P.settings.h_init > 0.0:
         return min(room, P.settings.h_init)
-    y, new, width = P.history[OLD * w :], P.history[NEXT_STATE * w :], int(P.control[WIDTH])
+    y, new, width = P.history[OLD * w :], P.history[NEXT_STATE * w :], C.width
     h = euler(P, w, 1.0)
     scales = P.history[SCALES * w :]
     d0, d1 = distance(P, y, y, scales, w), change(P, w) / h
@@ -75,7 +72,8 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
 @native
 def euler(P: Problem, w: int, h: float) -> float:
     """The new state by Euler's formula; returns h."""
-    P.control[H] = h
+    C = Control(P.control)
+    C.h = h
     combine(P, 0, w, h / P.tableau[3], P.history[OLD * w :], P.history[NEXT_STATE * w :])
     return h
 
@@ -110,22 +108,24 @@ def estimate(P: Problem, w: int, h: float) -> float:
 @native
 def choose_explicit_step(P: Problem, error: float) -> None:
     """The next step from the errors of this and the last one."""
-    C, factor = P.control, GROW
+    C = Control(P.control)
+    factor = GROW
     if error > 0.0:
-        factor = min(GROW, SAFETY * error**NOW_POWER * C[LAST_ERROR] ** LAST_POWER)
-    if C[CAUTIOUS] != 0.0:
+        factor = min(GROW, SAFETY * error**NOW_POWER * C.last_error**LAST_POWER)
+    if C.cautious:
         factor = min(1.0, factor)
-    C[CAUTIOUS], C[LAST_ERROR] = 0.0, max(error, 1e-4)
+    C.cautious, C.last_error = False, max(error, 1e-4)
     cut_step(P, max(SHRINK, factor))
 
 
 @native
 def cut_step(P: Problem, factor: float) -> None:
     """``factor`` times the step, but not below HMIN, unless a step of HMIN has failed."""
-    C, h, least = P.control, P.control[H], P.settings.h_min
+    C = Control(P.control)
+    h, least = C.h, P.settings.h_min
     if h * factor >= least:
-        C[H] = h * factor
+        C.h = h * factor
     elif h > least * 1.0000001:
-        C[H] = least
-    elif C[CAUTIOUS] != 0.0:
-        C[H] = h * factor
+        C.h = least
+    elif C.cautious:
+        C.h = h * factor

@@ -10,20 +10,16 @@ from adamslite.integrators.accelerations import mass_signature, put_state
 from adamslite.integrators.contract import NEWTON_FAILED, Problem
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.search import judge, open_search
+from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.error import starting_step
 from adamslite.integrators.explicit.stages import exact_rates
 from adamslite.integrators.explicit.state import (
-    CLOCK,
-    LAST_ERROR,
     OLD,
-    RUNNING,
-    SIGNATURE,
-    STALE,
-    H,
     keep_solution,
     stand_again,
 )
 from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.stepping.control import RUNNING
 from adamslite.native.translate import native
 
 
@@ -70,8 +66,9 @@ def put_cubic(P: Problem, t: float, h: float, x: float, width: int, old: int, la
 @native
 def change_where_it_stands(P: Problem, L: Plan, w: int) -> int:
     """A branch changes just after the start of the step: change it there and restart."""
+    C = Control(P.control)
     stand_again(P, w)
-    if not change_here(P, L, P.control[CLOCK]):
+    if not change_here(P, L, C.t):
         return NEWTON_FAILED
     return rates_anew(P, L, w, True)
 
@@ -79,7 +76,8 @@ def change_where_it_stands(P: Problem, L: Plan, w: int) -> int:
 @native
 def pass_by(P: Problem, L: Plan, w: int) -> int:
     """Behind an event: rates of the new branches, another step when something jumped."""
-    if not pass_event(P, L, P.control[CLOCK]):
+    C = Control(P.control)
+    if not pass_event(P, L, C.t):
         return NEWTON_FAILED
     return rates_anew(P, L, w, P.search.jump > 0.0)
 
@@ -87,18 +85,19 @@ def pass_by(P: Problem, L: Plan, w: int) -> int:
 @native
 def rates_anew(P: Problem, L: Plan, w: int, restart: bool) -> int:
     """The first stage again; with ``restart`` the step is chosen as at the start of a run."""
-    C, y, k = P.control, P.history[OLD * w :], P.history[0:]
+    C = Control(P.control)
+    y, k = P.history[OLD * w :], P.history[0:]
     P.undoing.undoable = False
-    if not exact_rates(P, L, C[CLOCK], y, k):
+    if not exact_rates(P, L, C.t, y, k):
         return NEWTON_FAILED
     if restart:
         P.count.restarts += 1
         keep_solution(P)
         if P.sizes.implicit_mass:
             # What it leaves in P.LA is no factored matrix: the next rates make one of their own.
-            C[SIGNATURE], C[STALE] = float(mass_signature(P, L, P.x)), 1.0
-        C[H], C[LAST_ERROR] = starting_step(P, L, w), 1e-4
-        if not exact_rates(P, L, C[CLOCK], y, k):
+            C.signature, C.stale = mass_signature(P, L, P.x), True
+        C.h, C.last_error = starting_step(P, L, w), 1e-4
+        if not exact_rates(P, L, C.t, y, k):
             return NEWTON_FAILED
     keep_solution(P)
     return RUNNING

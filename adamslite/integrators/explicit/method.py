@@ -30,31 +30,17 @@ from adamslite.integrators.events.stops import (
     set_pace,
     step_limit,
 )
+from adamslite.integrators.explicit.control import BODIES, MASSES, Control
 from adamslite.integrators.explicit.dense_output import write_dense
 from adamslite.integrators.explicit.error import choose_explicit_step, estimate, starting_step
 from adamslite.integrators.explicit.events import change_where_it_stands, locate_between, pass_by
 from adamslite.integrators.explicit.recovery import reject, shorten, why_stuck
 from adamslite.integrators.explicit.stages import exact_rates, run_stages
 from adamslite.integrators.explicit.state import (
-    BODIES,
-    CAUTIOUS,
-    CLOCK,
-    FAILED,
-    FIRMEST,
-    FOLLOWING,
-    FREE,
     INVERSE,
     K_NEW,
-    LAST_ERROR,
-    MASSES,
     NEXT_STATE,
     OLD,
-    PULLED,
-    RUNNING,
-    SIGNATURE,
-    TRIES,
-    WIDTH,
-    H,
     base_here,
     keep_solution,
     stand_again,
@@ -64,6 +50,7 @@ from adamslite.integrators.motion_equations import track
 from adamslite.integrators.projection import sensitivity
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.step_back import make_undoable
+from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.unconstrained import invert_inertia, is_free, mass_tables
 from adamslite.native.translate import Reals, native
 
@@ -71,86 +58,87 @@ from adamslite.native.translate import Reals, native
 # where constraints lose rank and another branch is near.
 FAR = 1.0
 # Where steps below this share of HMAX are pulled so far this often, shorter ones will not help.
-TINY, MOST_PULLED = 1e-6, 20.0
+TINY, MOST_PULLED = 1e-6, 20
 EPSILON = 2.220446049250313e-16
 
 
 @native
 def explicit(P: Problem, L: Plan) -> int:
     """Integrate to the end time; returns an outcome."""
+    C = Control(P.control)
     outcome = begin_explicit(P, L)
     while outcome == RUNNING:
         outcome = try_step(P, L)
-    P.report.t = P.control[CLOCK]
+    P.report.t = C.t
     return outcome
 
 
 @native
 def begin_explicit(P: Problem, L: Plan) -> int:
     """Rates at the start, first record, first step."""
-    C, t = P.control, P.settings.t
+    C = Control(P.control)
+    t = P.settings.t
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w = 2 * n + ns
     P.undoing[:] = 0
-    for i in range(P.control.size):
-        C[i] = 0.0
-    C[CLOCK], C[LAST_ERROR] = t, 1e-4
+    C[:] = 0
+    C.t, C.last_error = t, 1e-4
     y, k = P.history[OLD * w :], P.history[0:]
     for i in range(n):
         y[i], y[n + i] = P.q[i], P.u[i]
     for i in range(ns):
         y[2 * n + i] = P.z[first + i]
-    C[WIDTH] = float(w)
+    C.width = w
     start_events(P, True, True)
     inverse = P.history[INVERSE * w :]
     if is_free(P) and mass_tables(P, inverse, inverse[n:]):
-        C[FREE], C[WIDTH] = MASSES, float(n)
+        C.kind, C.width = MASSES, n
     elif is_free(P) and invert_inertia(P, inverse):
-        C[FREE] = BODIES
+        C.kind = BODIES
     elif not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return BROKEN_START
     if P.sizes.implicit_mass:
-        C[SIGNATURE] = float(mass_signature(P, L, P.pivot0))
+        C.signature = mass_signature(P, L, P.pivot0)
     if not exact_rates(P, L, t, y, k):
         return BROKEN_START
     hold_watch(P)
     P.report.order = 8
-    C[H] = starting_step(P, L, w)
+    C.h = starting_step(P, L, w)
     if not exact_rates(P, L, t, y, k):
         return BROKEN_START
     base_here(P, w)
     keep_solution(P)
     track(P)
     write_record(P, 0)
-    C[FOLLOWING] = 1.0
+    C.row = 1
     return RUNNING
 
 
 @native
 def try_step(P: Problem, L: Plan) -> int:
     """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
-    C = P.control
+    C = Control(P.control)
     w = 2 * P.sizes.n + P.sizes.ns
-    if C[CLOCK] >= P.settings.t_end:
+    if C.t >= P.settings.t_end:
         return DONE
     if P.settings.stop:
         return INTERRUPTED
-    set_pace(P, C[CLOCK])
-    C[H] = min(C[H], longest_step(P))
-    left = step_limit(P, int(C[FOLLOWING])) - C[CLOCK]
+    set_pace(P, C.t)
+    C.h = min(C.h, longest_step(P))
+    left = step_limit(P, C.row) - C.t
     if not P.settings.interpolate:
-        C[H] = fitted(P, C[H], left)
-    if C[H] * 1.0000001 > left:
-        C[H] = left
-    least = P.settings.h_min if C[CAUTIOUS] != 0.0 else least_step(P)
-    if C[H] < least or crawls(P, C[H]):
+        C.h = fitted(P, C.h, left)
+    if C.h * 1.0000001 > left:
+        C.h = left
+    least = P.settings.h_min if C.cautious else least_step(P)
+    if C.h < least or crawls(P, C.h):
         return why_stuck(P, L, w)
-    P.report.t, P.report.h = C[CLOCK], C[H]
-    if not run_stages(P, L, w, C[H]):
+    P.report.t, P.report.h = C.t, C.h
+    if not run_stages(P, L, w, C.h):
         if let_go(P):
             return RUNNING
         return shorten(P, w, 0.25)
-    error = estimate(P, w, C[H])
+    error = estimate(P, w, C.h)
     P.report.error = error
     if not error <= 1.0:
         return reject(P, w, error)
@@ -160,12 +148,13 @@ def try_step(P: Problem, L: Plan) -> int:
 @native
 def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
     """Project, and move on unless the step is to end at a crossing before."""
-    C, K = P.control, P.history
-    h, t = C[H], C[CLOCK] + C[H]
-    limit = step_limit(P, int(C[FOLLOWING]))
+    C = Control(P.control)
+    K = P.history
+    h, t = C.h, C.t + C.h
+    limit = step_limit(P, C.row)
     if t + 1e-7 * h > limit:
         t = limit
-    new, width = K[NEXT_STATE * w :], int(C[WIDTH])
+    new, width = K[NEXT_STATE * w :], C.width
     if P.sizes.implicit_mass and changed_signature(P, L, t, new):
         return shorten(P, w, 0.25)
     P.report.moved = 0.0
@@ -174,11 +163,11 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
     if P.report.moved > FAR * P.settings.error or is_loose(P, L):
         return pull_back(P, L, w)
     if P.sizes.watched + P.sizes.zones > 0:
-        locate_between(P, C[CLOCK], h, width, OLD * w, K_NEW)
+        locate_between(P, C.t, h, width, OLD * w, K_NEW)
         if not ends_there(P):
             if starts_there(P):
                 return change_where_it_stands(P, L, w)
-            C[H] = shorter(P)
+            C.h = shorter(P)
             return RUNNING
     return move_on(P, L, w, t, error)
 
@@ -186,18 +175,19 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
 @native
 def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
     """Write records up to ``t``, take over the new state, choose the next step."""
-    C, K, width = P.control, P.history, int(P.control[WIDTH])
+    C = Control(P.control)
+    K, width = P.history, C.width
     new = K[NEXT_STATE * w :]
     P.count.steps += 1
     P.report.spent += error
-    make_undoable(P, C[CLOCK], C[H], C[TRIES] == 0.0)
-    C[FAILED], C[TRIES] = 0.0, 0.0
+    make_undoable(P, C.t, C.h, C.tries == 0)
+    C.retries, C.tries = 0, 0
     note_violation(P, t)
     audit(P, L, t)
     keep_solution(P)
     if not write_dense(P, L, w, t):
         return SINGULAR_MASS
-    C[CLOCK] = t
+    C.t = t
     for i in range(w):
         K[OLD * w + i] = new[i]
     for i in range(width):
@@ -215,12 +205,12 @@ def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
 @native
 def pull_back(P: Problem, L: Plan, w: int) -> int:
     """The step left its branch, or ended where it may be left: a shorter one, another start."""
-    C = P.control
-    if C[H] < TINY * P.settings.h_max:
-        C[PULLED] += 1.0
-    if C[PULLED] <= MOST_PULLED:
+    C = Control(P.control)
+    if C.h < TINY * P.settings.h_max:
+        C.pulled += 1
+    if C.pulled <= MOST_PULLED:
         return shorten(P, w, 0.5)
-    C[FAILED] += 1.0
+    C.retries += 1
     return why_stuck(P, L, w)
 
 
@@ -232,17 +222,18 @@ def is_loose(P: Problem, L: Plan) -> bool:
     round-off e is an error e/d^2 of velocities: more than ERROR. Steps that become short walk into
     such places, and leave them on any branch.
     """
-    C = P.control
+    C = Control(P.control)
     if P.sizes.m == 0:
         return False
     now = sensitivity(P, L)
-    C[FIRMEST] = min(C[FIRMEST], now) if C[FIRMEST] > 0.0 else now
-    return EPSILON * now * now > P.settings.error * C[FIRMEST] * C[FIRMEST]
+    C.firmest = min(C.firmest, now) if C.firmest > 0.0 else now
+    return EPSILON * now * now > P.settings.error * C.firmest * C.firmest
 
 
 @native
 def changed_signature(P: Problem, L: Plan, t: float, y: Reals) -> bool:
     """Whether the acceleration matrix became singular within the step."""
+    C = Control(P.control)
     n = P.sizes.n
     put_state(P, t, y, y[n:], P.a, P.z, P.rd)
-    return mass_signature(P, L, P.x) != int(P.control[SIGNATURE])
+    return mass_signature(P, L, P.x) != C.signature

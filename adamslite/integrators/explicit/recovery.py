@@ -17,25 +17,20 @@ from adamslite.integrators.contract import (
     Problem,
 )
 from adamslite.integrators.events.guards import let_go
+from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.error import NOW_POWER, SAFETY, SHRINK, cut_step
 from adamslite.integrators.explicit.state import (
-    CAUTIOUS,
-    CLOCK,
-    FAILED,
-    RUNNING,
-    SIGNATURE,
-    TRIES,
-    H,
     stand_again,
 )
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.step_back import before_trouble
+from adamslite.integrators.stepping.control import RUNNING
 from adamslite.native.translate import native
 
 SINGULAR_RESOLUTION = 1e-6
 # Tries in vain around one place before the step that led there is taken back: failures of the
 # equations, rejections.
-FEW_FAILURES, FEW_REJECTIONS = 2.0, 3.0
+FEW_FAILURES, FEW_REJECTIONS = 2, 3.0
 
 
 @native
@@ -43,12 +38,12 @@ def start_elsewhere(P: Problem, w: int) -> bool:
     """Back to the state before the trouble, with a shorter step; False when that was tried enough
     or is of no use.
     """
-    C = P.control
-    share = before_trouble(P, C[CLOCK] + C[H])
+    C = Control(P.control)
+    share = before_trouble(P, C.t + C.h)
     if share == 0.0:
         return False
-    C[CAUTIOUS] = 1.0
-    C[H] *= share
+    C.cautious = True
+    C.h *= share
     stand_again(P, w)
     return True
 
@@ -56,14 +51,14 @@ def start_elsewhere(P: Problem, w: int) -> bool:
 @native
 def shorten(P: Problem, w: int, factor: float) -> int:
     """Accelerations could not be solved for within the step: a shorter one."""
-    C = P.control
+    C = Control(P.control)
     P.count.failures += 1
-    C[FAILED], C[TRIES] = C[FAILED] + 1.0, C[TRIES] + 1.0
-    if P.sizes.m > 0 and C[FAILED] >= FEW_FAILURES and start_elsewhere(P, w):
+    C.retries, C.tries = C.retries + 1, C.tries + 1
+    if P.sizes.m > 0 and C.retries >= FEW_FAILURES and start_elsewhere(P, w):
         return RUNNING
-    C[CAUTIOUS] = 1.0
+    C.cautious = True
     cut_step(P, factor)
-    if P.sizes.implicit_mass and C[H] < SINGULAR_RESOLUTION * P.settings.h_max:
+    if P.sizes.implicit_mass and C.h < SINGULAR_RESOLUTION * P.settings.h_max:
         return SINGULAR_MASS
     return RUNNING
 
@@ -71,15 +66,15 @@ def shorten(P: Problem, w: int, factor: float) -> int:
 @native
 def reject(P: Problem, w: int, error: float) -> int:
     """The error was too large: a smaller step."""
-    C = P.control
+    C = Control(P.control)
     P.count.rejected += 1
     if not error < 1e150 and let_go(P):
         return RUNNING
     P.undoing.trouble += 1.0
-    C[TRIES] += 1.0
+    C.tries += 1
     if P.sizes.m > 0 and P.undoing.trouble >= FEW_REJECTIONS and start_elsewhere(P, w):
         return RUNNING
-    C[CAUTIOUS] = 1.0
+    C.cautious = True
     cut_step(P, max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK)
     return RUNNING
 
@@ -89,9 +84,10 @@ def why_stuck(P: Problem, L: Plan, w: int) -> int:
     """The step became too small: because a mass vanishes, the equations could not be solved, or for
     accuracy.
     """
+    C = Control(P.control)
     stand_again(P, w)
-    if mass_vanishes(P, L, int(P.control[SIGNATURE])):
+    if mass_vanishes(P, L, C.signature):
         return SINGULAR_MASS
     if P.search.freed > 0:
         return CHATTERING
-    return NEWTON_FAILED if P.control[FAILED] > 0.0 else STEP_TOO_SMALL
+    return NEWTON_FAILED if C.retries > 0 else STEP_TOO_SMALL

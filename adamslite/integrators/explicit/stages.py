@@ -14,18 +14,12 @@ from adamslite.integrators.accelerations import (
     settle,
 )
 from adamslite.integrators.contract import Problem
+from adamslite.integrators.explicit.control import BODIES, MASSES, TIED, Control
 from adamslite.integrators.explicit.dop853 import RESULT, ROW, TIMES
 from adamslite.integrators.explicit.state import (
-    BODIES,
-    CLOCK,
-    FREE,
     INVERSE,
-    MASSES,
     NEXT_STATE,
     OLD,
-    STALE,
-    WIDTH,
-    H,
 )
 from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.plan import Plan
@@ -38,7 +32,8 @@ from adamslite.native.translate import Alone, Reals, native
 @native
 def combine(P: Problem, row: int, w: int, h: float, x: Reals, y: Reals) -> None:
     """y = x + h sum (weight k) over one row of the tableau."""
-    if P.control[FREE] == MASSES:
+    C = Control(P.control)
+    if C.kind == MASSES:
         n, s = P.sizes.n, h * P.tableau[ROW * row + 1]
         for i in range(n):
             y[n + i] = x[n + i]
@@ -56,15 +51,16 @@ def add_combined(P: Problem, row: int, w: int, h: float, y: Reals) -> None:
     Masses keep no rates of positions: those of stage i are u + h sum a_ij a_j, so that positions
     get h^2 sum (weight A)_j a_j.
     """
+    C = Control(P.control)
     K, o, n = P.history, ROW * row, P.sizes.n
     for g in range(0, int(P.tableau[o]), 4):
         V = P.tableau[o + 2 + 3 * g :]
-        if P.control[FREE] == MASSES:
+        if C.kind == MASSES:
             add_twice(
                 K[n * int(V[0]) :], K[n * int(V[3]) :], K[n * int(V[6]) :], K[n * int(V[9]) :],
                 h * V[1], h * V[4], h * V[7], h * V[10],
-                h * P.control[H] * V[2], h * P.control[H] * V[5],
-                h * P.control[H] * V[8], h * P.control[H] * V[11], n, y, y[n:],
+                h * C.h * V[2], h * C.h * V[5],
+                h * C.h * V[8], h * C.h * V[11], n, y, y[n:],
             )  # fmt: skip
         else:
             add_once(
@@ -98,12 +94,13 @@ def add_twice(
 @native
 def rates_at(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
     """k = f(t, y); False when the accelerations cannot be solved for."""
+    C = Control(P.control)
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     inverse = P.history[INVERSE * (2 * n) :]
-    if P.control[FREE] == MASSES:
+    if C.kind == MASSES:
         mass_accelerations(P, t, y, y[n:], inverse, inverse[n:], k)
         return True
-    if P.control[FREE] == BODIES:
+    if C.kind == BODIES:
         free_accelerations(P, t, y, y[n:], inverse, k[n:])
         vector_rates(P, y, y[n:], k)
         return True
@@ -111,12 +108,12 @@ def rates_at(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
         P.z[first + i] = y[2 * n + i]
     # Once the matrix of the step's start was too old for a stage, each of the rest gets its own.
     before = P.count.factorizations
-    if P.control[STALE] == 1.0:
+    if C.stale:
         good = accelerations(P, L, t, y, y[n:], P.a, P.z, P.rd)
     else:
         put_state(P, t, y, y[n:], P.a, P.z, P.rd)
         good = settle(P, L, y[n:], P.a, P.z, P.rd)
-        P.control[STALE] = 1.0 if P.count.factorizations > before else 0.0
+        C.stale = P.count.factorizations > before
     keep_rates(P, y, k)
     return good
 
@@ -137,11 +134,12 @@ def exact_rates(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
     """Rates at a state that is kept: projected onto the constraints, with a new matrix; writes
     q, u, a and the workspace.
     """
+    C = Control(P.control)
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     good = True
-    if P.control[FREE] != 0.0:
+    if C.kind != TIED:
         rates_at(P, L, t, y, k)
-        first = 0 if P.control[FREE] == MASSES else n
+        first = 0 if C.kind == MASSES else n
         for i in range(n):
             P.a[i] = k[first + i]
         put_state(P, t, y, y[n:], P.a, P.z, P.rd)
@@ -169,13 +167,14 @@ def run_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
     Stages drift off the constraints by an error r of low order. Where constraints lose rank within
     the step that is an error r/d of accelerations: there every stage is projected.
     """
-    K, t = P.history, P.control[CLOCK]
+    C = Control(P.control)
+    K, t = P.history, C.t
     y, new = K[OLD * w :], K[NEXT_STATE * w :]
-    P.control[STALE] = 0.0
+    C.stale = False
     projected = P.sizes.m > 0 and P.undoing.backs > 0
     for i in range(1, RESULT + 1):
         combine(P, i - 1, w, h, y, new)
-        at, k = t + h * P.tableau[ROW * TIMES + i], K[i * int(P.control[WIDTH]) :]
+        at, k = t + h * P.tableau[ROW * TIMES + i], K[i * C.width :]
         if not (exact_rates(P, L, at, new, k) if projected else rates_at(P, L, at, new, k)):
             return False
     combine(P, RESULT, w, h, y, new)

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
+from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.motion_equations import PART
 from adamslite.native.translate import native
 
-# Rows of the history: stages from 0, then the accepted state, the new one, one in between, the
-# factors of ERROR (SCALE), the inverse inertias, and the slope of the interpolation.
-K_NEW, OLD, NEXT_STATE, BETWEEN, SCALES, INVERSE, SLOPE = 12, 16, 17, 18, 19, 20, 21
-HISTORY_ROWS = 22
-RUNNING = -1
-# Places in P.control.
-CLOCK, H, FOLLOWING, LAST_ERROR, FREE, CAUTIOUS, SIGNATURE, FAILED, WIDTH, STALE = range(10)
-TRIES, PULLED, FIRMEST = 10, 11, 12
-# Kinds of scenes, in C[FREE]: tied, free bodies, point masses alone.
-BODIES, MASSES = 1.0, 2.0
+# Rows of the history, of 2 n + ns numbers each: stages from 0 (those behind K_NEW are for dense
+# output), the accepted state, the new one, one in between, the factors of ERROR (SCALE), the slope
+# of the interpolation. Behind them are the inverse inertias, 9 of every body, or what is known of
+# masses, 6 of each.
+K_NEW, LATE_STAGES = 12, 3
+OLD = K_NEW + LATE_STAGES + 1
+NEXT_STATE, BETWEEN, SCALES, SLOPE = OLD + 1, OLD + 2, OLD + 3, OLD + 4
+INVERSE = HISTORY_ROWS = SLOPE + 1
 
 
 @native
@@ -31,6 +30,7 @@ def keep_solution(P: Problem) -> None:
 @native
 def stand_again(P: Problem, w: int) -> None:
     """The accepted state back into q, u, a, z and the workspace after records were made."""
+    C = Control(P.control)
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     y = P.history[OLD * w :]
     for i in range(n):
@@ -39,7 +39,7 @@ def stand_again(P: Problem, w: int) -> None:
         P.z[i] = P.rz[i]
     for i in range(P.sizes.ns):
         P.z[first + i], P.rd[i] = y[2 * n + i], P.history[2 * n + i]
-    put_state(P, P.control[CLOCK], P.q, P.u, P.a, P.z, P.rd)
+    put_state(P, C.t, P.q, P.u, P.a, P.z, P.rd)
 
 
 @native

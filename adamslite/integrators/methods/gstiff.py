@@ -15,10 +15,11 @@ CORRECTOR = {
 
 
 def prepare(system: Equations, settings: Settings) -> None:
-    """Room for the differences."""
+    """Room for the numbers of the method and the differences."""
+    from adamslite.integrators.bdf.control import Control
     from adamslite.integrators.bdf.history import room
 
-    system.make_room(history=room(2 * system.n + system.ns))
+    system.make_room(control=Control.slots, history=room(2 * system.n + system.ns))
 
 
 register(

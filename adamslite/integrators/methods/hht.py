@@ -23,8 +23,10 @@ def damping_of_newmark(settings: Settings) -> tuple[float, float, float]:
 
 
 def prepare(system: Equations, settings: Settings) -> None:
-    """Room for q, u and two accelerations; s, s' and two more of these."""
-    system.make_room(history=3 * system.n + 4 * system.ns)
+    """Room for the numbers of the method and what it remembers of accepted states."""
+    from adamslite.integrators.hht.control import Control
+
+    system.make_room(control=Control.slots, history=3 * system.n + 4 * system.ns)
 
 
 def ringing(settings: Settings, tied: str) -> str:

@@ -4,14 +4,16 @@ from adamslite.language.method import Equations, Method, Settings, register
 
 
 def prepare(system: Equations, settings: Settings) -> None:
-    """Coefficients, and room for the stages and the complex factors."""
+    """Coefficients, and room for the numbers of the method, the stages and the complex factors."""
     from adamslite.integrators.radau.coefficients import coefficients
+    from adamslite.integrators.radau.control import Control
     from adamslite.integrators.radau.stages import Y_ROWS, Z_ROWS
 
     z = system.m + system.nv + system.ns + system.holonomic
     widest = int(system.elimination.plan["size"].max(initial=0))
     system.tableau = coefficients()
     system.make_room(
+        control=Control.slots,
         history=Y_ROWS * (2 * system.n + system.ns) + Z_ROWS * z + 7 * system.nz + 16,
         parts=3 * system.J.size,
         LC=2 * system.elimination.LV.size,

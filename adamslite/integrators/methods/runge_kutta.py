@@ -13,13 +13,17 @@ NO_CORRECTOR = "-an explicit formula has no corrector"
 
 
 def prepare(system: Equations, settings: Settings) -> None:
-    """Coefficients, room for the stages and for inverse inertias, factors of ERROR."""
+    """Coefficients, room for the numbers of the method, for the stages and for inverse inertias,
+    factors of ERROR.
+    """
+    from adamslite.integrators.explicit.control import Control
     from adamslite.integrators.explicit.dop853 import tableau
     from adamslite.integrators.explicit.state import HISTORY_ROWS, SCALES
 
     w = 2 * system.n + system.ns
     system.tableau = tableau()
-    system.make_room(history=HISTORY_ROWS * w + 9 * len(system.model.bodies) + 16)
+    inverse = 9 * len(system.model.bodies)
+    system.make_room(control=Control.slots, history=HISTORY_ROWS * w + inverse)
     system.history[SCALES * w : (SCALES + 1) * w] = error_scales(system, settings.scale)
 
 

@@ -13,8 +13,10 @@ from adamslite.language.method import (
 
 
 def prepare(system: Equations, settings: Settings) -> None:
-    """Room for inverse inertias."""
-    system.make_room(history=9 * len(system.model.bodies))
+    """Room for the numbers of the method and for inverse inertias."""
+    from adamslite.integrators.verlet.control import Control
+
+    system.make_room(control=Control.slots, history=9 * len(system.model.bodies))
 
 
 NO_CORRECTOR = "-an explicit formula has no corrector"

@@ -1,0 +1,31 @@
+"""What the explicit formula remembers from step to step."""
+
+from __future__ import annotations
+
+from adamslite.integrators.stepping.control import StepControl
+
+# Kinds of scenes: bodies that something ties together, free bodies, point masses alone.
+TIED, BODIES, MASSES = 0, 1, 2
+
+
+class Control(StepControl):
+    """The numbers of the explicit formula.
+
+    kind                 of scene: TIED, BODIES, MASSES
+    width                numbers in the rates of a stage: all, of masses accelerations alone
+    last_error           of the last accepted step, against ERROR
+    cautious             the step must not grow
+    stale                the factored matrix is too old for the next stage
+    tries                in vain since the last accepted step
+    pulled               how often tiny steps left their branch
+    firmest              the least sensitivity to constraints so far (0: none)
+    """
+
+    kind: int
+    width: int
+    last_error: float
+    cautious: bool
+    stale: bool
+    tries: int
+    pulled: int
+    firmest: float
