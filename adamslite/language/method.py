@@ -140,7 +140,8 @@ class Method:
         does.
     prepare : callable
         ``prepare(system, settings)`` comes before every run: it makes the arrays of the numbered
-        equations as long as the formula needs (``system.make_room``), ``control`` for its numbers first, and fills in coefficients.
+        equations as long as the formula needs (``system.make_room``), among them ``control`` for
+        its numbers from step to step, and fills in coefficients.
     """
 
     names: tuple[str, ...]
