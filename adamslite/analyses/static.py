@@ -10,7 +10,7 @@ import numpy as np
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import EQUILIBRIUM
-from adamslite.integrators.equilibrium import Control
+from adamslite.integrators.equilibrium_control import Control
 from adamslite.results.outcomes import Outcome
 
 

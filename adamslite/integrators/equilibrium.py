@@ -15,12 +15,13 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import DONE, MODE_STATICS, NOT_SETTLED, STATIC, Problem
+from adamslite.integrators.equilibrium_control import Control
 from adamslite.integrators.linalg.blocks import factor, signature, solve
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART, jacobian, put_pose, residual, spread
 from adamslite.integrators.newton import apply_increment
-from adamslite.native.translate import Record, native
+from adamslite.native.translate import native
 
 RELAXATIONS = 3000
 GROWTH, UPHILL = 1.6, 4.0
@@ -28,32 +29,6 @@ GROWTH, UPHILL = 1.6, 4.0
 FAR = 0.02
 # Weight of the stiffness where only the inertia shall count.
 SMALL = 1e-13
-
-
-class Control(Record):
-    """Limits of the search, and what it has come to.
-
-    alimit, tlimit       of the increments of an iteration [rad], [length]
-    error, imbalance     relative correction, residual [force] at which it is done
-    stability            times the mass matrix is added to the stiffness
-    maxit                iterations of Newton
-    length               of the model
-    sigma                times the mass matrix is added now
-    worst, moved         largest residual [force], relative correction of the last iteration
-    found                Newton settled, before anything was judged
-    """
-
-    alimit: float
-    tlimit: float
-    error: float
-    imbalance: float
-    stability: float
-    maxit: int
-    length: float
-    sigma: float
-    worst: float
-    moved: float
-    found: bool
 
 
 @native
