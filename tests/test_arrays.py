@@ -25,6 +25,13 @@ def test_constants_are_numbers_and_inputs_are_variables() -> None:
     assert isinstance(product, Op) and product.args[1] == Num(pytest.approx(-0.05235987755982989))
 
 
+def test_inputs_and_outputs_of_the_plant_are_variables() -> None:
+    lists = "PINPUT/3, VARIABLES=8,7\nPOUTPUT/4, VARIABLES=7\n" + ARRAYS
+    assert function("PINVAL(3,1)", lists) == Call("VARVAL", (Ref("VARIABLE", 8),))
+    assert function("PINVAL(3,2)", lists) == Call("VARVAL", (Ref("VARIABLE", 7),))
+    assert function("POUVAL(4,1)", lists) == Call("VARVAL", (Ref("VARIABLE", 7),))
+
+
 def test_an_array_may_follow_the_expression_that_uses_it() -> None:
     deck = deck_with("VARIABLE/1, FUNCTION=ARYVAL(1,2)\nARRAY/1, IC, NUMBERS=1,4")
     assert deck.find("VARIABLE", 1).function == Num(4.0)

@@ -68,8 +68,9 @@ def test_a_name_is_registered_once(declare):
 @pytest.mark.parametrize(
     ("name", "values", "index", "words"),
     [
-        ("ORIENT", (13, 1, None, None), 0, "1..12 or 27"),
-        ("ORIENT", (3, 4, None, None), 1, "27"),
+        ("ORIENT", (28, 1, None, None), 0, "1..27 or 29"),
+        ("ORIENT", (14, 4, None, None), 1, "system 14 of ORIENT has components 1..3"),
+        ("ORIENT", (27, 5, None, None), 1, "system 27 of ORIENT has components 1..4"),
         ("JOINT", (None, 2, 1, None), 1, "0 or 1"),
         ("JOINT", (None, 0, 1.5, None), 2, "1..8"),
         ("STEP", (None, 2, 0, 2, 1), 3, "differ"),
@@ -88,6 +89,7 @@ def test_numbers_that_cannot_be(name, values, index, words):
     ("name", "values"),
     [
         ("ORIENT", (27, 4, None, None)),
+        ("ORIENT", (29, 9, None, None)),
         ("STEP", (None, 2, 0, 1, 1)),
         ("STEP5", (None, None, 0, 1, 1)),
         ("MAX", (1, 2, 3)),

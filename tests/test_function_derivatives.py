@@ -51,6 +51,7 @@ def forms(function: Function) -> list[tuple]:
 # Net forces and values by number are written out before anything is evaluated.
 EVALUATED = {name: f for name, f in sorted(FUNCTIONS.items()) if name not in (*NET, *NUMBERED)}
 CASES = [(name, form) for name, f in EVALUATED.items() for form in forms(f)]
+CASES += [("ORIENT", (system, n, 0, 1)) for system in (7, 14, 23, 25, 26, 27) for n in (1, 2, 3)]
 
 
 class Gradient:

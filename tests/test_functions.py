@@ -148,6 +148,17 @@ def test_orient_recovers_the_angles_of_a_sequence(system, outer):
     assert found == pytest.approx(angles, abs=1e-12)
 
 
+@pytest.mark.parametrize("system", range(13, 25))
+@pytest.mark.parametrize("outer", [(0.3, -0.8), (2.5, 2.9), (-2.2, 1.9), (-0.4, -3.0)])
+def test_orient_recovers_turns_about_axes_that_stay(system, outer):
+    """R = R_c(a3) R_b(a2) R_a(a1): each turn is about an axis of j."""
+    a, b, c = SEQUENCES[system - 13]
+    middle = 1.1 if a == c else -1.1
+    relative = turn(c, outer[1]) * turn(b, middle) * turn(a, outer[0])
+    found = [component(relative, "ORIENT", system, n) for n in (1, 2, 3)]
+    assert found == pytest.approx((outer[0], middle, outer[1]), abs=1e-12)
+
+
 @pytest.mark.parametrize("system", range(1, 13))
 @pytest.mark.parametrize("end", (0, 1))
 def test_orient_where_outer_angles_merge(system, end):

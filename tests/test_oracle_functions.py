@@ -103,6 +103,8 @@ def expected_values(m: Moving, n: list[int]) -> dict[str, float]:
         f"WDTM({a},{b},{d})": float(np.linalg.norm(m.spin_up(i, j, k, frame))),
         f"WDTM({a},{b})": float(np.linalg.norm(m.spin_up(i, j, k, GROUND))),
     }
+    for component, angle in enumerate(projected_angles(i, j), 1):
+        found[f"ORIENT(26,{component},{a},{b})"] = angle
     return found | attitudes(a, b, directions(i, j))
 
 
@@ -120,6 +122,13 @@ def attitudes(a: int, b: int, R: Array) -> dict[str, float]:
     for number, axes in enumerate(SEQUENCES, 1):
         for component, angle in enumerate(euler(R, axes), 1):
             found[f"ORIENT({number},{component},{a},{b})"] = angle
+    for number, axes in enumerate(SEQUENCES, 13):
+        for component, angle in enumerate(euler(R, axes.lower()), 1):
+            found[f"ORIENT({number},{component},{a},{b})"] = angle
+    for component, value in enumerate((yaw, -pitch, roll), 1):
+        found[f"ORIENT(25,{component},{a},{b})"] = value
+    for component, value in enumerate(R.T.ravel(), 1):
+        found[f"ORIENT(29,{component},{a},{b})"] = value
     half = np.sqrt(1 + np.trace(R)) / 2
     twist = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / (4 * half)
     for component, value in enumerate((half, *twist), 1):

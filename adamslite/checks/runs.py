@@ -122,9 +122,12 @@ def late_start_values(command: Redefinition[Any]) -> Iterator[Diagnostic]:
             yield diagnose(command, "no-effect", field, word=word, reason=reason)
 
 
+LISTS = ("ARRAY", "PINPUT", "POUTPUT")
+
+
 def fixed_lists(command: Redefinition[Any]) -> Iterator[Diagnostic]:
-    """What expressions have taken from an ARRAY when the deck was read."""
-    for field in ("kind", "variables") if command.keyword == "ARRAY" else ():
+    """What expressions have taken from a list of VARIABLEs when the deck was read."""
+    for field in ("kind", "variables") if command.keyword in LISTS else ():
         if field in command.changes:
             word = "VARIABLES" if field == "variables" else "the kind"
             yield diagnose(command, "array-fixed", field, word=word)

@@ -2,11 +2,12 @@
 
 Equation (V the VARIABLEs, see LINEAR)::
 
-    u = (V1, V2, ...)
+    u = (V1, V2, ...),     V_n = PINVAL(id, n)
 """
 
 from __future__ import annotations
 
+from adamslite.language.expression import Call, Node, Ref
 from adamslite.language.statement import Statement, references, statement
 
 
@@ -17,3 +18,7 @@ class Pinput(Statement):
     variables: tuple[int | str, ...] = references(
         "VARIABLES", to="VARIABLE", required=True, help="the variables, in the order of the inputs"
     )
+
+    def numbered(self) -> tuple[Node, ...]:
+        """The values."""
+        return tuple(Call("VARVAL", (Ref("VARIABLE", key),)) for key in self.variables)

@@ -21,9 +21,11 @@ SEQUENCES = (
 )
 BODY_313 = 11
 BODY_321 = 6
-EULER_PARAMETERS = 27
+SPACE_FIXED, YPR, PROJECTED, EULER_PARAMETERS, COSINES = 13, 25, 26, 27, 29
 # Square of the sine below which rounding, not the attitude, would decide the outer angles.
 ALIGNED = 1e-20
+# Systems that do not have three components.
+COMPONENTS = {EULER_PARAMETERS: 4, COSINES: 9}
 
 Matrix = tuple[tuple[Expr, ...], ...]
 
@@ -79,9 +81,9 @@ def _euler_parameter(r: Matrix, component: int) -> Expr:
 def _components_fit(
     system: float | None, component: float | None, *_: float | None
 ) -> Mistake | None:
-    if component == 4 and system not in (None, EULER_PARAMETERS):
-        return 1, "only system 27 (Euler parameters) of ORIENT has a component 4"
-    return None
+    if system is None or component is None or component <= COMPONENTS.get(system, 3):
+        return None
+    return 1, f"system {system:g} of ORIENT has components 1..{COMPONENTS.get(system, 3)} only"
 
 
 @function("AX", "i:marker j:marker=0")
@@ -176,18 +178,30 @@ def roll(scope: Scope, i: Frame, j: Frame) -> Expr:
 
 @function(
     "ORIENT",
-    "system:constant{1..12,27} component:constant{1..4} i:marker j:marker=0",
+    "system:constant{1..27,29} component:constant{1..9} i:marker j:marker=0",
     rule=_components_fit,
 )
 def orient(scope: Scope, system: int, component: int, i: Frame, j: Frame) -> Expr:
     """Component of the attitude of i seen from j, in a numbered system of coordinates.
 
     1 to 12 are the body-fixed sequences 1-2-3, 2-3-1, 3-1-2, 1-3-2, 2-1-3, 3-2-1, 1-2-1, 1-3-1,
-    2-1-2, 2-3-2, 3-1-3, 3-2-3, component 1 to 3 their angles [rad].  27 are the Euler parameters,
-    component 1 to 4: P0 = cos(half the angle) >= 0, P1, P2, P3.
+    2-1-2, 2-3-2, 3-1-3, 3-2-3, component 1 to 3 their angles [rad].  13 to 24 are the space-fixed
+    ones in the same order: a-b-c turns about axis a of j, then b of j, then c of j.  25 are YAW,
+    PITCH, ROLL and 26 AX, AY, AZ, as those functions have them.  27 are the Euler parameters,
+    component 1 to 4: P0 = cos(half the angle) >= 0, P1, P2, P3.  29 are the direction cosines,
+    component 1 to 3 the x axis of i along the axes of j, 4 to 6 its y axis, 7 to 9 its z axis.
     Source: Adams/Solver function ORIENT.
     """
+    if system == YPR:
+        return (yaw, pitch, roll)[component - 1](scope, i, j)
+    if system == PROJECTED:
+        return (ax, ay, az)[component - 1](scope, i, j)
     r = _attitude(scope, i, j)
+    if system == COSINES:
+        return sp.S.Zero + r[(component - 1) % 3][(component - 1) // 3]
     if system == EULER_PARAMETERS:
         return _euler_parameter(r, component)
+    if system >= SPACE_FIXED:  # R_c R_b R_a: body-fixed, the other way round
+        c, b, a = SEQUENCES[system - SPACE_FIXED]
+        return _sequence_angle(r, (a, b, c), 4 - component)
     return _sequence_angle(r, SEQUENCES[system - 1], component)

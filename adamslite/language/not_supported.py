@@ -14,7 +14,7 @@ COMMANDS = frozenset("CONTROL HELP INFO MENU RELOAD SAVE SHOW TIME".split())
 
 FUNCTIONS = frozenset(
     """ACCXYZ CONTACT CURVE CVCV DXYZ
-    INCANG INVPSD NFORCE PINVAL POUVAL SENVAL USER
+    DELAY INCANG INVPSD NFORCE SENVAL USER
     UV VXYZ WDTXYZ WXYZ""".split()
 )
 
@@ -24,6 +24,10 @@ INSTEAD = {
     "CURVE FUNCTION": _TABULATE,
     "CURVE MINPAR": _TABULATE,
     "CURVE MAXPAR": _TABULATE,
+    "DELAY": "for a delay of TIME alone, write the expression with TIME-tau for TIME, in a STEP or "
+    "IF that holds the start; a lag is a DIFF: FUNCTION=(VARVAL(id)-DIF(this))/tau",
+    "INVPSD": "its random phases come from a generator that is not published: write the sum of "
+    "sines a*SIN(2*PI*f*TIME+phase), or a SPLINE of the signal",
     "CVCV": "curves that roll on each other cannot be run; PTCV holds a point on one curve",
     "BEAM NONLINEAR": "a beam that bends far is a row of LINEAR ones with parts between them",
 }

@@ -70,13 +70,16 @@ TABLES: dict[str, Message] = {
             "ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,3)",
             "ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,0)",
             "ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,1.5)",
+            "PINPUT/1, VARIABLES=2\nVARIABLE/2, FUNCTION=1\nVARIABLE/1, FUNCTION=PINVAL(1,2)",
+            "POUTPUT/1, VARIABLES=2\nVARIABLE/2, FUNCTION=1\nVARIABLE/1, FUNCTION=POUVAL(1,0)",
         ),
     ),
     "array-fixed": Message(
         "{word} of {label} cannot change between analyses",
-        "NUMBERS can; expressions take VARIABLEs of an ARRAY when the deck is read",
-        commands=("ARRAY/1, VARIABLES=2",),
-        deck="VARIABLE/1, FUNCTION=1\nVARIABLE/2, FUNCTION=2\nARRAY/1, U, VARIABLES=1\n",
+        "NUMBERS can; expressions take VARIABLEs of a list when the deck is read",
+        commands=("ARRAY/1, VARIABLES=2", "PINPUT/1, VARIABLES=2", "POUTPUT/1, VARIABLES=2"),
+        deck="VARIABLE/1, FUNCTION=1\nVARIABLE/2, FUNCTION=2\nARRAY/1, U, VARIABLES=1\n"
+        "PINPUT/1, VARIABLES=1\nPOUTPUT/1, VARIABLES=1\n",
     ),
     "value-lost": Message(
         "{label} uses {word}, which a command has removed",
