@@ -99,11 +99,11 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     hold_watch(P)
     C.h = first_step(P)
     start_values(P, C)
+    keep_solution(P)
+    forget_multipliers(P)
     if not started:
         return BROKEN_START
     note_signature(P, L, C, P.pivot0)
-    keep_solution(P)
-    forget_multipliers(P)
     track(P)
     return RUNNING if record(P, L, C) else SINGULAR_MASS
 
