@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from decklets import codes, deck_with, function, last
+from decklets import codes, deck_with, function, last, told
 
 from adamslite.language.expression import to_text
 from adamslite.language.messages import START
@@ -19,8 +19,26 @@ DEGREE = math.pi / 180
 
 
 def test_the_first_line_is_the_title_whatever_it_says() -> None:
-    for title in ("", "! a comment", "PART(1, = \\ ; & (", "  END "):
+    for title in ("", "! a comment", "PART(1, = \\ ; & (", "  END ", "PART/1 of 2"):
         assert read(title + START[START.index("\n") :]).title == title
+
+
+@pytest.mark.parametrize("blank", ["\n", " \t\n", "\n\n \n", "\r\n"])
+def test_a_title_may_follow_blank_lines(blank: str) -> None:
+    rest = START[START.index("\n") :]
+    for title in ("ADAMS/View model name: crane", "a crane, 3 m", "crane/2 of 3"):
+        deck = read(f"{blank}{title}{rest}")
+        assert deck.title == title
+        assert len(deck.statements) == 6
+    assert read(f"{blank}{rest}").title.strip() == ""
+    assert told(f"{blank}PRT/3{rest}")[0].code == "unknown-statement"
+
+
+def test_a_statement_in_place_of_the_title_is_read() -> None:
+    rest = START.partition("PART/1, GROUND\n")[2]
+    deck = read(f"PART/1\n, GROUND\n{rest}")
+    assert deck.title == "" and deck.find("PART", 1).ground
+    assert [each.code for each in deck.warnings] == ["missing-title"]
 
 
 def test_comments_run_to_the_end_of_the_line() -> None:

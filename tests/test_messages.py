@@ -18,7 +18,7 @@ COMMANDS = [(code, text) for code, message in MESSAGES.items() for text in messa
 
 def whole(code: str, broken: str) -> str:
     """The deck an entry of the table stands for."""
-    alone = broken.startswith("title") or code == "title-like-statement"
+    alone = broken.startswith("title") or code == "missing-title"
     return (broken if alone else START + broken) + "\n"
 
 

@@ -41,12 +41,10 @@ def read(source: str | Path) -> Deck:
     """
 
     text, path = _load(source)
-    end_of_title = text.find("\n") if "\n" in text else len(text)
-    title = text[:end_of_title]
     reading = Reading(Source(text, str(path or "<text>")), Names(), "deck")
-    reading.title(title)
+    title, start = reading.title()
     with without_collection():
-        read = reading.statements(end_of_title)
+        read = reading.statements(start)
         statements = tuple(each for each in read if isinstance(each, Statement))  # all of them
         deck = Deck(reading.log.source, title, statements, reading.names, path)
         deck.warnings = _judged(deck, reading, RULES)

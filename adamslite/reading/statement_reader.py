@@ -32,6 +32,9 @@ Body = tuple[str, Key | None]
 # A line that begins as a statement does.
 BEGINNING = re.compile(r"^[ \t]*(\w+)[ \t]*/", re.MULTILINE)
 
+# The word that begins a line; the rest of the form where it begins as statements do.
+FIRST_WORD = re.compile(r"[ \t]*([A-Za-z]\w*)[ \t]*(/[ \t]*(?:\w+[ \t]*)?(?:[,=!;]|$))?")
+
 
 class Entry(NamedTuple):
     """A statement after the first pass; ``body`` is the nearest body before it."""
@@ -92,11 +95,24 @@ class Reading:
         planned = PLANNED_STATEMENTS | PLANNED_COMMANDS if commands else PLANNED_STATEMENTS
         self._table: dict[str, type[Statement] | str] = {name: name for name in planned} | here
 
-    def title(self, line: str) -> None:
-        """Warn of a first line that is not meant as a title."""
-        keyword, slash, _ = line.partition("/")
-        if slash and keyword.strip().upper() in STATEMENTS:
-            self.log.add("title-like-statement", 0, len(line))
+    def title(self) -> tuple[str, int]:
+        """The title, and where it ends.
+
+        It is the first line, or the one after blank lines unless that begins as a statement.  A
+        deck whose first line is a statement has none.
+        """
+        text = self.log.source.text
+        first = text.partition("\n")[0]
+        blank = 0 if first.strip() else len(text) - len(text.lstrip())
+        line = text[blank:].partition("\n")[0] if blank else first
+        word = FIRST_WORD.match(line)
+        known = word is not None and word[1].upper() in STATEMENTS
+        if blank and word and not known and not word[2]:
+            return line, blank + len(line)
+        if not blank and word and known and word[2]:
+            self.log.add("missing-title", *word.span(1), word=word[1])
+            return "", 0
+        return first, len(first)
 
     def statements(self, start: int) -> tuple[Command, ...]:
         """All statements from offset ``start`` on; those with mistakes are left out."""

@@ -6,10 +6,10 @@ from adamslite.language.diagnostics import WARNING
 from adamslite.language.messages.entry import Message
 
 STATEMENTS: dict[str, Message] = {
-    "title-like-statement": Message(
-        "the first line is the title of the deck and is not read, but it looks like a statement",
-        "put a title line above it",
-        ("PART/1, GROUND\nPART/2, GROUND\n",),
+    "missing-title": Message(
+        "the deck begins with {word} instead of a title; it is read as a statement",
+        "put a title line above it: ADAMS takes the first line as the title and does not read it",
+        ("PART/1, GROUND\nMARKER/1, PART=1\n", "UNITS/SYSTEM=MKS\nPART/1, GROUND\n"),
         severity=WARNING,
     ),
     "not-a-statement": Message(
