@@ -28,6 +28,12 @@ WORDS = [
     ("SECTION/1, AREA=1", "SECTION"),
     ("FLEX_BODY/1, MTX_FILE=C:\\a b\\wing.mtx\nMARKER/4, FLEX_BODY=1, NODE_ID=7", "FLEX_BODY"),
     ("PART/5, MASS=1, CM=5, IP=1,1,1, MATERIAL=steel\nMARKER/5, PART=5", "PART MATERIAL"),
+    ("JOINT/1, REVOLUTE, I=2, J=1, DELTA_V=0.1, MU_STAT_ROT=0", "JOINT MU_STAT_ROT, JOINT DELTA_V"),
+    (
+        "JOINT/1, TRANSLATION, I=2, J=1, FRICTION=PRELOAD_ONLY, MU_DYN_TRANS=0, HEIGHT=2",
+        "JOINT FRICTION, JOINT MU_DYN_TRANS, JOINT HEIGHT",
+    ),
+    ("JOINT/1, CYLINDRICAL, I=2, J=1, FRICTION=OFF", "JOINT FRICTION"),
     ("GCON/1, I=1, RM=3, FUNCTION=DM(2,1)", "GCON RM"),
 ]
 COMMANDS = [
@@ -103,7 +109,9 @@ def test_a_run_is_the_same_with_them() -> None:
         "ACCGRAV/JGRAV=-9.81\nPART/2, MASS=2, CM=2, IP=1,1,1, QG=1,0,0\nMARKER/2, PART=2\n"
         "JOINT/1, REVOLUTE, I=3, J=1\nMARKER/3, PART=2, QP=-1,0,0\n"
     )
-    words = "".join(f"{words}\n" for words, _ in WORDS if not words.startswith(("PART/", "GCON/")))
+    words = "".join(
+        f"{words}\n" for words, _ in WORDS if not words.startswith(("PART/", "GCON/", "JOINT/"))
+    )
     words = words.replace("STRING/1, STRING=any text\n", "")
     plain = adamslite.simulate(read(head + "END\n"), end=1, steps=5)
     other = adamslite.simulate(read(head + words + "END\n"), end=1, steps=5)

@@ -9,11 +9,13 @@ from adamslite.checks.markers import references
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 
+COEFFICIENTS = ("mu_stat_rot", "mu_dyn_rot", "mu_stat_trans", "mu_dyn_trans")
 Body = tuple[str, Key]
 INSTEAD = {
     "FLEX_BODY": "write it as a rigid PART, or as PARTs that BEAM or FIELD elements join",
@@ -40,8 +42,25 @@ def _flexible_uses(deck: Deck) -> Iterator[tuple[Statement, str, Key, Body]]:
                 yield statement, field, key, flexible[key]
 
 
+def joint_friction(deck: Deck) -> Iterator[Diagnostic]:
+    """Friction that JOINT itself has acts unless its coefficients are zero."""
+    for joint in deck.of(Joint):
+        field = _acting(joint)
+        if field:
+            yield diagnose(joint, "joint-friction", field, id=joint.id)
+
+
+def _acting(joint: Joint) -> str:
+    """The field by which a joint has friction of its own; empty where it has none."""
+    given = [field for field in COEFFICIENTS if joint.given(field)]
+    switched_on = joint.friction is not None and joint.friction.upper() != "OFF"
+    alone = "friction" if switched_on and not given else ""
+    return next((field for field in given if getattr(joint, field)), alone)
+
+
 def passed_over(deck: Deck) -> Iterator[Diagnostic]:
     needed = {body for *_, body in _flexible_uses(deck)}
+    needed |= {(joint.keyword, joint.key) for joint in deck.of(Joint) if _acting(joint)}
     yield from note_of_inert(s for s in deck.own if (s.keyword, s.key) not in needed)
 
 

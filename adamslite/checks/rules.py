@@ -23,7 +23,7 @@ from adamslite.checks.bodies_and_elements import (
 from adamslite.checks.constraints import CONSTRAINT_RULES
 from adamslite.checks.effective_mass import effective_masses
 from adamslite.checks.equations import unformed_equations
-from adamslite.checks.inert import acts_on_flexible, passed_over
+from adamslite.checks.inert import acts_on_flexible, joint_friction, passed_over
 from adamslite.checks.markers import (
     floating_alone,
     floating_unused,
@@ -59,6 +59,7 @@ RULES: list[Rule] = [
     floating_use,
     floating_unused,
     acts_on_flexible,
+    joint_friction,
     reactions,
     distinct_ends,
     torques_on_points,

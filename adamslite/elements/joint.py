@@ -47,7 +47,15 @@ from adamslite.elements.bases.joint_coordinates import (
     turn_on_rack,
 )
 from adamslite.language.interfaces import DrawnModel
-from adamslite.language.statement import Statement, choice, number, reference, statement, vector
+from adamslite.language.statement import (
+    Statement,
+    choice,
+    number,
+    reference,
+    statement,
+    text,
+    vector,
+)
 from adamslite.symbolic.scope import Scope, dot
 from adamslite.symbolic.sympy_nodes import sp
 from adamslite.symbolic.types import Expr, Seen
@@ -55,7 +63,12 @@ from adamslite.symbolic.types import Expr, Seen
 Initial = tuple[str, str, float | None, float | None]
 
 
-@statement("JOINT", planned=("FRICTION",))
+def _older(key: str, unit: str, help: str) -> float | None:
+    """An argument of friction as older versions of ADAMS have it in JOINT."""
+    return number(key, unit=unit, inert=True, help=f"older form of FRICTION: {help}")
+
+
+@statement("JOINT")
 class Joint(Constraint, Statement):
     """An ideal joint between markers I and J of two different parts."""
 
@@ -84,6 +97,28 @@ class Joint(Constraint, Statement):
         "ICROT", start=True, size=1, most=2, unit="angle, angle per time",
         help="CYLINDRICAL: rotation and its velocity at the start",
     )  # fmt: skip
+
+    friction: str | None = text(
+        "FRICTION", inert=True, help="older form of FRICTION: ON, PRELOAD_ONLY or OFF"
+    )
+    mu_stat_rot: float | None = _older("MU_STAT_ROT", "1", "coefficient at rest, rotation")
+    mu_dyn_rot: float | None = _older("MU_DYN_ROT", "1", "coefficient in rotation")
+    mu_stat_trans: float | None = _older("MU_STAT_TRANS", "1", "coefficient at rest, translation")
+    mu_dyn_trans: float | None = _older("MU_DYN_TRANS", "1", "coefficient in translation")
+    max_fric_rot: float | None = _older("MAX_FRIC_ROT", "torque", "greatest torque")
+    max_fric_trans: float | None = _older("MAX_FRIC_TRANS", "force", "greatest force")
+    delta_v: float | None = _older("DELTA_V", "length/time", "slip at which friction is greatest")
+    maximum_deformation: float | None = _older(
+        "MAXIMUM_DEFORMATION", "length", "deformation before slip"
+    )
+    preload_radial: float | None = _older("PRELOAD_RADIAL", "force", "radial preload")
+    preload_axial: float | None = _older("PRELOAD_AXIAL", "force", "axial preload")
+    preload_x: float | None = _older("PRELOAD_X", "force", "preload along x")
+    preload_y: float | None = _older("PRELOAD_Y", "force", "preload along y")
+    inner_radius: float | None = _older("INNER_RADIUS", "length", "inner radius of the bearing")
+    outer_radius: float | None = _older("OUTER_RADIUS", "length", "outer radius of the bearing")
+    height: float | None = _older("HEIGHT", "length", "height of the slider")
+    width: float | None = _older("WIDTH", "length", "width of the slider")
 
     rows: ClassVar[dict[str, int]] = {
         "CONVEL": 4, "CYLINDRICAL": 4, "FIXED": 6, "HOOKE": 4, "PLANAR": 3, "RACKPIN": 1,

@@ -108,7 +108,7 @@ class Binder:
         self.takes_rates = before or hasattr(statement, "constraints")
         fields = []
         for name, argument in statement.arguments.items():
-            if statement.data or argument.kind in IGNORED:
+            if statement.data or argument.inert or argument.kind in IGNORED:
                 continue
             fields.append((name, self._argument(argument, getattr(statement, name))))
         for name, value in statement.derived(self.model).items():

@@ -23,8 +23,7 @@ ARGUMENTS: dict[str, Message] = {
     "planned-argument": Message(
         "not supported yet: argument {word} of {keyword}{times}",
         "the argument exists in ADAMS; this program cannot run it",
-        ("MARKER/4, PART=1, RM=1\nMARKER/5, PART=1, RM=1",
-         "JOINT/1, REVOLUTE, I=1, J=2, FRICTION=1"),
+        ("MARKER/4, PART=1, RM=1\nMARKER/5, PART=1, RM=1",),
     ),
     "duplicate-argument": Message(
         "{word} is given twice",

@@ -126,6 +126,14 @@ CONSTRAINTS: dict[str, Message] = {
             "VARIABLE/1, FUNCTION=ACCX(2)\nSFORCE/1, I=2, J=1, FUNCTION=VARVAL(d(1)/dt)",
         ),
     ),
+    "joint-friction": Message(
+        "{label} has friction of its own, a form of older versions that is not supported",
+        "write FRICTION/1, JOINT={id}, MU_STATIC=..., MU_DYNAMIC=... in its place",
+        (
+            "JOINT/1, REVOLUTE, I=1, J=2, MU_STAT_ROT=0, MU_DYN_ROT=0.2, OUTER_RADIUS=0.1",
+            "JOINT/1, TRANSLATIONAL, I=1, J=2, FRICTION=ON, DELTA_V=0.1",
+        ),
+    ),
     "gcon-marker": Message(
         "FUNCTION of {label} does not measure at MARKER/{key}",
         "the reaction of a GCON is known at the markers of its FUNCTION: {listed}",
