@@ -18,7 +18,7 @@ from adamslite.integrators.contract import DONE, MODE_STATICS, NOT_SETTLED, STAT
 from adamslite.integrators.equilibrium_control import Control
 from adamslite.integrators.linalg.blocks import factor, signature, solve
 from adamslite.integrators.linalg.norms import exceeds
-from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.linalg.plan import HUGE, TINY, Plan
 from adamslite.integrators.motion_equations import PART, jacobian, put_pose, residual, spread
 from adamslite.integrators.newton import apply_increment
 from adamslite.native.translate import native
@@ -29,6 +29,14 @@ GROWTH, UPHILL = 1.6, 4.0
 FAR = 0.02
 # Weight of the stiffness where only the inertia shall count.
 SMALL = 1e-13
+# Weight of the inertia after a singular matrix, at least.
+LEAST_SIGMA = 1e-8
+# Accelerations below this are none.
+AT_REST = 1e-12
+# A larger number is none to form products of.
+LARGE = 1e200
+# Constraints are closed to this share of the tolerance.
+CLOSED = 1e-3
 
 
 @native
@@ -53,7 +61,7 @@ def newton(P: Problem, L: Plan) -> bool:
     C.sigma, C.found = C.stability, False
     for _iteration in range(C.maxit):
         if not static_step(P, L):
-            C.sigma = max(10.0 * C.sigma, 1e-8)
+            C.sigma = max(10.0 * C.sigma, LEAST_SIGMA)
         elif settled(P):
             C.found = True
             return True
@@ -65,7 +73,7 @@ def relaxed(P: Problem, L: Plan) -> bool:
     """Relaxation from where the model is; True when settled."""
     C = Control(P.control)
     C.sigma = first_sigma(P)
-    last, signs = 1e300, pivot_signs(P, L, SMALL, 1.0)
+    last, signs = HUGE, pivot_signs(P, L, SMALL, 1.0)
     for _iteration in range(RELAXATIONS):
         if signs >= 0 and pivot_signs(P, L, 1.0, C.sigma) != signs:
             # Too long a step: it would go uphill, to an unstable equilibrium.
@@ -154,7 +162,7 @@ def first_sigma(P: Problem) -> float:
     """1/h^2 for a step that moves the most accelerated body by a hundredth of the model."""
     C = Control(P.control)
     imbalance(P)
-    fastest = 1e-12
+    fastest = AT_REST
     for b in range(P.sizes.nb):
         i = P.body[b].first
         if P.mass[b] > 0.0:
@@ -189,7 +197,7 @@ def static_step(P: Problem, L: Plan) -> bool:
     C = Control(P.control)
     c = P.coef
     imbalance(P)
-    if not C.worst < 1e200:
+    if not C.worst < LARGE:
         return False
     c[0], c[1], c[2], c[3], c[4] = 1.0, 0.0, C.sigma, 1.0, 0.0
     jacobian(P, STATIC, c, P.J)
@@ -216,10 +224,10 @@ def limited_move(P: Problem) -> bool:
         for k in range(kind):
             size = abs(P.F[i + k])
             moved = max(moved, size / max(1.0, abs(P.q[i + k])))
-            if not size < 1e200:
+            if not size < LARGE:
                 return False
             limit = C.tlimit if k < 3 else C.alimit
-            shrink = min(shrink, limit / max(size, 1e-300))
+            shrink = min(shrink, limit / max(size, TINY))
     C.moved = moved
     if shrink < 1.0:
         for i in range(P.sizes.n):
@@ -243,6 +251,6 @@ def settled(P: Problem) -> bool:
     imbalance(P)
     first = P.sizes.n + P.sizes.m + P.sizes.nv
     for k in range(P.sizes.n, first):
-        if not abs(P.F[k]) <= C.error * 1e-3 * max(1.0, C.length):
+        if not abs(P.F[k]) <= C.error * CLOSED * max(1.0, C.length):
             return False
     return C.worst <= C.imbalance and C.moved <= C.error

@@ -33,6 +33,7 @@ from adamslite.integrators.explicit.state import (
 )
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.records import write_record
+from adamslite.integrators.stepping.output import WITHIN
 from adamslite.native.translate import Reals, native
 
 # An error e of the polynomial leaves a defect of about e times its order, or e times what the
@@ -46,9 +47,9 @@ def write_dense(P: Problem, L: Plan, w: int, t: float) -> bool:
     C = Control(P.control)
     K = P.history
     following, ready, apart, h = C.row, False, False, C.h
-    while following < P.times.size and P.times[following] <= t + 1e-9 * h:
+    while following < P.times.size and P.times[following] <= t + WITHIN * h:
         at = P.times[following]
-        if at < t - 1e-9 * h:
+        if at < t - WITHIN * h:
             x, y = (at - C.t) / h, K[BETWEEN * w :]
             if not ready and not late_stages(P, L, w, h):
                 return False

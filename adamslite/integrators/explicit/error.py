@@ -19,7 +19,8 @@ from adamslite.integrators.explicit.state import (
     SCALES,
 )
 from adamslite.integrators.linalg.norms import exceeds
-from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.linalg.plan import HUGE, Plan
+from adamslite.integrators.stepping.step_size import LONGER
 from adamslite.native.translate import Reals, native
 
 # The next step aims at this share of what the error test allows; exponents of the present and the
@@ -27,6 +28,13 @@ from adamslite.native.translate import Reals, native
 SAFETY = 0.9
 NOW_POWER, LAST_POWER = -0.125 + 0.03, 0.04
 SHRINK, GROW = 0.2, 6.0
+# An error estimate below this counts as this for the next step.
+LEAST_ERROR = 1e-4
+# Numbers whose squares are still numbers, and still above zero.
+LARGE, NOTHING = 1e150, 1e-100
+# Share of the state that the trial step of the start may change, and its length where nothing moves
+# (states and rates below AT_REST) or the rates do not change (below STRAIGHT).
+TRIAL, SHORT, AT_REST, STRAIGHT = 0.01, 1e-6, 1e-5, 1e-15
 
 
 @native
@@ -56,16 +64,16 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
     h = euler(P, w, 1.0)
     scales = P.history[SCALES * w :]
     d0, d1 = distance(P, y, y, scales, w), change(P, w) / h
-    h = min(room, 0.01 * d0 / d1 if d0 > 1e-5 and d1 > 1e-5 else 1e-6)
+    h = min(room, TRIAL * d0 / d1 if d0 > AT_REST and d1 > AT_REST else SHORT)
     euler(P, w, h)
     k = P.history[width:]
     if not rates_at(P, L, t + h, new, k):
-        return 0.01 * h
+        return TRIAL * h
     d2, n = d1, P.sizes.n
     for i in range(w - n):
         k[i] = k[width - w + n + i] - P.history[width - w + n + i]
     d2 = max(d2, distance(P, k, y[n:], scales[n:], w - n) / h)
-    later = (0.01 / d2) ** 0.125 if d2 > 1e-15 else max(1e-6, 1e-3 * h)
+    later = (TRIAL / d2) ** 0.125 if d2 > STRAIGHT else max(SHORT, 1e-3 * h)
     return min(room, max(P.settings.h_min, min(100.0 * h, later)))
 
 
@@ -98,9 +106,9 @@ def estimate(P: Problem, w: int, h: float) -> float:
     third = distance(P, e, y, scales, w)
     combine(P, ERROR5, w, h, zero, e)
     fifth = distance(P, e, y, scales, w)
-    if not third < 1e150 or not fifth < 1e150:
-        return 1e300
-    if fifth < 1e-100:  # whose square may be nothing
+    if not third < LARGE or not fifth < LARGE:
+        return HUGE
+    if fifth < NOTHING:  # whose square may be nothing
         return 0.0
     return fifth * fifth / (fifth * fifth + 0.01 * third * third) ** 0.5
 
@@ -114,7 +122,7 @@ def choose_explicit_step(P: Problem, error: float) -> None:
         factor = min(GROW, SAFETY * error**NOW_POWER * C.last_error**LAST_POWER)
     if C.cautious:
         factor = min(1.0, factor)
-    C.cautious, C.last_error = False, max(error, 1e-4)
+    C.cautious, C.last_error = False, max(error, LEAST_ERROR)
     cut_step(P, max(SHRINK, factor))
 
 
@@ -125,7 +133,7 @@ def cut_step(P: Problem, factor: float) -> None:
     h, least = C.h, P.settings.h_min
     if h * factor >= least:
         C.h = h * factor
-    elif h > least * 1.0000001:
+    elif h > least * LONGER:
         C.h = least
     elif C.cautious:
         C.h = h * factor

@@ -11,7 +11,7 @@ from adamslite.integrators.contract import NEWTON_FAILED, Problem
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.search import judge, open_search
 from adamslite.integrators.explicit.control import Control
-from adamslite.integrators.explicit.error import starting_step
+from adamslite.integrators.explicit.error import LEAST_ERROR, starting_step
 from adamslite.integrators.explicit.stages import exact_rates
 from adamslite.integrators.explicit.state import (
     OLD,
@@ -96,7 +96,7 @@ def rates_anew(P: Problem, L: Plan, w: int, restart: bool) -> int:
         if P.sizes.implicit_mass:
             # What it leaves in P.LA is no factored matrix: the next rates make one of their own.
             C.signature, C.stale = mass_signature(P, L, P.x), True
-        C.h, C.last_error = starting_step(P, L, w), 1e-4
+        C.h, C.last_error = starting_step(P, L, w), LEAST_ERROR
         if not exact_rates(P, L, C.t, y, k):
             return NEWTON_FAILED
     keep_solution(P)

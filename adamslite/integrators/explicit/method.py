@@ -32,7 +32,12 @@ from adamslite.integrators.events.stops import (
 )
 from adamslite.integrators.explicit.control import BODIES, MASSES, Control
 from adamslite.integrators.explicit.dense_output import write_dense
-from adamslite.integrators.explicit.error import choose_explicit_step, estimate, starting_step
+from adamslite.integrators.explicit.error import (
+    LEAST_ERROR,
+    choose_explicit_step,
+    estimate,
+    starting_step,
+)
 from adamslite.integrators.explicit.events import change_where_it_stands, locate_between, pass_by
 from adamslite.integrators.explicit.recovery import reject, shorten, why_stuck
 from adamslite.integrators.explicit.stages import exact_rates, run_stages
@@ -51,12 +56,16 @@ from adamslite.integrators.projection import sensitivity
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.step_back import make_undoable
 from adamslite.integrators.stepping.control import RUNNING
+from adamslite.integrators.stepping.outcome import ALMOST
+from adamslite.integrators.stepping.step_size import LONGER
 from adamslite.integrators.unconstrained import invert_inertia, is_free, mass_tables
 from adamslite.native.translate import Reals, native
 
 # A projection that moves further than this times ERROR does not correct a step but leaves it, as
 # where constraints lose rank and another branch is near.
 FAR = 1.0
+# A step whose stages have no value is cut to this.
+CUT = 0.25
 # Where steps below this share of HMAX are pulled so far this often, shorter ones will not help.
 TINY, MOST_PULLED = 1e-6, 20
 EPSILON = 2.220446049250313e-16
@@ -82,7 +91,7 @@ def begin_explicit(P: Problem, L: Plan) -> int:
     w = 2 * n + ns
     P.undoing[:] = 0
     C[:] = 0
-    C.t, C.last_error = t, 1e-4
+    C.t, C.last_error = t, LEAST_ERROR
     y, k = P.history[OLD * w :], P.history[0:]
     for i in range(n):
         y[i], y[n + i] = P.q[i], P.u[i]
@@ -128,7 +137,7 @@ def try_step(P: Problem, L: Plan) -> int:
     left = step_limit(P, C.row) - C.t
     if not P.settings.interpolate:
         C.h = fitted(P, C.h, left)
-    if C.h * 1.0000001 > left:
+    if C.h * LONGER > left:
         C.h = left
     least = P.settings.h_min if C.cautious else least_step(P)
     if C.h < least or crawls(P, C.h):
@@ -137,7 +146,7 @@ def try_step(P: Problem, L: Plan) -> int:
     if not run_stages(P, L, w, C.h):
         if let_go(P):
             return RUNNING
-        return shorten(P, w, 0.25)
+        return shorten(P, w, CUT)
     error = estimate(P, w, C.h)
     P.report.error = error
     if not error <= 1.0:
@@ -152,14 +161,14 @@ def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
     K = P.history
     h, t = C.h, C.t + C.h
     limit = step_limit(P, C.row)
-    if t + 1e-7 * h > limit:
+    if t + ALMOST * h > limit:
         t = limit
     new, width = K[NEXT_STATE * w :], C.width
     if P.sizes.implicit_mass and changed_signature(P, L, t, new):
-        return shorten(P, w, 0.25)
+        return shorten(P, w, CUT)
     P.report.moved = 0.0
     if not exact_rates(P, L, t, new, K[K_NEW * width :]):
-        return shorten(P, w, 0.25)
+        return shorten(P, w, CUT)
     if P.report.moved > FAR * P.settings.error or is_loose(P, L):
         return pull_back(P, L, w)
     if P.sizes.watched + P.sizes.zones > 0:

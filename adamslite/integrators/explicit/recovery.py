@@ -18,13 +18,14 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.explicit.control import Control
-from adamslite.integrators.explicit.error import NOW_POWER, SAFETY, SHRINK, cut_step
+from adamslite.integrators.explicit.error import LARGE, NOW_POWER, SAFETY, SHRINK, cut_step
 from adamslite.integrators.explicit.state import (
     stand_again,
 )
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.step_back import before_trouble
 from adamslite.integrators.stepping.control import RUNNING
+from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.native.translate import native
 
 SINGULAR_RESOLUTION = 1e-6
@@ -68,14 +69,14 @@ def reject(P: Problem, w: int, error: float) -> int:
     """The error was too large: a smaller step."""
     C = Control(P.control)
     P.count.rejected += 1
-    if not error < 1e150 and let_go(P):
+    if not error < LARGE and let_go(P):
         return RUNNING
     P.undoing.trouble += 1.0
     C.tries += 1
     if P.sizes.m > 0 and P.undoing.trouble >= FEW_REJECTIONS and start_elsewhere(P, w):
         return RUNNING
     C.cautious = True
-    cut_step(P, max(SHRINK, SAFETY * error**NOW_POWER) if error < 1e12 else SHRINK)
+    cut_step(P, max(SHRINK, SAFETY * error**NOW_POWER) if error < OVERFLOW else SHRINK)
     return RUNNING
 
 

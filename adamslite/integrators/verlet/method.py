@@ -37,10 +37,11 @@ from adamslite.integrators.events.stops import (
     set_pace,
 )
 from adamslite.integrators.linalg.norms import exceeds
-from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import put_time, run_groups, track
 from adamslite.integrators.records import write_record
 from adamslite.integrators.step_back import bring_audit_back, keep_audit
+from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.integrators.unconstrained import divide_by_mass, put_free, radius
 from adamslite.integrators.verlet.control import Control
 from adamslite.native.translate import native
@@ -54,6 +55,15 @@ FIXED_SAMPLE = 32
 # Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
 WORTH = 200
 SHRINK, GROW = 0.25, 2.0
+# Of the step that the error allows, after a rejected run and after an accepted one; an error below
+# LEAST_ERROR counts as that.
+SAFETY_DOWN, SAFETY, LEAST_ERROR = 0.8, 0.9, 1e-3
+# A run whose error has come to this many times ERROR is given up before its end.
+HOPELESS = 1e6
+# What a number of steps may exceed a whole one by without one step more.
+WHOLE = 1e-9
+# A larger number is none to form products of.
+LARGE = 1e200
 # Tries of one interval that may blow up: steps 4^8 times as short take every jump of a stiffness
 # that a run can be meant to have; what still blows up has no value there, with any step.
 MOST_BLOWN = 8
@@ -67,7 +77,7 @@ def verlet(P: Problem, L: Plan) -> int:
     C[:] = 0
     P.report.order = 2
     start_events(P, False, False)
-    P.report.stable_step = 1e300
+    P.report.stable_step = HUGE
     synchronise(P, P.times[0], 0)
     P.report.t = P.times[0]
     C.since = WORTH
@@ -126,7 +136,7 @@ def look_at_stability(P: Problem) -> None:
     C.since = 0
     kappa, c = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
     bottom = c + (c * c + 4.0 * kappa) ** 0.5
-    C.limit = 4.0 * STABLE / bottom if bottom > 0.0 else 1e300
+    C.limit = 4.0 * STABLE / bottom if bottom > 0.0 else HUGE
     P.report.stable_step = min(P.report.stable_step, C.limit / STABLE)
 
 
@@ -143,7 +153,7 @@ def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
     while not P.settings.stop:
         if not fixed:
             wanted = min(wanted, C.limit)
-        h = (end - t) / max(1.0, 0.0 - floor(1e-9 - (end - t) / wanted))
+        h = (end - t) / max(1.0, 0.0 - floor(WHOLE - (end - t) / wanted))
         P.report.h = h
         if wanted < P.settings.h_min or blown == MOST_BLOWN:
             return STEP_TOO_SMALL
@@ -158,8 +168,10 @@ def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
         P.count.rejected += 1
         if fixed:
             return UNSTABLE
-        blown = 0 if error < 1e300 else blown + 1
-        wanted = h * (max(SHRINK, 0.8 * error ** (-1.0 / 3.0)) if error < 1e12 else SHRINK)
+        blown = 0 if error < HUGE else blown + 1
+        wanted = h * (
+            max(SHRINK, SAFETY_DOWN * error ** (-1.0 / 3.0)) if error < OVERFLOW else SHRINK
+        )
         for i in range(n):
             P.q[i], P.u[i] = old[i], old[n + i]
         bring_audit_back(P)
@@ -174,7 +186,7 @@ def following(P: Problem, error: float, h: float, wanted: float, fixed: bool) ->
         return C.wanted
     if fixed or error >= 0.5:
         return wanted
-    return min(GROW, 0.9 * max(error, 1e-3) ** (-1.0 / 3.0)) * h
+    return min(GROW, SAFETY * max(error, LEAST_ERROR) ** (-1.0 / 3.0)) * h
 
 
 @native
@@ -194,7 +206,7 @@ def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> f
             divide_by_mass(P, P.F, P.history, 0.0, P.a)
             error = sampled_error(P, h)
             top = max(top, error)
-            if not top < 1e6 and not fixed:
+            if not top < HOPELESS and not fixed:
                 return top
             C.spent += every * error
         if s % every == 0:
@@ -202,7 +214,7 @@ def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> f
         kick = 0.5 * h if s == 0 or s == count else h
         leap(P, kick, h if s < count else 0.0)
     if not take_over(P):
-        return 1e300
+        return HUGE
     P.count.steps += count
     P.count.residuals += count + 1
     C.since += count
@@ -234,8 +246,8 @@ def sampled_error(P: Problem, h: float) -> float:
             weight = max(1.0, abs(P.W[o + k]))
             if exceeds(change, top * weight):
                 top = change / weight
-    if not top < 1e200:
-        return 1e300
+    if not top < LARGE:
+        return HUGE
     return top * h * h / (6.0 * P.settings.error)
 
 
@@ -246,6 +258,6 @@ def take_over(P: Problem) -> bool:
         i, o = P.body[b].first, P.body[b].at
         for k in range(3):
             P.q[i + k], P.u[i + k] = P.W[o + k], P.W[o + 3 + k]
-            if not abs(P.W[o + k]) + abs(P.W[o + 3 + k]) < 1e200:
+            if not abs(P.W[o + k]) + abs(P.W[o + 3 + k]) < LARGE:
                 return False
     return True
