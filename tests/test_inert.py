@@ -127,6 +127,47 @@ def test_c_is_the_comment_of_a_request() -> None:
     assert request.comment == "DISPLACEMENT: X Y Z (body-fixed)"
 
 
+@pytest.mark.parametrize(
+    ("short", "full"),
+    [
+        ("M/4, P=1", "MARKER/4, PART=1"),
+        ("P/4, M=1, CM=4, IP=1,1,1\nM/4, PA=4", "PART/4, MASS=1, CM=4, IP=1,1,1\nMARKER/4, PART=4"),
+        ("RE/1, D, I=2, C=a", "REQUEST/1, DISPLACEMENT, I=2, COMMENT=a"),
+        ("JO/1, REV, I=2, J=1", "JOINT/1, REVOLUTE, I=2, J=1"),
+        ("JP/1, INL, I=2, J=1", "JPRIM/1, INLINE, I=2, J=1"),
+        ("EQU/AL=1D, ERR=1, IM=2, MAX=3, PAT=T, ST=4, TL=5",
+         "EQUILIBRIUM/ALIMIT=1D, ERROR=1, IMBALANCE=2, MAXIT=3, PATTERN=T, STABILITY=4, TLIMIT=5"),
+        ("ACC/K=-9.81", "ACCGRAV/KGRAV=-9.81"),
+        ("int/hht, err=1E-5, hmax=1", "INTEGRATOR/HHT, ERROR=1E-5, HMAX=1"),
+        ("SF/1, ROTATION, I=2, J=1, FUNC=1", "SFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION=1"),
+        ("SF/1, TRANSLATION, I=2, J=3, FU=1", "SFORCE/1, TRANSLATIONAL, I=2, J=3, FUNCTION=1"),
+        ("SPR/1, ROTATION, I=2, J=1, KT=1", "SPRINGDAMPER/1, ROTATIONAL, I=2, J=1, KT=1"),
+        ("JO/1, CYL, I=2, J=1\nMO/1, JOINT=1, ROTATIONAL, FUNC=TIME",
+         "JOINT/1, CYLINDRICAL, I=2, J=1\nMOTION/1, JOINT=1, ROTATION, FUNCTION=TIME"),
+        ("VAR/1, FU=1; AR/1, IC, NUM=1", "VARIABLE/1, FUNCTION=1\nARRAY/1, IC, NUMBERS=1"),
+    ],
+)  # fmt: skip
+def test_abbreviations_as_adams_reads_them(short: str, full: str) -> None:
+    read_short, read_full = deck_with(short).statements, deck_with(full).statements
+    for one, other in zip(read_short, read_full, strict=True):
+        assert type(one) is type(other)
+        assert all(getattr(one, f) == getattr(other, f) for f in (*one.arguments, "id"))
+
+
+@pytest.mark.parametrize(
+    ("short", "full"),
+    [
+        ("sim/stat", "SIMULATE/STATICS"),
+        ("sim/dyn, end=1, dtout=0.1", "SIMULATE/DYNAMICS, END=1, DTOUT=0.1"),
+        ("sim/dyn, dur=1, steps=9", "SIMULATE/DYNAMICS, DURATION=1, STEPS=9"),
+        ("equil/maxit=5, stab=1, imb=2", "EQUILIBRIUM/MAXIT=5, STABILITY=1, IMBALANCE=2"),
+    ],
+)
+def test_abbreviated_commands(short: str, full: str) -> None:
+    (one,), (other,) = (read_commands(text + "\n", read(START)) for text in (short, full))
+    assert all(getattr(one, f) == getattr(other, f) for f in one.arguments)
+
+
 def test_unused_floating_markers_are_one_note() -> None:
     lines = "".join(f"MARKER/{n}, PART=1, FLOATING\n" for n in range(10, 18))
     (note,) = told(START + lines)

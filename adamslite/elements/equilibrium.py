@@ -32,7 +32,7 @@ class Equilibrium(Statement):
     imbalance: float = number(
         "IMBALANCE", unit="force", default=1e-4, help="allowed residual of an equation"
     )
-    maxit: int = integer("MAXIT", default=25, help="largest number of iterations")
+    maxit: int = integer("MAXIT", "MAX", default=25, help="largest number of iterations")
     pattern: tuple[str, ...] = words(
         "PATTERN", options=("T", "F"), help="iterations that renew the Jacobian; all unless given"
     )

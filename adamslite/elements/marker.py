@@ -27,7 +27,7 @@ class Marker(Statement):
         (("reuler",), ("zp", "xp", "usexp")),
     )
 
-    part: int | str | None = reference("PART", to="PART", help="the part it is fixed to")
+    part: int | str | None = reference("PART", "P", to="PART", help="the part it is fixed to")
     point_mass: int | str | None = reference(
         "POINT_MASS", to="POINT_MASS", help="the point mass it is fixed to"
     )

@@ -39,7 +39,7 @@ class Part(Statement):
     alternatives = ((("reuler",), ("zg", "xg")),)
 
     ground: bool = flag("GROUND", help="this part is the inertial reference")
-    mass: float | None = number("MASS", unit="mass", help="mass")
+    mass: float | None = number("MASS", "M", "MA", unit="mass", help="mass")
     cm: int | str | None = reference("CM", to="MARKER", help="marker at the centre of mass")
     im: int | str | None = reference(
         "IM", to="MARKER", help="marker whose origin and axes IP refers to; default: the CM marker"

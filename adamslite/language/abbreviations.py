@@ -1,4 +1,4 @@
-"""Keywords and their abbreviations: any beginning that fits only one keyword."""
+"""Keywords and their abbreviations: any beginning that fits only one keyword, and some more."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
 
 V = TypeVar("V")
+PREFERRED = {"M": "MARKER", "P": "PART", "RE": "REQUEST"}
+"""Abbreviations of statements that ADAMS reads although they fit several; those of arguments are
+among the keywords of the argument."""
 
 
 class Ambiguous(NamedTuple):

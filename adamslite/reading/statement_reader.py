@@ -14,7 +14,7 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.names import Key, Names
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.part import Part
-from adamslite.language.abbreviations import Ambiguous, match, vocabulary
+from adamslite.language.abbreviations import PREFERRED, Ambiguous, match, vocabulary
 from adamslite.language.diagnostics import Source, Spans
 from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.not_supported import COMMANDS as PLANNED_COMMANDS
@@ -158,7 +158,8 @@ class Reading:
         token = syntax.tokens[0]
         word = token[1]
         if word not in self._meanings:
-            self._meanings[word] = match(syntax.keyword, self._table)
+            keyword = PREFERRED.get(syntax.keyword, syntax.keyword)
+            self._meanings[word] = match(keyword, self._table)
         found = self._meanings[word]
         place = token[2], end_of(token)
         if isinstance(found, type):

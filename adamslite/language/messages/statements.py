@@ -58,7 +58,7 @@ STATEMENTS: dict[str, Message] = {
         ("FORSE/1, I=1, J=2", "MARKR/5, PART=1", "RODEO/1"),
     ),
     "ambiguous-statement": Message(
-        "{word} may mean {choices}", "write more letters", ("P/4, MASS=1", "S/1, I=1")
+        "{word} may mean {choices}", "write more letters", ("G/4, I=1", "S/1, I=1")
     ),
     "planned-statement": Message(
         "not supported yet: {word}{times}",
