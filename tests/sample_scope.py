@@ -175,6 +175,9 @@ class SampleScope:
         matrix = state("x", k)
         return tuple(self.vector(f"x_{k}_{c}", matrix[:, c]) for c in range(3))
 
+    def side(self, normal, clear):
+        return self.symbol("side", 1)
+
     def angle(self, sine, cosine):
         return sp.atan2(sine, cosine) + self.symbol("turns", 2 * mp.pi)
 

@@ -103,6 +103,8 @@ def expected_values(m: Moving, n: list[int]) -> dict[str, float]:
         f"WDTM({a},{b},{d})": float(np.linalg.norm(m.spin_up(i, j, k, frame))),
         f"WDTM({a},{b})": float(np.linalg.norm(m.spin_up(i, j, k, GROUND))),
     }
+    lines = [(m.r - j.r) / np.linalg.norm(m.r - j.r) for m in (i, k)]
+    found[f"INCANG({a},{b},{c})"] = float(np.arccos(lines[0] @ lines[1]))
     for component, angle in enumerate(projected_angles(i, j), 1):
         found[f"ORIENT(26,{component},{a},{b})"] = angle
     return found | attitudes(a, b, directions(i, j))

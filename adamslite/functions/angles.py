@@ -10,8 +10,10 @@ Where the middle angle lines the first axis up with the last, only their sum cou
 
 from __future__ import annotations
 
+import math
+
 from adamslite.language.function import Mistake, function
-from adamslite.symbolic.scope import Scope, dot
+from adamslite.symbolic.scope import Scope, cross, dot
 from adamslite.symbolic.sympy_nodes import norm, piecewise, root, sp
 from adamslite.symbolic.types import Expr, Frame
 
@@ -25,7 +27,10 @@ SPACE_FIXED, YPR, PROJECTED, EULER_PARAMETERS, COSINES = 13, 25, 26, 27, 29
 # Square of the sine below which rounding, not the attitude, would decide the outer angles.
 ALIGNED = 1e-20
 # Systems that do not have three components.
-COMPONENTS = {EULER_PARAMETERS: 4, COSINES: 9}
+COMPONENTS: dict[float, int] = {EULER_PARAMETERS: 4, COSINES: 9}
+
+# Square of the sine below which rounding, not the lines, would decide their normal.
+IN_LINE = 1e-12
 
 Matrix = tuple[tuple[Expr, ...], ...]
 
@@ -117,6 +122,23 @@ def az(scope: Scope, i: Frame, j: Frame) -> Expr:
     """
     x, (xj, yj, _) = scope.axes(i)[0], scope.axes(j)
     return scope.angle(dot(x, yj), dot(x, xj))
+
+
+@function("INCANG", "i:marker j:marker k:marker")
+def incang(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
+    """Angle at j between the lines from j to i and from j to k, followed past 0 and pi.
+
+    Unit: rad; 0..pi at the start.  With a, b the lines and n = a x b it is atan2(+-|n|, a . b),
+    full turns counted; the sign changes where n turns over from one step to the next, as the lines
+    pass through one another or through being opposite.
+    Source: Adams/Solver C++ function INCANG.
+    """
+    a, b = scope.position(i, j), scope.position(k, j)
+    normal = cross(a, b)
+    clear = dot(normal, normal) > IN_LINE * dot(a, a) * dot(b, b)
+    # Counted from a right angle: at the start both 0 and pi are then far from a change of turns.
+    from_square = scope.angle(-dot(a, b), scope.side(normal, clear) * norm(normal))
+    return from_square + math.pi / 2
 
 
 @function("PSI", "i:marker j:marker=0")

@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 from adamslite.symbolic.derivatives import Derivatives
 from adamslite.symbolic.guards import CLOCK_LEAVES, FIXED_LEAVES
-from adamslite.symbolic.sympy_nodes import sp
+from adamslite.symbolic.sympy_nodes import piecewise, root, sp
 from adamslite.symbolic.types import Expr, Frame, Leaf, Read, Seen, Symbol, Tree
 
 ORIGIN = -1
@@ -105,6 +105,7 @@ class Scope:
         self.leaves: dict[Symbol, Leaf] = {}
         self.symbols: dict[Leaf, Symbol] = {}
         self.angles: list[Expr] = []
+        self.kept: list[Expr] = []
         self.limits: list[Expr] = []
         self.slope = Derivatives()
         self.elements: list[Seen] = []
@@ -202,6 +203,19 @@ class Scope:
             self.angles.append(wrapped)
         return wrapped + self.symbol("turn", self.angles.index(wrapped))
 
+    def side(self, normal: Vector, clear: Expr) -> Expr:
+        """1 or -1: whether ``normal`` points as it did, taken by its side, at the last accepted
+        step, or against that; 1 as long as there is none.
+
+        A normal counts as one where the condition ``clear`` holds.  The side is locally constant.
+        """
+        first = len(self.kept)
+        before: Vector = tuple(self.symbol("kept", first + c) for c in range(3))  # type: ignore
+        side = piecewise((1, dot(normal, before) >= 0), otherwise=-1)
+        now = scale(side / root(dot(normal, normal)), normal)
+        self.kept += [piecewise((n, clear), otherwise=b) for n, b in zip(now, before, strict=True)]
+        return side
+
     def of_time(self, expr: Expr) -> bool:
         """Whether an expression depends on TIME alone, or on nothing that changes in a run."""
         kinds = {self.leaves[symbol][0] for symbol in self.slope.symbols(sp.S.Zero + expr)}
@@ -263,7 +277,7 @@ class Scope:
             return self.symbol("sig", leaf[1], leaf[2] + 1)
         if kind == "dif":
             return self.symbol("dif1", leaf[1])
-        if kind in ("p", "turn", "mode", "nan"):
+        if kind in ("p", "turn", "kept", "mode", "nan"):
             return 0
         raise UndefinedRate(leaf)
 

@@ -93,7 +93,7 @@ class JacobianWriter(ResidualWriter):
         vectors: dict[Leaf, Vec] = {}
         for symbol in sorted(self.scope.slope.symbols(expr), key=str):
             leaf = self.scope.leaves[symbol]
-            if leaf[0] in ("p", "t", "mode", "sig", "turn", "nan"):
+            if leaf[0] in ("p", "t", "mode", "sig", "turn", "kept", "nan"):
                 continue
             if self.rates_only and leaf[0] in ("d", "v", "x", "w", "dif"):
                 continue

@@ -54,13 +54,13 @@ def write_kernels(
     text, meta
         ``meta["blocks"]``: pairs (row node, column node) of Jacobian blocks in the order of the
         integers; ``meta["n_ints"]``: integers of an instance; ``meta["angles"]``: how many angles
-        it remembers, ``meta["limits"]``: how many times of leaving its law; ``meta["mass"]``: a
-        force depends on accelerations; ``meta["guards"]``: kinds of the guards of the clock and of
-        the watch; ``meta["clock"]``: what depends on time alone.
+        and numbers it remembers, ``meta["limits"]``: how many times of leaving its law;
+        ``meta["mass"]``: a force depends on accelerations; ``meta["guards"]``: kinds of the guards
+        of the clock and of the watch; ``meta["clock"]``: what depends on time alone.
     """
     scope = Scope(shape.slots)
     out = shape.outputs(scope)
-    shape.n_angles, shape.n_limits = len(scope.angles), len(scope.limits)
+    shape.n_angles, shape.n_limits = len(scope.angles) + len(scope.kept), len(scope.limits)
     clock: dict[str, list[list[Instruction]]] = {}
     if face != "output":
         shape.guards = guards(out.expressions, scope.leaves)
@@ -75,7 +75,7 @@ def write_kernels(
     writer = ResidualWriter(shape, scope)
     writer.residual(out)
     bodies.append((f"{name}_residual", RESIDUAL_HEAD, writer))
-    if scope.angles or scope.limits:
+    if shape.n_angles or shape.n_limits:
         writer = ResidualWriter(shape, scope)
         writer.track()
         bodies.append((f"{name}_track", RESIDUAL_HEAD, writer))
@@ -90,7 +90,7 @@ def write_kernels(
     meta = {
         "n_ints": n_ints,
         "blocks": blocks,
-        "angles": len(scope.angles),
+        "angles": shape.n_angles,
         "limits": len(scope.limits),
         "guards": kinds,
         "clock": clock,

@@ -51,6 +51,8 @@ class ResidualWriter:
             return self.b.read("W", self.b.int_at(leaf[1]), 1)
         if kind == "sig":
             return self.b.read("W", self.b.int_at(len(self.shape.widths) + leaf[1]), leaf[2])
+        if kind == "kept":
+            return self.b.real_at(self._kept_at(leaf[1]))
         if kind == "nan":
             return math.nan
         return self._turns(leaf[1])
@@ -59,6 +61,10 @@ class ResidualWriter:
         if position >= HEAD:
             raise IndexError(position)
         return self.b.emit(("head", position), f"getelementptr double, ptr %W, i64 {position}")
+
+    def _kept_at(self, n: int) -> int:
+        """The real that holds a number of the last accepted step, behind the angles."""
+        return self.shape.n_params + len(self.scope.angles) + n
 
     def _turns(self, n: int) -> Value:
         """Whole turns that bring the wrapped angle nearest to the remembered one."""
@@ -121,9 +127,12 @@ class ResidualWriter:
         return self.lower.gap(guard) if hasattr(guard, "rel_op") else self.value(guard.args[0])
 
     def track(self) -> None:
+        kept = [self.value(each) for each in self.scope.kept]
         for n, wrapped in enumerate(self.scope.angles):
             angle = self.b.add(self.value(wrapped), self._turns(n))
             self.b.store_real(self.shape.n_params + n, angle)
+        for n, number in enumerate(kept):
+            self.b.store_real(self._kept_at(n), number)
         for n, limit in enumerate(self.scope.limits):
             at = self.shape.n_params + self.shape.n_angles + n
             first, now = self.b.real_at(at), self.leaf(("t",))
