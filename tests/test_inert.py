@@ -221,3 +221,15 @@ def test_friction_inactive_during_is_inactive() -> None:
     friction = deck_with(joint + "FRICTION/1, JOINT=1, INACTIVE_DURING=STATIC").statements[-1]
     assert friction.inactive == "STATIC"
     assert "passed-over" not in codes(joint + "FRICTION/1, JOINT=1, INACTIVE_DURING=STATIC")
+
+
+@pytest.mark.parametrize("names", ["a\nout\n", "crane\noutput\n", "s\n", "mo\nP\n"])
+def test_names_at_the_top_of_a_command_file_are_no_statements(names: str) -> None:
+    """The model and the prefix of its output files, also where they look like keywords."""
+    found = read_commands(f"{names}sim/stat\nstop\n", read(START))
+    assert [each.keyword for each in found] == ["SIMULATE", "STOP"] and not found.warnings
+
+
+def test_a_third_name_is_a_mistake() -> None:
+    with pytest.raises(adamslite.DeckError, match="there is no statement crane"):
+        read_commands("a\nb\ncrane\nstop\n", read(START))

@@ -35,6 +35,9 @@ BEGINNING = re.compile(r"^[ \t]*(\w+)[ \t]*/", re.MULTILINE)
 # The word that begins a line; the rest of the form where it begins as statements do.
 FIRST_WORD = re.compile(r"[ \t]*([A-Za-z]\w*)[ \t]*(/[ \t]*(?:\w+[ \t]*)?(?:[,=!;]|$))?")
 
+# Names at the top of a command file: of the model, of the output.
+MOST_NAMES = 2
+
 
 class Entry(NamedTuple):
     """A statement after the first pass; ``body`` is the nearest body before it."""
@@ -86,6 +89,7 @@ class Reading:
         self.entries: list[Entry] = []
         self.broken: set[str] = set()
         """Keywords of statements that could not be read, or not wholly."""
+        self._names = 0
         self._body: Body | None = None
         self._guesses: list[tuple[str, Syntax]] = []
         self._started: dict[str, int] = {}
@@ -144,14 +148,14 @@ class Reading:
     # ---- first pass ---------------------------------------------------------------------------
 
     def _is_model_name(self, syntax: Syntax | None) -> bool:
-        """Whether this is a bare name at the top of a command file: that of the model."""
-        return (
-            self.place == "command"
-            and not self.entries
-            and syntax is not None
-            and len(syntax.tokens) == 1
-            and match(syntax.keyword, self._table) is None
-        )
+        """Whether this is a bare name at the top of a command file: that of the model, or after
+        it the prefix of the output files, which may be any word but STOP.
+        """
+        if self.place != "command" or self.entries or syntax is None or len(syntax.tokens) > 1:
+            return False
+        named = syntax.keyword != "STOP" if self._names else syntax.keyword not in self._table
+        self._names += named
+        return named and self._names <= MOST_NAMES
 
     def _class(self, syntax: Syntax) -> type[Statement] | None:
         """The class of a statement; None, with a message, when it cannot be read."""
