@@ -29,7 +29,7 @@ def record(P: Problem, L: Plan, C: Control) -> bool:
 
 
 @native
-def put_inside(P: Problem, t: float, h: float, x: float) -> None:
+def put_between(P: Problem, t: float, h: float, x: float) -> None:
     """The tried step from ``t`` at the share ``x`` into the workspace."""
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y, y, a, z = 2 * n + ns, P.history, P.trial[0:], P.x, P.F

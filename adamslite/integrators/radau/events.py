@@ -34,10 +34,10 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.coefficients import REAL
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.corrector import round_off
-from adamslite.integrators.radau.dense_output import put_inside
+from adamslite.integrators.radau.dense_output import put_between
 from adamslite.integrators.radau.state import (
     put_end,
-    stand_at_start,
+    restore_state,
 )
 from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
@@ -61,7 +61,7 @@ def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
     open_search(P, t, h)
     take_harmless(P, L, equations_kept(P), P.tableau[REAL] / h)
     while P.search.open:
-        put_inside(P, t, h, P.search.share)
+        put_between(P, t, h, P.search.share)
         judge(P)
     put_end(P, C)
     return not ends_there(P)
@@ -71,7 +71,7 @@ def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
 def end_at_crossing(P: Problem, L: Plan, C: Control) -> int:
     """The step is taken again, to end where the first branch changes, or changes it at once."""
     if starts_there(P):
-        return switch_behind(P, L, C)
+        return switch_at_start(P, L, C)
     if P.search.cut > 1.0:
         C.passed = max(C.passed, C.h)
     C.h = shorter(P)
@@ -90,7 +90,7 @@ def falls_short(P: Problem, C: Control) -> bool:
     S, count, share = P.search, P.sizes.watched, NONE
     if not S.hunt or min(S.found, S.cut) <= 1.0 or C.lengthened >= MOST_LENGTHENED:
         return False
-    put_inside(P, C.t, C.h, 1.0 + BEYOND)
+    put_between(P, C.t, C.h, 1.0 + BEYOND)
     look(P, INSIDE)
     put_end(P, C)
     for k in range(count):
@@ -116,10 +116,10 @@ def is_at_crossing(P: Problem, C: Control, error: float) -> bool:
 
 
 @native
-def switch_behind(P: Problem, L: Plan, C: Control) -> int:
+def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
     """A branch changes just after the start of the step: change it there and restart."""
     C.passed, C.lengthened = 0.0, 0
-    stand_at_start(P, C)
+    restore_state(P, C)
     if not change_here(P, L, C.t):
         return NEWTON_FAILED
     restart(P, L, C)

@@ -43,7 +43,7 @@ from adamslite.integrators.radau.recovery import (
     stuck,
 )
 from adamslite.integrators.radau.stages import ORIGIN, keep_stages
-from adamslite.integrators.radau.state import put_end, stand_at_start
+from adamslite.integrators.radau.state import put_end, restore_state
 from adamslite.integrators.radau.step_size import choose_step, limit_step
 from adamslite.integrators.records import note_violation
 from adamslite.integrators.stepping.accepted import count_from_here, keep_solution
@@ -72,7 +72,7 @@ def radau(P: Problem, L: Plan) -> int:
     outcome = begin(P, L, C)
     while outcome == RUNNING:
         outcome = advance(P, L, C)
-    stand_at_start(P, C)
+    restore_state(P, C)
     P.report.t = C.t
     return outcome
 

@@ -10,9 +10,9 @@ from adamslite.integrators.implicit.formulation import equations_kept
 from adamslite.integrators.implicit.step_size import retry_factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.events import is_at_crossing, switch_behind
+from adamslite.integrators.radau.events import is_at_crossing, switch_at_start
 from adamslite.integrators.radau.stages import put_stage
-from adamslite.integrators.radau.state import stand_at_start
+from adamslite.integrators.radau.state import restore_state
 from adamslite.integrators.radau.step_size import step_factor
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import why_stuck
@@ -44,7 +44,7 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
     these may be all that is wrong with the estimate.
     """
     if is_at_crossing(P, C, error):
-        return switch_behind(P, L, C)
+        return switch_at_start(P, L, C)
     P.count.rejected += 1
     C.cautious, C.norm = True, error
     if not C.fresh:
@@ -58,5 +58,5 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
 @native
 def stuck(P: Problem, L: Plan, C: Control) -> int:
     """Back to the accepted state, and why the step became too small."""
-    stand_at_start(P, C)
+    restore_state(P, C)
     return why_stuck(P, L, C)

@@ -10,7 +10,7 @@ from adamslite.native.translate import native
 
 
 @native
-def stand_at_start(P: Problem, C: Control) -> None:
+def restore_state(P: Problem, C: Control) -> None:
     """The last accepted state into the unknowns and the workspace."""
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     Y = P.history[ORIGIN * (2 * n + P.sizes.ns) :]
