@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
@@ -11,11 +12,17 @@ from adamslite.deck.redefinition import Command
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
+from adamslite.elements.request import Request
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 
 COEFFICIENTS = ("mu_stat_rot", "mu_dyn_rot", "mu_stat_trans", "mu_dyn_trans")
+CHANGING = {
+    "YPR": "DISPLACEMENT", "DSCALE": "DISPLACEMENT", "VSCALE": "VELOCITY",
+    "ASCALE": "ACCELERATION", "FSCALE": "FORCE",
+}  # fmt: skip
+WORD = re.compile(r"[A-Za-z]\w*")
 Body = tuple[str, Key]
 INSTEAD = {
     "FLEX_BODY": "write it as a rigid PART, or as PARTs that BEAM or FIELD elements join",
@@ -58,9 +65,26 @@ def _acting(joint: Joint) -> str:
     return next((field for field in given if getattr(joint, field)), alone)
 
 
+def changed_requests(deck: Deck) -> Iterator[Diagnostic]:
+    """Words of OUTPUT by which ADAMS writes other numbers for REQUESTs of a kind."""
+    for output, word, kind in _changing_words(deck):
+        yield diagnose(output, "output-form", word=word, kind=kind)
+
+
+def _changing_words(deck: Deck) -> Iterator[tuple[Statement, str, str]]:
+    """An OUTPUT, its word, and the kind of REQUEST that the word changes."""
+    kinds = {request.kind for request in deck.of(Request)}
+    for output in deck.of("OUTPUT"):
+        written = {word.upper() for word in WORD.findall(output.written) if len(word) > 1}
+        for word, kind in CHANGING.items():
+            if kind in kinds and any(word.startswith(each) for each in written):
+                yield output, word, kind
+
+
 def passed_over(deck: Deck) -> Iterator[Diagnostic]:
     needed = {body for *_, body in _flexible_uses(deck)}
     needed |= {(joint.keyword, joint.key) for joint in deck.of(Joint) if _acting(joint)}
+    needed |= {(output.keyword, output.key) for output, *_ in _changing_words(deck)}
     yield from note_of_inert(s for s in deck.own if (s.keyword, s.key) not in needed)
 
 

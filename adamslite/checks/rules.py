@@ -23,7 +23,12 @@ from adamslite.checks.bodies_and_elements import (
 from adamslite.checks.constraints import CONSTRAINT_RULES
 from adamslite.checks.effective_mass import effective_masses
 from adamslite.checks.equations import unformed_equations
-from adamslite.checks.inert import acts_on_flexible, joint_friction, passed_over
+from adamslite.checks.inert import (
+    acts_on_flexible,
+    changed_requests,
+    joint_friction,
+    passed_over,
+)
 from adamslite.checks.markers import (
     floating_alone,
     floating_unused,
@@ -74,6 +79,7 @@ RULES: list[Rule] = [
     *CONSTRAINT_RULES,
     *TABLE_RULES,
     *RUN_RULES,
+    changed_requests,
     passed_over,
 ]
 

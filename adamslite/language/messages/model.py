@@ -124,6 +124,12 @@ MODEL: dict[str, Message] = {
         ("FLEX_BODY/4, MTX_FILE=a.mtx\nMARKER/4, FLEX_BODY=4, NODE_ID=1000\n"
          "JOINT/1, FIXED, I=2, J=4", "FE_PART/4\nMARKER/4\nREQUEST/1, F1=DX(4)"),
     ),
+    "output-form": Message(
+        "{word} of OUTPUT is passed over; with it ADAMS writes other numbers for REQUEST/{kind}",
+        "here angles are PSI, THETA, PHI and nothing is scaled; write F1=..., F2=... for others",
+        ("OUTPUT/YPR\nREQUEST/1, D, I=2", "OUTPUT/REQSAVE, DSCALE=(1000,1)\nREQUEST/1, D, I=2"),
+        severity=WARNING,
+    ),
     "passed-over": Message(
         "passed over, as it does not change the motion: {listed}",
         "",
