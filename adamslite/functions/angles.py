@@ -86,9 +86,12 @@ def _euler_parameter(r: Matrix, component: int) -> Expr:
 def _components_fit(
     system: float | None, component: float | None, *_: float | None
 ) -> Mistake | None:
-    if system is None or component is None or component <= COMPONENTS.get(system, 3):
+    if system is None or component is None:
         return None
-    return 1, f"system {system:g} of ORIENT has components 1..{COMPONENTS.get(system, 3)} only"
+    most = COMPONENTS.get(int(system), 3)
+    if component <= most:
+        return None
+    return 1, f"system {system:g} of ORIENT has components 1..{most} only"
 
 
 @function("AX", "i:marker j:marker=0")

@@ -16,20 +16,20 @@ from __future__ import annotations
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.dop853 import LATE, POWERS, ROW, TIMES
-from adamslite.integrators.explicit.stages import (
-    add_combined,
-    combine,
-    exact_rates,
-    rates_at,
-    run_stages,
-)
-from adamslite.integrators.explicit.state import (
+from adamslite.integrators.explicit.history import (
     BETWEEN,
     K_NEW,
     LATE_STAGES,
     NEXT_STATE,
     OLD,
     SLOPE,
+)
+from adamslite.integrators.explicit.stages import (
+    add_combined,
+    combine,
+    exact_rates,
+    rates_at,
+    run_stages,
 )
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.records import write_record

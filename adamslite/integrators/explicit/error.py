@@ -11,13 +11,8 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.dop853 import ERROR3, ERROR5
+from adamslite.integrators.explicit.history import BETWEEN, NEXT_STATE, OLD, SCALES
 from adamslite.integrators.explicit.stages import combine, rates_at
-from adamslite.integrators.explicit.state import (
-    BETWEEN,
-    NEXT_STATE,
-    OLD,
-    SCALES,
-)
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.stepping.step_size import LONGER

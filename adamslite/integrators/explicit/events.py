@@ -12,12 +12,9 @@ from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.search import judge, open_search
 from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.error import LEAST_ERROR, starting_step
+from adamslite.integrators.explicit.history import OLD
 from adamslite.integrators.explicit.stages import exact_rates
-from adamslite.integrators.explicit.state import (
-    OLD,
-    keep_solution,
-    stand_again,
-)
+from adamslite.integrators.explicit.state import keep_solution, stand_again
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.native.translate import native

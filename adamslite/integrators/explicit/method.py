@@ -39,17 +39,10 @@ from adamslite.integrators.explicit.error import (
     starting_step,
 )
 from adamslite.integrators.explicit.events import change_where_it_stands, locate_between, pass_by
+from adamslite.integrators.explicit.history import INVERSE, K_NEW, NEXT_STATE, OLD
 from adamslite.integrators.explicit.recovery import reject, shorten, why_stuck
 from adamslite.integrators.explicit.stages import exact_rates, run_stages
-from adamslite.integrators.explicit.state import (
-    INVERSE,
-    K_NEW,
-    NEXT_STATE,
-    OLD,
-    base_here,
-    keep_solution,
-    stand_again,
-)
+from adamslite.integrators.explicit.state import base_here, keep_solution, stand_again
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.projection import sensitivity

@@ -16,11 +16,7 @@ from adamslite.integrators.accelerations import (
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.explicit.control import BODIES, MASSES, TIED, Control
 from adamslite.integrators.explicit.dop853 import RESULT, ROW, TIMES
-from adamslite.integrators.explicit.state import (
-    INVERSE,
-    NEXT_STATE,
-    OLD,
-)
+from adamslite.integrators.explicit.history import INVERSE, NEXT_STATE, OLD
 from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates

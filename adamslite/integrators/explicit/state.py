@@ -5,17 +5,9 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.explicit.control import Control
+from adamslite.integrators.explicit.history import OLD
 from adamslite.integrators.motion_equations import PART
 from adamslite.native.translate import native
-
-# Rows of the history, of 2 n + ns numbers each: stages from 0 (those behind K_NEW are for dense
-# output), the accepted state, the new one, one in between, the factors of ERROR (SCALE), the slope
-# of the interpolation. Behind them are the inverse inertias, 9 of every body, or what is known of
-# masses, 6 of each.
-K_NEW, LATE_STAGES = 12, 3
-OLD = K_NEW + LATE_STAGES + 1
-NEXT_STATE, BETWEEN, SCALES, SLOPE = OLD + 1, OLD + 2, OLD + 3, OLD + 4
-INVERSE = HISTORY_ROWS = SLOPE + 1
 
 
 @native

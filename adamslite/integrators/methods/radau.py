@@ -7,7 +7,7 @@ def prepare(system: Equations, settings: Settings) -> None:
     """Coefficients, and room for the numbers of the method, the stages and the complex factors."""
     from adamslite.integrators.radau.coefficients import coefficients
     from adamslite.integrators.radau.control import Control
-    from adamslite.integrators.radau.stages import Y_ROWS, Z_ROWS
+    from adamslite.integrators.radau.history import Y_ROWS, Z_ROWS
 
     z = system.m + system.nv + system.ns + system.holonomic
     widest = int(system.elimination.plan["size"].max(initial=0))

@@ -18,7 +18,7 @@ def prepare(system: Equations, settings: Settings) -> None:
     """
     from adamslite.integrators.explicit.control import Control
     from adamslite.integrators.explicit.dop853 import tableau
-    from adamslite.integrators.explicit.state import HISTORY_ROWS, SCALES
+    from adamslite.integrators.explicit.history import HISTORY_ROWS, SCALES
 
     w = 2 * system.n + system.ns
     system.tableau = tableau()

@@ -12,8 +12,8 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.newton import ROUND_OFF, renews
 from adamslite.integrators.radau.coefficients import REAL
 from adamslite.integrators.radau.control import Control
+from adamslite.integrators.radau.history import ORIGIN
 from adamslite.integrators.radau.stages import (
-    ORIGIN,
     move_stages,
     radau_jacobian,
     radau_matrices,

@@ -7,7 +7,8 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.coefficients import NODE
 from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.stages import ORIGIN, RATES, stage_z
+from adamslite.integrators.radau.history import ORIGIN, RATES
+from adamslite.integrators.radau.stages import stage_z
 from adamslite.integrators.stepping.output import is_due, record_next
 from adamslite.native.translate import Reals, native
 

@@ -36,13 +36,14 @@ from adamslite.integrators.radau.events import (
     pass_on,
     passes_crossing,
 )
+from adamslite.integrators.radau.history import ORIGIN
 from adamslite.integrators.radau.prediction import predict
 from adamslite.integrators.radau.recovery import (
     after_failure,
     after_rejection,
     stuck,
 )
-from adamslite.integrators.radau.stages import ORIGIN, keep_stages
+from adamslite.integrators.radau.stages import keep_stages
 from adamslite.integrators.radau.state import put_end, restore_state
 from adamslite.integrators.radau.step_size import choose_step, limit_step
 from adamslite.integrators.records import note_violation

@@ -6,7 +6,8 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.radau.coefficients import NODE
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.dense_output import collocated, quadratic
-from adamslite.integrators.radau.stages import BEFORE, stage_motion, stage_z
+from adamslite.integrators.radau.history import BEFORE
+from adamslite.integrators.radau.stages import stage_motion, stage_z
 from adamslite.native.translate import native
 
 

@@ -59,13 +59,8 @@ from adamslite.integrators.radau.coefficients import (
     TO_STAGES,
 )
 from adamslite.integrators.radau.control import Control
+from adamslite.integrators.radau.history import BEFORE, ORIGIN, RATES, Y_ROWS, Z_ROWS
 from adamslite.native.translate import Reals, native
-
-# Rows of y: the start of the step, behind it its stages and their rates; the step before; the start
-# with q as it is.
-RATES, BEFORE, ORIGIN, Y_ROWS = 3, 7, 11, 12
-# Rows of z: the stages, those of the step before.
-Z_ROWS = 6
 
 
 @native

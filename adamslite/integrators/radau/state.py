@@ -5,7 +5,8 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.stages import ORIGIN, stage_z
+from adamslite.integrators.radau.history import ORIGIN
+from adamslite.integrators.radau.stages import stage_z
 from adamslite.native.translate import native
 
 
