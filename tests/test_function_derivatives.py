@@ -20,6 +20,7 @@ from sample_scope import DIGITS, GROUND, MODULES, SampleScope
 import adamslite.functions  # noqa: F401  fills the registry
 from adamslite.functions.arrays import NUMBERED
 from adamslite.functions.forces import NET
+from adamslite.functions.vectors import VECTORS
 from adamslite.language.function import FUNCTIONS, Function
 from adamslite.symbolic.derivatives import Derivatives
 
@@ -48,8 +49,9 @@ def forms(function: Function) -> list[tuple]:
     return [form for form in itertools.product(*choices) if not function.mistakes(form)]
 
 
-# Net forces and values by number are written out before anything is evaluated.
-EVALUATED = {name: f for name, f in sorted(FUNCTIONS.items()) if name not in (*NET, *NUMBERED)}
+# Net forces, values by number and vectors are written out before anything is evaluated.
+WRITTEN_OUT = {*NET, *NUMBERED, *VECTORS}
+EVALUATED = {name: f for name, f in sorted(FUNCTIONS.items()) if name not in WRITTEN_OUT}
 CASES = [(name, form) for name, f in EVALUATED.items() for form in forms(f)]
 CASES += [("ORIENT", (system, n, 0, 1)) for system in (7, 14, 23, 25, 26, 27) for n in (1, 2, 3)]
 

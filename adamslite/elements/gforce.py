@@ -15,7 +15,12 @@ Source: Adams/Solver statement GFORCE.
 
 from __future__ import annotations
 
-from adamslite.elements.bases.arguments import component_axes, reaction_marker, reaction_part
+from adamslite.elements.bases.arguments import (
+    component_axes,
+    component_vector,
+    reaction_marker,
+    reaction_part,
+)
 from adamslite.elements.bases.wrench import Wrench
 from adamslite.language.expression import Node, Num
 from adamslite.language.statement import Statement, expression, reference, statement
@@ -28,7 +33,7 @@ def _component(key: str, unit: str) -> Node:
     return expression(key, unit=unit, default=Num(0.0), help=help)
 
 
-@statement("GFORCE", planned=("FXYZ", "TXYZ", "FUNCTION", "ROUTINE"))
+@statement("GFORCE", planned=("FUNCTION", "ROUTINE"))
 class Gforce(Wrench, Statement):
     """A vector force and a vector torque on marker I.
 
@@ -47,6 +52,8 @@ class Gforce(Wrench, Statement):
     tx: Node = _component("TX", "torque")
     ty: Node = _component("TY", "torque")
     tz: Node = _component("TZ", "torque")
+    fxyz: Node | None = component_vector("FXYZ", unit="force")
+    txyz: Node | None = component_vector("TXYZ", unit="torque")
 
     def loads(self: Seen, scope: Scope) -> list[Load]:
         """Force and torque on I; the reaction follows I."""

@@ -11,7 +11,12 @@ The opposite force acts on the part of JFLOAT at the present place of I::
 
 from __future__ import annotations
 
-from adamslite.elements.bases.arguments import component_axes, reaction_marker, reaction_part
+from adamslite.elements.bases.arguments import (
+    component_axes,
+    component_vector,
+    reaction_marker,
+    reaction_part,
+)
 from adamslite.language.expression import Node, Num
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, expression, reference, statement
@@ -19,7 +24,7 @@ from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes
 from adamslite.symbolic.types import Seen
 
 
-@statement("VFORCE", planned=("FXYZ", "FUNCTION", "ROUTINE"))
+@statement("VFORCE", planned=("FUNCTION", "ROUTINE"))
 class Vforce(Statement):
     """A vector force on marker I.
 
@@ -37,6 +42,7 @@ class Vforce(Statement):
     fx: Node = expression("FX", unit="force", default=Num(0.0), help="component along x of RM")
     fy: Node = expression("FY", unit="force", default=Num(0.0), help="component along y of RM")
     fz: Node = expression("FZ", unit="force", default=Num(0.0), help="component along z of RM")
+    fxyz: Node | None = component_vector("FXYZ", unit="force")
 
     def loads(self: Seen, scope: Scope) -> list[Load]:
         """The force on I; the reaction follows I."""

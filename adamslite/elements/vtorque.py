@@ -13,7 +13,12 @@ Source: Adams/Solver statement VTORQUE.
 
 from __future__ import annotations
 
-from adamslite.elements.bases.arguments import component_axes, reaction_marker, reaction_part
+from adamslite.elements.bases.arguments import (
+    component_axes,
+    component_vector,
+    reaction_marker,
+    reaction_part,
+)
 from adamslite.elements.bases.wrench import Wrench
 from adamslite.language.expression import Node, Num
 from adamslite.language.statement import Statement, expression, reference, statement
@@ -21,7 +26,7 @@ from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes
 from adamslite.symbolic.types import Seen
 
 
-@statement("VTORQUE", planned=("TXYZ", "FUNCTION", "ROUTINE"))
+@statement("VTORQUE", planned=("FUNCTION", "ROUTINE"))
 class Vtorque(Wrench, Statement):
     """A vector torque on the part of marker I.
 
@@ -37,6 +42,7 @@ class Vtorque(Wrench, Statement):
     tx: Node = expression("TX", unit="torque", default=Num(0.0), help="torque about x of RM")
     ty: Node = expression("TY", unit="torque", default=Num(0.0), help="torque about y of RM")
     tz: Node = expression("TZ", unit="torque", default=Num(0.0), help="torque about z of RM")
+    txyz: Node | None = component_vector("TXYZ", unit="torque")
 
     def loads(self: Seen, scope: Scope) -> list[Load]:
         """The torque on I and its reaction."""

@@ -16,6 +16,7 @@ The words of a signature are separated by blanks:
 ``c:constant``      a number written in the deck that decides the form of the result; the body
                     gets an ``int``
 ``c:constant{1..8}``  the same, with the values allowed (``{1..12,27}``)
+``v:vector``        a vector, see :mod:`adamslite.functions.vectors`
 ``i:marker``        the id of a MARKER; the body gets a frame
 ``id:joint``        the id of a statement of that name (variable, diff, sforce ...); the body gets
                     what ``scope.statement(id)`` turns into that statement
@@ -34,7 +35,7 @@ from inspect import cleandoc
 
 from adamslite.symbolic.types import Expr
 
-NUMERIC_KINDS = ("number", "constant")
+NUMERIC_KINDS = ("number", "constant", "vector")
 
 Mistake = tuple[int, str]
 Rule = Callable[..., Mistake | None]

@@ -59,6 +59,8 @@ class Argument:
         A value that counts only where a model starts from.
     inert : bool
         It does not change the motion: it is read, and one note reports that it is passed over.
+    fills : tuple of str
+        Fields of the components of a vector, which are given by it; its own stays empty.
     name : str
         Name of the field.
     """
@@ -77,6 +79,7 @@ class Argument:
     bare: bool = False
     start: bool = False
     inert: bool = False
+    fills: tuple[str, ...] = ()
     name: str = ""
 
     @property
@@ -99,6 +102,7 @@ class Facts(ListFacts, total=False):
     """The same of those that are not empty lists where they are omitted."""
 
     default: object
+    fills: tuple[str, ...]
 
 
 def _declare(argument: Argument) -> Field:

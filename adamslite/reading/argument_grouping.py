@@ -86,6 +86,10 @@ class Grouping:
         if argument.name in self.found:
             self.log.add("duplicate-argument", token[2], end_of(token), word=argument.key)
             return None
+        for other in self.found.values():
+            if argument.name in other.argument.fills or other.argument.name in argument.fills:
+                self.log.add("duplicate-argument", token[2], end_of(token), word=argument.key)
+                return None
         pieces = self.found[argument.name] = Pieces(argument, token[2])
         return pieces
 
@@ -208,7 +212,10 @@ def read_arguments(
     for name, pieces in found.items():
         ranges[name] = pieces.range
         try:
-            if pieces.argument.kind == "vectors":
+            if fields := pieces.argument.fills:
+                values |= zip(fields, reader.components(pieces.values), strict=True)
+                ranges |= dict.fromkeys(fields, pieces.range)
+            elif pieces.argument.kind == "vectors":
                 values[name] = reader.vectors(cls, pieces.argument, [*pieces.before, pieces.values])
             else:
                 values[name] = reader.value(cls, pieces.argument, pieces.values)

@@ -258,6 +258,13 @@ class ValueReader:
             raise Refused
         return found
 
+    def components(self, values: list[list[Lexeme]]) -> tuple[Node, ...]:
+        """The components of a vector."""
+        try:
+            return self.resolver.components(values[0])
+        except Unresolved:
+            raise Refused from None
+
     def _expression(
         self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
     ) -> Node:

@@ -7,12 +7,13 @@ their arguments; every name in it was looked up here.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
 from adamslite import functions  # noqa: F401  registers the functions
 from adamslite.deck.names import RESERVED, Key, Names, to_number
 from adamslite.functions.arrays import NUMBERED
-from adamslite.language.expression import NEGATE, Call, Node, Num, Op, Ref, fold
+from adamslite.functions.vectors import VECTORS, Components, Value, combined, negated
+from adamslite.language.expression import Call, Node, Num, Ref, fold
 from adamslite.language.function import FUNCTIONS, Function, Parameter
 from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.not_supported import FUNCTIONS as PLANNED
@@ -33,12 +34,13 @@ class Unresolved(Exception):
 
 
 class _Slot(NamedTuple):
-    """What an argument of a function must be: the kind of statement, or None for an expression;
-    and what stands for it where it is left out.
+    """What an argument of a function must be: the kind of statement, or None for an expression
+    or a vector; and what stands for it where it is left out.
     """
 
     kind: str | None
     constant: bool
+    vector: bool
     default: Node | None
 
 
@@ -66,6 +68,19 @@ class Resolver:
 
     def expression(self, tokens: list[Lexeme]) -> Node:
         """The resolved expression; raises :class:`Unresolved` after logging what is wrong."""
+        value = self._value(tokens)
+        if isinstance(value, Components):
+            self._refuse("vector-here", tokens[0], tokens[-1])
+        return value
+
+    def components(self, tokens: list[Lexeme]) -> Components:
+        """The same of an expression that is a vector."""
+        value = self._value(tokens)
+        if not isinstance(value, Components):
+            self._refuse("number-here", tokens[0], tokens[-1])
+        return value
+
+    def _value(self, tokens: list[Lexeme]) -> Value:
         form = expression_form(tuple([token[0] for token in tokens]))
         if isinstance(form, Fault):
             mistake = expression_mistake(tokens, form)
@@ -83,15 +98,16 @@ class Resolver:
         names = {spelled(t[1]).upper() for t in tokens if t[0] == "NAME"}
         if not all(isinstance(RESERVED.get(name), Num) for name in names):
             return None
-        return fold(self._whole(form, tokens))
+        value = self._whole(form, tokens)
+        return None if isinstance(value, Components) else fold(value)
 
     # ---- nodes --------------------------------------------------------------------------------
 
-    def _whole(self, tree: Tree, tokens: list[Lexeme]) -> Node:
+    def _whole(self, tree: Tree, tokens: list[Lexeme]) -> Value:
         self.tokens, self.failed = tokens, False
         return self._node(tree, 0)
 
-    def _node(self, tree: Tree, depth: int) -> Node:
+    def _node(self, tree: Tree, depth: int) -> Value:
         """One node; after a mistake a stand-in, so that the rest is checked as well."""
         try:
             return self._build(tree, depth)
@@ -99,7 +115,7 @@ class Resolver:
             self.failed = True
             return _STAND_IN
 
-    def _build(self, tree: Tree, depth: int) -> Node:
+    def _build(self, tree: Tree, depth: int) -> Value:
         rule, at = tree[0], tree[1]
         if rule == "number":
             return Num(self._number(at))
@@ -113,7 +129,7 @@ class Resolver:
             inner = self._node(tree[2], depth + 1)
             if type(inner) is Num and tree[2][0] == "number":
                 return Num(-inner.value)
-            return Op(NEGATE, (inner,))
+            return negated(inner)
         return self._call(tree, depth)
 
     def _number(self, at: int) -> float:
@@ -122,14 +138,25 @@ class Resolver:
             self._refuse("number-too-large", self.tokens[at], word=self.tokens[at][1])
         return value
 
-    def _operation(self, tree: Tree, depth: int) -> Node:
+    def _operation(self, tree: Tree, depth: int) -> Value:
         op = OPERATORS[self.tokens[tree[1]][0]]
         left, right = tree[2], tree[3]
         if op in "+-" and left[0] == "operation":
             terms = self._terms(tree)
             if len(terms) > LONGEST_CHAIN:
-                return self._sum([(op, self._node(term, depth + 1)) for op, term in terms])
-        return Op(op, (self._node(left, depth + 1), self._node(right, depth + 1)))
+                values = [(op, self._node(term, depth + 1)) for op, term in terms]
+                return self._sum(values, tree[1])
+        return self._combined(
+            op, self._node(left, depth + 1), self._node(right, depth + 1), tree[1]
+        )
+
+    def _combined(self, op: str, left: Value, right: Value, at: int) -> Value:
+        value = combined(op, left, right)
+        if value is None and self.failed:  # one side is but a stand-in
+            raise Unresolved
+        if value is None:
+            self._refuse("vector-operation", self.tokens[at], word=self.tokens[at][1])
+        return value
 
     def _terms(self, tree: Tree) -> list[tuple[str, Tree]]:
         """The signed terms of a sum, the first one with a plus."""
@@ -139,14 +166,14 @@ class Resolver:
             tree = tree[2]
         return [("+", tree), *reversed(terms)]
 
-    def _sum(self, terms: list[tuple[str, Node]]) -> Node:
+    def _sum(self, terms: list[tuple[str, Value]], at: int) -> Value:
         """A long sum as a balanced tree, so that its depth grows with the logarithm only."""
         if len(terms) == 1:
             return terms[0][1]
         half = len(terms) // 2
         sign = terms[half][0]
         right = [("+" if op == sign else "-", node) for op, node in terms[half:]]
-        return Op(sign, (self._sum(terms[:half]), self._sum(right)))
+        return self._combined(sign, self._sum(terms[:half], at), self._sum(right, at), at)
 
     def _name(self, at: int) -> Node:
         word = spelled(self.tokens[at][1]).upper()
@@ -169,7 +196,7 @@ class Resolver:
 
     # ---- calls --------------------------------------------------------------------------------
 
-    def _call(self, tree: Tree, depth: int) -> Node:
+    def _call(self, tree: Tree, depth: int) -> Value:
         at, separators, branches = tree[1], tree[2], tree[3:]
         name = spelled(self.tokens[at][1]).upper()
         function = FUNCTIONS.get(name)
@@ -189,13 +216,14 @@ class Resolver:
         if name in NUMBERED:
             return self._numbered(name, args[0], args[1], branches[1])
         args += [slot.default for slot in slots[len(args) :] if slot.default is not None]
-        return Call(name, tuple(args))
+        return VECTORS[name](*args) if name in VECTORS else Call(name, tuple(args))
 
     def _signature(self, function: Function) -> list[_Slot]:
         slots = self._slots.get(function.name)
         if slots is None:
             slots = [
-                _Slot(p.statement, p.kind == "constant", _default(p)) for p in function.parameters
+                _Slot(p.statement, p.kind == "constant", p.kind == "vector", _default(p))
+                for p in function.parameters
             ]
             self._slots[function.name] = slots
         return slots
@@ -229,7 +257,7 @@ class Resolver:
         if function.colon and separators[:1] == ",":
             self._refuse("wrong-separator", self.tokens[at], usage=function.usage)
 
-    def _argument(self, function: Function, slot: _Slot, branch: Tree, depth: int) -> Node:
+    def _argument(self, function: Function, slot: _Slot, branch: Tree, depth: int) -> Any:
         if slot.kind is not None:
             try:
                 return self._reference(function, slot.kind, branch)
@@ -237,11 +265,22 @@ class Resolver:
                 self.failed = True
                 return _STAND_IN
         node = self._node(branch, depth)
+        if isinstance(node, Components) or slot.vector:
+            return self._vector_argument(slot, node, branch)
         if slot.constant and fold(node) is None:
             token = self.tokens[branch[1]]
             self._log("not-constant", token, token, word=function.name)
             self.failed = True
         return Num(fold(node) or 0.0) if slot.constant else node
+
+    def _vector_argument(self, slot: _Slot, value: Value, branch: Tree) -> Value:
+        if isinstance(value, Components) and slot.vector:
+            return value
+        code = "number-here" if slot.vector else "vector-here"
+        if not self.failed:
+            self._log(code, self.tokens[branch[1]], self.tokens[branch[1]])
+        self.failed = True
+        return Components(_STAND_IN, _STAND_IN, _STAND_IN) if slot.vector else _STAND_IN
 
     def _reference(self, function: Function, kind: str, branch: Tree) -> Ref:
         rule, first = branch[0], branch[1]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from adamslite.language.statement import Field, reference, vector
+from adamslite.language.statement import Field, expression, reference, vector
 
 
 def body_origin() -> Field:
@@ -58,3 +58,10 @@ def reaction_part() -> Field:
 def component_axes() -> Field:
     """The axes that components are along."""
     return reference("RM", to="MARKER", default=0, help="marker whose axes the components refer to")
+
+
+def component_vector(key: str, unit: str) -> Field:
+    """All three components at once, by a vector: ``FXYZ`` for FX, FY and FZ."""
+    fields = tuple(key[0].lower() + axis for axis in "xyz")
+    written = ", ".join(fields).upper()
+    return expression(key, unit=unit, fills=fields, help=f"a vector: {written} at once")

@@ -68,6 +68,24 @@ EXPRESSIONS: dict[str, Message] = {
     "not-constant": Message(
         "{word} takes a fixed number here", "", _variables("ORIENT(TIME, 1, 1)")
     ),
+    "vector-here": Message(
+        "a number belongs here, and this is a vector",
+        "take a component of it (DX, UVX(i)*v), its size MAG(v), or the product of two vectors",
+        _variables("DXYZ(1)", "2*VXYZ(1)", "SIN(DXYZ(1))", "IF(UVX(1): 1, 2, 3)"),
+    ),
+    "number-here": Message(
+        "a vector belongs here, and this is a number",
+        "vectors are DXYZ, VXYZ, ACCXYZ, WXYZ, WDTXYZ, FXYZ, TXYZ, UVX, UVY, UVZ, UV and what is "
+        "made of them; v*w is a number",
+        _variables("MAG(DX(1))", "UVX(1)*UV(3)")
+        + ("VFORCE/1, I=2, J_PART=1, FXYZ=DXYZ(2)*UVX(2)",),
+    ),
+    "vector-operation": Message(
+        "{word} does not join these: one is a vector",
+        "vectors are added to vectors; they are multiplied with vectors and numbers, and divided "
+        "by numbers",
+        _variables("MAG(DXYZ(1)+1)", "DXYZ(1)/UVX(1)", "MAG(1/UVX(1))", "DXYZ(1)**2"),
+    ),
     "function-rule": Message(
         "{sentence}", "", _variables("STEP(TIME, 1, 0, 1, 1)", "ORIENT(99, 1, 1)")
     ),
