@@ -101,7 +101,9 @@ def _of_family(family: str, signature: str, what: str, unit: str) -> None:
 
     parts = f"{family}X, {family}Y, {family}Z"
     source = f"Source: Adams/Solver C++ function {family}XYZ."
-    page = f"Vector of {what}, along the axes of k: {parts}.\n\n    Unit: {unit}.  {source}\n    "
+    page = (
+        f"Vector of {what}.\n\n    {parts} along the axes of k.  Unit: {unit}.\n    {source}\n    "
+    )
     _vector(f"{family}XYZ", signature, page, writing)
 
 
