@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 KINDS = {"EIGENSOL": "modes.csv", "STATEMAT": "states.json"}
 
 
-def plan(scene: Scene, output: str | Path, asked: bool) -> list[Path]:
+def plan(scene: Scene, output: str | Path, named: bool) -> list[Path]:
     """The files that the LINEAR commands of a scene will fill, in their order.
 
     EIGENSOL goes to ``<output>.modes.csv``, STATEMAT to its FILE or ``<output>.states.json``; a
@@ -31,7 +31,7 @@ def plan(scene: Scene, output: str | Path, asked: bool) -> list[Path]:
     ----------
     output : str or Path
         The file of the time histories.
-    asked : bool
+    named : bool
         Whether the user gave that name.
 
     Raises
@@ -42,14 +42,14 @@ def plan(scene: Scene, output: str | Path, asked: bool) -> list[Path]:
         As :func:`~adamslite.outputs.whole_files.need_writable`, for the results and for each of
         them.
     """
-    need_writable(output, scene.read, asked)
+    need_writable(output, scene.read, named)
     commands = [each for each in scene.commands if isinstance(each, Linear)]
     paths = list(_places(commands, Path(output)))
     wrong = list(_taken(commands, paths, output, scene.read))
     if wrong:
         raise DeckError(wrong)
     for path in paths:
-        need_writable(path, scene.read, asked=False)
+        need_writable(path, scene.read, named=False)
     return paths
 
 

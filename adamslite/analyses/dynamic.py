@@ -135,15 +135,15 @@ def run_dynamic(
     output_step = float(np.diff(times).max()) if len(times) > 1 else end - start
     fixed = settings.fixed_step(output_step)
     hmax = fixed or settings.hmax or output_step
-    asked = system.settings
-    asked.t, asked.t_end, asked.error = start, end, settings.error
-    asked.h_max, asked.h_min = hmax, settings.least_step(end, hmax)
-    asked.h_init, asked.fixed_step = settings.hinit or 0.0, fixed
-    asked.k_max, asked.max_it = settings.kmax, settings.maxit
-    asked.alpha, asked.beta, asked.gamma = settings.damping
-    asked.interpolate, asked.adaptivity = settings.interpolates, settings.adaptivity
-    asked.all_converge = settings.corrector in EVERYTHING
-    asked.stop, system.report.torn = False, 0
+    run = system.settings
+    run.t, run.t_end, run.error = start, end, settings.error
+    run.h_max, run.h_min = hmax, settings.least_step(end, hmax)
+    run.h_init, run.fixed_step = settings.hinit or 0.0, fixed
+    run.k_max, run.max_it = settings.kmax, settings.maxit
+    run.alpha, run.beta, run.gamma = settings.damping
+    run.interpolate, run.adaptivity = settings.interpolates, settings.adaptivity
+    run.all_converge = settings.corrector in EVERYTHING
+    run.stop, system.report.torn = False, 0
     system.pattern = ints([word == "T" for word in settings.pattern])
     method = settings.formula
     times = _scheduled(system, times, settings, hmax)

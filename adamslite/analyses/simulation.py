@@ -97,8 +97,8 @@ def simulate(
         When nothing says how long to run, or there is no such rule.
     """
     began, commands = clock.process_time(), tuple(commands)
-    asked = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
-    flags = {name: value for name, value in asked.items() if value is not None}
+    options = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
+    flags = {name: value for name, value in options.items() if value is not None}
     plan = _plan(deck_of(scene), commands, end, steps)
     session = Session(scene, progress, flags, left_off(no_reduction), audit)
     first = next((k for k, c in enumerate(plan) if c.keyword not in SETTINGS), len(plan))

@@ -34,12 +34,12 @@ def unformed_equations(deck: Deck) -> Iterator[Diagnostic]:
 
 def _is_suspect(deck: Deck, statement: Statement, known: dict[Key, bool]) -> bool:
     """Whether it takes rates of more than places and TIME, or measures forces with forces."""
-    asked: tuple[str, ...] = ("DDT",)
+    names: tuple[str, ...] = ("DDT",)
     if hasattr(statement, "constraints"):
-        asked += RATELESS
+        names += RATELESS
     if hasattr(statement, "loads") or statement.keyword == "GCON":
-        asked += (*MEASURES.values(), *NET)
-    found = (call for node in expressions(statement) for call in calls(node, *asked))
+        names += (*MEASURES.values(), *NET)
+    found = (call for node in expressions(statement) for call in calls(node, *names))
     return not all(call.name == "VARVAL" and _has_rates(deck, call, known) for call in found)
 
 

@@ -159,10 +159,10 @@ class Joint(Constraint, Statement):
 
     def initial(self) -> list[Initial]:
         """(field, freedom, displacement, velocity) requested at the start; None where free."""
-        asked = {"ictran": "TRANSLATION", "icrot": "ROTATION"}
+        starts = {"ictran": "TRANSLATION", "icrot": "ROTATION"}
         if len(self.coordinates) == 1:
-            asked = {"ic": self.coordinates[0]}
-        given = ((field, freedom, getattr(self, field)) for field, freedom in asked.items())
+            starts = {"ic": self.coordinates[0]}
+        given = ((field, freedom, getattr(self, field)) for field, freedom in starts.items())
         return [(field, name, *(*values, None)[:2]) for field, name, values in given if values]
 
     def derived(self, model: DrawnModel) -> dict[str, object]:

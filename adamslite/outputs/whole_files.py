@@ -53,7 +53,7 @@ def _folded(path: str | Path) -> str:
     return os.path.realpath(path).casefold()
 
 
-def need_writable(path: str | Path, read: Iterable[Path], asked: bool = True) -> None:
+def need_writable(path: str | Path, read: Iterable[Path], named: bool = True) -> None:
     """Fail now rather than after a long run; never write over what is ``read``.
 
     Parameters
@@ -62,7 +62,7 @@ def need_writable(path: str | Path, read: Iterable[Path], asked: bool = True) ->
         A file that is going to be written.
     read : iterable of Path
         The files of the run.
-    asked : bool
+    named : bool
         Whether the user gave this very name. A name that was made from others' leads nowhere but to
         a plain file in its own folder.
 
@@ -80,7 +80,7 @@ def need_writable(path: str | Path, read: Iterable[Path], asked: bool = True) ->
         raise IsADirectoryError(
             21, "the results cannot be written there: it is a folder", str(path)
         )
-    if not asked:
+    if not named:
         _need_confined(Path(path))
     folder = Path(os.path.realpath(path)).parent
     if not folder.is_dir():

@@ -335,8 +335,8 @@ class Resolver:
             self.log.tally("planned-function", word, token[2], end_of(token), word=word)
             raise Unresolved
         if number.value not in range(1, len(values) + 1):
-            label, asked = f"{ref.kind}/{ref.id}", f"{number.value:g}"
-            self._refuse("no-such-value", token, label=label, number=asked, count=len(values))
+            label, wanted = f"{ref.kind}/{ref.id}", f"{number.value:g}"
+            self._refuse("no-such-value", token, label=label, number=wanted, count=len(values))
         return values[int(number.value) - 1]
 
     def _rules(self, function: Function, args: list[Node], branches: tuple[Tree, ...]) -> None:

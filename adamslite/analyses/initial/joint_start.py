@@ -42,12 +42,12 @@ def start_of_joints(system: System, progress: Progress | None) -> Unclosed | Non
     if not extra and not coasting:
         return None
     model = assemble(deck.with_more(extra))
-    asked = System(compile_model(model, progress), system.numbering.stabilised)
+    held = System(compile_model(model, progress), system.numbering.stabilised)
     free: list[Motion] = [c for c in extra if c.level == "DISPLACEMENT"] + coasting
-    unclosed = initial_conditions(asked, free)
+    unclosed = initial_conditions(held, free)
     if unclosed is None:
-        _take_speeds(asked, coasting)
-        system.adopt(asked)
+        _take_speeds(held, coasting)
+        system.adopt(held)
     return unclosed
 
 

@@ -91,8 +91,8 @@ def _runs(args: argparse.Namespace, scene: "Scene") -> tuple[list["Variant"], "R
     kernels = adamslite.compile_model(model, progress)
     fixed = {k: v for k in ("end", "steps") if (v := getattr(args, k)) is not None}
     solve = partial(adamslite.simulate, kernels, commands=scene.commands, **fixed)
-    asked = set(args.integrator or known)
-    chosen = [v for v in tried if asked & {v.integrator, *v.also}]
+    requested = set(args.integrator or known)
+    chosen = [v for v in tried if requested & {v.integrator, *v.also}]
     return chosen, patient(solve, args.patience, progress)
 
 

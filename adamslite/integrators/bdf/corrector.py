@@ -14,7 +14,7 @@ from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
-from adamslite.integrators.implicit.tolerance import asked
+from adamslite.integrators.implicit.tolerance import error_limit
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
@@ -87,7 +87,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     cu, phases, si2 = C.cu, equations_kept(P), is_stabilised(P)
     n, w = P.sizes.n, C.width
     yp, psi, v, e = P.trial[0:], P.trial[w:], P.trial[2 * w :], P.trial[2 * w + n :]
-    error = asked(P, P.settings.fixed_step)
+    error = error_limit(P, P.settings.fixed_step)
     tolerance = CORRECTOR_SHARE * error + P.settings.adaptivity / C.h
     tested = cu if tests_velocities(P) else 0.0
     last = 0.0

@@ -9,7 +9,7 @@ from adamslite.integrators.contract import INDEX3, Problem
 from adamslite.integrators.hht.control import Control
 from adamslite.integrators.hht.error import first_order_share
 from adamslite.integrators.hht.prediction import predict, turn_from_start
-from adamslite.integrators.implicit.tolerance import asked
+from adamslite.integrators.implicit.tolerance import error_limit
 from adamslite.integrators.linalg.blocks import factor, solve
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
@@ -49,7 +49,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     A kept matrix that converges slowly is no longer believed: back to the prediction, or on from
     here when the matrix was made in this step, with a new matrix at every iteration.
     """
-    tolerance, last = CORRECTOR_SHARE * asked(P, C.fixed), 0.0
+    tolerance, last = CORRECTOR_SHARE * error_limit(P, C.fixed), 0.0
     if first_order_share(P) > 0.0:
         tolerance *= min(1.0, C.h)  # Velocities are tested: they are off by that of positions / h.
     full, tries = False, 0

@@ -15,7 +15,7 @@ LOOSEST = 1e-3
 
 
 @native
-def asked(P: Problem, fixed: float) -> float:
+def error_limit(P: Problem, fixed: float) -> float:
     """ERROR; with ``fixed`` steps at most LOOSEST."""
     return min(P.settings.error, LOOSEST) if fixed > 0.0 else P.settings.error
 
