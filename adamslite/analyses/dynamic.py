@@ -12,6 +12,7 @@ from adamslite.analyses.audit import start_audit
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import first_jump
 from adamslite.analyses.clock.step_limits import timetable
+from adamslite.analyses.sensors import EQUAL, require_changing, require_none
 from adamslite.equations.engine import ints
 from adamslite.equations.system import System
 from adamslite.integrators import contract
@@ -149,10 +150,13 @@ def run_dynamic(
     times = _scheduled(system, times, settings, hmax)
     system.settings.t_end = end = float(system.stops[-1])
     method.prepare(system, settings)
+    require_changing(system)
     start_audit(system, audited)
     system.start_record(times)
     code = _watched(system, method.entry, watch, end)
     system.release_guards()
+    if system.search.loose:
+        require_none(system, EQUAL)
     outcome = _named(system, code)
     if system.broken and outcome in CLOSE:
         near = system.report.t >= system.broken.time - hmax
@@ -189,6 +193,8 @@ def _named(system: System, code: int) -> Outcome:
         return Outcome.SINGULAR_ACCELERATION if cancels else Outcome.UNDETERMINED
     if code == contract.INTERRUPTED and report.torn:
         return Outcome.TORN
+    if code == contract.INTERRUPTED and system.triggered:
+        return Outcome.DONE
     if code == contract.NEWTON_FAILED and np.isnan(report.open_by):
         return Outcome.NOT_FINITE
     if code == contract.STEP_TOO_SMALL and not report.error < OVERFLOW:

@@ -15,8 +15,8 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Iterable
-from dataclasses import fields, replace
-from typing import Any, TypeVar
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -35,6 +35,8 @@ from adamslite.analyses.kinematic import run_kinematic
 from adamslite.analyses.method_choice import MethodChoice, choose_method
 from adamslite.analyses.output_times import output_times
 from adamslite.analyses.planar_reduction import in_its_plane
+from adamslite.analyses.sensors import AT_TIMES, end_record, require_none
+from adamslite.analyses.setting_commands import updated
 from adamslite.analyses.static import StaticSettings, run_static
 from adamslite.analyses.subject import Subject, kernels_of
 from adamslite.deck.deck import Deck
@@ -68,9 +70,6 @@ STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
 PIVOTING = 1500
 
 
-S = TypeVar("S", Settings, StaticSettings)
-
-
 class Session:
     """The state of a run.
 
@@ -86,6 +85,8 @@ class Session:
         CPU [s] of compiling an integrator when a run first needed it.
     outcome, unclosed
         How the last analysis ended; the constraint that stayed open, if one did.
+    sensed : list of str
+        Sensors that ended analyses, and when.
     linearizations : list of Linearized
     balances : list of Balance
         What the audits of dynamic analyses found.
@@ -108,7 +109,7 @@ class Session:
         self.settings = replace(Settings(), **flags)
         self.chosen = MethodChoice(self.settings)
         self.statics = StaticSettings()
-        self.time, self.late_setup = 0.0, 0.0
+        self.time = self.late_setup = 0.0
         self.pieces: list[tuple[np.ndarray, np.ndarray]] = []
         self.names: tuple[str, ...] = ()
         self.outcome = Outcome.DONE
@@ -117,6 +118,7 @@ class Session:
         self.balances: list[Balance] = []
         self.counts = contract.Counts.zeros()
         self.ways_to_fall = 0
+        self.sensed: list[str] = []
         self.out_of_law: dict[str, str] = {}
         self.assembled: list[str] = []
         self.speeds: list[str] = []
@@ -156,10 +158,10 @@ class Session:
     # settings
 
     def _do_integrator(self, command: Integrator) -> None:
-        self.settings = replace(_updated(self.settings, command), **self.flags)
+        self.settings = replace(updated(self.settings, command), **self.flags)
 
     def _do_equilibrium(self, command: Equilibrium) -> None:
-        self.statics = _updated(StaticSettings() if command.default else self.statics, command)
+        self.statics = updated(StaticSettings() if command.default else self.statics, command)
 
     def _do_kinematics(self, command: Kinematics) -> None:
         """Its tolerances are looser than what is done anyway."""
@@ -192,6 +194,8 @@ class Session:
             kind = "KINEMATICS" if self.system.dof == 0 else "DYNAMICS"
         if self.outcome is not Outcome.DONE:
             return
+        if kind in ("STATICS", "KINEMATICS") and len(times) > 1:
+            require_none(self.system, AT_TIMES.format(kind=kind))
         {
             "DYNAMICS": self._dynamics,
             "STATICS": self._statics,
@@ -215,8 +219,7 @@ class Session:
         engine(self.chosen.settings.formula.entry, self.progress)
         self.late_setup += clock.process_time() - began
         self.outcome = self._integrated(system, times)
-        self.time = float(system.report.t)
-        self._keep(system, times, False)
+        self._keep(system, self._sensed(system, times), False)
         if self.outcome in STALLED and self._rank_changed(system):
             self._continue(system, times)
 
@@ -250,8 +253,21 @@ class Session:
         rest = np.append(self.time, times[times > self.time])
         self.outcome = run_dynamic(system, rest, self.chosen.settings, self.progress, self.audited)
         self._note_balance(system)
+        self._keep(system, self._sensed(system, rest), False, own_start=False)
+
+    def _sensed(self, system: System, times: np.ndarray) -> np.ndarray:
+        """Times of the records of a run; where sensors have ended it, with one there at last."""
         self.time = float(system.report.t)
-        self._keep(system, rest, False, own_start=False)
+        found = system.triggered
+        if not found or self.outcome is not Outcome.DONE:
+            return times
+        self.sensed += [f"{each.label} at t = {self.time:.9g}" for each in found]
+        until = end_record(system, times)
+        if until is None:
+            self.outcome = Outcome.UNDETERMINED
+        elif any(each.halt for each in found):
+            self.outcome = Outcome.HALTED
+        return times if until is None else until
 
     def _statics(self, times: np.ndarray) -> None:
         system = self.system
@@ -277,10 +293,8 @@ class Session:
         self._keep(system, times, False)
 
     def _initial(self, times: np.ndarray) -> None:
-        self._kinematics_free(self.system)
-
-    def _kinematics_free(self, system: System) -> None:
         """Record the assembled state with its accelerations."""
+        system = self.system
         system.settings.t = self.time
         system.start_record(np.array([self.time]))
         if system.run(ACCELERATIONS) != contract.DONE:
@@ -372,26 +386,15 @@ class Session:
         made = system.count.records
         row = system.nw + system.sizes.n_out
         self.names, values = columns(system, system.record[: made * row].reshape(made, row))
-        times = times[:made].copy()
-        if not own_start:
-            times, values = times[1:], values[1:]
-            made -= 1
+        first = 0 if own_start else 1
+        times, values = times[first:made].copy(), values[first:]
         last = self.pieces[-1] if self.pieces else (times[:0], values[:0])
-        if made > 0 and len(last[0]) and last[0][-1] == times[0]:
+        if len(times) and len(last[0]) and last[0][-1] == times[0]:
             if self._began_static:
                 self.pieces[-1] = (last[0][:-1], last[1][:-1])
             else:
                 times, values = times[1:], values[1:]
         self._began_static = static
-        self.pieces.append((times, values))
+        if len(times):
+            self.pieces.append((times, values))
         self.counts.add(system.count)
-
-
-def _updated(settings: S, command: Integrator | Equilibrium) -> S:
-    """Settings with what the command gives."""
-    given = {
-        each.name: getattr(command, each.name)
-        for each in fields(settings)
-        if command.given(each.name) and getattr(command, each.name) is not None
-    }
-    return replace(settings, **given)

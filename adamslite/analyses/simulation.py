@@ -153,7 +153,7 @@ def linearize(
     plan = [s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM")]
     session.execute([*plan, *commands, *([_dynamics(time)] if time else [])])
     system = session.system
-    if session.outcome is not Outcome.DONE:
+    if not session.outcome.is_requested:
         raise RunFailed(explain(system, session.outcome, session.unclosed))
     made = session.linearizations
     return made[-1].model if made and rm is None else linear(system, relative_to=marker)
@@ -240,7 +240,7 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
     if session.balances:
         worst = _worst(session.balances)
         summary |= {"energy_gap": worst.gap, "energy_gap_explained": worst.explained}
-    done = session.outcome is Outcome.DONE
+    done = session.outcome.is_requested
     without = _without_value(time, session.names, values)
     meta = {**_meta(session), **({"no number": without} if without else {})}
     return Results(
@@ -262,6 +262,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         **({"integrator chosen": session.chosen.reason} if session.chosen.reason else {}),
         **_notes(session),
         **_beyond(session),
+        **({"sensor": "ended by " + "; ".join(session.sensed)} if session.sensed else {}),
         **({"time": f"{hurried}: {FASTER}"} if hurried else {}),
     }
 

@@ -17,6 +17,7 @@ from adamslite.elements.integrator import Integrator
 from adamslite.elements.kinematics import Kinematics
 from adamslite.elements.linear import Linear
 from adamslite.elements.pinput import Pinput
+from adamslite.elements.sensor import Sensor
 from adamslite.elements.simulate import MOST_STEPS, Simulate, output_steps
 from adamslite.elements.variable import Variable
 from adamslite.language.diagnostics import Diagnostic
@@ -30,6 +31,14 @@ from adamslite.language.statement import STATEMENTS, Statement, expressions
 ROUNDED = 1e-9
 # The name of a file without a folder; one with a dot in front is for the system or hidden.
 FILE_NAME = re.compile(r"[^./\\:][^/\\:]*")
+AS_ALWAYS = "the next SIMULATE starts as every SIMULATE does"
+IDLE_IN_SENSOR = {
+    "bisection": "the time is located anyway",
+    "codgen": AS_ALWAYS,
+    "restart": AS_ALWAYS,
+    "stepsize": AS_ALWAYS,
+    "dt": "the next SIMULATE has output steps of its own",
+}
 TIMES = ("end", "duration", "dtout", "steps")
 
 
@@ -146,6 +155,16 @@ def ends_in_order(deck: Deck) -> Iterator[Diagnostic]:
         time = max(time, end)
 
 
+def sensors(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of(Sensor):
+        if each.error < 0:
+            yield diagnose(each, "negative", "error", word="ERROR")
+        if not (each.halt or each.returns):
+            yield diagnose(each, "sensor-continues")
+        for field in filter(each.given, ("bisection", "codgen", "restart", "stepsize", "dt")):
+            yield _idle(each, field, field.upper(), IDLE_IN_SENSOR[field])
+
+
 def switched_elements(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.statements:
         if not isinstance(each, Activate | Deactivate):
@@ -238,6 +257,7 @@ RUN_RULES: list[Rule] = [
     iteration_values,
     simulation_times,
     ends_in_order,
+    sensors,
     switched_elements,
     linear_arguments,
     file_names,

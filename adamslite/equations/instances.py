@@ -30,6 +30,7 @@ PHASES = {
     "signal": contract.SIGNALS,
     "output": contract.OUTPUTS,
     "stored": contract.STORED_ENERGY,
+    "sensor": 0,
 }
 
 
@@ -149,8 +150,8 @@ class Instances:
             return self.outputs[node[1]]
         if node[0] == "SIGNAL":
             return self.numbering.w_at[node]
-        if node[0] == "STORED":
-            return 0  # all add up in one number
+        if node[0] in ("STORED", "SENSOR"):
+            return 0  # all add up in one number, or are guards alone
         return self.numbering.starts[self._row_node(group, node)]
 
     def _reals(self, group: ShapeGroup, binding: Binding) -> list[float]:

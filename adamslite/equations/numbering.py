@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from adamslite.elements.diff import Diff
+from adamslite.elements.sensor import Sensor
 from adamslite.elements.variable import Variable
 from adamslite.equations.engine import ints
 from adamslite.kernels.compile import Kernels
@@ -90,4 +93,19 @@ class Numbering:
                 for statement, _ in group.instances:
                     found += [(statement, kind) for kind in group.meta["guards"][place]]
             at += len(found)
+        self.sensors = list(self._sensors())
         self.kind = ints([kind for found in self.guarded.values() for _, kind in found])
+
+    def _sensors(self) -> Iterator[tuple[Sensor, int, int]]:
+        """Sensors that act, with the offsets of the branches of their relations, -1 where these
+        never change.  The relations come before other guards in FUNCTION.
+        """
+        for group in self.kernels.groups:
+            guards = group.meta["guards"]
+            place = "watch" if guards["watch"] else "clock"
+            for n, (sensor, _) in enumerate(group.instances if group.face == "sensor" else ()):
+                assert isinstance(sensor, Sensor)
+                first = self.first_branch[place, group.name] + n * len(guards[place])
+                last = first + sensor.relation_count - 1
+                known = len(guards[place]) >= sensor.relation_count
+                yield (sensor, first, last) if known else (sensor, -1, -1)

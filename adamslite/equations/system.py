@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.elements.sensor import Sensor
 from adamslite.equations.broken_motion import Break
 from adamslite.equations.elimination import Elimination
 from adamslite.equations.engine import engine, ints, reals
@@ -124,6 +125,9 @@ class System:
         if self.numbering.kind.size:
             self.W = np.zeros(self.nw + self.numbering.kind.size)
         self.guard = np.zeros(self.W.size)
+        self.sensors = Rows(contract.SensorRow, len(self.numbering.sensors))
+        for k, (_, first, second) in enumerate(self.numbering.sensors):
+            self.sensors[k].first, self.sensors[k].second = first, second
         self.margin = np.zeros(MARGIN_ROWS * len(self.guarded["watch"]))
         self.zone = np.zeros(5 * len(self.guarded["zone"]))
         self.stops, self.pattern = np.zeros(1), ints([])
@@ -245,6 +249,12 @@ class System:
     def sparse_jacobian(self) -> csr_array:
         """The Jacobian blocks as one sparse matrix (nz, nz)."""
         return self.blocks.sparse(self.J)
+
+    @property
+    def triggered(self) -> list[Sensor]:
+        """Sensors that ended the last run."""
+        found = enumerate(self.numbering.sensors)
+        return [sensor for k, (sensor, *_) in found if self.sensors[k].triggered]
 
     def release_guards(self) -> None:
         """Let every expression take the branch of the moment again."""

@@ -51,6 +51,7 @@ control         the integrator's own numbers, its ``Control``
 undo            the state before the last accepted one; empty without constraints
 record          (nt, nw + n_out) workspace and outputs at the output times
 kind guard      of guards: how they are read; their values, numbered as the workspace
+sensors         of :class:`SensorRow`
 margin zone     how far guards are from changing; where the state is within zones
 stops           times at which guards of the clock change
 paces           of :class:`Pace`
@@ -258,6 +259,18 @@ class Pace(Record):
     fence: float
 
 
+class SensorRow(Record):
+    """A sensor: workspace offsets of the branches of its one or two relations, what they were (1
+    true, -1 false, 0 not known), whether it has triggered.
+    """
+
+    first: int
+    second: int
+    first_was: int
+    second_was: int
+    triggered: int
+
+
 class Undoing(Record):
     """What is known of the state that is kept (:mod:`adamslite.integrators.step_back`).
 
@@ -329,6 +342,7 @@ class Problem(Record):
     pivots_c: Ints
     kind: Ints
     guard: Reals
+    sensors: Rows[SensorRow]
     margin: Reals
     zone: Reals
     stops: Reals

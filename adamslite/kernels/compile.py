@@ -106,6 +106,8 @@ def faces(statement: Statement, model: Model) -> Iterator[str]:
     if isinstance(statement, Constraint):
         rate = statement.is_rate(model)
         yield from ("reactions", "velocity", "acceleration") if rate else LEVELS
+    if hasattr(statement, "relation"):
+        yield "sensor"
     if hasattr(statement, "equation"):
         kind = model.variable_kind(statement.key) if statement.keyword == "VARIABLE" else "loop"
         if kind != "inline":
@@ -146,7 +148,7 @@ def _bound(binder: Binder, statement: Statement, face: str) -> tuple[Tree, int]:
         values = tuple(binder.output(node, statement) for node in statement.outputs(binder.model))
         return values, binder.node_slot(("OUTPUT", statement))
     fields = binder.statement(statement)
-    if face in ("signal", "stored"):
+    if face in ("signal", "stored", "sensor"):
         return fields, binder.node_slot((face.upper(), statement.key))
     return fields, binder.unknowns(statement)
 
@@ -202,6 +204,8 @@ class FaceWriter:
             return Outputs(loads=reactions(rows, view.unknowns, scope))
         if self.face == "stored":
             return Outputs(rows=[(row, 0, view.cls.stored(view, scope))])
+        if self.face == "sensor":
+            return Outputs(rows=[(row, 0, view.cls.relation(view, scope))])
         if self.face == "equation":
             return Outputs(rows=[(row, 0, view.cls.equation(view, scope))])
         if self.face == "signal":

@@ -7,7 +7,7 @@ registered elsewhere is supported, whether or not it still stands here.
 STATEMENTS = frozenset(
     """CONTACT CVCV
     GSE IC LSE LSSMATRIX MREQUEST NFORCE PFORCE
-    SENSOR SYSVAR TFSISO UCON""".split()
+    SYSVAR TFSISO UCON""".split()
 )
 
 COMMANDS = frozenset("CONTROL HELP INFO MENU RELOAD SAVE SHOW TIME".split())

@@ -7,6 +7,7 @@ class Outcome(Enum):
     """The ways a run ends; the value says what happened and what to do about it."""
 
     DONE = "The run reached its end."
+    HALTED = "A SENSOR with HALT ended the run."
     SINGULAR_ACCELERATION = (
         "A force that depends on an acceleration cancels the mass: the effective mass is zero and "
         "the equations no longer determine the motion. Look at the sign of that force "
@@ -66,3 +67,8 @@ class Outcome(Enum):
         "(second argument, or a .acf of the deck's name beside it), or in the deck itself, "
         "or use the flags --end T --steps N."
     )
+
+    @property
+    def is_requested(self) -> bool:
+        """Whether the run ended as the deck requests."""
+        return self in (Outcome.DONE, Outcome.HALTED)

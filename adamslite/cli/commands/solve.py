@@ -43,7 +43,7 @@ SUMMARY = """\
 #: Comments of the results that the summary repeats: what was done to the model and the method.
 NOTES = (
     "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "energy", "time",
-    "linear", "no number", "out of its law",
+    "linear", "no number", "sensor", "out of its law",
 )  # fmt: skip
 
 
@@ -71,7 +71,6 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.progress import Progress, TalkingProgress
     from adamslite.result_files import plan
     from adamslite.results.formats import format_of
-    from adamslite.results.outcomes import Outcome
     from adamslite.scene import load_scene, run_scene
 
     output = args.output or f"{args.deck.stem}.csv"
@@ -93,7 +92,7 @@ def run(args: argparse.Namespace) -> int:
         progress.close()
     written = _write(results, output, files)
     _summarize(scene, args, results, output, written)
-    if results.outcome is not Outcome.DONE:
+    if not results.outcome.is_requested:
         return STOPPED_EARLY
     found = results.confirmation
     return DONE if found is None or found.confirmed else OUTSIDE_TOLERANCE
@@ -127,15 +126,13 @@ def _tell_warnings(scene: "Scene") -> None:
 def _summarize(
     scene: "Scene", args: argparse.Namespace, results: "Results", output: str, files: list[Path]
 ) -> None:
-    from adamslite.results.outcomes import Outcome
-
     if args.summary == "json":
         sys.stdout.write(_as_json({**results.summary, **_files(scene, output)}) + "\n")
     elif not args.quiet:
         shown = "standard output" if output == STDOUT else output
         sentence = (
             results.outcome.value
-            if results.outcome is Outcome.DONE
+            if results.outcome.is_requested
             else f"stopped early ({results.outcome.name})"
         )
         sys.stderr.write(
@@ -148,7 +145,7 @@ def _summarize(
             if note in results.meta:
                 sys.stderr.write(f"  {note:<20} {results.meta[note]}\n")
     _tell_trust(scene, args, results)
-    if results.outcome is not Outcome.DONE:
+    if not results.outcome.is_requested:
         sys.stderr.write(f"adamslite: {results.message or results.outcome.value}\n")
 
 

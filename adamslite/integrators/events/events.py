@@ -59,6 +59,7 @@ from adamslite.integrators.events.guards import (
     remember_branches,
     turn_over,
 )
+from adamslite.integrators.events.sensors import sense, start_sensors
 from adamslite.integrators.events.stops import is_stop, next_stop, set_clock, set_pace
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.native.translate import native
@@ -76,6 +77,9 @@ def start_events(P: Problem, located: bool, tested: bool) -> None:
     P.search.span = share_of_zone(P, tested)
     for k in range(P.margin.size):
         P.margin[k] = 0.0
+    start_sensors(P)
+    if P.search.loose and P.sensors.size > 0:
+        P.settings.stop = True  # they cannot be watched
     release_watch(P)
     set_clock(P, P.settings.t)
     set_pace(P, P.settings.t)
@@ -106,6 +110,7 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
     if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return False
     look_at_start(P)
+    sense(P)
     audit_from(P, t)
     return True
 

@@ -28,6 +28,7 @@ from adamslite.integrators.event_rows import (
     ZONE_EARLY,
     ZONE_LATE,
 )
+from adamslite.integrators.events.sensors import sense
 from adamslite.integrators.motion_equations import WATCH, guard_values
 from adamslite.native.translate import native
 
@@ -78,10 +79,18 @@ def release_watch(P: Problem) -> None:
 
 @native
 def hold_watch(P: Problem) -> None:
+    """Hold the branches of the workspace's state from now on; sensors that trigger end the run."""
+    if P.search.loose:
+        return
+    if P.sizes.watched + P.sizes.zones > 0:
+        hold_branches(P)
+    sense(P)
+
+
+@native
+def hold_branches(P: Problem) -> None:
     """Hold the branches of the workspace's state from now on."""
     clocks, count = P.sizes.clocks, P.sizes.watched
-    if count + P.sizes.zones == 0 or P.search.loose:
-        return
     first = P.sizes.nw + clocks
     release_watch(P)
     guard_values(P, WATCH)

@@ -14,6 +14,7 @@ from adamslite.integrators.events.guards import (
     turn_over,
 )
 from adamslite.integrators.events.search import ends_beyond
+from adamslite.integrators.events.sensors import meets_sensor
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import residual
@@ -34,7 +35,7 @@ def take_harmless(P: Problem, L: Plan, phases: int, cu: float) -> None:
     Branches are changed one after another as they were met: two that cancel at the end (a force
     that acts only in a thin layer) need not have cancelled on the way.
     """
-    if not ends_beyond(P) or P.search.hunt:
+    if not ends_beyond(P) or P.search.hunt or meets_sensor(P):
         return
     share, groups, harmless = -1.0, 0, True
     remember_branches(P)

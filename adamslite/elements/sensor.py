@@ -1,0 +1,63 @@
+"""SENSOR: ends a simulation, or the run, when an expression reaches a value.
+
+Equation (e the FUNCTION; the first time at which it is true)::
+
+    EQ    |e - VALUE| <= ERROR
+    GE    e >= VALUE - ERROR
+    LE    e <= VALUE + ERROR
+"""
+
+from __future__ import annotations
+
+from adamslite.language.expression import Node
+from adamslite.language.statement import Statement, choice, expression, flag, number, statement
+from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.sympy_nodes import piecewise
+from adamslite.symbolic.types import Expr, Seen
+
+
+@statement("SENSOR", planned=("EVALUATE", "YYDUMP", "ROUTINE"))
+class Sensor(Statement):
+    """Watches an expression during dynamic analyses.
+
+    The time at which the relation becomes true is located like the branch of an IF, and the last
+    output is written there.  RETURN hands over to the next command, HALT ends the run.  A relation
+    that is true at the start of a SIMULATE ends it there: DEACTIVATE the sensor before.  EQ is
+    also true where FUNCTION passes the whole window within a step, or jumps over it.
+    """
+
+    function: Node = expression(
+        "FUNCTION", required=True, unit="the user's", help="what is watched"
+    )
+    value: float = number(
+        "VALUE", unit="that of FUNCTION", default=0.0, help="what it is compared with"
+    )
+    error: float = number(
+        "ERROR", unit="that of FUNCTION", default=1e-3, help="how near to VALUE it has to come"
+    )
+    comparison: str = choice(options=("EQ", "GE", "LE"), default="EQ", help="the relation")
+    halt: bool = flag("HALT", help="end the run")
+    returns: bool = flag("RETURN", help="end this SIMULATE; the next command follows")
+    prints: bool = flag("PRINT", help="write an output at that time, as HALT and RETURN do")
+    bisection: bool = flag("BISECTION", help="read, without effect: the time is located anyway")
+    codgen: bool = flag("CODGEN", help="read, without effect: the next SIMULATE starts as always")
+    restart: bool = flag("RESTART", help="read, without effect: the next SIMULATE starts as always")
+    stepsize: float | None = number(
+        "STEPSIZE", unit="time", help="read, without effect: the next SIMULATE finds its first step"
+    )
+    dt: float | None = number(
+        "DT", unit="time", help="read, without effect: the next SIMULATE has its own output steps"
+    )
+
+    @property
+    def relation_count(self) -> int:
+        """Relations of the sensor."""
+        return 2 if self.comparison == "EQ" else 1
+
+    def relation(self: Seen, scope: Scope) -> Expr:
+        """A choice whose conditions are the relations, all of them true when the sensor is."""
+        above = self.function >= self.value - self.error
+        below = self.function <= self.value + self.error
+        if self.comparison == "EQ":
+            return piecewise((1, above), (2, below), otherwise=0, order=0)
+        return piecewise((1, above if self.comparison == "GE" else below), otherwise=0, order=0)

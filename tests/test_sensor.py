@@ -1,0 +1,178 @@
+"""SENSOR: the time at which an expression reaches a value ends a simulation, or the run.
+
+Expected times are closed forms.  A crossing is located to a hundredth of ERROR of the step in
+which it is found, and positions are off by some ERROR: 1e-8 of a second and more is left.
+"""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+
+from adamslite import Outcome, Results, read, simulate
+from adamslite.cli.main import main
+from adamslite.errors import UsageError
+from adamslite.reading.read import read_commands
+
+METHODS = ("GSTIFF", "GSTIFF, I3", "WSTIFF", "HHT", "NEWMARK", "RADAU", "RKF45")
+G = 9.80665
+FALLING = """A mass falls from rest
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=2
+MARKER/2, POINT_MASS=2
+ACCGRAV/JGRAV=-9.80665
+"""
+RUN = "SIMULATE/DYNAMIC, END=2, STEPS=4\nSIMULATE/DYNAMIC, END=3, STEPS=4\n"
+
+
+def fall(sensor: str, method: str = "GSTIFF", error: float = 1e-8) -> Results:
+    """The mass under a sensor."""
+    return simulate(read(f"{FALLING}{sensor}\nINTEGRATOR/{method}, ERROR={error}\n{RUN}END\n"))
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    "condition",
+    ["LE, VALUE=-1, ERROR=0, FUNCTION=DY(2,1)", "GE, VALUE=1, ERROR=0, FUNCTION=-DY(2,1)",
+     "EQ, VALUE=-1, ERROR=1D-12, FUNCTION=DY(2,1)", "VALUE=1, ERROR=0, FUNCTION=DM(2,1)",
+     "GE, VALUE=1, ERROR=0.1, FUNCTION=-0.1-DY(2,1)",
+     "LE, VALUE=-1.1, ERROR=0.1, FUNCTION=DY(2,1)"],
+)  # fmt: skip
+def test_a_falling_mass_is_halted_at_its_depth(method: str, condition: str) -> None:
+    """y = -g t^2/2 is -1 at t = sqrt(2/g), whichever relation watches it from whichever side."""
+    results = fall(f"SENSOR/1, HALT, {condition}", method)
+    assert results.outcome is Outcome.HALTED
+    assert results.time[:-1].tolist() == [0.0]
+    assert abs(results.time[-1] - sqrt(2 / G)) < 1e-8
+    assert abs(results["POINT_MASS/2.y"][-1] + 1) < 1e-8 * 5
+    assert abs(results["POINT_MASS/2.vy"][-1] + sqrt(2 * G)) < 1e-7
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_an_expression_of_time_is_met_exactly(method: str) -> None:
+    results = fall("SENSOR/1, HALT, GE, VALUE=1.3, ERROR=0, FUNCTION=TIME", method)
+    assert results.time.tolist() == [0.0, 0.5, 1.0, 1.3]
+
+
+@pytest.mark.parametrize("value", [0.95, -0.95])
+def test_a_window_that_is_passed_within_a_step(value: float) -> None:
+    """sin(10 t) is 0.95 from below at asin(0.95)/10, -0.95 at (pi + asin(0.95))/10."""
+    deck = f"""{FALLING}DIFF/1, IC=0, FUNCTION=10*DIF(2)
+DIFF/2, IC=1, FUNCTION=-10*DIF(1)
+SENSOR/1, HALT, VALUE={value}, ERROR=1E-7, FUNCTION=DIF(1)
+INTEGRATOR/RADAU, ERROR=1E-8
+{RUN}END
+"""
+    expected = (np.arcsin(0.95) + (pi if value < 0 else 0)) / 10
+    slack = 1e-7 / (10 * sqrt(1 - 0.95**2)) + 1e-8
+    assert abs(simulate(read(deck)).time[-1] - expected) < slack
+
+
+def test_default_error_is_a_thousandth() -> None:
+    """Within 0.001 of -1 from t = sqrt(2 0.999/g) on."""
+    results = fall("SENSOR/1, HALT, VALUE=-1, FUNCTION=DY(2,1)")
+    assert abs(results.time[-1] - sqrt(2 * 0.999 / G)) < 1e-8
+
+
+def test_what_is_never_reached_ends_nothing() -> None:
+    results = fall("SENSOR/1, HALT, GE, VALUE=1, FUNCTION=DY(2,1)")
+    assert results.outcome is Outcome.DONE
+    assert results.time[-1] == 3.0
+
+
+PENDULUM = """A pendulum of 1 m released at 1 rad from its lowest point
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=1, CM=3, IP=0,0,0, QG=0.8414709848078965,-0.5403023058681398,0, REULER=1,0,0
+MARKER/3, PART=2
+MARKER/2, PART=2, QP=0,1,0
+MARKER/4, PART=2
+JOINT/1, REVOLUTE, I=2, J=1
+ACCGRAV/JGRAV=-9.80665
+SFORCE/1, I=4, J=1, TRANSLATION, FUNCTION=0
+SENSOR/7, LE, VALUE=0, ERROR=0, RETURN, FUNCTION=DX(3,1)
+INTEGRATOR/GSTIFF, ERROR=1E-9
+END
+"""
+QUARTER = "SIMULATE/DYNAMIC, END=5, STEPS=50\n"
+
+
+def quarter_period() -> float:
+    """K(sin 1/2)/sqrt(g)."""
+    a, b = 1.0, np.cos(0.5)
+    for _ in range(8):
+        a, b = (a + b) / 2, sqrt(a * b)
+    return pi / (2 * a) / sqrt(G)
+
+
+def test_a_pendulum_returns_at_its_lowest_point_and_continues_with_the_next_command() -> None:
+    """There it loses its weight, and turns on with the speed sqrt(2 g (1 - cos 1))."""
+    deck = read(PENDULUM)
+    text = f"{QUARTER}DEACT/SENSOR, ID=7\nACCGRAV/JGRAV=0\nSIM/DYN, DURATION=1, STEPS=4\nSTOP\n"
+    results = simulate(deck, commands=read_commands(text, deck))
+    t, speed = quarter_period(), sqrt(2 * G * (1 - np.cos(1.0)))
+    event = np.searchsorted(results.time, t - 1e-6)
+    assert results.outcome is Outcome.DONE
+    assert abs(results.time[event] - t) < 1e-8
+    np.testing.assert_allclose(results.time[event:] - t, np.linspace(0, 1, 5), atol=1e-8)
+    turned = -speed * np.linspace(0, 1, 5)
+    np.testing.assert_allclose(results["PART/2.x"][event:], np.sin(turned), atol=1e-6)
+    np.testing.assert_allclose(results["PART/2.y"][event:], -np.cos(turned), atol=1e-6)
+    assert "SENSOR/7 at t = " in results.meta["sensor"]
+
+
+def test_a_sensor_that_is_still_true_returns_at_once() -> None:
+    deck = read(FALLING + "SENSOR/1, LE, VALUE=-1, RETURN, FUNCTION=DY(2,1)\nEND\n")
+    text = "SIM/DYN, END=2, STEPS=4\nSIM/DYN, END=3, STEPS=4\nDEACT/SENS, ID=1\n"
+    results = simulate(deck, commands=read_commands(text + "SIM/DYN, END=2, STEPS=2", deck))
+    assert len(results.time) == 4
+    assert results.time[-1] == 2.0
+    assert abs(results["POINT_MASS/2.y"][-1] + 2 * G) < 0.01
+
+
+def test_activate_restores_a_sensor() -> None:
+    deck = read(FALLING + "SENSOR/1, LE, VALUE=-1, ERROR=0, HALT, FUNCTION=DY(2,1)\nEND\n")
+    text = (
+        "DEACT/SENSOR, ID=1\nSIM/DYN, END=0.2, STEPS=1\nACT/SENSOR, ID=1\nSIM/DYN, END=3, STEPS=1"
+    )
+    results = simulate(deck, commands=read_commands("INTEG/ERROR=1E-8\n" + text, deck))
+    assert len(results.time) == 3
+    assert abs(results.time[-1] - sqrt(2 / G)) < 1e-8
+
+
+def test_the_first_of_several_sensors_decides_and_halt_wins() -> None:
+    late = "SENSOR/1, LE, VALUE=-2, HALT, FUNCTION=DY(2,1)\n"
+    both = "SENSOR/2, LE, VALUE=-1, ERROR=0, RETURN, FUNCTION=DY(2,1)\n"
+    same = "SENSOR/3, LE, VALUE=-1, ERROR=0, HALT, FUNCTION=DY(2,1)"
+    results = fall(late + both + same)
+    assert results.outcome is Outcome.HALTED
+    assert abs(results.time[-1] - sqrt(2 / G)) < 1e-8
+    assert [f"SENSOR/{n}" in results.meta["sensor"] for n in (1, 2, 3)] == [False, True, True]
+
+
+@pytest.mark.parametrize(
+    ("sensor", "run"),
+    [
+        ("FUNCTION=DY(2,1)", "INTEGRATOR/VERLET, HINIT=0.01\nSIMULATE/DYNAMIC, END=1, STEPS=4"),
+        ("FUNCTION=DY(2,1)", "INTEGRATOR/HHT, HINIT=.1, HMAX=.1, HMIN=.1\nSIM/DYN, END=1, STEPS=4"),
+        ("VALUE=1, FUNCTION=3", "SIMULATE/DYNAMIC, END=1, STEPS=4"),
+        ("FUNCTION=DY(2,1)", "SIMULATE/STATICS, END=1, STEPS=4"),
+    ],
+)  # fmt: skip
+def test_a_sensor_that_cannot_be_watched_is_named(sensor: str, run: str) -> None:
+    with pytest.raises(UsageError, match="SENSOR/1 cannot be watched"):
+        simulate(read(f"{FALLING}SENSOR/1, HALT, {sensor}\n{run}\nEND\n"))
+
+
+def test_a_halted_run_is_no_failure(tmp_path, capsys) -> None:
+    deck = tmp_path / "halted.adm"
+    deck.write_text(f"{FALLING}SENSOR/1, HALT, LE, VALUE=-1, FUNCTION=DY(2,1)\n{RUN}END\n")
+    assert main(["solve", str(deck)]) == 0
+    shown = capsys.readouterr().err
+    assert "SENSOR with HALT ended the run" in shown
+    assert "SENSOR/1 at t = " in shown
