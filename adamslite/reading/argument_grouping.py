@@ -88,7 +88,8 @@ class Grouping:
             return None
         for other in self.found.values():
             if argument.name in other.argument.fills or other.argument.name in argument.fills:
-                self.log.add("duplicate-argument", token[2], end_of(token), word=argument.key)
+                hint = f"{other.argument.key} gives it too"
+                self.log.add("duplicate-argument", token[2], end_of(token), hint, word=argument.key)
                 return None
         pieces = self.found[argument.name] = Pieces(argument, token[2])
         return pieces

@@ -32,6 +32,7 @@ ARGUMENTS: dict[str, Message] = {
             "MARKER/4, PART=1, QP=1,2,3, QP=1,2,3",
             "MARKER/4, FLOATING, PART=1, FLOATING",
             "SFORCE/1, TRANSLATIONAL, ROTATIONAL, I=1, J=2, FUNCTION=1",
+            "VFORCE/1, I=2, J_PART=1, FXYZ=DXYZ(2)\\FX=1",
         ),
     ),
     "missing-argument": Message(
