@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from adamslite.checks.markers import references
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose, place_of
 from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
 from adamslite.elements.request import Request
@@ -91,14 +92,16 @@ def passed_over(deck: Deck) -> Iterator[Diagnostic]:
 def note_of_inert(statements: Iterable[Command]) -> Iterator[Diagnostic]:
     """One note for everything that does not change the motion, at the first of it."""
     counts: Counter[str] = Counter()
-    first: tuple[Command, str] | None = None
+    found: list[tuple[Command, str]] = []
     for each in statements:
         for field, name in _inert(each):
-            first = first or (each, field)
+            found.append((each, field))
             counts[name] += 1
-    if first:
+    if found:
+        places = tuple(place_of(*each) for each in found)
         listed = (f"{name} ({n})" if n > 1 else name for name, n in counts.items())
-        yield diagnose(first[0], "passed-over", first[1], listed=", ".join(listed))
+        told = diagnose(found[0][0], "passed-over", found[0][1], listed=", ".join(listed))
+        yield replace(told, places=places)
 
 
 def _inert(command: Command) -> Iterator[tuple[str, str]]:

@@ -173,6 +173,8 @@ class Diagnostic:
         What to do about it; may be empty.
     source_line : str
         The line of the deck the span begins on; may be empty.
+    places : tuple of Span
+        Everywhere it applies, ``span`` first; empty unless the text tells several places once.
     """
 
     code: str
@@ -181,6 +183,12 @@ class Diagnostic:
     span: Span = NOWHERE
     hint: str = ""
     source_line: str = ""
+    places: tuple[Span, ...] = ()
+
+    @property
+    def everywhere(self) -> tuple[Span, ...]:
+        """All places, also those that the text does not list."""
+        return self.places or (self.span,)
 
     @property
     def is_error(self) -> bool:

@@ -3,6 +3,9 @@
 Prints every error and warning with its place, then what the deck consists of and, for cables, how
 fast waves are in them and what model they need (docs/cables.md). Exit code 3 when there are errors;
 warnings alone do not count.
+
+For other programs --format writes the messages alone: gcc (one line FILE:LINE:COLUMN: SEVERITY:
+MESSAGE [CODE] for each place), json (a list of objects) or sarif (SARIF 2.1.0).
 """
 
 import argparse
@@ -24,6 +27,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite check`."""
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
     parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    parser.add_argument(
+        "--format",
+        choices=("text", "json", "sarif", "gcc"),
+        default="text",
+        help="text to read, or data for an editor or a pipeline (default: text)",
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -34,12 +43,24 @@ def run(args: argparse.Namespace) -> int:
     try:
         scene = load_scene(args.deck, args.commands)
     except DeckError as fault:
+        if args.format != "text":
+            return _data(args.format, fault.diagnostics, DECK_ERRORS)
         sys.stdout.write(f"{render(fault.diagnostics)}\n\n{_tally(fault)}\n")
         return DECK_ERRORS
+    if args.format != "text":
+        return _data(args.format, scene.warnings, DONE)
     if scene.warnings:
         sys.stdout.write(render(scene.warnings) + "\n\n")
     sys.stdout.write(_contents(scene))
     return DONE
+
+
+def _data(form: str, diagnostics: "Sequence[Diagnostic]", code: int) -> int:
+    """Write the messages alone; return the exit code."""
+    from adamslite.language.messages.formats import FORMATS
+
+    sys.stdout.write(FORMATS[form](diagnostics))
+    return code
 
 
 def _tally(fault: "DeckError") -> str:

@@ -7,7 +7,7 @@ its code) and manual page.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
@@ -71,10 +71,9 @@ def did_you_mean(word: str, candidates: Iterable[str]) -> str:
 
 @dataclass
 class _Tally:
-    first: tuple[int, int]
+    places: list[tuple[int, int]]
     hint: str
     words: dict[str, object]
-    count: int = 1
 
 
 class KnownNames(Protocol):
@@ -115,9 +114,9 @@ class Log:
         self._errors += 1
         known = self._tallies.get((code, kind))
         if known:
-            known.count += 1
+            known.places.append((start, end))
         else:
-            self._tallies[code, kind] = _Tally((start, end), INSTEAD.get(kind, ""), words)
+            self._tallies[code, kind] = _Tally([(start, end)], INSTEAD.get(kind, ""), words)
 
     def missing(self, names: KnownNames, kind: str, key: Key, start: int, end: int) -> None:
         """Say that a statement is referred to and does not exist."""
@@ -134,8 +133,11 @@ class Log:
     def finish(self) -> list[Diagnostic]:
         """Every message, also those that are reported once per kind."""
         for (code, _), tally in self._tallies.items():
-            times = "" if tally.count == 1 else f" ({tally.count} times, first here)"
-            start, end = tally.first
+            count = len(tally.places)
+            times = "" if count == 1 else f" ({count} times, first here)"
+            start, end = tally.places[0]
             self.add(code, start, end, tally.hint, times=times, **tally.words)
+            places = tuple(self.source.span(*place) for place in tally.places)
+            self.diagnostics[-1] = replace(self.diagnostics[-1], places=places)
         self._tallies = {}
         return self.diagnostics
