@@ -13,7 +13,7 @@ from adamslite import functions  # noqa: F401  registers the functions
 from adamslite.deck.names import RESERVED, Key, Names, to_number
 from adamslite.functions.arrays import NUMBERED
 from adamslite.functions.vectors import VECTORS, Components, Value, combined, negated
-from adamslite.language.expression import Call, Node, Num, Ref, fold
+from adamslite.language.expression import Call, Node, Num, Op, Ref, fold
 from adamslite.language.function import FUNCTIONS, Function, Parameter
 from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.not_supported import FUNCTIONS as PLANNED
@@ -151,6 +151,8 @@ class Resolver:
         )
 
     def _combined(self, op: str, left: Value, right: Value, at: int) -> Value:
+        if not (isinstance(left, Components) or isinstance(right, Components)):
+            return Op(op, (left, right))
         value = combined(op, left, right)
         if value is None and self.failed:  # one side is but a stand-in
             raise Unresolved
@@ -265,7 +267,7 @@ class Resolver:
                 self.failed = True
                 return _STAND_IN
         node = self._node(branch, depth)
-        if isinstance(node, Components) or slot.vector:
+        if slot.vector or isinstance(node, Components):
             return self._vector_argument(slot, node, branch)
         if slot.constant and fold(node) is None:
             token = self.tokens[branch[1]]
