@@ -46,6 +46,28 @@ def test_the_three_kinds_of_tolerance(tolerance: Tolerance, inside: bool) -> Non
     assert compare(moved(1e-3), fall(), tolerance).inside is inside
 
 
+@pytest.mark.parametrize(
+    ("value", "printed", "off"),
+    [
+        (1.7517049, 1.7517, 0.0),
+        (1.751704, 1.7517, 0.0),
+        (1.751707, 1.7517, 2e-6),  # the sixth digit of 1.75170 counts 1e-5
+        (-17.51696, -17.5170, 0.0),
+        (-17.51690, -17.5170, 5e-5),
+        (1e-9, 0.0, 1e-9),  # nothing is hidden by a printed zero
+        (0.0, 1e-3, 1e-3 - 5e-9),
+        (np.nan, 1.0, np.nan),
+    ],
+)
+def test_what_rounding_to_six_digits_hides_is_no_difference(
+    value: float, printed: float, off: float
+) -> None:
+    tolerance = Tolerance(abs=1e-6, digits=6)
+    found = tolerance.off(np.array([value]), np.array([printed]))
+    assert found == pytest.approx(off, rel=1e-6, abs=1e-15, nan_ok=True)
+    assert str(tolerance) == "abs 1e-06 digits 6"
+
+
 def test_a_value_that_is_no_number_is_outside() -> None:
     for bad in (np.nan, np.inf):
         comparison = compare(moved(bad, start=4), fall(), Tolerance(abs=1e9))

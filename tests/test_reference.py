@@ -53,6 +53,8 @@ def test_every_instruction_is_understood(tmp_path: Path) -> None:
         ("tolerance: 1e-6", "'1e-6' is not a tolerance"),
         ("tolerance: abs x", "'x' is not a number"),
         ("tolerance: abs 1 foo 2", "is not a tolerance"),
+        ("tolerance: digits 1.5", "how many significant digits"),
+        ("tolerance: digits 0", "how many significant digits"),
         ("measures: mean x = 1 tol abs 1", "did you mean 'measure:'"),
         ("solve: --ned 1", "unrecognized arguments: --ned"),
         ("solve: --end -1", "must be a positive number"),

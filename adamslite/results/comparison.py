@@ -2,8 +2,9 @@
 
 Channel c is inside its tolerance when at every reference time t
 
-    |value_c(t) - reference_c(t)| <= A + R |reference_c(t)| + P max_t |reference_c|
+    |value_c(t) - reference_c(t)| - H_c(t) <= A + R |reference_c(t)| + P max_t |reference_c|
 
+where H is half a unit of the last digit of a reference printed with few digits, else 0.
 The reference may hold any few of the channels. Its times must be output times of the results unless
 an interpolation is requested.
 """
@@ -28,19 +29,39 @@ class Mismatch(ValueError):
 
 @dataclass(frozen=True, kw_only=True)
 class Tolerance:
-    """How far a channel may be off: A + R |reference| + P max|reference|, see the module."""
+    """How far a channel may be off: A + R |reference| + P max|reference|, see the module.
+
+    `digits` is the number of significant digits that the reference is printed with: what rounding
+    to them hides is no difference. 0 means the reference is as good as its tolerance needs.
+    """
 
     abs: float = 0.0
     rel: float = 0.0
     peak: float = 0.0
+    digits: int = 0
 
     def allowed(self, reference: np.ndarray) -> np.ndarray:
         """Return the allowed difference at each time, shape (nt,), for the (nt,) reference."""
         size = np.abs(reference)
         return self.abs + self.rel * size + self.peak * size.max(initial=0.0)
 
+    def off(self, value: np.ndarray, reference: np.ndarray) -> np.ndarray:
+        """Return how far (nt,) `value` is from all numbers that are printed like `reference`."""
+        difference = np.abs(value - reference)
+        if not self.digits:
+            return difference
+        size = np.abs(reference)
+        leading = np.floor(np.log10(size, out=np.zeros_like(size), where=size > 0))
+        hidden = np.where(size > 0, 0.5 * 10.0 ** (leading + 1 - self.digits), 0.0)
+        return np.maximum(difference - hidden, 0.0)
+
     def __str__(self) -> str:
-        parts = (("abs", self.abs), ("rel", self.rel), ("peak", self.peak))
+        parts = (
+            ("abs", self.abs),
+            ("rel", self.rel),
+            ("peak", self.peak),
+            ("digits", self.digits),
+        )
         return " ".join(f"{name} {value:g}" for name, value in parts if value) or "exact"
 
 
@@ -57,7 +78,7 @@ class Difference:
     name : str
         Channel, or the text of a measure.
     worst : float
-        |value - reference| where it is largest compared with what is allowed there.
+        |value - reference| beyond its rounding, where it is largest compared with what is allowed.
     allowed : float
         What is allowed there.
     time : float or None
@@ -199,7 +220,7 @@ def _cubic(covered: np.ndarray, history: np.ndarray, times: np.ndarray) -> np.nd
 def _difference(
     name: str, value: np.ndarray, reference: np.ndarray, times: np.ndarray, tolerance: Tolerance
 ) -> Difference:
-    off = np.abs(value - reference)
+    off = tolerance.off(value, reference)
     allowed = tolerance.allowed(reference)
     # A value that is not a number is never inside, even where the reference is not one either.
     outside = ~(off <= allowed)

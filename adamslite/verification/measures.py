@@ -65,8 +65,9 @@ class Measure:
 
     def difference(self, results: Results, interpolate: str | None = None) -> Difference:
         """Compare the measure of `results` with its reference value."""
-        off = abs(self.measured(results, interpolate) - self.value)
-        allowed = float(self.tolerance.allowed(np.array([self.value]))[0])
+        value, wanted = np.array([self.measured(results, interpolate)]), np.array([self.value])
+        off = float(self.tolerance.off(value, wanted)[0])
+        allowed = float(self.tolerance.allowed(wanted)[0])
         return Difference(
             name=f"{self.kind} {self.channel}",
             worst=off,

@@ -123,14 +123,15 @@ def read_reference(path: str | Path) -> Reference:
 
 
 def parse_tolerance(text: str) -> Tolerance:
-    """Read `abs 1e-6 rel 1e-5 peak 1e-4`: any one or more of the three."""
+    """Read `abs 1e-6 rel 1e-5 peak 1e-4 digits 6`: any one or more of the four."""
     words = text.split()
     names, values = words[::2], words[1::2]
-    if not words or len(words) % 2 or not set(names) <= {"abs", "rel", "peak"}:
+    if not words or len(words) % 2 or not set(names) <= set(_TOLERANCES):
         raise ValueError(
-            f"'{text}' is not a tolerance; write 'abs A', 'rel R', 'peak P' or several"
+            f"'{text}' is not a tolerance; write 'abs A', 'rel R', 'peak P', 'digits N' or several"
         )
-    return Tolerance(**{name: _number(value) for name, value in zip(names, values, strict=True)})
+    given = zip(names, values, strict=True)
+    return Tolerance(**{name: _TOLERANCES[name](value) for name, value in given})
 
 
 def _follow(reference: Reference, comment: str) -> None:
@@ -150,6 +151,12 @@ def _number(text: str) -> float:
         return float(text)
     except ValueError:
         raise ValueError(f"'{text}' is not a number") from None
+
+
+def _digits(text: str) -> int:
+    if not text.isdecimal() or text == "0":
+        raise ValueError(f"'digits {text}': write how many significant digits are printed")
+    return int(text)
 
 
 def _tolerance(reference: Reference, subject: str | None, text: str) -> None:
@@ -219,6 +226,12 @@ def _need_kind(kind: str, given: Collection[str]) -> None:
         raise ValueError(f"'{ARRIVAL} NAME through LEVEL' takes a level, the other measures do not")
 
 
+_TOLERANCES: dict[str, Callable[[str], Any]] = {
+    "abs": _number,
+    "rel": _number,
+    "peak": _number,
+    "digits": _digits,
+}
 _INSTRUCTIONS: dict[str, Callable[[Reference, str | None, str], None]] = {
     "tolerance": _tolerance,
     "solve": _solve,

@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--tol",
         metavar="TOL",
-        help="a number X for 'abs X peak X', or any of 'abs A rel R peak P': "
+        help="a number X for 'abs X peak X', or any of 'abs A rel R peak P digits N': "
         "A + R |reference| + P largest |reference|",
     )
     parser.add_argument(
