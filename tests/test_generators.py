@@ -29,6 +29,7 @@ QUICK = (
     "arrays",
     "beam-cantilever",
     "bushing",
+    "chrono",
     "conical-pendulum",
     "gforce-pair",
     "growing-mass-dalembert",
@@ -90,10 +91,10 @@ def test_a_reference_of_a_deck_is_what_its_generator_writes(
     kept, copy = find("decks") / case, tmp_path / case
     shutil.copytree(kept, copy)
     shutil.copy(find("decks") / "minimal.py", tmp_path)
-    for reference in copy.glob("*.csv"):
+    for reference in copy.rglob("*.csv"):
         reference.unlink()
     monkeypatch.setattr(sys, "path", [str(copy), *sys.path])
     runpy.run_path(str(copy / "make_reference.py"), run_name="__main__")
-    for reference in kept.glob("*.csv"):
-        written = (copy / reference.name).read_text(encoding="utf-8")
+    for reference in kept.rglob("*.csv"):
+        written = (copy / reference.relative_to(kept)).read_text(encoding="utf-8")
         assert_same_reference(written, reference.read_text(encoding="utf-8"))

@@ -17,6 +17,7 @@ FOLDERS = (
     "cable-level3-n10",
     "cables/axial-echo",
     "car-axis",
+    "chrono",
     "conical-pendulum",
     "four-bar",
     "friction-stiction",
