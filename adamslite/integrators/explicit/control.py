@@ -12,6 +12,7 @@ class Control(StepControl):
     """The numbers of the explicit formula.
 
     kind                 of scene: TIED, BODIES, MASSES
+    size                 numbers in a state: q, u and s
     width                numbers in the rates of a stage: all, of masses accelerations alone
     last_error           of the last accepted step, against ERROR
     cautious             the step must not grow
@@ -22,6 +23,7 @@ class Control(StepControl):
     """
 
     kind: int
+    size: int
     width: int
     last_error: float
     cautious: bool

@@ -29,7 +29,7 @@ from adamslite.integrators.explicit.stages import (
     combine,
     exact_rates,
     rates_at,
-    run_stages,
+    stages,
 )
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.records import write_record
@@ -42,27 +42,27 @@ DEFECT = 7.0
 
 
 @native
-def write_dense(P: Problem, L: Plan, w: int, t: float) -> bool:
+def record(P: Problem, L: Plan, C: Control, t: float) -> bool:
     """Write every output time up to ``t``, the end of the step."""
-    C = Control(P.control)
+    w = C.size
     K = P.history
     following, ready, apart, h = C.row, False, False, C.h
     while following < P.times.size and P.times[following] <= t + WITHIN * h:
         at = P.times[following]
         if at < t - WITHIN * h:
             x, y = (at - C.t) / h, K[BETWEEN * w :]
-            if not ready and not late_stages(P, L, w, h):
+            if not ready and not late_stages(P, L, C, h):
                 return False
             ready = True
             if not apart:
-                interpolated(P, w, h, x, y)
-                slope(P, w, h, x, K[SLOPE * w :])
-                if not exact_rates(P, L, at, y, P.trial):
+                interpolated(P, C, h, x, y)
+                slope(P, C, h, x, K[SLOPE * w :])
+                if not exact_rates(P, L, C, at, y, P.trial):
                     return False
-                apart = defect(P, w, h) > DEFECT * P.settings.error
-            if apart and not step_to(P, L, w, at, x * h):
+                apart = defect(P, C, h) > DEFECT * P.settings.error
+            if apart and not step_to(P, L, C, at, x * h):
                 return False
-        elif ready and not exact_rates(P, L, at, K[NEXT_STATE * w :], P.trial):
+        elif ready and not exact_rates(P, L, C, at, K[NEXT_STATE * w :], P.trial):
             return False
         write_record(P, following)
         following += 1
@@ -71,42 +71,42 @@ def write_dense(P: Problem, L: Plan, w: int, t: float) -> bool:
 
 
 @native
-def step_to(P: Problem, L: Plan, w: int, t: float, h: float) -> bool:
+def step_to(P: Problem, L: Plan, C: Control, t: float, h: float) -> bool:
     """The state at ``t`` by a step of size ``h`` from the start of this one; the new state stays,
     the stages of this step do not.
     """
-    C = Control(P.control)
+    w = C.size
     K, whole = P.history, C.h
     new, y = K[NEXT_STATE * w :], K[BETWEEN * w :]
     for i in range(w):
         y[i] = new[i]
     C.h = h
-    good = run_stages(P, L, w, h)
+    good = stages(P, L, C, h)
     C.h = whole
     for i in range(w):
         kept = y[i]
         y[i] = new[i]
         new[i] = kept
-    return good and exact_rates(P, L, t, y, P.trial)
+    return good and exact_rates(P, L, C, t, y, P.trial)
 
 
 @native
-def late_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
+def late_stages(P: Problem, L: Plan, C: Control, h: float) -> bool:
     """Three more stages for the interpolation."""
-    C = Control(P.control)
+    w = C.size
     K, y = P.history, P.history[BETWEEN * w :]
     for i in range(K_NEW + 1, K_NEW + 1 + LATE_STAGES):
-        combine(P, LATE + i - K_NEW - 1, w, h, K[OLD * w :], y)
+        combine(P, C, LATE + i - K_NEW - 1, w, h, K[OLD * w :], y)
         at = C.t + h * P.tableau[ROW * TIMES + i]
-        if not rates_at(P, L, at, y, K[i * C.width :]):
+        if not rates_at(P, L, C, at, y, K[i * C.width :]):
             return False
     return True
 
 
 @native
-def interpolated(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
+def interpolated(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
     """The state at t + x h: order 7."""
-    C = Control(P.control)
+    w = C.size
     K, z = P.history, 1.0 - x
     old, new = K[OLD * w :], K[NEXT_STATE * w :]
     a, b, c = x, x * z, x * x * z
@@ -119,14 +119,14 @@ def interpolated(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
         y[i] += h * ((b - c) * old[width + i] - c * new[width + i])
     weight = h * x * x * z * z
     for j in range(4):
-        add_combined(P, POWERS + j, w, weight, y)
+        add_combined(P, C, POWERS + j, w, weight, y)
         weight *= x if j % 2 == 0 else z
 
 
 @native
-def slope(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
+def slope(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
     """h times the rate of the interpolation at t + x h."""
-    C = Control(P.control)
+    w = C.size
     K, z = P.history, 1.0 - x
     old, new = K[OLD * w :], K[NEXT_STATE * w :]
     b, c = z - x, 2.0 * x * z - x * x
@@ -138,16 +138,16 @@ def slope(P: Problem, w: int, h: float, x: float, y: Reals) -> None:
     for i in range(w - width):
         y[i] += h * ((b - c) * old[width + i] - c * new[width + i])
     xz = x * z
-    add_combined(P, POWERS, w, h * 2.0 * xz * b, y)
-    add_combined(P, POWERS + 1, w, h * x * xz * (3.0 * z - 2.0 * x), y)
-    add_combined(P, POWERS + 2, w, h * 3.0 * xz * xz * b, y)
-    add_combined(P, POWERS + 3, w, h * x * xz * xz * (4.0 * z - 3.0 * x), y)
+    add_combined(P, C, POWERS, w, h * 2.0 * xz * b, y)
+    add_combined(P, C, POWERS + 1, w, h * x * xz * (3.0 * z - 2.0 * x), y)
+    add_combined(P, C, POWERS + 2, w, h * 3.0 * xz * xz * b, y)
+    add_combined(P, C, POWERS + 3, w, h * x * xz * xz * (4.0 * z - 3.0 * x), y)
 
 
 @native
-def defect(P: Problem, w: int, h: float) -> float:
+def defect(P: Problem, C: Control, h: float) -> float:
     """max |p' - h f(p)| / max(1, |p|), of what has rates in ``P.trial``."""
-    C = Control(P.control)
+    w = C.size
     width, top = C.width, 0.0
     y, rate = P.history[BETWEEN * w :], P.history[SLOPE * w :]
     for i in range(w - width, w):

@@ -23,6 +23,8 @@ from adamslite.native.translate import Reals, native
 SAFETY = 0.9
 NOW_POWER, LAST_POWER = -0.125 + 0.03, 0.04
 SHRINK, GROW = 0.2, 6.0
+# A last error below this counts as this.
+LEAST_ERROR = 1e-4
 # An error estimate below this counts as this for the next step.
 LEAST_ERROR = 1e-4
 # Numbers whose squares are still numbers, and still above zero.
@@ -46,23 +48,23 @@ def distance(P: Problem, a: Reals, y: Reals, scales: Reals, w: int) -> float:
 
 
 @native
-def starting_step(P: Problem, L: Plan, w: int) -> float:
+def first_step(P: Problem, L: Plan, C: Control) -> float:
     """A step whose errors are small, from the rates here and one small step further (section
     II.4).
     """
-    C = Control(P.control)
+    w = C.size
     t = C.t
     room = min(longest_step(P), P.settings.t_end - t)
     if P.settings.h_init > 0.0:
         return min(room, P.settings.h_init)
     y, new, width = P.history[OLD * w :], P.history[NEXT_STATE * w :], C.width
-    h = euler(P, w, 1.0)
+    h = euler(P, C, 1.0)
     scales = P.history[SCALES * w :]
-    d0, d1 = distance(P, y, y, scales, w), change(P, w) / h
+    d0, d1 = distance(P, y, y, scales, w), change(P, C) / h
     h = min(room, TRIAL * d0 / d1 if d0 > AT_REST and d1 > AT_REST else SHORT)
-    euler(P, w, h)
+    euler(P, C, h)
     k = P.history[width:]
-    if not rates_at(P, L, t + h, new, k):
+    if not rates_at(P, L, C, t + h, new, k):
         return TRIAL * h
     d2, n = d1, P.sizes.n
     for i in range(w - n):
@@ -73,17 +75,18 @@ def starting_step(P: Problem, L: Plan, w: int) -> float:
 
 
 @native
-def euler(P: Problem, w: int, h: float) -> float:
+def euler(P: Problem, C: Control, h: float) -> float:
     """The new state by Euler's formula; returns h."""
-    C = Control(P.control)
+    w = C.size
     C.h = h
-    combine(P, 0, w, h / P.tableau[3], P.history[OLD * w :], P.history[NEXT_STATE * w :])
+    combine(P, C, 0, w, h / P.tableau[3], P.history[OLD * w :], P.history[NEXT_STATE * w :])
     return h
 
 
 @native
-def change(P: Problem, w: int) -> float:
+def change(P: Problem, C: Control) -> float:
     """Distance of the new state from the old."""
+    w = C.size
     y, new, e = P.history[OLD * w :], P.history[NEXT_STATE * w :], P.trial[0:]
     for i in range(w):
         e[i] = new[i] - y[i]
@@ -91,15 +94,16 @@ def change(P: Problem, w: int) -> float:
 
 
 @native
-def estimate(P: Problem, w: int, h: float) -> float:
+def local_error(P: Problem, C: Control, h: float) -> float:
     """Error of the step against ERROR: the fifth order's, tamed by the third's."""
+    w = C.size
     y, zero, e = P.history[NEXT_STATE * w :], P.history[BETWEEN * w :], P.trial[0:]
     scales = P.history[SCALES * w :]
     for i in range(w):
         zero[i] = 0.0
-    combine(P, ERROR3, w, h, zero, e)
+    combine(P, C, ERROR3, w, h, zero, e)
     third = distance(P, e, y, scales, w)
-    combine(P, ERROR5, w, h, zero, e)
+    combine(P, C, ERROR5, w, h, zero, e)
     fifth = distance(P, e, y, scales, w)
     if not third < LARGE or not fifth < LARGE:
         return HUGE
@@ -109,22 +113,20 @@ def estimate(P: Problem, w: int, h: float) -> float:
 
 
 @native
-def choose_explicit_step(P: Problem, error: float) -> None:
+def choose_step(P: Problem, C: Control, error: float) -> None:
     """The next step from the errors of this and the last one."""
-    C = Control(P.control)
     factor = GROW
     if error > 0.0:
         factor = min(GROW, SAFETY * error**NOW_POWER * C.last_error**LAST_POWER)
     if C.cautious:
         factor = min(1.0, factor)
     C.cautious, C.last_error = False, max(error, LEAST_ERROR)
-    cut_step(P, max(SHRINK, factor))
+    cut_step(P, C, max(SHRINK, factor))
 
 
 @native
-def cut_step(P: Problem, factor: float) -> None:
+def cut_step(P: Problem, C: Control, factor: float) -> None:
     """``factor`` times the step, but not below HMIN, unless a step of HMIN has failed."""
-    C = Control(P.control)
     h, least = C.h, P.settings.h_min
     if h * factor >= least:
         C.h = h * factor

@@ -9,15 +9,42 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import mass_signature, put_state
 from adamslite.integrators.contract import NEWTON_FAILED, Problem
 from adamslite.integrators.events.events import change_here, pass_event
-from adamslite.integrators.events.search import judge, open_search
+from adamslite.integrators.events.search import (
+    ends_there,
+    judge,
+    open_search,
+    shorter,
+    starts_there,
+)
 from adamslite.integrators.explicit.control import Control
-from adamslite.integrators.explicit.error import LEAST_ERROR, starting_step
-from adamslite.integrators.explicit.history import OLD
+from adamslite.integrators.explicit.error import LEAST_ERROR, first_step
+from adamslite.integrators.explicit.history import K_NEW, OLD
 from adamslite.integrators.explicit.stages import exact_rates
-from adamslite.integrators.explicit.state import keep_solution, stand_again
+from adamslite.integrators.explicit.state import restore_state
 from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.native.translate import native
+
+
+@native
+def passes_crossing(P: Problem, C: Control) -> bool:
+    """Whether a branch changes within the step that has passed its test, whose end is in the
+    workspace: the first change is located.
+    """
+    if P.sizes.watched + P.sizes.zones == 0:
+        return False
+    locate_between(P, C.t, C.h, C.width, OLD * C.size, K_NEW)
+    return not ends_there(P)
+
+
+@native
+def end_at_crossing(P: Problem, L: Plan, C: Control) -> int:
+    """The step is taken again, to end where the first branch changes, or changes it at once."""
+    if starts_there(P):
+        return switch_at_start(P, L, C)
+    C.h = shorter(P)
+    return RUNNING
 
 
 @native
@@ -61,31 +88,29 @@ def put_cubic(P: Problem, t: float, h: float, x: float, width: int, old: int, la
 
 
 @native
-def change_where_it_stands(P: Problem, L: Plan, w: int) -> int:
+def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
     """A branch changes just after the start of the step: change it there and restart."""
-    C = Control(P.control)
-    stand_again(P, w)
+    restore_state(P, C)
     if not change_here(P, L, C.t):
         return NEWTON_FAILED
-    return rates_anew(P, L, w, True)
+    return restart_rates(P, L, C, True)
 
 
 @native
-def pass_by(P: Problem, L: Plan, w: int) -> int:
+def pass_on(P: Problem, L: Plan, C: Control) -> int:
     """Behind an event: rates of the new branches, another step when something jumped."""
-    C = Control(P.control)
     if not pass_event(P, L, C.t):
         return NEWTON_FAILED
-    return rates_anew(P, L, w, P.search.jump > 0.0)
+    return restart_rates(P, L, C, P.search.jump > 0.0)
 
 
 @native
-def rates_anew(P: Problem, L: Plan, w: int, restart: bool) -> int:
+def restart_rates(P: Problem, L: Plan, C: Control, restart: bool) -> int:
     """The first stage again; with ``restart`` the step is chosen as at the start of a run."""
-    C = Control(P.control)
+    w = C.size
     y, k = P.history[OLD * w :], P.history[0:]
     P.undoing.undoable = False
-    if not exact_rates(P, L, C.t, y, k):
+    if not exact_rates(P, L, C, C.t, y, k):
         return NEWTON_FAILED
     if restart:
         P.count.restarts += 1
@@ -93,8 +118,8 @@ def rates_anew(P: Problem, L: Plan, w: int, restart: bool) -> int:
         if P.sizes.implicit_mass:
             # What it leaves in P.LA is no factored matrix: the next rates make one of their own.
             C.signature, C.stale = mass_signature(P, L, P.x), True
-        C.h, C.last_error = starting_step(P, L, w), LEAST_ERROR
-        if not exact_rates(P, L, C.t, y, k):
+        C.h, C.last_error = first_step(P, L, C), LEAST_ERROR
+        if not exact_rates(P, L, C, C.t, y, k):
             return NEWTON_FAILED
     keep_solution(P)
     return RUNNING

@@ -17,12 +17,11 @@ II.10 (error); Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006, se
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import accelerations, mass_signature, put_state
+from adamslite.integrators.accelerations import accelerations, put_state
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.contract import BROKEN_START, DONE, INTERRUPTED, SINGULAR_MASS, Problem
+from adamslite.integrators.contract import BROKEN_START, SINGULAR_MASS, Problem
 from adamslite.integrators.events.events import happened, start_events
-from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins, let_go
-from adamslite.integrators.events.search import ends_there, shorter, starts_there
+from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.stops import (
     fitted,
     least_step,
@@ -31,84 +30,77 @@ from adamslite.integrators.events.stops import (
     step_limit,
 )
 from adamslite.integrators.explicit.control import BODIES, MASSES, Control
-from adamslite.integrators.explicit.dense_output import write_dense
+from adamslite.integrators.explicit.dense_output import record
 from adamslite.integrators.explicit.error import (
     LEAST_ERROR,
-    choose_explicit_step,
-    estimate,
-    starting_step,
+    choose_step,
+    first_step,
+    local_error,
 )
-from adamslite.integrators.explicit.events import change_where_it_stands, locate_between, pass_by
+from adamslite.integrators.explicit.events import end_at_crossing, pass_on, passes_crossing
 from adamslite.integrators.explicit.history import INVERSE, K_NEW, NEXT_STATE, OLD
-from adamslite.integrators.explicit.recovery import reject, shorten, why_stuck
-from adamslite.integrators.explicit.stages import exact_rates, run_stages
-from adamslite.integrators.explicit.state import base_here, keep_solution, stand_again
+from adamslite.integrators.explicit.recovery import (
+    CLOSER,
+    after_failure,
+    after_rejection,
+    left_branch,
+    pull_back,
+    shorten,
+    why_stuck,
+)
+from adamslite.integrators.explicit.stages import exact_rates, stages
+from adamslite.integrators.explicit.state import base_here, restore_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
-from adamslite.integrators.projection import sensitivity
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.step_back import make_undoable
+from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.outcome import ALMOST
+from adamslite.integrators.stepping.outcome import (
+    end_of_run,
+    end_of_step,
+    note_signature,
+    note_try,
+    passed_singularity,
+)
 from adamslite.integrators.stepping.step_size import LONGER
 from adamslite.integrators.unconstrained import invert_inertia, is_free, mass_tables
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import native
 
-# A projection that moves further than this times ERROR does not correct a step but leaves it, as
-# where constraints lose rank and another branch is near.
-FAR = 1.0
-# A step whose stages have no value is cut to this.
-CUT = 0.25
-# Where steps below this share of HMAX are pulled so far this often, shorter ones will not help.
-TINY, MOST_PULLED = 1e-6, 20
-EPSILON = 2.220446049250313e-16
+ORDER = 8
 
 
 @native
 def explicit(P: Problem, L: Plan) -> int:
     """Integrate to the end time; returns an outcome."""
     C = Control(P.control)
-    outcome = begin_explicit(P, L)
+    outcome = begin(P, L, C)
     while outcome == RUNNING:
-        outcome = try_step(P, L)
+        outcome = advance(P, L, C)
     P.report.t = C.t
     return outcome
 
 
 @native
-def begin_explicit(P: Problem, L: Plan) -> int:
-    """Rates at the start, first record, first step."""
-    C = Control(P.control)
-    t = P.settings.t
-    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
-    w = 2 * n + ns
-    P.undoing[:] = 0
+def begin(P: Problem, L: Plan, C: Control) -> int:
+    """Rates at the start, first step, first record."""
     C[:] = 0
-    C.t, C.last_error = t, LEAST_ERROR
-    y, k = P.history[OLD * w :], P.history[0:]
-    for i in range(n):
-        y[i], y[n + i] = P.q[i], P.u[i]
-    for i in range(ns):
-        y[2 * n + i] = P.z[first + i]
-    C.width = w
+    P.undoing[:] = 0
+    C.t, C.last_error = P.settings.t, LEAST_ERROR
+    start_state(P, C)
     start_events(P, True, True)
-    inverse = P.history[INVERSE * w :]
-    if is_free(P) and mass_tables(P, inverse, inverse[n:]):
-        C.kind, C.width = MASSES, n
-    elif is_free(P) and invert_inertia(P, inverse):
-        C.kind = BODIES
-    elif not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
+    if not start_accelerations(P, L, C):
         return BROKEN_START
-    if P.sizes.implicit_mass:
-        C.signature = mass_signature(P, L, P.pivot0)
-    if not exact_rates(P, L, t, y, k):
+    note_signature(P, L, C, P.pivot0)
+    y, k = P.history[OLD * C.size :], P.history[0:]
+    if not exact_rates(P, L, C, C.t, y, k):
         return BROKEN_START
     hold_watch(P)
-    P.report.order = 8
-    C.h = starting_step(P, L, w)
-    if not exact_rates(P, L, t, y, k):
+    P.report.order = ORDER
+    C.h = first_step(P, L, C)
+    if not exact_rates(P, L, C, C.t, y, k):
         return BROKEN_START
-    base_here(P, w)
+    base_here(P, C)
     keep_solution(P)
     track(P)
     write_record(P, 0)
@@ -117,14 +109,66 @@ def begin_explicit(P: Problem, L: Plan) -> int:
 
 
 @native
-def try_step(P: Problem, L: Plan) -> int:
+def start_state(P: Problem, C: Control) -> None:
+    """y = (q, u, s)"""
+    n, first = P.sizes.n, P.sizes.m + P.sizes.nv
+    C.size = 2 * n + P.sizes.ns
+    C.width = C.size
+    y = P.history[OLD * C.size :]
+    for i in range(n):
+        y[i], y[n + i] = P.q[i], P.u[i]
+    for i in range(P.sizes.ns):
+        y[2 * n + i] = P.z[first + i]
+
+
+@native
+def start_accelerations(P: Problem, L: Plan, C: Control) -> bool:
+    """How accelerations come about in this scene; False when there are none."""
+    inverse = P.history[INVERSE * C.size :]
+    if is_free(P) and mass_tables(P, inverse, inverse[P.sizes.n :]):
+        C.kind, C.width = MASSES, P.sizes.n
+        return True
+    if is_free(P) and invert_inertia(P, inverse):
+        C.kind = BODIES
+        return True
+    return accelerations(P, L, C.t, P.q, P.u, P.a, P.z, P.rd)
+
+
+@native
+def advance(P: Problem, L: Plan, C: Control) -> int:
     """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
-    C = Control(P.control)
-    w = 2 * P.sizes.n + P.sizes.ns
-    if C.t >= P.settings.t_end:
-        return DONE
-    if P.settings.stop:
-        return INTERRUPTED
+    outcome = end_of_run(P, C)
+    if outcome != RUNNING:
+        return outcome
+    limit_step(P, C)
+    if C.h < (P.settings.h_min if C.cautious else least_step(P)) or crawls(P, C.h):
+        return why_stuck(P, L, C)
+    note_try(P, C, ORDER)
+    if not stages(P, L, C, C.h):
+        return after_failure(P, C)
+    error = local_error(P, C, C.h)
+    P.report.error = error
+    if not error <= 1.0:
+        return after_rejection(P, C, error)
+    t, n = end_of_step(C, step_limit(P, C.row)), P.sizes.n
+    y, k = P.history[NEXT_STATE * C.size :], P.history[K_NEW * C.width :]
+    if P.sizes.implicit_mass:
+        put_state(P, t, y, y[n:], P.a, P.z, P.rd)
+    if passed_singularity(P, L, C):
+        return shorten(P, C, CLOSER)
+    P.report.moved = 0.0
+    if not exact_rates(P, L, C, t, y, k):
+        return shorten(P, C, CLOSER)
+    if left_branch(P, L, C):
+        return pull_back(P, L, C)
+    if passes_crossing(P, C):
+        return end_at_crossing(P, L, C)
+    return accept(P, L, C, t, error)
+
+
+@native
+def limit_step(P: Problem, C: Control) -> None:
+    """Keep the step within its pace, the horizon and, when stepped onto, the output times."""
     set_pace(P, C.t)
     C.h = min(C.h, longest_step(P))
     left = step_limit(P, C.row) - C.t
@@ -132,54 +176,11 @@ def try_step(P: Problem, L: Plan) -> int:
         C.h = fitted(P, C.h, left)
     if C.h * LONGER > left:
         C.h = left
-    least = P.settings.h_min if C.cautious else least_step(P)
-    if C.h < least or crawls(P, C.h):
-        return why_stuck(P, L, w)
-    P.report.t, P.report.h = C.t, C.h
-    if not run_stages(P, L, w, C.h):
-        if let_go(P):
-            return RUNNING
-        return shorten(P, w, CUT)
-    error = estimate(P, w, C.h)
-    P.report.error = error
-    if not error <= 1.0:
-        return reject(P, w, error)
-    return accept_step(P, L, w, error)
 
 
 @native
-def accept_step(P: Problem, L: Plan, w: int, error: float) -> int:
-    """Project, and move on unless the step is to end at a crossing before."""
-    C = Control(P.control)
-    K = P.history
-    h, t = C.h, C.t + C.h
-    limit = step_limit(P, C.row)
-    if t + ALMOST * h > limit:
-        t = limit
-    new, width = K[NEXT_STATE * w :], C.width
-    if P.sizes.implicit_mass and changed_signature(P, L, t, new):
-        return shorten(P, w, CUT)
-    P.report.moved = 0.0
-    if not exact_rates(P, L, t, new, K[K_NEW * width :]):
-        return shorten(P, w, CUT)
-    if P.report.moved > FAR * P.settings.error or is_loose(P, L):
-        return pull_back(P, L, w)
-    if P.sizes.watched + P.sizes.zones > 0:
-        locate_between(P, C.t, h, width, OLD * w, K_NEW)
-        if not ends_there(P):
-            if starts_there(P):
-                return change_where_it_stands(P, L, w)
-            C.h = shorter(P)
-            return RUNNING
-    return move_on(P, L, w, t, error)
-
-
-@native
-def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
+def accept(P: Problem, L: Plan, C: Control, t: float, error: float) -> int:
     """Write records up to ``t``, take over the new state, choose the next step."""
-    C = Control(P.control)
-    K, width = P.history, C.width
-    new = K[NEXT_STATE * w :]
     P.count.steps += 1
     P.report.spent += error
     make_undoable(P, C.t, C.h, C.tries == 0)
@@ -187,55 +188,25 @@ def move_on(P: Problem, L: Plan, w: int, t: float, error: float) -> int:
     note_violation(P, t)
     audit(P, L, t)
     keep_solution(P)
-    if not write_dense(P, L, w, t):
+    if not record(P, L, C, t):
         return SINGULAR_MASS
-    C.t = t
-    for i in range(w):
-        K[OLD * w + i] = new[i]
-    for i in range(width):
-        K[i] = K[K_NEW * width + i]
-    stand_again(P, w)
-    track(P)
-    base_here(P, w)
+    move_on(P, C, t)
     if happened(P, t):
-        return pass_by(P, L, w)
+        return pass_on(P, L, C)
     keep_margins(P)
-    choose_explicit_step(P, error)
+    choose_step(P, C, error)
     return RUNNING
 
 
 @native
-def pull_back(P: Problem, L: Plan, w: int) -> int:
-    """The step left its branch, or ended where it may be left: a shorter one, another start."""
-    C = Control(P.control)
-    if C.h < TINY * P.settings.h_max:
-        C.pulled += 1
-    if C.pulled <= MOST_PULLED:
-        return shorten(P, w, 0.5)
-    C.retries += 1
-    return why_stuck(P, L, w)
-
-
-@native
-def is_loose(P: Problem, L: Plan) -> bool:
-    """Whether constraints hold the new state so loosely that round-off decides its velocity.
-
-    With the lever d of :mod:`adamslite.integrators.step_back`, 1 in the best posture so far,
-    round-off e is an error e/d^2 of velocities: more than ERROR. Steps that become short walk into
-    such places, and leave them on any branch.
-    """
-    C = Control(P.control)
-    if P.sizes.m == 0:
-        return False
-    now = sensitivity(P, L)
-    C.firmest = min(C.firmest, now) if C.firmest > 0.0 else now
-    return EPSILON * now * now > P.settings.error * C.firmest * C.firmest
-
-
-@native
-def changed_signature(P: Problem, L: Plan, t: float, y: Reals) -> bool:
-    """Whether the acceleration matrix became singular within the step."""
-    C = Control(P.control)
-    n = P.sizes.n
-    put_state(P, t, y, y[n:], P.a, P.z, P.rd)
-    return mass_signature(P, L, P.x) != C.signature
+def move_on(P: Problem, C: Control, t: float) -> None:
+    """The end of the step is the accepted state, its last stage the first of the next."""
+    K = P.history
+    C.t = t
+    for i in range(C.size):
+        K[OLD * C.size + i] = K[NEXT_STATE * C.size + i]
+    for i in range(C.width):
+        K[i] = K[K_NEW * C.width + i]
+    restore_state(P, C)
+    track(P)
+    base_here(P, C)

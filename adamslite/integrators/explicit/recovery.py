@@ -20,9 +20,10 @@ from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.error import LARGE, NOW_POWER, SAFETY, SHRINK, cut_step
 from adamslite.integrators.explicit.state import (
-    stand_again,
+    restore_state,
 )
 from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.projection import sensitivity
 from adamslite.integrators.step_back import before_trouble
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import OVERFLOW
@@ -33,62 +34,105 @@ SINGULAR_RESOLUTION = 1e-6
 # equations, rejections.
 FEW_FAILURES, FEW_REJECTIONS = 2, 3.0
 
+# Steps after a failure of the equations, and after one that left its branch.
+CLOSER, HALF = 0.25, 0.5
+# A projection that moves further than this times ERROR does not correct a step but leaves it, as
+# where constraints lose rank and another branch is near.
+FAR = 1.0
+# Where steps below this share of HMAX are pulled so far this often, shorter ones will not help.
+TINY, MOST_PULLED = 1e-6, 20
+EPSILON = 2.220446049250313e-16
+
 
 @native
-def start_elsewhere(P: Problem, w: int) -> bool:
+def after_failure(P: Problem, C: Control) -> int:
+    """A stage had no accelerations: without held branches, else a shorter step."""
+    return RUNNING if let_go(P) else shorten(P, C, CLOSER)
+
+
+@native
+def start_elsewhere(P: Problem, C: Control) -> bool:
     """Back to the state before the trouble, with a shorter step; False when that was tried enough
     or is of no use.
     """
-    C = Control(P.control)
     share = before_trouble(P, C.t + C.h)
     if share == 0.0:
         return False
     C.cautious = True
     C.h *= share
-    stand_again(P, w)
+    restore_state(P, C)
     return True
 
 
 @native
-def shorten(P: Problem, w: int, factor: float) -> int:
+def shorten(P: Problem, C: Control, factor: float) -> int:
     """Accelerations could not be solved for within the step: a shorter one."""
-    C = Control(P.control)
     P.count.failures += 1
     C.retries, C.tries = C.retries + 1, C.tries + 1
-    if P.sizes.m > 0 and C.retries >= FEW_FAILURES and start_elsewhere(P, w):
+    if P.sizes.m > 0 and C.retries >= FEW_FAILURES and start_elsewhere(P, C):
         return RUNNING
     C.cautious = True
-    cut_step(P, factor)
+    cut_step(P, C, factor)
     if P.sizes.implicit_mass and C.h < SINGULAR_RESOLUTION * P.settings.h_max:
         return SINGULAR_MASS
     return RUNNING
 
 
 @native
-def reject(P: Problem, w: int, error: float) -> int:
+def after_rejection(P: Problem, C: Control, error: float) -> int:
     """The error was too large: a smaller step."""
-    C = Control(P.control)
     P.count.rejected += 1
     if not error < LARGE and let_go(P):
         return RUNNING
     P.undoing.trouble += 1.0
     C.tries += 1
-    if P.sizes.m > 0 and P.undoing.trouble >= FEW_REJECTIONS and start_elsewhere(P, w):
+    if P.sizes.m > 0 and P.undoing.trouble >= FEW_REJECTIONS and start_elsewhere(P, C):
         return RUNNING
     C.cautious = True
-    cut_step(P, max(SHRINK, SAFETY * error**NOW_POWER) if error < OVERFLOW else SHRINK)
+    cut_step(P, C, max(SHRINK, SAFETY * error**NOW_POWER) if error < OVERFLOW else SHRINK)
     return RUNNING
 
 
 @native
-def why_stuck(P: Problem, L: Plan, w: int) -> int:
+def why_stuck(P: Problem, L: Plan, C: Control) -> int:
     """The step became too small: because a mass vanishes, the equations could not be solved, or for
     accuracy.
     """
-    C = Control(P.control)
-    stand_again(P, w)
+    restore_state(P, C)
     if mass_vanishes(P, L, C.signature):
         return SINGULAR_MASS
     if P.search.freed > 0:
         return CHATTERING
     return NEWTON_FAILED if C.retries > 0 else STEP_TOO_SMALL
+
+
+@native
+def left_branch(P: Problem, L: Plan, C: Control) -> bool:
+    """Whether the step left its branch at its end, or may."""
+    return P.report.moved > FAR * P.settings.error or is_loose(P, L, C)
+
+
+@native
+def pull_back(P: Problem, L: Plan, C: Control) -> int:
+    """The step left its branch, or ended where it may be left: a shorter one, another start."""
+    if C.h < TINY * P.settings.h_max:
+        C.pulled += 1
+    if C.pulled <= MOST_PULLED:
+        return shorten(P, C, HALF)
+    C.retries += 1
+    return why_stuck(P, L, C)
+
+
+@native
+def is_loose(P: Problem, L: Plan, C: Control) -> bool:
+    """Whether constraints hold the new state so loosely that round-off decides its velocity.
+
+    With the lever d of :mod:`adamslite.integrators.step_back`, 1 in the best posture so far,
+    round-off e is an error e/d^2 of velocities: more than ERROR. Steps that become short walk into
+    such places, and leave them on any branch.
+    """
+    if P.sizes.m == 0:
+        return False
+    now = sensitivity(P, L)
+    C.firmest = min(C.firmest, now) if C.firmest > 0.0 else now
+    return EPSILON * now * now > P.settings.error * C.firmest * C.firmest

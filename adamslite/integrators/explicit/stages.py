@@ -26,9 +26,8 @@ from adamslite.native.translate import Alone, Reals, native
 
 
 @native
-def combine(P: Problem, row: int, w: int, h: float, x: Reals, y: Reals) -> None:
+def combine(P: Problem, C: Control, row: int, w: int, h: float, x: Reals, y: Reals) -> None:
     """y = x + h sum (weight k) over one row of the tableau."""
-    C = Control(P.control)
     if C.kind == MASSES:
         n, s = P.sizes.n, h * P.tableau[ROW * row + 1]
         for i in range(n):
@@ -37,17 +36,16 @@ def combine(P: Problem, row: int, w: int, h: float, x: Reals, y: Reals) -> None:
     else:
         for i in range(w):
             y[i] = x[i]
-    add_combined(P, row, w, h, y)
+    add_combined(P, C, row, w, h, y)
 
 
 @native
-def add_combined(P: Problem, row: int, w: int, h: float, y: Reals) -> None:
+def add_combined(P: Problem, C: Control, row: int, w: int, h: float, y: Reals) -> None:
     """y += h sum (weight k) over one row of the tableau.
 
     Masses keep no rates of positions: those of stage i are u + h sum a_ij a_j, so that positions
     get h^2 sum (weight A)_j a_j.
     """
-    C = Control(P.control)
     K, o, n = P.history, ROW * row, P.sizes.n
     for g in range(0, int(P.tableau[o]), 4):
         V = P.tableau[o + 2 + 3 * g :]
@@ -88,9 +86,8 @@ def add_twice(
 
 
 @native
-def rates_at(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
+def rates_at(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -> bool:
     """k = f(t, y); False when the accelerations cannot be solved for."""
-    C = Control(P.control)
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     inverse = P.history[INVERSE * (2 * n) :]
     if C.kind == MASSES:
@@ -126,15 +123,14 @@ def keep_rates(P: Problem, y: Reals, k: Reals) -> None:
 
 
 @native
-def exact_rates(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
+def exact_rates(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -> bool:
     """Rates at a state that is kept: projected onto the constraints, with a new matrix; writes
     q, u, a and the workspace.
     """
-    C = Control(P.control)
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     good = True
     if C.kind != TIED:
-        rates_at(P, L, t, y, k)
+        rates_at(P, L, C, t, y, k)
         first = 0 if C.kind == MASSES else n
         for i in range(n):
             P.a[i] = k[first + i]
@@ -157,21 +153,21 @@ def exact_rates(P: Problem, L: Plan, t: float, y: Reals, k: Reals) -> bool:
 
 
 @native
-def run_stages(P: Problem, L: Plan, w: int, h: float) -> bool:
+def stages(P: Problem, L: Plan, C: Control, h: float) -> bool:
     """Rates of all stages and the new state; False when one could not be had.
 
     Stages drift off the constraints by an error r of low order. Where constraints lose rank within
     the step that is an error r/d of accelerations: there every stage is projected.
     """
-    C = Control(P.control)
+    w = C.size
     K, t = P.history, C.t
     y, new = K[OLD * w :], K[NEXT_STATE * w :]
     C.stale = False
     projected = P.sizes.m > 0 and P.undoing.backs > 0
     for i in range(1, RESULT + 1):
-        combine(P, i - 1, w, h, y, new)
+        combine(P, C, i - 1, w, h, y, new)
         at, k = t + h * P.tableau[ROW * TIMES + i], K[i * C.width :]
-        if not (exact_rates(P, L, at, new, k) if projected else rates_at(P, L, at, new, k)):
+        if not (exact_rates(P, L, C, at, new, k) if projected else rates_at(P, L, C, at, new, k)):
             return False
-    combine(P, RESULT, w, h, y, new)
+    combine(P, C, RESULT, w, h, y, new)
     return True

@@ -11,18 +11,9 @@ from adamslite.native.translate import native
 
 
 @native
-def keep_solution(P: Problem) -> None:
-    """Remember accelerations, multipliers and variables of the new state."""
-    for i in range(P.sizes.n):
-        P.ra[i] = P.a[i]
-    for i in range(P.z.size):
-        P.rz[i] = P.z[i]
-
-
-@native
-def stand_again(P: Problem, w: int) -> None:
+def restore_state(P: Problem, C: Control) -> None:
     """The accepted state back into q, u, a, z and the workspace after records were made."""
-    C = Control(P.control)
+    w = C.size
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     y = P.history[OLD * w :]
     for i in range(n):
@@ -35,8 +26,9 @@ def stand_again(P: Problem, w: int) -> None:
 
 
 @native
-def base_here(P: Problem, w: int) -> None:
+def base_here(P: Problem, C: Control) -> None:
     """Count rotation vectors from the accepted attitude."""
+    w = C.size
     n, y, k = P.sizes.n, P.history[OLD * w :], P.history[0:]
     for b in range(P.sizes.nb):
         if P.body[b].width == PART:
