@@ -23,8 +23,6 @@ from adamslite.native.translate import Reals, native
 SAFETY = 0.9
 NOW_POWER, LAST_POWER = -0.125 + 0.03, 0.04
 SHRINK, GROW = 0.2, 6.0
-# A last error below this counts as this.
-LEAST_ERROR = 1e-4
 # An error estimate below this counts as this for the next step.
 LEAST_ERROR = 1e-4
 # Numbers whose squares are still numbers, and still above zero.
