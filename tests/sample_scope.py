@@ -191,6 +191,7 @@ class SampleScope:
 
     def statement(self, id) -> SimpleNamespace:
         values = {"value": "1.5", "state": "2.5", "rate": "-0.5", "multiplier": "3.5"}
+        values["kept"] = "4.5"
         tables = {kind: number for number, kind in enumerate(KINDS)}
         return SimpleNamespace(
             **{name: self.symbol(f"{name}_{id}", value) for name, value in values.items()},

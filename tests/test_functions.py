@@ -223,6 +223,7 @@ def test_a_reaction_is_asked_of_its_own_statement():
 
 def test_states():
     assert [measure(n, 4) for n in ("VARVAL", "DIF", "DIF1", "DDT")] == [1.5, 2.5, -0.5, 0.25]
+    assert measure("SENVAL", 4) == 4.5
 
 
 # ---- value tables --------------------------------------------------------------------------------

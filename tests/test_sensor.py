@@ -155,6 +155,42 @@ def test_the_first_of_several_sensors_decides_and_halt_wins() -> None:
     assert [f"SENSOR/{n}" in results.meta["sensor"] for n in (1, 2, 3)] == [False, True, True]
 
 
+@pytest.mark.parametrize("method", ["GSTIFF", "RKF45"])
+def test_senval_keeps_the_time_for_later_analyses(method: str) -> None:
+    """From t1 = sqrt(2/g), where y = -1 and v = -g t1, a force 2 t/t1 N on 2 kg lets v rise by
+    integral (t/t1) dt; before, SENVAL is 0 and the force too.  It outlives DEACTIVATE.
+    """
+    force = "IF(SENVAL(1):0,0,2*TIME/SENVAL(1))"
+    deck = read(
+        f"{FALLING}SENSOR/1, LE, VALUE=-1, ERROR=0, RETURN, EVALUATE=TIME\\ FUNCTION=DY(2,1)\n"
+        f"VARIABLE/1, FUNCTION=SENVAL(1)\nSFORCE/1, I=2, J=1, TRANSLATION, ACTIONONLY, FUNCTION=0\n"
+        f"VFORCE/1, I=2, JFLOAT=5, RM=1, FX=0\\ FY={force}\\ FZ=0\nMARKER/5, PART=1, FLOATING\n"
+        f"INTEGRATOR/{method}, ERROR=1E-9\nEND\n"
+    )
+    text = "SIM/DYN, END=3, STEPS=3\nDEACT/SENSOR, ID=1\nSIM/DYN, DURATION=1, STEPS=2\n"
+    results = simulate(deck, commands=read_commands(text, deck))
+    first = sqrt(2 / G)
+    assert results["VARIABLE/1"].tolist()[:-2] == [0.0, 0.0]
+    np.testing.assert_allclose(results["VARIABLE/1"][-2:], first, atol=1e-8)
+    t = results.time[-1]
+    expected = -G * t + (t**2 - first**2) / (2 * first)
+    assert abs(results["POINT_MASS/2.vy"][-1] - expected) < 1e-6
+
+
+def test_a_motion_that_begins_when_a_sensor_has_triggered() -> None:
+    """The disk turns by STEP5 over 0.5 s from the time at which the mass has fallen by 1 m."""
+    motion = "IF(SENVAL(1):0,0,STEP5(TIME,SENVAL(1),0,SENVAL(1)+0.5,1))"
+    deck = read(
+        f"{FALLING}PART/3, MASS=1, CM=3, IP=1,1,1\nMARKER/3, PART=3\n"
+        f"JOINT/1, REVOLUTE, I=3, J=1\nMOTION/1, JOINT=1, ROTATION, FUNCTION={motion}\n"
+        "SENSOR/1, LE, VALUE=-1, ERROR=0, RETURN, EVALUATE=TIME\\ FUNCTION=DY(2,1)\n"
+        "REQUEST/1, F1=AZ(3,1)\\\nINTEGRATOR/RADAU, ERROR=1E-8\nEND\n"
+    )
+    text = "SIM/DYN, END=3, STEPS=3\nDEACT/SENSOR, ID=1\nSIM/DYN, DURATION=0.5, STEPS=2\n"
+    results = simulate(deck, commands=read_commands(text, deck))
+    np.testing.assert_allclose(results["REQUEST/1.F1"], [0, 0, 0.5, 1], atol=1e-8)
+
+
 @pytest.mark.parametrize(
     ("sensor", "run"),
     [

@@ -8,6 +8,8 @@ from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
+from adamslite.language.interfaces import Key
+from adamslite.results.outcomes import Outcome
 
 CONSTANT = "its relation is the same for ever, because FUNCTION does not change"
 EQUAL = "a method with equal steps locates no event; use one with variable steps"
@@ -39,13 +41,35 @@ def require_none(system: System, why: str) -> None:
         raise UsageError(f"{sensor.label} cannot be watched: {why}")
 
 
-def end_record(system: System, times: np.ndarray) -> np.ndarray | None:
-    """Write the record at the time at which a sensor ended the run, instead of one at the same
-    time; the times (nt,) of all records, None where the accelerations have no solution.
+class SensorLog:
+    """What sensors did in a session.
+
+    ``notes``: which of them ended an analysis, and when; ``values``: of EVALUATE, by key, of those
+    that ended the last one.
     """
-    system.settings.t = time = float(system.report.t)
-    if system.run(ACCELERATIONS) != contract.DONE:
-        return None
-    row = int(np.searchsorted(times[: system.count.records], time))
-    system.run(RECORD, row)
-    return np.append(times[:row], time)
+
+    def __init__(self) -> None:
+        self.notes: list[str] = []
+        self.values: dict[Key, float] = {}
+
+    @property
+    def meta(self) -> dict[str, str]:
+        """The comment of the results."""
+        return {"sensor": "ended by " + "; ".join(self.notes)} if self.notes else {}
+
+    def end(self, system: System, times: np.ndarray) -> tuple[Outcome, np.ndarray]:
+        """Write the record at the time at which sensors ended the run, instead of one at the same
+        time; the outcome, and the times (nt,) of all records.
+        """
+        system.settings.t = time = float(system.report.t)
+        if system.run(ACCELERATIONS) != contract.DONE:
+            return Outcome.UNDETERMINED, times
+        row = int(np.searchsorted(times[: system.count.records], time))
+        system.run(RECORD, row)
+        written = system.record.reshape(-1)[row * (system.nw + system.sizes.n_out) + system.nw :]
+        for sensor in system.triggered:
+            self.notes.append(f"{sensor.label} at t = {time:.9g}")
+            if sensor.evaluate is not None:
+                self.values[sensor.key] = float(written[system.instances.outputs[sensor]])
+        halted = any(sensor.halt for sensor in system.triggered)
+        return Outcome.HALTED if halted else Outcome.DONE, np.append(times[:row], time)

@@ -35,7 +35,7 @@ from adamslite.analyses.kinematic import run_kinematic
 from adamslite.analyses.method_choice import MethodChoice, choose_method
 from adamslite.analyses.output_times import output_times
 from adamslite.analyses.planar_reduction import in_its_plane
-from adamslite.analyses.sensors import AT_TIMES, end_record, require_none
+from adamslite.analyses.sensors import AT_TIMES, SensorLog, require_none
 from adamslite.analyses.setting_commands import updated
 from adamslite.analyses.static import StaticSettings, run_static
 from adamslite.analyses.subject import Subject, kernels_of
@@ -85,8 +85,7 @@ class Session:
         CPU [s] of compiling an integrator when a run first needed it.
     outcome, unclosed
         How the last analysis ended; the constraint that stayed open, if one did.
-    sensed : list of str
-        Sensors that ended analyses, and when.
+    sensors : SensorLog
     linearizations : list of Linearized
     balances : list of Balance
         What the audits of dynamic analyses found.
@@ -118,7 +117,7 @@ class Session:
         self.balances: list[Balance] = []
         self.counts = contract.Counts.zeros()
         self.ways_to_fall = 0
-        self.sensed: list[str] = []
+        self.sensors = SensorLog()
         self.out_of_law: dict[str, str] = {}
         self.assembled: list[str] = []
         self.speeds: list[str] = []
@@ -149,6 +148,9 @@ class Session:
         for command in commands:
             if command.keyword == "STOP" or self.outcome is not Outcome.DONE:
                 return
+            if self.sensors.values:
+                self._change(self.deck.with_senvals(self.sensors.values))
+                self.sensors.values = {}
             action = getattr(self, f"_do_{command.keyword.lower()}", None)
             if action is not None:
                 action(command)
@@ -258,16 +260,9 @@ class Session:
     def _sensed(self, system: System, times: np.ndarray) -> np.ndarray:
         """Times of the records of a run; where sensors have ended it, with one there at last."""
         self.time = float(system.report.t)
-        found = system.triggered
-        if not found or self.outcome is not Outcome.DONE:
-            return times
-        self.sensed += [f"{each.label} at t = {self.time:.9g}" for each in found]
-        until = end_record(system, times)
-        if until is None:
-            self.outcome = Outcome.UNDETERMINED
-        elif any(each.halt for each in found):
-            self.outcome = Outcome.HALTED
-        return times if until is None else until
+        if self.outcome is Outcome.DONE and system.triggered:
+            self.outcome, times = self.sensors.end(system, times)
+        return times
 
     def _statics(self, times: np.ndarray) -> None:
         system = self.system

@@ -262,7 +262,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         **({"integrator chosen": session.chosen.reason} if session.chosen.reason else {}),
         **_notes(session),
         **_beyond(session),
-        **({"sensor": "ended by " + "; ".join(session.sensed)} if session.sensed else {}),
+        **session.sensors.meta,
         **({"time": f"{hurried}: {FASTER}"} if hurried else {}),
     }
 

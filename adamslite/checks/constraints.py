@@ -198,8 +198,8 @@ def _not_of_time(deck: Deck, node: Node, inside: tuple[Key, ...]) -> str | None:
         if not isinstance(each, Call):
             continue
         for ref in each.args:
-            if not isinstance(ref, Ref) or STATEMENTS[ref.kind].data:
-                continue
+            if not isinstance(ref, Ref) or STATEMENTS[ref.kind].data or ref.kind == "SENSOR":
+                continue  # SENVAL does not change within an analysis
             if ref.kind != "VARIABLE":
                 return each.name
             variable = deck.find(Variable, ref.id)

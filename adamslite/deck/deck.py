@@ -59,6 +59,8 @@ class Deck:
         self.path = path
         self.inactive = inactive
         self.warnings: tuple[Diagnostic, ...] = ()
+        self.senvals: dict[Key, float] = {}
+        """Of sensors that have triggered, the value of their EVALUATE then, by key."""
         self.incomplete: set[str] = set()
         """Keywords of statements with mistakes, which are not among the statements."""
         self._of: dict[str, list[Statement]] = {}
@@ -171,6 +173,13 @@ class Deck:
         switched_off = self.inactive if inactive is None else inactive
         deck = Deck(self.source, self.title, statements, self.names, self.path, switched_off)
         deck.warnings, deck.incomplete = self.warnings, self.incomplete
+        deck.senvals = self.senvals
+        return deck
+
+    def with_senvals(self, values: dict[Key, float]) -> Deck:
+        """The deck after sensors have triggered, with the values of their EVALUATE."""
+        deck = self._but()
+        deck.senvals = self.senvals | values
         return deck
 
     @property

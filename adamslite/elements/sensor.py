@@ -10,13 +10,14 @@ Equation (e the FUNCTION; the first time at which it is true)::
 from __future__ import annotations
 
 from adamslite.language.expression import Node
+from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, expression, flag, number, statement
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import piecewise
 from adamslite.symbolic.types import Expr, Seen
 
 
-@statement("SENSOR", planned=("EVALUATE", "YYDUMP", "ROUTINE"))
+@statement("SENSOR", planned=("YYDUMP", "ROUTINE"))
 class Sensor(Statement):
     """Watches an expression during dynamic analyses.
 
@@ -36,6 +37,9 @@ class Sensor(Statement):
         "ERROR", unit="that of FUNCTION", default=1e-3, help="how near to VALUE it has to come"
     )
     comparison: str = choice(options=("EQ", "GE", "LE"), default="EQ", help="the relation")
+    evaluate: Node | None = expression(
+        "EVALUATE", unit="the user's", help="SENVAL(id) from the time at which it triggers"
+    )
     halt: bool = flag("HALT", help="end the run")
     returns: bool = flag("RETURN", help="end this SIMULATE; the next command follows")
     prints: bool = flag("PRINT", help="write an output at that time, as HALT and RETURN do")
@@ -48,6 +52,15 @@ class Sensor(Statement):
     dt: float | None = number(
         "DT", unit="time", help="read, without effect: the next SIMULATE has its own output steps"
     )
+
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """evaluate: the present value of EVALUATE, of which SENVAL keeps the last."""
+        return () if self.evaluate is None else ("evaluate",)
+
+    def outputs(self, model: DrawnModel) -> list[Node]:
+        """Values of ``result_names``."""
+        return [] if self.evaluate is None else [self.evaluate]
 
     @property
     def relation_count(self) -> int:

@@ -41,3 +41,13 @@ def ddt(scope: Scope, id: Tree) -> Expr:
     Unit: that of the variable, per time.  Source: an extension; the meaning of VARVAL(d(id)/dt).
     """
     return scope.derivative(scope.statement(id).value)
+
+
+@function("SENVAL", "id:sensor")
+def senval(scope: Scope, id: Tree) -> Expr:
+    """EVALUATE of SENSOR id when it last ended an analysis; 0 before.
+
+    Within an analysis it does not change; it also lasts after DEACTIVATE.
+    Unit: that of EVALUATE.  Source: Adams/Solver function SENVAL.
+    """
+    return scope.statement(id).kept

@@ -33,7 +33,7 @@ from adamslite.symbolic.types import Tree
 
 IGNORED = ("text", "texts")
 # What cannot be switched off.
-LASTING = ("MARKER", "VARIABLE", "DIFF")
+LASTING = ("MARKER", "VARIABLE", "DIFF", "SENSOR")
 
 
 class ForceLoop(Exception):
@@ -237,6 +237,9 @@ class Binder:
         if ref.kind == "DIFF":
             node = self.node_slot(("DIFF", ref.id))
             return ("s", "DIFF", (("state", ("dif", node)), ("rate", ("dif1", node))))
+        if ref.kind == "SENSOR":
+            kept = self.number(self.model.deck.senvals.get(ref.id, 0.0))
+            return ("s", "SENSOR", (("kept", kept),))
         return self.element(ref)
 
     def variable(self, variable_id: Key) -> Tree:
