@@ -19,6 +19,7 @@ from scenes import (
 
 import adamslite as al
 import adamslite.functions  # noqa: F401  fills the registry
+from adamslite.functions.vectors import VECTORS
 from adamslite.integrators import contract
 from adamslite.language.function import FUNCTIONS
 from adamslite.native.compiler import FULL, QUICK
@@ -64,9 +65,10 @@ OWN_NUMBERS = {"SWEEP": (X, "2.0", "0.1", "0.3", "0.9", "0.7", "0.2")}
 
 
 def with_markers(name: str, markers: tuple[int, ...]) -> str:
-    """A call with the first markers of a tuple."""
+    """A call with the first markers of a tuple; of a vector its product with another."""
     count = len(FUNCTIONS[name].parameters)
-    return f"{name}({','.join(map(str, markers[:count]))})"
+    call = f"{name}({','.join(map(str, markers[:count]))})"
+    return f"{call}*VXYZ(31)" if name in VECTORS else call
 
 
 def measures() -> list[str]:
