@@ -45,11 +45,16 @@ from adamslite.checks.runs import RUN_RULES
 from adamslite.checks.tables import TABLE_RULES
 from adamslite.deck.deck import Deck
 from adamslite.language.diagnostics import Diagnostic, sort_by_place
+from adamslite.language.messages.ignoring import judged
 
 
 def check(deck: Deck) -> list[Diagnostic]:
-    """Everything to say about a deck that could be read: warnings and advice, in deck order."""
-    return sort_by_place([*deck.warnings, *apply(ADVICE, deck)])
+    """Everything to say about a deck that could be read: warnings and advice, in deck order.
+
+    Comments ``! adamslite: ignore CODE`` of the deck are heeded.
+    """
+    found = [*deck.warnings, *apply(ADVICE, deck)]
+    return sort_by_place(judged(deck.source, found, complete=True))
 
 
 RULES: list[Rule] = [

@@ -15,6 +15,7 @@ from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.gc_pause import without_collection
 from adamslite.language.diagnostics import DeckError, Diagnostic, Source
+from adamslite.language.messages.ignoring import judged, without_ignored
 from adamslite.language.statement import Statement
 from adamslite.reading.statement_reader import Reading
 
@@ -30,7 +31,8 @@ def read(source: str | Path) -> Deck:
     Returns
     -------
     Deck
-        Its ``warnings`` hold what is legal but looks wrong.
+        Its ``warnings`` hold what is legal but looks wrong; :func:`adamslite.check` leaves out
+        what comments of the deck ignore.
 
     Raises
     ------
@@ -69,9 +71,12 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
     plain = tuple(each for each in commands if isinstance(each, Statement))
     run = Deck(reading.log.source, "", plain, deck.names, path)
     reading.log.diagnostics += [
-        *_caused(deck, commands), *inputs_with_rates(deck, plain), *note_of_inert(commands)
-    ]  # fmt: skip
-    commands.warnings = _judged(run, reading, RUN_RULES)
+        *without_ignored(deck.source, _caused(deck, commands)),
+        *inputs_with_rates(deck, plain),
+        *note_of_inert(commands),
+    ]
+    found = _judged(run, reading, RUN_RULES)
+    commands.warnings = tuple(judged(run.source, found, complete=True))
     return commands
 
 
@@ -102,7 +107,7 @@ def _judged(deck: Deck, reading: Reading, rules: Sequence[Rule]) -> tuple[Diagno
     deck.incomplete |= reading.broken
     diagnostics = [*reading.log.finish(), *apply(rules, deck)]
     if any(diagnostic.is_error for diagnostic in diagnostics):
-        raise DeckError(diagnostics, deck)
+        raise DeckError(judged(deck.source, diagnostics, complete=False), deck)
     return tuple(diagnostics)
 
 

@@ -6,6 +6,8 @@ warnings alone do not count.
 
 For other programs --format writes the messages alone: gcc (one line FILE:LINE:COLUMN: SEVERITY:
 MESSAGE [CODE] for each place), json (a list of objects) or sarif (SARIF 2.1.0).
+
+A comment `! adamslite: ignore CODE` takes warnings and notes with that code away from its line.
 """
 
 import argparse

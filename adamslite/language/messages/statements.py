@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from adamslite.language.diagnostics import WARNING
+from adamslite.language.diagnostics import NOTE, WARNING
 from adamslite.language.messages.entry import Message
 
 STATEMENTS: dict[str, Message] = {
@@ -127,5 +127,23 @@ STATEMENTS: dict[str, Message] = {
         "{word} does not belong here",
         "",
         ("VARIABLE/1, FUNCTION=1 # 2", "VARIABLE/1, FUNCTION=2%"),
+    ),
+    "ignored-error": Message(
+        "{word} is an error, and errors cannot be ignored",
+        "only warnings and notes can: correct the statement and take the comment away",
+        ("MARKER/4, PART=1 ! adamslite: ignore no-mass",),
+        ("SIMULATE/DYNAMIC, END=1, STEPS=1 ! adamslite: ignore missing-reference",),
+        severity=WARNING,
+    ),
+    "ignores-nothing": Message(
+        "there is no {word} on this line to be ignored",
+        "the comment works on the line on which it stands",
+        (
+            "MARKER/4, PART=1 ! adamslite: ignore no-inertia",
+            "! adamslite: ignore no-inertia",
+            "MARKER/4, PART=1 ! # adamslite: ignore no-such-code",
+        ),
+        ("SIMULATE/DYNAMIC, END=1, STEPS=1 ! adamslite: ignore passed-over",),
+        severity=NOTE,
     ),
 }

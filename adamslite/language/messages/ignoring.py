@@ -1,0 +1,116 @@
+"""Comments ``! adamslite: ignore CODE, CODE``: messages that the author of a deck has judged.
+
+A comment works on the statement or argument that is on its own line.  It never hides an error.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
+from adamslite.language.messages import MESSAGES, compose, did_you_mean
+
+COMMENT = re.compile(r"adamslite:[ \t]*ignore\b([^\n]*)", re.IGNORECASE)
+CODES = re.compile(r"[ \t]*[\w-]+(?:[ \t]*,[ \t]*[\w-]+)*")
+CODE = re.compile(r"[\w-]+")
+
+
+class Ignored(NamedTuple):
+    """A code on a line of the source, and where the comment names it."""
+
+    code: str
+    line: int
+    start: int
+    end: int
+
+
+def ignored(source: Source) -> Iterator[Ignored]:
+    """The codes that comments of a source name; text after the list of codes is a reason."""
+    for comment in COMMENT.finditer(source.text):
+        before = source.text[source.text.rfind("\n", 0, comment.start()) + 1 : comment.start()]
+        if "!" not in before or not before.rstrip().endswith(("!", "#")):
+            continue
+        start, end = comment.span(1)
+        codes = CODES.match(source.text, start, end)
+        for word in CODE.finditer(source.text, start, codes.end()) if codes else ():
+            line, _ = source.place(word.start())
+            yield Ignored(word[0].lower(), line, *word.span())
+
+
+def without_ignored(source: Source, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """What is left to say once the comments of a source have been heeded."""
+    wanted = {(each.code, each.line) for each in ignored(source)}
+    return _heeded(source, diagnostics, wanted, set()) if wanted else list(diagnostics)
+
+
+def judged(source: Source, diagnostics: Iterable[Diagnostic], complete: bool) -> list[Diagnostic]:
+    """As :func:`without_ignored`, with what there is to say about the comments themselves.
+
+    Parameters
+    ----------
+    source : Source
+    diagnostics : iterable of Diagnostic
+        Those about other files stay as they are.
+    complete : bool
+        Whether these are all there can be: then a comment that ignores none of them is reported.
+    """
+    comments = list(ignored(source))
+    used: set[tuple[str, int]] = set()
+    wanted = {(each.code, each.line) for each in comments}
+    left = _heeded(source, diagnostics, wanted, used) if wanted else list(diagnostics)
+    for each in comments:
+        entry = MESSAGES.get(each.code)
+        if entry and entry.severity == ERROR:
+            left.append(_about(source, each, "ignored-error"))
+        elif complete and (each.code, each.line) not in used:
+            hint = "" if entry else did_you_mean(each.code, MESSAGES).lower()
+            left.append(_about(source, each, "ignores-nothing", hint))
+    return left
+
+
+def _heeded(
+    source: Source,
+    diagnostics: Iterable[Diagnostic],
+    wanted: set[tuple[str, int]],
+    used: set[tuple[str, int]],
+) -> list[Diagnostic]:
+    """What is not wanted to be ignored; ``used`` gets what was found to ignore."""
+    return [kept for each in diagnostics if (kept := _kept(source, each, wanted, used))]
+
+
+def _kept(
+    source: Source,
+    diagnostic: Diagnostic,
+    wanted: set[tuple[str, int]],
+    used: set[tuple[str, int]],
+) -> Diagnostic | None:
+    """The message at the places that are not ignored; None where there are none."""
+    if diagnostic.is_error:
+        return diagnostic
+    kept = []
+    for place in diagnostic.everywhere:
+        heeded = wanted.intersection(_lines(source, diagnostic.code, place))
+        used |= heeded
+        if not heeded:
+            kept.append(place)
+    if not kept:
+        return None
+    if kept[0] == diagnostic.span:
+        return replace(diagnostic, places=tuple(kept)) if diagnostic.places else diagnostic
+    line = source.line(kept[0].line)
+    return replace(diagnostic, span=kept[0], places=tuple(kept), source_line=line)
+
+
+def _lines(source: Source, code: str, place: Span) -> Iterator[tuple[str, int]]:
+    """The code on each line of a place; none where the place is in another file."""
+    if place.file == source.file:
+        for line in range(place.line, place.end_line + 1):
+            yield code, line
+
+
+def _about(source: Source, each: Ignored, code: str, hint: str = "") -> Diagnostic:
+    span = source.span(each.start, each.end)
+    return compose(code, span, source.line(span.line), hint, word=each.code)
