@@ -72,6 +72,13 @@ INTEGRATOR/RADAU, ERROR=1E-8
     assert abs(simulate(read(deck)).time[-1] - expected) < slack
 
 
+@pytest.mark.parametrize("condition", ["EQ", "GE"])
+def test_a_constant_that_is_not_the_value_ends_nothing(condition: str) -> None:
+    results = fall(f"SENSOR/1, HALT, {condition}, VALUE=1, FUNCTION=0")
+    assert results.outcome is Outcome.DONE
+    assert results.time[-1] == 3.0
+
+
 def test_default_error_is_a_thousandth() -> None:
     """Within 0.001 of -1 from t = sqrt(2 0.999/g) on."""
     results = fall("SENSOR/1, HALT, VALUE=-1, FUNCTION=DY(2,1)")
@@ -196,7 +203,7 @@ def test_a_motion_that_begins_when_a_sensor_has_triggered() -> None:
     [
         ("FUNCTION=DY(2,1)", "INTEGRATOR/VERLET, HINIT=0.01\nSIMULATE/DYNAMIC, END=1, STEPS=4"),
         ("FUNCTION=DY(2,1)", "INTEGRATOR/HHT, HINIT=.1, HMAX=.1, HMIN=.1\nSIM/DYN, END=1, STEPS=4"),
-        ("VALUE=1, FUNCTION=3", "SIMULATE/DYNAMIC, END=1, STEPS=4"),
+        ("VALUE=3, FUNCTION=3", "SIMULATE/DYNAMIC, END=1, STEPS=4"),
         ("FUNCTION=DY(2,1)", "SIMULATE/STATICS, END=1, STEPS=4"),
     ],
 )  # fmt: skip

@@ -11,21 +11,22 @@ from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.language.interfaces import Key
 from adamslite.results.outcomes import Outcome
 
-CONSTANT = "its relation is the same for ever, because FUNCTION does not change"
+CONSTANT = "its relation is always the same, because FUNCTION does not change"
 EQUAL = "a method with equal steps locates no event; use one with variable steps"
 AT_TIMES = "{kind} analyses of several times locate no event; use SIMULATE/DYNAMICS or DEACTIVATE"
 
 
 def require_changing(system: System) -> None:
-    """Reject sensors whose relation never changes.
+    """Reject sensors whose relation never changes, unless it is known to be false.
 
     Raises
     ------
     UsageError
         When there is one.
     """
-    for sensor, first, _ in system.numbering.sensors:
-        if first < 0:
+    for sensor in system.numbering.unchanging:
+        value = system.model.constant(sensor.function)
+        if value is None or sensor.holds(value):
             raise UsageError(f"{sensor.label} cannot be watched: {CONSTANT}")
 
 

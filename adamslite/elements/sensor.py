@@ -67,6 +67,11 @@ class Sensor(Statement):
         """Relations of the sensor."""
         return 2 if self.comparison == "EQ" else 1
 
+    def holds(self, value: float) -> bool:
+        """Whether the sensor is true where FUNCTION has this value."""
+        above, below = value >= self.value - self.error, value <= self.value + self.error
+        return {"EQ": above and below, "GE": above, "LE": below}[self.comparison]
+
     def relation(self: Seen, scope: Scope) -> Expr:
         """A choice whose conditions are the relations, all of them true when the sensor is."""
         above = self.function >= self.value - self.error

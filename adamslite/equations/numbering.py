@@ -93,12 +93,13 @@ class Numbering:
                 for statement, _ in group.instances:
                     found += [(statement, kind) for kind in group.meta["guards"][place]]
             at += len(found)
+        self.unchanging: list[Sensor] = []
         self.sensors = list(self._sensors())
         self.kind = ints([kind for found in self.guarded.values() for _, kind in found])
 
     def _sensors(self) -> Iterator[tuple[Sensor, int, int]]:
-        """Sensors that act, with the offsets of the branches of their relations, -1 where these
-        never change.  The relations come before other guards in FUNCTION.
+        """Sensors that act, with the offsets of the branches of their relations, which come before
+        other guards in FUNCTION; those whose relations never change are set aside.
         """
         for group in self.kernels.groups:
             guards = group.meta["guards"]
@@ -107,5 +108,7 @@ class Numbering:
                 assert isinstance(sensor, Sensor)
                 first = self.first_branch[place, group.name] + n * len(guards[place])
                 last = first + sensor.relation_count - 1
-                known = len(guards[place]) >= sensor.relation_count
-                yield (sensor, first, last) if known else (sensor, -1, -1)
+                if len(guards[place]) >= sensor.relation_count:
+                    yield sensor, first, last
+                else:
+                    self.unchanging.append(sensor)
