@@ -75,6 +75,13 @@ def test_an_unknown_code_is_answered_with_one_that_is_like_it() -> None:
     assert note.severity == "note" and "no-inertia" in note.hint
 
 
+def test_a_comment_without_a_code_is_answered_with_the_form() -> None:
+    text = "MARKER/4, PART=1 ! adamslite: ignore"
+    (note,) = told(f"{START}{text}\n")
+    assert note.code == "ignores-nothing" and "ignore CODE" in note.hint
+    assert (note.span.column, note.span.end_column) == (text.index("adams") + 1, len(text) + 1)
+
+
 def test_a_message_of_several_places_keeps_those_that_are_not_ignored() -> None:
     comment = " ! adamslite: ignore passed-over"
     first, second = "STRING/1, STRING=a", "MATERIAL/1, YOUNGS_MODULUS=1"

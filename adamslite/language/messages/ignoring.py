@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from functools import cache
 from typing import NamedTuple
 
 from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
@@ -28,15 +29,20 @@ class Ignored(NamedTuple):
 
 
 def ignored(source: Source) -> Iterator[Ignored]:
-    """The codes that comments of a source name; text after the list of codes is a reason."""
+    """The codes that comments of a source name; text after the list of codes is a reason.
+
+    The code is empty where a comment names none.
+    """
     for comment in COMMENT.finditer(source.text):
         before = source.text[source.text.rfind("\n", 0, comment.start()) + 1 : comment.start()]
         if "!" not in before or not before.rstrip().endswith(("!", "#")):
             continue
         start, end = comment.span(1)
+        line, _ = source.place(start)
         codes = CODES.match(source.text, start, end)
+        if not codes:
+            yield Ignored("", line, *comment.span())
         for word in CODE.finditer(source.text, start, codes.end()) if codes else ():
-            line, _ = source.place(word.start())
             yield Ignored(word[0].lower(), line, *word.span())
 
 
@@ -66,7 +72,7 @@ def judged(source: Source, diagnostics: Iterable[Diagnostic], complete: bool) ->
         if entry and entry.severity == ERROR:
             left.append(_about(source, each, "ignored-error"))
         elif complete and (each.code, each.line) not in used:
-            hint = "" if entry else did_you_mean(each.code, MESSAGES).lower()
+            hint = "" if entry else _meant(each.code)
             left.append(_about(source, each, "ignores-nothing", hint))
     return left
 
@@ -111,6 +117,14 @@ def _lines(source: Source, code: str, place: Span) -> Iterator[tuple[str, int]]:
             yield code, line
 
 
+@cache
+def _meant(code: str) -> str:
+    """What to write in place of something that is no code."""
+    if not code:
+        return "name the codes after it: ! adamslite: ignore CODE, CODE"
+    return did_you_mean(code, MESSAGES).lower() or "no message has this code"
+
+
 def _about(source: Source, each: Ignored, code: str, hint: str = "") -> Diagnostic:
     span = source.span(each.start, each.end)
-    return compose(code, span, source.line(span.line), hint, word=each.code)
+    return compose(code, span, source.line(span.line), hint, word=each.code or "code")
