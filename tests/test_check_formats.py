@@ -7,8 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from decklets import told
+from test_messages import whole
 
 from adamslite.cli.main import main
+from adamslite.language.messages import MESSAGES
+from adamslite.language.messages.formats import as_gcc, as_json, as_sarif
 
 DECK = """\
 two springs too many
@@ -116,3 +120,18 @@ def test_text_is_the_default(check, capsys) -> None:
     assert main(["check", "a deck.adm"]) == code == 0
     assert capsys.readouterr().out == out
     assert "a deck.adm: 1 warning" in out
+
+
+@pytest.mark.parametrize("code", MESSAGES)
+def test_every_message_has_places_within_its_deck(code: str) -> None:
+    for broken in MESSAGES[code].broken:
+        text = whole(code, broken)
+        lines = text.split("\n")
+        found = told(text)
+        data = json.loads(as_json(found))
+        assert as_gcc(found).count("\n") == sum(len(each["places"]) for each in data)
+        assert len(json.loads(as_sarif(found))["runs"][0]["results"]) == len(data)
+        for place in (place for each in data for place in each["places"]):
+            assert 1 <= place["line"] <= place["end_line"] <= len(lines)
+            assert 1 <= place["column"] <= len(lines[place["line"] - 1]) + 1
+            assert 1 <= place["end_column"] <= len(lines[place["end_line"] - 1]) + 1
