@@ -18,6 +18,8 @@ from adamslite.native.translate import Reals, copy, native
 MOST_BACKS = 24
 # The golden ratio spreads the lengths of repeated steps evenly over a range without multiples.
 GOLDEN, SHORTEST = 0.6180339887498949, 0.4
+# After so many shorter steps in vain longer ones are tried, which pass the place with a leap.
+SHORT_TRIES, LONGEST = 16, 4.0
 # A state is not kept for longer than parts turn by this angle: AZ and the like count turns by the
 # nearest angle to the last accepted one, and two parts may turn against each other.
 MOST_TURNED = 1.5
@@ -55,7 +57,10 @@ def before_trouble(P: Problem, tried: float) -> float:
     U.backs, U.passed = U.backs + 1, max(U.passed, tried)
     U.turned, U.trouble = 0.0, U.trouble_then
     bring_back(P)
-    return SHORTEST + (1.0 - SHORTEST) * (GOLDEN * U.backs - int(GOLDEN * U.backs))
+    spread = GOLDEN * U.backs - int(GOLDEN * U.backs)
+    if U.backs <= SHORT_TRIES:
+        return SHORTEST + (1.0 - SHORTEST) * spread
+    return 1.0 + (LONGEST - 1.0) * spread
 
 
 @native
