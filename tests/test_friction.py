@@ -79,6 +79,10 @@ def test_nothing_rubs_in_statics() -> None:
     found = simulate(deck, commands=read_commands(run_, deck), error=1e-7)
     assert found["PART/2.x"][2] == pytest.approx(0.5e-4, abs=2e-7)
     assert found["PART/2.x"][3:] == pytest.approx(0.08, abs=1e-9)
+    assert found.time == pytest.approx([0.0, 0.5, 1.0, 1.0, 1.5, 2.0])
+    at_rest = simulate(deck, commands=read_commands(run_.partition("SIM/DYN, END=2")[0], deck))
+    assert at_rest.time == pytest.approx([0.0, 0.5, 1.0, 1.0])
+    assert at_rest["PART/2.x"][-1] == pytest.approx(0.08, abs=1e-9)
     assert found["DIFF/FRICTION_1"][3:] == pytest.approx(0.0, abs=1e-6)
 
 

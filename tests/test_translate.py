@@ -214,6 +214,13 @@ MARKER/2, POINT_MASS=2
 GCON/1, FUNCTION=DY(2)-3E-4*EXP(-((DX(2)-0.39823223304703365)/0.0025)**2)
 END
 """
+# A sensor watches what no force does.
+SENSED = f"""{GROUND}\
+POINT_MASS/2, MASS=1, CM=2, VX=1
+MARKER/2, POINT_MASS=2
+SENSOR/1, FUNCTION=DX(2,1), VALUE=0.21, ERROR=1E-6, GE, RETURN
+END
+"""
 RUNS = {
     f"{name} {method}": (deck, method) for name, deck in DECKS.items() for method in INTEGRATORS
 }
@@ -222,6 +229,7 @@ RUNS |= {
     "rubs": (RUBS, "RADAU"),
     "passes": (PASSES, "RADAU"),
     "skips": (SKIPS, "ABAM"),
+    "sensed": (SENSED, "GSTIFF"),
     "asked": (
         PENDULUM.replace("END", "INTEGRATOR/CORRECTOR=ORIGINAL, INTERPOLATE=OFF, PATTERN=T:F\nEND"),
         "GSTIFF",

@@ -375,7 +375,7 @@ class Session:
     ) -> None:
         """Append the records made; a state both ends and begins two analyses only once.
 
-        ``own_start``: the first time was requested.
+        Equilibrium is another state at the same time.  ``own_start``: the first time was requested.
         """
         self.out_of_law = system.instances.out_of_law() | self.out_of_law
         made = system.count.records
@@ -387,7 +387,7 @@ class Session:
         if len(times) and len(last[0]) and last[0][-1] == times[0]:
             if self._began_static:
                 self.pieces[-1] = (last[0][:-1], last[1][:-1])
-            else:
+            elif not static:
                 times, values = times[1:], values[1:]
         self._began_static = static
         if len(times):
