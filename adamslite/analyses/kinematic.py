@@ -8,32 +8,61 @@ from __future__ import annotations
 
 import numpy as np
 
-from adamslite.analyses.initial.conditions import Unclosed, initial_conditions, move
+from adamslite.analyses.initial.conditions import (
+    Unclosed,
+    initial_conditions,
+    largest_turn,
+    move,
+)
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.results.outcomes import Outcome
 
+# Angles are counted by the nearest one to the last: no part turns further in a step, and two may
+# turn against each other.
+MOST_TURNED = 1.5
+
 
 def run_kinematic(system: System, times: np.ndarray) -> tuple[Outcome, Unclosed | None]:
     """Solve at each of ``times`` (nt,) and fill ``system.record``."""
     system.start_record(times)
+    at = float(times[0])
     for row, time in enumerate(times):
-        if row:
-            _predict(system, float(time) - float(times[row - 1]))
-        system.settings.t = time
-        system.report.t = time
-        unclosed = initial_conditions(system)
-        if unclosed:
-            return unclosed.outcome, unclosed
-        if system.run(ACCELERATIONS) != contract.DONE:
-            return Outcome.UNDETERMINED, None
-        system.run(RECORD, row)
-        system.count.steps += 1 if row else 0
+        while True:
+            at = _next_time(system, at, float(time))
+            unclosed = _solve(system, at)
+            if unclosed:
+                return unclosed.outcome, unclosed
+            if system.run(ACCELERATIONS) != contract.DONE:
+                return Outcome.UNDETERMINED, None
+            # What is recorded on the way is written over.
+            system.run(RECORD, row)
+            system.count.steps += 1 if row else 0
+            if at == time:
+                break
     return Outcome.DONE, None
 
 
-def _predict(system: System, h: float) -> None:
-    """Second-order Taylor step of positions and attitudes."""
-    n = system.n
-    move(system, -(h * system.u[:n] + 0.5 * h * h * system.a[:n]))
+def _next_time(system: System, start: float, end: float) -> float:
+    """``end``, or a time before it up to which no part turns far; the state is predicted there.
+
+    With second-order Taylor steps: the share s of the way has  s w + s^2 a = MOST_TURNED.
+    """
+    h, n = end - start, system.n
+    by_speed, by_acceleration = h * system.u[:n], 0.5 * h * h * system.a[:n]
+    w, a = largest_turn(system, by_speed), largest_turn(system, by_acceleration)
+    if w + a > MOST_TURNED:
+        share = 2.0 * MOST_TURNED / (w + float(np.sqrt(w * w + 4.0 * a * MOST_TURNED)))
+        by_speed, by_acceleration = share * by_speed, share * share * by_acceleration
+        end = start + share * h
+    if h > 0.0:
+        move(system, -(by_speed + by_acceleration))
+    return end
+
+
+def _solve(system: System, time: float) -> Unclosed | None:
+    """Positions and velocities at a time; what stayed open, if anything did."""
+    system.settings.t = time
+    system.report.t = time
+    return initial_conditions(system)

@@ -102,7 +102,7 @@ def _damped(
     MOST_TURN.
     """
     before = (system.q.copy(), system.base.copy())
-    share = min(1.0, MOST_TURN / max(TINY, _largest_turn(system, step)))
+    share = min(1.0, MOST_TURN / max(TINY, largest_turn(system, step)))
     for _ in range(HALVINGS):
         move(system, share * step)
         new = _residual(system, contract.POSITION_ROWS)[rows]
@@ -115,7 +115,7 @@ def _damped(
     return new, float(share * np.abs(step).max())
 
 
-def _largest_turn(system: System, step: np.ndarray) -> float:
+def largest_turn(system: System, step: np.ndarray) -> float:
     turns = [
         float(np.linalg.norm(step[i + 3 : i + 6]))
         for i, width in zip(system.starts, system.widths, strict=True)
