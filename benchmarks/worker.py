@@ -43,7 +43,7 @@ def mechanism_error(scene: str, n: int, values: np.ndarray) -> dict[str, float |
 
 
 def answer(name: str, question: dict[str, Any]) -> dict[str, Any]:
-    """Solve once; what goes wrong is told, not raised."""
+    """Solve once; what goes wrong is reported, not raised."""
     scene, n = question["scene"], question["n"]
     forget_peak()
     try:

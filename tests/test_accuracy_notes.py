@@ -72,7 +72,7 @@ def test_divided_steps_are_told():
 @pytest.mark.parametrize(("mass", "stiffness"), [(1.0, 1e4), (0.25, 100.0)])
 @pytest.mark.parametrize("share", [0.5, 0.9, 0.97])
 def test_a_step_near_the_bound_of_stability_is_told(mass: float, stiffness: float, share: float):
-    """VERLET is stable up to h = 2 sqrt(m/k) without damping; above 0.93 of that it is told."""
+    """VERLET is stable up to h = 2 sqrt(m/k) without damping; above 0.93 of that it is reported."""
     bound = 2.0 * math.sqrt(mass / stiffness)
     deck = (
         GROUND + f"POINT_MASS/2, MASS={mass}, CM=2, QG=1,0,0\nMARKER/2, POINT_MASS=2\n"

@@ -1,4 +1,4 @@
-"""Elements that a run carries beyond what their law is meant for are told, once, with the time."""
+"""Elements that a run carries beyond what their law is meant for are reported, once, with the time."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ INTEGRATORS = ("GSTIFF", "RADAU", "HHT", "ABAM")
 def test_a_bushing_past_a_quarter_turn_is_told_at_the_time(element, k, w, integrator):
     """theta = w/omega sin(omega t), omega**2 = k: 90 degrees at sin(omega t) = pi/2 omega/w.
 
-    About x of J; the first accepted step past it is told.
+    About x of J; the first accepted step past it is reported.
     """
     deck = TUMBLING.format(spin=f"WX={w}", element=element.format(k=k))
     results = run(deck, 1.2, 400, integrator=integrator, error=1e-7)

@@ -74,7 +74,7 @@ def _own_slope(deck: Deck, component: Node, name: str, body: Part | PointMass) -
 
 
 def slope_of(node: Node, unknown: Call) -> Node:
-    """Derivative of an expression with respect to one of its calls; zero where it stands inside
+    """Derivative of an expression with respect to one of its calls; zero where it is inside
     others.
     """
     if node == unknown:

@@ -30,7 +30,7 @@ def solution(scene: str, n: int, y: Array, setup: float, took: float, steps: int
 
 
 def finished(scene: str, n: int, run: Any, setup: float, took: float) -> Solution:
-    """What a run of SUNDIALS came to; an early end is told."""
+    """What a run of SUNDIALS came to; an early end is reported."""
     if not run.success:
         return Solution(np.full(1, np.nan), setup, took, ok=False)
     return solution(scene, n, np.array(run.y[-1]), setup, took, 0)
