@@ -1,4 +1,4 @@
-"""Elements that a run carries beyond what their law is meant for are reported, once, with the time."""
+"""Elements that a run carries beyond the range of their law are reported once, with the time."""
 
 from __future__ import annotations
 
