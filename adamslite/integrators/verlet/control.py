@@ -12,9 +12,13 @@ class Control(Record):
     wanted               the step to try in the next interval
     since                steps since the look at the eigenvalues
     spent                sum of the errors of the present try, against ERROR
+    row                  the next row of the record
+    fixed                whether the step is given by HINIT
     """
 
     limit: float
     wanted: float
     since: int
     spent: float
+    row: int
+    fixed: bool

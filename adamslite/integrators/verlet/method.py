@@ -73,36 +73,42 @@ MOST_BLOWN = 8
 def verlet(P: Problem, L: Plan) -> int:
     """Integrate over the output times; returns an outcome."""
     C = Control(P.control)
-    fixed = P.settings.h_init > 0.0
-    C[:] = 0
-    P.report.order = 2
-    start_events(P, False, False)
-    P.report.stable_step = HUGE
-    synchronise(P, P.times[0], 0)
-    P.report.t = P.times[0]
-    C.since = WORTH
-    C.wanted = P.settings.h_init if fixed else P.settings.h_max
-    for row in range(1, P.times.size):
+    begin(P, C)
+    while C.row < P.times.size:
         if P.settings.stop:
             return INTERRUPTED
-        look_at_stability(P)
-        outcome = reach(P, L, P.times[row - 1], P.times[row], fixed)
+        outcome = advance(P, L, C)
         if outcome != DONE:
-            stand(P, P.report.t)
+            restore_state(P, P.report.t)
             return outcome
-        synchronise(P, P.times[row], row)
+        record(P, P.times[C.row], C)
         track(P)
     return DONE
 
 
 @native
-def reach(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
+def begin(P: Problem, C: Control) -> None:
+    """The first record, and the step to begin with."""
+    C[:] = 0
+    C.fixed = P.settings.h_init > 0.0
+    P.report.order = 2
+    start_events(P, False, False)
+    P.report.stable_step = HUGE
+    record(P, P.times[0], C)
+    P.report.t = P.times[0]
+    C.since = WORTH
+    C.wanted = P.settings.h_init if C.fixed else P.settings.h_max
+
+
+@native
+def advance(P: Problem, L: Plan, C: Control) -> int:
     """From one output time to the next over all stops between; returns an outcome."""
-    at, outcome = t, DONE
+    limit_step(P, C)
+    at, end, outcome = P.times[C.row - 1], P.times[C.row], DONE
     while at < end and outcome == DONE:
         set_pace(P, at)
         to = min(end, present_stop(P), end_of_pace(P))
-        outcome = cross(P, L, at, to, fixed)
+        outcome = cover(P, L, C, at, to)
         if outcome == DONE:
             P.report.t, at = to, to
             if is_stop(P, to):
@@ -112,14 +118,15 @@ def reach(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
 
 
 @native
-def synchronise(P: Problem, t: float, row: int) -> None:
+def record(P: Problem, t: float, C: Control) -> None:
     """Accelerations at the state in q and u, and a record of it."""
-    stand(P, t)
-    write_record(P, row)
+    restore_state(P, t)
+    write_record(P, C.row)
+    C.row += 1
 
 
 @native
-def stand(P: Problem, t: float) -> None:
+def restore_state(P: Problem, t: float) -> None:
     """Accelerations at the state in q and u."""
     put_free(P, t, P.q, P.u)
     run_groups(P, LOADS, P.F)
@@ -128,9 +135,8 @@ def stand(P: Problem, t: float) -> None:
 
 
 @native
-def look_at_stability(P: Problem) -> None:
+def limit_step(P: Problem, C: Control) -> None:
     """The longest stable step at the workspace's state, when enough steps were taken since."""
-    C = Control(P.control)
     if C.since < WORTH:
         return
     C.since = 0
@@ -141,10 +147,9 @@ def look_at_stability(P: Problem) -> None:
 
 
 @native
-def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
-    """From one output time or stop to the next; returns an outcome."""
-    C = Control(P.control)
-    n = P.sizes.n
+def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
+    """From one output time or stop to the next by equal steps; returns an outcome."""
+    n, fixed = P.sizes.n, C.fixed
     old = P.trial[0:]
     for i in range(n):
         old[i], old[n + i] = P.q[i], P.u[i]
@@ -159,11 +164,11 @@ def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
             return STEP_TOO_SMALL
         if fixed and STABLE * h > C.limit:
             return UNSTABLE
-        error = march(P, L, t, h, int((end - t) / h + 0.5), fixed)
+        error = take_steps(P, L, C, t, h, int((end - t) / h + 0.5))
         P.report.error = error
         if error <= 1.0:
             P.report.spent += C.spent
-            C.wanted = following(P, error, h, wanted, fixed)
+            C.wanted = choose_step(P, C, error, h, wanted)
             return DONE
         P.count.rejected += 1
         if fixed:
@@ -179,20 +184,21 @@ def cross(P: Problem, L: Plan, t: float, end: float, fixed: bool) -> int:
 
 
 @native
-def following(P: Problem, error: float, h: float, wanted: float, fixed: bool) -> float:
+def choose_step(P: Problem, C: Control, error: float, h: float, wanted: float) -> float:
     """The step to try next: what was before, when these were short for the sake of a pulse."""
-    C = Control(P.control)
     if longest_step(P) < P.settings.h_max:
         return C.wanted
-    if fixed or error >= 0.5:
+    if C.fixed or error >= 0.5:
         return wanted
     return min(GROW, SAFETY * max(error, LEAST_ERROR) ** (-1.0 / 3.0)) * h
 
 
 @native
-def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> float:
-    """``count`` steps; returns the largest local error seen against ERROR, 1e300 for a blow-up."""
-    C = Control(P.control)
+def take_steps(P: Problem, L: Plan, C: Control, t: float, h: float, count: int) -> float:
+    """``count`` steps of half a kick, drift, half a kick, where the two half kicks between steps
+    are one; returns the largest local error seen against ERROR, 1e300 for a blow-up.
+    """
+    fixed = C.fixed
     top, every, C.spent = 0.0, FIXED_SAMPLE if fixed else 1, 0.0
     if not fixed and P.sizes.watched == 0 and 2.0 * h > C.limit:
         every = SAMPLE
@@ -204,7 +210,7 @@ def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> f
         audit_leap(P, L, t + s * h, h if s > 0 else 0.0)
         if s > 0 and s % every == 1 % every:
             divide_by_mass(P, P.F, P.history, 0.0, P.a)
-            error = sampled_error(P, h)
+            error = local_error(P, h)
             top = max(top, error)
             if not top < HOPELESS and not fixed:
                 return top
@@ -212,8 +218,9 @@ def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> f
         if s % every == 0:
             divide_by_mass(P, P.F, P.history, 0.0, P.ra)
         kick = 0.5 * h if s == 0 or s == count else h
-        leap(P, kick, h if s < count else 0.0)
-    if not take_over(P):
+        drift = h if s < count else 0.0
+        kick_and_drift(P, kick, drift)
+    if not accept(P):
         return HUGE
     P.count.steps += count
     P.count.residuals += count + 1
@@ -222,7 +229,7 @@ def march(P: Problem, L: Plan, t: float, h: float, count: int, fixed: bool) -> f
 
 
 @native
-def leap(P: Problem, kick: float, drift: float) -> None:
+def kick_and_drift(P: Problem, kick: float, drift: float) -> None:
     """u -= kick M^-1 F, q += drift u in the workspace; minus the weights into F."""
     W, F, body = P.W, P.F, P.body
     gx, gy, gz = P.gravity[0], P.gravity[1], P.gravity[2]
@@ -236,7 +243,7 @@ def leap(P: Problem, kick: float, drift: float) -> None:
 
 
 @native
-def sampled_error(P: Problem, h: float) -> float:
+def local_error(P: Problem, h: float) -> float:
     """h^2 |a - earlier a|/6 against ERROR max(1, |q|)."""
     top = 0.0
     for b in range(P.sizes.nb):
@@ -252,7 +259,7 @@ def sampled_error(P: Problem, h: float) -> float:
 
 
 @native
-def take_over(P: Problem) -> bool:
+def accept(P: Problem) -> bool:
     """Positions and velocities of the workspace into q and u; False when they are not numbers."""
     for b in range(P.sizes.nb):
         i, o = P.body[b].first, P.body[b].at
