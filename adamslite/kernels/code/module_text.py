@@ -10,7 +10,7 @@ from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Shape
 from adamslite.native.translate import REGISTERED
 from adamslite.native.translate.statements import definitions
-from adamslite.native.translate.writer import METADATA
+from adamslite.native.translate.writer import module_text
 from adamslite.symbolic.guards import guards
 from adamslite.symbolic.scope import Scope
 
@@ -35,7 +35,7 @@ loop:
 {body}
   %next = add nuw nsw i64 %k, 1
   %more = icmp slt i64 %next, %n
-  br i1 %more, label %loop, label %exit
+  br i1 %more, label %loop, label %exit, !llvm.loop !loop
 exit:
   ret void
 }}
@@ -119,4 +119,4 @@ def _module(bodies: list[tuple[str, str, ResidualWriter]], n_ints: int, n_reals:
             )
         )
         declared |= writer.b.declared
-    return "\n".join([*sorted(declared), *parts, METADATA])
+    return module_text(declared, parts)

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 from adamslite.native.translate.expressions import Expressions
 from adamslite.native.translate.language import Native, Untranslatable, signature, symbol
-from adamslite.native.translate.writer import METADATA, Value
+from adamslite.native.translate.writer import Value, module_text
 
 
 def translate(entry: Native) -> str:
@@ -17,7 +17,7 @@ def translate(entry: Native) -> str:
     :func:`symbol`; all but the entry are internal.
     """
     declared, texts = definitions([entry], public=entry)
-    return "\n".join([*sorted(declared), *texts, METADATA])
+    return module_text(declared, texts)
 
 
 def definitions(
@@ -135,7 +135,7 @@ class Translator(Expressions):
         self.branch(self.truth(node.test), body, after)
         self.start(body)
         self.loop_body(node.body, test, after)
-        self.jump(test)
+        self.jump_back(test)
         self.start(after)
 
     def on_For(self, node: ast.For) -> None:
@@ -162,7 +162,7 @@ class Translator(Expressions):
         self.start(following)
         nxt = self.value("i64", f"add nsw i64 {i.text}, {step.text}")
         self.line(f"store i64 {nxt.text}, ptr {counter}")
-        self.jump(test)
+        self.jump_back(test)
         self.start(after)
 
     def loop_body(self, body: list[ast.stmt], following: str, after: str) -> None:

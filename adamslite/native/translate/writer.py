@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import ast
+import itertools
+import re
+from collections.abc import Iterable
 
 from adamslite.native.llvm_builder import FAST, literal
 from adamslite.native.translate.language import (
@@ -24,7 +27,21 @@ METADATA = """!0 = !{!"adamslite"}
 !4 = !{!"double", !0}
 !5 = !{!"integer", !0}
 !6 = !{!"address", !0}
-!7 = !{}"""
+!7 = !{}
+!8 = !{!"llvm.loop.align", i32 64}"""
+# At the jump back to a loop's start.
+ALIGNED = ", !llvm.loop !loop"
+
+
+def module_text(declared: Iterable[str], definitions: Iterable[str]) -> str:
+    """LLVM assembly of a module, whose loops start on a line of the processor's cache: elsewhere
+    a short loop takes up to a tenth longer, by chance, after any change of the code before it.
+    """
+    text = "\n".join([*sorted(declared), *definitions, METADATA])
+    number = itertools.count(9)
+    loops = re.sub("!loop$", lambda _: f"!{next(number)}", text, flags=re.MULTILINE)
+    nodes = (f"!{n} = distinct !{{!{n}, !8}}" for n in range(9, next(number)))
+    return "\n".join([loops, *nodes])
 
 
 class Value:
@@ -85,6 +102,10 @@ class Writer:
     def jump(self, label: str) -> None:
         self.line(f"br label %{label}")
         self.open = False
+
+    def jump_back(self, label: str) -> None:
+        """To the start of a loop."""
+        self.jump(f"{label}{ALIGNED}")
 
     def branch(self, condition: Value, yes: str, no: str) -> None:
         self.line(f"br i1 {condition.text}, label %{yes}, label %{no}")
