@@ -4,24 +4,14 @@ from __future__ import annotations
 
 import math
 import re
-import sys
-import threading
-from importlib import import_module
 from math import floor, sqrt
-from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import GROUND, PENDULUM, chain, interpreted, native_call, run
+from scenes import native_call
 
-import adamslite as al
-from adamslite.equations import engine
-from adamslite.errors import UsageError
 from adamslite.integrators.linalg import blocks
-from adamslite.kernels.code import lookup
-from adamslite.language.method import AUTO, FIXED, declared
 from adamslite.native.translate import (
-    REGISTERED,
     Ints,
     Reals,
     Record,
@@ -30,15 +20,6 @@ from adamslite.native.translate import (
 )
 from adamslite.native.translate.statements import Translator
 
-ENTRIES = sorted({method.entry for method in declared()} | {engine.OPERATIONS})
-for _entry in ENTRIES:
-    import_module(_entry.rpartition(".")[0])
-# All of the package but what kernels call.
-ENGINE = {
-    name
-    for name, code in REGISTERED.items()
-    if code.__module__.startswith(engine.HERE) and code.__module__ != lookup.__name__
-}
 LIMIT = 3
 
 
@@ -87,239 +68,6 @@ def test_every_construction_means_what_it_means_in_python():
     assert found == pytest.approx(expected, rel=1e-14)
     for a, b in zip(there, here, strict=True):
         np.testing.assert_allclose(a, b, rtol=1e-14)
-
-
-# ---- the engine ----------------------------------------------------------------------------------
-
-# Newton alone would leave it upright.
-UPRIGHT = PENDULUM.replace("QG=1,0,0", "QG=0.3,0.95,0").replace("QP=-1,0,0", "QP=-0.3,-0.95,0")
-
-ADDED_MASS = "VFORCE/{id}, I={id}, J_PART=1, FX=-0.2*ACCX({id})\\FY=VARVAL(7)"
-DECKS = {
-    "hinged": PENDULUM,
-    "loose": chain(2),
-    "spins": GROUND + "PART/2, MASS=1, CM=2, IP=1,2,3, WX=1, WY=2\nMARKER/2, PART=2\nEND\n",
-    "long": chain(13, ADDED_MASS).replace("END", "VARIABLE/7, FUNCTION=SIN(TIME)\nEND"),
-    "states": GROUND
-    + """PART/2, MASS=1, CM=2, IP=1,2,3, WX=1, WY=2
-MARKER/2, PART=2
-POINT_MASS/3, MASS=1, CM=3, QG=1,0,0
-MARKER/3, POINT_MASS=3
-DIFF/1, IC=1, FUNCTION=-DIF(1)*DX(3)+AZ(2,1)
-VARIABLE/1, IC=1, FUNCTION=COS(VARVAL(1))
-GCON/1, FUNCTION=VX(3)-0.3
-SFORCE/1, TRANSLATIONAL, I=2, J=3, FUNCTION=-5*(DM(2,3)-1)
-END
-""",
-    "jumps": GROUND
-    + """POINT_MASS/2, MASS=1, CM=2, QG=1,0,0
-MARKER/2, POINT_MASS=2
-VFORCE/1, I=2, J_PART=1, FX=STEP(TIME,0.2,0,0.201,1000)\\FY=-1E5*MAX(0,DX(2)-1.02)**1.5*VX(2)
-END
-""",
-    "stops": GROUND
-    + """POINT_MASS/2, MASS=2, CM=2
-MARKER/2, POINT_MASS=2
-VFORCE/1, I=2, J_PART=1, FX=10*TIME*ACCX(2)+10*VX(2)-4E5*DX(2)
-END
-""",
-    "meets": GROUND
-    + """POINT_MASS/2, MASS=1, CM=2, QG=0.04,0,0, VX=-1
-MARKER/2, POINT_MASS=2
-POINT_MASS/3, MASS=1, CM=3, VX=1, VY=0.3
-MARKER/3, POINT_MASS=3
-DIFF/1, IC=0.2, FUNCTION=-IF(DIF(1)-0.1: 1, 1, 2)
-VFORCE/1, I=2, J_PART=1, FX=4E3*MAX(0,-DX(2))**1.5+IF(TIME-0.15:0,1,30)\\FY=MOD(10*DX(3),1)
-VFORCE/2, I=3, J_PART=1, FX=IF(DX(3):0,0,-9)+1E-6*ABS(VX(2))\\FY=-STEP(TIME,0.1,0,0.3,2)
-VFORCE/3, I=3, J_PART=1, FX=IF(ABS(DX(3)-0.2)-0.01:-5,0,0)\\FY=STEP(DX(3),0.02,0,0.03,1)
-END
-""",
-    "meets freely": GROUND
-    + """POINT_MASS/2, MASS=1, CM=2, QG=0.04,0,0, VX=-1
-MARKER/2, POINT_MASS=2
-POINT_MASS/3, MASS=1, CM=3, VX=1, VY=0.3
-MARKER/3, POINT_MASS=3
-VFORCE/1, I=2, J_PART=1, FX=4E3*MAX(0,-DX(2))**1.5+IF(TIME-0.15:0,1,30)\\FY=MOD(10*DX(3),1)
-VFORCE/2, I=3, J_PART=1, FX=IF(DX(3):0,0,-9)+1E-6*ABS(VX(2))\\FY=-STEP(TIME,0.1,0,0.3,2)
-VFORCE/3, I=3, J_PART=1, FX=IF(ABS(DX(3)-0.2)-0.01:-5,0,0)\\FY=STEP(DX(3),0.02,0,0.03,1)
-END
-""",
-    "runs away": GROUND
-    + """POINT_MASS/2, MASS=2, CM=2
-MARKER/2, POINT_MASS=2
-GCON/1, FUNCTION=DZ(2)
-DIFF/1, IC=1, FUNCTION=10*DIF(1)**2
-END
-""",
-    "rods": GROUND
-    + """PART/2, MASS=1, CM=20, IP=1,1,1, QG=1,0,0, WZ=2
-MARKER/20, PART=2
-MARKER/21, PART=2, QP=-1,0,0
-"""
-    + "".join(
-        f"""PART/{k}, MASS=1, CM={k}0, IP=1,1,1, QG={2 * k - 3},0,0
-MARKER/{k}0, PART={k}
-MARKER/{k}1, PART={k}, QP=-1,0,0
-JOINT/{k}, SPHERICAL, I={k}1, J={k - 1}0
-"""
-        for k in range(3, 10)
-    )
-    + "JOINT/1, REVOLUTE, I=21, J=1\nEND\n",
-}
-
-
-RUBS = (
-    GROUND
-    + """POINT_MASS/2, MASS=1, CM=2, VX=1
-MARKER/2, POINT_MASS=2
-VFORCE/1, I=2, J_PART=1, FX=-100*TANH(1000*VX(2))
-END
-"""
-)
-
-# Every kind of work that an audit counts, and a branch that changes.
-WORKS = PENDULUM.replace(
-    "END",
-    """PART/3, MASS=1, CM=4, IP=1,1,1, QG=2,0,0, WX=1
-MARKER/4, PART=3
-BUSHING/1, I=4, J=2, K=9,9,9, KT=1,1,1
-MOTION/1, JOINT=1, ROTATION, FUNCTION=-TIME**2
-DIFF/1, FUNCTION=DX(4)-DIF(1), IC=0
-VFORCE/1, I=4, J_PART=1, FX=IF(DY(4)+.3:DIF(1),0,2)
-END""",
-)
-
-
-# One method for each native integrator, on every deck; and equilibria, far ones too.
-INTEGRATORS = [AUTO, *{m.entry: m.name for m in declared() if m.steps != FIXED}.values()]
-# A filter faster than the steps: records between their ends need steps of their own.
-LAGS = f"""{GROUND}\
-POINT_MASS/2, MASS=1, CM=2, VX=1
-MARKER/2, POINT_MASS=2
-DIFF/1, FUNCTION=235*(0.5*SIN(14*TIME)-DIF(1))
-END
-"""
-# A step would pass a zone of 1 mm as a whole.
-PASSES = f"""{GROUND}\
-POINT_MASS/2, MASS=1, CM=2, VX=1
-MARKER/2, POINT_MASS=2
-VFORCE/1, I=2, J_PART=1, FX=STEP(DX(2),0.25,0,0.251,1)
-END
-"""
-# A step from 0.3 to 0.4 does not see the bump, and ends where its curvature vanishes: at w/sqrt(2)
-# behind its middle, 0.6 of its height off.
-SKIPS = f"""{GROUND}\
-POINT_MASS/2, MASS=1, CM=2, VX=1
-MARKER/2, POINT_MASS=2
-GCON/1, FUNCTION=DY(2)-3E-4*EXP(-((DX(2)-0.39823223304703365)/0.0025)**2)
-END
-"""
-# A sensor watches what no force does.
-SENSED = f"""{GROUND}\
-POINT_MASS/2, MASS=1, CM=2, VX=1
-MARKER/2, POINT_MASS=2
-SENSOR/1, FUNCTION=DX(2,1), VALUE=0.21, ERROR=1E-6, GE, RETURN
-END
-"""
-RUNS = {
-    f"{name} {method}": (deck, method) for name, deck in DECKS.items() for method in INTEGRATORS
-}
-RUNS |= {
-    "steady": (PENDULUM.replace("END", "INTEGRATOR/HINIT=0.02\nEND"), "CONSTANT_BDF"),
-    "rubs": (RUBS, "RADAU"),
-    "passes": (PASSES, "RADAU"),
-    "skips": (SKIPS, "ABAM"),
-    "sensed": (SENSED, "GSTIFF"),
-    "asked": (
-        PENDULUM.replace("END", "INTEGRATOR/CORRECTOR=ORIGINAL, INTERPOLATE=OFF, PATTERN=T:F\nEND"),
-        "GSTIFF",
-    ),
-    "hangs": (PENDULUM.replace("END", "SIMULATE/STATICS\nEND"), None),
-    "leans": (UPRIGHT.replace("END", "SIMULATE/STATICS\nEND"), None),
-    "lags": (LAGS, "ABAM"),
-    "audited work": (WORKS, "GSTIFF"),
-    "audited leaps": (DECKS["jumps"], "VERLET"),
-    "falls": (PENDULUM.replace("END", "EQUILIBRIUM/MAXIT=1\nSIMULATE/STATICS\nEND"), None),
-}
-
-
-def run_of(name: str):
-    """The results, or None where the method says that it cannot run the deck."""
-    deck, method = RUNS[name]
-    if method is None:
-        return al.simulate(al.read(deck))
-    try:
-        audit = name.startswith("audited")
-        return run(deck, 0.4, 4, error=1e-4, integrator=method, audit=audit)
-    except UsageError:
-        return None
-
-
-# Rooms that hold native functions.
-NATIVE_ROOMS = tuple(
-    str(Path(al.__file__).parent / room) for room in ("integrators", "equations/operations.py")
-)
-
-
-def interpreted_run_of(name: str):
-    """The same by Python."""
-    with pytest.MonkeyPatch.context() as patch, np.errstate(all="ignore"):
-        interpreted(patch)
-        return run_of(name)
-
-
-@pytest.mark.parametrize("name", RUNS)
-def test_the_engine_runs_the_same_interpreted_and_native(name):
-    """Same steps, same iterations, same results to round-off."""
-    by_python, native_run = interpreted_run_of(name), run_of(name)
-    if by_python is None or native_run is None:
-        assert by_python is native_run
-        return
-    assert by_python.outcome == native_run.outcome
-    for count in ("steps", "rejected", "newton", "jacobians", "factorizations"):
-        assert by_python.summary[count] == native_run.summary[count]
-    np.testing.assert_allclose(by_python.values, native_run.values, rtol=1e-8, atol=1e-8)
-
-
-def defined(text: str) -> set[str]:
-    """Symbols of the functions in a module."""
-    return set(re.findall(r"^define internal \w+ @([\w.]+)\(", text, re.MULTILINE))
-
-
-@pytest.fixture
-def called():
-    """Names of the native functions that Python calls during a test."""
-    names: set[str] = set()
-    before = sys.getprofile()
-
-    def watch(frame, event, argument):
-        if event == "call" and frame.f_code.co_filename.startswith(NATIVE_ROOMS):
-            module = frame.f_globals["__name__"].removeprefix("adamslite.")
-            names.add(f"{module}.{frame.f_code.co_name}")
-
-    sys.setprofile(watch)
-    threading.setprofile(watch)
-    yield names
-    threading.setprofile(None)
-    sys.setprofile(before)
-
-
-@pytest.mark.slow
-def test_those_runs_reach_every_native_function(called):
-    """All that the registered entries call."""
-    for name in RUNS:
-        interpreted_run_of(name)
-    reached = set().union(*(defined(engine.engine_text(name)) for name in ENTRIES))
-    assert "integrators.records.write_record" in reached
-    assert reached <= called
-
-
-def test_the_entries_are_translated_whole():
-    """Every native function is part of one; each has one name that others may call."""
-    texts = [engine.engine_text(name) for name in ENTRIES]
-    entries = {name.removeprefix(engine.HERE) for name in ENTRIES}
-    assert entries.union(*map(defined, texts)) >= ENGINE
-    assert all(t.count("define ") - t.count("define internal") == 1 for t in texts)
 
 
 # ---- what is refused -----------------------------------------------------------------------------

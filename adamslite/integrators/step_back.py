@@ -77,38 +77,35 @@ def turning(P: Problem, h: float) -> float:
 @native
 def remember(P: Problem) -> None:
     """Keep the last accepted state before the next one replaces it."""
-    at = copied(P.history.size, P.history, P.undo, 0)
-    at = copied(P.control.size, P.control, P.undo, at)
-    at = copied(P.base.size, P.base, P.undo, at)
-    at = copied(P.ra.size, P.ra, P.undo, at)
-    at = copied(P.rz.size, P.rz, P.undo, at)
-    at = copied(P.pz.size, P.pz, P.undo, at)
+    move_state(P, True)
     keep_audit(P)
 
 
 @native
 def bring_back(P: Problem) -> None:
     """What :func:`remember` kept."""
-    at = taken(P.history.size, P.history, P.undo, 0)
-    at = taken(P.control.size, P.control, P.undo, at)
-    at = taken(P.base.size, P.base, P.undo, at)
-    at = taken(P.ra.size, P.ra, P.undo, at)
-    at = taken(P.rz.size, P.rz, P.undo, at)
-    at = taken(P.pz.size, P.pz, P.undo, at)
+    move_state(P, False)
     bring_audit_back(P)
 
 
 @native
-def copied(n: int, x: Reals, y: Reals, at: int) -> int:
-    """x into y at a place; returns the place after it."""
-    copy(y[at:], x, n)
-    return at + n
+def move_state(P: Problem, keep: bool) -> None:
+    """The arrays of an accepted state one after another into ``undo``, or from there."""
+    at = moved(P.history.size, P.history, P.undo, 0, keep)
+    at = moved(P.control.size, P.control, P.undo, at, keep)
+    at = moved(P.base.size, P.base, P.undo, at, keep)
+    at = moved(P.ra.size, P.ra, P.undo, at, keep)
+    at = moved(P.rz.size, P.rz, P.undo, at, keep)
+    at = moved(P.pz.size, P.pz, P.undo, at, keep)
 
 
 @native
-def taken(n: int, x: Reals, y: Reals, at: int) -> int:
-    """x from y at a place; returns the place after it."""
-    copy(x, y[at:], n)
+def moved(n: int, x: Reals, kept: Reals, at: int, keep: bool) -> int:
+    """x into a place of ``kept``, or from there; returns the place after it."""
+    if keep:
+        copy(kept[at:], x, n)
+    else:
+        copy(x, kept[at:], n)
     return at + n
 
 

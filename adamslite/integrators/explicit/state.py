@@ -7,6 +7,7 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.history import OLD
 from adamslite.integrators.motion_equations import PART
+from adamslite.integrators.stepping.accepted import count_from_here
 from adamslite.native.translate import native
 
 
@@ -28,12 +29,9 @@ def restore_state(P: Problem, C: Control) -> None:
 @native
 def base_here(P: Problem, C: Control) -> None:
     """Count rotation vectors from the accepted attitude."""
-    w = C.size
-    n, y, k = P.sizes.n, P.history[OLD * w :], P.history[0:]
+    count_from_here(P)
+    n, y, k = P.sizes.n, P.history[OLD * C.size :], P.history[0:]
     for b in range(P.sizes.nb):
         if P.body[b].width == PART:
-            i, o = P.body[b].first + 3, P.body[b].at + 15
-            for m in range(9):
-                P.base[9 * b + m] = P.W[o + m]
-            for c in range(3):
-                P.q[i + c], y[i + c], k[i + c] = 0.0, 0.0, y[n + i + c]
+            for i in range(P.body[b].first + 3, P.body[b].first + 6):
+                y[i], k[i] = 0.0, y[n + i]
