@@ -63,23 +63,28 @@ def load_scene(deck_path: Path, commands_path: Path | None = None) -> Scene:
     DeckError
         With everything that is wrong in the two files.
     """
+    from adamslite.checks.inert import in_one_note
     from adamslite.reading.read import Commands, read_commands
 
-    wrong: list[Diagnostic] = []
+    found: list[Diagnostic] = []
     try:
         deck = adamslite.read(deck_path)
+        found += adamslite.check(deck)
     except DeckError as fault:
-        deck, wrong = fault.deck, [*fault.diagnostics]
+        deck = fault.deck
+        found += fault.diagnostics
     chosen = commands_path or command_file_beside(deck_path)
-    try:
-        commands = read_commands(chosen, deck) if chosen and deck else Commands()
-    except DeckError as fault:
-        raise DeckError([*wrong, *fault.diagnostics], deck) from None
-    diagnostics = (*(wrong or adamslite.check(deck)), *commands.warnings)
-    if any(diagnostic.is_error for diagnostic in diagnostics):
-        raise DeckError(diagnostics, deck)
+    commands = Commands()
+    if chosen and deck:
+        try:
+            commands = read_commands(chosen, deck)
+            found = in_one_note([*found, *commands.warnings], deck, commands)
+        except DeckError as fault:
+            found += fault.diagnostics
+    if any(diagnostic.is_error for diagnostic in found):
+        raise DeckError(found, deck)
     return Scene(
-        deck=deck, commands=commands, warnings=diagnostics, deck_path=deck_path,
+        deck=deck, commands=commands, warnings=tuple(found), deck_path=deck_path,
         commands_path=chosen, beside=commands_path is None and chosen is not None,
     )  # fmt: skip
 

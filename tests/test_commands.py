@@ -356,6 +356,25 @@ def test_warnings_of_commands_are_those_of_the_scene(tmp_path: Path) -> None:
     assert "no-output-step" in [each.code for each in scene.warnings]
 
 
+def test_mistakes_of_commands_do_not_hide_warnings_of_the_deck(tmp_path: Path) -> None:
+    (tmp_path / "rig.adm").write_text(RIG + "MARKER/88, PART=1, FLOATING\n")
+    (tmp_path / "rig.acf").write_text("VARIABLE/5, FUNCTION=nobody\n")
+    with pytest.raises(DeckError) as error:
+        load_scene(tmp_path / "rig.adm")
+    found = {each.code for each in error.value.diagnostics}
+    assert found == {"unknown-name", "floating-unused"}
+
+
+def test_one_note_for_deck_and_commands(tmp_path: Path) -> None:
+    """Each place is in the data; the text tells everything where it first stands."""
+    (tmp_path / "rig.adm").write_text(RIG + "OUTPUT/REQSAVE\nDEBUG/EPRINT\n")
+    (tmp_path / "rig.acf").write_text("output/nosep\nRESULTS/XRF\nSIM/DYN, END=1, STEPS=2\n")
+    (note,) = load_scene(tmp_path / "rig.adm").warnings
+    assert note.message.endswith(": OUTPUT (2), DEBUG, RESULTS")
+    assert Path(note.span.file).name == "rig.adm"
+    assert [Path(each.file).suffix for each in note.places] == [".adm", ".adm", ".acf", ".acf"]
+
+
 def public_commands(name: str) -> tuple[Commands | None, set[str]]:
     """Commands of a public file for its deck as far as that can be read; what is not supported."""
     path = public_deck(name)

@@ -83,10 +83,30 @@ def _changing_words(deck: Deck) -> Iterator[tuple[Statement, str, str]]:
 
 
 def passed_over(deck: Deck) -> Iterator[Diagnostic]:
+    yield from note_of_inert(_without_use(deck))
+
+
+def _without_use(deck: Deck) -> Iterator[Statement]:
+    """Statements of which nothing else has to be said."""
     needed = {body for *_, body in _flexible_uses(deck)}
     needed |= {(joint.keyword, joint.key) for joint in deck.of(Joint) if _acting(joint)}
     needed |= {(output.keyword, output.key) for output, *_ in _changing_words(deck)}
-    yield from note_of_inert(s for s in deck.own if (s.keyword, s.key) not in needed)
+    yield from (each for each in deck.own if (each.keyword, each.key) not in needed)
+
+
+def in_one_note(
+    diagnostics: Iterable[Diagnostic], deck: Deck, commands: Iterable[Command]
+) -> list[Diagnostic]:
+    """The messages about a deck and its command file, with one note of what is passed over."""
+    found = list(diagnostics)
+    notes = [each for each in found if each.code == "passed-over"]
+    if len(notes) < 2:
+        return found
+    (whole,) = note_of_inert([*_without_use(deck), *commands])
+    places = tuple(place for each in notes for place in each.everywhere)
+    note = replace(notes[0], message=whole.message, places=places)
+    rest = (each for each in found if each not in notes[1:])
+    return [note if each is notes[0] else each for each in rest]
 
 
 def note_of_inert(statements: Iterable[Command]) -> Iterator[Diagnostic]:
