@@ -120,8 +120,8 @@ def note_of_inert(statements: Iterable[Command]) -> Iterator[Diagnostic]:
     if found:
         places = tuple(place_of(*each) for each in found)
         listed = (f"{name} ({n})" if n > 1 else name for name, n in counts.items())
-        told = diagnose(found[0][0], "passed-over", found[0][1], listed=", ".join(listed))
-        yield replace(told, places=places)
+        note = diagnose(found[0][0], "passed-over", found[0][1], listed=", ".join(listed))
+        yield replace(note, places=places)
 
 
 def _inert(command: Command) -> Iterator[tuple[str, str]]:

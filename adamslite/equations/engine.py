@@ -63,7 +63,7 @@ def _version(entry: str) -> str:
 
 def engine_text(entry: str) -> str:
     """LLVM assembly of an entry."""
-    # Only what is compiled anew needs the translator.
+    # Only compilation needs the translator.
     from adamslite.native.translate.statements import translate
 
     module, _, name = entry.rpartition(".")

@@ -82,5 +82,5 @@ def vocabulary(cls: type[Statement]) -> Vocabulary:
 
 
 def forget_vocabularies() -> None:
-    """Collect keywords anew: the words that an argument may take have changed."""
+    """Collect keywords again: the words that an argument may take have changed."""
     _KNOWN.clear()
