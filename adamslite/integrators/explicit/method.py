@@ -40,13 +40,12 @@ from adamslite.integrators.explicit.error import (
 from adamslite.integrators.explicit.events import end_at_crossing, pass_on, passes_crossing
 from adamslite.integrators.explicit.history import INVERSE, K_NEW, NEXT_STATE, OLD
 from adamslite.integrators.explicit.recovery import (
-    CLOSER,
     after_failure,
     after_rejection,
     left_branch,
+    near_singularity,
     pull_back,
-    shorten,
-    why_stuck,
+    stuck,
 )
 from adamslite.integrators.explicit.stages import exact_rates, stages
 from adamslite.integrators.explicit.state import base_here, restore_state
@@ -55,7 +54,7 @@ from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.step_back import make_undoable
 from adamslite.integrators.stepping.accepted import keep_solution
-from adamslite.integrators.stepping.control import RUNNING
+from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
     end_of_run,
     end_of_step,
@@ -86,7 +85,7 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     """Rates at the start, first step, first record."""
     C[:] = 0
     P.undoing[:] = 0
-    C.t, C.last_error = P.settings.t, LEAST_ERROR
+    C.t, C.last_error, C.blamed = P.settings.t, LEAST_ERROR, NOBODY
     start_state(P, C)
     start_events(P, True, True)
     if not start_accelerations(P, L, C):
@@ -142,7 +141,7 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
         return outcome
     limit_step(P, C)
     if C.h < (P.settings.h_min if C.cautious else least_step(P)) or crawls(P, C.h):
-        return why_stuck(P, L, C)
+        return stuck(P, L, C)
     note_try(P, C, ORDER)
     if not stages(P, L, C, C.h):
         return after_failure(P, C)
@@ -155,10 +154,10 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
     if P.sizes.implicit_mass:
         put_state(P, t, y, y[n:], P.a, P.z, P.rd)
     if passed_singularity(P, L, C):
-        return shorten(P, C, CLOSER)
+        return near_singularity(P, C)
     P.report.moved = 0.0
     if not exact_rates(P, L, C, t, y, k):
-        return shorten(P, C, CLOSER)
+        return near_singularity(P, C)
     if left_branch(P, L, C):
         return pull_back(P, L, C)
     if passes_crossing(P, C):

@@ -8,28 +8,18 @@ leap.
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import mass_vanishes
-from adamslite.integrators.contract import (
-    CHATTERING,
-    NEWTON_FAILED,
-    SINGULAR_MASS,
-    STEP_TOO_SMALL,
-    Problem,
-)
+from adamslite.integrators.contract import SINGULAR_MASS, Problem
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.error import LARGE, NOW_POWER, SAFETY, SHRINK, cut_step
-from adamslite.integrators.explicit.state import (
-    restore_state,
-)
+from adamslite.integrators.explicit.state import restore_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.projection import sensitivity
 from adamslite.integrators.step_back import before_trouble
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.outcome import OVERFLOW
+from adamslite.integrators.stepping.outcome import OVERFLOW, SINGULAR_RESOLUTION, why_stuck
 from adamslite.native.translate import native
 
-SINGULAR_RESOLUTION = 1e-6
 # Tries in vain around one place before the step that led there is taken back: failures of the
 # equations, rejections.
 FEW_FAILURES, FEW_REJECTIONS = 2, 3.0
@@ -94,16 +84,16 @@ def after_rejection(P: Problem, C: Control, error: float) -> int:
 
 
 @native
-def why_stuck(P: Problem, L: Plan, C: Control) -> int:
-    """The step became too small: because a mass vanishes, the equations could not be solved, or for
-    accuracy.
-    """
+def near_singularity(P: Problem, C: Control) -> int:
+    """The acceleration matrix became singular within the step: approach that, never pass it."""
+    return shorten(P, C, CLOSER)
+
+
+@native
+def stuck(P: Problem, L: Plan, C: Control) -> int:
+    """Back to the accepted state, and why the step became too small."""
     restore_state(P, C)
-    if mass_vanishes(P, L, C.signature):
-        return SINGULAR_MASS
-    if P.search.freed > 0:
-        return CHATTERING
-    return NEWTON_FAILED if C.retries > 0 else STEP_TOO_SMALL
+    return why_stuck(P, L, C)
 
 
 @native
@@ -120,7 +110,7 @@ def pull_back(P: Problem, L: Plan, C: Control) -> int:
     if C.pulled <= MOST_PULLED:
         return shorten(P, C, HALF)
     C.retries += 1
-    return why_stuck(P, L, C)
+    return stuck(P, L, C)
 
 
 @native

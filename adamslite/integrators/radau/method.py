@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations, put_state
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.contract import BROKEN_START, NOT_FINITE, SINGULAR_MASS, Problem
+from adamslite.integrators.contract import BROKEN_START, SINGULAR_MASS, Problem
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.stops import horizon
@@ -51,7 +51,6 @@ from adamslite.integrators.stepping.accepted import count_from_here, keep_soluti
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
     ALMOST,
-    OVERFLOW,
     end_of_run,
     end_of_step,
     near_singularity,
@@ -120,9 +119,7 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
     if not correct(P, L, C):
         return after_failure(P, C)
     error = local_error(P, L, C)
-    if not error < OVERFLOW:
-        return NOT_FINITE
-    if error > 1.0:
+    if not error <= 1.0:
         return after_rejection(P, L, C, error)
     if ends_singular(P, L, C):
         return near_singularity(P, C)

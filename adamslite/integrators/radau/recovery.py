@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import Problem
+from adamslite.integrators.contract import NOT_FINITE, Problem
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.implicit.failures import wildest
@@ -15,7 +15,7 @@ from adamslite.integrators.radau.stages import put_stage
 from adamslite.integrators.radau.state import restore_state
 from adamslite.integrators.radau.step_size import step_factor
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.outcome import why_stuck
+from adamslite.integrators.stepping.outcome import OVERFLOW, why_stuck
 from adamslite.integrators.stepping.step_size import cut
 from adamslite.native.translate import native
 
@@ -43,6 +43,8 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
     """The error was too large: a shorter step, with new derivatives where they were old, because
     these may be all that is wrong with the estimate.
     """
+    if not error < OVERFLOW:
+        return NOT_FINITE
     if is_at_crossing(P, C, error):
         return switch_at_start(P, L, C)
     P.count.rejected += 1
