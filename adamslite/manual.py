@@ -12,12 +12,17 @@ from collections.abc import Iterable, Sequence
 from inspect import cleandoc, getattr_static
 
 from adamslite import elements, functions  # noqa: F401  register what there is to describe
+from adamslite.deck.names import MEANINGS
 from adamslite.errors import UsageError
 from adamslite.language.expression import Node, to_text
 from adamslite.language.function import FUNCTIONS, Function, Parameter, listed
 from adamslite.language.messages import MESSAGES, did_you_mean
 from adamslite.language.messages.entry import Message
 from adamslite.language.method import ARGUMENTS, Method, declared, methods
+from adamslite.language.not_supported import COMMANDS as MISSING_COMMANDS
+from adamslite.language.not_supported import FUNCTIONS as MISSING_FUNCTIONS
+from adamslite.language.not_supported import INSTEAD
+from adamslite.language.not_supported import STATEMENTS as MISSING_STATEMENTS
 from adamslite.language.statement import STATEMENTS, Argument, Statement
 from adamslite.results.formats import formats
 from adamslite.results.outcomes import Outcome
@@ -65,7 +70,14 @@ Row = Sequence[str]
 def statements() -> str:
     """The page of all statements: docs/statements.md."""
     pages = (statement(STATEMENTS[keyword]) for keyword in sorted(STATEMENTS))
-    return "\n".join([HEAD, STATEMENTS_INTRO, *pages])
+    missing = _missing("statement or command", MISSING_STATEMENTS | MISSING_COMMANDS)
+    return "\n".join([HEAD, STATEMENTS_INTRO, *pages, missing])
+
+
+def _missing(kind: str, names: Iterable[str]) -> str:
+    """What is not supported of a kind, and what to write instead."""
+    rows = [(f"`{name}`", INSTEAD[name]) for name in sorted(names)]
+    return f"## Not supported\n\n{table((kind, 'instead'), rows)}"
 
 
 def deck_functions() -> str:
@@ -76,6 +88,8 @@ def deck_functions() -> str:
             family = each.body.__module__
             parts.append(f"## {_heading(sys.modules[family].__doc__)}\n")
         parts.append(function(each))
+    constants = table(("name", "value"), [(f"`{name}`", text) for name, text in MEANINGS.items()])
+    parts += [f"## Constants\n\n{constants}", _missing("function", MISSING_FUNCTIONS)]
     return "\n".join(parts)
 
 
@@ -145,6 +159,8 @@ def _use(text: str) -> str:
 def pages(name: str) -> str:
     """Everything of this name: a statement, a function, an integrator, a message, a topic.
 
+    Of a name that is not supported it is what to write instead.
+
     Raises
     ------
     UsageError
@@ -161,6 +177,10 @@ def pages(name: str) -> str:
         found.append(message(lower, MESSAGES[lower]))
     if upper in TOPICS:
         found.append(TOPICS[upper]().removeprefix(HEAD).lstrip())
+    if upper in MEANINGS:
+        found.append(f"## {upper}: {MEANINGS[upper]}\n")
+    if upper in MISSING_STATEMENTS | MISSING_FUNCTIONS | MISSING_COMMANDS:
+        found.append(f"## {upper}: not supported\n\nInstead: {INSTEAD[upper]}.\n")
     if not found:
         names = [*STATEMENTS, *FUNCTIONS, *methods(), *MESSAGES, *TOPICS]
         longer = [each for each in names if each.startswith(name.upper())]
@@ -198,7 +218,8 @@ def statement(cls: type[Statement]) -> str:
     if names is not getattr_static(Statement, "result_names"):
         parts.append(f"Results: {_lower_first(_heading(names.__doc__))}.\n")
     if cls.planned:
-        parts.append(f"Not supported yet: {_listed(cls.planned)}.\n")
+        rows = [(f"`{word}`", INSTEAD[f"{cls.keyword} {word}"]) for word in cls.planned]
+        parts.append(table(("not supported", "instead"), rows))
     return "\n".join(parts)
 
 

@@ -15,6 +15,14 @@ RESERVED: dict[str, Node] = {
     "DTOR": Num(math.pi / 180),
     "RTOD": Num(180 / math.pi),
 }
+MEANINGS = {
+    "TIME": "the time of the analysis",
+    "MODE": "5 in statics, 4 otherwise",
+    "PI": "3.14159265358979",
+    "DTOR": "pi/180, radians in a degree",
+    "RTOD": "180/pi, degrees in a radian",
+}
+"""What these names mean, for the manual."""
 
 
 class Names:
