@@ -11,6 +11,7 @@ from adamslite.checks.markers import references
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.deck.statement_diagnostics import diagnose, place_of
+from adamslite.elements.graphics import Graphics
 from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
 from adamslite.elements.request import Request
@@ -46,7 +47,7 @@ def _flexible_uses(deck: Deck) -> Iterator[tuple[Statement, str, Key, Body]]:
     flexible = {key: body for key, body in owner.items() if body and body[0] in INSTEAD}
     for statement in deck.statements if flexible else ():
         for field, key in references(statement):
-            if key in flexible:
+            if key in flexible and not statement.inert:
                 yield statement, field, key, flexible[key]
 
 
@@ -91,6 +92,7 @@ def _without_use(deck: Deck) -> Iterator[Statement]:
     needed = {body for *_, body in _flexible_uses(deck)}
     needed |= {(joint.keyword, joint.key) for joint in deck.of(Joint) if _acting(joint)}
     needed |= {(output.keyword, output.key) for output, *_ in _changing_words(deck)}
+    needed |= {(g.keyword, g.key) for g in deck.of(Graphics) if g.shape is None or g.missing}
     yield from (each for each in deck.own if (each.keyword, each.key) not in needed)
 
 

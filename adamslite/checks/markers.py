@@ -87,7 +87,7 @@ def floating_use(deck: Deck) -> Iterator[Diagnostic]:
             if deck.find(Marker, force.jfloat):
                 yield diagnose(force, "not-floating", "jfloat", key=force.jfloat)
     for statement in deck.statements if floating else ():
-        for field, key in _uses(statement):
+        for field, key in _uses(statement) if not statement.inert else ():
             if key in floating and field != "jfloat":
                 word = statement.arguments[field].key
                 yield diagnose(statement, "floating-misused", field, word=word, key=key)

@@ -42,6 +42,7 @@ from adamslite.checks.posture import (
 )
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.runs import RUN_RULES
+from adamslite.checks.shapes import shapes
 from adamslite.checks.tables import TABLE_RULES
 from adamslite.deck.deck import Deck
 from adamslite.language.diagnostics import Diagnostic, sort_by_place
@@ -78,6 +79,7 @@ RULES: list[Rule] = [
     frictions,
     idle_arguments,
     held_states,
+    shapes,
     reserved_names,
     requests,
     unit_system,

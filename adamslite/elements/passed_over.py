@@ -80,16 +80,6 @@ TABLE = {
         has_id=True,
         body=True,
     ),
-    "GRAPHICS": Entry(
-        "shapes for display",
-        """
-        BOX, CYLINDER, FRUSTUM, CIRCLE, ARC, ELLIPSOID, TORUS, PLANE, POINT, OUTLINE  shapes
-        EXTERNAL, CURVE   shapes from a file, or along a CURVE
-        FORCE, SPRINGDAMPER  arrows of forces, coils of springs
-        CM, RM, I, J, CORNER  markers
-        """,
-        has_id=True,
-    ),
     "LSOLVER": Entry(
         "the linear algebra of ADAMS",
         """

@@ -18,6 +18,7 @@ from adamslite.language.messages.entry import Message
 from adamslite.language.messages.expressions import EXPRESSIONS
 from adamslite.language.messages.model import MODEL
 from adamslite.language.messages.runs import RUNS
+from adamslite.language.messages.shapes import SHAPES
 from adamslite.language.messages.statements import STATEMENTS
 from adamslite.language.messages.tables import TABLES
 from adamslite.language.not_supported import INSTEAD
@@ -25,7 +26,7 @@ from adamslite.language.not_supported import INSTEAD
 # Of words that may have been meant: likeness at least (1: equal), and what they may fall behind by.
 LIKENESS, SPREAD = 0.6, 0.1
 MESSAGES: dict[str, Message] = (
-    STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CONSTRAINTS | TABLES | RUNS
+    STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CONSTRAINTS | SHAPES | TABLES | RUNS
 )
 
 ALIKE = {"PART": "POINT_MASS", "POINT_MASS": "PART", "VARIABLE": "DIFF", "DIFF": "VARIABLE"}
