@@ -45,9 +45,10 @@ def _flexible_uses(deck: Deck) -> Iterator[tuple[Statement, str, Key, Body]]:
     """Statements, with the field, that refer to a marker of a flexible body."""
     owner = {marker.key: marker.owner for marker in deck.of(Marker)}
     flexible = {key: body for key, body in owner.items() if body and body[0] in INSTEAD}
-    for statement in deck.statements if flexible else ():
+    acting = (each for each in deck.statements if not each.inert)
+    for statement in acting if flexible else ():
         for field, key in references(statement):
-            if key in flexible and not statement.inert:
+            if key in flexible:
                 yield statement, field, key, flexible[key]
 
 
