@@ -22,7 +22,7 @@ WORDS = [
     ("OUTPUT/REQSAVE, GRSAVE\n, NOSUCHWORD=1:2", "OUTPUT"),
     ("output/nosep", "OUTPUT"),
     ("RESULTS/XRF, NOTIRES\nRESULTS/COMMENT=a.b%", "RESULTS (2)"),
-    ("KINEMATICS/HMAX=0.1, MAXIT=7", "KINEMATICS HMAX"),
+    ("KINEMATICS/HMAX=0.1, MAXIT=7", "KINEMATICS MAXIT, KINEMATICS HMAX"),
     ("KINEMATICS/APATTERN=T:F, AMAXIT=9", "KINEMATICS APATTERN, KINEMATICS AMAXIT"),
     ("GRAPHICS/0101\n, ELLIPSOID\n, CM = 02\n, XS = 0.2, YS = 0.2, ZS = 0.2", "GRAPHICS"),
     ("FE_PART/1, SECTION=1, MATERIAL=2", "FE_PART"),
@@ -70,7 +70,8 @@ def test_the_same_in_command_files(words: str, listed: str) -> None:
 def test_everything_is_in_one_note() -> None:
     (note,) = told(START + "".join(f"{words}\n" for words, _ in WORDS[3:11]))
     assert note.message.endswith(
-        ": PREFERENCES (2), DEBUG, LSOLVER, OUTPUT (2), RESULTS (2), KINEMATICS HMAX"
+        ": PREFERENCES (2), DEBUG, LSOLVER, OUTPUT (2), RESULTS (2), KINEMATICS MAXIT, "
+        "KINEMATICS HMAX"
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from decklets import told
 from hypothesis import given, settings
@@ -33,8 +35,10 @@ def test_a_broken_deck_yields_its_message_only(code: str, broken: str) -> None:
 
 @pytest.mark.parametrize(("code", "broken"), COMMANDS)
 def test_a_broken_command_file_yields_its_message_only(code: str, broken: str) -> None:
+    deck = read(START + MESSAGES[code].deck)
+    deck.path = Path("deck.adm")
     try:
-        found = read_commands(broken + "\n", read(START + MESSAGES[code].deck)).warnings
+        found = read_commands(broken + "\n", deck).warnings
     except DeckError as error:
         found = error.diagnostics
     assert {diagnostic.code for diagnostic in found} == {code}

@@ -36,7 +36,7 @@ from adamslite.analyses.method_choice import MethodChoice, choose_method
 from adamslite.analyses.output_times import output_times
 from adamslite.analyses.planar_reduction import in_its_plane
 from adamslite.analyses.sensors import AT_TIMES, SensorLog, require_none
-from adamslite.analyses.setting_commands import updated
+from adamslite.analyses.setting_commands import changes_the_model, updated
 from adamslite.analyses.static import StaticSettings, run_static
 from adamslite.analyses.subject import Subject, kernels_of
 from adamslite.deck.deck import Deck
@@ -45,7 +45,6 @@ from adamslite.elements.activate import Activate
 from adamslite.elements.deactivate import Deactivate
 from adamslite.elements.equilibrium import Equilibrium
 from adamslite.elements.integrator import Integrator
-from adamslite.elements.kinematics import Kinematics
 from adamslite.elements.linear import Linear
 from adamslite.elements.pinput import Pinput
 from adamslite.elements.poutput import Poutput
@@ -154,7 +153,7 @@ class Session:
             action = getattr(self, f"_do_{command.keyword.lower()}", None)
             if action is not None:
                 action(command)
-            elif command.keyword not in ("FILE", "END"):
+            elif changes_the_model(command):
                 self._change(self.deck.after(command))
 
     # settings
@@ -164,9 +163,6 @@ class Session:
 
     def _do_equilibrium(self, command: Equilibrium) -> None:
         self.statics = updated(StaticSettings() if command.default else self.statics, command)
-
-    def _do_kinematics(self, command: Kinematics) -> None:
-        """Its tolerances are looser than what is done anyway."""
 
     # changes of the model
 

@@ -1,4 +1,4 @@
-"""Settings of analyses after a command that changes some of them."""
+"""What commands change: settings of analyses, or the model."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ from typing import TypeVar
 
 from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.static import StaticSettings
+from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.equilibrium import Equilibrium
 from adamslite.elements.integrator import Integrator
 
+# What is settled before a run: the deck, the end of its commands, settings without effect.
+SETTLED = ("FILE", "END", "KINEMATICS")
 S = TypeVar("S", Settings, StaticSettings)
 
 
@@ -21,3 +24,10 @@ def updated(settings: S, command: Integrator | Equilibrium) -> S:
         if command.given(each.name) and getattr(command, each.name) is not None
     }
     return replace(settings, **given)
+
+
+def changes_the_model(command: Command) -> bool:
+    """Whether a command that is not an analysis changes the model or its elements."""
+    if isinstance(command, Redefinition):
+        return bool(command.changes) and not command.of.inert
+    return not command.inert and command.keyword not in SETTLED

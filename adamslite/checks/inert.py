@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from adamslite.checks.markers import references
 from adamslite.deck.deck import Deck
-from adamslite.deck.redefinition import Command
+from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.statement_diagnostics import diagnose, place_of
 from adamslite.elements.graphics import Graphics
 from adamslite.elements.joint import Joint
@@ -17,7 +17,7 @@ from adamslite.elements.marker import Marker
 from adamslite.elements.request import Request
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.interfaces import Key
-from adamslite.language.statement import Statement
+from adamslite.language.statement import Argument, Statement
 
 COEFFICIENTS = ("mu_stat_rot", "mu_dyn_rot", "mu_stat_trans", "mu_dyn_trans")
 CHANGING = {
@@ -134,4 +134,12 @@ def _inert(command: Command) -> Iterator[tuple[str, str]]:
         yield "", command.keyword
     for field in cls.inert_fields:
         if field in command.spans:
-            yield field, f"{command.keyword} {cls.arguments[field].key}"
+            yield field, f"{command.keyword} {_written(command, cls.arguments[field])}"
+
+
+def _written(command: Command, argument: Argument) -> object:
+    """The keyword of an argument; the word itself of one that has none."""
+    if argument.keys:
+        return argument.key
+    changes = command.changes if isinstance(command, Redefinition) else vars(command)
+    return changes[argument.name]

@@ -13,6 +13,7 @@ from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.activate import Activate
 from adamslite.elements.deactivate import Deactivate
 from adamslite.elements.equilibrium import Equilibrium
+from adamslite.elements.file import File
 from adamslite.elements.integrator import Integrator
 from adamslite.elements.kinematics import Kinematics
 from adamslite.elements.linear import Linear
@@ -83,8 +84,6 @@ def iteration_values(deck: Deck) -> Iterator[Diagnostic]:
 def simulation_times(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.of(Simulate):
         yield from positive(each, "duration", "dtout", "steps")
-        if each.level and each.kind != "INITIAL_CONDITIONS":
-            yield _idle(each, "level", each.level, "only INITIAL_CONDITIONS come in levels")
         if each.kind == "INITIAL_CONDITIONS":
             for field in filter(each.given, TIMES):
                 yield _idle(each, field, field.upper(), "initial conditions take no time")
@@ -193,9 +192,13 @@ def _missing(deck: Deck, switch: Activate | Deactivate, key: Key) -> Iterator[Di
 
 def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.of(Linear):
-        for field in ("file", "pinput", "poutput"):
+        for field in ("file", "format", "pinput", "poutput"):
             if each.kind == "EIGENSOL" and each.given(field):
                 yield _idle(each, field, field.upper(), "EIGENSOL has neither input nor output")
+        if each.pstate is not None and each.kind == "EIGENSOL":
+            yield _idle(each, "pstate", "PSTATE", "eigenvalues do not depend on the states")
+        elif each.pstate is not None:
+            yield diagnose(each, "states-chosen", "pstate")
 
 
 def file_names(deck: Deck) -> Iterator[Diagnostic]:
@@ -210,6 +213,12 @@ def file_names(deck: Deck) -> Iterator[Diagnostic]:
             what = "that of an earlier LINEAR"
             yield diagnose(each, "file-taken", "file", word=each.file, what=what)
         known.add(each.file.casefold())
+
+
+def other_models(deck: Deck, commands: Iterable[Statement]) -> Iterator[Diagnostic]:
+    for each in commands:
+        if isinstance(each, File) and each.model and not deck.is_called(each.model):
+            yield diagnose(each, "other-model", "model", word=each.model)
 
 
 def inputs_with_rates(deck: Deck, commands: Iterable[Statement]) -> Iterator[Diagnostic]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cached_property
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Any, overload
 
 from adamslite.deck.element_switch import Switch
@@ -186,6 +186,11 @@ class Deck:
     def folder(self) -> Path:
         """Where the files are that the deck names: beside it; of a text, the current folder."""
         return self.path.parent if self.path else Path()
+
+    def is_called(self, model: str) -> bool:
+        """Whether a command file means this deck by a name; a text may have any."""
+        name = PureWindowsPath(model).name.casefold()
+        return not self.path or name.removesuffix(".adm") == self.path.stem.casefold()
 
     @property
     def gravity(self) -> tuple[float, float, float]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from adamslite.language.statement import Statement, number, statement
 
 
-@statement("ACCGRAV", singleton=True, redefinable=True)
+@statement("ACCGRAV", singleton=True)
 class Accgrav(Statement):
     """The acceleration of gravity itself, signed: downward along -y is ``JGRAV=-9.81``.
 

@@ -11,18 +11,34 @@ from __future__ import annotations
 
 from math import radians
 
-from adamslite.language.statement import Statement, flag, integer, number, statement, words
+from adamslite.language.statement import (
+    Statement,
+    choice,
+    flag,
+    integer,
+    number,
+    statement,
+    words,
+)
 
 
-@statement(
-    "EQUILIBRIUM", singleton=True, repeatable=True, place="both",
-    planned=(
-        "METHOD", "ATOL", "RTOL", "MAXITL", "ETA", "ETAMAX", "GLOBAL_DAMPING", "SETTLING_TIME",
-        "ACCELERATION_ERROR", "KINETIC_ENERGY_ERROR",
-    ),
-)  # fmt: skip
+def _advanced(key: str, what: str) -> float | None:
+    return number(key, unit="1", inert=True, help=f"{what} of the advanced methods of ADAMS")
+
+
+def _settling(key: str, what: str) -> float | None:
+    return number(
+        key, unit="that of the deck", inert=True, help=f"{what} of settling in a dynamic run"
+    )
+
+
+@statement("EQUILIBRIUM", singleton=True, repeatable=True, place="both")
 class Equilibrium(Statement):
-    """How SIMULATE/STATICS finds the position of rest; omitted arguments keep their values."""
+    """How SIMULATE/STATICS finds the position of rest; omitted arguments keep their values.
+
+    After MAXIT iterations, and where an iteration leads to another equilibrium than the nearest
+    stable one, the search goes on by relaxation.
+    """
 
     default: bool = flag("DEFAULT", help="resets all arguments to their defaults")
     alimit: float = number(
@@ -42,3 +58,18 @@ class Equilibrium(Statement):
     tlimit: float = number(
         "TLIMIT", unit="length", default=20.0, help="largest translation of an iteration"
     )
+    method: str | None = choice(
+        "METHOD", options=("ORIGINAL", "ADVANCED", "AGGRESSIVE", "ALL"), inert=True,
+        help="the methods that ADAMS tries",
+    )  # fmt: skip
+    atol: float | None = _advanced("ATOL", "absolute tolerance")
+    rtol: float | None = _advanced("RTOL", "relative tolerance")
+    maxitl: int | None = integer(
+        "MAXITL", inert=True, help="most inner iterations of the advanced methods of ADAMS"
+    )
+    eta: float | None = _advanced("ETA", "forcing term")
+    etamax: float | None = _advanced("ETAMAX", "largest forcing term")
+    global_damping: float | None = _settling("GLOBAL_DAMPING", "damping of every body")
+    settling_time: float | None = _settling("SETTLING_TIME", "longest time")
+    acceleration_error: float | None = _settling("ACCELERATION_ERROR", "accelerations at its end")
+    kinetic_energy_error: float | None = _settling("KINETIC_ENERGY_ERROR", "energy at its end")

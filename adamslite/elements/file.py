@@ -10,9 +10,13 @@ from adamslite.language.statement import Statement, statement, text
 
 @statement("FILE", singleton=True, repeatable=True, place="command", planned=("COMMAND",))
 class File(Statement):
-    """The first line of a command file; the deck is the one given on the command line."""
+    """The first line of a command file; the deck is the one given on the command line.
 
-    model: str | None = text("MODEL", help="name of the deck")
+    Instead of it two lines with bare names may stand on top, of the deck and of the output files.
+    Results go to a file with the name of the deck, or where the command line says.
+    """
+
+    model: str | None = text("MODEL", help="name of the deck; a note reports another one")
     output_prefix: str | None = text(
-        "OUTPUT_PREFIX", help="first part of the names of output files"
+        "OUTPUT_PREFIX", inert=True, help="first part of the names of output files"
     )

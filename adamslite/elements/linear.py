@@ -39,16 +39,14 @@ def _modes(key: str, what: str, short: str = "") -> tuple[str, ...]:
     return texts(*keys, inert=True, help=f"first and last mode whose {what} ADAMS prints")
 
 
-@statement(
-    "LINEAR", singleton=True, repeatable=True, place="command",
-    planned=("ORIGINAL", "PSTATE"),
-)  # fmt: skip
+@statement("LINEAR", singleton=True, repeatable=True, place="command")
 class Linear(Statement):
     """Eigenvalues and mode shapes, or the matrices of the linearised model."""
 
     kind: str = choice(
-        options=("EIGENSOL", "STATEMAT"), required=True, help="eigenvalues, or state matrices"
-    )
+        options=("EIGENSOL", "STATEMAT", "MKB", "NASTRAN"), required=True,
+        supported=("EIGENSOL", "STATEMAT"), help="eigenvalues, or state matrices",
+    )  # fmt: skip
     nodamping: bool = flag("NODAMPING", help="leave out what depends on velocities")
     rm: int | str | None = reference(
         "RM", to="MARKER", help="marker of the body of the observer, whose axes are used"
@@ -58,6 +56,10 @@ class Linear(Statement):
     )
     pinput: int | str | None = reference("PINPUT", to="PINPUT", help="the inputs u")
     poutput: int | str | None = reference("POUTPUT", to="POUTPUT", help="the outputs y")
+    pstate: int | str | None = reference(
+        "PSTATE", to="PSTATE", help="the states for ADAMS to use; without effect in EIGENSOL"
+    )
+    original: bool = flag("ORIGINAL", inert=True, help="the coordinates of the FORTRAN solver")
     novector: bool = flag("NOVECTOR", inert=True, help="no table of mode shapes")
     format: str | None = text("FORMAT", inert=True, help="form of the files of ADAMS")
     coords: tuple[str, ...] = _modes("COORDS", "mode shapes")

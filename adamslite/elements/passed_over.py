@@ -80,6 +80,26 @@ TABLE = {
         has_id=True,
         body=True,
     ),
+    "HELP": Entry(
+        "prints help of ADAMS; `adamslite help NAME` prints a page of this program",
+        "",
+        place="command",
+    ),
+    "IC": Entry(
+        "how ADAMS finds initial conditions; this program finds them to round-off",
+        """
+        ERROR, VERROR, AERROR   allowed corrections
+        MAXIT, AMAXIT           most iterations
+        TLIMIT, ALIMIT          largest translation and rotation of an iteration
+        PATTERN, APATTERN       iterations that renew the Jacobian
+        DEFAULT                 resets all
+        """,
+    ),
+    "LIST": Entry(
+        "a word of commands, as in PART/2, LIST: prints what a statement holds",
+        "",
+        place="command",
+    ),
     "LSOLVER": Entry(
         "the linear algebra of ADAMS",
         """
@@ -97,6 +117,7 @@ TABLE = {
         """,
         has_id=True,
     ),
+    "MENU": Entry("prints the commands of ADAMS", "", place="command"),
     "OUTPUT": Entry(
         "the output files of ADAMS; this program writes all results",
         """
@@ -119,6 +140,13 @@ TABLE = {
         STATUS_MESSAGE    messages on progress
         """,
     ),
+    "PSTATE": Entry(
+        "states for ADAMS to use in LINEAR",
+        """
+        VARIABLES         as many as there are degrees of freedom
+        """,
+        has_id=True,
+    ),
     "RESULTS": Entry(
         "the .res file of ADAMS",
         """
@@ -137,6 +165,8 @@ TABLE = {
         """,
         has_id=True,
     ),
+    "SHOW": Entry("prints how the run stands", "", place="command"),
+    "TIME": Entry("prints the time of the model", "", place="command"),
 }
 
 
@@ -158,7 +188,7 @@ def _register(keyword: str, entry: Entry) -> None:
     declare = statement(
         keyword, singleton=not entry.has_id, repeatable=not entry.has_id,
         place="deck" if entry.has_id else entry.place, body=entry.body, ignored=True, inert=True,
-        redefinable=entry.has_id, data=True,
+        data=True,
     )  # fmt: skip
     declare(made)
 

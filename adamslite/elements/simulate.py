@@ -22,8 +22,8 @@ class Simulate(Statement):
 
     Belongs in a command file or, as an extension, in the deck.  Each SIMULATE continues from the
     time that the previous one reached; END is a time and not a duration.  STATICS without END or
-    DURATION finds one equilibrium, with it one at every output time.  INITIAL_CONDITIONS stops
-    after displacements, velocities or (unless given) accelerations.
+    DURATION finds one equilibrium, with it one at every output time.  INITIAL_CONDITIONS finds
+    displacements, velocities and accelerations, and writes them.
     """
 
     kind: str = choice(
@@ -32,6 +32,7 @@ class Simulate(Statement):
     )  # fmt: skip
     level: str | None = choice(
         options=("DISPLACEMENT", "VELOCITY", "ACCELERATION"),
+        inert=True,
         help="last of the INITIAL_CONDITIONS to find",
     )
     end: float | None = number("END", unit="time", help="time at which it ends")

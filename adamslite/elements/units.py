@@ -16,8 +16,11 @@ class Units(Statement):
     """Names the four units, or a system of units, or gives the factor UCF directly.
 
     Give ``FORCE``, ``MASS``, ``LENGTH`` and ``TIME`` together, or ``SYSTEM``, or ``UCF``.
-    Without this statement UCF is 1: any coherent units.
+    Without this statement UCF is 1: any coherent units.  As a command it changes UCF; all other
+    numbers of the deck stay as they are.
     """
+
+    alternatives = ((("force", "mass", "length", "time"), ("system",), ("ucf",)),)
 
     force: str | None = choice("FORCE", options=tuple(units.FORCE), help="unit of force")
     mass: str | None = choice("MASS", options=tuple(units.MASS), help="unit of mass")

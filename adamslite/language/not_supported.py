@@ -6,21 +6,21 @@ registered elsewhere is supported, whether or not it still stands here.
 
 STATEMENTS = frozenset(
     """CONTACT CVCV
-    GSE IC LSE LSSMATRIX MREQUEST NFORCE PFORCE
+    GSE LSE LSSMATRIX MREQUEST NFORCE PFORCE
     SYSVAR TFSISO UCON""".split()
 )
 
-COMMANDS = frozenset("CONTROL HELP INFO MENU RELOAD SAVE SHOW TIME".split())
+COMMANDS = frozenset("CONTROL".split())
 
 FUNCTIONS = frozenset(
     """AO CONTACT CURVE CVCV DELAY HSIZE INVPSD NFORCE NJAC NRHS ORDER TRANS
     USER""".split()
 )
 
+_MATRICES = "LINEAR/STATEMAT writes A, B, C and D of the same linear model"
 _TABULATE = "write points of the curve into a MATRIX: CURVE/id, MATRIX=id, CURVE_POINTS"
 _COMPONENTS = "routines of the user cannot be called: write FX=, FY=, FZ= (TX=, TY=, TZ=)"
 _ROUTINE = "libraries of the user cannot be loaded: write FUNCTION as an expression"
-_STATICS = "the static analysis has one method: delete the argument"
 _INTEGRATOR = (
     "a number of the integrator of ADAMS; the summary of a run prints those of this program"
 )
@@ -28,7 +28,6 @@ INSTEAD = {
     "ARYVAL of states and outputs": "an ARRAY X or Y gets its values from an LSE, GSE or TFSISO",
     "CONTACT": "write the force between two bodies as an SFORCE with IMPACT(DM(i,j), VR(i,j), ...)",
     "GSE": "its equations are in a routine of the user: write each state as a DIFF",
-    "IC": "the initial posture is found to round-off whatever it says: delete it",
     "LSE": "write each row of the matrices as a DIFF",
     "LSSMATRIX": "the matrices come from another program: write them as MATRIX and LSE",
     "MREQUEST": "write a REQUEST for each of them",
@@ -37,14 +36,7 @@ INSTEAD = {
     "SYSVAR": "its meaning is not published: write a VARIABLE",
     "TFSISO": "write the transfer function as DIFFs, one for each power of s",
     "UCON": "its equation is in a routine of the user: write it as GCON/id, FUNCTION=e",
-    "CONTROL": "commands of a file are run from top to bottom; there is nothing to control",
-    "HELP": "`adamslite help NAME` prints the page of a statement or function",
-    "INFO": "write a REQUEST of the same kind: REQUEST/id, FORCE, I=i, J=j",
-    "MENU": "commands are read from files only",
-    "RELOAD": "continue with another SIMULATE in the same file",
-    "SAVE": "continue with another SIMULATE in the same file",
-    "SHOW": "the summary of a run and `adamslite check` print what there is",
-    "TIME": "the summary of a run prints the CPU time",
+    "CONTROL": "it calls a subroutine, which gives commands: write these into the command file",
     "AO": "its meaning is not published: write AX, AY, AZ or ORIENT",
     "CURVE": "write its coordinates as SPLINEs over the parameter: CUBSPL(x, 0, id)",
     "HSIZE": _INTEGRATOR,
@@ -66,16 +58,6 @@ INSTEAD = {
     "DELAY": "for a delay of TIME alone, write the expression with TIME-tau for TIME, in a STEP or "
     "IF that holds the start; a lag is a DIFF: FUNCTION=(VARVAL(id)-DIF(this))/tau",
     "DIFF ROUTINE": _ROUTINE,
-    "EQUILIBRIUM ACCELERATION_ERROR": _STATICS,
-    "EQUILIBRIUM ATOL": _STATICS,
-    "EQUILIBRIUM ETA": _STATICS,
-    "EQUILIBRIUM ETAMAX": _STATICS,
-    "EQUILIBRIUM GLOBAL_DAMPING": _STATICS,
-    "EQUILIBRIUM KINETIC_ENERGY_ERROR": _STATICS,
-    "EQUILIBRIUM MAXITL": _STATICS,
-    "EQUILIBRIUM METHOD": _STATICS,
-    "EQUILIBRIUM RTOL": _STATICS,
-    "EQUILIBRIUM SETTLING_TIME": _STATICS,
     "FIELD FORMULATION": "a FIELD is linear: delete FORMULATION=LINEAR, or write a GFORCE",
     "FIELD FUNCTION": "routines of the user cannot be called: write a GFORCE",
     "FIELD ROUTINE": "routines of the user cannot be called: write a GFORCE",
@@ -87,8 +69,8 @@ INSTEAD = {
     "GFORCE ROUTINE": _COMPONENTS,
     "INVPSD": "its random phases come from a generator that is not published: write the sum of "
     "sines a*SIN(2*PI*f*TIME+phase), or a SPLINE of the signal",
-    "LINEAR ORIGINAL": "the states are chosen by the program: delete it",
-    "LINEAR PSTATE": "the states are chosen by the program: delete it",
+    "LINEAR MKB": _MATRICES,
+    "LINEAR NASTRAN": _MATRICES,
     "MARKER RM": "give QP, REULER, ZP and XP in the axes of the body",
     "MATRIX FILE": "write the numbers: MATRIX/id, FULL=RORDER, ROWS=, COLUMNS=, VALUES=",
     "MATRIX NAME": "write the numbers: MATRIX/id, FULL=RORDER, ROWS=, COLUMNS=, VALUES=",

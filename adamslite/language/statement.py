@@ -206,7 +206,6 @@ class Statement:
     inert_fields: ClassVar[tuple[str, ...]] = ()
     planned: ClassVar[tuple[str, ...]] = ()
     body: ClassVar[bool] = False
-    redefinable: ClassVar[bool] = False
     data: ClassVar[bool] = False
     alternatives: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
     """Groups of fields that exclude each other: giving one in a command drops the other groups."""
@@ -310,7 +309,6 @@ def statement(
     inert: bool = False,
     planned: tuple[str, ...] = (),
     body: bool = False,
-    redefinable: bool = False,
     data: bool = False,
 ) -> Callable[[type[S]], type[S]]:
     """Register a class as the statement ``keyword``.
@@ -335,8 +333,6 @@ def statement(
         Keywords that are part of the language and cannot be run yet.
     body : bool
         Markers without an owner behind it belong to it.
-    redefinable : bool
-        A singleton of the deck that a command may change; statements with an id always are.
     data : bool
         Its arguments are seen by no kernel, only what it derives from them: tables.
     """
@@ -354,7 +350,6 @@ def statement(
         made.ends, made.ignored, made.planned, made.body = ends, ignored, planned, body
         made.data, made.inert = data, inert
         made.inert_fields = tuple(name for name, each in made.arguments.items() if each.inert)
-        made.redefinable = redefinable or (place == "deck" and not singleton and not ignored)
         STATEMENTS[keyword] = made
         return made
 

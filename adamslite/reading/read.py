@@ -9,7 +9,13 @@ from pathlib import Path
 from adamslite.checks.inert import note_of_inert
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.rules import RULES
-from adamslite.checks.runs import RUN_RULES, fixed_lists, inputs_with_rates, late_start_values
+from adamslite.checks.runs import (
+    RUN_RULES,
+    fixed_lists,
+    inputs_with_rates,
+    late_start_values,
+    other_models,
+)
 from adamslite.deck.deck import ANALYSES, Deck
 from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
@@ -67,12 +73,13 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
 
     text, path = _load(source)
     reading = Reading(Source(text, str(path or "<commands>")), deck.names, "command", deck)
-    commands = Commands(reading.statements(0))
+    commands = Commands(reading.statements(reading.names_on_top()))
     plain = tuple(each for each in commands if isinstance(each, Statement))
     run = Deck(reading.log.source, "", plain, deck.names, path)
     reading.log.diagnostics += [
         *without_ignored(deck.source, _caused(deck, commands)),
         *inputs_with_rates(deck, plain),
+        *other_models(deck, plain),
         *note_of_inert(commands),
     ]
     found = _judged(run, reading, RUN_RULES)

@@ -37,6 +37,8 @@ FIRST_WORD = re.compile(r"[ \t]*([A-Za-z]\w*)[ \t]*(/[ \t]*(?:\w+[ \t]*)?(?:[,=!
 
 # Names at the top of a command file: of the model, of the output.
 MOST_NAMES = 2
+# What a line with a name has none of.
+MARKS = re.compile(r"[/=,;]")
 
 
 class Entry(NamedTuple):
@@ -89,7 +91,6 @@ class Reading:
         self.entries: list[Entry] = []
         self.broken: set[str] = set()
         """Keywords of statements that could not be read, or not wholly."""
-        self._names = 0
         self._body: Body | None = None
         self._guesses: list[tuple[str, Syntax]] = []
         self._started: dict[str, int] = {}
@@ -118,25 +119,58 @@ class Reading:
             return "", 0
         return first, len(first)
 
+    def names_on_top(self) -> int:
+        """Where the bare names at the top of a command file end: that of the model, and after it
+        the prefix of the output files.
+
+        A first line that is blank says that there is none, so that a keyword below it is a command.
+        """
+        text, end = self.log.source.text, 0
+        blank = not text.partition("\n")[0].strip()
+        names = start = 0
+        while names < MOST_NAMES and start < len(text):
+            line = text[start:].partition("\n")[0]
+            word = line.partition("!")[0].strip()
+            first, start = start, start + len(line) + 1
+            if not word and (line.strip() or not names):
+                continue
+            if not word or MARKS.search(word) or word.upper() == "STOP":
+                break
+            if blank and not names and self._means(word.upper()):
+                break
+            if not names and self.deck and not self.deck.is_called(word):
+                at = first + line.index(word)
+                self.log.add("other-model", at, at + len(word), word=word)
+            names, end = names + 1, start
+        return min(end, len(text))
+
     def statements(self, start: int) -> tuple[Command, ...]:
         """All statements from offset ``start`` on; those with mistakes are left out."""
         text = self.log.source.text
         for logical in join(scan(text, start), ampersand=self.place == "command"):
             syntax, found = statement_syntax(logical)
-            if self._is_model_name(syntax):
-                continue
             cls = self._class(syntax) if syntax else None
             for mistake, tokens in found if not (cls and cls.ignored) else ():
                 first, last = tokens[mistake.first], tokens[mistake.last]
                 self.log.add(mistake.code, first[2], end_of(last), **mistake.words)
             if syntax and cls is not None:
-                self._enter(cls, syntax)
+                listed = self.place == "command" and not cls.ignored
+                self._enter(cls, self._without_list(syntax) if listed else syntax)
                 if cls.ends:
                     self._behind_end(syntax.range[1])
                     break
         for keyword, syntax in self._guesses:
             self._remember(keyword, syntax)
         return self._second_pass()
+
+    def _without_list(self, syntax: Syntax) -> Syntax:
+        """A command without the word LIST, which is passed over as if it were one of its own."""
+        bare = [item for item in syntax.items if item.key < 0 and item.end - item.start == 1]
+        named = [item for item in bare if syntax.tokens[item.start][1].upper() == "LIST"]
+        for item in named:
+            word = syntax._replace(tokens=[syntax.tokens[item.start]], items=())
+            self.entries.append(Entry(STATEMENTS["LIST"], word, 0, None))
+        return syntax._replace(items=tuple(each for each in syntax.items if each not in named))
 
     def _behind_end(self, start: int) -> None:
         """Warn of the first statement behind END; whatever else stands there is no concern."""
@@ -147,29 +181,15 @@ class Reading:
 
     # ---- first pass ---------------------------------------------------------------------------
 
-    def _is_model_name(self, syntax: Syntax | None) -> bool:
-        """Whether this is a bare name at the top of a command file: that of the model, or after
-        it the prefix of the output files, which may be any word but STOP.
-        """
-        if self.place != "command" or self.entries or syntax is None or len(syntax.tokens) > 1:
-            return False
-        named = syntax.keyword != "STOP" if self._names else syntax.keyword not in self._table
-        self._names += named
-        return named and self._names <= MOST_NAMES
-
     def _class(self, syntax: Syntax) -> type[Statement] | None:
         """The class of a statement; None, with a message, when it cannot be read."""
         token = syntax.tokens[0]
         word = token[1]
         if word not in self._meanings:
-            keyword = PREFERRED.get(syntax.keyword, syntax.keyword)
-            self._meanings[word] = match(keyword, self._table)
+            self._meanings[word] = self._means(syntax.keyword)
         found = self._meanings[word]
         place = token[2], end_of(token)
         if isinstance(found, type):
-            if self._changes(found) and not found.redefinable:
-                self.log.tally("statement-in-commands", word, *place, word=found.keyword)
-                return None
             return found
         if isinstance(found, str):
             self.log.tally("planned-statement", found, *place, word=found)
@@ -182,6 +202,10 @@ class Reading:
         else:
             self._unknown(syntax, place)
         return None
+
+    def _means(self, keyword: str) -> type[Statement] | str | Ambiguous | None:
+        """What a word in capitals is an abbreviation of."""
+        return match(PREFERRED.get(keyword, keyword), self._table)
 
     def _changes(self, cls: type[Statement]) -> bool:
         """Whether a statement of this class changes one of the deck."""

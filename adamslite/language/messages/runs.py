@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from adamslite.language.diagnostics import WARNING
+from adamslite.language.diagnostics import NOTE, WARNING
 from adamslite.language.messages.entry import Message
 
 RUNS: dict[str, Message] = {
@@ -66,6 +66,18 @@ RUNS: dict[str, Message] = {
         commands=("LINEAR/STATEMAT, PINPUT=1",),
         deck="VARIABLE/1, FUNCTION=TIME\nGCON/1, FUNCTION=DX(2)-VARVAL(1)\n"
         "PINPUT/1, VARIABLES=1\n",
+    ),
+    "other-model": Message(
+        "the command file is for a model called {word}; it is carried out on this deck",
+        "the deck is the one that the command line names",
+        commands=("FILE/MODEL=other", "other\nout\nSIM/STATICS"),
+        severity=NOTE,
+    ),
+    "states-chosen": Message(
+        "STATEMAT cannot use PSTATE: this program chooses the states of the matrices",
+        "leave it out: eigenvalues and transfer functions do not depend on the choice of states",
+        commands=("LINEAR/STATEMAT, PSTATE=1",),
+        deck="VARIABLE/1, FUNCTION=DX(2)\nPSTATE/1, VARIABLES=1\n",
     ),
     "negative": Message("{word} of {label} must not be negative", "", ("EQUILIBRIUM/STAB=-1",)),
     "not-a-file-name": Message(

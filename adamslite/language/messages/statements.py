@@ -70,11 +70,6 @@ STATEMENTS: dict[str, Message] = {
         "put it in a command file (.acf)",
         ("STOP", "FILE/MODEL=a"),
     ),
-    "statement-in-commands": Message(
-        "not supported yet: {word} as a command{times}",
-        "put the statement in the deck",
-        commands=("UNITS/SYSTEM=MKS\nstop", "END"),
-    ),
     "after-end": Message(
         "{word} follows END and is not read",
         "put END last",
