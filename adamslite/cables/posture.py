@@ -95,7 +95,7 @@ class Posture:
             return 0.0, 0.0, 0.0
         found = self.deck.get(Marker, marker)
         part = self.deck.find(*found.owner) if found.owner else None
-        if found.floating or part is None:
+        if found.floating or part is None or found.rm is not None:
             raise Unknown
         x, y, z = _axes(part)
         place = part.qg
@@ -109,7 +109,7 @@ class Posture:
             return AXES
         found = self.deck.get(Marker, marker)
         part = self.deck.find(*found.owner) if found.owner else None
-        if part is None:
+        if part is None or found.rm is not None:
             raise Unknown
         outer, own = _axes(part), _axes(found)
         if own is AXES:
@@ -120,6 +120,8 @@ class Posture:
     def velocity(self, body: Body) -> Vector:
         """Of the origin of a body at the start."""
         found = self.deck.find(*body) if body is not GROUND else None
+        if getattr(found, "vm", None) is not None:
+            raise Unknown
         return (found.vx, found.vy, found.vz) if found else ZERO
 
     # values
@@ -228,6 +230,8 @@ class Posture:
         found = self.deck.find(*body) if body is not GROUND else None
         if found is None or not hasattr(found, "wz"):
             return 0.0, 0.0, 0.0
+        if found.wm is not None:
+            raise Unknown
         x, y, z = self.axes(found.cm)
         return add(add(add(ZERO, x, found.wx), y, found.wy), z, found.wz)
 

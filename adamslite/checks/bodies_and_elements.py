@@ -77,7 +77,7 @@ def one_ground(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def ground_without_data(deck: Deck) -> Iterator[Diagnostic]:
-    ignored = ("mass", "cm", "im", "ip", "vx", "vy", "vz", "wx", "wy", "wz")
+    ignored = ("mass", "cm", "im", "ip", "vx", "vy", "vz", "wx", "wy", "wz", "vm", "wm")
     for part in deck.of(Part):
         for field in ignored if part.ground else ():
             if part.given(field):

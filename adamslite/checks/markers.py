@@ -30,6 +30,28 @@ def owners(deck: Deck) -> Iterator[Diagnostic]:
             yield diagnose(marker, "no-owner")
 
 
+def frames(deck: Deck) -> Iterator[Diagnostic]:
+    """RM of a marker is on the same body, and not placed by the marker itself."""
+    for marker in deck.of(Marker):
+        base = deck.find(Marker, marker.rm) if marker.rm is not None else None
+        if base is None:
+            continue
+        if base.owner and base.owner != marker.owner:
+            owner = f"{base.owner[0]}/{base.owner[1]}"
+            yield diagnose(marker, "foreign-marker", "rm", word="RM", key=base.id, owner=owner)
+        elif marker.key in _placing(deck, base):
+            yield diagnose(marker, "marker-circle", "rm", key=base.id)
+
+
+def _placing(deck: Deck, marker: Marker | None) -> set[Key]:
+    """A marker, its RM, that of its RM and so on."""
+    found: set[Key] = set()
+    while marker is not None and marker.key not in found:
+        found.add(marker.key)
+        marker = deck.find(Marker, marker.rm) if marker.rm is not None else None
+    return found
+
+
 def references(statement: Statement) -> Iterator[tuple[str, Key]]:
     """The markers a statement refers to, with the field."""
     for field, argument in statement.arguments.items():

@@ -126,7 +126,7 @@ def _is_turned(deck: Deck, joint: Joint | Jprim) -> bool:
     for end in (joint.i, joint.j):
         marker = deck.find(Marker, end)
         body = deck.find(*marker.owner) if marker and marker.owner else None
-        if _has_axes(marker, "reuler", "zp", "xp") or _has_axes(body, "reuler", "zg", "xg"):
+        if _has_axes(marker, "reuler", "zp", "xp", "rm") or _has_axes(body, "reuler", "zg", "xg"):
             return True
     return False
 

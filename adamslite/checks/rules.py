@@ -33,6 +33,7 @@ from adamslite.checks.markers import (
     floating_alone,
     floating_unused,
     floating_use,
+    frames,
     owners,
 )
 from adamslite.checks.posture import (
@@ -65,6 +66,7 @@ RULES: list[Rule] = [
     inertia,
     markers_of_bodies,
     owners,
+    frames,
     orientations,
     floating_alone,
     floating_use,

@@ -3,6 +3,8 @@
 Equation (position and axes in ground of a marker on a body at ``r`` with attitude ``A``)::
 
     r_marker = r + A QP,    A_marker = A Rz(a) Rx(b) Rz(c)       REULER=a,b,c
+
+With RM, r and A are those of that marker of the same body.
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ BODIES = ("POINT_MASS", "PART", "FLEX_BODY", "FE_PART")
 """What a marker may be on, by arguments of the same name."""
 
 
-@statement("MARKER", planned=("RM",))
+@statement("MARKER")
 class Marker(Statement):
     """A frame fixed to a PART or POINT_MASS.
 
@@ -37,11 +39,11 @@ class Marker(Statement):
     fe_part: int | str | None = reference("FE_PART", to="FE_PART", help="the FE_PART it is on")
     node_id: tuple[str, ...] = texts("NODE_ID", "NODE", help="node of the flexible body")
     qp: tuple[float, ...] = vector(
-        "QP", size=3, unit="length", default=(0.0, 0.0, 0.0), help="origin, in the body frame"
+        "QP", size=3, unit="length", default=(0.0, 0.0, 0.0), help="origin, in the body frame or RM"
     )
     reuler: tuple[float, ...] = vector(
         "REULER", "EULER", size=3, unit="angle", default=(0.0, 0.0, 0.0),
-        help="body 3-1-3 angles of its axes in the body frame",
+        help="body 3-1-3 angles of its axes in the body frame or RM",
     )  # fmt: skip
     zp: tuple[float, ...] | None = vector(
         "ZP", size=3, unit="length",
@@ -51,6 +53,9 @@ class Marker(Statement):
         "XP", size=3, unit="length",
         help="point of the body in its +xz half-plane (with USEXP: on its +x axis)",
     )  # fmt: skip
+    rm: int | str | None = reference(
+        "RM", to="MARKER", help="marker of the body that QP, REULER, ZP and XP refer to"
+    )
     usexp: bool = flag("USEXP", help="XP gives the x axis exactly, ZP the plane")
     floating: bool = flag("FLOATING", help="placed by the solver")
 

@@ -23,7 +23,7 @@ from adamslite.language.statement import (
 )
 
 
-@statement("PART", planned=("VM", "WM"), body=True)
+@statement("PART", body=True)
 class Part(Statement):
     """A rigid body.
 
@@ -52,22 +52,28 @@ class Part(Statement):
     zg: tuple[float, ...] | None = body_z_point()
     xg: tuple[float, ...] | None = body_x_point()
     vx: float = number(
-        "VX", start=True, unit="length/time", default=0.0, help="initial velocity of CM, x"
+        "VX", start=True, unit="length/time", default=0.0, help="initial velocity of CM along x of ground or VM"
     )
     vy: float = number(
-        "VY", start=True, unit="length/time", default=0.0, help="initial velocity of CM, y"
+        "VY", start=True, unit="length/time", default=0.0, help="initial velocity of CM along y"
     )
     vz: float = number(
-        "VZ", start=True, unit="length/time", default=0.0, help="initial velocity of CM, z"
+        "VZ", start=True, unit="length/time", default=0.0, help="initial velocity of CM along z"
     )
     wx: float = number(
-        "WX", start=True, unit="angle/time", default=0.0, help="initial rate about x of CM"
+        "WX", start=True, unit="angle/time", default=0.0, help="initial rate about x of CM or WM"
     )
     wy: float = number(
-        "WY", start=True, unit="angle/time", default=0.0, help="initial rate about y of CM"
+        "WY", start=True, unit="angle/time", default=0.0, help="initial rate about y of CM or WM"
     )
     wz: float = number(
-        "WZ", start=True, unit="angle/time", default=0.0, help="initial rate about z of CM"
+        "WZ", start=True, unit="angle/time", default=0.0, help="initial rate about z of CM or WM"
+    )
+    vm: int | str | None = reference(
+        "VM", to="MARKER", start=True, help="marker whose axes VX, VY, VZ are along; else ground"
+    )
+    wm: int | str | None = reference(
+        "WM", to="MARKER", start=True, help="marker whose axes WX, WY, WZ are along; else CM"
     )
     exact: tuple[str, ...] = words(
         "EXACT", start=True, options=("X", "Y", "Z", "PSI", "THETA", "PHI"),

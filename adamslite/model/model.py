@@ -114,7 +114,10 @@ class Model:
                 ball = mass * IDENTITY  # nothing turns it, whatever its inertia
                 return Body(statement, PART, mass, ball, x, attitude, v, np.zeros(3))
             return Body(statement, POINT, mass, np.zeros((3, 3)), x, attitude, v, np.zeros(3))
-        w = attitude @ cm[1] @ np.array([statement.wx, statement.wy, statement.wz], dtype=float)
+        if statement.vm is not None:
+            v = self._drawn_axes(statement.vm) @ v
+        axes = attitude @ cm[1] if statement.wm is None else self._drawn_axes(statement.wm)
+        w = axes @ np.array([statement.wx, statement.wy, statement.wz], dtype=float)
         return Body(statement, PART, mass, self._inertia(statement, cm[0], mass), x, attitude, v, w)
 
     def _marker_in_body(self, marker_id: Key | None) -> tuple[np.ndarray, np.ndarray]:
@@ -123,7 +126,19 @@ class Model:
             return np.zeros(3), IDENTITY
         marker = self.deck.get(Marker, marker_id)
         origin = np.asarray(marker.qp, dtype=float)
-        return origin, frame_axes(marker, origin)
+        axes = frame_axes(marker, origin)
+        if marker.rm is None:
+            return origin, axes
+        start, base = self._marker_in_body(marker.rm)
+        return start + rotated(base, origin), rotated(base, axes)
+
+    def _drawn_axes(self, marker_id: Key) -> np.ndarray:
+        """Axes of a marker in ground, (3, 3), where the deck has its body."""
+        owner = self.deck.get(Marker, marker_id).owner
+        assert owner is not None  # a rule requires it
+        body = self.deck.find(*owner)
+        base = frame_axes(body, np.asarray(body.qg, dtype=float))
+        return rotated(base, self._marker_in_body(marker_id)[1])
 
     def _inertia(self, part: Part, cm: np.ndarray, mass: float) -> np.ndarray:
         """Inertia about the mass centre in body axes (parallel axes from IM)."""

@@ -65,6 +65,11 @@ MODEL: dict[str, Message] = {
          "PART/4, MASS=1, CM=4, IM=2, IP=1,1,1\nMARKER/4, PART=4",
          LINE + "MARKER/4, PART=2, FLOATING\nPTCV/1, I=3, JFLOAT=4, CURVE=1, RM=1"),
     ),
+    "marker-circle": Message(
+        "MARKER/{key}, to which RM of {label} refers, is itself placed by {label}",
+        "one of them has to be placed in the body frame",
+        ("MARKER/4, PART=2, RM=4", "MARKER/4, PART=2, RM=5\nMARKER/5, PART=2, RM=4"),
+    ),
     "no-owner": Message(
         "{label} belongs to no body",
         "give PART= or POINT_MASS=, or put it after the body",
