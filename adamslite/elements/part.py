@@ -52,7 +52,11 @@ class Part(Statement):
     zg: tuple[float, ...] | None = body_z_point()
     xg: tuple[float, ...] | None = body_x_point()
     vx: float = number(
-        "VX", start=True, unit="length/time", default=0.0, help="initial velocity of CM along x of ground or VM"
+        "VX",
+        start=True,
+        unit="length/time",
+        default=0.0,
+        help="initial velocity of CM along x of ground or VM",
     )
     vy: float = number(
         "VY", start=True, unit="length/time", default=0.0, help="initial velocity of CM along y"
