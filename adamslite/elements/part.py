@@ -56,7 +56,7 @@ class Part(Statement):
         start=True,
         unit="length/time",
         default=0.0,
-        help="initial velocity of CM along x of ground or VM",
+        help="initial velocity of CM along x",
     )
     vy: float = number(
         "VY", start=True, unit="length/time", default=0.0, help="initial velocity of CM along y"
