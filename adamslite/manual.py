@@ -237,7 +237,8 @@ def message(code: str, each: Message) -> str:
     if each.hint:
         text += f"  \nhint: {each.hint}"
     example = each.deck + (each.broken or each.commands)[0].rstrip("\n")
-    return f"## `{code}`\n\n{text}\n\n```\n{example}\n```\n"
+    bound = f'\n\nwith `--user "{each.user[0]}"`' if each.user else ""
+    return f"## `{code}`\n\n{text}\n\n```\n{example}\n```{bound}\n"
 
 
 def table(head: Row, rows: Iterable[Row]) -> str:

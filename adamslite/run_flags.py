@@ -40,6 +40,15 @@ def count(text: str) -> int:
     return value
 
 
+def add_user_flag(parser: argparse.ArgumentParser) -> None:
+    """Declare what stands in for routines that are no part of a deck."""
+    parser.add_argument(
+        "--user", action="append", default=[], metavar="NAME=VALUE",
+        help="what FUNCTION=USER means: VARIABLE/1=0, or VARSUB=module:function for all VARIABLEs; "
+        "may be repeated",
+    )  # fmt: skip
+
+
 def add_run_flags(parser: argparse.ArgumentParser) -> None:
     """Declare the flags that win over what deck and command file say."""
     flags = parser.add_argument_group("run", "these win over the deck and the command file")
@@ -90,4 +99,6 @@ def parse_flags(words: Sequence[str]) -> dict[str, Any]:
     """
     parser = _RaisingParser(add_help=False, allow_abbrev=False)
     add_run_flags(parser)
-    return run_options(parser.parse_args(words))
+    add_user_flag(parser)
+    args = parser.parse_args(words)
+    return {**run_options(args), **({"user": args.user} if args.user else {})}

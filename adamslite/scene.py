@@ -1,6 +1,6 @@
 """A scene: the files of a run, and its results; shared by `solve` and `verify`."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -55,8 +55,12 @@ class Scene:
         return str(self.deck_path)
 
 
-def load_scene(deck_path: Path, commands_path: Path | None = None) -> Scene:
+def load_scene(
+    deck_path: Path, commands_path: Path | None = None, user: Iterable[str] = ()
+) -> Scene:
     """Read and check a deck and its command file, by default the `.acf` of its name beside it.
+
+    `user` is what is bound to routines that are no part of them, each as `NAME=VALUE`.
 
     Raises
     ------
@@ -65,10 +69,11 @@ def load_scene(deck_path: Path, commands_path: Path | None = None) -> Scene:
     """
     from adamslite.checks.inert import in_one_note
     from adamslite.reading.read import Commands, read_commands
+    from adamslite.reading.user_routines import unused_bindings
 
     found: list[Diagnostic] = []
     try:
-        deck = adamslite.read(deck_path)
+        deck = adamslite.read(deck_path, user)
         found += adamslite.check(deck)
     except DeckError as fault:
         deck = fault.deck
@@ -81,6 +86,7 @@ def load_scene(deck_path: Path, commands_path: Path | None = None) -> Scene:
             found = in_one_note([*found, *commands.warnings], deck, commands)
         except DeckError as fault:
             found += fault.diagnostics
+    found += unused_bindings(deck) if deck else ()
     if any(diagnostic.is_error for diagnostic in found):
         raise DeckError(found, deck)
     return Scene(

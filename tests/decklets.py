@@ -26,10 +26,10 @@ def function(text: str, statements: str = "") -> Node:
     return last(f"{statements}\nVARIABLE/999, FUNCTION={text}").function
 
 
-def told(text: str) -> list[Diagnostic]:
-    """Everything said about a deck."""
+def told(text: str, user: list[str] | dict[str, float] | None = None) -> list[Diagnostic]:
+    """Everything said about a deck; ``user``: what is bound to routines."""
     try:
-        return check(read(text))
+        return check(read(text, user))
     except DeckError as error:
         return list(error.diagnostics)
 

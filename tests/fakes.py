@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import adamslite
+from adamslite.deck.user_bindings import Bindings
 from adamslite.language.diagnostics import Diagnostic, Span
 from adamslite.reading.read import Commands
 from adamslite.results.outcomes import Outcome
@@ -75,6 +76,7 @@ ERROR = Diagnostic("E1", "error", "there is no MARKER/7", Span("cable.adm", 2, 4
 @dataclass(frozen=True)
 class FakeDeck:
     statements: tuple[Any, ...]
+    user: Bindings = field(default_factory=Bindings)
 
     def is_active(self, statement: Any) -> bool:
         return True
@@ -97,7 +99,7 @@ def install(monkeypatch: pytest.MonkeyPatch, pipeline: Pipeline) -> None:
         return Commands([Named("SIMULATE")])
 
     fakes = {
-        "read": lambda path: FakeDeck(pipeline.statements),
+        "read": lambda path, user: FakeDeck(pipeline.statements),
         "check": lambda deck: pipeline.diagnostics,
         "simulate": pipeline.simulate,
         "linearize": pipeline.linearize,

@@ -22,6 +22,7 @@ from adamslite.functions.arrays import NUMBERED
 from adamslite.functions.forces import NET
 from adamslite.functions.vectors import VECTORS
 from adamslite.language.function import FUNCTIONS, Function
+from adamslite.language.routines import USER
 from adamslite.symbolic.derivatives import Derivatives
 
 # What the native printer knows; anything else would only be noticed when a deck uses it.
@@ -50,7 +51,7 @@ def forms(function: Function) -> list[tuple]:
 
 
 # Net forces, values by number and vectors are written out before anything is evaluated.
-WRITTEN_OUT = {*NET, *NUMBERED, *VECTORS}
+WRITTEN_OUT = {*NET, *NUMBERED, *VECTORS, USER}
 EVALUATED = {name: f for name, f in sorted(FUNCTIONS.items()) if name not in WRITTEN_OUT}
 CASES = [(name, form) for name, f in EVALUATED.items() for form in forms(f)]
 CASES += [("ORIENT", (system, n, 0, 1)) for system in (7, 14, 23, 25, 26, 27) for n in (1, 2, 3)]

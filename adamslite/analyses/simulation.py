@@ -259,6 +259,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         "deck hash": deck.hash,
         "units": " ".join(units) if units else "as in the deck",
         "integrator": f"{settings.method} {settings.form} ERROR={settings.error:g}",
+        **({"user": f"not as the deck has it: {deck.user.summary()}"} if deck.user.used else {}),
         **({"integrator chosen": session.chosen.reason} if session.chosen.reason else {}),
         **_notes(session),
         **_beyond(session),

@@ -285,7 +285,11 @@ def requests(deck: Deck) -> Iterator[Diagnostic]:
         expressions = any(function is not None for function in request.functions)
         if request.kind and expressions:
             yield diagnose(request, "two-requests", "kind", word=request.kind)
-        elif not expressions and (request.kind is None or request.i is None):
+        elif (
+            not expressions
+            and not request.given("function")
+            and (request.kind is None or request.i is None)
+        ):
             yield diagnose(request, "empty-request")
 
 

@@ -17,6 +17,7 @@ from typing import Any, overload
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.names import Key, Names
 from adamslite.deck.redefinition import Command, Redefinition, settled
+from adamslite.deck.user_bindings import Bindings
 from adamslite.language.diagnostics import Diagnostic, Source
 from adamslite.language.expression import Node, Num, rebuild
 from adamslite.language.statement import STATEMENTS, S, Statement
@@ -61,6 +62,8 @@ class Deck:
         self.warnings: tuple[Diagnostic, ...] = ()
         self.senvals: dict[Key, float] = {}
         """Of sensors that have triggered, the value of their EVALUATE then, by key."""
+        self.user = Bindings()
+        """What runs in place of routines of the user."""
         self.incomplete: set[str] = set()
         """Keywords of statements with mistakes, which are not among the statements."""
         self._of: dict[str, list[Statement]] = {}
@@ -173,7 +176,7 @@ class Deck:
         switched_off = self.inactive if inactive is None else inactive
         deck = Deck(self.source, self.title, statements, self.names, self.path, switched_off)
         deck.warnings, deck.incomplete = self.warnings, self.incomplete
-        deck.senvals = self.senvals
+        deck.senvals, deck.user = self.senvals, self.user
         return deck
 
     def with_senvals(self, values: dict[Key, float]) -> Deck:

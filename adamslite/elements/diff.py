@@ -8,6 +8,7 @@ Equation::
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import routine_name
 from adamslite.language.expression import Call, Node, Ref
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, expression, flag, statement, vector
@@ -15,7 +16,7 @@ from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Seen
 
 
-@statement("DIFF", planned=("ROUTINE",))
+@statement("DIFF")
 class Diff(Statement):
     """A user-defined state, integrated together with the mechanics."""
 
@@ -31,6 +32,7 @@ class Diff(Statement):
     function: Node = expression(
         "FUNCTION", required=True, unit="that of y per time", help="dy/dt, or the residual"
     )
+    routine: str | None = routine_name()
 
     def equation(self: Seen, scope: Scope) -> Expr:
         """dy/dt - FUNCTION, or FUNCTION itself."""

@@ -18,8 +18,10 @@ from __future__ import annotations
 from adamslite.elements.bases.arguments import (
     component_axes,
     component_vector,
+    components_of_routine,
     reaction_marker,
     reaction_part,
+    routine_name,
 )
 from adamslite.elements.bases.wrench import Wrench
 from adamslite.language.expression import Node, Num
@@ -33,7 +35,7 @@ def _component(key: str, unit: str) -> Node:
     return expression(key, unit=unit, default=Num(0.0), help=help)
 
 
-@statement("GFORCE", planned=("FUNCTION", "ROUTINE"))
+@statement("GFORCE")
 class Gforce(Wrench, Statement):
     """A vector force and a vector torque on marker I.
 
@@ -54,6 +56,10 @@ class Gforce(Wrench, Statement):
     tz: Node = _component("TZ", "torque")
     fxyz: Node | None = component_vector("FXYZ", unit="force")
     txyz: Node | None = component_vector("TXYZ", unit="torque")
+    function: Node | None = components_of_routine(
+        "fx", "fy", "fz", "tx", "ty", "tz", unit="force, torque"
+    )
+    routine: str | None = routine_name()
 
     def loads(self: Seen, scope: Scope) -> list[Load]:
         """Force and torque on I; the reaction follows I."""

@@ -21,6 +21,7 @@ Sign: I relative to J; the reaction reported is the force and torque on I that m
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import routine_name
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.bases.joint_coordinates import Turn, angle_to, relative_velocity, spin, turn
 from adamslite.elements.joint import Joint
@@ -43,7 +44,7 @@ AXES = ("X", "Y", "Z")
 ANGLES = ("B1", "B2", "B3")
 
 
-@register("MOTION", planned=("ROUTINE",))
+@register("MOTION")
 class Motion(Constraint, Statement):
     """Prescribes the motion of a joint, or of one marker relative to another."""
 
@@ -70,6 +71,7 @@ class Motion(Constraint, Statement):
         "FUNCTION", required=True, unit="length or angle, or its derivatives",
         help="a function of TIME only",
     )  # fmt: skip
+    routine: str | None = routine_name()
 
     @property
     def state(self) -> str:

@@ -11,6 +11,7 @@ Values (components F1 ... F8; I relative to J, along the axes of RM, ground when
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import components_of_routine, routine_name
 from adamslite.language.expression import GROUND_FRAME, Call, Node, Num, Ref
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import DrawnModel
@@ -31,6 +32,7 @@ MEASURES = {
     "ACCELERATION": ("ACCM", "ACCX", "ACCY", "ACCZ", "WDTM", "WDTX", "WDTY", "WDTZ"),
 }
 
+COMPONENTS = tuple(f"f{n}" for n in range(1, 9))
 SIZES = ("DM", "VM", "ACCM", "WM", "WDTM")
 
 
@@ -38,11 +40,11 @@ def _component(number: int) -> Node | None:
     return expression(f"F{number}", unit="the user's", help=f"component {number}")
 
 
-@statement("REQUEST", planned=("FUNCTION", "ROUTINE", "VARIABLES"))
+@statement("REQUEST", planned=("VARIABLES",))
 class Request(Statement):
     """Output of a marker's motion, of a force, or of expressions."""
 
-    alternatives = ((("kind",), ("f1", "f2", "f3", "f4", "f5", "f6", "f7", "f8")),)
+    alternatives = ((("kind",), COMPONENTS),)
 
     kind: str | None = choice(
         options=("DISPLACEMENT", "VELOCITY", "ACCELERATION", "FORCE"), help="what is written"
@@ -58,6 +60,8 @@ class Request(Statement):
     f6: Node | None = _component(6)
     f7: Node | None = _component(7)
     f8: Node | None = _component(8)
+    function: Node | None = components_of_routine(*COMPONENTS, unit="the user's")
+    routine: str | None = routine_name()
     comment: str | None = text("COMMENT", "C", help="a title")
     title: str | None = text("TITLE", help="titles of the components")
     cnames: tuple[str, ...] = texts("CNAMES", help="names of the components")

@@ -9,6 +9,7 @@ Equation (e the FUNCTION; the first time at which it is true)::
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import routine_name
 from adamslite.language.expression import Node
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, expression, flag, number, statement
@@ -17,7 +18,7 @@ from adamslite.symbolic.sympy_nodes import piecewise
 from adamslite.symbolic.types import Expr, Seen
 
 
-@statement("SENSOR", planned=("YYDUMP", "ROUTINE"))
+@statement("SENSOR", planned=("YYDUMP",))
 class Sensor(Statement):
     """Watches an expression during dynamic analyses.
 
@@ -30,6 +31,7 @@ class Sensor(Statement):
     function: Node = expression(
         "FUNCTION", required=True, unit="the user's", help="what is watched"
     )
+    routine: str | None = routine_name()
     value: float = number(
         "VALUE", unit="that of FUNCTION", default=0.0, help="what it is compared with"
     )

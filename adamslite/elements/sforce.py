@@ -13,7 +13,7 @@ Sign: positive pushes I and J apart, so a spring is ``-k*(DM(I,J)-L0)``::
 
 from __future__ import annotations
 
-from adamslite.elements.bases.arguments import reaction_part
+from adamslite.elements.bases.arguments import reaction_part, routine_name
 from adamslite.language.expression import Node
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, expression, flag, reference, statement
@@ -21,7 +21,7 @@ from adamslite.symbolic.scope import ZERO, Load, Scope, scale, towards
 from adamslite.symbolic.types import Seen
 
 
-@statement("SFORCE", planned=("ROUTINE",))
+@statement("SFORCE")
 class Sforce(Statement):
     """A single-component force (or torque) between two markers.
 
@@ -39,6 +39,7 @@ class Sforce(Statement):
     function: Node = expression(
         "FUNCTION", required=True, unit="force, or torque", help="the force on I"
     )
+    routine: str | None = routine_name()
 
     def loads(self: Seen, scope: Scope) -> list[Load]:
         """The force on I and its reaction on J."""

@@ -7,6 +7,7 @@ Equation::
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import routine_name
 from adamslite.language.expression import Call, Node, Ref
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, expression, number, statement
@@ -14,7 +15,7 @@ from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Seen
 
 
-@statement("VARIABLE", planned=("ROUTINE",))
+@statement("VARIABLE")
 class Variable(Statement):
     """A quantity with a name: ``VARVAL(id)`` in expressions, or just its name.
 
@@ -31,6 +32,7 @@ class Variable(Statement):
     function: Node = expression(
         "FUNCTION", required=True, unit="the user's", help="what the variable equals"
     )
+    routine: str | None = routine_name()
 
     def equation(self: Seen, scope: Scope) -> Expr:
         """V - FUNCTION, for a variable that has to be solved for."""

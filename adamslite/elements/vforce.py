@@ -14,8 +14,10 @@ from __future__ import annotations
 from adamslite.elements.bases.arguments import (
     component_axes,
     component_vector,
+    components_of_routine,
     reaction_marker,
     reaction_part,
+    routine_name,
 )
 from adamslite.language.expression import Node, Num
 from adamslite.language.interfaces import DrawnModel
@@ -24,7 +26,7 @@ from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes
 from adamslite.symbolic.types import Seen
 
 
-@statement("VFORCE", planned=("FUNCTION", "ROUTINE"))
+@statement("VFORCE")
 class Vforce(Statement):
     """A vector force on marker I.
 
@@ -43,6 +45,8 @@ class Vforce(Statement):
     fy: Node = expression("FY", unit="force", default=Num(0.0), help="component along y of RM")
     fz: Node = expression("FZ", unit="force", default=Num(0.0), help="component along z of RM")
     fxyz: Node | None = component_vector("FXYZ", unit="force")
+    function: Node | None = components_of_routine("fx", "fy", "fz", unit="force")
+    routine: str | None = routine_name()
 
     def loads(self: Seen, scope: Scope) -> list[Load]:
         """The force on I; the reaction follows I."""

@@ -16,8 +16,10 @@ from __future__ import annotations
 from adamslite.elements.bases.arguments import (
     component_axes,
     component_vector,
+    components_of_routine,
     reaction_marker,
     reaction_part,
+    routine_name,
 )
 from adamslite.elements.bases.wrench import Wrench
 from adamslite.language.expression import Node, Num
@@ -26,7 +28,7 @@ from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes
 from adamslite.symbolic.types import Seen
 
 
-@statement("VTORQUE", planned=("FUNCTION", "ROUTINE"))
+@statement("VTORQUE")
 class Vtorque(Wrench, Statement):
     """A vector torque on the part of marker I.
 
@@ -43,6 +45,8 @@ class Vtorque(Wrench, Statement):
     ty: Node = expression("TY", unit="torque", default=Num(0.0), help="torque about y of RM")
     tz: Node = expression("TZ", unit="torque", default=Num(0.0), help="torque about z of RM")
     txyz: Node | None = component_vector("TXYZ", unit="torque")
+    function: Node | None = components_of_routine("tx", "ty", "tz", unit="torque")
+    routine: str | None = routine_name()
 
     def loads(self: Seen, scope: Scope) -> list[Load]:
         """The torque on I and its reaction."""

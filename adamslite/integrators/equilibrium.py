@@ -135,12 +135,13 @@ def unstable_ways(P: Problem, L: Plan) -> int:
     """Difference between the negative pivots of [K, G^T; G, 0] and of [M, G^T; G, 0].
 
     K + sigma M becomes singular once for every sigma > 0 with a motion that grows like
-    exp(sqrt(sigma) t), and changes the sign of one pivot there.
+    exp(sqrt(sigma) t), and changes the sign of one pivot there.  Less than none means that forces
+    without a potential, or inertias near zero, leave the signs of pivots without that meaning.
     """
     C = Control(P.control)
     stiff = pivot_signs(P, L, 1.0, C.stability)
     heavy = pivot_signs(P, L, SMALL, 1.0)
-    return stiff - heavy if stiff >= 0 and heavy >= 0 else 0
+    return max(stiff - heavy, 0) if stiff >= 0 and heavy >= 0 else 0
 
 
 @native

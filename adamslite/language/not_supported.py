@@ -13,13 +13,11 @@ STATEMENTS = frozenset(
 COMMANDS = frozenset("CONTROL".split())
 
 FUNCTIONS = frozenset(
-    """AO CONTACT CURVE CVCV DELAY HSIZE INVPSD NFORCE NJAC NRHS ORDER TRANS
-    USER""".split()
+    """AO CONTACT CURVE CVCV DELAY HSIZE INVPSD NFORCE NJAC NRHS ORDER TRANS""".split()
 )
 
 _MATRICES = "LINEAR/STATEMAT writes A, B, C and D of the same linear model"
 _TABULATE = "write points of the curve into a MATRIX: CURVE/id, MATRIX=id, CURVE_POINTS"
-_COMPONENTS = "routines of the user cannot be called: write FX=, FY=, FZ= (TX=, TY=, TZ=)"
 _ROUTINE = "libraries of the user cannot be loaded: write FUNCTION as an expression"
 _INTEGRATOR = (
     "a number of the integrator of ADAMS; the summary of a run prints those of this program"
@@ -44,7 +42,6 @@ INSTEAD = {
     "NRHS": _INTEGRATOR,
     "ORDER": _INTEGRATOR,
     "TRANS": "write the components in the axes of the marker: DX(i,j,rm), DY(i,j,rm), DZ(i,j,rm)",
-    "USER": "routines of the user cannot be called: write the expression itself",
     "ARRAY ROUTINE": _ROUTINE,
     "BEAM NONLINEAR": "a beam that bends far is a row of LINEAR ones with parts between them",
     "BEAM STRING": "a beam that bends far is a row of LINEAR ones with parts between them",
@@ -57,16 +54,13 @@ INSTEAD = {
     "CVCV": "curves that roll on each other cannot be run; PTCV holds a point on one curve",
     "DELAY": "for a delay of TIME alone, write the expression with TIME-tau for TIME, in a STEP or "
     "IF that holds the start; a lag is a DIFF: FUNCTION=(VARVAL(id)-DIF(this))/tau",
-    "DIFF ROUTINE": _ROUTINE,
     "FIELD FORMULATION": "a FIELD is linear: delete FORMULATION=LINEAR, or write a GFORCE",
-    "FIELD FUNCTION": "routines of the user cannot be called: write a GFORCE",
-    "FIELD ROUTINE": "routines of the user cannot be called: write a GFORCE",
+    "FIELD FUNCTION": "write a GFORCE with that FUNCTION=USER(...), which --user binds",
+    "FIELD ROUTINE": "write a GFORCE with that ROUTINE, which --user binds",
     "FILE COMMAND": "name the command file on the command line: `adamslite solve DECK FILE.acf`",
     "FRICTION FORMULATION": "only the stick-slip law of STICTION_TRANSITION_VELOCITY is known",
     "FRICTION OVERLAP_DELTA": "the overlap does not change: give its mean as INITIAL_OVERLAP",
     "FRICTION TRANSITION_VELOCITY_COEFFICIENT": "delete it: its default, 1.5, is used",
-    "GFORCE FUNCTION": _COMPONENTS,
-    "GFORCE ROUTINE": _COMPONENTS,
     "INVPSD": "its random phases come from a generator that is not published: write the sum of "
     "sines a*SIN(2*PI*f*TIME+phase), or a SPLINE of the signal",
     "LINEAR MKB": _MATRICES,
@@ -74,22 +68,12 @@ INSTEAD = {
     "MATRIX FILE": "write the numbers: MATRIX/id, FULL=RORDER, ROWS=, COLUMNS=, VALUES=",
     "MATRIX NAME": "write the numbers: MATRIX/id, FULL=RORDER, ROWS=, COLUMNS=, VALUES=",
     "MATRIX SPARSE": "write all numbers: MATRIX/id, FULL=RORDER, ROWS=, COLUMNS=, VALUES=",
-    "MOTION ROUTINE": _ROUTINE,
     "PTCV DISPLACEMENT": "the curve touches where the deck has it closest to I: move I there",
     "PTCV IC": "the curve touches where the deck has it closest to I: move I there",
     "PTCV VELOCITY": "give the velocity to the bodies: PART/id, VX=, VY=, VZ=",
-    "REQUEST FUNCTION": "routines of the user cannot be called: write F1=e\\F2=e",
-    "REQUEST ROUTINE": "routines of the user cannot be called: write F1=e\\F2=e",
     "REQUEST VARIABLES": "write F1=VARVAL(id)\\F2=VARVAL(id)",
-    "SENSOR ROUTINE": _ROUTINE,
     "SENSOR YYDUMP": "the states are in the results: delete it",
-    "SFORCE ROUTINE": _ROUTINE,
     "SPLINE ROUTINE": "write X and Y, or FILE= with a table .csv",
-    "VARIABLE ROUTINE": _ROUTINE,
-    "VFORCE FUNCTION": _COMPONENTS,
-    "VFORCE ROUTINE": _COMPONENTS,
-    "VTORQUE FUNCTION": _COMPONENTS,
-    "VTORQUE ROUTINE": _COMPONENTS,
 }
 """What to write instead and why, by statement, function, statement and argument, or statement and
 choice."""

@@ -214,7 +214,9 @@ def read_arguments(
         ranges[name] = pieces.range
         try:
             if fields := pieces.argument.fills:
-                values |= zip(fields, reader.components(pieces.values), strict=True)
+                values |= zip(
+                    fields, reader.components(pieces.argument, pieces.values), strict=True
+                )
                 ranges |= dict.fromkeys(fields, pieces.range)
             elif pieces.argument.kind == "vectors":
                 values[name] = reader.vectors(cls, pieces.argument, [*pieces.before, pieces.values])

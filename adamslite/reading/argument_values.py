@@ -11,6 +11,8 @@ from adamslite.deck.names import Key, Names, to_number
 from adamslite.language.abbreviations import match
 from adamslite.language.expression import Node
 from adamslite.language.messages import Log, did_you_mean
+from adamslite.language.routines import ARGUMENT as ROUTINE_ARGUMENT
+from adamslite.language.routines import is_user_call
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
 from adamslite.reading.resolver import Resolver, Unresolved
@@ -258,9 +260,11 @@ class ValueReader:
             raise Refused
         return found
 
-    def components(self, values: list[list[Lexeme]]) -> tuple[Node, ...]:
-        """The components of a vector."""
+    def components(self, argument: Argument, values: list[list[Lexeme]]) -> tuple[Node, ...]:
+        """The components of a vector, or the routine that computes all of them."""
         try:
+            if argument.key == ROUTINE_ARGUMENT:
+                return (self.resolver.routine(values[0]),) * len(argument.fills)
             return self.resolver.components(values[0])
         except Unresolved:
             raise Refused from None
@@ -269,6 +273,9 @@ class ValueReader:
         self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
     ) -> Node:
         try:
-            return self.resolver.expression(values[0])
+            value = self.resolver.expression(values[0])
         except Unresolved:
             raise Refused from None
+        if is_user_call(value) and argument.key != ROUTINE_ARGUMENT:
+            self._refuse("user-within", values[0])
+        return value

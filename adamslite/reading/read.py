@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from adamslite.checks.inert import note_of_inert
@@ -19,20 +19,25 @@ from adamslite.checks.runs import (
 from adamslite.deck.deck import ANALYSES, Deck
 from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
+from adamslite.deck.user_bindings import Bindings, Given, bindings
 from adamslite.gc_pause import without_collection
 from adamslite.language.diagnostics import DeckError, Diagnostic, Source
 from adamslite.language.messages.ignoring import judged, without_ignored
 from adamslite.language.statement import Statement
 from adamslite.reading.statement_reader import Reading
+from adamslite.reading.user_routines import RoutineBinder
 
 
-def read(source: str | Path) -> Deck:
+def read(source: str | Path, user: Mapping[str, Given] | Iterable[str] | None = None) -> Deck:
     """Read a deck.
 
     Parameters
     ----------
     source : str or Path
         A file, or the text of a deck (a string with more than one line).
+    user : mapping or list of str
+        What is bound to routines that are no part of the deck: ``{"VARIABLE/1": 0.0}``, or texts
+        ``"VARIABLE/1=0"``; see :mod:`adamslite.deck.user_bindings`.
 
     Returns
     -------
@@ -48,13 +53,16 @@ def read(source: str | Path) -> Deck:
         When the file cannot be read.
     """
 
+    given = bindings(user)
     text, path = _load(source)
     reading = Reading(Source(text, str(path or "<text>")), Names(), "deck")
     title, start = reading.title()
     with without_collection():
         read = reading.statements(start)
+        read = _bound(read, reading, given)
         statements = tuple(each for each in read if isinstance(each, Statement))  # all of them
         deck = Deck(reading.log.source, title, statements, reading.names, path)
+        deck.user = given
         deck.warnings = _judged(deck, reading, RULES)
     return deck
 
@@ -73,7 +81,8 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
 
     text, path = _load(source)
     reading = Reading(Source(text, str(path or "<commands>")), deck.names, "command", deck)
-    commands = Commands(reading.statements(reading.names_on_top()))
+    read = reading.statements(reading.names_on_top())
+    commands = Commands(_bound(read, reading, deck.user, deck))
     plain = tuple(each for each in commands if isinstance(each, Statement))
     run = Deck(reading.log.source, "", plain, deck.names, path)
     reading.log.diagnostics += [
@@ -84,6 +93,19 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
     ]
     found = _judged(run, reading, RUN_RULES)
     commands.warnings = tuple(judged(run.source, found, complete=True))
+    return commands
+
+
+def _bound(
+    commands: tuple[Command, ...], reading: Reading, given: Bindings, deck: Deck | None = None
+) -> tuple[Command, ...]:
+    """The statements with routines of the user bound; reading passes over decks without any."""
+    if not (reading.calls_user or given.statements):
+        return commands
+    binder = RoutineBinder(reading.names, given, deck)
+    commands = binder.commands(commands)
+    for each in binder.diagnostics:
+        reading.log.take(each)
     return commands
 
 

@@ -17,6 +17,7 @@ from adamslite.language.expression import Call, Node, Num, Op, Ref, fold
 from adamslite.language.function import FUNCTIONS, Function, Parameter
 from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.not_supported import FUNCTIONS as PLANNED
+from adamslite.language.routines import USER, is_user_call
 from adamslite.language.spelling import spelled
 from adamslite.syntax.forms import Fault, Tree, expression_form
 from adamslite.syntax.syntax_errors import expression_mistake
@@ -62,6 +63,8 @@ class Resolver:
         """Values that statements list, by keyword and id."""
         self.tokens: list[Lexeme] = []
         self.failed = False
+        self.calls_user = False
+        """Whether one of them is a routine that is no part of the deck."""
         self._slots: dict[str, list[_Slot]] = {}
 
     # ---- entry points -------------------------------------------------------------------------
@@ -71,6 +74,13 @@ class Resolver:
         value = self._value(tokens)
         if isinstance(value, Components):
             self._refuse("vector-here", tokens[0], tokens[-1])
+        return value
+
+    def routine(self, tokens: list[Lexeme]) -> Node:
+        """The same where a routine of the user has to be called."""
+        value = self.expression(tokens)
+        if not is_user_call(value):
+            self._refuse("routine-here", tokens[0], tokens[-1])
         return value
 
     def components(self, tokens: list[Lexeme]) -> Components:
@@ -204,6 +214,8 @@ class Resolver:
         function = FUNCTIONS.get(name)
         if function is None:
             self._unknown_function(name, at)
+        if name == USER:
+            return self._user(at, branches, depth)
         self._count(function, at, separators, branches)
         slots = self._signature(function)
         if slots[0].kind == "VARIABLE" and branches[0][0] == "operation":
@@ -219,6 +231,24 @@ class Resolver:
             return self._numbered(name, args[0], args[1], branches[1])
         args += [slot.default for slot in slots[len(args) :] if slot.default is not None]
         return VECTORS[name](*args) if name in VECTORS else Call(name, tuple(args))
+
+    def _user(self, at: int, branches: tuple[Tree, ...], depth: int) -> Node:
+        """A routine of the user: the whole expression, of numbers alone."""
+        if depth:
+            self._refuse("user-within", self.tokens[at])
+        self.calls_user = True
+        function = FUNCTIONS[USER]
+        if len(branches) > (function.maximum or 0):
+            self._count(function, at, "", branches)
+        return Call(USER, tuple(map(self._parameter, branches)))
+
+    def _parameter(self, branch: Tree) -> Num:
+        """A number that goes to a routine of the user."""
+        node = self._node(branch, 1)
+        value = None if isinstance(node, Components) else fold(node)
+        if value is None:
+            self._refuse("not-constant", self.tokens[branch[1]], word=USER)
+        return Num(value)
 
     def _signature(self, function: Function) -> list[_Slot]:
         slots = self._slots.get(function.name)

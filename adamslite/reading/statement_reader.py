@@ -91,6 +91,8 @@ class Reading:
         self.entries: list[Entry] = []
         self.broken: set[str] = set()
         """Keywords of statements that could not be read, or not wholly."""
+        self.calls_user = False
+        """Whether a statement calls a routine of the user."""
         self._body: Body | None = None
         self._guesses: list[tuple[str, Syntax]] = []
         self._started: dict[str, int] = {}
@@ -307,6 +309,7 @@ class Reading:
         for number, entry in enumerate(self.entries):
             if number not in made:
                 made[number] = self._statement(entry, reader)
+        self.calls_user = resolver.calls_user
         self.entries.clear()  # their tokens are most of what reading takes
         return tuple(each for _, each in sorted(made.items()) if each is not None)
 

@@ -108,7 +108,9 @@ def solve_quietly(
     deck: Path, options: Mapping[str, Any], progress: Progress | None = None
 ) -> Results:
     """Read, check and simulate a deck; unlike `solve`, an interruption is not a result."""
-    results = run_scene(load_scene(deck), options, progress)
+    given = dict(options)
+    scene = load_scene(deck, user=given.pop("user", ()))
+    results = run_scene(scene, given, progress)
     if results.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt
     return results

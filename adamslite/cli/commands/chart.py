@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
-from adamslite.run_flags import count, positive
+from adamslite.run_flags import add_user_flag, count, positive
 
 if TYPE_CHECKING:
     from adamslite.scene import Scene
@@ -30,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite chart`."""
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
     parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    add_user_flag(parser)
     parser.add_argument(
         "-o", "--output", metavar="NAME", help="of the files, without suffix (DECK's name-chart)"
     )
@@ -54,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.verification.work_precision import ERRORS, measure
 
     name = args.output or f"{args.deck.stem}-chart"
-    scene = load_scene(args.deck, args.commands)
+    scene = load_scene(args.deck, args.commands, args.user)
     for suffix in ("csv", *PICTURES):
         need_writable(f"{name}.{suffix}", scene.read, bool(args.output))
     tried, runs = _runs(args, scene)

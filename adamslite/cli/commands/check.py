@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DECK_ERRORS, DONE
+from adamslite.run_flags import add_user_flag
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -29,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite check`."""
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
     parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    add_user_flag(parser)
     parser.add_argument(
         "--format",
         choices=("text", "json", "sarif", "gcc"),
@@ -43,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.scene import load_scene
 
     try:
-        scene = load_scene(args.deck, args.commands)
+        scene = load_scene(args.deck, args.commands, args.user)
     except DeckError as fault:
         if args.format != "text":
             return _data(args.format, fault.diagnostics, DECK_ERRORS)

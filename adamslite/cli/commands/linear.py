@@ -14,13 +14,14 @@ import sys
 from pathlib import Path
 
 from adamslite.cli.commands.codes import DONE
-from adamslite.run_flags import instant
+from adamslite.run_flags import add_user_flag, instant
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite linear`."""
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
     parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    add_user_flag(parser)
     parser.add_argument("--time", type=instant, metavar="T", help="linearise at this time")
     parser.add_argument("--rm", metavar="MARKER", help="marker of the body of the observer")
     parser.add_argument("-o", "--output", metavar="FILE", help="result file, .csv or .json")
@@ -36,7 +37,7 @@ def run(args: argparse.Namespace) -> int:
 
     if args.output:
         need_suffix(args.output)
-    scene = load_scene(args.deck, args.commands)
+    scene = load_scene(args.deck, args.commands, args.user)
     if args.output:
         need_writable(args.output, scene.read)
     if scene.beside:

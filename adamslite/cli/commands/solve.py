@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
-from adamslite.run_flags import add_run_flags, run_options
+from adamslite.run_flags import add_run_flags, add_user_flag, run_options
 
 if TYPE_CHECKING:
     import numpy as np
@@ -42,6 +42,7 @@ SUMMARY = """\
 
 #: Comments of the results that the summary repeats: what was done to the model and the method.
 NOTES = (
+    "user",
     "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "energy", "time",
     "linear", "no number", "sensor", "out of its law",
 )  # fmt: skip
@@ -51,6 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite solve`."""
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
     parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    add_user_flag(parser)
     parser.add_argument("-o", "--output", metavar="OUT", help="result file, or - for stdout")
     add_run_flags(parser)
     talk = parser.add_argument_group("talk")
@@ -78,7 +80,7 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(
             "'-o -' and '--summary json' both want standard output; give -o a file name"
         )
-    scene = load_scene(args.deck, args.commands)
+    scene = load_scene(args.deck, args.commands, args.user)
     files = []
     if output != STDOUT:
         files = plan(scene, output, bool(args.output))

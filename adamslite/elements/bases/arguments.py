@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from adamslite.language.statement import Field, expression, reference, vector
+from adamslite.language.routines import ARGUMENT
+from adamslite.language.statement import Field, expression, reference, text, vector
 
 
 def body_origin() -> Field:
@@ -65,3 +66,15 @@ def component_vector(key: str, unit: str) -> Field:
     fields = tuple(key[0].lower() + axis for axis in "xyz")
     written = ", ".join(fields).upper()
     return expression(key, unit=unit, fills=fields, help=f"a vector: {written} at once")
+
+
+def components_of_routine(*fields: str, unit: str) -> Field:
+    """All components at once, from a routine of the user."""
+    written = ", ".join(fields).upper()
+    help = f"USER(...), a routine: {written} at once"
+    return expression(ARGUMENT, unit=unit, fills=fields, help=help)
+
+
+def routine_name() -> Field:
+    """Which routine FUNCTION=USER means."""
+    return text("ROUTINE", help="library::name of the routine of FUNCTION=USER(...)")

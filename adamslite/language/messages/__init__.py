@@ -17,6 +17,7 @@ from adamslite.language.messages.constraints import CONSTRAINTS
 from adamslite.language.messages.entry import Message
 from adamslite.language.messages.expressions import EXPRESSIONS
 from adamslite.language.messages.model import MODEL
+from adamslite.language.messages.routines import ROUTINES
 from adamslite.language.messages.runs import RUNS
 from adamslite.language.messages.shapes import SHAPES
 from adamslite.language.messages.statements import STATEMENTS
@@ -26,7 +27,7 @@ from adamslite.language.not_supported import INSTEAD
 # Of words that may have been meant: likeness at least (1: equal), and what they may fall behind by.
 LIKENESS, SPREAD = 0.6, 0.1
 MESSAGES: dict[str, Message] = (
-    STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CONSTRAINTS | SHAPES | TABLES | RUNS
+    STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CONSTRAINTS | SHAPES | TABLES | ROUTINES | RUNS
 )
 
 ALIKE = {"PART": "POINT_MASS", "POINT_MASS": "PART", "VARIABLE": "DIFF", "DIFF": "VARIABLE"}
@@ -109,6 +110,11 @@ class Log:
         span = self.source.span(start, end)
         self.diagnostics.append(compose(code, span, self.source.line(span.line), hint, **words))
         self._errors += MESSAGES[code].severity == ERROR
+
+    def take(self, diagnostic: Diagnostic) -> None:
+        """A message that is made elsewhere."""
+        self.diagnostics.append(diagnostic)
+        self._errors += diagnostic.is_error
 
     def tally(self, code: str, kind: str, start: int, end: int, **words: object) -> None:
         """Say ``code`` once for each ``kind``, at its first place, with the number of places."""

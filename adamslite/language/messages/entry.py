@@ -22,6 +22,8 @@ class Message:
         The same, as command files for that deck.
     deck : str
         What these command files need in the deck.
+    user : tuple of str
+        For each broken deck what ``--user`` binds.
     severity : str
         ``"error"``, ``"warning"`` or ``"note"``.
     """
@@ -31,4 +33,5 @@ class Message:
     broken: tuple[str, ...] = ()
     commands: tuple[str, ...] = ()
     deck: str = ""
+    user: tuple[str, ...] = ()
     severity: str = ERROR

@@ -47,7 +47,7 @@ EXPRESSIONS: dict[str, Message] = {
     "planned-function": Message(
         "not supported yet: function {word}{times}",
         "the function exists in ADAMS; this program cannot run it",
-        _variables("USER(1,2,3)", "INVPSD(TIME,1)+INVPSD(TIME,2)", "DELAY(TIME,1,0)")
+        _variables("INVPSD(TIME,1)+INVPSD(TIME,2)", "DELAY(TIME,1,0)")
         + ("ARRAY/1, X, SIZE=2\nVARIABLE/1, FUNCTION=ARYVAL(1,1)",),
     ),
     "argument-count": Message(

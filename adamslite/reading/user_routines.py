@@ -1,0 +1,166 @@
+"""What runs in place of routines that are no part of a deck, and which of them are missing.
+
+A call ``USER(...)`` becomes what the user has bound to its statement or routine
+(:mod:`adamslite.deck.user_bindings`).  Of a REQUEST without a binding nothing is written; every
+other routine without one is reported once, with all its calls.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from adamslite.deck.deck import Deck
+from adamslite.deck.names import Names
+from adamslite.deck.redefinition import Command, Redefinition
+from adamslite.deck.statement_diagnostics import diagnose, place_of
+from adamslite.deck.user_bindings import Binding, Bindings
+from adamslite.language.diagnostics import NOWHERE, Diagnostic
+from adamslite.language.expression import Call, Node, Num
+from adamslite.language.messages import compose, did_you_mean
+from adamslite.language.routines import ARGUMENT, is_user_call, short_name, usual_name, written
+from adamslite.language.statement import Statement
+
+FIELD = ARGUMENT.lower()
+# Left out where its routine is missing: it changes nothing.
+LEFT_OUT = "REQUEST"
+
+
+@dataclass
+class UserCall:
+    """A statement that calls a routine: the fields that take a value each."""
+
+    command: Command
+    fields: tuple[str, ...]
+    call: Call
+    routine: str
+
+    @property
+    def label(self) -> str:
+        return self.command.label
+
+    @property
+    def listed(self) -> str:
+        """Its place, as text."""
+        place = place_of(self.command, FIELD)
+        return f"{place.file}:{place.line}: {self.label}, {written(self.call)}"
+
+
+class RoutineBinder:
+    """Binds the calls of one text; ``diagnostics`` is what there is to say."""
+
+    def __init__(self, names: Names, given: Bindings, deck: Deck | None = None) -> None:
+        self.names, self.given, self.deck = names, given, deck
+        self.diagnostics: list[Diagnostic] = []
+        self.bound: list[UserCall] = []
+        self.left_out: list[UserCall] = []
+        self.missing: dict[str, list[UserCall]] = {}
+
+    def commands(self, commands: Sequence[Command]) -> tuple[Command, ...]:
+        """The statements with their calls bound; those that cannot be are as they were."""
+        changed = tuple(map(self._command, commands))
+        self.diagnostics += [*self._missing(), *self._notes(), *self._mistaken()]
+        return changed
+
+    def _command(self, command: Command) -> Command:
+        values = _values(command)
+        fields = tuple(name for name, value in values.items() if is_user_call(value))
+        if not fields:
+            return command
+        call = UserCall(command, fields, values[fields[0]], self._routine(command))
+        nodes = self._nodes(call)
+        changes: dict[str, Any] = dict(zip(fields, nodes, strict=True)) if nodes else {}
+        if isinstance(command, Redefinition):
+            return replace(command, changes={**command.changes, **changes})
+        return replace(command, **changes)
+
+    def _routine(self, command: Command) -> str:
+        """Name of the routine that a statement calls."""
+        own = _values(command).get("routine")
+        if own is None and self.deck and isinstance(command, Redefinition):
+            own = getattr(self.deck.find(command.keyword, command.key), "routine", None)
+        return str(own or usual_name(command.keyword))
+
+    def _nodes(self, call: UserCall) -> Sequence[Node | None]:
+        """What its fields hold; nothing where they cannot be filled."""
+        keyword, key = call.command.keyword, call.command.key
+        binding = self.given.find(self.names, (keyword, key), call.label, call.routine)
+        if binding is not None:
+            return self._numbers(call, binding)
+        if keyword == LEFT_OUT:
+            self.left_out.append(call)
+            return (None,) * len(call.fields)
+        self.missing.setdefault(call.routine.upper(), []).append(call)
+        return ()
+
+    def _numbers(self, call: UserCall, binding: Binding) -> Sequence[Node]:
+        """A number for each field; a single zero is one for all."""
+        numbers, count = binding.numbers, len(call.fields)
+        if numbers == (0.0,):
+            numbers *= count
+        if len(numbers) != count:
+            text, given = binding.text, len(numbers)
+            self.diagnostics.append(
+                diagnose(call.command, "user-values", FIELD, text=text, count=count, given=given)
+            )
+            return ()
+        self.bound.append(call)
+        return [Num(value) for value in numbers]
+
+    # ---- messages ---------------------------------------------------------------------------
+
+    def _missing(self) -> Iterator[Diagnostic]:
+        for calls in self.missing.values():
+            first, routine = calls[0], calls[0].routine
+            hint = (
+                f"bind it, --user {routine}=module:function or --user {first.label}=number; "
+                f"called by\n      " + "\n      ".join(each.listed for each in calls)
+            )
+            yield self._of(calls, "missing-routine", hint, word=routine)
+
+    def _notes(self) -> Iterator[Diagnostic]:
+        if self.bound:
+            labels = [each.label for each in self.bound]
+            yield self._of(self.bound, "user-bound", bound=self.given.summary(labels))
+        if self.left_out:
+            labels_left = ", ".join(each.label for each in self.left_out)
+            routine = self.left_out[0].routine
+            yield self._of(self.left_out, "request-left-out", labels=labels_left, word=routine)
+
+    def _of(self, calls: list[UserCall], code: str, hint: str = "", **words: object) -> Diagnostic:
+        """A message about several calls, at the first of them."""
+        message = diagnose(calls[0].command, code, FIELD, hint, **words)
+        return replace(message, places=tuple(place_of(each.command, FIELD) for each in calls))
+
+    def _mistaken(self) -> Iterator[Diagnostic]:
+        """Bindings of statements that do not exist; commands have been read when they are."""
+        for kind, word in self.given.statements if self.deck is None else ():
+            key: int | str = int(word) if word.isdigit() else word
+            if self.names.find(kind, key) is None:
+                hint = did_you_mean(word, self.names.known(kind))
+                yield _about(f"{kind}/{word}", f"there is no {kind}/{word}", hint)
+
+
+def unused_bindings(deck: Deck) -> Iterator[Diagnostic]:
+    """Bindings that neither the deck nor its commands have a use for."""
+    given = deck.user
+    for name in given.unused():
+        kind, slash, word = name.partition("/")
+        if not slash:
+            known = {short_name(each).upper() for each in given.called} | given.called
+            hint = did_you_mean(name, known)
+            yield _about(name, "no statement calls this routine", hint)
+        elif deck.names.find(kind, int(word) if word.isdigit() else word) is not None:
+            yield _about(name, f"{name} has no FUNCTION=USER(...)", "")
+
+
+def _about(option: str, reason: str, hint: str) -> Diagnostic:
+    return compose("unknown-user", NOWHERE, hint=hint, option=option, reason=reason)
+
+
+def _values(command: Command) -> dict[str, Any]:
+    if isinstance(command, Redefinition):
+        return dict(command.changes)
+    assert isinstance(command, Statement)
+    return {name: getattr(command, name) for name in command.arguments}
