@@ -43,6 +43,32 @@ def test_upright_it_stays_and_the_results_say_so(angle):
     assert "unstable in one way" in results.meta["equilibrium"]
 
 
+@pytest.mark.parametrize(
+    ("first", "second", "ways"), [(-1, -1, 0), (1, -1, 1), (-1, 1, 1), (1, 1, 2)]
+)
+def test_every_link_that_stands_upright_is_a_way_to_fall(first: int, second: int, ways: int):
+    """Two links, each hanging (-1) or upright (1), in balance from the start."""
+    deck = f"""\
+two links
+PART/1, GROUND
+MARKER/1
+PART/2, MASS=2, CM=20, IP=0.1,0.1,0.1, QG=0,{first},0
+MARKER/20
+MARKER/21, QP=0,{-first},0
+MARKER/22, QP=0,{first},0
+PART/3, MASS=1, CM=30, IP=0.1,0.1,0.1, QG=0,{2 * first + second},0
+MARKER/30
+MARKER/31, QP=0,{-second},0
+JOINT/1, REVOLUTE, I=21, J=1
+JOINT/2, REVOLUTE, I=31, J=22
+ACCGRAV/JGRAV=-9.81
+SIMULATE/STATICS
+END
+"""
+    note = al.simulate(al.read(deck)).meta.get("equilibrium", "")
+    assert note.split(":")[0] == ("", "unstable in one way", "unstable in 2 ways")[ways]
+
+
 def test_a_slack_line_hangs_down_though_newton_ends_in_a_folded_one():
     """Ten stiff sections between points 10 m apart, 11 m of line, drawn as two straight halves."""
     n, h = 10, 1.1

@@ -9,9 +9,15 @@ import numpy as np
 
 from adamslite.equations.system import System
 from adamslite.integrators import contract
-from adamslite.integrators.contract import EQUILIBRIUM
+from adamslite.integrators.contract import EQUILIBRIUM, JACOBIAN, STATIC
 from adamslite.integrators.equilibrium_control import Control
 from adamslite.results.outcomes import Outcome
+
+
+# Unknowns up to which a count of unstable motions is confirmed by eigenvalues.
+CONFIRMED = 3000
+# Eigenvalues below this share of the largest are round-off, and an imaginary part of that size.
+ROUND_OFF, REAL = 1e-12, 1e-6
 
 
 @dataclass(frozen=True)
@@ -40,7 +46,37 @@ def run_static(system: System, settings: StaticSettings) -> Outcome:
         setattr(C, name, value)
     C.length = model_size(system)
     outcome = system.run(EQUILIBRIUM)
+    if system.report.ways_to_fall != 0:
+        system.report.ways_to_fall = ways_to_fall(system, settings.stability)
     return Outcome.DONE if outcome == contract.DONE else Outcome.NO_EQUILIBRIUM
+
+
+def ways_to_fall(system: System, stability: float) -> int:
+    """Motions x exp(sqrt(sigma) t) that grow from the equilibrium: real sigma > ``stability`` with
+
+        (A + sigma B) x = 0,    A = [K, G^T; G, 0], B = [M, 0; 0, 0]
+
+    (variables and states beside the multipliers).  With T = (A + stability B)^-1 B, whose columns
+    beyond q vanish, T x = x / (stability - sigma).
+
+    The signs of pivots, which the search goes by, miscount where bodies without mass leave pivots
+    of zero; they are what is left of a model of more than CONFIRMED unknowns.
+    """
+    if system.nz > CONFIRMED:
+        return max(0, system.report.ways_to_fall)
+
+    def matrix(stiffness: float, mass: float) -> np.ndarray:
+        system.coef[:] = stiffness, 0.0, mass, stiffness, 0.0
+        system.run(JACOBIAN, STATIC)
+        return system.dense_jacobian()
+
+    inertia, whole = matrix(0.0, 1.0), matrix(1.0, stability)
+    used = [k for k in system.elimination.unknowns() if whole[k].any()]
+    moved = [k for k in used if k < system.n]
+    whole, inertia = whole[np.ix_(used, used)], inertia[np.ix_(used, moved)]
+    found = np.linalg.eigvals(np.linalg.solve(whole, inertia)[: len(moved)])
+    least = ROUND_OFF * float(np.abs(found).max(initial=0.0))
+    return int(np.sum((found.real < -least) & (np.abs(found.imag) <= REAL * np.abs(found.real))))
 
 
 def model_size(system: System) -> float:

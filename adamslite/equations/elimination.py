@@ -124,10 +124,14 @@ class Elimination:
         self.pivots, self.pivots_a = ints([0] * (nz + 1)), ints([0] * (nz + 1))
         self.work = np.zeros(max(WORK, found.widest**2))
 
+    def unknowns(self) -> list[int]:
+        """The unknowns that are solved for: all but those of redundant rows."""
+        return [s + k for s, own in zip(self.starts, self.live, strict=True) for k in own]
+
     def _places(self, place: np.ndarray) -> np.ndarray:
         """Of every unknown in the order of elimination; those left out share the one behind."""
         places = np.full(self.numbering.nz, place.size, dtype=np.int64)
-        live = [s + k for s, own in zip(self.starts, self.live, strict=True) for k in own]
+        live = self.unknowns()
         places[live] = place
         return places
 

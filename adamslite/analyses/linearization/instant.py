@@ -68,27 +68,33 @@ def present(system: System) -> Instant:
     return _instant(system)
 
 
-def neighbours(system: System, h: float) -> tuple[Instant, Instant] | None:
-    """The instants h before and after; None where accelerations are not determined."""
+def neighbours(
+    system: System, h: float, at_rest: bool = False
+) -> tuple[Instant, Instant, Instant] | None:
+    """The instants h before, now and h after, evaluated alike so that their round-off is; in the
+    same place when ``at_rest``.  None where accelerations are not determined.
+    """
     kept = {name: getattr(system, name).copy() for name in STATE}
     time, attitude = float(system.settings.t), _attitudes(system)
     jerk, curve = np.zeros_like(system.a), np.zeros_like(system.rd)
+    start = {**kept, "a": np.zeros_like(system.a)} if at_rest else kept
     try:
         for _correction in range(2):
             found: list[tuple[np.ndarray, np.ndarray, Instant]] = []
-            for step in (-h, h):
-                _advance(system, kept, attitude, step, jerk, curve)
+            for step in (-h, 0.0, h):
+                _advance(system, start, attitude, step, jerk, curve)
                 system.settings.t = time + step
                 if system.run(ACCELERATIONS) != contract.DONE:
                     return None
                 found.append((system.a.copy(), system.rd.copy(), _instant(system)))
-            (a0, rd0, before), (a1, rd1, after) = found
-            jerk, curve = (a1 - a0) / (2.0 * h), (rd1 - rd0) / (2.0 * h)
+            (a0, rd0, before), (_, _, now), (a1, rd1, after) = found
+            if not at_rest:
+                jerk, curve = (a1 - a0) / (2.0 * h), (rd1 - rd0) / (2.0 * h)
     finally:
         system.settings.t = time
         for name, values in kept.items():
             getattr(system, name)[:] = values
-    return before, after
+    return before, now, after
 
 
 def _advance(

@@ -26,6 +26,9 @@ SHARE = 1e-3
 FIRST, SECOND = (1e-5, 1e-2), (1e-4, 1e-2)
 # Of the largest eigenvalue, or the rate of the motion: smaller ones are zero.
 ZERO = 1e-6
+# A state at rest is an equilibrium when its accelerations, which are then what the search left over,
+# move the model by less than this share of its size in the time of its slowest vibration.
+IMBALANCE = 1e-4
 # Rigid motions that differ by less than this share are the same.
 SAME_MOTION = 1e-6
 # Bodies of different motion that are tried as observers.
@@ -39,9 +42,11 @@ class Trajectory:
         self.system, self.ports = system, ports
         self.now = present(system)
         self.unit = self._unit()
-        self.rate = max(self._rate_of_motion(), self._slowest()) or 1.0
+        moving, slowest = self._rate_of_motion(), self._slowest()
+        self.rate = max(moving, slowest) or 1.0
         self.h = SHARE / self.rate
-        self.around = neighbours(system, self.h)
+        at_rest = not self.now.u.any() and moving**2 <= IMBALANCE * slowest**2
+        self.around = neighbours(system, self.h, at_rest)
 
     def seen(self, observer: Observer) -> tuple[FirstOrder, bool]:
         """The first-order system of this instant, and whether it stays."""
@@ -77,7 +82,8 @@ class Trajectory:
             view = observer.view(instant)
             basis = still(self.system, instant, view, self.unit, now.basis)
             found.append(FirstOrder(self.system, instant, view, basis, self.ports))
-        return found[0], now, found[1]
+        before, here, after = found
+        return before, here, after
 
     def _are_alike(self, three: tuple[FirstOrder, FirstOrder, FirstOrder]) -> bool:
         """Whether neither basis nor matrices change."""
