@@ -13,7 +13,6 @@ from adamslite.integrators.contract import EQUILIBRIUM, JACOBIAN, STATIC
 from adamslite.integrators.equilibrium_control import Control
 from adamslite.results.outcomes import Outcome
 
-
 # Unknowns up to which a count of unstable motions is confirmed by eigenvalues.
 CONFIRMED = 3000
 # Eigenvalues below this share of the largest are round-off, and an imaginary part of that size.
