@@ -26,8 +26,8 @@ SHARE = 1e-3
 FIRST, SECOND = (1e-5, 1e-2), (1e-4, 1e-2)
 # Of the largest eigenvalue, or the rate of the motion: smaller ones are zero.
 ZERO = 1e-6
-# A state at rest is an equilibrium when its accelerations, which are then what the search left over,
-# move the model by less than this share of its size in the time of its slowest vibration.
+# A state at rest is an equilibrium when its accelerations move the model by less than this share of
+# its size in the time of its slowest vibration: they are what the search left over.
 IMBALANCE = 1e-4
 # Rigid motions that differ by less than this share are the same.
 SAME_MOTION = 1e-6
