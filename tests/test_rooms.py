@@ -26,6 +26,7 @@ functions
 elements.bases
 elements
 model
+assembly
 kernels.code
 kernels
 checks

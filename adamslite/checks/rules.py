@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from adamslite.checks.assembly import starts_apart, stays_open
 from adamslite.checks.bodies_and_elements import (
     distinct_ends,
     frictions,
@@ -98,4 +99,6 @@ ADVICE: list[Rule] = [
     facing_markers,
     effective_masses,
     unformed_equations,
+    starts_apart,
+    stays_open,
 ]

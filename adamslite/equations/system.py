@@ -24,7 +24,8 @@ from adamslite.integrators.event_rows import MARGIN_ROWS, Search
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.kernels.compile import Kernels
 from adamslite.language.statement import Statement
-from adamslite.model.model import PART, Model, NodeKey
+from adamslite.model.model import PART, NodeKey
+from adamslite.model.scaling import rotation_weights
 from adamslite.native.translate import Rows
 
 if TYPE_CHECKING:  # few runs need sparse matrices
@@ -32,8 +33,6 @@ if TYPE_CHECKING:  # few runs need sparse matrices
 
 # Moves of the assembly below this are round-off.
 MOVED = 1e-9
-# Share of a lever that a radius of gyration counts at least.
-LEVER = 0.1
 
 
 #: Arrays of ``Problem`` that a part of the system keeps, by the part.
@@ -150,7 +149,7 @@ class System:
         inertia = reals([b.inertia for b in bodies]).reshape(-1, 3, 3)
         self.inertia = inertia.ravel()
         self.base = reals([b.attitude for b in bodies]).ravel()
-        self.weight = _rotation_weights(self.model, self.mass, inertia)
+        self.weight = rotation_weights(self.model)
         if bodies:
             at = self.places
             self.q[at], self.u[at] = [b.x for b in bodies], [b.v for b in bodies]
@@ -319,21 +318,3 @@ def _turns_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     spin = b @ a.transpose(0, 2, 1)
     axis = [spin[:, i, j] - spin[:, j, i] for i, j in ((2, 1), (0, 2), (1, 0))]
     return np.arctan2(np.linalg.norm(axis, axis=0), np.trace(spin, axis1=1, axis2=2) - 1.0)
-
-
-def _rotation_weights(model: Model, mass: np.ndarray, inertia: np.ndarray) -> np.ndarray:
-    """1/(radius of gyration)^2 of each body: puts rotations on the scale of translations in
-    W G^T mu; 1 for a body without mass or inertia.
-
-    At least ``LEVER`` of the way from the mass centre to a marker that is held: a part whose mass
-    is all but a point turns about such a marker, and a weight of its inertia alone would make
-    G W G^T, and what round-off does to mu, as large as the ratio of the two is small.
-    """
-    trace = np.trace(inertia, axis1=1, axis2=2)
-    known = (trace > 0.0) & (mass > 0.0)
-    square = np.divide(trace, mass, out=np.ones(mass.size), where=known)
-    ends = [getattr(each, name, None) for each in model.constraints for name in ("i", "j")]
-    for place in (model.marker(end) for end in ends if end is not None):
-        if place is not None and place.body >= 0 and known[place.body]:
-            square[place.body] = max(square[place.body], LEVER**2 * float(place.p @ place.p))
-    return 1.0 / square

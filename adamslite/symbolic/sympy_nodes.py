@@ -2,12 +2,15 @@
 
 Beside it stand the few operations where the form sympy gives is not what a kernel needs: choices,
 floors, powers and lengths whose derivatives stay finite, explicit and quick to form; and values of
-tables.
+tables.  Inside :func:`with_numbers` all of them compute numbers instead, and sympy is not needed.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from adamslite.symbolic.types import Expr, Symbol
@@ -24,10 +27,31 @@ class _Sympy:
         return value
 
 
+_names = _Sympy()
+_duals: list[ModuleType] = []
+"""The module that computes numbers, while that is what is wanted."""
+
 if TYPE_CHECKING:
     import sympy as sp
 else:
-    sp = _Sympy()
+    sp = _names
+
+
+@contextmanager
+def with_numbers() -> Iterator[None]:
+    """Meanwhile formulas compute numbers with slopes, see :mod:`adamslite.symbolic.duals`."""
+    from adamslite.symbolic import duals
+
+    kept = dict(_names.__dict__)
+    _names.__dict__.clear()
+    _names.__dict__.update(vars(duals))
+    _duals.append(duals)
+    try:
+        yield
+    finally:
+        _duals.pop()
+        _names.__dict__.clear()
+        _names.__dict__.update(kept)
 
 
 @cache
@@ -77,11 +101,15 @@ def piecewise(*pieces: tuple[Expr, Expr], otherwise: Expr, order: int | None = N
     jumps); ``None``: all that matter are, as when a formula is only kept from 0/0.  Decides where
     a run restarts: :mod:`adamslite.symbolic.guards`.
     """
+    if _duals:
+        return _duals[-1].chosen(*pieces, otherwise=otherwise)
     return _nodes(order)[0](*pieces, (otherwise, True))
 
 
 def floor(x: Expr, order: int | None = None) -> Expr:
     """Largest integer not above ``x``, with derivative zero; ``order`` as in :func:`piecewise`."""
+    if _duals:
+        return _duals[-1].floor(x)
     return _nodes(order)[1](x)
 
 
@@ -92,6 +120,8 @@ def magnitude(x: Expr, order: int | None = 0) -> Expr:
 
 def power(base: Expr, exponent: Expr) -> Expr:
     """``base**exponent`` of real numbers; a whole or half exponent is kept as an exact fraction."""
+    if _duals:
+        return _duals[-1].power(base, exponent)
     exponent = sp.S.Zero + exponent
     if exponent.is_Float and 2 * exponent == int(2 * exponent):
         exponent = sp.Rational(int(2 * exponent), 2)
@@ -172,11 +202,15 @@ def lookup(table: int, x: Expr, curve: int = 0, order: int = 0) -> Expr:
 
     ``table``: as a statement sees it that derives an interpolant.
     """
+    if _duals:
+        return _duals[-1].lookup(table, x, curve, order)
     return _lookups()[0](table, curve, order, x)
 
 
 def lookup_between(table: int, x: Expr, z: Expr, order: int = 0, z_order: int = 0) -> Expr:
     """A table of two arguments at ``x`` and ``z``, or its derivatives."""
+    if _duals:
+        return _duals[-1].lookup_between(table, x, z, order, z_order)
     return _lookups()[1](table, order, z_order, x, z)
 
 
@@ -187,6 +221,8 @@ def lookup_with_corners(table: int, pieces: int, x: Expr, order: int = 0) -> Exp
     ``pieces``: the table of the numbers of its pieces, see
     :func:`adamslite.symbolic.interpolant.piece_numbers`.
     """
+    if _duals:
+        return _duals[-1].lookup(table, x, 0, order)
     piece = floor(lookup(pieces, x), order=-1 if order else 0)
     return _lookups()[2](table, 0, order, piece, x)
 
@@ -197,4 +233,6 @@ def lookup_between_with_corners(table: int, strips: int, x: Expr, z: Expr) -> Ex
 
     ``strips``: the table of the numbers of its strips.
     """
+    if _duals:
+        return _duals[-1].lookup_between(table, x, z, 0, 0)
     return _lookups()[3](table, 0, 0, floor(lookup(strips, z), order=0), x, z)

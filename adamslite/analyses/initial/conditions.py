@@ -3,7 +3,6 @@
 Positions:   min sum w_i^2 (q_i - q_i0)^2  subject to g(t0, q) = 0       Gauss-Newton
 Velocities:  min sum w_i^2 (u_i - u_i0)^2  subject to G u + g_t = 0      one linear solve
 
-The weight of a rotation is the part's radius of gyration, that of an EXACT coordinate ``EXACT``.
 Accelerations and multipliers follow from the equations of motion when the run starts.
 Reference: Haug, Computer Aided Kinematics and Dynamics, 1989, section 4.3.
 """
@@ -22,11 +21,9 @@ from adamslite.integrators import contract
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.model.model import PART
+from adamslite.model.scaling import coordinate_weights, turned
 from adamslite.results.outcomes import Outcome
 
-EXACT = 1e4
-# What has no mass follows what has: it carries no state of its own worth keeping.
-MASSLESS = 1e-4
 MAX_ITERATIONS = 100
 # |g| below this share of the model's size counts as closed.
 CLOSED = 1e-13
@@ -227,17 +224,11 @@ def velocity_rows(system: System) -> np.ndarray:
 
 def weights(system: System) -> np.ndarray:
     """(n,) weights of the coordinates."""
+    model = system.model
+    table = model.once("coordinate weights", lambda: coordinate_weights(model))
     w = np.ones(system.n)
-    for b, body in enumerate(system.model.bodies):
-        i = system.starts[b]
-        if body.width == PART:
-            w[i + 3 : i + 6] = system.weight[b] ** -0.5
-        if body.mass == 0.0:
-            w[i : i + body.width] *= MASSLESS
-        exact = body.statement.exact
-        for c, words in enumerate((("X",), ("Y",), ("Z",), ("PSI", "THETA", "PHI"))):
-            if any(word in exact for word in words):
-                w[i + c if c < 3 else slice(i + 3, i + 6)] *= EXACT
+    for b, body in enumerate(model.bodies):
+        w[system.starts[b] : system.starts[b] + body.width] = table[b, : body.width]
     return w
 
 
@@ -249,13 +240,8 @@ def move(system: System, step: np.ndarray) -> None:
         i = system.starts[b]
         system.q[i : i + 3] -= step[i : i + 3]
         if body.width == PART:
-            turned = _cayley(-step[i + 3 : i + 6]) @ system.base[9 * b : 9 * b + 9].reshape(3, 3)
-            system.base[9 * b : 9 * b + 9] = turned.ravel()
-
-
-def _cayley(c: np.ndarray) -> np.ndarray:
-    skew = np.array([[0.0, -c[2], c[1]], [c[2], 0.0, -c[0]], [-c[1], c[0], 0.0]])
-    return np.eye(3) + (skew + 0.5 * skew @ skew) / (1.0 + 0.25 * c @ c)
+            attitude = system.base[9 * b : 9 * b + 9]
+            attitude[:] = turned(attitude.reshape(3, 3), -step[i + 3 : i + 6]).ravel()
 
 
 def _rows_of(system: System, constraint: Constraint) -> range:

@@ -9,35 +9,20 @@ of a freedom with a displacement alone, and of a MOTION/ACCELERATION without ICV
 from __future__ import annotations
 
 from adamslite.analyses.initial.conditions import Unclosed, initial_conditions, speed_defects
+from adamslite.assembly.start_conditions import conditions
 from adamslite.elements.joint import Joint
 from adamslite.elements.motion import Motion
 from adamslite.equations.system import System
 from adamslite.kernels.compile import compile_model
-from adamslite.language.expression import Num
-from adamslite.language.interfaces import Key
 from adamslite.model.model import assemble
 from adamslite.progress import Progress
-
-
-class Condition(Motion):
-    """A motion that holds at the start only; ``name`` says what of the deck it stands for."""
-
-    @property
-    def label(self) -> str:
-        """``ICDISP of MOTION/1``"""
-        return self.name or super().label
-
-    @property
-    def row_names(self) -> tuple[str, ...]:
-        """The requested displacements and speeds."""
-        return ("speed" if self.level == "VELOCITY" else "displacement",)
 
 
 def start_of_joints(system: System, progress: Progress | None) -> Unclosed | None:
     """Put the state that satisfies all constraints and initial conditions into ``system``."""
     deck = system.model.deck
     active = [s for s in deck.statements if isinstance(s, Joint | Motion) and deck.is_active(s)]
-    extra = [condition for s in active for condition in _conditions(s)]
+    extra = [condition for s in active for condition in conditions(s)]
     coasting = [s for s in active if isinstance(s, Motion) and _coasts(s)]
     if not extra and not coasting:
         return None
@@ -49,27 +34,6 @@ def start_of_joints(system: System, progress: Progress | None) -> Unclosed | Non
         _take_speeds(held, coasting)
         system.adopt(held)
     return unclosed
-
-
-def _conditions(statement: Joint | Motion) -> list[Condition]:
-    """A motion for each requested displacement and speed."""
-    where: dict[str, Key | None] = {"joint": statement.key}
-    if isinstance(statement, Motion):
-        where = {"joint": statement.joint, "i": statement.i, "j": statement.j}
-    return [
-        Condition(
-            id=f"{statement.label} {field} {level}",
-            name=f"{field.upper()} of {statement.label}",
-            axis=freedom or None,
-            level=level,
-            function=Num(value),
-            spans=statement.spans,
-            **where,
-        )
-        for field, freedom, *values in statement.initial()
-        for level, value in zip(("DISPLACEMENT", "VELOCITY"), values, strict=True)
-        if value is not None
-    ]
 
 
 def _coasts(motion: Motion) -> bool:

@@ -1,9 +1,6 @@
-"""Redundant constraint rows: found by a rank-revealing factorisation, named and left out.
+"""Redundant constraint rows are left out: their multipliers are zero.
 
-Rows of G W^-1/2 scaled to unit length; QR with column pivoting of the transpose orders them by
-independence, and those with |R_kk| <= RANK |R_11| are combinations of the others.  Their
-multipliers are zero, so reactions of the joints concerned are one choice among many.
-References: Golub, Van Loan, Matrix Computations, 2013, section 5.4; Haug 1989, section 3.4.
+Reactions of the joints concerned are one choice among many, see :mod:`adamslite.assembly.rank`.
 """
 
 from __future__ import annotations
@@ -11,26 +8,16 @@ from __future__ import annotations
 import numpy as np
 
 from adamslite.analyses.initial.conditions import constraint_gradient, weights
+from adamslite.assembly.rank import dependent_rows, name_of_row, unit_rows
 from adamslite.equations.system import System
 
-RANK = 1e-9
 # Rows kept that are nearer to dependence than all rows by this factor were the wrong choice.
 WORSE = 1e-3
 
 
 def redundant_rows(system: System) -> list[int]:
     """Numbers of the redundant rows at the present posture, counted from the first multiplier."""
-    if system.m == 0:
-        return []
-    scaled = _scaled_rows(system)
-    if np.linalg.matrix_rank(scaled, tol=RANK) == system.m:
-        return []
-    from scipy.linalg import qr
-
-    r, order = qr(scaled.T, mode="r", pivoting=True)
-    pivots = np.abs(np.diag(r))
-    rank = int((pivots > RANK * pivots[0]).sum())
-    return sorted(int(row) for row in order[rank:])
+    return dependent_rows(_scaled_rows(system)) if system.m else []
 
 
 def badly_chosen(system: System) -> bool:
@@ -51,10 +38,7 @@ def badly_chosen(system: System) -> bool:
 
 
 def _scaled_rows(system: System) -> np.ndarray:
-    """G W^-1/2 (m, n), its rows of unit length."""
-    g = constraint_gradient(system) / weights(system)
-    length = np.linalg.norm(g, axis=1)
-    return g / np.where(length > 0.0, length, 1.0)[:, None]
+    return unit_rows(constraint_gradient(system) / weights(system))
 
 
 def leave_out_redundant(system: System) -> list[str]:
@@ -64,11 +48,5 @@ def leave_out_redundant(system: System) -> list[str]:
 
 
 def row_name(system: System, row: int) -> str:
-    """``JOINT/3, rotation about y_J (z_I . x_J)``: the constraint and what the row keeps at
-    zero.
-    """
-    for constraint in system.model.constraints:
-        if row < constraint.n_rows:
-            return f"{constraint.label}, {constraint.row_names[row]}"
-        row -= constraint.n_rows
-    raise IndexError("no constraint has this row")
+    """The constraint and what the row keeps at zero."""
+    return name_of_row(system.model.constraints, row)

@@ -55,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
         return _data(args.format, scene.warnings, DONE)
     if scene.warnings:
         sys.stdout.write(render(scene.warnings) + "\n\n")
-    sys.stdout.write(_contents(scene))
+    sys.stdout.write(contents(scene))
     return DONE
 
 
@@ -78,7 +78,7 @@ def _counted(diagnostics: "Iterable[Diagnostic]", always: Sequence[str] = ()) ->
     return ", ".join(_many(counted[each], each) for each in shown)
 
 
-def _contents(scene: "Scene") -> str:
+def contents(scene: "Scene") -> str:
     counted = Counter(statement.keyword for statement in scene.deck.statements)
     listed = ", ".join(f"{number} {keyword}" for keyword, number in counted.items())
     warnings = _counted(scene.warnings) or "no mistakes found"
@@ -109,24 +109,19 @@ def _freedom(deck: "Deck") -> str:
     parts = sum(not each.ground for each in deck.of(Part))
     points = len(deck.of(PointMass))
     constraints = [each for each in deck.statements if isinstance(each, Constraint)]
-    held = [each.n_rows for each in constraints if deck.is_active(each)]
-    found = _dropped(deck) if len(held) > parts + points else []
-    free = 6 * parts + 3 * points - sum(held) + len(found)
+    held = sum(each.n_rows for each in constraints if deck.is_active(each))
+    found: list[str] = []
+    if held:
+        from adamslite.assembly.start import redundant_rows
+
+        found = redundant_rows(deck)
+    free = 6 * parts + 3 * points - held + len(found)
     redundant = f"\n  redundant, left out: {'; '.join(found)}" if found else ""
     return (
         f"{_many(free, 'degree')} of freedom: "
         f"{_many(parts, 'moving part')}, {_many(points, 'point mass', 'point masses')}, "
-        f"{_many(sum(held), 'constraint row')}{redundant}"
+        f"{_many(held, 'constraint row')}{redundant}"
     )
-
-
-def _dropped(deck: "Deck") -> list[str]:
-    """Names of redundant rows; only a mechanism with closed loops can have any."""
-    from adamslite.analyses.initial.redundancy import row_name
-    from adamslite.analyses.session import Session
-
-    system = Session(deck, None, {}).system
-    return [row_name(system, row) for row in system.elimination.dropped]
 
 
 def _many(number: int, one: str, several: str = "") -> str:

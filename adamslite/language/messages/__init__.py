@@ -16,6 +16,7 @@ from adamslite.language.messages.arguments import ARGUMENTS
 from adamslite.language.messages.constraints import CONSTRAINTS
 from adamslite.language.messages.entry import Message
 from adamslite.language.messages.expressions import EXPRESSIONS
+from adamslite.language.messages.lints import LINTS
 from adamslite.language.messages.model import MODEL
 from adamslite.language.messages.routines import ROUTINES
 from adamslite.language.messages.runs import RUNS
@@ -27,7 +28,16 @@ from adamslite.language.not_supported import INSTEAD
 # Of words that may have been meant: likeness at least (1: equal), and what they may fall behind by.
 LIKENESS, SPREAD = 0.6, 0.1
 MESSAGES: dict[str, Message] = (
-    STATEMENTS | ARGUMENTS | EXPRESSIONS | MODEL | CONSTRAINTS | SHAPES | TABLES | ROUTINES | RUNS
+    STATEMENTS
+    | ARGUMENTS
+    | EXPRESSIONS
+    | MODEL
+    | CONSTRAINTS
+    | SHAPES
+    | LINTS
+    | TABLES
+    | ROUTINES
+    | RUNS
 )
 
 ALIKE = {"PART": "POINT_MASS", "POINT_MASS": "PART", "VARIABLE": "DIFF", "DIFF": "VARIABLE"}

@@ -1,0 +1,97 @@
+"""The nearest posture in which the holonomic constraints hold.
+
+    min sum w_i^2 (q_i - q_i0)^2  subject to g(0, q) = 0
+
+by Gauss-Newton: each step is W^-2 G^T lam with (G W^-2 G^T) lam = g, redundant rows being shared by
+a small multiple of the unit matrix.  A step that does not reduce |g| is halved.  It is the method
+of :mod:`adamslite.analyses.initial.conditions`, without native code.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from adamslite.assembly.rows import gradient, values
+from adamslite.assembly.scope import WIDTH, Posture
+from adamslite.elements.bases.constraint import Constraint
+from adamslite.model.model import Model
+from adamslite.model.scaling import coordinate_weights, turned
+
+MAX_ITERATIONS, HALVINGS = 60, 12
+# |g| below this share of the size of the model counts as closed; beyond that one it is open.
+CLOSED, OPEN = 1e-13, 1e-9
+# Largest turn of a part in one step [rad].
+MOST_TURN = 0.5
+# Share of the largest diagonal that is added to it.
+SHARED = 1e-14
+
+
+@dataclass
+class Closing:
+    """Where the constraints hold, or nearly; ``gaps``: what the rows of each are off by there.
+
+    ``closed``: whether the posture is one that a run can start from.
+    """
+
+    posture: Posture
+    gaps: list[np.ndarray]
+    closed: bool
+
+
+def close(model: Model, constraints: Sequence[Constraint], start: Posture) -> Closing:
+    """The posture nearest to ``start`` in which the holonomic ones of some constraints hold."""
+    kept = [each for each in constraints if not each.is_rate(model)]
+    scale = 1.0 / coordinate_weights(model).ravel()
+    size = max(1.0, float(np.abs(start.x).max(initial=0.0)))
+    at, g = start, _all_values(model, start, kept)
+    for _ in range(MAX_ITERATIONS):
+        if not np.isfinite(g).all() or np.abs(g).max(initial=0.0) <= CLOSED * size:
+            break
+        _, rows = gradient(model, at, kept)
+        if not np.isfinite(rows).all():
+            break
+        step = _least_change(rows * scale, g) * scale
+        found = _damped(model, kept, at, step, g)
+        if found is None:
+            break
+        at, g = found
+    edges = np.cumsum([each.n_rows for each in kept])[:-1]
+    gaps = [part for part in np.split(g, edges)] if kept else []
+    off = float(np.abs(g).max(initial=0.0))
+    return Closing(at, gaps, bool(off <= OPEN * size))
+
+
+def _all_values(model: Model, at: Posture, constraints: Sequence[Constraint]) -> np.ndarray:
+    return np.concatenate([np.zeros(0), *(values(model, at, each) for each in constraints)])
+
+
+def _least_change(rows: np.ndarray, g: np.ndarray) -> np.ndarray:
+    """The smallest step that removes ``g`` to first order."""
+    square = rows @ rows.T
+    square[np.diag_indices_from(square)] += SHARED * float(np.diag(square).max()) + 1e-300
+    return rows.T @ np.linalg.solve(square, g)
+
+
+def _damped(
+    model: Model, kept: Sequence[Constraint], at: Posture, step: np.ndarray, g: np.ndarray
+) -> tuple[Posture, np.ndarray] | None:
+    """The posture after the step, or the longest half, quarter ... of it that reduces |g|."""
+    turns = np.linalg.norm(step.reshape(-1, WIDTH)[:, 3:], axis=1)
+    share = min(1.0, MOST_TURN / max(1e-300, float(turns.max(initial=0.0))))
+    for _ in range(HALVINGS):
+        new = moved(at, share * step)
+        value = _all_values(model, new, kept)
+        if np.linalg.norm(value) < np.linalg.norm(g):
+            return new, value
+        share *= 0.5
+    return None
+
+
+def moved(at: Posture, step: np.ndarray) -> Posture:
+    """The posture less a step (6 n,) of places and rotations in ground axes."""
+    change = step.reshape(-1, WIDTH)
+    attitude = [turned(a, -c[3:]) for a, c in zip(at.attitude, change, strict=True)]
+    return Posture(at.x - change[:, :3], np.array(attitude).reshape(-1, 3, 3), at.speed)

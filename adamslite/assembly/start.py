@@ -1,0 +1,107 @@
+"""What there is to say about the start of a deck: gaps of joints, redundant rows."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from adamslite.assembly.closing import Closing, close
+from adamslite.assembly.rank import dependent_rows, name_of_row, unit_rows
+from adamslite.assembly.rows import gradient
+from adamslite.assembly.scope import Posture
+from adamslite.assembly.start_conditions import conditions
+from adamslite.deck.deck import Deck
+from adamslite.elements.bases.constraint import Constraint
+from adamslite.elements.bases.joint_coordinates import pose
+from adamslite.elements.joint import Joint
+from adamslite.elements.marker import Marker
+from adamslite.elements.motion import Motion
+from adamslite.language.interfaces import Key
+from adamslite.model.model import Model
+from adamslite.model.scaling import coordinate_weights
+
+GROUND = ("PART", "GROUND")
+# Rows off by this share of the worst take part in a contradiction.
+INVOLVED = 1e-3
+Body = tuple[str, Key]
+
+
+@lru_cache(maxsize=1)
+def closing_of(deck: Deck) -> tuple[Model, Closing]:
+    """The model and its posture at the start, with the initial conditions of its joints."""
+    active = [s for s in deck.statements if isinstance(s, Joint | Motion) and deck.is_active(s)]
+    extra = [c for s in active for c in conditions(s) if c.level == "DISPLACEMENT"]
+    model = Model(deck.with_more(extra) if extra else deck)
+    return model, close(model, model.constraints, Posture.drawn(model))
+
+
+def redundant_rows(deck: Deck) -> list[str]:
+    """Names of the constraint rows that follow from the others at the start."""
+    if not has_loops(deck):
+        return []
+    started, closing = closing_of(deck)
+    model = Model(deck) if len(started.deck.own) > len(deck.own) else started
+    _, rows = gradient(model, closing.posture, model.constraints)
+    if not np.isfinite(rows).all():
+        return []
+    scaled = unit_rows(rows / coordinate_weights(model).ravel())
+    return [name_of_row(model.constraints, row) for row in dependent_rows(scaled)]
+
+
+def has_loops(deck: Deck) -> bool:
+    """Whether some constraint connects bodies that others connect already."""
+    leader: dict[Body, Body] = {}
+
+    def group(body: Body) -> Body:
+        while leader.get(body, body) != body:
+            body = leader[body]
+        return body
+
+    for each in deck.statements:
+        if not hasattr(each, "constraints") or not deck.is_active(each):
+            continue
+        ends = [_body(deck, getattr(each, name, None)) for name in ("i", "j")]
+        if None in ends:
+            return True
+        first, second = (group(end) for end in ends if end is not None)
+        if first == second:
+            return True
+        leader[first] = second
+    return False
+
+
+def _body(deck: Deck, marker: Key | None) -> Body | None:
+    found = deck.find(Marker, marker) if marker is not None else None
+    if found is None or found.owner is None:
+        return None
+    return GROUND if getattr(deck.find(*found.owner), "ground", False) else found.owner
+
+
+def size_of(model: Model) -> float:
+    """The largest distance along an axis between bodies and markers of joints; 1 where all lie in
+    one place.
+    """
+    places = [body.x for body in model.bodies]
+    for each in model.constraints:
+        ends = (getattr(each, name, None) for name in ("i", "j"))
+        places += [pose(model, end)[0] for end in ends if end is not None]
+    extent = float(np.ptp(np.array(places), axis=0).max()) if places else 0.0
+    return extent or 1.0
+
+
+def worst_gap(model: Model, closing: Closing) -> tuple[Constraint, str, float, list[str]] | None:
+    """The constraint that stays open most, its row, by how much, and what it contradicts.
+
+    At the least sum of squares the gaps are a combination of rows that cancels: rows that stay open
+    contradict each other.  None where a row has no value.
+    """
+    kept = [each for each in model.constraints if not each.is_rate(model)]
+    worst = [float(np.abs(gap).max()) for gap in closing.gaps]
+    if not np.isfinite(worst).all():
+        return None
+    at = int(np.argmax(worst))
+    row = int(np.argmax(np.abs(closing.gaps[at])))
+    involved = (each.label for each, size in zip(kept, worst, strict=True)
+                if size > INVOLVED * worst[at] and each is not kept[at])  # fmt: skip
+    return kept[at], kept[at].row_names[row], worst[at], list(involved)

@@ -1,0 +1,60 @@
+"""Scales of the coordinates of bodies: what makes a rotation comparable with a translation."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from adamslite.model.model import PART, Model
+
+# Share of a lever that a radius of gyration counts at least.
+LEVER = 0.1
+# Weight of a coordinate that the deck calls EXACT.
+EXACT = 1e4
+# What has no mass follows what has: it carries no state of its own worth keeping.
+MASSLESS = 1e-4
+
+
+def rotation_weights(model: Model) -> np.ndarray:
+    """1/(radius of gyration)^2 of each body: puts rotations on the scale of translations in
+    W G^T mu; 1 for a body without mass or inertia.
+
+    At least ``LEVER`` of the way from the mass centre to a marker that is held: a part whose mass
+    is all but a point turns about such a marker, and a weight of its inertia alone would make
+    G W G^T, and what round-off does to mu, as large as the ratio of the two is small.
+    """
+    mass = np.array([body.mass for body in model.bodies], dtype=float)
+    inertia = np.array([body.inertia for body in model.bodies], dtype=float).reshape(-1, 3, 3)
+    trace = np.trace(inertia, axis1=1, axis2=2)
+    known = (trace > 0.0) & (mass > 0.0)
+    square = np.divide(trace, mass, out=np.ones(mass.size), where=known)
+    ends = [getattr(each, name, None) for each in model.constraints for name in ("i", "j")]
+    for place in (model.marker(end) for end in ends if end is not None):
+        if place is not None and place.body >= 0 and known[place.body]:
+            square[place.body] = max(square[place.body], LEVER**2 * float(place.p @ place.p))
+    return 1.0 / square
+
+
+def coordinate_weights(model: Model) -> np.ndarray:
+    """(n, 6) weights w of place and rotation of each body in sum w^2 (change)^2.
+
+    That of a rotation is the part's radius of gyration, that of an EXACT coordinate ``EXACT``.
+    """
+    table = np.ones((len(model.bodies), 6))
+    for w, body, rotation in zip(table, model.bodies, rotation_weights(model), strict=True):
+        if body.width == PART:
+            w[3:] = rotation**-0.5
+        if body.mass == 0.0:
+            w *= MASSLESS
+        exact = body.statement.exact
+        for c, words in enumerate((("X",), ("Y",), ("Z",), ("PSI", "THETA", "PHI"))):
+            if any(word in exact for word in words):
+                w[c if c < 3 else slice(3, 6)] *= EXACT
+    return table
+
+
+def turned(attitude: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    """An attitude (3, 3) after a small rotation (3,) in ground axes, by Cayley's formula."""
+    a, b, c = rotation
+    skew = np.array([[0.0, -c, b], [c, 0.0, -a], [-b, a, 0.0]])
+    cayley = np.eye(3) + (skew + 0.5 * skew @ skew) / (1.0 + 0.25 * rotation @ rotation)
+    return cayley @ attitude

@@ -1,0 +1,159 @@
+"""The start of a deck in numbers: derivatives of constraints, gaps of joints, redundant rows."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from constraint_decks import BODIES, DECKS, deck
+from decklets import told
+from tiers import fast
+
+import adamslite as al
+from adamslite.analyses.initial.conditions import constraint_gradient
+from adamslite.analyses.initial.redundancy import row_name
+from adamslite.analyses.session import Session
+from adamslite.assembly.closing import moved
+from adamslite.assembly.rows import gradient, values
+from adamslite.assembly.scope import WIDTH, Posture
+from adamslite.assembly.start import closing_of, has_loops, redundant_rows
+from adamslite.model.model import Model
+from adamslite.resources import find
+
+STEP = 1e-5
+LOOPS = ("andrews/andrews", "bricard/bricard", "four-bar/four-bar", "slider-crank/slider-crank",
+         "slider-crank/equal-arms", "a02-n2/a02-n2", "gear-pair/planetary", "shafts/convel",
+         "torture/flattened/parallelogram", "three-joint-coupler/three-joint-coupler")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_derivatives_are_those_of_finite_differences(name: str) -> None:
+    """Central differences with h = 1e-5: truncation h^2 times third derivatives of sizes up to
+    some ten, round-off 1e-16/h: 1e-8 holds both.
+    """
+    model = Model(al.read(deck(name)))
+    kept = [each for each in model.constraints if not each.is_rate(model)]
+    at = Posture.drawn(model)
+    value, rows = gradient(model, at, kept)
+    if not kept:
+        return
+    direct = np.concatenate([values(model, at, each) for each in kept])
+    np.testing.assert_array_equal(value, direct)
+    for column in range(WIDTH * len(model.bodies)):
+        step = np.zeros(WIDTH * len(model.bodies))
+        step[column] = STEP
+        if model.bodies[column // WIDTH].width < WIDTH and column % WIDTH >= 3:
+            continue
+        ahead, back = (
+            np.concatenate([values(model, moved(at, sign * step), each) for each in kept])
+            for sign in (-1, 1)
+        )
+        np.testing.assert_allclose(rows[:, column], (ahead - back) / (2 * STEP), atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    "name", fast(DECKS, "JOINT CONVEL", "GCON", "GCON of a velocity", "PTCV closed")
+)
+def test_derivatives_are_those_of_native_code(name: str) -> None:
+    """Both apply the rules of differentiation: equal to round-off of a few products."""
+    of = al.read(deck(name))
+    model = Model(of)
+    system = Session(of, None, {})._numbered(False)
+    here, there = [], []
+    for b, body in enumerate(model.bodies):
+        here += range(WIDTH * b, WIDTH * b + body.width)
+        there += range(system.starts[b], system.starts[b] + body.width)
+    _, rows = gradient(model, Posture.drawn(model), model.constraints)
+    np.testing.assert_allclose(rows[:, here], constraint_gradient(system)[:, there], atol=1e-14)
+
+
+@pytest.mark.parametrize("name", fast(LOOPS, "four-bar/four-bar", "bricard/bricard"))
+def test_redundant_rows_are_those_that_a_run_leaves_out(name: str) -> None:
+    of = al.read(find("decks") / f"{name}.adm")
+    system = Session(of, None, {}).system
+    left_out = [row_name(system, row) for row in system.elimination.dropped]
+    assert has_loops(of) and redundant_rows(of) == left_out
+
+
+def test_a_tree_has_no_loops() -> None:
+    assert not has_loops(al.read(find("decks") / "friction/friction.adm"))
+
+
+def test_a_loop_beside_free_bodies_is_found() -> None:
+    """Two hinges on one axis hold 10 rows, 5 of them twice; a body that flies free beside them has
+    nothing to do with it.
+    """
+    of = al.read(
+        "title\nPART/1, GROUND\nMARKER/1, PART=1\nMARKER/2, PART=1, QP=0,0,1\n"
+        "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, PART=2\nMARKER/21, PART=2, QP=0,0,1\n"
+        "PART/3, MASS=1, CM=30, IP=1,1,1, QG=5,0,0\nMARKER/30, PART=3\n"
+        "PART/4, MASS=1, CM=40, IP=1,1,1, QG=7,0,0\nMARKER/40, PART=4\n"
+        "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=21, J=2\nEND\n"
+    )
+    assert len(redundant_rows(of)) == 5
+
+
+# ---- gaps -------------------------------------------------------------------------------------
+
+GAPS = [
+    ("QP=3,4,0", "SPHERICAL", "5 millimeter apart"),
+    ("QP=3,4,12", "CYLINDRICAL", "5 millimeter apart"),
+    ("QP=3,4,12", "PLANAR", "12 millimeter apart"),
+    ("REULER=0,2D,0", "REVOLUTE", "2 degrees out of line"),
+    ("REULER=30D,2D,-30D", "REVOLUTE", "2 degrees out of line"),
+    ("REULER=0,2D,0", "FIXED", "2 degrees out of line"),
+    ("REULER=0,170D,0", "FIXED", "10 degrees out of line"),
+    ("REULER=0,100D,0", "FIXED", "80 degrees out of line"),
+    ("QP=0.5,0,0, REULER=7D,0,0", "FIXED", "0.5 millimeter apart and 7 degrees out of line"),
+    ("REULER=0,93D,0", "UNIVERSAL", "3 degrees out of line"),
+    ("REULER=3D,0,0", "HOOKE", "3 degrees out of line"),
+]
+
+
+@pytest.mark.parametrize(("place", "kind", "how"), GAPS)
+def test_a_joint_that_starts_apart_is_reported_with_its_size(
+    place: str, kind: str, how: str
+) -> None:
+    """The second part is drawn as MARKER/1 is; MARKER/2 of it is where the case says."""
+    found = told(
+        "title\nUNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=MILLIMETER, TIME=SECOND\n"
+        "PART/1, GROUND\nMARKER/1, PART=1, QP=100,200,300, REULER=10D,20D,30D\n"
+        "PART/2, MASS=1, CM=3, IP=1,1,1, QG=100,200,300, REULER=10D,20D,30D\n"
+        f"MARKER/2, PART=2, {place}\nMARKER/3, PART=2, QP=0,70,0\n"
+        f"JOINT/7, {kind}, I=2, J=1\nEND\n"
+    )
+    (one,) = [each for each in found if each.code == "starts-apart"]
+    assert one.message == f"MARKER/2 and MARKER/1 of JOINT/7 start {how}"
+    assert (one.span.line, one.severity) == (8, "warning")
+
+
+def test_digits_of_numbers_are_no_gap() -> None:
+    """A hinge at 1/3, written with seven digits; a turn by 0.0005 degrees."""
+    assert not told(
+        "title\nPART/1, GROUND\nMARKER/1, PART=1\n"
+        "PART/2, MASS=1, CM=3, IP=1,1,1, QG=0.3333333,0,0\n"
+        "MARKER/2, PART=2, QP=-0.3333332,0,0, REULER=0,0.0005D,0\n"
+        "MARKER/3, PART=2\nJOINT/7, REVOLUTE, I=2, J=1\nEND\n"
+    )
+
+
+def test_closing_moves_as_a_run_does() -> None:
+    """The same least change, weighted by radii of gyration: positions to 1e-12 of the size."""
+    of = al.read(find("decks") / "four-bar/four-bar.adm")
+    model, closing = closing_of(of)
+    system = Session(of, None, {}).system
+    assert closing.closed
+    np.testing.assert_allclose(
+        closing.posture.x.ravel(), system.q[system.places].ravel(), atol=1e-12
+    )
+
+
+def test_constraints_without_a_start_are_reported_with_what_they_contradict() -> None:
+    """A rod of length 1 between points that are held 3 apart."""
+    found = told(
+        BODIES.replace("constraints between skew bodies", "title")
+        + "JPRIM/1, ATPOINT, I=40, J=2\nMARKER/3, PART=1, QP=2.9,0.2,0.4\n"
+        "GCON/1, FUNCTION=DM(40,3)-1\nEND\n"
+    )
+    (one,) = [each for each in found if each.code == "stays-open"]
+    both = {"JPRIM/1", "GCON/1"}
+    assert all(label in one.message for label in both)
