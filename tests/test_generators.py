@@ -28,6 +28,7 @@ SLOW = {
 QUICK = (
     "arrays",
     "beam-cantilever",
+    "beam-string",
     "bushing",
     "chrono",
     "conical-pendulum",

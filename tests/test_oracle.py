@@ -120,7 +120,20 @@ def field(f: Flight, ratio: bool) -> tuple[list[str], list]:
     return [f"{line}, LENGTH={listed(rest)}, FORCE={listed(force)}"], from_six(f[i], f[j], load)
 
 
-def beam(f: Flight, ratio: bool) -> tuple[list[str], list]:
+def stiffening(rigidity: float, L: float, x: Array) -> Array:
+    """By the energy rigidity/2 (x1 + g)^2, g from the cubics with the slopes of I by quadrature."""
+    s, weights = np.polynomial.legendre.leggauss(4)
+    s, weights = (s + 1) / 2, weights / 2
+    by_v, by_p = 6 * (s - s**2) / L, 3 * s**2 - 2 * s
+    slope = {1: by_v * x[1] + by_p * x[5], 2: by_v * x[2] - by_p * x[4]}
+    g = L * weights @ (slope[1] ** 2 + slope[2] ** 2) / 2
+    N = rigidity * (x[0] + g)
+    across = [L * weights @ (slope[n] * by_v) for n in (1, 2)]
+    about = [-L * weights @ (slope[2] * by_p), L * weights @ (slope[1] * by_p)]
+    return np.array([-rigidity * g, *(-N * np.array([*across, 0, *about]))])
+
+
+def beam(f: Flight, ratio: bool, string: bool = False) -> tuple[list[str], list]:
     i, j = f.pick(2)
     L, ixx, iyy, izz, area, asy, asz, E, G = numbers(f.rng, 9)
     py, pz = 12 * E * izz * asy / (G * area * L**2), 12 * E * iyy * asz / (G * area * L**2)
@@ -136,9 +149,12 @@ def beam(f: Flight, ratio: bool) -> tuple[list[str], list]:
     x, v = six(f[i], f[j])
     x[0] -= L
     load = -k @ x - (0.2 * k if ratio else c) @ v
+    if string:
+        load += stiffening(E * area / L, L, x)
     how = "CRATIO=0.2" if ratio else f"CMATRIX={listed(lower)}"
     line = f"BEAM/1, I={i}, J={j}, LENGTH={L}, IXX={ixx}, IYY={iyy}, IZZ={izz}, AREA={area}"
     line += f", ASY={asy}, ASZ={asz}, EMODULUS={E}, GMODULUS={G}, {how}"
+    line += ", FORMULATION=STRING" * string
     return [line], from_six(f[i], f[j], load)
 
 
@@ -157,6 +173,7 @@ ELEMENTS = {
     "FIELD with CRATIO": lambda f: field(f, True),
     "BEAM": lambda f: beam(f, False),
     "BEAM with CRATIO": lambda f: beam(f, True),
+    "BEAM as a STRING": lambda f: beam(f, True, string=True),
 }
 
 

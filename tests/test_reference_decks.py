@@ -12,6 +12,7 @@ SHARE = 0.8
 FOLDERS = (
     "andrews",
     "arrays",
+    "beam-string",
     "bricard",
     "bushing",
     "cable-level3-n10",

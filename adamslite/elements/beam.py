@@ -1,4 +1,4 @@
-"""BEAM: a massless straight beam between two markers, by linear Timoshenko theory.
+"""BEAM: a massless straight beam between two markers, by Timoshenko theory.
 
 Equation, components along the axes of J (d = r_I - r_J, L = LENGTH)::
 
@@ -19,15 +19,37 @@ its axes are those of J::
       J o=====================o I ---> x of J          CMATRIX: its lower triangle,
                 L                                      column by column
 
+FORMULATION=STRING adds what a bent beam is longer than its chord.  Its axis is the cubic v(s), w(s)
+with the deflections (y, z) and the slopes (c, -b) of I, (a, b, c) being the angles, so that it is
+stretched by g besides x1 = x - L and pulled straight by its tension N::
+
+    g = g(y, c) + g(z, -b),    g(v, p) = integral of v'^2/2 = 3/5 v^2/L - v p/10 + L p^2/15
+
+    N = E A/L (x1 + g);    -E A/L g  along x,   -N dg/dy, ... dg/db, dg/dc  besides -K (x - L)
+
+Tension stiffens it, compression makes it buckle.  This is the theory of moderate deflections of the
+textbooks; that of ADAMS by this name is not published in full.
+
 The deflection of I seen from J must stay small against L; a beam that bends far is made of several.
-Source: Adams/Solver statement BEAM; J. S. Przemieniecki, Theory of Matrix Structural Analysis.
+Source: Adams/Solver statement BEAM; J. S. Przemieniecki, Theory of Matrix Structural Analysis, ch.
+5 and 15.
 """
 
 from __future__ import annotations
 
-from adamslite.elements.bases.wrench import NOTHING, Compliance, Row, symmetric, times
+from adamslite.elements.bases.wrench import (
+    NOTHING,
+    Compliance,
+    Row,
+    between,
+    displacement,
+    symmetric,
+    times,
+)
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, number, reference, statement, vector
+from adamslite.symbolic.scope import Load, Scope
+from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("BEAM")
@@ -55,8 +77,8 @@ class Beam(Compliance, Statement):
         help="damping: the lower triangle, column by column",
     )  # fmt: skip
     formulation: str = choice(
-        "FORMULATION", options=("LINEAR", "STRING", "NONLINEAR"), supported=("LINEAR",),
-        default="LINEAR", help="theory of the beam",
+        "FORMULATION", options=("LINEAR", "STRING", "NONLINEAR"), supported=("LINEAR", "STRING"),
+        default="LINEAR", help="theory of the beam: with STRING its tension acts on bending",
     )  # fmt: skip
 
     @property
@@ -91,3 +113,35 @@ class Beam(Compliance, Statement):
             "rest": (self.length, *NOTHING[1:]),
             "preload": NOTHING,
         }
+
+    def loads(self: Seen, scope: Scope) -> list[Load]:
+        """The wrench on I and what J gets."""
+        found = Compliance.loads(self, scope)
+        if self.formulation != "STRING":
+            return found
+        stretched, x, slopes = _stretch(self, scope)
+        rigidity = self.emodulus * self.area / self.length
+        tension = rigidity * (x[0] + stretched)
+        wrench = [-rigidity * stretched, *(-tension * slope for slope in slopes)]
+        return [*found, *between(scope, self.i, self.j, wrench)]
+
+    def stored(self: Seen, scope: Scope) -> Expr:
+        """Of the linear theory, and E A/L (x1 g + g^2/2)."""
+        energy = Compliance.stored(self, scope)
+        if self.formulation != "STRING":
+            return energy
+        stretched, x, _ = _stretch(self, scope)
+        rigidity = self.emodulus * self.area / self.length
+        return energy + rigidity * (x[0] * stretched + stretched**2 / 2)
+
+
+def _stretch(beam: Seen, scope: Scope) -> tuple[Expr, list[Expr], list[Expr]]:
+    """g, (x1, y, z, a, b, c), and the derivatives of g by y, z, a, b and c."""
+    x, y, z, a, b, c = displacement(scope, beam.i, beam.j)
+    length = beam.length
+    total, slopes = 0, []
+    for v, p in ((y, c), (z, -b)):
+        total = total + 3 * v**2 / (5 * length) - v * p / 10 + length * p**2 / 15
+        slopes.append((6 * v / (5 * length) - p / 10, 2 * length * p / 15 - v / 10))
+    (by_y, by_c), (by_z, by_minus_b) = slopes
+    return total, [x - length, y, z, a, b, c], [by_y, by_z, 0, -by_minus_b, by_c]

@@ -87,7 +87,7 @@ ARGUMENTS: dict[str, Message] = {
     "planned-choice": Message(
         "not supported yet: {keyword} of the kind {word}{times}",
         "supported are {known}",
-        ("BEAM/1, I=2, J=1, FORMULATION=STRING, LENGTH=1, AREA=1, IXX=1, IYY=1, IZZ=1, EMOD=1"
+        ("BEAM/1, I=2, J=1, FORMULATION=NONLINEAR, LENGTH=1, AREA=1, IXX=1, IYY=1, IZZ=1, EMOD=1"
          ", GMOD=1",),
     ),
     "discontinued-choice": Message(
