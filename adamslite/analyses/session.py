@@ -23,6 +23,7 @@ import numpy as np
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import without_value
 from adamslite.analyses.dynamic import Settings, run_dynamic
+from adamslite.analyses.history import History, Piece
 from adamslite.analyses.initial.conditions import (
     Unclosed,
     consistent_velocities,
@@ -78,8 +79,8 @@ class Session:
         Equations and present state.
     time : float
         Time reached.
-    pieces : list of (times, values)
-        What the analyses wrote; ``names`` are the columns.
+    history : History
+        What the analyses wrote.
     late_setup : float
         CPU [s] of compiling an integrator when a run first needed it.
     outcome, unclosed
@@ -108,8 +109,7 @@ class Session:
         self.chosen = MethodChoice(self.settings)
         self.statics = StaticSettings()
         self.time = self.late_setup = 0.0
-        self.pieces: list[tuple[np.ndarray, np.ndarray]] = []
-        self.names: tuple[str, ...] = ()
+        self.history = History()
         self.outcome = Outcome.DONE
         self.unclosed: Unclosed | None = None
         self.linearizations: list[Linearized] = []
@@ -326,7 +326,7 @@ class Session:
         if self.unclosed:
             self.outcome = self.unclosed.outcome
             return system
-        if self.time == 0.0 and not self.pieces:
+        if self.time == 0.0 and not self.history.pieces:
             self.assembled = system.largest_changes()
             self.speeds = system.changed_speeds()
         settle_variables(system)
@@ -369,23 +369,13 @@ class Session:
     def _keep(
         self, system: System, times: np.ndarray, static: bool, own_start: bool = True
     ) -> None:
-        """Append the records made; a state both ends and begins two analyses only once.
-
-        Equilibrium is another state at the same time.  ``own_start``: the first time was requested.
-        """
+        """Keep the records made.  ``own_start``: the first time was requested."""
         self.out_of_law = system.instances.out_of_law() | self.out_of_law
         made = system.count.records
         row = system.nw + system.sizes.n_out
-        self.names, values = columns(system, system.record[: made * row].reshape(made, row))
+        names, values = columns(system, system.record[: made * row].reshape(made, row))
         first = 0 if own_start else 1
-        times, values = times[first:made].copy(), values[first:]
-        last = self.pieces[-1] if self.pieces else (times[:0], values[:0])
-        if len(times) and len(last[0]) and last[0][-1] == times[0]:
-            if self._began_static:
-                self.pieces[-1] = (last[0][:-1], last[1][:-1])
-            elif not static:
-                times, values = times[1:], values[1:]
+        piece = Piece(times[first:made].copy(), names, values[first:])
+        self.history.append(piece, static, self._began_static)
         self._began_static = static
-        if len(times):
-            self.pieces.append((times, values))
         self.counts.add(system.count)

@@ -226,11 +226,7 @@ def _without_value(time: np.ndarray, names: tuple[str, ...], values: np.ndarray)
 
 def _results(session: Session, cpu: tuple[float, float]) -> Results:
     system = session.system
-    time = np.concatenate([t for t, _ in session.pieces]) if session.pieces else np.zeros(0)
-    width = len(session.names)
-    values = (
-        np.concatenate([v for _, v in session.pieces]) if session.pieces else np.zeros((0, width))
-    )
+    time, names, values = session.history.whole
     counts = session.counts.values()
     summary: dict[str, Any] = {
         "outcome": session.outcome.name, "t_end": session.time, "dof": system.dof,
@@ -241,10 +237,10 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
         worst = _worst(session.balances)
         summary |= {"energy_gap": worst.gap, "energy_gap_explained": worst.explained}
     done = session.outcome.is_requested
-    without = _without_value(time, session.names, values)
+    without = _without_value(time, names, values)
     meta = {**_meta(session), **({"no number": without} if without else {})}
     return Results(
-        time=time, names=session.names, values=values, meta=meta, outcome=session.outcome,
+        time=time, names=names, values=values, meta=meta, outcome=session.outcome,
         message="" if done else explain(system, session.outcome, session.unclosed), summary=summary,
         linearizations=tuple(session.linearizations), balances=tuple(session.balances),
     )  # fmt: skip
@@ -269,8 +265,7 @@ def _meta(session: Session) -> Mapping[str, str]:
 
 
 def _accuracy_note(session: Session) -> str:
-    names, values = session.names, np.concatenate([v for _, v in session.pieces])
-    time = np.concatenate([t for t, _ in session.pieces])
+    time, names, values = session.history.whole
     note = accuracy_notes(session.system, session.chosen.settings, session.counts, names, values)
     grown = buckled(session.kernels.model, names, time, values)
     return "; ".join(sentence for sentence in (grown, note) if sentence)
@@ -284,10 +279,9 @@ def _worst(balances: list[Balance]) -> Balance:
 def _beyond(session: Session) -> dict[str, str]:
     """Elements that the motion carried beyond what their law is meant for."""
     texts = [f"{label} {how}" for label, how in session.out_of_law.items()]
-    if session.pieces:
-        values = np.concatenate([v for _, v in session.pieces])
-        time = np.concatenate([t for t, _ in session.pieces])
-        slack = compressed(session.deck, session.names, time, values) if len(time) else ""
+    if session.history.pieces:
+        time, names, values = session.history.whole
+        slack = compressed(session.deck, names, time, values) if len(time) else ""
         texts += [slack] if slack else []
     return {"out of its law": "; ".join(texts)} if texts else {}
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 
+from adamslite.equations.engine import ints
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import EQUILIBRIUM, JACOBIAN, STATIC
@@ -25,7 +26,8 @@ class StaticSettings:
 
     ``alimit`` [rad] and ``tlimit`` [length] limit the increments of an iteration; ``error`` is the
     relative correction and ``imbalance`` [force] the residual at which it is done; ``stability``
-    is added times the mass matrix to the stiffness.
+    is added times the mass matrix to the stiffness; ``pattern``, repeated, says which iterations
+    renew the matrix (T).
     """
 
     alimit: float = 10.0 * pi / 180.0
@@ -34,6 +36,7 @@ class StaticSettings:
     imbalance: float = 1e-4
     stability: float = 1e-5
     maxit: int = 25
+    pattern: tuple[str, ...] = ()
 
 
 def run_static(system: System, settings: StaticSettings) -> Outcome:
@@ -41,8 +44,9 @@ def run_static(system: System, settings: StaticSettings) -> Outcome:
     system.make_room(control=Control.slots)
     C = Control(system.control)
     C[:] = 0
-    for name, value in asdict(settings).items():
-        setattr(C, name, value)
+    for name in ("alimit", "tlimit", "error", "imbalance", "stability", "maxit"):
+        setattr(C, name, getattr(settings, name))
+    system.pattern = ints([word == "T" for word in settings.pattern])
     C.length = model_size(system)
     outcome = system.run(EQUILIBRIUM)
     if system.report.ways_to_fall != 0:

@@ -59,12 +59,15 @@ def newton(P: Problem, L: Plan) -> bool:
     """Limited Newton steps; True when settled."""
     C = Control(P.control)
     C.sigma, C.found = C.stability, False
-    for _iteration in range(C.maxit):
-        if not static_step(P, L):
-            C.sigma = max(10.0 * C.sigma, LEAST_SIGMA)
+    renews = True
+    for iteration in range(C.maxit):
+        if not static_step(P, L, renews):
+            C.sigma, renews = max(10.0 * C.sigma, LEAST_SIGMA), True
         elif settled(P):
             C.found = True
             return True
+        elif P.pattern.size > 0:
+            renews = P.pattern[(iteration + 1) % P.pattern.size] != 0
     return False
 
 
@@ -78,7 +81,7 @@ def relaxed(P: Problem, L: Plan) -> bool:
         if signs >= 0 and pivot_signs(P, L, 1.0, C.sigma) != signs:
             # Too long a step: it would go uphill, to an unstable equilibrium.
             C.sigma *= UPHILL
-        elif not static_step(P, L):
+        elif not static_step(P, L, True):
             C.sigma *= 16.0
         elif settled(P):
             return True
@@ -193,22 +196,25 @@ def imbalance(P: Problem) -> None:
 
 
 @native
-def static_step(P: Problem, L: Plan) -> bool:
-    """One limited Newton step; False when the matrix is singular or the residual is not finite."""
+def static_step(P: Problem, L: Plan, renews: bool) -> bool:
+    """One limited Newton step, with the matrix of the last one unless it ``renews`` it; False when
+    the matrix is singular or the residual is not finite.
+    """
     C = Control(P.control)
     c = P.coef
     imbalance(P)
     if not C.worst < LARGE:
         return False
-    c[0], c[1], c[2], c[3], c[4] = 1.0, 0.0, C.sigma, 1.0, 0.0
-    jacobian(P, STATIC, c, P.J)
-    spread(P, P.LV)
-    for k in range(P.unit.size):
-        P.LV[P.unit[k]] = 1.0
-    P.count.factorizations += 1
     P.count.newton += 1
-    if not factor(L, P.LV, P.pivots, P.work):
-        return False
+    if renews:
+        c[0], c[1], c[2], c[3], c[4] = 1.0, 0.0, C.sigma, 1.0, 0.0
+        jacobian(P, STATIC, c, P.J)
+        spread(P, P.LV)
+        for k in range(P.unit.size):
+            P.LV[P.unit[k]] = 1.0
+        P.count.factorizations += 1
+        if not factor(L, P.LV, P.pivots, P.work):
+            return False
     solve(L, P.LV, P.pivots, P.F, P.x, P.work)
     return limited_move(P)
 
