@@ -40,8 +40,10 @@ QUICK = (
     "paper-sforce",
     "pendulum-gcon",
     "pendulum-revolute",
+    "pid-winch",
     "replay",
     "splines",
+    "transfer-functions",
 )
 CHEAP = [
     slow(case) if case == "arrestment" else case for case in sorted(set(generate.CASES) - set(SLOW))

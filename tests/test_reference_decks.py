@@ -29,12 +29,14 @@ FOLDERS = (
     "heavy-top",
     "paper-sforce",
     "pendulum-gcon",
+    "pid-winch",
     "replay",
     "slider-crank",
     "sliding-mass",
     "splines",
     "spring-pendulum",
     "three-joint-coupler",
+    "transfer-functions",
 )
 
 

@@ -40,7 +40,7 @@ class StaticSettings:
 
 
 def run_static(system: System, settings: StaticSettings) -> Outcome:
-    """Move ``system`` to an equilibrium at its present time."""
+    """Move ``system`` to an equilibrium at its present time; states with STATIC_HOLD stay."""
     system.make_room(control=Control.slots)
     C = Control(system.control)
     C[:] = 0
@@ -48,6 +48,7 @@ def run_static(system: System, settings: StaticSettings) -> Outcome:
         setattr(C, name, getattr(settings, name))
     system.pattern = ints([word == "T" for word in settings.pattern])
     C.length = model_size(system)
+    system.elimination.freeze(system.held_states)
     outcome = system.run(EQUILIBRIUM)
     if system.report.ways_to_fall != 0:
         system.report.ways_to_fall = ways_to_fall(system, settings.stability)

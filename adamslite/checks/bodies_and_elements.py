@@ -251,14 +251,10 @@ def _stiction(friction: Friction, joint: Joint) -> Iterator[Diagnostic]:
 
 
 def held_states(deck: Deck) -> Iterator[Diagnostic]:
-    fields = {
-        "static_hold": "a static analysis finds the y at which dy/dt = 0",
-        "dynamic_hold": "a dynamic analysis integrates y",
-    }
     for state in deck.of(Diff):
-        for field, reason in fields.items():
-            if getattr(state, field):
-                yield diagnose(state, "no-effect", field, word=field.upper(), reason=reason)
+        if state.dynamic_hold:
+            reason, word = "a dynamic analysis integrates y", "DYNAMIC_HOLD"
+            yield diagnose(state, "no-effect", "dynamic_hold", word=word, reason=reason)
 
 
 def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:

@@ -30,6 +30,7 @@ from adamslite.checks.inert import (
     joint_friction,
     passed_over,
 )
+from adamslite.checks.linear_systems import SYSTEM_RULES
 from adamslite.checks.markers import (
     floating_alone,
     floating_unused,
@@ -88,6 +89,7 @@ RULES: list[Rule] = [
     unit_system,
     *CONSTRAINT_RULES,
     *TABLE_RULES,
+    *SYSTEM_RULES,
     *RUN_RULES,
     changed_requests,
     passed_over,

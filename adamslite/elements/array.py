@@ -3,12 +3,14 @@
 Equation (a_n = ARYVAL(id, n), n from 1)::
 
     IC   a_n = NUMBERS_n                U   a_n = value of the VARIABLE VARIABLES_n
-
-X and Y name the states and the outputs of a system element; without one they have no values.
+    X    a_n = state n                  Y   a_n = output n      of the LSE or TFSISO that names it
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from adamslite.elements.bases.linear_system import Values
 from adamslite.language.expression import Call, Node, Num, Ref
 from adamslite.language.statement import (
     Statement,
@@ -22,7 +24,7 @@ from adamslite.language.statement import (
 
 @statement("ARRAY", planned=("ROUTINE",), data=True)
 class Array(Statement):
-    """Constants or VARIABLEs that expressions take by number: ``ARYVAL(id, n)``."""
+    """Values that expressions take by number: ``ARYVAL(id, n)``."""
 
     kind: str = choice(
         options=("IC", "X", "Y", "U"), default="IC",
@@ -40,8 +42,10 @@ class Array(Statement):
         """The constants, as calls of ARYVAL."""
         return {f"ARYVAL({self.key},{n})": value for n, value in enumerate(self.numbers, 1)}
 
-    def numbered(self) -> tuple[Node, ...]:
+    def numbered(self) -> Sequence[Node]:
         """The values."""
+        if self.kind in ("X", "Y"):
+            return Values(self.kind, self.key, self.size)
         if self.kind == "U":
             return tuple(Call("VARVAL", (Ref("VARIABLE", key),)) for key in self.variables)
         return tuple(Num(value, name) for name, value in self.constants().items())

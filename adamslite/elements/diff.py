@@ -4,6 +4,8 @@ Equation::
 
     explicit   dy/dt = FUNCTION
     IMPLICIT   0 = FUNCTION(y, dy/dt)         y = DIF(id), dy/dt = DIF1(id)
+
+    statics    0 = FUNCTION with dy/dt = 0, or y as it is with STATIC_HOLD
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ class Diff(Statement):
     )  # fmt: skip
     implicit: bool = flag("IMPLICIT", help="FUNCTION is a residual that must vanish")
     static_hold: bool = flag(
-        "STATIC_HOLD", help="read, without effect: statics finds the y at which dy/dt = 0"
+        "STATIC_HOLD", help="statics keep y; without it they find the y at which dy/dt = 0"
     )
     dynamic_hold: bool = flag("DYNAMIC_HOLD", help="read, without effect: y is integrated")
     function: Node = expression(

@@ -24,6 +24,11 @@ class Matrix(Statement):
     )
 
     @property
+    def complete(self) -> bool:
+        """Whether there are as many values as elements."""
+        return len(self.values) == self.rows * self.columns
+
+    @property
     def table(self) -> list[tuple[float, ...]]:
         """The rows."""
         if self.full == "CORDER":

@@ -47,6 +47,10 @@ class Elimination:
         self.held, self.loose = ints(held), np.full(len(held) + 1, loose)
         self._leave_out([*held, *self._multipliers(self.dropped)])
 
+    def freeze(self, states: Iterable[int]) -> None:
+        """Keep states as they are, whatever their equations; :meth:`unfold` ends it."""
+        self._leave_out([*self._multipliers(self.dropped), *states])
+
     def unfold(self) -> None:
         """Let everything move again."""
         self.held, self.loose = ints([]), np.zeros(1)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.elements.diff import Diff
 from adamslite.elements.sensor import Sensor
 from adamslite.equations.broken_motion import Break
 from adamslite.equations.elimination import Elimination
@@ -157,6 +158,12 @@ class System:
             if body.width == PART:
                 i = self.starts[b]
                 self.u[i + 3 : i + 6] = body.w
+
+    @property
+    def held_states(self) -> list[int]:
+        """Numbers of the unknowns that statics keep: states of DIFF with STATIC_HOLD."""
+        states = enumerate(self.model.deck.of(Diff), self.n + self.m + self.nv)
+        return [k for k, state in states if state.static_hold]
 
     @property
     def places(self) -> np.ndarray:

@@ -12,7 +12,7 @@ NUMBERED = ("ARYVAL", "PINVAL", "POUVAL")
 
 @function("ARYVAL", "id:array n:constant")
 def aryval(scope: Scope, id: Tree, n: int) -> Expr:
-    """Value number n, from 1, of ARRAY id: a constant of IC, a VARIABLE of U.
+    """Value number n, from 1, of ARRAY id: a constant of IC, a VARIABLE of U, a state or output.
 
     Unit: that of the value.  Source: Adams/Solver function ARYVAL.
     """

@@ -83,6 +83,8 @@ def relaxed(P: Problem, L: Plan) -> bool:
             C.sigma *= UPHILL
         elif not static_step(P, L, True):
             C.sigma *= 16.0
+            if C.sigma > HUGE:
+                return False  # no step is short enough: it is not the bodies that are singular
         elif settled(P):
             return True
         elif C.worst > 10.0 * last:
@@ -235,7 +237,7 @@ def limited_move(P: Problem) -> bool:
                 return False
             limit = C.tlimit if k < 3 else C.alimit
             shrink = min(shrink, limit / max(size, TINY))
-    C.moved = moved
+    C.moved = states_moved(P, moved)
     if shrink < 1.0:
         for i in range(P.sizes.n):
             P.F[i] *= shrink
@@ -249,6 +251,17 @@ def limited_move(P: Problem) -> bool:
             for k in range(3, 6):
                 P.q[P.body[b].first + k] = 0.0
     return True
+
+
+@native
+def states_moved(P: Problem, moved: float) -> float:
+    """The largest of ``moved`` and the relative increments of states in P.F."""
+    first = P.sizes.m + P.sizes.nv
+    for k in range(first, first + P.sizes.ns):
+        size = abs(P.F[P.sizes.n + k]) / max(1.0, abs(P.z[k]))
+        if exceeds(size, moved):
+            moved = size
+    return moved
 
 
 @native

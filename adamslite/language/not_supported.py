@@ -6,8 +6,8 @@ registered elsewhere is supported, whether or not it still stands here.
 
 STATEMENTS = frozenset(
     """CONTACT CVCV
-    GSE LSE LSSMATRIX MREQUEST NFORCE PFORCE
-    SYSVAR TFSISO UCON""".split()
+    GSE LSSMATRIX MREQUEST NFORCE PFORCE
+    SYSVAR UCON""".split()
 )
 
 COMMANDS = frozenset("CONTROL".split())
@@ -23,16 +23,14 @@ _INTEGRATOR = (
     "a number of the integrator of ADAMS; the summary of a run prints those of this program"
 )
 INSTEAD = {
-    "ARYVAL of states and outputs": "an ARRAY X or Y gets its values from an LSE, GSE or TFSISO",
     "CONTACT": "write the force between two bodies as an SFORCE with IMPACT(DM(i,j), VR(i,j), ...)",
-    "GSE": "its equations are in a routine of the user: write each state as a DIFF",
-    "LSE": "write each row of the matrices as a DIFF",
+    "GSE": "its equations are in a compiled routine, not in the deck; write linear ones as an LSE "
+    "or TFSISO, others as DIFFs",
     "LSSMATRIX": "the matrices come from another program: write them as MATRIX and LSE",
     "MREQUEST": "write a REQUEST for each of them",
     "NFORCE": "it couples several markers: write a FIELD for each pair",
     "PFORCE": "its law is not published: write an SFORCE, a VFORCE or a FIELD",
     "SYSVAR": "its meaning is not published: write a VARIABLE",
-    "TFSISO": "write the transfer function as DIFFs, one for each power of s",
     "UCON": "its equation is in a routine of the user: write it as GCON/id, FUNCTION=e",
     "CONTROL": "it calls a subroutine, which gives commands: write these into the command file",
     "AO": "its meaning is not published: write AX, AY, AZ or ORIENT",

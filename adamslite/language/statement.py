@@ -279,7 +279,7 @@ class Statement:
         """Numbers this statement gives a name that expressions may use, names in capitals."""
         return {}
 
-    def numbered(self) -> tuple[Node, ...]:
+    def numbered(self) -> Sequence[Node]:
         """Values that expressions take by their number, counted from 1 (ARYVAL)."""
         return ()
 

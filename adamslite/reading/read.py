@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from adamslite.checks.inert import note_of_inert
+from adamslite.checks.linear_systems import determined_at_rest
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.rules import RULES
 from adamslite.checks.runs import (
@@ -89,6 +90,7 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
         *without_ignored(deck.source, _caused(deck, commands)),
         *inputs_with_rates(deck, plain),
         *other_models(deck, plain),
+        *determined_at_rest(deck, plain),
         *note_of_inert(commands),
     ]
     found = _judged(run, reading, RUN_RULES)

@@ -7,6 +7,7 @@ their arguments; every name in it was looked up here.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple, NoReturn
 
 from adamslite import functions  # noqa: F401  registers the functions
@@ -59,7 +60,7 @@ class Resolver:
         self.log = log
         self.constants: dict[str, float] = {}
         """Numbers that statements of the deck give a name, unless a VARIABLE has it."""
-        self.numbered: dict[tuple[str, Key], tuple[Node, ...]] = {}
+        self.numbered: dict[tuple[str, Key], Sequence[Node]] = {}
         """Values that statements list, by keyword and id."""
         self.tokens: list[Lexeme] = []
         self.failed = False
@@ -362,10 +363,6 @@ class Resolver:
         if values is None:  # the statement has mistakes of its own
             return _STAND_IN
         token = self.tokens[branch[1]]
-        if not values:
-            word = f"{name} of states and outputs"
-            self.log.tally("planned-function", word, token[2], end_of(token), word=word)
-            raise Unresolved
         if number.value not in range(1, len(values) + 1):
             label, wanted = f"{ref.kind}/{ref.id}", f"{number.value:g}"
             self._refuse("no-such-value", token, label=label, number=wanted, count=len(values))

@@ -22,6 +22,7 @@ from adamslite.language.messages.routines import ROUTINES
 from adamslite.language.messages.runs import RUNS
 from adamslite.language.messages.shapes import SHAPES
 from adamslite.language.messages.statements import STATEMENTS
+from adamslite.language.messages.systems import SYSTEMS
 from adamslite.language.messages.tables import TABLES
 from adamslite.language.not_supported import INSTEAD
 
@@ -36,6 +37,7 @@ MESSAGES: dict[str, Message] = (
     | SHAPES
     | LINTS
     | TABLES
+    | SYSTEMS
     | ROUTINES
     | RUNS
 )

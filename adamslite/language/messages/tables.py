@@ -72,6 +72,7 @@ TABLES: dict[str, Message] = {
             "ARRAY/1, IC, NUMBERS=1,2\nVARIABLE/1, FUNCTION=ARYVAL(1,1.5)",
             "PINPUT/1, VARIABLES=2\nVARIABLE/2, FUNCTION=1\nVARIABLE/1, FUNCTION=PINVAL(1,2)",
             "POUTPUT/1, VARIABLES=2\nVARIABLE/2, FUNCTION=1\nVARIABLE/1, FUNCTION=POUVAL(1,0)",
+            "ARRAY/1, X, SIZE=2\nVARIABLE/1, FUNCTION=ARYVAL(1,3)",
         ),
     ),
     "array-fixed": Message(

@@ -1,0 +1,227 @@
+"""Rules about LSE and TFSISO, and the ARRAYs and MATRIXes that they name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+
+from adamslite.checks.rule import Rule, needs
+from adamslite.deck.deck import Deck
+from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.elements.array import Array
+from adamslite.elements.bases.linear_system import LinearSystem, value_name
+from adamslite.elements.lse import Lse
+from adamslite.elements.matrix import Matrix
+from adamslite.elements.simulate import Simulate
+from adamslite.elements.tfsiso import Tfsiso, degree
+from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.expression import Ref, walk
+from adamslite.language.interfaces import Key
+from adamslite.language.statement import Statement
+
+# Singular values of a scaled matrix below this are round-off.
+RANK = 1e-12
+OWNED = ("x", "y")
+PARTNERS = {
+    "b": (("u",), "B takes the inputs u"),
+    "c": (("y",), "C makes the outputs y"),
+    "d": (("u", "y"), "D leads from the inputs u to the outputs y"),
+}
+
+
+def systems(deck: Deck) -> Iterator[LinearSystem]:
+    """The linear systems of a deck."""
+    yield from deck.of(Lse)
+    yield from deck.of(Tfsiso)
+
+
+def _array(deck: Deck, system: LinearSystem, field: str) -> Array | None:
+    key = getattr(system, field)
+    return None if key is None else deck.find(Array, key)
+
+
+def arrays_of_systems(deck: Deck) -> Iterator[Diagnostic]:
+    """Whether arrays are of the kinds that they are used as, and belong to one system only."""
+    owners: dict[Key, LinearSystem] = {}
+    for system in systems(deck):
+        for field in ("x", "u", "y", "ic"):
+            array = _array(deck, system, field)
+            if array is None:
+                continue
+            word, label = field.upper(), array.label
+            if array.kind != word:
+                yield diagnose(system, "array-kind", field, word=word, array=label, kind=array.kind)
+            elif field in OWNED and owners.setdefault(array.key, system) is not system:
+                first = owners[array.key].label
+                yield diagnose(system, "array-owners", field, array=label, first=first)
+
+
+def partners(deck: Deck) -> Iterator[Diagnostic]:
+    """Matrices without the arrays that they work on, and arrays that no matrix works on."""
+    for system in deck.of(Lse):
+        used: set[str] = set()
+        for field in sorted(system.named.keys() & PARTNERS.keys()):
+            arrays, reason = PARTNERS[field]
+            used.update(arrays)
+            for other in arrays:
+                if getattr(system, other) is None:
+                    yield _part(system, field, other.upper(), reason)
+        for field, other in (("u", "B or D"), ("y", "C or D")):
+            if getattr(system, field) is not None and field not in used:
+                yield _part(system, field, other, "give it, or leave the ARRAY out")
+
+
+def _part(system: Lse, field: str, other: str, hint: str) -> Diagnostic:
+    return diagnose(system, "system-part", field, hint, word=field.upper(), other=other)
+
+
+def sizes_of_matrices(deck: Deck) -> Iterator[Diagnostic]:
+    """A (n, n), B (n, m), C (p, n), D (p, m) and the ARRAYs of n states, m inputs, p outputs."""
+    for system in deck.of(Lse):
+        known = {field: deck.find(Matrix, key) for field, key in system.named.items()}
+        found = {field: each for field, each in known.items() if each and each.complete}
+        if len(found) == len(known):
+            yield from _shapes(deck, system, found)
+
+
+def _shapes(deck: Deck, system: Lse, found: dict[str, Matrix]) -> Iterator[Diagnostic]:
+    n = found["a"].rows
+    inputs, making = _array(deck, system, "u"), found.get("c") or found.get("d")
+    m = len(inputs.variables) if inputs is not None else None
+    p = making.rows if making is not None else None
+    shapes = {"a": (n, n), "b": (n, m), "c": (p, n), "d": (p, m)}
+    for field, matrix in found.items():
+        rows, columns = shapes[field]
+        needed = rows or matrix.rows, columns or matrix.columns
+        if (matrix.rows, matrix.columns) != needed:
+            yield diagnose(
+                system, "system-matrix", field, word=field.upper(), matrix=matrix.label,
+                size=_product(matrix.rows, matrix.columns), needed=_product(*needed),
+            )  # fmt: skip
+    yield from _array_sizes(deck, system, n, p)
+
+
+def _product(rows: int, columns: int) -> str:
+    return f"{rows} x {columns}"
+
+
+def sizes_of_filters(deck: Deck) -> Iterator[Diagnostic]:
+    """One input, one output, a state for each power."""
+    for system in deck.of(Tfsiso):
+        inputs = _array(deck, system, "u")
+        if inputs is not None and len(inputs.variables) > 1:
+            yield _length(system, inputs, "u", len(inputs.variables), "VARIABLES", 1)
+        yield from _array_sizes(deck, system, len(system.denominator) - 1, 1)
+
+
+def _array_sizes(
+    deck: Deck, system: LinearSystem, states: int, outputs: int | None
+) -> Iterator[Diagnostic]:
+    for field, count in (("x", states), ("y", outputs)):
+        array = _array(deck, system, field)
+        if array is None or array.size is None or count is None:
+            continue
+        if array.size != count:
+            yield _length(system, array, field, array.size, "values", count)
+    start = _array(deck, system, "ic")
+    if start is not None and start.kind == "IC" and len(start.numbers) not in (0, states):
+        yield _length(system, start, "ic", len(start.numbers), "NUMBERS", states)
+
+
+def _length(
+    system: LinearSystem, array: Array, field: str, count: int, what: str, needed: int
+) -> Diagnostic:
+    return diagnose(
+        system, "system-array", field, array=array.label, count=count, what=what, needed=needed
+    )
+
+
+def polynomials(deck: Deck) -> Iterator[Diagnostic]:
+    for system in deck.of(Tfsiso):
+        below, above = len(system.denominator) - 1, degree(system.numerator)
+        if system.denominator[-1] == 0.0:
+            yield diagnose(system, "no-leading-coefficient", "denominator")
+        elif below == 0:
+            yield diagnose(system, "no-states", "denominator")
+        elif above > below:
+            yield diagnose(system, "improper-fraction", "numerator", above=above, below=below)
+
+
+@needs("ARRAY", "GSE", "LSE", "MATRIX", "TFSISO")
+def values_of_systems(deck: Deck) -> Iterator[Diagnostic]:
+    """Whether states and outputs that expressions take from an ARRAY exist.
+
+    Where SIZE is right the reader has seen to it.
+    """
+    counts = {array.key: 0 for array in deck.of(Array) if array.kind.lower() in OWNED}
+    for system in systems(deck):
+        found = system.matrices(deck)
+        if found is None:
+            return  # another rule reports why
+        counts[system.x] = max(len(found.a), len(found.b))
+        if system.y is not None:
+            counts[system.y] = max(len(found.c), len(found.d))
+    unsure = [array for array in deck.of(Array) if array.size != counts.get(array.key, array.size)]
+    for statement in deck.statements if unsure else ():
+        for field, array, number in _missing_values(deck, statement, unsure):
+            words = {"array": array.label, "number": number, "count": str(counts[array.key])}
+            yield diagnose(statement, "system-value", field, "", **words)
+
+
+def _missing_values(
+    deck: Deck, statement: Statement, arrays: list[Array]
+) -> Iterator[tuple[str, Array, str]]:
+    """Field, array and number of each value that an expression takes and no system has."""
+    for field, argument in statement.arguments.items():
+        node = getattr(statement, field) if argument.kind == "expression" else None
+        for each in walk(node) if node is not None else ():
+            if not (isinstance(each, Ref) and isinstance(each.id, str)):
+                continue
+            if each.kind not in ("DIFF", "VARIABLE") or deck.find(each.kind, each.id) is not None:
+                continue
+            for array in arrays:
+                number = each.id.removeprefix(value_name(array.key, 0)[:-1])
+                if number.isdigit():
+                    yield field, array, number
+
+
+def determined_at_rest(deck: Deck, commands: Iterable[Statement] = ()) -> Iterator[Diagnostic]:
+    """Systems of which statics cannot find the states from A x + B u = 0."""
+    runs = chain(deck.of(Simulate), commands)
+    if not any(isinstance(run, Simulate) and run.kind == "STATICS" for run in runs):
+        return
+    for system in systems(deck):
+        found = None if system.static_hold else system.matrices(deck)
+        n = len(found.a) if found else 0
+        if found is None or any(len(row) != n for row in found.a) or len(found.b) not in (0, n):
+            continue
+        of_inputs = found.b or [()] * n
+        both = [(*row, *of_u) for row, of_u in zip(found.a, of_inputs, strict=True)]
+        field = "a" if isinstance(system, Lse) else "denominator"
+        if _rank(both) < n:
+            yield diagnose(system, "no-rest", field)
+        elif _rank(found.a) < n:
+            yield diagnose(system, "rest-by-input", field)
+
+
+def _rank(rows: Sequence[Sequence[float]]) -> int:
+    """Rank of a matrix after its rows and then its columns are scaled to a largest element of 1."""
+    import numpy as np
+
+    table = np.array(rows, dtype=float)
+    for axis in (1, 0):
+        largest = np.abs(table).max(axis=axis, keepdims=True)
+        table = table / np.where(largest > 0.0, largest, 1.0)
+    values = np.linalg.svd(table, compute_uv=False)
+    return int((values > RANK).sum())
+
+
+SYSTEM_RULES: list[Rule] = [
+    arrays_of_systems,
+    partners,
+    sizes_of_matrices,
+    sizes_of_filters,
+    polynomials,
+    values_of_systems,
+    determined_at_rest,
+]
