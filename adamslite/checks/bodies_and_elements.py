@@ -278,14 +278,16 @@ def reserved_names(deck: Deck) -> Iterator[Diagnostic]:
 
 def requests(deck: Deck) -> Iterator[Diagnostic]:
     for request in deck.of(Request):
-        expressions = any(function is not None for function in request.functions)
-        if request.kind and expressions:
-            yield diagnose(request, "two-requests", "kind", word=request.kind)
-        elif (
-            not expressions
-            and not request.given("function")
-            and (request.kind is None or request.i is None)
-        ):
+        written = any(function is not None for function in request.functions)
+        ways = {
+            request.kind or "": request.kind is not None,
+            "VARIABLES": bool(request.variables),
+            "expressions": written,
+        }
+        found = [word for word, is_there in ways.items() if is_there]
+        if len(found) > 1:
+            yield diagnose(request, "two-requests", word=found[0], other=found[1])
+        elif request.kind and request.i is None or not found and not request.given("function"):
             yield diagnose(request, "empty-request")
 
 

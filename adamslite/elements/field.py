@@ -17,10 +17,10 @@ from __future__ import annotations
 
 from adamslite.elements.bases.wrench import NOTHING, Compliance, by_columns, times
 from adamslite.language.interfaces import DrawnModel
-from adamslite.language.statement import Statement, number, reference, statement, vector
+from adamslite.language.statement import Statement, choice, number, reference, statement, vector
 
 
-@statement("FIELD", planned=("FUNCTION", "ROUTINE", "FORMULATION"))
+@statement("FIELD", planned=("FUNCTION", "ROUTINE"))
 class Field(Compliance, Statement):
     """A linear force and torque in all six directions, with coupling."""
 
@@ -44,6 +44,11 @@ class Field(Compliance, Statement):
     force: tuple[float, ...] = vector(
         "FORCE", size=6, unit="force, torque", default=NOTHING, help="force and torque at LENGTH"
     )
+
+    formulation: str = choice(
+        "FORMULATION", options=("LINEAR", "NONLINEAR"), supported=("LINEAR",), default="LINEAR",
+        help="the law: that of the matrices",
+    )  # fmt: skip
 
     def derived(self, model: DrawnModel) -> dict[str, object]:
         """The matrices of the law."""

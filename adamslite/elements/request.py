@@ -7,6 +7,7 @@ Values (components F1 ... F8; I relative to J, along the axes of RM, ground when
     ACCELERATION   ACCM ACCX ACCY ACCZ  WDTM WDTX WDTY WDTZ
     FORCE          FM  FX  FY  FZ    TM  TX   TY    TZ     on I, of the elements between I and J
     F1=e\\ ...     the expressions
+    VARIABLES      VARVAL of each, as F1, F2, ...
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from adamslite.language.statement import (
     choice,
     expression,
     reference,
+    references,
     statement,
     text,
     texts,
@@ -40,11 +42,11 @@ def _component(number: int) -> Node | None:
     return expression(f"F{number}", unit="the user's", help=f"component {number}")
 
 
-@statement("REQUEST", planned=("VARIABLES",))
+@statement("REQUEST")
 class Request(Statement):
     """Output of a marker's motion, of a force, or of expressions."""
 
-    alternatives = ((("kind",), COMPONENTS),)
+    alternatives = ((("kind",), COMPONENTS, ("variables",)),)
 
     kind: str | None = choice(
         options=("DISPLACEMENT", "VELOCITY", "ACCELERATION", "FORCE"), help="what is written"
@@ -60,6 +62,9 @@ class Request(Statement):
     f6: Node | None = _component(6)
     f7: Node | None = _component(7)
     f8: Node | None = _component(8)
+    variables: tuple[int | str, ...] = references(
+        "VARIABLES", to="VARIABLE", help="VARIABLEs whose values are written"
+    )
     function: Node | None = components_of_routine(*COMPONENTS, unit="the user's")
     routine: str | None = routine_name()
     comment: str | None = text("COMMENT", "C", help="a title")
@@ -77,11 +82,15 @@ class Request(Statement):
     @property
     def result_names(self) -> tuple[str, ...]:
         """F1 ... F8: all of them for a kind, those given otherwise."""
+        if self.variables:
+            return tuple(f"F{n}" for n in range(1, len(self.variables) + 1))
         given = [self.kind is not None or f is not None for f in self.functions]
         return tuple(f"F{n}" for n, is_there in enumerate(given, 1) if is_there)
 
     def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
+        if self.variables:
+            return [Call("VARVAL", (Ref("VARIABLE", key),)) for key in self.variables]
         if self.kind is None:
             return [f for f in self.functions if f is not None]
         assert self.i is not None  # a rule requires it

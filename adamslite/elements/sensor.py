@@ -18,7 +18,7 @@ from adamslite.symbolic.sympy_nodes import piecewise
 from adamslite.symbolic.types import Expr, Seen
 
 
-@statement("SENSOR", planned=("YYDUMP",))
+@statement("SENSOR")
 class Sensor(Statement):
     """Watches an expression during dynamic analyses.
 
@@ -46,6 +46,7 @@ class Sensor(Statement):
     returns: bool = flag("RETURN", help="end this SIMULATE; the next command follows")
     prints: bool = flag("PRINT", help="write an output at that time, as HALT and RETURN do")
     bisection: bool = flag("BISECTION", help="read, without effect: the time is located anyway")
+    yydump: bool = flag("YYDUMP", inert=True, help="write the states to the message file of ADAMS")
     codgen: bool = flag("CODGEN", help="read, without effect: the next SIMULATE starts as always")
     restart: bool = flag("RESTART", help="read, without effect: the next SIMULATE starts as always")
     stepsize: float | None = number(

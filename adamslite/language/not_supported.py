@@ -51,7 +51,7 @@ INSTEAD = {
     "CVCV": "curves that roll on each other cannot be run; PTCV holds a point on one curve",
     "DELAY": "for a delay of TIME alone, write the expression with TIME-tau for TIME, in a STEP or "
     "IF that holds the start; a lag is a DIFF: FUNCTION=(VARVAL(id)-DIF(this))/tau",
-    "FIELD FORMULATION": "a FIELD is linear: delete FORMULATION=LINEAR, or write a GFORCE",
+    "FIELD NONLINEAR": "write a GFORCE with FUNCTION=USER(...), which --user binds",
     "FIELD FUNCTION": "write a GFORCE with that FUNCTION=USER(...), which --user binds",
     "FIELD ROUTINE": "write a GFORCE with that ROUTINE, which --user binds",
     "FILE COMMAND": "name the command file on the command line: `adamslite solve DECK FILE.acf`",
@@ -68,8 +68,6 @@ INSTEAD = {
     "PTCV DISPLACEMENT": "the curve touches where the deck has it closest to I: move I there",
     "PTCV IC": "the curve touches where the deck has it closest to I: move I there",
     "PTCV VELOCITY": "give the velocity to the bodies: PART/id, VX=, VY=, VZ=",
-    "REQUEST VARIABLES": "write F1=VARVAL(id)\\F2=VARVAL(id)",
-    "SENSOR YYDUMP": "the states are in the results: delete it",
     "SPLINE ROUTINE": "write X and Y, or FILE= with a table .csv",
 }
 """What to write instead and why, by statement, function, statement and argument, or statement and

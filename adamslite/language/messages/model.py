@@ -265,13 +265,15 @@ MODEL: dict[str, Message] = {
     ),
     "empty-request": Message(
         "{label} requests nothing",
-        "give DISPLACEMENT, VELOCITY, ACCELERATION or FORCE with I=, or expressions F1= to F8=",
+        "give DISPLACEMENT, VELOCITY, ACCELERATION or FORCE with I=, expressions F1= to F8=, or "
+        "VARIABLES=",
         ("REQUEST/1", "REQUEST/1, DISPLACEMENT", "REQUEST/1, I=2"),
     ),
     "two-requests": Message(
-        "{label} requests both {word} and expressions",
+        "{label} requests both {word} and {other}",
         "write two REQUEST statements",
-        ("REQUEST/1, DISPLACEMENT, I=2, F1=1",),
+        ("REQUEST/1, DISPLACEMENT, I=2, F1=1",
+         "VARIABLE/1, FUNCTION=1\nREQUEST/1, F1=2\\ VARIABLES=1"),
     ),
     "reserved-name": Message(
         "{label} has a reserved name",
