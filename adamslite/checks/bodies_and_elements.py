@@ -26,7 +26,6 @@ from adamslite.elements.gforce import Gforce
 from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
 from adamslite.elements.part import Part
-from adamslite.elements.request import Request
 from adamslite.elements.sforce import Sforce
 from adamslite.elements.springdamper import Springdamper
 from adamslite.elements.units import Units
@@ -274,21 +273,6 @@ def reserved_names(deck: Deck) -> Iterator[Diagnostic]:
         names = {str(variable.key), (variable.name or "").upper()}
         for word in names & set(RESERVED):
             yield diagnose(variable, "reserved-name", word=word)
-
-
-def requests(deck: Deck) -> Iterator[Diagnostic]:
-    for request in deck.of(Request):
-        written = any(function is not None for function in request.functions)
-        ways = {
-            request.kind or "": request.kind is not None,
-            "VARIABLES": bool(request.variables),
-            "expressions": written,
-        }
-        found = [word for word, is_there in ways.items() if is_there]
-        if len(found) > 1:
-            yield diagnose(request, "two-requests", word=found[0], other=found[1])
-        elif request.kind and request.i is None or not found and not request.given("function"):
-            yield diagnose(request, "empty-request")
 
 
 # ---- units and runs ---------------------------------------------------------------------------

@@ -14,7 +14,6 @@ from adamslite.checks.bodies_and_elements import (
     masses,
     one_ground,
     reactions,
-    requests,
     reserved_names,
     sections,
     torques_on_points,
@@ -43,6 +42,7 @@ from adamslite.checks.posture import (
     inertia_at_mass_centre,
     orientations,
 )
+from adamslite.checks.requests import REQUEST_RULES
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.runs import RUN_RULES
 from adamslite.checks.shapes import shapes
@@ -85,7 +85,7 @@ RULES: list[Rule] = [
     held_states,
     shapes,
     reserved_names,
-    requests,
+    *REQUEST_RULES,
     unit_system,
     *CONSTRAINT_RULES,
     *TABLE_RULES,

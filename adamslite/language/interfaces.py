@@ -20,6 +20,9 @@ class Lookup(Protocol):
     def find(self, keyword: str, id: Key) -> Any:
         """The statement of that kind with that id or name; None when there is none."""
 
+    def of(self, kind: str) -> Sequence[Any]:
+        """All statements of one kind."""
+
 
 class DrawnPlace(Protocol):
     """Where a marker sits on its body, or on the ground."""

@@ -6,7 +6,7 @@ registered elsewhere is supported, whether or not it still stands here.
 
 STATEMENTS = frozenset(
     """CONTACT CVCV
-    GSE LSSMATRIX MREQUEST NFORCE PFORCE
+    GSE LSSMATRIX NFORCE PFORCE
     SYSVAR UCON""".split()
 )
 
@@ -27,7 +27,6 @@ INSTEAD = {
     "GSE": "its equations are in a compiled routine, not in the deck; write linear ones as an LSE "
     "or TFSISO, others as DIFFs",
     "LSSMATRIX": "the matrices come from another program: write them as MATRIX and LSE",
-    "MREQUEST": "write a REQUEST for each of them",
     "NFORCE": "it couples several markers: write a FIELD for each pair",
     "PFORCE": "its law is not published: write an SFORCE, a VFORCE or a FIELD",
     "SYSVAR": "its meaning is not published: write a VARIABLE",

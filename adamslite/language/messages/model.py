@@ -267,7 +267,7 @@ MODEL: dict[str, Message] = {
         "{label} requests nothing",
         "give DISPLACEMENT, VELOCITY, ACCELERATION or FORCE with I=, expressions F1= to F8=, or "
         "VARIABLES=",
-        ("REQUEST/1", "REQUEST/1, DISPLACEMENT", "REQUEST/1, I=2"),
+        ("REQUEST/1", "REQUEST/1, DISPLACEMENT", "REQUEST/1, I=2", "MREQUEST/1, FORCE"),
     ),
     "two-requests": Message(
         "{label} requests both {word} and {other}",

@@ -1,0 +1,47 @@
+"""Rules about REQUEST and MREQUEST."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from adamslite.checks.rule import Rule
+from adamslite.deck.deck import Deck
+from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.elements.mrequest import ALL, KINDS, Mrequest
+from adamslite.elements.request import Request
+from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.messages import did_you_mean
+
+
+def requests(deck: Deck) -> Iterator[Diagnostic]:
+    for request in deck.of(Request):
+        written = any(function is not None for function in request.functions)
+        ways = {
+            request.kind or "": request.kind is not None,
+            "VARIABLES": bool(request.variables),
+            "expressions": written,
+        }
+        found = [word for word, is_there in ways.items() if is_there]
+        if len(found) > 1:
+            yield diagnose(request, "two-requests", word=found[0], other=found[1])
+        elif request.kind and request.i is None or not found and not request.given("function"):
+            yield diagnose(request, "empty-request")
+
+
+def many_requests(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of(Mrequest):
+        if not list(each.asked()):
+            hint = "give PARTS=, JOINTS=, JPRIMS= or FORCES= with ids or ALL, or just ALL"
+            yield diagnose(each, "empty-request", hint=hint)
+        for field, key in each.asked():
+            kinds = KINDS[field]
+            if key != ALL and not each.named(deck, field, key) and not deck.incomplete & {*kinds}:
+                known = [word for kind in kinds for word in deck.names.known(kind)]
+                yield diagnose(
+                    each, "missing-reference", field,
+                    kind=kinds[0] if len(kinds) < 3 else "force", key=key,
+                    hint=did_you_mean(str(key), known),
+                )  # fmt: skip
+
+
+REQUEST_RULES: list[Rule] = [requests, many_requests]
