@@ -11,8 +11,10 @@ import adamslite as al
 from adamslite.elements.lse import Lse
 from adamslite.elements.tfsiso import Tfsiso
 from adamslite.errors import UsageError
+from adamslite.kernels.compile import compile_model
 from adamslite.language.expression import Call, Ref
 from adamslite.language.method import methods
+from adamslite.model.model import assemble
 from adamslite.reading.read import read_commands
 from adamslite.resources import find
 
@@ -194,3 +196,14 @@ def test_response_of_a_winch(
     assert len(a) == 5
     assert d[0, 0] == pytest.approx(sign * (kp + kd / tf), rel=1e-9)
     assert answer[0, 0] == pytest.approx(sign * wanted, rel=1e-6)
+
+
+def test_rows_that_differ_in_numbers_share_a_kernel() -> None:
+    """Twenty states, each driven by all: one kernel for their equations."""
+    n = 20
+    rows = [[-30.0 if i == j else 0.1 * (i - j) for j in range(n)] for i in range(n)]
+    values = "\n, ".join(", ".join(map(str, row)) for row in rows)
+    text = GROUND + f"ARRAY/1, X\nMATRIX/1, ROWS={n}, COLUMNS={n}, VALUES={values}\n"
+    deck = al.read(text + "LSE/1, X=1, A=1\nEND\n")
+    groups = compile_model(assemble(deck)).groups
+    assert [len(group.instances) for group in groups if group.face == "equation"] == [n]

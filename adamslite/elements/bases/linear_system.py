@@ -121,20 +121,25 @@ class LinearSystem(Statement):
             yield STATEMENTS["VARIABLE"](id=value_name(self.y, n), function=value, spans=self.spans)
 
     def _sums(self, deck: Lookup, of_x: Table, of_u: Table) -> Iterator[Node]:
-        """P x + Q u, row by row."""
+        """P x + Q u, row by row.
+
+        The term on the diagonal comes first, so that rows differ in numbers alone: they share one
+        kernel.
+        """
         inputs = deck.find("ARRAY", self.u) if self.u is not None else None
         u = inputs.numbered() if inputs is not None and inputs.kind == "U" else ()
         x = Values("X", self.x, None)
         for row in range(max(len(of_x), len(of_u))):
-            terms = []
-            for table, values in ((of_x, x), (of_u, u)):
-                factors = table[row] if row < len(table) else ()
-                terms += [
-                    Op("*", (Num(factor), value))
-                    for factor, value in zip(factors, values, strict=False)
-                    if factor
-                ]
-            yield total(terms)
+            own_first = sorted(_terms(of_x, row, x), key=lambda term: term[0] != row)
+            yield total([term for _, term in (*own_first, *_terms(of_u, row, u))])
+
+
+def _terms(table: Table, row: int, values: Sequence[Node]) -> Iterator[tuple[int, Node]]:
+    """Number of the column and product of each element that is not zero."""
+    factors = table[row] if row < len(table) else ()
+    for n, (factor, value) in enumerate(zip(factors, values, strict=False)):
+        if factor:
+            yield n, Op("*", (Num(factor), value))
 
 
 def total(terms: Sequence[Node]) -> Node:
