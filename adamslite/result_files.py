@@ -10,14 +10,19 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose, place_of
 from adamslite.elements.linear import Linear
+from adamslite.elements.reload import Reload
+from adamslite.elements.save import Save
+from adamslite.errors import UsageError
 from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.outputs.saved_files import missing
 from adamslite.outputs.whole_files import need_writable, same_file
 
 if TYPE_CHECKING:
     from adamslite.scene import Scene
 
+READ = "read by this run"
 KINDS = {"EIGENSOL": "modes.csv", "STATEMAT": "states.json"}
 
 
@@ -38,6 +43,8 @@ def plan(scene: Scene, output: str | Path, named: bool) -> list[Path]:
     ------
     DeckError
         When a FILE is a file of this run already.
+    UsageError
+        When the FILE of a RELOAD does not exist.
     OSError, UsageError
         As :func:`~adamslite.outputs.whole_files.need_writable`, for the results and for each of
         them.
@@ -45,17 +52,36 @@ def plan(scene: Scene, output: str | Path, named: bool) -> list[Path]:
     need_writable(output, scene.read, named)
     commands = [each for each in scene.commands if isinstance(each, Linear)]
     paths = list(_places(commands, Path(output)))
+    kept = [each for each in scene.commands if isinstance(each, Save | Reload) and each.file]
+    saved = [Path(output).with_name(each.file or "") for each in kept]
     wrong = list(_taken(commands, paths, output, scene.read))
+    wrong += _taken(kept, saved, output, scene.read)
+    wrong += _written_over(kept, saved)
     if wrong:
         raise DeckError(wrong)
-    for path in paths:
+    for path in (*paths, *saved):
         need_writable(path, scene.read, named=False)
     return paths
 
 
-def _file(command: Linear) -> str:
+def _file(command: Linear | Save | Reload) -> str:
     """The FILE of a command that has an effect."""
-    return command.file or "" if command.kind == "STATEMAT" else ""
+    return command.file or "" if command.kind in ("STATEMAT", "SYSTEM") else ""
+
+
+def _written_over(commands: Sequence[Save | Reload], paths: Sequence[Path]) -> Iterator[Diagnostic]:
+    """A SAVE to a file that a RELOAD before it has read; the files of an earlier run must exist."""
+    written: set[Path] = set()
+    read: set[Path] = set()
+    for command, path in zip(commands, paths, strict=True):
+        if isinstance(command, Save):
+            written.add(path)
+            if path in read:
+                yield diagnose(command, "file-taken", "file", word=path.name, what=READ)
+        elif path not in written:
+            read.add(path)
+            if not path.is_file():
+                raise UsageError(f"{place_of(command, 'file')}: {missing(path)}")
 
 
 def _places(commands: Sequence[Linear], output: Path) -> Iterator[Path]:
@@ -70,11 +96,14 @@ def _places(commands: Sequence[Linear], output: Path) -> Iterator[Path]:
 
 
 def _taken(
-    commands: Sequence[Linear], paths: Sequence[Path], output: str | Path, read: Iterable[Path]
+    commands: Sequence[Linear | Save | Reload],
+    paths: Sequence[Path],
+    output: str | Path,
+    read: Iterable[Path],
 ) -> Iterator[Diagnostic]:
     for command, path in zip(commands, paths, strict=True):
         word = _file(command)
         if word and same_file(path, output):
             yield diagnose(command, "file-taken", "file", word=word, what="that of the results")
         elif word and any(same_file(path, each) for each in read):
-            yield diagnose(command, "file-taken", "file", word=word, what="read by this run")
+            yield diagnose(command, "file-taken", "file", word=word, what=READ)

@@ -102,9 +102,14 @@ def command_file_beside(deck_path: Path) -> Path | None:
 
 
 def run_scene(
-    scene: Scene, options: Mapping[str, Any], progress: Progress | None = None
+    scene: Scene,
+    options: Mapping[str, Any],
+    progress: Progress | None = None,
+    folder: Path | None = None,
 ) -> "Results":
     """Simulate a scene; `options` are keyword arguments of `simulate`.
+
+    The files of SAVE and RELOAD are in `folder`; without it they are in memory.
 
     Raises
     ------
@@ -113,6 +118,10 @@ def run_scene(
     """
     if "integrator" in options:
         _need_integrator(options["integrator"])
+    if any(command.keyword in ("SAVE", "RELOAD") for command in scene.commands):
+        from adamslite.outputs.saved_files import SavedFiles
+
+        options = {**options, "files": SavedFiles(folder)}
     return adamslite.simulate(scene.deck, commands=scene.commands, progress=progress, **options)
 
 

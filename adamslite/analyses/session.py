@@ -36,12 +36,13 @@ from adamslite.analyses.kinematic import run_kinematic
 from adamslite.analyses.method_choice import MethodChoice, choose_method
 from adamslite.analyses.output_times import output_times
 from adamslite.analyses.planar_reduction import in_its_plane
+from adamslite.analyses.saves import Saves
 from adamslite.analyses.sensors import AT_TIMES, SensorLog, require_none
 from adamslite.analyses.setting_commands import changes_the_model, updated
 from adamslite.analyses.static import StaticSettings, run_static
 from adamslite.analyses.subject import Subject, kernels_of
 from adamslite.deck.deck import Deck
-from adamslite.deck.redefinition import Command
+from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.activate import Activate
 from adamslite.elements.deactivate import Deactivate
 from adamslite.elements.equilibrium import Equilibrium
@@ -49,6 +50,8 @@ from adamslite.elements.integrator import Integrator
 from adamslite.elements.linear import Linear
 from adamslite.elements.pinput import Pinput
 from adamslite.elements.poutput import Poutput
+from adamslite.elements.reload import Reload
+from adamslite.elements.save import Save
 from adamslite.elements.simulate import Simulate
 from adamslite.equations.engine import engine
 from adamslite.equations.result_columns import columns
@@ -58,6 +61,7 @@ from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.kernels.compile import compile_model
 from adamslite.model.model import assemble
+from adamslite.outputs.saved_files import SavedFiles
 from adamslite.progress import Progress
 from adamslite.results.balance import Balance
 from adamslite.results.outcomes import Outcome
@@ -85,6 +89,10 @@ class Session:
         CPU [s] of compiling an integrator when a run first needed it.
     outcome, unclosed
         How the last analysis ended; the constraint that stayed open, if one did.
+    present : System or None
+        ``system``, as far as it is there; ``began_static``: it is at rest after an equilibrium.
+    saves, changes
+        What SAVE has kept; commands that have changed statements of the deck.
     sensors : SensorLog
     linearizations : list of Linearized
     balances : list of Balance
@@ -98,6 +106,7 @@ class Session:
         flags: dict[str, Any],
         without: frozenset[str] = frozenset(),
         audited: bool = False,
+        files: SavedFiles | None = None,
     ) -> None:
         self.progress = progress
         self.flags = flags
@@ -120,8 +129,10 @@ class Session:
         self.out_of_law: dict[str, str] = {}
         self.assembled: list[str] = []
         self.speeds: list[str] = []
-        self._system: System | None = None
-        self._began_static = False
+        self.saves = Saves(files or SavedFiles(), self.deck)
+        self.changes: tuple[Redefinition[Any], ...] = ()
+        self.present: System | None = None
+        self.began_static = False
 
     @property
     def deck(self) -> Deck:
@@ -131,16 +142,16 @@ class Session:
     @property
     def system(self) -> System:
         """The equations, numbered and assembled when first needed."""
-        if self._system is None:
-            system = self._system = self._numbered(False)
-            if self._is_driven(system):
+        if self.present is None:
+            system = self.present = self.numbered(False)
+            if self.is_driven(system):
                 self.unclosed = start_of_joints(system, self.progress)
-                self._system = self._assembled(system)
-        return self._system
+                self.present = self.assembled_of(system)
+        return self.present
 
     def prepare(self) -> None:
         """Number and assemble the equations now."""
-        self._system = self.system
+        self.present = self.system
 
     def execute(self, commands: Iterable[Command]) -> None:
         """Carry out commands until one stops the run or an analysis ends early."""
@@ -148,13 +159,15 @@ class Session:
             if command.keyword == "STOP" or self.outcome is not Outcome.DONE:
                 return
             if self.sensors.values:
-                self._change(self.deck.with_senvals(self.sensors.values))
+                self.change(self.deck.with_senvals(self.sensors.values))
                 self.sensors.values = {}
             action = getattr(self, f"_do_{command.keyword.lower()}", None)
             if action is not None:
                 action(command)
             elif changes_the_model(command):
-                self._change(self.deck.after(command))
+                self.change(self.deck.after(command))
+                if isinstance(command, Redefinition):
+                    self.changes += (command,)
 
     # settings
 
@@ -167,20 +180,26 @@ class Session:
     # changes of the model
 
     def _do_activate(self, command: Activate | Deactivate) -> None:
-        self._change(self.deck.after(command))
+        self.change(self.deck.after(command))
 
     _do_deactivate = _do_activate
 
-    def _change(self, deck: Deck) -> None:
+    def change(self, deck: Deck) -> None:
         """Go on with another deck from the present state."""
-        old = self._system
+        old = self.present
         self.kernels = compile_model(assemble(deck, self.without), self.progress, self.audited)
-        self._system = None
+        self.present = None
         if old is not None:
-            system = self._system = self._numbered(False)
+            system = self.present = self.numbered(False)
             system.adopt(old)
-            if self._is_driven(system):
-                self._system = self._assembled(system)
+            if self.is_driven(system):
+                self.present = self.assembled_of(system)
+
+    def _do_save(self, command: Save) -> None:
+        self.saves.save(self, command)
+
+    def _do_reload(self, command: Reload) -> None:
+        self.saves.reload(self, command)
 
     # analyses
 
@@ -205,14 +224,14 @@ class Session:
         system = self.system
         if self.outcome is not Outcome.DONE:
             return
-        if self._began_static:
+        if self.began_static:
             self.unclosed = consistent_velocities(system)
             if self.unclosed:
                 self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
                 return
         self.chosen = choose_method(system, times, self.settings)
         if system.sizes.si2 and system.holonomic and self.chosen.settings.form != "SI2":
-            system = self._system = self._renumbered(system, system.elimination.pivoting)
+            system = self.present = self._renumbered(system, system.elimination.pivoting)
         began = clock.process_time()
         engine(self.chosen.settings.formula.entry, self.progress)
         self.late_setup += clock.process_time() - began
@@ -305,14 +324,14 @@ class Session:
 
     # helpers
 
-    def _numbered(self, pivoting: bool, form: str = "") -> System:
+    def numbered(self, pivoting: bool, form: str = "") -> System:
         with without_collection():
             stabilised = (form or self.settings.form) == "SI2"
             system = System(self.kernels, stabilised, pivoting)
         system.settings.t = self.time
         return system
 
-    def _is_driven(self, system: System) -> bool:
+    def is_driven(self, system: System) -> bool:
         """Whether all that drives a constraint has a value at this time."""
         system.broken = without_value(Clock(self.kernels), self.time)
         if system.broken:
@@ -320,7 +339,7 @@ class Session:
             system.report.t = self.time
         return system.broken is None
 
-    def _assembled(self, system: System) -> System:
+    def assembled_of(self, system: System) -> System:
         """Consistent positions and velocities, redundant rows, a regular elimination order."""
         self.unclosed = self.unclosed or initial_conditions(system)
         if self.unclosed:
@@ -341,7 +360,7 @@ class Session:
         """``system`` in its present state, in the formulation of the method that AUTO picked, or
         eliminated with row pivoting.
         """
-        other = self._numbered(pivoting, self.chosen.settings.form)
+        other = self.numbered(pivoting, self.chosen.settings.form)
         other.adopt(system)
         other.drop(system.elimination.dropped)
         return other
@@ -376,6 +395,6 @@ class Session:
         names, values = columns(system, system.record[: made * row].reshape(made, row))
         first = 0 if own_start else 1
         piece = Piece(times[first:made].copy(), names, values[first:])
-        self.history.append(piece, static, self._began_static)
-        self._began_static = static
+        self.history.append(piece, static, self.began_static)
+        self.began_static = static
         self.counts.add(system.count)

@@ -30,6 +30,7 @@ from adamslite.language.interfaces import Key
 from adamslite.language.messages import did_you_mean
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import left_off
+from adamslite.outputs.saved_files import SavedFiles
 from adamslite.progress import Progress
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
@@ -68,6 +69,7 @@ def simulate(
     no_reduction: Iterable[str] = (),
     audit: bool = False,
     confirm: bool = False,
+    files: SavedFiles | None = None,
 ) -> Results:
     """Run a deck, a model or its kernels.
 
@@ -90,6 +92,8 @@ def simulate(
         Follow the balance of energy; elastic elements of ready kernels are not followed.
     confirm : bool
         Run again, more tightly and by another method, and say how far the results agree.
+    files : SavedFiles
+        Where the files of SAVE and RELOAD are; in memory unless given.
 
     Raises
     ------
@@ -100,7 +104,8 @@ def simulate(
     options = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
     flags = {name: value for name, value in options.items() if value is not None}
     plan = _plan(deck_of(scene), commands, end, steps)
-    session = Session(scene, progress, flags, left_off(no_reduction), audit)
+    files = files or SavedFiles()
+    session = Session(scene, progress, flags, left_off(no_reduction), audit, files)
     first = next((k for k, c in enumerate(plan) if c.keyword not in SETTINGS), len(plan))
     session.execute(plan[:first])
     session.prepare()
@@ -112,8 +117,9 @@ def simulate(
     if not confirm:
         return results
     again = partial(
-        simulate, scene, end, steps, commands=commands, progress=progress, no_reduction=no_reduction
-    )
+        simulate, scene, end, steps, commands=commands, progress=progress,
+        no_reduction=no_reduction, files=files.to_read,
+    )  # fmt: skip
     return _confirmed(results, session, again)
 
 

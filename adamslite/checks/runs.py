@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from adamslite.checks.rule import Rule, positive
+from adamslite.checks.saves import SAVE_RULES
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition
 from adamslite.deck.statement_diagnostics import diagnose
@@ -18,6 +19,8 @@ from adamslite.elements.integrator import Integrator
 from adamslite.elements.kinematics import Kinematics
 from adamslite.elements.linear import Linear
 from adamslite.elements.pinput import Pinput
+from adamslite.elements.reload import Reload
+from adamslite.elements.save import Save
 from adamslite.elements.sensor import Sensor
 from adamslite.elements.simulate import MOST_STEPS, Simulate, output_steps
 from adamslite.elements.variable import Variable
@@ -144,8 +147,14 @@ def fixed_lists(command: Redefinition[Any]) -> Iterator[Diagnostic]:
 def ends_in_order(deck: Deck) -> Iterator[Diagnostic]:
     if "SENSOR" in deck.names.ids:  # it may have ended the run before
         return
-    time = 0.0
-    for each in deck.of(Simulate):
+    time, kept = 0.0, dict[tuple[str, str | None], float]()
+    for each in deck.statements:
+        if isinstance(each, Save):
+            kept[each.where] = time
+        elif isinstance(each, Reload):
+            time = kept.get(each.where, 0.0)
+        if not isinstance(each, Simulate):
+            continue
         if each.at_once or (each.end is None and each.duration is None):
             continue
         end = each.until(time)
@@ -202,17 +211,22 @@ def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def file_names(deck: Deck) -> Iterator[Diagnostic]:
-    """Files that commands name lie beside the results, each written once."""
-    known: set[str] = set()
-    for each in deck.of(Linear):
-        if each.file is None or each.kind == "EIGENSOL":
+    """Files that commands name lie beside the results; one is written by one kind of command, and
+    by LINEAR once.
+    """
+    known: dict[str, Statement] = {}
+    for each in deck.statements:
+        if not isinstance(each, Linear | Save | Reload) or each.file is None:
             continue
+        if each.kind in ("EIGENSOL", "STATES"):
+            continue
+        name = each.file.casefold()
+        other = known.setdefault(name, each)
         if not FILE_NAME.fullmatch(each.file) or not each.file.isprintable():
             yield diagnose(each, "not-a-file-name", "file", word=each.file or '""')
-        elif each.file.casefold() in known:
-            what = "that of an earlier LINEAR"
+        elif other is not each and (isinstance(each, Linear) or isinstance(other, Linear)):
+            what = f"that of an earlier {other.keyword}"
             yield diagnose(each, "file-taken", "file", word=each.file, what=what)
-        known.add(each.file.casefold())
 
 
 def other_models(deck: Deck, commands: Iterable[Statement]) -> Iterator[Diagnostic]:
@@ -270,4 +284,5 @@ RUN_RULES: list[Rule] = [
     switched_elements,
     linear_arguments,
     file_names,
+    *SAVE_RULES,
 ]

@@ -67,6 +67,7 @@ INSTEAD = {
     "PTCV DISPLACEMENT": "the curve touches where the deck has it closest to I: move I there",
     "PTCV IC": "the curve touches where the deck has it closest to I: move I there",
     "PTCV VELOCITY": "give the velocity to the bodies: PART/id, VX=, VY=, VZ=",
+    "SAVE AUTOSAVE": "write SAVE between several SIMULATEs",
     "SPLINE ROUTINE": "write X and Y, or FILE= with a table .csv",
 }
 """What to write instead and why, by statement, function, statement and argument, or statement and

@@ -89,7 +89,8 @@ def run(args: argparse.Namespace) -> int:
         _tell_warnings(scene)
     progress = Progress() if args.quiet else TalkingProgress()
     try:
-        results = run_scene(scene, run_options(args), progress)
+        folder = None if output == STDOUT else Path(output).parent
+        results = run_scene(scene, run_options(args), progress, folder)
     finally:
         progress.close()
     written = _write(results, output, files)

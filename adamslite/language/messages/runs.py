@@ -92,6 +92,11 @@ RUNS: dict[str, Message] = {
         "give FILE= another name",
         commands=("LINEAR/STATEMAT, FILE=a.json\nLINEAR/STATEMAT, FILE=A.json",),
     ),
+    "nothing-saved": Message(
+        "no SAVE/STATES before has BUFFER={word}",
+        "a buffer lasts as long as the run; a SYSTEM in a FILE can come from an earlier one",
+        commands=("SAVE/STATES, BUFFER=a\nRELOAD/STATES, BUFFER=b", "RELOAD/STATES, BUFFER=a"),
+    ),
     "empty-range": Message(
         "no {kind} has an id from {low} to {high}",
         "",

@@ -1,0 +1,161 @@
+"""What SAVE keeps of a session, and its text.
+
+The text is JSON, and every number in it reads back exactly.  Of the model it holds what commands
+have changed, as they were written; the deck itself must be the same.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import Any, NoReturn
+
+import numpy as np
+
+from adamslite.analyses.dynamic import Settings
+from adamslite.analyses.static import StaticSettings
+from adamslite.deck.deck import Deck
+from adamslite.deck.redefinition import Redefinition
+from adamslite.equations.system import System
+from adamslite.errors import UsageError
+from adamslite.kernels.compile import Kernels
+from adamslite.reading.read import read_commands
+
+HEAD = "saved by adamslite"
+VERSION = 1
+ARRAYS = ("q", "u", "a", "base", "z", "mu", "ra", "rz", "rd", "pz")
+Owner = tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class State:
+    """Time, and the arrays of a system that the next analysis begins with.
+
+    ``memories``: of kernels, as angles that are counted; ``dropped``: redundant rows.
+    """
+
+    time: float
+    at_rest: bool
+    arrays: dict[str, np.ndarray]
+    memories: dict[Owner, np.ndarray]
+    dropped: list[int]
+
+    @classmethod
+    def of(cls, system: System, time: float, at_rest: bool) -> State:
+        """A copy of the state that ``system`` holds."""
+        arrays = {name: getattr(system, name).copy() for name in ARRAYS}
+        memories = {whose: row.copy() for whose, row in system.instances.memories()}
+        return cls(time, at_rest, arrays, memories, list(system.elimination.dropped))
+
+    def put_into(self, system: System) -> None:
+        """Restore it, in the system that it is of or in one with the same unknowns."""
+        if any(len(values) != len(getattr(system, name)) for name, values in self.arrays.items()):
+            raise UsageError("RELOAD: the state is that of another model")
+        for name, values in self.arrays.items():
+            getattr(system, name)[:] = values
+        system.instances.remember(self.memories.items())
+        if list(system.elimination.dropped) != self.dropped:
+            system.elimination.drop(self.dropped)
+        system.settings.t = system.report.t = self.time
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A session: its state, the model in its present form, settings, what commands have changed."""
+
+    state: State
+    kernels: Kernels
+    system: System
+    settings: Settings
+    statics: StaticSettings
+    changes: tuple[Redefinition[Any], ...]
+
+    def text(self) -> str:
+        """The session as text."""
+        deck, state = self.kernels.model.deck, self.state
+        whole = {
+            HEAD: VERSION,
+            "deck": deck.hash,
+            "changes": [_source_of(each) for each in self.changes],
+            "inactive": sorted(map(list, deck.inactive), key=str),
+            "senvals": list(map(list, deck.senvals.items())),
+            "settings": asdict(self.settings),
+            "statics": asdict(self.statics),
+            "time": state.time,
+            "at rest": state.at_rest,
+            "arrays": {name: values.tolist() for name, values in state.arrays.items()},
+            "memories": [[*whose, values.tolist()] for whose, values in state.memories.items()],
+            "dropped": [int(row) for row in state.dropped],
+        }
+        return json.dumps(whole, indent=1) + "\n"
+
+
+@dataclass(frozen=True)
+class Document:
+    """A session as its text has it, for a deck."""
+
+    state: State
+    deck: Deck
+    settings: Settings
+    statics: StaticSettings
+    changes: tuple[Redefinition[Any], ...]
+
+
+def document(text: str, name: str, deck: Deck) -> Document:
+    """What the text of a file says about ``deck``, which no command has changed yet.
+
+    Raises
+    ------
+    UsageError
+        When it is not the text of such a file, or that of another deck.
+    """
+    try:
+        whole = json.loads(text)
+        if whole[HEAD] != VERSION:
+            _refuse(name, "was written by another version")
+        if whole["deck"] != deck.hash:
+            _refuse(name, "belongs to another deck, or the deck has changed since")
+        changes = tuple(_changes(whole["changes"], deck))
+        for change in changes:
+            deck = deck.after(change)
+        for keyword, key in whole["inactive"]:
+            deck = deck.with_active(keyword, [key], False)
+        if whole["senvals"]:
+            deck = deck.with_senvals(dict(whole["senvals"]))
+        state = State(
+            float(whole["time"]), bool(whole["at rest"]),
+            {each: np.array(whole["arrays"][each], dtype=float) for each in ARRAYS},
+            {tuple(whose): np.array(row, dtype=float) for *whose, row in whole["memories"]},
+            [int(row) for row in whole["dropped"]],
+        )  # fmt: skip
+        settings = Settings(**_tuples(whole["settings"]))
+        return Document(state, deck, settings, StaticSettings(**_tuples(whole["statics"])), changes)
+    except UsageError:
+        raise
+    except (ValueError, KeyError, TypeError, AttributeError):
+        _refuse(name, "is not a file of SAVE")
+
+
+def _refuse(name: str, why: str) -> NoReturn:
+    raise UsageError(f"RELOAD: {name} {why}")
+
+
+def _changes(texts: Iterable[str], deck: Deck) -> Iterable[Redefinition[Any]]:
+    for text in texts:
+        yield from (each for each in read_commands(text + "\n", deck)
+                    if isinstance(each, Redefinition))  # fmt: skip
+
+
+def _source_of(change: Redefinition[Any]) -> str:
+    """A command as it was written."""
+    source = change.spans.source
+    if source is None:
+        raise UsageError(f"SAVE/SYSTEM: {change.label} was changed without a text to keep")
+    start, end = change.spans.whole_range
+    return source.text[start:end]
+
+
+def _tuples(values: dict[str, Any]) -> dict[str, Any]:
+    """Settings as they were before they became JSON, which has lists only."""
+    return {name: tuple(v) if isinstance(v, list) else v for name, v in values.items()}
