@@ -219,13 +219,6 @@ def motion_starts(deck: Deck) -> Iterator[Diagnostic]:
                 yield diagnose(motion, "no-effect", field, word=field.upper(), reason=reason)
 
 
-def matrices(deck: Deck) -> Iterator[Diagnostic]:
-    for matrix in deck.of(Matrix):
-        count, expected = len(matrix.values), matrix.rows * matrix.columns
-        if count != expected:
-            yield diagnose(matrix, "matrix-size", "values", count=count, expected=expected)
-
-
 def curves(deck: Deck) -> Iterator[Diagnostic]:
     for curve in deck.of(Curve):
         if curve.order != CUBIC:
@@ -234,7 +227,7 @@ def curves(deck: Deck) -> Iterator[Diagnostic]:
             yield diagnose(curve, "missing-argument", word="MATRIX")
             continue
         matrix = deck.find(Matrix, curve.matrix)
-        if matrix and len(matrix.values) == matrix.rows * matrix.columns:
+        if matrix and matrix.complete:
             yield from _points(curve, matrix)
 
 
@@ -276,7 +269,6 @@ def measured_markers(deck: Deck) -> Iterator[Diagnostic]:
 
 CONSTRAINT_RULES: list[Rule] = [
     measured_markers,
-    matrices,
     curves,
     floating_markers,
     pairs,

@@ -1,4 +1,4 @@
-"""Rules about SPLINEs, ARRAYs and the functions that use them."""
+"""Rules about SPLINEs, ARRAYs, MATRIXes and the functions that use them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.array import Array
-from adamslite.elements.bases.data_file import UnusableFile
+from adamslite.elements.bases.data_file import UnusableFile, columns
+from adamslite.elements.matrix import Matrix
 from adamslite.elements.spline import LEAST, Spline
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Num, Ref, calls, fold, walk
@@ -118,4 +119,32 @@ def values_of_arrays(deck: Deck) -> Iterator[Diagnostic]:
                     yield diagnose(statement, "value-lost", word=name)
 
 
-TABLE_RULES: list[Rule] = [spline_points, spline_calls, arrays, values_of_arrays]
+def matrices(deck: Deck) -> Iterator[Diagnostic]:
+    for matrix in deck.of(Matrix):
+        yield from _elements(deck, matrix)
+
+
+def _elements(deck: Deck, matrix: Matrix) -> Iterator[Diagnostic]:
+    """Whether a matrix has all its elements, from one source, and its file can be read."""
+    count, expected = len(matrix.values), matrix.expected
+    missing = [field for field in ("rows", "columns", "values") if not matrix.given(field)]
+    if matrix.file is not None:
+        if matrix.given("values") or matrix.sparse:
+            yield diagnose(matrix, "matrix-sources", "file", word="FILE")
+            return
+        try:
+            columns(deck.folder, matrix.file)
+        except UnusableFile as fault:
+            yield diagnose(matrix, "data-file", "file", file=matrix.file, reason=fault)
+            return
+    elif matrix.sparse and matrix.given("full"):
+        yield diagnose(matrix, "matrix-sources", "sparse", word="SPARSE")
+    elif missing:
+        yield diagnose(matrix, "missing-argument", word=missing[0].upper(), hint="")
+    if count != expected and (count or not missing):
+        yield diagnose(matrix, "matrix-size", "values", count=count, expected=expected)
+    elif matrix.misplaced:
+        yield diagnose(matrix, "matrix-place", "values", place=matrix.misplaced)
+
+
+TABLE_RULES: list[Rule] = [spline_points, spline_calls, arrays, values_of_arrays, matrices]

@@ -55,9 +55,10 @@ class Deck:
     ) -> None:
         self.source = source
         self.title = title
+        self.path = path
+        statements = tuple(s.loaded(self.folder) if s.data else s for s in statements)
         self.own = statements
         self.names = names
-        self.path = path
         self.inactive = inactive
         self.warnings: tuple[Diagnostic, ...] = ()
         self.senvals: dict[Key, float] = {}

@@ -13,6 +13,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import FrozenInstanceError, dataclass, field
+from pathlib import Path
 from typing import Any, ClassVar, TypeAlias, TypedDict, TypeVar, Unpack
 
 from adamslite.language.diagnostics import Span, Spans
@@ -256,6 +257,10 @@ class Statement:
     def companions(self, deck: Lookup) -> tuple[Statement, ...]:
         """Statements this one brings with it; ``deck`` finds those it refers to."""
         return ()
+
+    def loaded(self, folder: Path) -> Statement:
+        """The statement with what its file holds, which is in the folder of the deck."""
+        return self
 
     def derived(self, model: DrawnModel) -> dict[str, object]:
         """Further values its physics need, from the model as drawn.

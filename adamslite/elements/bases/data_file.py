@@ -24,6 +24,13 @@ class UnusableFile(Exception):
     """A file that gives no points; its text is the reason."""
 
 
+def columns(folder: Path, name: str) -> tuple[Column, ...]:
+    """All columns of the file ``name`` in ``folder`` or below."""
+    path = _located(folder, name)
+    facts = path.stat()
+    return _table(path, facts.st_mtime_ns, facts.st_size)[1]
+
+
 def points(
     folder: Path, name: str, channel: int | None, block: str | None
 ) -> tuple[Column, Column]:

@@ -53,8 +53,27 @@ CONSTRAINTS: dict[str, Message] = {
     ),
     "matrix-size": Message(
         "{label} has {count} VALUES and needs {expected}",
-        "one for each of ROWS times COLUMNS",
-        ("MATRIX/1, ROWS=2, COLUMNS=3, VALUES=1,2,3,4,5",),
+        "one for each of ROWS times COLUMNS; SPARSE: row, column and number of each",
+        (
+            "MATRIX/1, ROWS=2, COLUMNS=3, VALUES=1,2,3,4,5",
+            "MATRIX/1, SPARSE, ROWS=2, COLUMNS=3, VALUES=1,2,3,4",
+        ),
+    ),
+    "matrix-place": Message(
+        "{label} has a value at {place}",
+        "a row and a column of it are whole numbers from 1 to ROWS and to COLUMNS",
+        (
+            "MATRIX/1, SPARSE, ROWS=2, COLUMNS=3, VALUES=1,2,3, 3,1,4",
+            "MATRIX/1, SPARSE, ROWS=2, COLUMNS=3, VALUES=0,1,4",
+        ),
+    ),
+    "matrix-sources": Message(
+        "{label} has its elements twice: {word} excludes another argument",
+        "give VALUES by FULL or by SPARSE, or FILE",
+        (
+            "MATRIX/1, FULL=RORDER, SPARSE, ROWS=1, COLUMNS=1, VALUES=1,1,1",
+            "MATRIX/1, FILE=a.csv, ROWS=1, COLUMNS=1, VALUES=1",
+        ),
     ),
     "curve-points": Message(
         "{label} cannot pass through the points of {matrix}",

@@ -47,12 +47,14 @@ TABLES: dict[str, Message] = {
     ),
     "data-file": Message(
         "{label} cannot use {file}: {reason}",
-        "a table .csv in the folder of the deck or below: a column of x, then the channels",
+        "a table .csv in the folder of the deck or below; that of a SPLINE has a column of x, then "
+        "the channels",
         (
             "SPLINE/1, FILE=no-such-table.csv",
             "SPLINE/1, FILE=../road.csv",
             "SPLINE/1, FILE=/road.csv",
             "SPLINE/1, FILE=road.rsp, CHANNEL=2",
+            "MATRIX/1, FILE=no-such-table.csv",
         ),
     ),
     "array-size": Message(
