@@ -35,3 +35,20 @@ def test_turns_between_outputs_are_counted(rate: float, steps: int) -> None:
 def test_turns_of_a_part_that_starts_at_rest_are_counted(rate: float, steps: int) -> None:
     found = turned(f"0.5*{rate}*TIME**2", steps)
     np.testing.assert_allclose(found["REQUEST/1.F2"], 0.5 * rate * found.time**2, atol=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["KINEMATICS", "TRANSIENT", "DYNAMICS"])
+@pytest.mark.parametrize("level", ["VELOCITY", "ACCELERATION"])
+def test_a_motion_that_gives_rates_is_integrated(kind: str, level: str) -> None:
+    """w = sin 3 t, hence an angle of (1 - cos 3 t)/3; w' = 3 cos 3 t gives the same."""
+    rate = "SIN(3*TIME)" if level == "VELOCITY" else "3*COS(3*TIME)"
+    deck = (
+        GROUND + "PART/2, MASS=1, CM=2, IP=1,1,1\nMARKER/2, PART=2\n"
+        f"JOINT/1, REVOLUTE, I=2, J=1\nMOTION/1, JOINT=1, ROTATION, {level}, FUNCTION={rate}\n"
+        "DIFF/1, IC=2, FUNCTION=-DIF(1)*WZ(2)\nREQUEST/1, F2=AZ(2,1)\n"
+        f"INTEGRATOR/ERROR=1E-7\nSIMULATE/{kind}, END=2, STEPS=4\nEND\n"
+    )
+    found = al.simulate(al.read(deck))
+    angle = (1 - np.cos(3 * found.time)) / 3
+    np.testing.assert_allclose(found["REQUEST/1.F2"], angle, rtol=0, atol=1e-5)
+    np.testing.assert_allclose(found["DIFF/1"], 2 * np.exp(-angle), rtol=0, atol=1e-5)

@@ -209,6 +209,8 @@ class Session:
         kind = command.kind
         if kind == "TRANSIENT":
             kind = "KINEMATICS" if self.system.dof == 0 else "DYNAMICS"
+        if kind == "KINEMATICS" and self.system.dof == 0 and self._has_rates():
+            kind = "DYNAMICS"
         if self.outcome is not Outcome.DONE:
             return
         if kind in ("STATICS", "KINEMATICS") and len(times) > 1:
@@ -301,6 +303,10 @@ class Session:
         self.outcome, self.unclosed = run_kinematic(system, times)
         self.time = float(system.report.t)
         self._keep(system, times, False)
+
+    def _has_rates(self) -> bool:
+        """Whether TIME alone does not determine a posture: states, MOTIONs that give speeds."""
+        return self.system.ns > 0 or self.system.m > self.system.holonomic
 
     def _initial(self, times: np.ndarray) -> None:
         """Record the assembled state with its accelerations."""

@@ -23,7 +23,9 @@ class Simulate(Statement):
     Belongs in a command file or, as an extension, in the deck.  Each SIMULATE continues from the
     time that the previous one reached; END is a time and not a duration.  STATICS without END or
     DURATION finds one equilibrium, with it one at every output time.  INITIAL_CONDITIONS finds
-    displacements, velocities and accelerations, and writes them.
+    displacements, velocities and accelerations, and writes them.  KINEMATICS is for models without
+    degrees of freedom; where they have states (DIFF, LSE, TFSISO) or MOTIONs that give speeds or
+    accelerations it integrates them, as DYNAMICS does.  TRANSIENT is KINEMATICS or DYNAMICS.
     """
 
     kind: str = choice(
