@@ -233,3 +233,34 @@ def test_files_of_save_on_the_command_line(
     assert main([*solve, "three.acf", *out]) == 3
     assert main([*solve, "four.acf", *out]) == 3
     assert capsys.readouterr().err.count("is read by this run") == 2
+
+
+# ---- INFO -------------------------------------------------------------------------------------
+
+
+def test_info_prints_values_of_the_present_state() -> None:
+    """A mass of 2 that has fallen for 1 s, and the force of its weight on a spring of 2 N/m."""
+    spring = "SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=4, K=2, LENGTH=1\nMARKER/4, PART=1, QP=1,0,0\n"
+    results = run(
+        FALL,
+        "INFO/DISP, I=2\nSIM/DYN, END=1, STEPS=1\nINFO/DISPLACEMENT, I=1, J=2\nINFO/VEL, I=2\n"
+        "INFO/ACC, I=2, RM=1\nSIM/DYN, END=2, STEPS=1",
+        error=1e-10,
+    )  # fmt: skip
+    first, second, third, fourth = results.meta["info"].split("; ")
+    assert first == "t = 0: DISPLACEMENT I=2: DM 0, DX 0, DY 0, DZ 0, PSI 0, THETA 0, PHI 0"
+    assert second.startswith("t = 1: DISPLACEMENT I=1, J=2: DM 4.905") and "DY 4.905" in second
+    assert "VX 0, VY -9.81" in third and "ACCX 0, ACCY -9.81" in fourth
+    assert results["POINT_MASS/2.y"] == pytest.approx([0, -4.905, -19.62], abs=1e-7)
+    held = run(FALL + spring, "SIM/INIT\nINFO/FORCE, I=2, J=4\nINFO/FORCE, I=4, J=2, RM=2")
+    assert "FX 0, FY 0" in held.meta["info"]  # as long as it is at the start
+    pulled = run(
+        FALL.replace("CM=2\n", "CM=2, QG=-1,0,0\n") + spring, "SIM/INIT\nINFO/FORCE, I=2, J=4"
+    )
+    assert "FM 2, FX 2, FY 0" in pulled.meta["info"]
+
+
+def test_info_leaves_the_run_as_it_is() -> None:
+    plain, asked = (run(DRIVEN, f"{FIRST}\n{words}{SECOND}") for words in ("", "INFO/VEL, I=5\n"))
+    assert np.array_equal(plain.values, asked.values)
+    assert "t = 0.5: VELOCITY I=5: VM" in asked.meta["info"]

@@ -74,7 +74,12 @@ def outcome(deck: str, commands: str) -> tuple[Any, ...]:
         for each in results.linearizations
     ]
     values = results.time.tolist(), results.names, results.values.tolist()
-    return (*values, repr(summary), repr(linear), repr(results.meta.get("integrator")))
+    return (
+        *values,
+        repr(summary),
+        repr(linear),
+        repr([results.meta.get(key) for key in ("integrator", "info")]),
+    )
 
 
 MATRICES = "eigenvalues", "modes", "state_matrix", "input_matrix", "output_matrix"

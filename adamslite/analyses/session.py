@@ -24,6 +24,7 @@ from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import without_value
 from adamslite.analyses.dynamic import Settings, run_dynamic
 from adamslite.analyses.history import History, Piece
+from adamslite.analyses.info import info
 from adamslite.analyses.initial.conditions import (
     Unclosed,
     consistent_velocities,
@@ -43,9 +44,8 @@ from adamslite.analyses.static import StaticSettings, run_static
 from adamslite.analyses.subject import Subject, kernels_of
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command, Redefinition
-from adamslite.elements.activate import Activate
-from adamslite.elements.deactivate import Deactivate
 from adamslite.elements.equilibrium import Equilibrium
+from adamslite.elements.info import Info
 from adamslite.elements.integrator import Integrator
 from adamslite.elements.linear import Linear
 from adamslite.elements.pinput import Pinput
@@ -127,6 +127,7 @@ class Session:
         self.ways_to_fall = 0
         self.sensors = SensorLog()
         self.out_of_law: dict[str, str] = {}
+        self.printed: list[str] = []
         self.assembled: list[str] = []
         self.speeds: list[str] = []
         self.saves = Saves(files or SavedFiles(), self.deck)
@@ -178,11 +179,6 @@ class Session:
         self.statics = updated(StaticSettings() if command.default else self.statics, command)
 
     # changes of the model
-
-    def _do_activate(self, command: Activate | Deactivate) -> None:
-        self.change(self.deck.after(command))
-
-    _do_deactivate = _do_activate
 
     def change(self, deck: Deck) -> None:
         """Go on with another deck from the present state."""
@@ -327,6 +323,11 @@ class Session:
 
         found = linear(self.system, inputs, outputs, not command.nodamping, command.rm)
         self.linearizations.append(Linearized(command.kind, command.file, self.time, found))
+
+    def _do_info(self, command: Info) -> None:
+        system = self.system
+        if self.outcome is Outcome.DONE:
+            self.printed.append(info(system, command, self.time))
 
     # helpers
 

@@ -266,6 +266,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         **_notes(session),
         **_beyond(session),
         **session.sensors.meta,
+        **({"info": "; ".join(session.printed)} if session.printed else {}),
         **({"time": f"{hurried}: {FASTER}"} if hurried else {}),
     }
 

@@ -44,7 +44,7 @@ SUMMARY = """\
 NOTES = (
     "user",
     "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "energy", "time",
-    "linear", "no number", "sensor", "out of its law",
+    "linear", "no number", "sensor", "out of its law", "info",
 )  # fmt: skip
 
 
