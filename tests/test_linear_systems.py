@@ -207,3 +207,13 @@ def test_rows_that_differ_in_numbers_share_a_kernel() -> None:
     deck = al.read(text + "LSE/1, X=1, A=1\nEND\n")
     groups = compile_model(assemble(deck)).groups
     assert [len(group.instances) for group in groups if group.face == "equation"] == [n]
+
+
+@pytest.mark.parametrize("change", ["ARRAY/4, NUMBERS=3,3", "LSE/1, IC=5"])
+def test_start_values_of_a_system_that_has_moved_have_no_effect(change: str) -> None:
+    deck = al.read(GROUND + oscillator(x1=1) + "ARRAY/5, IC, NUMBERS=3,3\nEND\n")
+    first, run = f"{change}\n", "SIM/DYN, END=1, STEPS=1\n"
+    assert [each.code for each in read_commands(run + first, deck).warnings] == ["no-effect"]
+    commands = read_commands(first + run, deck)
+    assert not commands.warnings
+    assert al.simulate(deck, commands=commands)["DIFF/ARRAY_2_1"][0] == 3

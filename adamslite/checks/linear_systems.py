@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
+from typing import Any
 
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
+from adamslite.deck.redefinition import Redefinition
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.array import Array
 from adamslite.elements.bases.linear_system import LinearSystem, value_name
@@ -15,9 +17,9 @@ from adamslite.elements.matrix import Matrix
 from adamslite.elements.simulate import Simulate
 from adamslite.elements.tfsiso import Tfsiso, degree
 from adamslite.language.diagnostics import Diagnostic
-from adamslite.language.expression import Ref, walk
+from adamslite.language.expression import Num, Ref, walk
 from adamslite.language.interfaces import Key
-from adamslite.language.statement import Statement
+from adamslite.language.statement import Statement, expressions
 
 # Singular values of a scaled matrix below this are round-off.
 RANK = 1e-12
@@ -214,6 +216,26 @@ def _rank(rows: Sequence[Sequence[float]]) -> int:
         table = table / np.where(largest > 0.0, largest, 1.0)
     values = np.linalg.svd(table, compute_uv=False)
     return int((values > RANK).sum())
+
+
+def late_start_numbers(deck: Deck, command: Redefinition[Any]) -> Iterator[Diagnostic]:
+    """Start values of a system that has already moved, in an ARRAY that nothing else uses."""
+    if command.of is not Array or "numbers" not in command.changes:
+        return
+    for system in systems(deck):
+        if system.ic == command.key and not _takes(deck, f"ARYVAL({command.key},"):
+            reason = f"{system.label} continues from the state that it has reached"
+            yield diagnose(command, "no-effect", "numbers", word="NUMBERS", reason=reason)
+
+
+def _takes(deck: Deck, beginning: str) -> bool:
+    """Whether an expression has a number with a name that begins so."""
+    return any(
+        isinstance(each, Num) and each.name.startswith(beginning)
+        for statement in deck.statements
+        for node in expressions(statement)
+        for each in walk(node)
+    )
 
 
 SYSTEM_RULES: list[Rule] = [

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import isfinite
 
-from adamslite.checks.rule import Rule
+from adamslite.checks.rule import Rule, positive
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.array import Array
@@ -121,7 +121,8 @@ def values_of_arrays(deck: Deck) -> Iterator[Diagnostic]:
 
 def matrices(deck: Deck) -> Iterator[Diagnostic]:
     for matrix in deck.of(Matrix):
-        yield from _elements(deck, matrix)
+        wrong = list(positive(matrix, *filter(matrix.given, ("rows", "columns"))))
+        yield from wrong or _elements(deck, matrix)
 
 
 def _elements(deck: Deck, matrix: Matrix) -> Iterator[Diagnostic]:

@@ -46,8 +46,8 @@ class Lse(LinearSystem):
         return {field: key for field in "abcd" if (key := getattr(self, field)) is not None}
 
     def matrices(self, deck: Lookup) -> Matrices | None:
-        """The rows of A to D."""
+        """The rows of A to D; None where one of them has mistakes of its own."""
         found = {field: deck.find("MATRIX", key) for field, key in self.named.items()}
-        if None in found.values():
+        if any(each is None or not each.complete for each in found.values()):
             return None
         return Matrices(*(found[field].table if field in found else () for field in "abcd"))

@@ -76,7 +76,8 @@ class Matrix(Statement):
     @property
     def complete(self) -> bool:
         """Whether there is a number for every element."""
-        return 0 < len(self.values) == self.expected and not self.misplaced
+        sizes = self.rows > 0 < self.columns
+        return sizes and 0 < len(self.values) == self.expected and not self.misplaced
 
     @property
     def table(self) -> list[tuple[float, ...]]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from adamslite.checks.inert import note_of_inert
-from adamslite.checks.linear_systems import determined_at_rest
+from adamslite.checks.linear_systems import determined_at_rest, late_start_numbers
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.rules import RULES
 from adamslite.checks.runs import (
@@ -125,6 +125,7 @@ def _caused(deck: Deck, commands: Iterable[Command]) -> list[Diagnostic]:
             found |= dict.fromkeys(fixed_lists(command))
             if started:
                 found |= dict.fromkeys(late_start_values(command))
+                found |= dict.fromkeys(late_start_numbers(deck, command))
         elif unchecked and (command is None or command.keyword in ANALYSES):
             found |= dict.fromkeys(each for each in apply(RULES, deck) if each not in known)
             unchecked = False

@@ -74,7 +74,8 @@ def output_array(required: bool = False) -> Field:
 
 def start_array() -> Field:
     """Where the system starts."""
-    return reference("IC", to="ARRAY", help="ARRAY IC of x at the start; 0 where it is left out")
+    what = "ARRAY IC of x at the start; 0 where it is left out"
+    return reference("IC", to="ARRAY", start=True, help=what)
 
 
 def static_hold() -> Field:

@@ -252,7 +252,8 @@ MODEL: dict[str, Message] = {
     "not-positive": Message(
         "{word} of {label} must be above zero",
         "",
-        ("UNITS/UCF=0", "INTEGRATOR/ERROR=0", "INTEGRATOR/HMAX=-1", "INTEGRATOR/KMAX=0",
+        ("MATRIX/1, ROWS=-2, COLUMNS=-2, VALUES=1,2,3,4", "UNITS/UCF=0",
+         "INTEGRATOR/ERROR=0", "INTEGRATOR/HMAX=-1", "INTEGRATOR/KMAX=0",
          "SIMULATE/DYNAMICS, END=1, STEPS=0", "SIMULATE/DYNAMICS, DURATION=0, STEPS=1"),
     ),
     "out-of-range": Message(
