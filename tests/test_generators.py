@@ -44,6 +44,7 @@ QUICK = (
     "replay",
     "splines",
     "transfer-functions",
+    "view-crank",
 )
 CHEAP = [
     slow(case) if case == "arrestment" else case for case in sorted(set(generate.CASES) - set(SLOW))

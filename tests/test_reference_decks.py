@@ -37,6 +37,7 @@ FOLDERS = (
     "spring-pendulum",
     "three-joint-coupler",
     "transfer-functions",
+    "view-crank",
 )
 
 
