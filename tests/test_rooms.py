@@ -51,6 +51,7 @@ scene
 result_files
 verification
 manual
+editing
 cli.commands
 cli
 __main__

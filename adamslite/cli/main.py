@@ -8,11 +8,12 @@
     adamslite chart  DECK [COMMANDS.acf]    what accuracy costs with each integrator
     adamslite cable  SPEC.toml              write the deck of a cable scene from a short description
     adamslite cache  [--clear]              what is kept between runs
+    adamslite fmt    FILE ...               put decks and command files into the canonical layout
     adamslite help   [NAME]                 what a statement, a function or a message means
 
-Exit codes: 0 done or equal, 1 outside tolerance, 2 usage, 3 the deck has errors,
-4 the solver stopped early (results so far are written), 5 reading or writing failed,
-70 a fault of the program itself.
+Exit codes: 0 done or equal, 1 outside tolerance or not in the canonical layout, 2 usage,
+3 the deck has errors, 4 the solver stopped early (results so far are written), 5 reading or
+writing failed, 70 a fault of the program itself.
 
 Only argparse and its like are imported here: everything else waits until a command needs it.
 """
@@ -23,11 +24,22 @@ import sys
 from collections.abc import Sequence
 
 from adamslite import __version__
-from adamslite.cli.commands import cable, cache, chart, check, diff, help, linear, solve, verify
+from adamslite.cli.commands import (
+    cable,
+    cache,
+    chart,
+    check,
+    diff,
+    fmt,
+    help,
+    linear,
+    solve,
+    verify,
+)
 from adamslite.cli.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, STOPPED_EARLY, USAGE
 
 EXIT_CODES = """exit codes:
-  0 done, or equal        1 outside tolerance
+  0 done, or equal        1 outside tolerance, or not in the canonical layout
   2 usage                 3 the deck has errors
   4 solver stopped early, results so far are written
   5 reading or writing failed"""
@@ -73,7 +85,7 @@ def _parser() -> argparse.ArgumentParser:
         "--debug", action="store_true", help="show the traceback of a program fault"
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for module in (check, solve, diff, verify, linear, chart, cable, cache, help):
+    for module in (check, solve, diff, verify, linear, chart, cable, cache, fmt, help):
         name = module.__name__.rpartition(".")[2]
         summary = (module.__doc__ or "").partition("\n")[0]
         command = commands.add_parser(

@@ -7,7 +7,7 @@ the next ``KEY=``.  Keywords may be shortened to any prefix that fits one argume
 from __future__ import annotations
 
 from adamslite.language.abbreviations import Ambiguous, vocabulary
-from adamslite.language.messages import did_you_mean
+from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import STATEMENTS, Argument, Statement
 from adamslite.reading.argument_values import Refused, ValueReader
@@ -40,10 +40,10 @@ class Pieces:
 class Grouping:
     """Collects the items of one statement under its arguments."""
 
-    def __init__(self, cls: type[Statement], syntax: Syntax, reader: ValueReader) -> None:
+    def __init__(self, cls: type[Statement], syntax: Syntax, log: Log) -> None:
         self.cls = cls
         self.tokens = syntax.tokens
-        self.log = reader.log
+        self.log = log
         self.words = vocabulary(cls)
         self.found: dict[str, Pieces] = {}
         self.current: Pieces | None = None
@@ -54,13 +54,21 @@ class Grouping:
     def collect(self, items: tuple[Item, ...]) -> dict[str, Pieces]:
         """The pieces of each argument that is given, by field name."""
         for item in items:
-            if item.key >= 0:
-                self._key(item)
-            elif not self._flag(item):
-                self._value(item)
-            if self.current and item.closed:
-                self.current.closed = True
+            self.take(item)
         return self.found
+
+    def take(self, item: Item) -> bool:
+        """Put one item under its argument; True for a word that is an argument by itself."""
+        flag = False
+        if item.key >= 0:
+            self._key(item)
+        else:
+            flag = self._flag(item)
+            if not flag:
+                self._value(item)
+        if self.current and item.closed:
+            self.current.closed = True
+        return flag
 
     def _key(self, item: Item) -> None:
         token = self.tokens[item.key]
@@ -206,7 +214,7 @@ def read_arguments(
 
     Fields with a mistake are left out of the values; ``partial`` statements need no argument.
     """
-    grouping = Grouping(cls, syntax, reader)
+    grouping = Grouping(cls, syntax, reader.log)
     found = grouping.collect(items)
     values: dict[str, object] = {}
     ranges: dict[str, tuple[int, int]] = {}

@@ -63,6 +63,14 @@ def canonical(id: Key) -> Key:
     return id.upper() if isinstance(id, str) else id
 
 
+def known_keywords(place: str) -> dict[str, type[Statement] | str]:
+    """What may be written in a deck or a command file; those that cannot be read as words."""
+    commands = place == "command"
+    here = {k: c for k, c in STATEMENTS.items() if commands or c.place != "command"}
+    planned = PLANNED_STATEMENTS | PLANNED_COMMANDS if commands else PLANNED_STATEMENTS
+    return {name: name for name in planned} | here
+
+
 def _gives_values(cls: type[Statement]) -> bool:
     """Whether expressions take values of such a statement when they are read."""
     own = cls.constants, cls.numbered
@@ -97,10 +105,7 @@ class Reading:
         self._guesses: list[tuple[str, Syntax]] = []
         self._started: dict[str, int] = {}
         self._meanings: dict[str, type[Statement] | str | Ambiguous | None] = {}
-        commands = place == "command"
-        here = {k: c for k, c in STATEMENTS.items() if commands or c.place != "command"}
-        planned = PLANNED_STATEMENTS | PLANNED_COMMANDS if commands else PLANNED_STATEMENTS
-        self._table: dict[str, type[Statement] | str] = {name: name for name in planned} | here
+        self._table = known_keywords(place)
 
     def title(self) -> tuple[str, int]:
         """The title, and where it ends.

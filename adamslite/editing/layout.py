@@ -1,0 +1,153 @@
+"""The canonical layout of a deck or a command file.
+
+::
+
+    text --outline--> statements --pieces--> pieces --line_breaks--> lines, comments between them
+
+Comments, names, numbers and the order of everything stay.  A statement that cannot be read stays
+as it is written, and so does all that is not read: the title, names at the top of a command file,
+what is behind END.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from itertools import groupby, pairwise
+from typing import NamedTuple
+
+from adamslite.editing.line_breaks import filled, joined, kept
+from adamslite.editing.outline import Written, head_end, outline
+from adamslite.editing.pieces import pieces
+
+COMMENT = re.compile(r"![^\n]*")
+IGNORING = re.compile(r"adamslite:", re.IGNORECASE)
+COMMENT_OR_SIGN = re.compile(r"![^\n]*|[^\s;]")
+APART = "  "
+"""What is at least between a statement and the comment behind it."""
+
+
+class Line(NamedTuple):
+    """A line of the result."""
+
+    code: str
+    comment: str = ""
+
+
+def formatted(text: str, place: str = "deck") -> str:
+    """The canonical layout of a text with ``\\n`` as line ends.
+
+    Parameters
+    ----------
+    text : str
+    place : str
+        ``"deck"`` or ``"command"``.
+
+    Raises
+    ------
+    RuntimeError
+        When the result would be read in another way: a fault of the program.
+    """
+    said = list(outline(text, place))
+    if not said or any(each.tokens[0][0] == "COMMA" for each in said):
+        return text
+    if _says_the_same(result := _laid_out(said, place), said, place):
+        return result
+    for each in said:
+        if each.given is not None and not _is_safe(each, place):
+            each.given = None
+    if not _says_the_same(result := _laid_out(said, place), said, place):
+        raise RuntimeError("the canonical layout would change what the text says")
+    return result
+
+
+def _says_the_same(result: str, said: list[Written], place: str) -> bool:
+    again = list(outline(result, place))
+    return len(again) == len(said) and all(
+        ours.tokens_say(theirs) for ours, theirs in zip(again, said, strict=True)
+    )
+
+
+def _is_safe(each: Written, place: str) -> bool:
+    """Whether a statement reads the same by itself once it is laid out."""
+    lines = _statement_lines(each, "", place)
+    text = "title\n" + "\n".join(f"{line.code}{APART}{line.comment}" for line in lines)
+    return [again.meaning()[1:] for again in outline(text, place)][-1:] == [each.meaning()[1:]]
+
+
+def _laid_out(said: list[Written], place: str) -> str:
+    text = said[0].source
+    if place == "command":  # blank lines at the top of a command file mean something
+        rest = said[0].start
+        head, lines = text[:rest].rstrip(" \t"), list[Line]()
+    else:
+        rest = head_end(text, place)
+        head, lines = text[:rest], list(_between(text[rest : said[0].start]))
+    for each, follower in pairwise([*said, None]):
+        assert each is not None
+        stop = follower.start if follower else len(text)
+        rest = _real_end(text, each, stop)
+        if text[each.end : rest].strip() not in ("", "/"):  # a slash is an old end of an expression
+            each.given = None
+        over = bool(each.cls and each.cls.ends)
+        gap = "" if over else text[rest:stop]
+        lines += _statement_lines(each, _comment(gap.partition("\n")[0]), place, rest)
+        lines += _between(gap)
+        if over:
+            return _text(head, lines) + text[rest:].rstrip() + "\n"
+    return _text(head, lines).rstrip() + "\n"
+
+
+def _text(head: str, lines: list[Line]) -> str:
+    body = "\n".join(_aligned(lines))
+    return f"{head}\n{body}" if head and not head.endswith("\n") else head + body
+
+
+def _real_end(text: str, each: Written, stop: int) -> int:
+    """Where a statement ends, with signs that reading passes over."""
+    if each.cls and each.cls.ends:
+        return each.end
+    signs = [sign for sign in COMMENT_OR_SIGN.finditer(text, each.end, stop) if sign[0][0] != "!"]
+    return signs[-1].end() if signs else each.end
+
+
+def _comment(stretch: str) -> str:
+    found = COMMENT.search(stretch)
+    return found[0].rstrip() if found else ""
+
+
+def _between(gap: str) -> Iterator[Line]:
+    """The lines between two statements: comments, and one blank line where there are some."""
+    lines = [_comment(line) for line in gap.split("\n")[1:-1]]
+    for comment, same in groupby(lines):
+        yield from (Line("", each) for each in ([*same] if comment else [""]))
+
+
+def _statement_lines(each: Written, behind: str, place: str, end: int = 0) -> list[Line]:
+    """The lines of a statement; ``behind`` is the comment behind it."""
+    text = each.source
+    found = pieces(each) if each.given is not None else []
+    if not found or any("\n" in piece.text for piece in found):
+        return [Line(text[each.start : end or each.end], behind)]
+    commented = any("!" in text[a.end : b.start] for a, b in pairwise(found))
+    keep = commented or IGNORING.search(behind)
+    rows = kept(found, text) if keep else filled(found, text)
+    lines = []
+    for number, row in enumerate(rows):
+        last = row is rows[-1]
+        mark = " &" if place == "command" and not last else ""
+        gap = "" if last else text[row[-1].end : rows[number + 1][0].start]
+        comment = behind if last else _comment(gap.partition("\n")[0])
+        lines.append(Line(joined(row, number > 0) + mark, comment))
+        lines += [line for line in _between(gap) if line.comment]
+    return lines
+
+
+def _aligned(lines: Iterable[Line]) -> Iterator[str]:
+    """The lines as text; comments behind statements on neighbouring lines begin in one column."""
+    for both, group in groupby(lines, key=lambda line: bool(line.code and line.comment)):
+        block = [*group]
+        width = max(len(line.code.rpartition("\n")[2]) for line in block)
+        for code, comment in block:
+            last = code.rpartition("\n")[2]
+            yield code + " " * (width - len(last)) + APART + comment if both else code + comment

@@ -1,0 +1,61 @@
+"""The lines of a statement: filled up to a width, or broken where they are broken already."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from adamslite.editing.pieces import NEVER, Piece
+
+WIDTH = 80
+"""Columns of a line; ADAMS in Fortran reads no more of an argument."""
+CONTINUED = ", "
+INSIDE = ",     "
+"""How a line begins that continues a statement, or an expression inside one."""
+
+
+def filled(pieces: list[Piece], source: str) -> list[list[Piece]]:
+    """The pieces of each line: one line if they fit, else each expression begins a line.
+
+    Values of a list that stand in rows, as those of a matrix do, stay in them.
+    """
+    if len(joined(pieces, False)) <= WIDTH:
+        return [[*pieces]]
+    lines: list[list[Piece]] = []
+    line: list[Piece] = []
+    for before, piece in zip(pieces[:1] + pieces, pieces, strict=False):
+        row = piece.depth == 1 and "\n" in source[before.end : piece.start]
+        if row or (piece.expression and piece.depth < NEVER):
+            lines.append(line)
+            line = []
+        line.append(piece)
+        while at := _break(line, bool(lines)):
+            lines.append(line[:at])
+            line = line[at:]
+    return [*lines, line]
+
+
+def _break(line: Sequence[Piece], continues: bool) -> int:
+    """Before which piece a line is broken because it is too long; 0: nowhere."""
+    if len(joined(line, continues)) <= WIDTH:
+        return 0
+    places = [number for number, piece in enumerate(line) if number and piece.depth < NEVER]
+    return min(places, key=lambda number: (line[number].depth, -number), default=0)
+
+
+def kept(pieces: Sequence[Piece], source: str) -> list[list[Piece]]:
+    """The pieces of each line, with the breaks of the source."""
+    lines = [[pieces[0]]]
+    for before, piece in pairwise(pieces):
+        if "\n" in source[before.end : piece.start]:
+            lines.append([])
+        lines[-1].append(piece)
+    return lines
+
+
+def joined(line: Sequence[Piece], continues: bool) -> str:
+    """The text of a line; ``continues`` is whether it is not the first of its statement."""
+    text = "".join((each.glue if number else "") + each.text for number, each in enumerate(line))
+    if not continues:
+        return text
+    return (CONTINUED if line[0].depth < 2 else INSIDE) + text

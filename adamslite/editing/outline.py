@@ -1,0 +1,170 @@
+"""What a text says, without its layout: the statements with the items of their arguments.
+
+Two texts with the same outline are read alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from adamslite.deck.names import Names
+from adamslite.language.abbreviations import PREFERRED, Ambiguous, match
+from adamslite.language.diagnostics import Source
+from adamslite.language.messages import Log
+from adamslite.language.spelling import spelled
+from adamslite.language.statement import Argument, Statement
+from adamslite.reading.argument_grouping import Grouping
+from adamslite.reading.statement_reader import Reading, known_keywords
+from adamslite.syntax.forms import Item
+from adamslite.syntax.lines import join
+from adamslite.syntax.syntax_errors import Syntax, statement_syntax
+from adamslite.syntax.tokens import Lexeme, end_of, scan
+
+TEXTS = ("text", "texts")
+"""Kinds of arguments whose values are kept letter by letter."""
+
+
+class Given(NamedTuple):
+    """An argument as it is given.
+
+    Parameters
+    ----------
+    argument : Argument or None
+        None for the id.
+    key : token or None
+        The keyword as written; None for the id and for a word that is an argument by itself.
+    word : str
+        The keyword, or that word, written out.
+    values : list of lists of tokens
+    closed : list
+        Not empty where a backslash is behind it.
+    """
+
+    argument: Argument | None
+    key: Lexeme | None
+    word: str
+    values: list[list[Lexeme]]
+    closed: list[bool]
+
+    @property
+    def kind(self) -> str:
+        return self.argument.kind if self.argument else "id"
+
+    @property
+    def is_text(self) -> bool:
+        """Whether its values are kept letter by letter."""
+        return self.kind in TEXTS
+
+
+@dataclass
+class Written:
+    """A statement as written; ``given`` is None where it cannot be told from mistakes."""
+
+    tokens: list[Lexeme]
+    name: str | None
+    cls: type[Statement] | None = None
+    given: list[Given] | None = None
+    source: str = field(default="", repr=False)
+
+    @property
+    def start(self) -> int:
+        return self.tokens[0][2]
+
+    @property
+    def end(self) -> int:
+        return end_of(self.tokens[-1])
+
+    def meaning(self) -> tuple[object, ...]:
+        """Everything but the layout, comparable."""
+        if self.given is None or self.cls is None:
+            return (self.name, *(token[:2] for token in self.tokens))
+        return (
+            self.name,
+            self.cls.keyword,
+            *((each.word, bool(each.closed), *self._values(each)) for each in self.given),
+        )
+
+    def tokens_say(self, other: Written) -> bool:
+        """Whether this is read as another statement is, of which perhaps only tokens are known."""
+        if other.given is None:
+            words = [token[:2] for token in self.tokens], [token[:2] for token in other.tokens]
+            return self.name == other.name and words[0] == words[1]
+        return self.meaning() == other.meaning()
+
+    def _values(self, given: Given) -> list[object]:
+        if given.argument and not given.key:
+            return []
+        if given.is_text:
+            return [self.source[v[0][2] : end_of(v[-1])] for v in given.values]
+        return [
+            [(kind, text.upper() if kind == "NAME" else text) for kind, text, _ in value]
+            for value in given.values
+        ]
+
+
+def head_end(text: str, place: str) -> int:
+    """Where the title of a deck ends, or the names at the top of a command file."""
+    reading = Reading(Source(text), Names(), place)
+    return reading.names_on_top() if place == "command" else reading.title()[1]
+
+
+def outline(text: str, place: str) -> Iterator[Written]:
+    """The statements of a deck or of a command file, up to the END."""
+    table = known_keywords(place)
+    stretches = scan(text, head_end(text, place))
+    for logical in join(stretches, ampersand=place == "command"):
+        written = Written(logical.tokens, logical.name, source=text)
+        syntax, mistakes = statement_syntax(logical)
+        if syntax and not mistakes:
+            found = match(PREFERRED.get(syntax.keyword, syntax.keyword), table)
+            if isinstance(found, type):
+                written.cls = found
+                written.given = _given(found, syntax, text)
+                if len(logical.tokens) == 1:
+                    written.given = [] if found.ends else None
+        yield written
+        if written.cls and written.cls.ends:
+            return
+
+
+def _given(cls: type[Statement], syntax: Syntax, text: str) -> list[Given] | None:
+    """The arguments of a statement; None where some are not understood, or not read."""
+    if cls.ignored:
+        return None
+    items, found, tokens = syntax.items, list[Given](), syntax.tokens
+    if not cls.singleton:
+        if not items or items[0].key >= 0:
+            return None
+        found = [Given(None, None, "", [tokens[items[0].start : items[0].end]], [])]
+        items = items[1:]
+    log = Log(Source(text))
+    grouping = Grouping(cls, syntax, log)
+    for item in items:
+        flag = grouping.take(item)
+        if log.errors or not (flag or grouping.current):
+            return None
+        value = tokens[item.start : item.end]
+        if flag or item.key >= 0:
+            found.append(_opened(grouping, item, flag))
+        if found[-1].kind in ("expression", "text") and found[-1].values:
+            found[-1].values[0].extend(value)
+        elif not flag:
+            found[-1].values.append(value)
+        found[-1].closed[:] = [True] * item.closed
+    return found
+
+
+def _opened(grouping: Grouping, item: Item, flag: bool) -> Given:
+    """The argument that an item begins, with its keyword in full, still without values."""
+    token = grouping.tokens[item.start if flag else item.key]
+    word = spelled(token[1]).upper()
+    if flag:
+        meaning = grouping.words.flag(token[1])
+        assert meaning and not isinstance(meaning, Ambiguous)
+        return Given(meaning[0], None, max(word, meaning[1], key=len), [[token]], [])
+    assert grouping.current
+    argument = grouping.current.argument
+    longer = [key for key in argument.keys if key.startswith(word)]
+    return Given(argument, token, longer[0] if longer else word, [], [])
