@@ -7,7 +7,8 @@ from math import pi
 import pytest
 from scenes import GROUND, run
 
-from adamslite import Outcome
+from adamslite import Outcome, read, simulate
+from adamslite.reading.read import read_commands
 
 INTEGRATORS = ("GSTIFF", "RADAU", "HHT", "ABAM")
 SLIDER = "PART/2, MASS=2, CM=2, IP=1,1,1{speeds}\nMARKER/2, PART=2\nJOINT/1, {joint}\n{motion}\n"
@@ -137,3 +138,26 @@ def test_a_constraint_without_a_value_at_the_start_is_named(rule):
     results = run(deck, 0.1, 1)
     assert results.outcome is Outcome.NOT_FINITE
     assert results.message.startswith("GCON/1 (<text>:7:1), FUNCTION, has no value at the start.")
+
+
+@pytest.mark.parametrize(
+    ("change", "name", "value"),
+    [
+        ("DIFF/1, IC=3", "DIFF/1", 3.0),
+        ("POINT_MASS/2, QG=0,0,-2", "POINT_MASS/2.z", -2.0),
+        ("POINT_MASS/2, VX=4", "POINT_MASS/2.vx", 4.0),
+        ("DEACTIVATE/JPRIM, ID=1", "POINT_MASS/2.y", 0.5),
+    ],
+)
+def test_commands_before_the_first_analysis_change_the_start(
+    change: str, name: str, value: float
+) -> None:
+    """A mass that JPRIM/1 moves from y = 0.5 onto the x axis of ground, unless it is off."""
+    deck = read(
+        GROUND + "POINT_MASS/2, MASS=1, CM=2, QG=0,0.5,0\nMARKER/2, POINT_MASS=2\n"
+        "JPRIM/1, INPLANE, I=2, J=4\n"
+        "MARKER/4, PART=1, REULER=0,90D,0\nDIFF/1, IC=1, FUNCTION=0\nEND\n"
+    )
+    commands = read_commands(f"{change}\nSIMULATE/DYNAMIC, END=1E-3, STEPS=1\n", deck)
+    assert not commands.warnings
+    assert simulate(deck, commands=commands)[name][0] == pytest.approx(value)

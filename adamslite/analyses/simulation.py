@@ -19,7 +19,8 @@ from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
 from adamslite.analyses.subject import Subject, deck_of
 from adamslite.deck.deck import Deck
-from adamslite.deck.redefinition import Command
+from adamslite.deck.element_switch import Switch
+from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.marker import Marker
 from adamslite.elements.simulate import Simulate
 from adamslite.elements.units import Units
@@ -106,7 +107,7 @@ def simulate(
     plan = _plan(deck_of(scene), commands, end, steps)
     files = files or SavedFiles()
     session = Session(scene, progress, flags, left_off(no_reduction), audit, files)
-    first = next((k for k, c in enumerate(plan) if c.keyword not in SETTINGS), len(plan))
+    first = next((k for k, c in enumerate(plan) if not _sets_up(c)), len(plan))
     session.execute(plan[:first])
     session.prepare()
     ready = clock.process_time()
@@ -121,6 +122,11 @@ def simulate(
         no_reduction=no_reduction, files=files.to_read,
     )  # fmt: skip
     return _confirmed(results, session, again)
+
+
+def _sets_up(command: Command) -> bool:
+    """Whether a command before the first analysis changes what that starts from."""
+    return isinstance(command, Redefinition | Switch) or command.keyword in SETTINGS
 
 
 def _confirmed(results: Results, session: Session, again: Callable[..., Results]) -> Results:

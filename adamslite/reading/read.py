@@ -129,7 +129,7 @@ def _caused(deck: Deck, commands: Iterable[Command]) -> list[Diagnostic]:
         elif unchecked and (command is None or command.keyword in ANALYSES):
             found |= dict.fromkeys(each for each in apply(RULES, deck) if each not in known)
             unchecked = False
-        started = started or getattr(command, "keyword", "") == "SIMULATE"
+        started = started or getattr(command, "keyword", "") in ANALYSES
     return list(found)
 
 
