@@ -127,11 +127,11 @@ def test_a_joint_that_starts_apart_is_reported_with_its_size(
 
 
 def test_digits_of_numbers_are_no_gap() -> None:
-    """A hinge at 1/3, written with seven digits; a turn by 0.0005 degrees."""
+    """A hinge at 1/3, written with seven digits; a turn by 0.005 degrees."""
     assert not told(
         "title\nPART/1, GROUND\nMARKER/1, PART=1\n"
         "PART/2, MASS=1, CM=3, IP=1,1,1, QG=0.3333333,0,0\n"
-        "MARKER/2, PART=2, QP=-0.3333332,0,0, REULER=0,0.0005D,0\n"
+        "MARKER/2, PART=2, QP=-0.3333332,0,0, REULER=0,0.005D,0\n"
         "MARKER/3, PART=2\nJOINT/7, REVOLUTE, I=2, J=1\nEND\n"
     )
 

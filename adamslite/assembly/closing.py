@@ -44,6 +44,11 @@ class Closing:
 def close(model: Model, constraints: Sequence[Constraint], start: Posture) -> Closing:
     """The posture nearest to ``start`` in which the holonomic ones of some constraints hold."""
     kept = [each for each in constraints if not each.is_rate(model)]
+    with np.errstate(all="ignore"):  # what has no value stays so
+        return _closed(model, kept, start)
+
+
+def _closed(model: Model, kept: Sequence[Constraint], start: Posture) -> Closing:
     scale = 1.0 / coordinate_weights(model).ravel()
     size = max(1.0, float(np.abs(start.x).max(initial=0.0)))
     at, g = start, _all_values(model, start, kept)
@@ -51,15 +56,15 @@ def close(model: Model, constraints: Sequence[Constraint], start: Posture) -> Cl
         if not np.isfinite(g).all() or np.abs(g).max(initial=0.0) <= CLOSED * size:
             break
         _, rows = gradient(model, at, kept)
-        if not np.isfinite(rows).all():
+        step = _least_change(rows * scale, g)
+        if not np.isfinite(step).all():
             break
-        step = _least_change(rows * scale, g) * scale
-        found = _damped(model, kept, at, step, g)
+        found = _damped(model, kept, at, step * scale, g)
         if found is None:
             break
         at, g = found
     edges = np.cumsum([each.n_rows for each in kept])[:-1]
-    gaps = [part for part in np.split(g, edges)] if kept else []
+    gaps = np.split(g, edges) if kept else []
     off = float(np.abs(g).max(initial=0.0))
     return Closing(at, gaps, bool(off <= OPEN * size))
 
@@ -69,10 +74,13 @@ def _all_values(model: Model, at: Posture, constraints: Sequence[Constraint]) ->
 
 
 def _least_change(rows: np.ndarray, g: np.ndarray) -> np.ndarray:
-    """The smallest step that removes ``g`` to first order."""
+    """The smallest step that removes ``g`` to first order; not a number where there is none."""
     square = rows @ rows.T
-    square[np.diag_indices_from(square)] += SHARED * float(np.diag(square).max()) + 1e-300
-    return rows.T @ np.linalg.solve(square, g)
+    square[np.diag_indices_from(square)] += SHARED * float(np.diag(square).max())
+    try:
+        return rows.T @ np.linalg.solve(square, g)
+    except np.linalg.LinAlgError:
+        return np.full(rows.shape[1], np.nan)
 
 
 def _damped(

@@ -42,10 +42,11 @@ def redundant_rows(deck: Deck) -> list[str]:
         return []
     started, closing = closing_of(deck)
     model = Model(deck) if len(started.deck.own) > len(deck.own) else started
-    _, rows = gradient(model, closing.posture, model.constraints)
-    if not np.isfinite(rows).all():
+    with np.errstate(all="ignore"):  # numbers that are too large
+        _, rows = gradient(model, closing.posture, model.constraints)
+        scaled = unit_rows(rows / coordinate_weights(model).ravel())
+    if not np.isfinite(scaled).all():
         return []
-    scaled = unit_rows(rows / coordinate_weights(model).ravel())
     return [name_of_row(model.constraints, row) for row in dependent_rows(scaled)]
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:  # decks without constraints do without numpy
     from adamslite.model.model import Model
 
 # Gaps below this share of the size of a model, and angles below this, are digits of numbers.
-APART, ASKEW_DEGREES = 1e-5, 1e-3
+APART, ASKEW_DEGREES = 1e-5, 1e-2
 LENGTHS = {*TOGETHER, *ON_LINE, "offset along z_J"}
 
 

@@ -21,6 +21,7 @@ from adamslite.checks.bodies_and_elements import (
     wrenches_on_points,
 )
 from adamslite.checks.constraints import CONSTRAINT_RULES
+from adamslite.checks.dimensions import DIMENSION_RULES
 from adamslite.checks.effective_mass import effective_masses
 from adamslite.checks.equations import unformed_equations
 from adamslite.checks.inert import (
@@ -30,6 +31,7 @@ from adamslite.checks.inert import (
     passed_over,
 )
 from adamslite.checks.linear_systems import SYSTEM_RULES
+from adamslite.checks.lints import LINT_RULES
 from adamslite.checks.markers import (
     floating_alone,
     floating_unused,
@@ -103,4 +105,6 @@ ADVICE: list[Rule] = [
     unformed_equations,
     starts_apart,
     stays_open,
+    *LINT_RULES,
+    *DIMENSION_RULES,
 ]

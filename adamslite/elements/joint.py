@@ -190,8 +190,9 @@ class Joint(Constraint, Statement):
         on_line = [dot(together, xj), dot(together, yj)]
         parallel = [dot(zi, xj), dot(zi, yj)]
         same_turn = [dot(xi, yj)]
+        if self.kind == "CONVEL":
+            return [*together, equal_speed(scope, i, j, bool(self.opposed))]
         return {
-            "CONVEL": [*together, equal_speed(scope, i, j, bool(self.opposed))],
             "CYLINDRICAL": on_line + parallel,
             "FIXED": [*together, *parallel, *same_turn],
             "HOOKE": [*together, *same_turn],

@@ -1,0 +1,162 @@
+"""Rules about what is legal and probably not meant; they run in :func:`check` only."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from math import degrees, hypot, isfinite, pi
+
+from adamslite.checks.markers import references
+from adamslite.checks.rule import Rule, needs
+from adamslite.deck.deck import Deck
+from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.elements.accgrav import Accgrav
+from adamslite.elements.gcon import Gcon
+from adamslite.elements.marker import Marker
+from adamslite.elements.motion import Motion
+from adamslite.elements.part import Part
+from adamslite.elements.point_mass import PointMass
+from adamslite.elements.units import Units
+from adamslite.elements.variable import Variable
+from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.expression import Call, Mode, Node, Ref, Time, calls, walk
+from adamslite.language.function import FUNCTIONS
+from adamslite.language.interfaces import Key
+from adamslite.language.statement import Statement, expressions
+from adamslite.language.units import G0, INCH, LENGTH, TIME
+
+# What is written as a plain number, without D for degrees.
+PLAIN = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([EeDd][-+]?\d+)?")
+# Of a full turn, and of the value of gravity.
+ROUNDED, ALIKE = 1e-9, 0.005
+# Metres in the units of length in which gravity is commonly written, and seconds.
+LENGTHS = (1.0, 1e-2, 1e-3, 1e3, INCH, 12 * INCH)
+TIMES = (1.0, 1e-3)
+MOST_LISTED = 6
+INTEGER = re.compile(r"\b\d{1,18}\b")
+
+
+# ---- numbers -----------------------------------------------------------------------------------
+
+
+def angles_in_degrees(deck: Deck) -> Iterator[Diagnostic]:
+    """Angles above a full turn that are written without D."""
+    for each in (*deck.of(Part), *deck.of(PointMass), *deck.of(Marker)):
+        if not each.given("reuler") or max(map(abs, each.reuler)) <= 2 * pi * (1 + ROUNDED):
+            continue
+        written = each.spans.home("reuler").text("reuler").partition("=")[2].strip("() \t")
+        for value, text in zip(each.reuler, written.split(","), strict=False):
+            if abs(value) > 2 * pi * (1 + ROUNDED) and PLAIN.fullmatch(text.strip()):
+                turns, text = f"{degrees(value):.4g}", text.strip()
+                yield diagnose(each, "angle-in-radians", "reuler", text=text, turns=turns)
+                break
+
+
+def gravity_in_other_units(deck: Deck) -> Iterator[Diagnostic]:
+    """Gravity that has the value of the earth's in other units than those of the deck."""
+    names = deck.single(Units).names
+    size = hypot(*deck.gravity)
+    if names is None or not size or not isfinite(size):
+        return
+    length, time = LENGTH[names[2]], TIME[names[3]]
+    here = G0 * time**2 / length
+    if _alike(size, here) or not any(_alike(size, G0 * t**2 / m) for m in LENGTHS for t in TIMES):
+        return
+    for each in deck.of(Accgrav):
+        unit = f"{names[2].lower()}/{names[3].lower()}^2"
+        yield diagnose(each, "gravity-units", size=f"{size:.6g}", unit=unit, here=f"{here:.6g}")
+
+
+def _alike(value: float, gravity: float) -> bool:
+    return abs(value / gravity - 1.0) < ALIKE
+
+
+# ---- what nothing uses -------------------------------------------------------------------------
+
+
+@needs("MARKER", "PART", "POINT_MASS")
+def unused(deck: Deck) -> Iterator[Diagnostic]:
+    """Markers and constants to which no statement refers.
+
+    A marker at the origin of its body may be there as its frame, a VARIABLE that changes in order
+    to be written.
+    """
+    markers = [each for each in deck.of(Marker) if _is_placed(each)]
+    constants = [each for each in deck.of(Variable) if _is_constant(each)]
+    if not (markers or constants):
+        return
+    used = set(_used(deck))
+    idle: list[Statement] = [m for m in markers if ("MARKER", m.key) not in used]
+    idle += [v for v in constants if ("VARIABLE", v.key) not in used]
+    if idle:
+        listed = ", ".join(each.label for each in idle[:MOST_LISTED])
+        more = f" and {len(idle) - MOST_LISTED} more" if len(idle) > MOST_LISTED else ""
+        yield diagnose(idle[0], "unused", listed=listed + more)
+
+
+def _is_placed(marker: Marker) -> bool:
+    return not marker.floating and any(map(marker.given, ("qp", "reuler", "zp", "xp")))
+
+
+def _is_constant(variable: Variable) -> bool:
+    """Whether the deck gives it a number; what a routine gives is meant to be written."""
+    if any(isinstance(each, Call | Time | Mode) for each in walk(variable.function)):
+        return False
+    return "USER" not in variable.spans.home("function").text("function").upper()
+
+
+def _used(deck: Deck) -> Iterator[tuple[str, Key]]:
+    """Keyword and id of the markers and variables to which statements refer."""
+    for statement in deck.statements:
+        for _, key in references(statement):
+            yield "MARKER", key
+        for node in expressions(statement):
+            yield from ((r.kind, r.id) for r in walk(node) if isinstance(r, Ref))
+        for field, argument in statement.arguments.items():
+            if argument.to == "VARIABLE":
+                value = getattr(statement, field)
+                yield from (("VARIABLE", key) for key in _several(value))
+        if statement.inert:  # its text alone is kept, and may name any of them
+            for number in INTEGER.findall(getattr(statement, "written", "")):
+                yield "MARKER", int(number)
+                yield "VARIABLE", int(number)
+
+
+def _several(value: Key | Sequence[Key] | None) -> Sequence[Key]:
+    if value is None:
+        return ()
+    return value if isinstance(value, tuple) else (value,)
+
+
+# ---- motions that jump -------------------------------------------------------------------------
+
+# Least derivative of FUNCTION that has to be continuous so that velocities are.
+SMOOTH = {"DISPLACEMENT": 1, "VELOCITY": 0, "ACCELERATION": -1}
+
+
+def kinks(deck: Deck) -> Iterator[Diagnostic]:
+    """Functions with corners in what a constraint prescribes: velocities jump there."""
+    held: list[Motion | Gcon] = [*deck.of(Motion), *deck.of(Gcon)]
+    for each in held:
+        least = SMOOTH[each.level] if isinstance(each, Motion) else SMOOTH["DISPLACEMENT"]
+        found = _kink(deck, each.function, least, ())
+        if found:
+            yield diagnose(each, "kink", "function", word=found)
+
+
+def _kink(deck: Deck, node: Node, least: int, inside: tuple[Key, ...]) -> str:
+    """The function with a corner, its own or that of a VARIABLE; empty where there is none."""
+    for call in calls(node):
+        function = FUNCTIONS[call.name]
+        if not function.smooth and (function.order or 0) < least:
+            return call.name
+        for ref in call.args:
+            if isinstance(ref, Ref) and ref.kind == "VARIABLE" and ref.id not in inside:
+                variable = deck.find(Variable, ref.id)
+                found = variable and _kink(deck, variable.function, least, (*inside, ref.id))
+                if found:
+                    return found
+    return ""
+
+
+LINT_RULES: list[Rule] = [angles_in_degrees, gravity_in_other_units, unused, kinks]
