@@ -11,7 +11,7 @@ import pytest
 
 import adamslite
 from adamslite.deck.user_bindings import Bindings
-from adamslite.language.diagnostics import Diagnostic, Span
+from adamslite.language.diagnostics import Diagnostic, Source, Span
 from adamslite.reading.read import Commands
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
@@ -76,6 +76,13 @@ ERROR = Diagnostic("E1", "error", "there is no MARKER/7", Span("cable.adm", 2, 4
 @dataclass(frozen=True)
 class FakeDeck:
     statements: tuple[Any, ...]
+    source: Source = Source("")
+
+    @property
+    def own(self) -> tuple[Any, ...]:
+        """All statements."""
+        return self.statements
+
     user: Bindings = field(default_factory=Bindings)
 
     def is_active(self, statement: Any) -> bool:

@@ -17,11 +17,12 @@ from adamslite.language.messages.formats import as_gcc, as_json, as_sarif
 DECK = """\
 two springs too many
 PART/1, GROUND
-MARKER/1, PART=1
+MARKER/1, PART=1, QP=1,0,0
 PART/2, MASS=1, CM=2
 MARKER/2, PART=2
 SFORCE/1, I=2, J=1, TRANSLATION, FUNCTION=1+INVPSD(1, 0)
 SFORCE/2, I=2, J=1, TRANSLATION, FUNCTION=INVPSD(2, 0)
+SIMULATE/DYNAMICS, DURATION=1, STEPS=1
 END
 """
 HEALTHY = DECK.replace("1+INVPSD(1, 0)", "1").replace("INVPSD(2, 0)", "2")
@@ -80,7 +81,7 @@ def test_a_note_of_what_is_passed_over_has_its_places(check) -> None:
     code, out = check("json", text)
     (note,) = json.loads(out)
     assert code == 0 and (note["code"], note["severity"]) == ("passed-over", "note")
-    assert [(place["line"], place["column"]) for place in note["places"]] == [(8, 1), (9, 1)]
+    assert [(place["line"], place["column"]) for place in note["places"]] == [(9, 1), (10, 1)]
 
 
 def test_sarif_has_rules_and_regions(check) -> None:

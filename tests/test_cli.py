@@ -195,7 +195,8 @@ def test_check_tells_warnings_and_contents(pipeline, capsys) -> None:
     assert out.startswith("cable.adm:3:1: warning:")
     assert "cable.adm: 1 warning\n  3 statements: 2 PART, 1 SIMULATE\n" in out
     joint = Joint(id=1, kind="REVOLUTE", i=1, j=2)
-    pipeline.statements = (Part(id=1, ground=True), Part(id=2), joint)
+
+    pipeline.statements = (Part(id=1, ground=True), Part(id=2), joint, SIMULATE)
     assert main(["check", "cable.adm"]) == 0
     out = capsys.readouterr().out
     assert "  1 degree of freedom: 1 moving part, 0 point masses, 5 constraint rows\n" in out

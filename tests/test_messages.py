@@ -12,8 +12,16 @@ from hypothesis import strategies as st
 from adamslite.language.diagnostics import DeckError
 from adamslite.language.messages import MESSAGES, START
 from adamslite.reading.read import read, read_commands
+from adamslite.scene import load_scene, with_missing_run
 
-BROKEN = [(code, deck) for code, message in MESSAGES.items() for deck in message.broken]
+WHOLE = ("no-run",)
+"""What is known only when deck and commands have been read."""
+BROKEN = [
+    (code, deck)
+    for code, message in MESSAGES.items()
+    for deck in message.broken
+    if code not in WHOLE
+]
 USER = {
     (code, deck): [option]
     for code, message in MESSAGES.items()
@@ -49,6 +57,21 @@ def test_a_broken_command_file_yields_its_message_only(code: str, broken: str) -
     except DeckError as error:
         found = error.diagnostics
     assert {diagnostic.code for diagnostic in found} == {code}
+
+
+@pytest.mark.parametrize("code", WHOLE)
+def test_a_broken_scene_yields_its_message_only(code: str, tmp_path: Path) -> None:
+    path, commands = tmp_path / "deck.adm", tmp_path / "deck.acf"
+    for broken in MESSAGES[code].broken:
+        path.write_text(whole(code, broken))
+        assert {diagnostic.code for diagnostic in with_missing_run(load_scene(path)).warnings} == {
+            code
+        }
+        path.write_text(whole(code, broken + f" ! adamslite: ignore {code}"))
+        assert with_missing_run(load_scene(path)).warnings == ()
+        path.write_text(whole(code, broken))
+        commands.write_text("SIMULATE/DYNAMICS, END=1, STEPS=1\n")
+        assert with_missing_run(load_scene(path)).warnings == ()
 
 
 @pytest.mark.parametrize("code", MESSAGES)

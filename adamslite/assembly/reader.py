@@ -73,6 +73,10 @@ class NumberReader(NumberScope):
     def _call(self, call: Call) -> Number:
         if call.name in NET:
             raise Unmeasured
+        return FUNCTIONS[call.name].body(self, *self.arguments(call))  # type: ignore[arg-type]
+
+    def arguments(self, call: Call) -> list[Any]:
+        """What the body of a function gets: frames, references, whole numbers, values."""
         function = FUNCTIONS[call.name]
         args: list[Any] = []
         for number, arg in enumerate(call.args):
@@ -83,7 +87,7 @@ class NumberReader(NumberScope):
                 args.append(int(arg.value))
             else:
                 args.append(self.value(arg))
-        return function.body(self, *args)  # type: ignore[arg-type]
+        return args
 
     def statement(self, id: Ref) -> Any:
         """What functions measure of a VARIABLE, DIFF, SENSOR or SPLINE."""

@@ -87,6 +87,7 @@ class NumberScope:
         self.bodies: list[int] = []
         """Bodies that were met, in the order of their columns."""
         self.width = WIDTH * room
+        self.now = 0.0
         self._points: dict[Frame, tuple[np.ndarray, Any, np.ndarray, Any]] = {}
 
     # what markers measure
@@ -202,12 +203,12 @@ class NumberScope:
 
     @property
     def time(self) -> Dual:
-        """The start."""
+        """The start, or the time that is set."""
         if not (self.slopes and self.rates):
-            return Dual(0.0)
+            return Dual(self.now)
         slope = np.zeros(2 * self.width + 1)
         slope[-1] = 1.0
-        return Dual(0.0, slope)
+        return Dual(self.now, slope)
 
     @property
     def mode(self) -> Dual:

@@ -7,9 +7,9 @@ from functools import lru_cache
 import numpy as np
 
 from adamslite.assembly.closing import Closing, close
-from adamslite.assembly.rank import dependent_rows, name_of_row, unit_rows
+from adamslite.assembly.rank import RANK, dependent_rows, name_of_row, unit_rows
 from adamslite.assembly.rows import gradient
-from adamslite.assembly.scope import Posture
+from adamslite.assembly.scope import WIDTH, Posture
 from adamslite.assembly.start_conditions import conditions
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
@@ -18,7 +18,8 @@ from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
 from adamslite.elements.motion import Motion
 from adamslite.language.interfaces import Key
-from adamslite.model.model import Model
+from adamslite.model.model import POINT, Model
+from adamslite.model.model import Body as ModelBody
 from adamslite.model.scaling import coordinate_weights
 
 GROUND = ("PART", "GROUND")
@@ -106,3 +107,28 @@ def worst_gap(model: Model, closing: Closing) -> tuple[Constraint, str, float, l
     involved = (each.label for each, size in zip(kept, worst, strict=True)
                 if size > INVOLVED * worst[at] and each is not kept[at])  # fmt: skip
     return kept[at], kept[at].row_names[row], worst[at], list(involved)
+
+
+def loose_bodies(model: Model, posture: Posture) -> set[int]:
+    """Bodies without mass that take part in a motion in which nothing else moves.
+
+    Such motions are the null space of the constraint rows, of the columns of these bodies alone.
+    """
+    columns = [c for b, body in enumerate(model.bodies) for c in _weightless(b, body)]
+    _, rows = gradient(model, posture, model.constraints)
+    scaled = unit_rows(rows)[:, columns]
+    if not columns or not np.isfinite(scaled).all():
+        return set()
+    full = np.zeros((max(len(scaled), len(columns)), len(columns)))
+    full[: len(scaled)] = scaled
+    _, sizes, motions = np.linalg.svd(full)
+    free = np.abs(motions[sizes <= RANK]).max(axis=0, initial=0.0)
+    return {columns[k] // WIDTH for k in np.flatnonzero(free > INVOLVED)}
+
+
+def _weightless(number: int, body: ModelBody) -> range:
+    """The columns of coordinates that move nothing that has mass."""
+    if body.mass or body.width == POINT:
+        return range(0)
+    first = WIDTH * number
+    return range(first, first + (3 if body.inertia.any() else WIDTH))

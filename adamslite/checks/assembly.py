@@ -9,11 +9,15 @@ from collections.abc import Iterator
 from math import asin, atan2, degrees, hypot
 from typing import TYPE_CHECKING
 
+from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.bases.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
 from adamslite.elements.joint import Joint
 from adamslite.elements.jprim import Jprim
+from adamslite.elements.part import Part
+from adamslite.elements.sforce import Sforce
+from adamslite.elements.springdamper import Springdamper
 from adamslite.elements.units import Units
 from adamslite.language.diagnostics import Diagnostic
 
@@ -24,6 +28,8 @@ if TYPE_CHECKING:  # decks without constraints do without numpy
 
 # Gaps below this share of the size of a model, and angles below this, are digits of numbers.
 APART, ASKEW_DEGREES = 1e-5, 1e-2
+# Distances below this share of the size of a model are none.
+ROUND_OFF = 1e-12
 LENGTHS = {*TOGETHER, *ON_LINE, "offset along z_J"}
 
 
@@ -99,3 +105,42 @@ def stays_open(deck: Deck) -> Iterator[Diagnostic]:
     statement, row, size, others = worst
     also = f": it contradicts {', '.join(others)}" if others else ""
     yield diagnose(statement, "stays-open", row=row, size=f"{size:.4g}", also=also)
+
+
+def ends_coincide(deck: Deck) -> Iterator[Diagnostic]:
+    """Forces along a line whose ends start in the same place."""
+    found: list[Sforce | Springdamper] = [*deck.of(Sforce), *deck.of(Springdamper)]
+    forces = [
+        each
+        for each in found
+        if each.kind == "TRANSLATIONAL" and deck.is_active(each) and each.i != each.j
+        if not (isinstance(each, Sforce) and each.actiononly)
+    ]
+    if not forces:
+        return
+    from adamslite.assembly.scope import NumberScope
+    from adamslite.assembly.start import closing_of, size_of
+
+    model, closing = closing_of(deck)
+    least = ROUND_OFF * size_of(model)
+    for each in forces:
+        reach = NumberScope(model, closing.posture, False).position(each.i, each.j)
+        if hypot(*(component.value for component in reach)) <= least:
+            yield diagnose(each, "ends-coincide", "i", i=each.i, j=each.j)
+
+
+def massless_freedoms(deck: Deck) -> Iterator[Diagnostic]:
+    """Parts without mass that can move while everything that has mass stays."""
+    parts = [each for each in deck.of(Part) if not (each.ground or each.mass)]
+    if not parts:
+        return
+    from adamslite.assembly.start import closing_of, loose_bodies
+
+    model, closing = closing_of(deck)
+    loose = loose_bodies(model, closing.posture)
+    for part in parts:
+        if model.body_index[part.keyword, part.key] in loose:
+            yield diagnose(part, "massless")
+
+
+ASSEMBLY_RULES: list[Rule] = [starts_apart, stays_open, ends_coincide, massless_freedoms]

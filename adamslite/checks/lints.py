@@ -16,6 +16,7 @@ from adamslite.elements.marker import Marker
 from adamslite.elements.motion import Motion
 from adamslite.elements.part import Part
 from adamslite.elements.point_mass import PointMass
+from adamslite.elements.simulate import Simulate
 from adamslite.elements.units import Units
 from adamslite.elements.variable import Variable
 from adamslite.language.diagnostics import Diagnostic
@@ -41,7 +42,9 @@ INTEGER = re.compile(r"\b\d{1,18}\b")
 
 def angles_in_degrees(deck: Deck) -> Iterator[Diagnostic]:
     """Angles above a full turn that are written without D."""
-    for each in (*deck.of(Part), *deck.of(PointMass), *deck.of(Marker)):
+    placed: list[Part | PointMass | Marker]
+    placed = [*deck.of(Part), *deck.of(PointMass), *deck.of(Marker)]
+    for each in placed:
         if not each.given("reuler") or max(map(abs, each.reuler)) <= 2 * pi * (1 + ROUNDED):
             continue
         written = each.spans.home("reuler").text("reuler").partition("=")[2].strip("() \t")
@@ -137,26 +140,35 @@ SMOOTH = {"DISPLACEMENT": 1, "VELOCITY": 0, "ACCELERATION": -1}
 def kinks(deck: Deck) -> Iterator[Diagnostic]:
     """Functions with corners in what a constraint prescribes: velocities jump there."""
     held: list[Motion | Gcon] = [*deck.of(Motion), *deck.of(Gcon)]
+    if not any(_may_jump(deck, each.function) for each in held):
+        return
+    from adamslite.assembly.corners import corner, suspects
+    from adamslite.model.model import Model
+
+    model, until = Model(deck), _end(deck)
     for each in held:
         least = SMOOTH[each.level] if isinstance(each, Motion) else SMOOTH["DISPLACEMENT"]
-        found = _kink(deck, each.function, least, ())
+        found = next((call.name for call in suspects(model, each.function, least)), "")
+        when = ""
+        if found and until and isinstance(each, Motion):
+            at = corner(model, each.function, least, until)
+            found, when = (at[0], f" at {at[1]:.4g}") if at else ("", "")
         if found:
-            yield diagnose(each, "kink", "function", word=found)
+            yield diagnose(each, "kink", "function", word=found, when=when)
 
 
-def _kink(deck: Deck, node: Node, least: int, inside: tuple[Key, ...]) -> str:
-    """The function with a corner, its own or that of a VARIABLE; empty where there is none."""
-    for call in calls(node):
-        function = FUNCTIONS[call.name]
-        if not function.smooth and (function.order or 0) < least:
-            return call.name
-        for ref in call.args:
-            if isinstance(ref, Ref) and ref.kind == "VARIABLE" and ref.id not in inside:
-                variable = deck.find(Variable, ref.id)
-                found = variable and _kink(deck, variable.function, least, (*inside, ref.id))
-                if found:
-                    return found
-    return ""
+def _may_jump(deck: Deck, node: Node) -> bool:
+    """Whether it has, or VARIABLEs may have, a function that is not smooth."""
+    return any(call.name == "VARVAL" or not FUNCTIONS[call.name].smooth for call in calls(node))
+
+
+def _end(deck: Deck) -> float:
+    """When the deck stops its last run; 0 where commands decide."""
+    time = 0.0
+    for each in deck.of(Simulate):
+        if each.end is not None or each.duration is not None:
+            time = max(time, each.until(time))
+    return time
 
 
 LINT_RULES: list[Rule] = [angles_in_degrees, gravity_in_other_units, unused, kinks]

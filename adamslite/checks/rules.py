@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from adamslite.checks.assembly import starts_apart, stays_open
+from adamslite.checks.assembly import ASSEMBLY_RULES
 from adamslite.checks.bodies_and_elements import (
     distinct_ends,
     frictions,
@@ -103,8 +103,7 @@ ADVICE: list[Rule] = [
     facing_markers,
     effective_masses,
     unformed_equations,
-    starts_apart,
-    stays_open,
+    *ASSEMBLY_RULES,
     *LINT_RULES,
     *DIMENSION_RULES,
 ]

@@ -8,8 +8,8 @@ from typing import Any
 
 from adamslite.checks.rule import Rule, positive
 from adamslite.checks.saves import SAVE_RULES
-from adamslite.deck.deck import Deck
-from adamslite.deck.redefinition import Redefinition
+from adamslite.deck.deck import ANALYSES, Deck
+from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.activate import Activate
 from adamslite.elements.deactivate import Deactivate
@@ -119,6 +119,13 @@ def _not_too_many(run: Simulate) -> Iterator[Diagnostic]:
     if count > MOST_STEPS:
         field = "dtout" if run.steps is None else "steps"
         yield diagnose(run, "too-many-steps", field, count=float(count), most=float(MOST_STEPS))
+
+
+def without_run(deck: Deck, commands: Iterable[Command]) -> Iterator[Diagnostic]:
+    """Whether neither deck nor commands say how long to run."""
+    everything = (*deck.own, *commands)
+    if everything and not any(each.keyword in ANALYSES for each in everything):
+        yield diagnose(deck.own[-1] if deck.own else everything[-1], "no-run")
 
 
 def late_start_values(command: Redefinition[Any]) -> Iterator[Diagnostic]:

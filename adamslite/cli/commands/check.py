@@ -42,10 +42,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Print what there is to say; return the exit code."""
     from adamslite.language.diagnostics import DeckError, render
-    from adamslite.scene import load_scene
+    from adamslite.scene import load_scene, with_missing_run
 
     try:
-        scene = load_scene(args.deck, args.commands, args.user)
+        scene = with_missing_run(load_scene(args.deck, args.commands, args.user))
     except DeckError as fault:
         if args.format != "text":
             return _data(args.format, fault.diagnostics, DECK_ERRORS)

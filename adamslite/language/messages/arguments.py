@@ -97,7 +97,7 @@ ARGUMENTS: dict[str, Message] = {
     "expression-not-closed": Message(
         "the expression before {word} does not end with a backslash",
         "write a backslash before the comma; ADAMS requires it between an expression and {word}",
-        ("SFORCE/1, FUNCTION=1, I=1, J=2",),
+        ("SFORCE/1, ROTATIONAL, FUNCTION=1, I=1, J=2",),
         severity=WARNING,
     ),
     "missing-reference": Message(

@@ -142,7 +142,8 @@ CONSTRAINTS: dict[str, Message] = {
             "DIFF/1, FUNCTION=TIME\nGCON/1, FUNCTION=DX(2)-DIF(1)",
             "VARIABLE/1, FUNCTION=VARVAL(1)/2+DX(2)\nGCON/1, FUNCTION=VARVAL(1)",
             "VARIABLE/1, FUNCTION=VARVAL(1)/2+TIME\nREQUEST/1, F1=VARVAL(d(1)/dt)",
-            "VARIABLE/1, FUNCTION=ACCX(2)\nSFORCE/1, I=2, J=1, FUNCTION=VARVAL(d(1)/dt)",
+            "VARIABLE/1, FUNCTION=ACCX(2)\n"
+            "SFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION=VARVAL(d(1)/dt)",
         ),
     ),
     "joint-friction": Message(
@@ -162,9 +163,9 @@ CONSTRAINTS: dict[str, Message] = {
         "{label} needs the force of {other}, which depends on itself",
         "measure it in a VARIABLE, which is solved for, or name the other forces one by one",
         (
-            "SFORCE/1, I=2, J=1, FUNCTION=-FM(2,1)/2",
-            "SFORCE/1, I=2, J=1, FUNCTION=SFORCE(2,0,1,0)/2\n"
-            "SFORCE/2, I=2, J=1, FUNCTION=SFORCE(1,0,1,0)/2",
+            "SFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION=-TM(2,1)/2",
+            "SFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION=SFORCE(2,0,1,0)/2\n"
+            "SFORCE/2, ROTATIONAL, I=2, J=1, FUNCTION=SFORCE(1,0,1,0)/2",
         ),
     ),
 }

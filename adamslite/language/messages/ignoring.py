@@ -16,6 +16,8 @@ from adamslite.language.messages import MESSAGES, compose, did_you_mean
 
 COMMENT = re.compile(r"adamslite:[ \t]*ignore\b([^\n]*)", re.IGNORECASE)
 CODES = re.compile(r"[ \t]*[\w-]+(?:[ \t]*,[ \t]*[\w-]+)*")
+# What is known only when deck and commands have been read.
+WHOLE = "no-run"
 CODE = re.compile(r"[\w-]+")
 
 
@@ -71,7 +73,7 @@ def judged(source: Source, diagnostics: Iterable[Diagnostic], complete: bool) ->
         entry = MESSAGES.get(each.code)
         if entry and entry.severity == ERROR:
             left.append(_about(source, each, "ignored-error"))
-        elif complete and (each.code, each.line) not in used:
+        elif complete and each.code != WHOLE and (each.code, each.line) not in used:
             hint = "" if entry else _meant(each.code)
             left.append(_about(source, each, "ignores-nothing", hint))
     return left

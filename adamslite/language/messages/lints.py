@@ -47,13 +47,14 @@ LINTS: dict[str, Message] = {
         severity=NOTE,
     ),
     "kink": Message(
-        "FUNCTION of {label} has a corner, by {word}, where velocities would jump",
+        "FUNCTION of {label} has a corner{when}, by {word}, where velocities jump",
         "STEP, STEP5 and HAVSIN join values smoothly",
         ("MOTION/1, I=2, J=1, X, FUNCTION=MAX(0,TIME-1)",
          "MOTION/1, I=2, J=1, X, FUNCTION=IF(TIME-1: 0, 0, 0.1*(TIME-1))",
          "MOTION/1, I=2, J=1, X, VELOCITY, FUNCTION=IF(TIME-1: 0, 0, 1)",
          "VARIABLE/1, FUNCTION=ABS(TIME-1)-1\nMOTION/1, I=2, J=1, X, FUNCTION=VARVAL(1)",
-         "GCON/1, FUNCTION=DX(2)-MIN(DY(2),1)"),
+         "GCON/1, FUNCTION=DX(2)-MIN(DY(2),1)",
+         "MOTION/1, I=2, J=1, X, FUNCTION=ABS(TIME-1)-1\nSIMULATE/DYNAMICS, END=2, STEPS=1"),
         severity=WARNING,
     ),
     "dimensions": Message(
@@ -66,5 +67,24 @@ LINTS: dict[str, Message] = {
          "VARIABLE/1, FUNCTION=IMPACT(DX(2,1),DX(2,1),1,1E5,1.5,10,0.1)",
          "VARIABLE/1, FUNCTION=DX(2)\nVARIABLE/2, FUNCTION=VARVAL(1)+VARVAL(d(1)/dt)"),
         severity=WARNING,
+    ),
+    "ends-coincide": Message(
+        "MARKER/{i} and MARKER/{j} of {label} start in the same place: the force has no direction",
+        "move one of them, or use ACTIONONLY, which acts along z of J, or a BUSHING",
+        ("MARKER/4, PART=1\nSFORCE/1, I=2, J=4, FUNCTION=1",
+         "SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=1, K=1, LENGTH=1"),
+        severity=WARNING,
+    ),
+    "massless": Message(
+        "{label} has no mass, and its constraints let it move on its own",
+        "its acceleration is not determined; give it a mass, or hold it by a further constraint",
+        ("PART/4\nMARKER/4, PART=4\nJOINT/1, REVOLUTE, I=2, J=4",),
+        severity=WARNING,
+    ),
+    "no-run": Message(
+        "nothing ends a run: neither the deck nor a command file has a SIMULATE",
+        "add SIMULATE/DYNAMICS, END=..., STEPS=..., or give `solve` --end and --steps",
+        ("REQUEST/1, F1=TIME",),
+        severity=NOTE,
     ),
 }  # fmt: skip

@@ -193,7 +193,7 @@ MODEL: dict[str, Message] = {
     "internal-force": Message(
         "I and J of {label} are on the same body",
         "both belong to {owner}, and the force cancels itself",
-        ("MARKER/4, PART=2\nSFORCE/1, I=2, J=4, FUNCTION=1",),
+        ("MARKER/4, PART=2, QP=1,0,0\nSFORCE/1, I=2, J=4, FUNCTION=1",),
         severity=WARNING,
     ),
     "torque-on-point": Message(
@@ -226,7 +226,8 @@ MODEL: dict[str, Message] = {
         "{reason}",
         ("JOINT/1, REVOLUTE, I=2, J=1, PITCH=1", "JOINT/1, SPHERICAL, I=2, J=1, IC=1",
          "MOTION/1, I=2, J=1, X, ICDISP=1, FUNCTION=TIME",
-         "SPRINGDAMPER/1, I=2, J=1, KT=1", "MARKER/4, PART=1, USEXP, XP=1,0,0, ZP=0,0,1\n"
+         "MARKER/4, PART=1, QP=1,0,0\nSPRINGDAMPER/1, I=2, J=4, KT=1",
+         "MARKER/4, PART=1, USEXP, XP=1,0,0, ZP=0,0,1\n"
          "SPRINGDAMPER/1, ROTATIONAL, I=2, J=4, K=1",
          "JOINT/1, SPHERICAL, I=2, J=1\nFRICTION/1, JOINT=1, MAX_STICTION_DEFORMATION=1",
          "DIFF/1, DYNAMIC_HOLD, FUNCTION=1",

@@ -1,0 +1,215 @@
+"""What is legal and probably not meant: each warning where it belongs, and nowhere else."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from decklets import codes, told
+
+from adamslite.language.messages import START
+from adamslite.resources import find
+from adamslite.scene import load_scene
+
+LINTS = {
+    "starts-apart", "stays-open", "angle-in-radians", "gravity-units", "kink", "dimensions",
+    "ends-coincide", "massless",
+}  # fmt: skip
+#: Drawn apart on purpose: their runs begin with the assembly.
+APART = {"four-bar", "one-stage", "three-stage", "rest"}
+DECKS = sorted(find("decks").rglob("*.adm"))
+
+
+@pytest.mark.parametrize("folder", sorted({path.parent for path in DECKS}), ids=lambda p: p.name)
+def test_no_reference_deck_has_one(folder: Path) -> None:
+    for path in folder.glob("*.adm"):
+        found = {each.code for each in load_scene(path).warnings} & LINTS
+        assert found == ({"starts-apart"} if path.stem in APART else set()), path
+
+
+def codes_of(statements: str) -> list[str]:
+    return [code for code in codes(statements) if code != "unused"]
+
+
+# ---- angles ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("angles", ["400D,0,0", "-720D,0,0", "6.28,0,0", "2*PI,0,0", "3*360D,0,0"])
+def test_angles_that_are_meant(angles: str) -> None:
+    assert codes_of(f"MARKER/4, PART=1, REULER={angles}") == []
+
+
+@pytest.mark.parametrize("angles", ["6.29,0,0", "0,0,-180", "90.0, 90D, 0", "0,(45),0"])
+def test_angles_above_a_full_turn_in_radians(angles: str) -> None:
+    expected = [] if "(" in angles else ["angle-in-radians"]  # brackets: a value that is computed
+    assert codes_of(f"MARKER/4, PART=1, REULER={angles}") == expected
+
+
+def test_the_angle_is_reported_in_degrees() -> None:
+    (one,) = told(START + "MARKER/4, PART=1, REULER=0,90,0\nREQUEST/1, F1=DX(4)\n")
+    assert one.message == "90 in REULER of MARKER/4 is in radians: 5157 degrees"
+
+
+# ---- gravity -----------------------------------------------------------------------------------
+
+MILLIMETRES = "UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=MILLIMETER, TIME=SECOND\n"
+
+
+@pytest.mark.parametrize(
+    "statements",
+    [
+        "ACCGRAV/JGRAV=-9806.65", "UNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81",
+        MILLIMETRES + "ACCGRAV/JGRAV=-9806.65", MILLIMETRES + "ACCGRAV/KGRAV=9810",
+        "UNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-1.62", "UNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-3.71",
+        "UNITS/SYSTEM=CGS\nACCGRAV/JGRAV=-981", "UNITS/SYSTEM=IPS\nACCGRAV/JGRAV=-386.09",
+        "UNITS/SYSTEM=FPS\nACCGRAV/JGRAV=-32.174", "UNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10",
+        "UNITS/SYSTEM=MKS\nACCGRAV/IGRAV=-6.937,JGRAV=-6.937", "UNITS/UCF=1\nACCGRAV/JGRAV=-9.81",
+        "UNITS/SYSTEM=MKS\nACCGRAV/JGRAV=0", MILLIMETRES + "ACCGRAV/JGRAV=-98.1",
+    ],
+)  # fmt: skip
+def test_gravity_that_fits_or_is_of_no_other_unit(statements: str) -> None:
+    assert codes_of(statements) == []
+
+
+def test_gravity_by_components_in_other_units() -> None:
+    found = told(START + MILLIMETRES + "ACCGRAV/IGRAV=-6.937, JGRAV=-6.937\n")
+    assert [each.code for each in found] == ["gravity-units"]
+    assert found[0].message.endswith("here it is 9806.65")
+
+
+# ---- corners -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        "STEP(TIME,0,0,1,1)", "HAVSIN(TIME,0,0,1,1)", "SIN(TIME)", "MAX(0,TIME-0.5)**2",
+        "IF(TIME-0.5: 0, 0, (TIME-0.5)**2)", "MAX(0,TIME-5)", "0*ABS(TIME-0.5)",
+        "IF(TIME-0.5: TIME, 0.5, TIME)", "SQRT(ABS(TIME-0.5)+1)*0+TIME", "MAX(TIME,-1)",
+    ],
+)  # fmt: skip
+def test_motions_without_corners_within_the_run(function: str) -> None:
+    run = "SIMULATE/DYNAMICS, END=2, STEPS=1"
+    assert codes_of(f"MOTION/1, I=2, J=1, X, FUNCTION={function}\n{run}") == []
+
+
+@pytest.mark.parametrize(
+    ("level", "function", "expected"),
+    [
+        ("", "MAX(0,TIME-0.5)", ["kink"]), ("", "IF(TIME-1: 0, 0, 1)", ["kink"]),
+        ("", "ABS(SIN(3*TIME))", ["kink"]), ("", "MIN(TIME**2,1)", ["kink"]),
+        (", VELOCITY", "MAX(0,TIME-0.5)", []), (", VELOCITY", "IF(TIME-1: 0, 0, 1)", ["kink"]),
+        (", VELOCITY", "SIGN(1,TIME-1)", ["kink"]), (", ACCELERATION", "IF(TIME-1: 0, 0, 1)", []),
+    ],
+)  # fmt: skip
+def test_corners_count_where_velocities_jump(
+    level: str, function: str, expected: list[str]
+) -> None:
+    run = "SIMULATE/DYNAMICS, END=2, STEPS=1"
+    assert codes_of(f"MOTION/1, I=2, J=1, X{level}, FUNCTION={function}\n{run}") == expected
+
+
+def test_the_time_of_a_corner_is_reported() -> None:
+    found = told(
+        START + "VARIABLE/1, FUNCTION=MAX(0,TIME-0.75)\nMOTION/1, I=2, J=1, X, FUNCTION=VARVAL(1)\n"
+        "SIMULATE/DYNAMICS, END=2, STEPS=1\n"
+    )
+    assert [each.message for each in found] == [
+        "FUNCTION of MOTION/1 has a corner at 0.75, by MAX, where velocities jump"
+    ]
+
+
+# ---- dimensions --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        "200*DX(2,1)+VX(2,1)", "DX(2,1)+1*VX(2,1)", "DX(2,1)-DY(2,1)+0.5", "VX(2,1)+WZ(2)*DY(2,1)",
+        "DX(2,1)/TIME-VX(2,1)", "SQRT(DX(2,1)**2+DY(2,1)**2)-DM(2,1)", "SIN(TIME)+DX(2,1)",
+        "SIN(10*TIME)*DX(2,1)+DY(2,1)", "AZ(2,1)+ATAN2(DX(2,1),DY(2,1))", "FX(2)*DX(2)+TX(2)",
+        "STEP(TIME,0,0,1,1)*DX(2)+DY(2)", "IF(DX(2,1): VX(2,1), 0, VY(2,1))", "-1*DX(2,1)+TIME",
+        "IMPACT(DX(2,1),VX(2,1),1,1E5,1.5,10,0.1)", "DX(2)*DX(2)+DY(2)**2", "EXP(TIME)+DX(2)",
+        "MAX(DX(2,1),0)+DY(2,1)", "MOD(TIME,1)+TIME", "VM(2,1)**2+ACCX(2)*DX(2)",
+    ],
+)  # fmt: skip
+def test_expressions_that_may_be_meant(function: str) -> None:
+    force = "FUNCTION=1\nSFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION=1\n"
+    assert codes_of(f"VARIABLE/9, {force}VARIABLE/1, FUNCTION={function}") == []
+
+
+@pytest.mark.parametrize(
+    ("function", "first", "second"),
+    [
+        ("DX(2,1)+VX(2,1)", "DX(2, 1, 0), a length", "VX(2, 1, 0, 0), a velocity"),
+        ("DX(2,1)-TIME", "DX(2, 1, 0), a length", "TIME, a time"),
+        ("AZ(2,1)+WZ(2,1)", "AZ(2, 1), an angle", "WZ(2, 1, 0), an angular velocity"),
+        ("2+DX(2)**2-DM(2)", "2 + DX(2, 0, 0)**2, length^2", "DM(2, 0), a length"),
+        ("MAX(0,DX(2),VX(2))", "DX(2, 0, 0), a length", "VX(2, 0, 0, 0), a velocity"),
+        ("FX(2)+TX(2)", "FX(2, 0, 0), a force", "TX(2, 0, 0), a torque"),
+        ("SIN(DX(2)+TIME)", "DX(2, 0, 0), a length", "TIME, a time"),
+    ],
+)  # fmt: skip
+def test_contradictions_are_reported_with_both_sides(
+    function: str, first: str, second: str
+) -> None:
+    text = START + f"SFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION=1\nVARIABLE/1, FUNCTION={function}\n"
+    (one,) = told(text)
+    assert (one.code, one.severity) == ("dimensions", "warning")
+    assert f"combines {first}, and {second}, which" in one.message
+
+
+# ---- the rest ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "statements",
+    [
+        "MARKER/4, PART=1, QP=1,0,0\nSFORCE/1, I=2, J=4, FUNCTION=1",
+        "SFORCE/1, I=2, J=1, ACTIONONLY, FUNCTION=1", "SFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION=1",
+        "SPRINGDAMPER/1, ROTATIONAL, I=2, J=1, KT=1", "BUSHING/1, I=2, J=1, K=1,1,1",
+    ],
+)  # fmt: skip
+def test_forces_with_a_direction(statements: str) -> None:
+    assert codes_of(statements) == []
+
+
+def test_ends_that_a_start_condition_moves_apart() -> None:
+    """The slide starts at 0.2, though it is drawn at 0."""
+    deck = "JOINT/1, TRANSLATIONAL, I=2, J=1, IC=0.2\nSPRINGDAMPER/1, I=2, J=1, K=1, LENGTH=1"
+    assert codes_of(deck) == []
+
+
+@pytest.mark.parametrize(
+    "joints",
+    [
+        "JOINT/1, FIXED, I=2, J=4", "JOINT/1, REVOLUTE, I=2, J=4\nMOTION/1, JOINT=1, FUNCTION=TIME",
+        "JOINT/1, SPHERICAL, I=2, J=4\nJPRIM/1, ORIENTATION, I=4, J=1",
+    ],
+)  # fmt: skip
+def test_parts_without_mass_that_others_carry(joints: str) -> None:
+    assert "massless" not in codes_of(f"PART/4\nMARKER/4, PART=4\n{joints}")
+
+
+def test_a_part_without_mass_between_two_hinges() -> None:
+    """The cross of two hinges follows its neighbours; hung on one of them alone it turns freely."""
+    cross = (
+        "PART/4\nMARKER/4, PART=4\nMARKER/5, PART=4, REULER=90D,90D,0\n"
+        "PART/6, MASS=1, CM=6, IP=1,1,1\nMARKER/6, PART=6\nMARKER/7, PART=6, REULER=90D,90D,0\n"
+        "JOINT/1, REVOLUTE, I=4, J=2\n"
+    )
+    assert codes_of(cross) == ["massless"]
+    assert codes_of(cross + "JOINT/2, REVOLUTE, I=5, J=7") == []
+
+
+def test_what_is_used_in_any_way_is_used() -> None:
+    assert codes(
+        "MARKER/4, PART=1, QP=1,0,0\nMARKER/5, PART=1, QP=2,0,0\n"
+        "GRAPHICS/1, CIRCLE, CM=5, RADIUS=1\n"
+        "REQUEST/1, F1=DX(4)\nVARIABLE/1, FUNCTION=3\nVARIABLE/2, FUNCTION=VARVAL(1)*TIME\n"
+    ) in ([], ["passed-over"])
+
+
+def test_ignored_on_its_line() -> None:
+    line = "MARKER/4, PART=1, REULER=90,0,0 ! adamslite: ignore angle-in-radians, unused"
+    assert codes(line) == []
