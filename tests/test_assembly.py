@@ -16,6 +16,8 @@ from adamslite.assembly.closing import moved
 from adamslite.assembly.rows import gradient, values
 from adamslite.assembly.scope import WIDTH, Posture
 from adamslite.assembly.start import closing_of, has_loops, redundant_rows
+from adamslite.equations.system import System
+from adamslite.kernels.compile import compile_model
 from adamslite.model.model import Model
 from adamslite.resources import find
 
@@ -57,7 +59,7 @@ def test_derivatives_are_those_of_native_code(name: str) -> None:
     """Both apply the rules of differentiation: equal to round-off of a few products."""
     of = al.read(deck(name))
     model = Model(of)
-    system = Session(of, None, {})._numbered(False)
+    system = System(compile_model(model), False)
     here, there = [], []
     for b, body in enumerate(model.bodies):
         here += range(WIDTH * b, WIDTH * b + body.width)
