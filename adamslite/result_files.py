@@ -16,6 +16,7 @@ from adamslite.elements.reload import Reload
 from adamslite.elements.save import Save
 from adamslite.errors import UsageError
 from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.outputs.modes import shapes_beside
 from adamslite.outputs.saved_files import missing
 from adamslite.outputs.whole_files import need_writable, same_file
 
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from adamslite.scene import Scene
 
 READ = "read by this run"
-KINDS = {"EIGENSOL": "modes.csv", "STATEMAT": "states.json"}
+KINDS = {"EIGENSOL": "modes.csv", "STATEMAT": "states.json", "MATLAB": "states."}
 
 
 def plan(scene: Scene, output: str | Path, named: bool) -> list[Path]:
@@ -54,12 +55,14 @@ def plan(scene: Scene, output: str | Path, named: bool) -> list[Path]:
     paths = list(_places(commands, Path(output)))
     kept = [each for each in scene.commands if isinstance(each, Save | Reload) and each.file]
     saved = [Path(output).with_name(each.file or "") for each in kept]
-    wrong = list(_taken(commands, paths, output, scene.read))
+    made = list(_all_files(commands, paths))
+    wrong = list(_taken([each for each, _ in made], [path for _, path in made], output, scene.read))
+    wrong += _written_twice(made)
     wrong += _taken(kept, saved, output, scene.read)
     wrong += _written_over(kept, saved)
     if wrong:
         raise DeckError(wrong)
-    for path in (*paths, *saved):
+    for path in (*(path for _, path in made), *saved):
         need_writable(path, scene.read, named=False)
     return paths
 
@@ -67,6 +70,23 @@ def plan(scene: Scene, output: str | Path, named: bool) -> list[Path]:
 def _file(command: Linear | Save | Reload) -> str:
     """The FILE of a command that has an effect."""
     return command.file or "" if command.kind in ("STATEMAT", "SYSTEM") else ""
+
+
+def _all_files(commands: Sequence[Linear], paths: Sequence[Path]) -> Iterator[tuple[Linear, Path]]:
+    """Every file that LINEAR commands write, with its command."""
+    for command, path in zip(commands, paths, strict=True):
+        yield from ((command, path.with_name(path.name + part)) for part in command.parts)
+        if command.kind == "EIGENSOL" and command.shapes:
+            yield command, shapes_beside(path)
+
+
+def _written_twice(made: Iterable[tuple[Linear, Path]]) -> Iterator[Diagnostic]:
+    known: dict[str, Linear] = {}
+    for command, path in made:
+        other = known.setdefault(path.name.casefold(), command)
+        if other is not command:
+            what = "that of an earlier LINEAR"
+            yield diagnose(command, "file-taken", "file", word=path.name, what=what)
 
 
 def _written_over(commands: Sequence[Save | Reload], paths: Sequence[Path]) -> Iterator[Diagnostic]:
@@ -88,9 +108,11 @@ def _places(commands: Sequence[Linear], output: Path) -> Iterator[Path]:
     stem = output.with_suffix("").name
     made = {output.name, *map(_file, commands)}
     for each in commands:
-        name, number = _file(each) or f"{stem}.{KINDS[each.kind]}", 2
+        plain = each.kind == "STATEMAT" and each.format == "MATLAB"
+        kind, number = KINDS["MATLAB" if plain else each.kind], 2
+        name = _file(each) or f"{stem}.{kind}"
         while not _file(each) and name in made:
-            name, number = f"{stem}.{number}.{KINDS[each.kind]}", number + 1
+            name, number = f"{stem}.{number}.{kind}", number + 1
         made.add(name)
         yield output.with_name(name)
 

@@ -38,6 +38,10 @@ def found(text: str, commands: str):
     return adamslite.simulate(deck, commands=read_commands(commands, deck)).linearizations
 
 
+def models(text: str, commands: str) -> list:
+    return [each.model for each in found(text, commands)]
+
+
 def transfer(model, s: complex) -> np.ndarray:
     """C (s - A)^-1 B + D."""
     a, b, c, d = (
@@ -50,7 +54,7 @@ def transfer(model, s: complex) -> np.ndarray:
 def test_the_transfer_function_of_an_oscillator(s: complex) -> None:
     """x/w = 1/(m s^2 + c s + k), x''/w = s^2 x/w: the second needs D = 1/m."""
     run = "SIMULATE/STATICS\nLINEAR/STATEMAT, PINPUT=1, POUTPUT=1\nSTOP\n"
-    ((_, _, _, model),) = found(OSCILLATOR, run)
+    (model,) = models(OSCILLATOR, run)
     answer = 1.0 / (2 * s * s + 4 * s + 200)
     assert transfer(model, s)[:, 0] == pytest.approx([answer, s * s * answer], rel=1e-10)
     assert (model.inputs, model.outputs) == (("VARIABLE/1",), ("VARIABLE/2", "VARIABLE/3"))
@@ -88,7 +92,7 @@ POUTPUT/1, VARIABLES=2,3
 END
 """
     run = "SIMULATE/STATICS\nLINEAR/STATEMAT, PINPUT=1, POUTPUT=1\nSTOP\n"
-    ((_, _, _, model),) = found(text, run)
+    (model,) = models(text, run)
     s = 3j
     side = 1.0 - 3 * s * s / (3 * (s * s + 9.81 / 0.5))
     assert transfer(model, s)[:, 0] == pytest.approx([-side, 0.0], rel=1e-7, abs=1e-9)
@@ -102,7 +106,7 @@ def test_a_filter_is_a_state() -> None:
         "DIFF/1, IC=0, FUNCTION=(VARVAL(1)-DIF(1))/0.25\nVARIABLE/4, FUNCTION=DIF(1)\nEND\n",
     )
     run = "SIMULATE/STATICS\nLINEAR/STATEMAT, PINPUT=1, POUTPUT=1\nSTOP\n"
-    ((_, _, _, model),) = found(text, run)
+    (model,) = models(text, run)
     assert transfer(model, 5j)[0, 0] == pytest.approx(1 / (1 + 0.25 * 5j), rel=1e-10)
 
 

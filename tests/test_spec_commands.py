@@ -70,7 +70,12 @@ def outcome(deck: str, commands: str) -> tuple[Any, ...]:
     results = adamslite.simulate(scene, commands=read_commands(commands + "\n", scene))
     summary = {key: value for key, value in results.summary.items() if "cpu" not in key}
     linear = [
-        (each.kind, each.file, each.time, *(vars(each.model)[key].tolist() for key in MATRICES))
+        (
+            *each[:3],
+            each.form == "MATLAB",
+            each.shapes,
+            *(vars(each.model)[key].tolist() for key in MATRICES),
+        )
         for each in results.linearizations
     ]
     values = results.time.tolist(), results.names, results.values.tolist()

@@ -48,8 +48,6 @@ from adamslite.elements.equilibrium import Equilibrium
 from adamslite.elements.info import Info
 from adamslite.elements.integrator import Integrator
 from adamslite.elements.linear import Linear
-from adamslite.elements.pinput import Pinput
-from adamslite.elements.poutput import Poutput
 from adamslite.elements.reload import Reload
 from adamslite.elements.save import Save
 from adamslite.elements.simulate import Simulate
@@ -316,18 +314,12 @@ class Session:
         self._keep(system, np.array([self.time]), True)
 
     def _do_linear(self, command: Linear) -> None:
-        given = None if command.pinput is None else self.deck.find(Pinput, command.pinput)
-        seen = None if command.poutput is None else self.deck.find(Poutput, command.poutput)
-        inputs, outputs = (port.variables if port else () for port in (given, seen))
-        from adamslite.analyses.linearization.linearization import linear
+        from adamslite.analyses.linearization.linearization import carried_out
 
-        found = linear(self.system, inputs, outputs, not command.nodamping, command.rm)
-        self.linearizations.append(Linearized(command.kind, command.file, self.time, found))
+        self.linearizations.append(carried_out(command, self.system, self.time))
 
     def _do_info(self, command: Info) -> None:
-        system = self.system
-        if self.outcome is Outcome.DONE:
-            self.printed.append(info(system, command, self.time))
+        self.printed.append(info(self.system, command, self.time))
 
     # helpers
 

@@ -211,6 +211,12 @@ def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
         for field in ("file", "format", "pinput", "poutput"):
             if each.kind == "EIGENSOL" and each.given(field):
                 yield _idle(each, field, field.upper(), "EIGENSOL has neither input nor output")
+        if each.kind == "STATEMAT" and each.coords:
+            yield _idle(each, "coords", "COORDS", "STATEMAT finds no modes")
+        elif each.shapes and not 1 <= each.shapes[0] <= each.shapes[1]:
+            yield diagnose(each, "no-such-modes", "coords")
+        if each.kind == "STATEMAT" and each.format == "MATRIXX":
+            yield _idle(each, "format", "MATRIXX", "its layout is not published")
         if each.pstate is not None and each.kind == "EIGENSOL":
             yield _idle(each, "pstate", "PSTATE", "eigenvalues do not depend on the states")
         elif each.pstate is not None:

@@ -31,6 +31,7 @@ from adamslite.language.statement import (
     statement,
     text,
     texts,
+    vector,
 )
 
 
@@ -41,7 +42,12 @@ def _modes(key: str, what: str, short: str = "") -> tuple[str, ...]:
 
 @statement("LINEAR", singleton=True, repeatable=True, place="command")
 class Linear(Statement):
-    """Eigenvalues and mode shapes, or the matrices of the linearised model."""
+    """Eigenvalues and mode shapes, or the matrices of the linearised model.
+
+    EIGENSOL writes NAME.modes.csv, and with COORDS the magnitudes and phases of mode shapes to
+    NAME.shapes.csv, the largest of a mode 1 at phase 0; STATEMAT writes its FILE or
+    NAME.states.json.
+    """
 
     kind: str = choice(
         options=("EIGENSOL", "STATEMAT", "MKB", "NASTRAN"), required=True,
@@ -61,9 +67,28 @@ class Linear(Statement):
     )
     original: bool = flag("ORIGINAL", inert=True, help="the coordinates of the FORTRAN solver")
     novector: bool = flag("NOVECTOR", inert=True, help="no table of mode shapes")
-    format: str | None = text("FORMAT", inert=True, help="form of the files of ADAMS")
-    coords: tuple[str, ...] = _modes("COORDS", "mode shapes")
+    format: str | None = choice(
+        "FORMAT", options=("MATRIXX", "MATLAB"),
+        help="MATLAB: plain tables in files FILEa to FILEd; one file with everything unless given",
+    )  # fmt: skip
+    coords: tuple[float, ...] = vector(
+        "COORDS", size=1, most=2, unit="1", default=(),
+        help="first and last mode whose shape is written",
+    )  # fmt: skip
     energy: tuple[str, ...] = _modes("ENERGY", "energies")
     kinetic: tuple[str, ...] = _modes("KINETIC", "kinetic energies", "KENERGY")
     strain: tuple[str, ...] = _modes("STRAIN", "strain energies", "SENERGY")
     dissipation: tuple[str, ...] = _modes("DISSIPATION", "dissipated energies", "DENERGY")
+
+    @property
+    def shapes(self) -> tuple[int, int] | None:
+        """First and last mode whose shape is written."""
+        return (round(self.coords[0]), round(self.coords[-1])) if self.coords else None
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """What is added to the name of its file for each file that it writes."""
+        if self.kind == "EIGENSOL" or self.format != "MATLAB":
+            return ("",)
+        given, seen = self.pinput is not None, self.poutput is not None
+        return ("a", *("b" * given), *("c" * seen), *("d" * (given and seen)))

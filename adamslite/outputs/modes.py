@@ -9,13 +9,18 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from adamslite.errors import UsageError
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.linearization import Linearization
+from adamslite.results.results import Linearized
 
 HEAD = ("mode", "frequency [Hz]", "damping ratio", "real", "imaginary")
 # An eigenvalue within this share of the largest one of an axis lies on it.
 ON_AXIS = 1e-9
+# Displacements that differ by less than this share are equally large: the first one counts.
+ALIKE = 1e-6
 
 
 class ModeRow(NamedTuple):
@@ -31,6 +36,8 @@ class ModeRow(NamedTuple):
         The eigenvalue s, of a pair the upper one [1/time].
     pair : bool
         Whether the conjugate value belongs to the mode too.
+    place : int
+        Its place among the eigenvalues.
     """
 
     number: int
@@ -39,6 +46,7 @@ class ModeRow(NamedTuple):
     real: float
     imaginary: float
     pair: bool
+    place: int
 
 
 def mode_rows(linearization: Linearization) -> list[ModeRow]:
@@ -46,13 +54,14 @@ def mode_rows(linearization: Linearization) -> list[ModeRow]:
     found = linearization
     scale = max((abs(each) for each in found.eigenvalues), default=0.0)
     rows: list[ModeRow] = []
-    facts = zip(found.eigenvalues, found.frequencies, found.damping_ratios, strict=True)
-    for value, frequency, damping in sorted(facts, key=lambda fact: float(fact[1])):
+    order = np.argsort(found.frequencies, kind="stable").tolist()
+    for index in order:
+        value, frequency = found.eigenvalues[index], found.frequencies[index]
         pair = abs(value.imag) > ON_AXIS * scale
         if not pair or value.imag > 0.0:
             number, imaginary = len(rows) + 1, float(value.imag) if pair else 0.0
-            damping, real = float(damping), float(value.real)
-            rows.append(ModeRow(number, float(frequency), damping, real, imaginary, pair))
+            damping, real = float(found.damping_ratios[index]), float(value.real)
+            rows.append(ModeRow(number, float(frequency), damping, real, imaginary, pair, index))
     return rows
 
 
@@ -67,6 +76,55 @@ def mode_table(linearization: Linearization) -> str:
         lines.append(f"{row.number:4}  " + "  ".join(f"{value:>16}" for value in values))
     if linearization.note:
         lines += ["", linearization.note]
+    return "\n".join(lines) + "\n"
+
+
+def save_command(made: Linearized, path: Path) -> list[Path]:
+    """Write what a LINEAR command has found; the files that are written.
+
+    ``path`` is that of modes or of the state matrices; files beside it have names made from it.
+    """
+    if made.kind == "STATEMAT" and made.form == "MATLAB":
+        return _save_tables(made.model, path)
+    save(made.model, path)
+    if made.kind == "STATEMAT" or made.shapes is None:
+        return [path]
+    beside = shapes_beside(path)
+    with whole_file(beside) as stream:
+        stream.write(_shapes(made.model, *made.shapes))
+    return [path, beside]
+
+
+def shapes_beside(path: Path) -> Path:
+    """The file of mode shapes beside that of the modes."""
+    return path.with_name(f"{path.name.removesuffix('.modes.csv')}.shapes.csv")
+
+
+def _save_tables(model: Linearization, path: Path) -> list[Path]:
+    """A, B, C and D, as far as there are inputs and outputs, a row of numbers per line."""
+    tables = {
+        "a": model.state_matrix, "b": model.input_matrix,
+        "c": model.output_matrix, "d": model.feedthrough,
+    }  # fmt: skip
+    paths = []
+    for letter, table in tables.items():
+        if table.shape[1] and table.shape[0] or letter == "a":
+            paths.append(path.with_name(path.name + letter))
+            with whole_file(paths[-1]) as stream:
+                stream.writelines(" ".join(map(repr, row)) + "\n" for row in table.tolist())
+    return paths
+
+
+def _shapes(found: Linearization, first: int, last: int) -> str:
+    """Magnitudes and phases [degrees] of the coordinates of modes; the largest of a mode is 1."""
+    lines = ["mode,frequency,coordinate,magnitude,phase"]
+    for row in mode_rows(found)[first - 1 : last]:
+        shape = found.modes[:, row.place]
+        far = np.abs(shape)
+        largest = shape[np.flatnonzero(far >= (1.0 - ALIKE) * far.max())[0]] if far.any() else 1.0
+        for name, share in zip(found.coordinates, shape / largest, strict=True):
+            size, phase = float(abs(share)), float(np.degrees(np.angle(share)))
+            lines.append(f"{row.number},{row.frequency!r},{name},{size!r},{phase!r}")
     return "\n".join(lines) + "\n"
 
 

@@ -26,12 +26,16 @@ class UnknownChannel(KeyError):
 class Linearized(NamedTuple):
     """One LINEAR command: ``kind`` EIGENSOL or STATEMAT, its FILE if it names one, the ``time`` of
     the state, and the :class:`~adamslite.results.linearization.Linearization`.
+
+    ``form`` MATLAB: matrices as plain tables; ``shapes``: first and last mode whose shape counts.
     """
 
     kind: str
     file: str | None
     time: float
     model: Linearization
+    form: str | None = None
+    shapes: tuple[int, int] | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -18,12 +18,26 @@ from adamslite.analyses.linearization.eigen import eigen
 from adamslite.analyses.linearization.first_order import Ports
 from adamslite.analyses.linearization.observer import Observer
 from adamslite.analyses.linearization.stationarity import Trajectory
+from adamslite.elements.linear import Linear
+from adamslite.elements.pinput import Pinput
+from adamslite.elements.poutput import Poutput
 from adamslite.equations.system import System
 from adamslite.language.interfaces import Key
 from adamslite.results.linearization import Linearization
+from adamslite.results.results import Linearized
 
 # Displacements that differ by less than this share are equally large: the first one counts.
 ALIKE = 1e-6
+
+
+def carried_out(command: Linear, system: System, time: float) -> Linearized:
+    """What a LINEAR command finds at the state that ``system`` holds."""
+    deck = system.model.deck
+    given = None if command.pinput is None else deck.find(Pinput, command.pinput)
+    seen = None if command.poutput is None else deck.find(Poutput, command.poutput)
+    inputs, outputs = (port.variables if port else () for port in (given, seen))
+    found = linear(system, inputs, outputs, not command.nodamping, command.rm)
+    return Linearized(command.kind, command.file, time, found, command.format, command.shapes)
 
 
 def linear(

@@ -111,12 +111,10 @@ def _write(results: "Results", output: str, files: Sequence[Path]) -> list[Path]
     results.save(output)
     if not results.linearizations:
         return []
-    from adamslite.outputs.modes import save
+    from adamslite.outputs.modes import save_command
 
-    found = list(zip(results.linearizations, files, strict=False))  # a run may stop before all
-    for each, path in found:
-        save(each.model, path)
-    return [path for _, path in found]
+    found = zip(results.linearizations, files, strict=False)  # a run may stop before all
+    return [written for each, path in found for written in save_command(each, path)]
 
 
 def _tell_warnings(scene: "Scene") -> None:

@@ -73,6 +73,11 @@ RUNS: dict[str, Message] = {
         commands=("FILE/MODEL=other", "other\nout\nSIM/STATICS"),
         severity=NOTE,
     ),
+    "no-such-modes": Message(
+        "COORDS is not the number of a first and of a last mode",
+        "modes are counted from 1: COORDS=1,25",
+        commands=("LINEAR/EIGENSOL, COORDS=0,4", "LINEAR/EIGENSOL, COORDS=4,2"),
+    ),
     "states-chosen": Message(
         "STATEMAT cannot use PSTATE: this program chooses the states of the matrices",
         "leave it out: eigenvalues and transfer functions do not depend on the choice of states",
