@@ -25,7 +25,7 @@ from adamslite.results.outcomes import Outcome
 NOTHING = 1e-11
 # Of the largest force, or 1 in the units of the deck.
 LOOSE = 1e-10
-STATE = ("q", "u", "a", "z", "rd", "mu", "ra", "rz", "base")
+STATE = ("q", "u", "a", "z", "rd", "mu", "ra", "rz", "base", "W")
 
 
 def in_its_plane(system: System, run: Callable[[], Outcome]) -> Outcome:

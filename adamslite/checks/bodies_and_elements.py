@@ -222,31 +222,21 @@ def sections(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def frictions(deck: Deck) -> Iterator[Diagnostic]:
-    lengths = ("stiction_transition_velocity", "pin_radius", "ball_radius", "friction_arm")
+    sizes = (
+        "stiction_transition_velocity", "max_stiction_deformation", "pin_radius", "ball_radius",
+        "friction_arm", "bending_reaction_arm", "reaction_arm", "initial_overlap",
+    )  # fmt: skip
     for each in deck.of(Friction):
-        yield from positive(
-            each, *lengths, "bending_reaction_arm", "reaction_arm", "initial_overlap"
-        )
+        yield from positive(each, *sizes)
+        if each.transition_velocity_coefficient <= 1.0:
+            yield diagnose(each, "friction-transition", "transition_velocity_coefficient")
         joint = deck.find(Joint, each.joint)
         if joint and joint.kind not in each.joints:
             yield diagnose(each, "friction-not-there", "joint", joint=joint.label, kind=joint.kind)
-        if joint and joint.kind in each.joints:
-            yield from _stiction(each, joint)
-
-
-def _stiction(friction: Friction, joint: Joint) -> Iterator[Diagnostic]:
-    """Whether the joint can hold at rest, and whether that was requested."""
-    field, creeps = "max_stiction_deformation", f"a joint {joint.kind} at rest under load creeps"
-    if friction.given(field):
-        yield from positive(friction, field)
-        if not friction.sticks(joint):
-            sliding = friction.effect == "SLIDING"
-            reason = "EFFECT=SLIDING leaves stiction out" if sliding else creeps
-            yield diagnose(friction, "no-effect", field, word=field.upper(), reason=reason)
-    elif friction.effect != "SLIDING":
-        holds = joint.kind in friction.held
-        hint = f"{field.upper()} lets it hold" if holds else creeps
-        yield diagnose(friction, "friction-creeps", hint=hint)
+        field = "max_stiction_deformation"
+        if each.given(field) and each.effect == "SLIDING":
+            reason = "EFFECT=SLIDING leaves stiction out"
+            yield diagnose(each, "no-effect", field, word=field.upper(), reason=reason)
 
 
 def held_states(deck: Deck) -> Iterator[Diagnostic]:

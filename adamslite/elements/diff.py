@@ -35,15 +35,31 @@ class Diff(Statement):
         "FUNCTION", required=True, unit="that of y per time", help="dy/dt, or the residual"
     )
     routine: str | None = routine_name()
+    owner: Ref | None = None
+    """The statement that brings this state, and gives its rate in place of FUNCTION."""
+    number: int = 0
+    """Which of the states of its owner it is."""
+
+    @property
+    def restarts(self) -> bool:
+        """Whether the state counts from an origin that moves, see :meth:`Scope.origin`."""
+        return self.owner is not None
+
+    def derived(self, model: DrawnModel) -> dict[str, object]:
+        """The owner."""
+        return {"owner": self.owner, "number": str(self.number)} if self.owner else {}
 
     def equation(self: Seen, scope: Scope) -> Expr:
         """dy/dt - FUNCTION, or FUNCTION itself."""
-        return self.function if self.implicit else self.unknowns[1] - self.function
+        state, rate = self.unknowns
+        if hasattr(self, "owner"):
+            return rate - self.owner.cls.state_rate(self.owner, scope, int(self.number), state)
+        return self.function if self.implicit else rate - self.function
 
     @property
     def result_names(self) -> tuple[str, ...]:
-        """The state itself has no suffix."""
-        return ("",)
+        """The state itself has no suffix; one with an owner is written by that."""
+        return () if self.owner else ("",)
 
     def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""

@@ -1,65 +1,68 @@
 """FRICTION: dry friction in a joint, from the joint's own reaction.
 
-Equations (F, T: force and torque of the joint on I; a: z of J; ``_n`` across a, ``_a`` along it)::
+Equations (F, T: force and torque of the joint on I; a: the axis; ``_n`` across a, ``_a`` along it)::
 
-    joint            slip v                    normal load N
-    TRANSLATIONAL    speed of I along a        |F_n| + |T_n|/INITIAL_OVERLAP + |T_a|/REACTION_ARM
-    REVOLUTE         w PIN_RADIUS              |F_n| + |F_a| FRICTION_ARM/PIN_RADIUS
-                                               + |T_n|/BENDING_REACTION_ARM
-    CYLINDRICAL      (speed along a,           |F_n| + |T_n|/INITIAL_OVERLAP
-                      w PIN_RADIUS)
-    SPHERICAL        w BALL_RADIUS (vector)    |F|
+    joint            axis a            slip v             normal load N
+    TRANSLATIONAL    z of J            speed along a      |F_n| + |T_n|/X + |T_a|/REACTION_ARM
+    REVOLUTE         z of J            w PIN_RADIUS       |F_n| + |F_a| FRICTION_ARM/PIN_RADIUS
+                                                          + |T_n|/BENDING_REACTION_ARM
+    HOOKE            x of I or y of J  as REVOLUTE, by YOKE
+    UNIVERSAL        z of I or z of J  as REVOLUTE, by YOKE
+    CYLINDRICAL      z of J            (speed along a,    |F_n| + |T_n|/X
+                                       w PIN_RADIUS)
+    SPHERICAL        (axes of I)       w BALL_RADIUS      |F|
 
-    friction = -(mu(|v|) N + preload) v/|v|,  torques times the radius of v
+    X = INITIAL_OVERLAP + s (DZ(I,J,J) - its value as drawn, or IC)
+        s = 1, -1, 0 for OVERLAP_DELTA = INCREASE, DECREASE, CONSTANT
 
-    vs = STICTION_TRANSITION_VELOCITY
-    mu = MU_STATIC u (3 - u^2)/2,  u = |v|/vs      |v| < vs
-         STEP from MU_STATIC to MU_DYNAMIC         vs ... 1.5 vs
-         MU_DYNAMIC                                beyond
+    force on I  -(mu N + FRICTION_FORCE_PRELOAD d),  torques -(radius mu N + FRICTION_TORQUE_PRELOAD d)
 
-With MAX_STICTION_DEFORMATION = D a TRANSLATIONAL or REVOLUTE joint holds a load below the static
-friction, by a bristle between the surfaces whose deflection b (-1 ... 1) is a state,
-``DIFF/FRICTION_id``::
+The vector mu and d, its direction, follow from the slip v and the creep D of the surfaces::
 
-    friction = -(mu(|v|) N + preload) (b + (1 - |b|) p(v)),    mu = MU_STATIC below vs
+    |v| < vs      d = beta v/|v| + (1 - beta) s(|D|/Dm) D/|D|,   mu = MU_STATIC d
+    vs ... vd     d = v/|v|,   mu = STEP5(|v|, vs, MU_STATIC, vd, MU_DYNAMIC) d
+    beyond vd     d = v/|v|,   mu = MU_DYNAMIC d
 
-    p = u (3 - u^2)/2 with u = v/vs below vs, sign(v) beyond
-    db/dt = v/D                        as long as |b| < 0.9, and whenever v lowers |b|
-    db/dt = v/D (1 - |b|)/0.1          from there to 1, where the bristle slips
+    beta = s(|v|/vs),   s(x) = STEP5(x, -1, -1, 1, 1) = (15 x - 10 x^3 + 3 x^5)/8
+    dD/dt = v below vs, from D = 0 when |v| falls below it; at |D| = Dm only what does not lengthen D
 
-At rest under a load F the joint has yielded b D, b = F/(MU_STATIC N + preload), up to |b| = 0.9; it
-breaks away at b = 1.  In sliding b = sign(v) and the friction is that of the table above.  A joint
-that stops springs back by D at most.  The term with p damps the bristle.
+    vs = STICTION_TRANSITION_VELOCITY,  vd = TRANSITION_VELOCITY_COEFFICIENT vs
+    Dm = MAX_STICTION_DEFORMATION
+
+A joint at rest under a load yields by D, s(|D|/Dm) = load/(MU_STATIC N), and stays; it breaks away
+where that share is 1.  Creep and slip of a SPHERICAL joint have components along the axes of I.
 
 The reaction is that of the joint at the same time, solved for with all other unknowns.
 INPUTS leaves out terms of N or the preload: REACTION_FORCE F, BENDING_MOMENT T_n, TORSIONAL_MOMENT
-T_a.  EFFECT=SLIDING takes MU_DYNAMIC for both coefficients, EFFECT=STICTION has no friction beyond
-1.5 vs.  A preload is a friction force (or torque) of its own, ramped below vs like mu.
+T_a.  EFFECT=SLIDING has no creep and takes MU_DYNAMIC for both coefficients; EFFECT=STICTION has no
+friction beyond vd.
 
 Sign: against the slip of I relative to J; the opposite acts on J.
 
-What differs from ADAMS, or is not documented: that friction at rest follows from deformation,
-velocity and MU_STATIC is documented, the formula is not; the bristle is the elasto-plastic one of
-Dupont.  Without MAX_STICTION_DEFORMATION, and always in CYLINDRICAL and SPHERICAL joints, a joint
-under a load that friction can hold creeps, slower than vs.  In a static analysis nothing slips and
-there is no friction, as with INACTIVE=STATIC; the bristle is then straight, b = 0.  The overlap of
-the sliding parts stays INITIAL_OVERLAP.  The defaults of the coefficients and arms are those that
-Adams/View writes.  The weights of N in revolute, cylindrical and spherical joints follow the
-descriptions of their arguments; for the two axes of Hooke and universal joints there is no such
-description, and these joints are rejected.
+Results: fx ... tz along the axes of J; the coefficient mux muy muz (slides) murx mury murz (turns),
+negative along the slip; mu1 = MU_STATIC s(|D|/Dm); the slip of the surface vx ... wz, its creep
+creep_x ... creep_az, and beta.  Those of a HOOKE joint are called x (YOKE of I) and y (of J), of
+all other joints but the SPHERICAL one z.  FRICTION(id, jflag, comp, rm) gives them too.
+
+In a static analysis nothing slips, and creep stays as it is: an equilibrium that friction holds is
+one.  With INACTIVE=STATIC there is no friction there.
+
 Source: Adams/Solver statement FRICTION; Adams/View help "Translational Joint" and "Friction Regime
-Determination"; P. Dupont, V. Hayward, B. Armstrong, F. Altpeter, IEEE Trans. Automatic Control 47
-(2002) 787, section III.
+Determination".  The law below vs and its STEP5 were fitted to results of Adams for spherical
+joints; that creep ends at Dm is documented.  The weights of N in the other joints follow the
+descriptions of their arguments.
 """
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Sequence
+from typing import ClassVar, NamedTuple
 
-from adamslite.elements.bases.joint_coordinates import relative_velocity, spin
+from adamslite.elements.bases.joint_coordinates import built_slide, relative_velocity, slide
+from adamslite.elements.bases.stick_slip import creep_rate, regime
 from adamslite.elements.bases.wrench import Wrench
 from adamslite.elements.joint import Joint
-from adamslite.language.expression import COMPONENTS, MODE, Call, Node, Num, Op, Ref, measure
+from adamslite.language.expression import COMPONENTS, Call, Node, Num, Ref, measure
 from adamslite.language.interfaces import DrawnModel, Lookup
 from adamslite.language.statement import (
     STATEMENTS,
@@ -70,246 +73,254 @@ from adamslite.language.statement import (
     statement,
     words,
 )
-from adamslite.symbolic.scope import ZERO, Load, Scope, Vector, dot, minus, scale
-from adamslite.symbolic.sympy_nodes import magnitude, norm, piecewise, root
-from adamslite.symbolic.types import Expr, Seen
+from adamslite.symbolic.scope import ZERO, Load, Scope, Vector, dot, minus, plus, scale
+from adamslite.symbolic.sympy_nodes import norm, piecewise, sp
+from adamslite.symbolic.types import Expr, Seen, Symbol
 
-BLEND = 1.5
-# Share of the bristle's deflection over which it begins to slip.
-YIELDING = 0.1
 STATICS = 5
 INPUTS = ("PRELOAD", "REACTION_FORCE", "BENDING_MOMENT", "TORSIONAL_MOMENT")
+TURNS = ("HOOKE", "REVOLUTE", "UNIVERSAL")
+SLIDES = ("CYLINDRICAL", "TRANSLATIONAL")
+STATES: dict[str, tuple[str, ...]] = {
+    "CYLINDRICAL": ("_Z", "_AZ"), "SPHERICAL": ("_X", "_Y", "_Z"),
+}  # fmt: skip
+CHANNELS = (
+    "mux", "muy", "muz", "murx", "mury", "murz", "mu1", "vx", "vy", "vz", "wx", "wy", "wz",
+    "creep_x", "creep_y", "creep_z", "creep_ax", "creep_ay", "creep_az", "beta",
+)  # fmt: skip
+
+# Words of the LuGre law, whose defaults are not known.
+LUGRE = (
+    "BRISTLE_STIFFNESS_COEFFICIENT", "DAMPING_COEFFICIENT", "VISCOUS_FRICTION_COEFFICIENT",
+    "VELOCITY_THRESHOLD_STRIBECK", "DECAY_EXPONENT_STRIBECK", "SMOOTH", "MAX_FRICTION_FORCE",
+    "MAX_FRICTION_TORQUE",
+)  # fmt: skip
 
 
 def _arm(key: str, default: float, help: str) -> float:
     return number(key, unit="length", default=default, help=help)
 
 
-@statement("FRICTION", planned=("FORMULATION", "OVERLAP_DELTA", "TRANSITION_VELOCITY_COEFFICIENT"))
+class Freedom(NamedTuple):
+    """One way in which the surfaces slip: along (``radius`` None) or about an axis.
+
+    ``channel``: number of its component among x y z of slides, then of turns.
+    """
+
+    axis: Vector
+    speed: Expr
+    radius: Expr | None
+    channel: int
+
+
+@statement("FRICTION", planned=LUGRE)
 class Friction(Wrench, Statement):
-    """Friction of a translational, revolute, cylindrical or spherical joint."""
+    """Friction of a translational, revolute, cylindrical, spherical, Hooke or universal joint."""
 
     joint: int | str = reference(
         "JOINT", to="JOINT", required=True, help="the joint that has friction"
     )
+    formulation: str = choice(
+        "FORMULATION", options=("ORIGINAL", "LUGRE"), supported=("ORIGINAL",), default="ORIGINAL",
+        help="the law",
+    )  # fmt: skip
     mu_static: float = number("MU_STATIC", unit="1", default=0.5, help="coefficient at rest")
     mu_dynamic: float = number("MU_DYNAMIC", unit="1", default=0.3, help="coefficient in motion")
     stiction_transition_velocity: float = number(
         "STICTION_TRANSITION_VELOCITY", unit="length/time", default=0.1,
-        help="slip at which friction is greatest",
+        help="slip below which the joint can stick",
     )  # fmt: skip
-    max_stiction_deformation: float | None = number(
-        "MAX_STICTION_DEFORMATION",
-        unit="length",
-        help="TRANSLATIONAL, REVOLUTE: deformation of the surface at which it slips",
+    transition_velocity_coefficient: float = number(
+        "TRANSITION_VELOCITY_COEFFICIENT", unit="1", default=1.5,
+        help="times STICTION_TRANSITION_VELOCITY: slip from which MU_DYNAMIC applies",
+    )  # fmt: skip
+    max_stiction_deformation: float = number(
+        "MAX_STICTION_DEFORMATION", unit="length", default=0.01,
+        help="creep at which the surfaces break away",
+    )  # fmt: skip
+    pin_radius: float = _arm(
+        "PIN_RADIUS", 1.0, "REVOLUTE, CYLINDRICAL, HOOKE, UNIVERSAL: radius of the pin"
     )
-    pin_radius: float = _arm("PIN_RADIUS", 1.0, "REVOLUTE, CYLINDRICAL: radius of the pin")
     ball_radius: float = _arm("BALL_RADIUS", 1.0, "SPHERICAL: radius of the ball")
-    friction_arm: float = _arm("FRICTION_ARM", 1.0, "REVOLUTE: arm of the axial force's friction")
-    bending_reaction_arm: float = _arm(
-        "BENDING_REACTION_ARM", 1.0, "REVOLUTE: arm that turns a bending moment into a force"
+    friction_arm: float = _arm(
+        "FRICTION_ARM", 1.0, "REVOLUTE, HOOKE, UNIVERSAL: arm of the axial force's friction"
     )
+    bending_reaction_arm: float = _arm(
+        "BENDING_REACTION_ARM", 1.0,
+        "REVOLUTE, HOOKE, UNIVERSAL: arm that turns a bending moment into a force",
+    )  # fmt: skip
     reaction_arm: float = _arm(
         "REACTION_ARM", 1.0, "TRANSLATIONAL: arm that turns a torque about z into a force"
     )
     initial_overlap: float = _arm(
         "INITIAL_OVERLAP", 1000.0, "TRANSLATIONAL, CYLINDRICAL: length over which the parts overlap"
     )
+    overlap_delta: str = choice(
+        "OVERLAP_DELTA", options=("CONSTANT", "INCREASE", "DECREASE"), default="CONSTANT",
+        help="what the overlap does when I moves along +z of J",
+    )  # fmt: skip
+    yoke: str = choice(
+        "YOKE", options=("I_YOKE", "J_YOKE"), default="I_YOKE",
+        help="HOOKE, UNIVERSAL: the arm of the cross that rubs, in the yoke of I or of J",
+    )  # fmt: skip
     friction_force_preload: float = number(
         "FRICTION_FORCE_PRELOAD", unit="force", default=0.0,
         help="friction without load: TRANSLATIONAL, CYLINDRICAL",
     )  # fmt: skip
     friction_torque_preload: float = number(
         "FRICTION_TORQUE_PRELOAD", unit="torque", default=0.0,
-        help="friction torque without load: REVOLUTE, SPHERICAL",
+        help="friction torque without load: all but TRANSLATIONAL",
     )  # fmt: skip
     effect: str = choice(
-        "EFFECT", options=("ALL", "STICTION", "SLIDING"), default="ALL", help="coefficients used"
+        "EFFECT", options=("ALL", "STICTION", "SLIDING"), default="ALL", help="regimes that act"
     )
     inputs: tuple[str, ...] = words(
         "INPUTS", options=("ALL", "NONE", *INPUTS), help="loads that cause friction; default ALL"
     )
     inactive: str | None = choice(
-        "INACTIVE", "INACTIVE_DURING", options=("STATIC",), help="no friction in statics: always so"
+        "INACTIVE", "INACTIVE_DURING", options=("STATIC",), help="no friction in statics"
     )
 
-    held: ClassVar[tuple[str, ...]] = ("REVOLUTE", "TRANSLATIONAL")
-    joints: ClassVar[tuple[str, ...]] = ("CYLINDRICAL", "REVOLUTE", "SPHERICAL", "TRANSLATIONAL")
+    joints: ClassVar[tuple[str, ...]] = (*SLIDES, *TURNS, "SPHERICAL")
+    beyond = "moved until its parts no longer overlap"
 
-    @property
-    def state(self) -> str:
-        """Name of the DIFF that is the bristle's deflection."""
-        return f"FRICTION_{self.key}".upper()
-
-    @property
-    def deflection(self) -> Node:
-        """The bristle's deflection as an expression."""
-        return Call("DIF", (Ref("DIFF", self.state),))
-
-    def sticks(self, joint: Joint | None) -> bool:
-        """Whether a bristle holds the joint at rest."""
-        wanted = self.max_stiction_deformation is not None and self.effect != "SLIDING"
-        return wanted and joint is not None and joint.kind in self.held
+    def states(self, joint: Joint | None) -> list[str]:
+        """Names of the DIFFs that are its creep over MAX_STICTION_DEFORMATION."""
+        if joint is None or joint.kind not in self.joints or self.effect == "SLIDING":
+            return []
+        return [f"FRICTION_{self.key}{end}".upper() for end in STATES.get(joint.kind, ("",))]
 
     def companions(self, deck: Lookup) -> tuple[Statement, ...]:
-        """The bristle's deflection over MAX_STICTION_DEFORMATION."""
-        joint = deck.find("JOINT", self.joint)
-        if not self.sticks(joint):
-            return ()
-        rate = bristle_rate(self, joint)
-        return (STATEMENTS["DIFF"](id=self.state, function=rate, spans=self.spans),)
+        """The states of creep."""
+        own = Ref("FRICTION", self.key)
+        return tuple(
+            STATEMENTS["DIFF"](id=id, owner=own, number=n, static_hold=True, spans=self.spans)
+            for n, id in enumerate(self.states(deck.find("JOINT", self.joint)))
+        )
 
     def derived(self, model: DrawnModel) -> dict[str, object]:
-        """Force and torque of the joint on I, and which of them count."""
-        joint = Ref("JOINT", self.joint)
-        joint_found = model.element("JOINT", self.joint)
-        reaction = tuple(measure("JOINT", joint, component) for component in COMPONENTS)
+        """The joint's force and torque on I, which of them count, creep, where the slide began."""
+        ref, joint = Ref("JOINT", self.joint), model.element("JOINT", self.joint)
+        reaction = tuple(measure("JOINT", ref, component) for component in COMPONENTS)
         counted = set(self.inputs) or {"ALL"}
-        used = {name: bool(counted & {name, "ALL"}) for name in INPUTS}
+        began = joint.ictran if joint.kind == "CYLINDRICAL" else joint.ic
+        overlaps = joint.kind in SLIDES and self.overlap_delta != "CONSTANT"
+        drawn = built_slide(model, joint.i, joint.j) if overlaps else 0.0
         return {
             "reaction": reaction,
-            "used": tuple(name for name in INPUTS if used[name]),
-            "bristle": self.deflection if self.sticks(joint_found) else None,
+            "used": tuple(name for name in INPUTS if counted & {name, "ALL"}),
+            "creep": tuple(Call("DIF", (Ref("DIFF", state),)) for state in self.states(joint)),
+            "began": float(began[0]) if began and overlaps else drawn,
         }
 
     def loads(self: Seen, scope: Scope) -> list[Load]:
         """Friction on I and its reaction on J."""
-        joint = self.joint
-        if self.bristle is not None:
-            return [held(scope, self)]
-        force, torque = slip(scope, self)
-        square = dot(force, force) + dot(torque, torque)
-        grip = friction_by_speed(self, square, normal_load(scope, self))
-        radius = self.ball_radius if joint.kind == "SPHERICAL" else self.pin_radius
+        i, j = self.joint.i, self.joint.j
+        freedoms, load = slips(scope, self), normal_load(scope, self)
+        found = regime(scope, self, [each.speed for each in freedoms])
+        force, torque = ZERO, ZERO
+        for freedom, d, mu in zip(freedoms, found.direction, found.coefficient, strict=True):
+            if freedom.radius is None:
+                own = preload(self, self.friction_force_preload)
+                force = minus(force, scale(mu * load + own * d, freedom.axis))
+            else:
+                own = preload(self, self.friction_torque_preload)
+                torque = minus(torque, scale(freedom.radius * mu * load + own * d, freedom.axis))
+        if self.inactive == "STATIC":
+            rests = sp.And(scope.mode > STATICS - 0.5, scope.mode < STATICS + 0.5)
+            force, torque = ([piecewise((0, rests), otherwise=x) for x in v] for v in (force, torque))
+        return [Load(i, tuple(force), tuple(torque), j, follows=True)]
+
+    def state_rate(self: Seen, scope: Scope, number: int, state: Symbol) -> Expr:
+        """Rate of a component of creep over MAX_STICTION_DEFORMATION."""
+        return creep_rate(scope, self, [each.speed for each in slips(scope, self)], number, state)
+
+    def values(self: Seen, scope: Scope) -> list[Expr]:
+        """Values of ``CHANNELS``."""
+        freedoms = slips(scope, self)
+        found = regime(scope, self, [each.speed for each in freedoms])
+        at = [each.channel for each in freedoms]
+        deformed = [self.max_stiction_deformation * b for b in self.creep]
+        deformed = [piecewise((d, found.beta < 1), otherwise=0) for d in deformed]
         return [
-            Load(joint.i, scale(-grip, force), scale(-grip * radius, torque), joint.j, follows=True)
-        ]
+            *_spread(at, [-mu for mu in found.coefficient]), found.creep_term,
+            *_spread(at, [each.speed for each in freedoms]), *_spread(at, deformed), found.beta,
+        ]  # fmt: skip
+
+    @property
+    def result_names(self) -> tuple[str, ...]:
+        """Force and torque on I along the axes of J, then what the law makes of the slip."""
+        return (*Wrench.result_names.fget(self), *CHANNELS)
+
+    def outputs(self, model: DrawnModel) -> list[Node]:
+        """Values of ``result_names``."""
+        own, rm = Ref("FRICTION", self.key), Ref("MARKER", model.element("JOINT", self.joint).j)
+        numbers = [*COMPONENTS, *range(9, 9 + len(CHANNELS))]
+        return [Call("FRICTION", (own, Num(0.0), Num(float(n)), rm)) for n in numbers]
 
 
-def slip(scope: Scope, friction: Seen) -> tuple[Vector, Vector]:
-    """Slip as two vectors: of the sliding, and of the turning, both speeds of the surface."""
+def _spread(at: Sequence[int], values: Sequence[Expr]) -> list[Expr]:
+    """Six values: those of some components, zeros in between."""
+    found = dict(zip(at, values, strict=False))
+    return [found.get(n, 0) for n in range(6)]
+
+
+def slips(scope: Scope, friction: Seen) -> list[Freedom]:
+    """The ways in which the surfaces slip, with the speed of the surface."""
     i, j, kind = friction.joint.i, friction.joint.j, friction.joint.kind
-    axis = scope.axes(j)[2]
+    w, pin = scope.omega(i, j), friction.pin_radius
     if kind == "SPHERICAL":
-        return ZERO, scale(friction.ball_radius, scope.omega(i, j))
-    along = scale(relative_velocity(scope, i, j, 2), axis)
-    around = scale(friction.pin_radius * spin(scope, i, j), axis)
-    return (ZERO if kind == "REVOLUTE" else along), (ZERO if kind == "TRANSLATIONAL" else around)
+        ball = friction.ball_radius
+        return [
+            Freedom(axis, ball * dot(w, axis), ball, 3 + n) for n, axis in enumerate(scope.axes(i))
+        ]
+    found = []
+    if kind in SLIDES:
+        found.append(Freedom(scope.axes(j)[2], relative_velocity(scope, i, j, 2), None, 2))
+    if kind != "TRANSLATIONAL":
+        axis, number = pin_axis(scope, friction)
+        found.append(Freedom(axis, pin * dot(w, axis), pin, 3 + number))
+    return found
+
+
+def pin_axis(scope: Scope, friction: Seen) -> tuple[Vector, int]:
+    """Axis of the pin, and which of x y z it is."""
+    i, j, kind = friction.joint.i, friction.joint.j, friction.joint.kind
+    of_i = friction.yoke == "I_YOKE"
+    if kind == "HOOKE":
+        return (scope.axes(i)[0], 0) if of_i else (scope.axes(j)[1], 1)
+    return scope.axes(i if kind == "UNIVERSAL" and of_i else j)[2], 2
 
 
 def normal_load(scope: Scope, friction: Seen) -> Expr:
     """N of the table above."""
     kind, used = friction.joint.kind, friction.used
     force = friction.reaction[:3] if "REACTION_FORCE" in used else ZERO
-    torque = friction.reaction[3:]
-    axis = scope.axes(friction.joint.j)[2]
+    if kind == "SPHERICAL":
+        return norm(force)
+    torque, axis = friction.reaction[3:], pin_axis(scope, friction)[0]
     axial, twist = dot(force, axis), dot(torque, axis)
     across = norm(minus(force, scale(axial, axis)))
     bending = norm(minus(torque, scale(twist, axis))) if "BENDING_MOMENT" in used else 0
-    if kind == "SPHERICAL":
-        return norm(force)
-    if kind == "REVOLUTE":
+    if kind in TURNS:
         pressed = across + norm((axial, 0, 0)) * friction.friction_arm / friction.pin_radius
         return pressed + bending / friction.bending_reaction_arm
     if kind == "TRANSLATIONAL" and "TORSIONAL_MOMENT" in used:
         across = across + norm((twist, 0, 0)) / friction.reaction_arm
-    return across + bending / friction.initial_overlap
+    return across + bending / overlap(scope, friction)
 
 
-def bristle_rate(friction: Friction, joint: Joint) -> Node:
-    """db/dt as an expression; in statics the bristle straightens."""
-    i, j = Ref("MARKER", joint.i), Ref("MARKER", joint.j)
-    if joint.kind == "REVOLUTE":
-        slip: Node = Op("*", (Num(friction.pin_radius), Call("WZ", (i, j, j))))
-    else:
-        slip = Call("VZ", (i, j, j, j))
-    b = friction.deflection
-    ahead = _product(Call("MAX", (slip, Num(0.0))), _yield(Op("-", (Num(1.0), b))))
-    back = _product(Call("MIN", (slip, Num(0.0))), _yield(Op("+", (Num(1.0), b))))
-    assert friction.max_stiction_deformation is not None
-    rate = Op("/", (Op("+", (ahead, back)), Num(friction.max_stiction_deformation)))
-    return Call("IF", (Op("-", (MODE, Num(STATICS))), rate, Op("neg", (b,)), rate))
+def overlap(scope: Scope, friction: Seen) -> Expr:
+    """X of the table above."""
+    sense = {"CONSTANT": 0, "INCREASE": 1, "DECREASE": -1}[friction.overlap_delta]
+    if not sense:
+        return friction.initial_overlap
+    travel = slide(scope, friction.joint.i, friction.joint.j) - friction.began
+    left = friction.initial_overlap + sense * travel
+    scope.limit(left)
+    return left
 
 
-def _product(a: Node, b: Node) -> Node:
-    return Op("*", (a, b))
-
-
-def _yield(left: Node) -> Node:
-    """1 while ``left``, the deflection that is left, is large; falls to 0 with it."""
-    share = Op("/", (left, Num(YIELDING)))
-    return Call("MIN", (Call("MAX", (share, Num(0.0))), Num(1.0)))
-
-
-def held(scope: Scope, friction: Seen) -> Load:
-    """Friction of a joint with a bristle."""
-    i, j = friction.joint.i, friction.joint.j
-    axis = scope.axes(j)[2]
-    load = normal_load(scope, friction)
-    if friction.joint.kind == "TRANSLATIONAL":
-        push = friction_by_bristle(friction, relative_velocity(scope, i, j, 2), load)
-        return Load(i, scale(-push, axis), ZERO, j, follows=True)
-    push = friction_by_bristle(friction, friction.pin_radius * spin(scope, i, j), load)
-    return Load(i, ZERO, scale(-push * friction.pin_radius, axis), j, follows=True)
-
-
-def friction_by_bristle(friction: Seen, speed: Expr, load: Expr) -> Expr:
-    """Friction at the surface against a slip of ``speed``."""
-    rest, moving = coefficients(friction)
-    edge, b = friction.stiction_transition_velocity, friction.bristle
-    # Below the edge nothing depends on the size: friction is smooth where the slip turns round.
-    size = magnitude(speed, None)
-    share = piecewise(
-        (speed * (3 - speed**2 / edge**2) / (2 * edge), size <= edge),
-        (1, speed > 0),
-        otherwise=-1,
-        order=1,
-    )
-    mu = piecewise(
-        (rest, size <= edge),
-        (blended(friction, size), size <= BLEND * edge),
-        otherwise=moving,
-        order=1,
-    )
-    return (mu * load + preload(friction)) * (b + (1 - magnitude(b, None)) * share)
-
-
-def friction_by_speed(friction: Seen, square: Expr, load: Expr) -> Expr:
-    """Friction over slip at the surface, by the slip's square: even and smooth."""
-    rest, moving = coefficients(friction)
-    own = preload(friction)
-    edge, speed = friction.stiction_transition_velocity, root(square)
-    creeping = (rest * load + own) * (3 - square / edge**2) / (2 * edge)
-    return piecewise(
-        (creeping, square <= edge**2),
-        ((blended(friction, speed) * load + own) / speed, square <= (BLEND * edge) ** 2),
-        otherwise=(moving * load + own) / speed,
-        order=1,
-    )
-
-
-def coefficients(friction: Seen) -> tuple[Expr, Expr]:
-    """At rest and in motion, by EFFECT."""
-    return {
-        "ALL": (friction.mu_static, friction.mu_dynamic),
-        "SLIDING": (friction.mu_dynamic, friction.mu_dynamic),
-        "STICTION": (friction.mu_static, 0),
-    }[friction.effect]
-
-
-def blended(friction: Seen, speed: Expr) -> Expr:
-    """The coefficient between vs and 1.5 vs."""
-    rest, moving = coefficients(friction)
-    passed = (speed / friction.stiction_transition_velocity - 1) / (BLEND - 1)
-    return rest + (moving - rest) * passed**2 * (3 - 2 * passed)
-
-
-def preload(friction: Seen) -> Expr:
-    """Friction force without load at the surface."""
-    if "PRELOAD" not in friction.used:
-        return 0
-    if friction.joint.kind == "REVOLUTE":
-        return friction.friction_torque_preload / friction.pin_radius
-    if friction.joint.kind == "SPHERICAL":
-        return friction.friction_torque_preload / friction.ball_radius
-    return friction.friction_force_preload
+def preload(friction: Seen, own: Expr) -> Expr:
+    """Friction without load."""
+    return own if "PRELOAD" in friction.used else 0

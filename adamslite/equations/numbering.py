@@ -10,6 +10,7 @@ from adamslite.elements.diff import Diff
 from adamslite.elements.sensor import Sensor
 from adamslite.elements.variable import Variable
 from adamslite.equations.engine import ints
+from adamslite.integrators.contract import STATE_SIZE
 from adamslite.kernels.compile import Kernels
 from adamslite.language.statement import Statement
 from adamslite.model.model import PART, NodeKey
@@ -73,7 +74,7 @@ class Numbering:
             self.w_at[node] = at
             width = model.node_width(node)
             offsets += range(at, at + width)
-            at += 2 if node[0] == "DIFF" else width
+            at += STATE_SIZE if node[0] == "DIFF" else width
         self.nw = at
         self.scalar = ints(offsets)
         self._branches()

@@ -211,6 +211,9 @@ class System:
                 self.base[b : b + 9] = other.base[c : c + 9]
             elif node[0] != "MU":
                 self.z[i - self.n : i - self.n + w] = other.z[j - other.n : j - other.n + w]
+            if node[0] == "DIFF":  # counted from here
+                self.z[i - self.n] -= other.W[other.w_at[node] + contract.STATE_ORIGIN]
+                self.W[self.w_at[node] + contract.STATE_ORIGIN] = 0.0
 
     def _named(self, node: NodeKey, other: System) -> NodeKey:
         """The node of another system that is the same statement."""
@@ -298,7 +301,7 @@ class System:
             ) from None
         if self.m:
             kept = (self.history, self.control, self.base, self.ra, self.rz, self.pz)
-            self.undo = np.zeros(sum(each.size for each in kept))
+            self.undo = np.zeros(sum(each.size for each in kept) + self.ns)
         self.count[:] = 0
 
     def run(self, operation: int, phases: int = 0) -> int:

@@ -87,6 +87,25 @@ def gcon(scope: Scope, id: Tree, jflag: int, comp: int, rm: Frame) -> Expr:
     return component(scope, id, jflag, comp, rm) if comp else -scope.statement(id).multiplier
 
 
+MEASURES["FRICTION"] = "FRICTION"
+
+
+@function("FRICTION", "id:friction jflag:constant{0,1} comp:constant{1..28} rm:marker=0")
+def friction(scope: Scope, id: Tree, jflag: int, comp: int, rm: Frame) -> Expr:
+    """Component comp of the friction of FRICTION id, on marker I (jflag 0) or J (1).
+
+    comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, along the axes of marker rm; then, whatever
+    jflag and rm, 9 to 14 the coefficient MUX ... MURZ, 15 MU1, 16 to 21 the slip VX ... WZ, 22 to 27
+    the creep CREEP_X ... CREEP_AZ, 28 BETA, as on the page of FRICTION.
+    Unit: force, or force times length; 1, length/time, length.
+    Source: Adams/Solver function FRICTION; from 9 an extension.
+    """
+    if comp <= 8:
+        return component(scope, id, jflag, comp, rm)
+    view = scope.statement(id)
+    return view.cls.values(view, scope)[comp - 9]
+
+
 measured("JOINT", "the reaction of")
 measured("JPRIM", "the reaction of")
 measured("MOTION", "the reaction of")
@@ -100,7 +119,6 @@ measured("VTORQ", "the torque of", "VTORQUE")
 measured("BUSH", "the force or torque of", "BUSHING")
 measured("FIELD", "the force or torque of")
 measured("BEAM", "the force or torque of")
-measured("FRICTION", "the friction of")
 measured("SPDP", "the force or torque of", "SPRINGDAMPER")
 for _number, _name in enumerate(("FM", "FX", "FY", "FZ", "TM", "TX", "TY", "TZ"), 1):
     net(_name, _number)

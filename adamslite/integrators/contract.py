@@ -94,6 +94,8 @@ NO_PACE = (-1e300, 1e300, 1e300)
 # Share of the limit of stability that equal steps of VERLET may take: the power iteration comes to
 # the eigenvalue from below.
 STABLE = 0.93
+# A state of DIFF in the workspace: its value, its rate, the value from which it counts.
+STATE_SIZE, STATE_ORIGIN = 3, 2
 MODE_DYNAMICS = 4.0
 MODE_STATICS = 5.0
 

@@ -10,7 +10,7 @@ section 5.
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import Problem
+from adamslite.integrators.contract import STATE_ORIGIN, Problem
 from adamslite.integrators.motion_equations import PART
 from adamslite.native.translate import Reals, copy, native
 
@@ -97,6 +97,9 @@ def move_state(P: Problem, keep: bool) -> None:
     at = moved(P.ra.size, P.ra, P.undo, at, keep)
     at = moved(P.rz.size, P.rz, P.undo, at, keep)
     at = moved(P.pz.size, P.pz, P.undo, at, keep)
+    for k in range(P.sizes.ns):
+        o = P.scalar[P.sizes.m + P.sizes.nv + k] + STATE_ORIGIN
+        moved(1, P.W[o:], P.undo, at + k, keep)
 
 
 @native

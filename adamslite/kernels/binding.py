@@ -11,6 +11,7 @@ A bound tree is one of
     ("o", op, args)       ("f", function, args)    ("s", keyword, arguments) another statement
     ("v", trees)          ("z", node, component) unknown
     ("dif", node)         ("dif1", node)         ("sig", n, order) time-only variable
+    ("origin", node) value from which a state counts
     ("e", n) element whose load is measured      ("tab", n) table
 """
 
@@ -236,7 +237,10 @@ class Binder:
             return ("s", "VARIABLE", (("value", self.variable(ref.id)),))
         if ref.kind == "DIFF":
             node = self.node_slot(("DIFF", ref.id))
-            return ("s", "DIFF", (("state", ("dif", node)), ("rate", ("dif1", node))))
+            state: Tree = ("dif", node)
+            if self.model.element("DIFF", ref.id).restarts:
+                state = ("o", "-", (state, ("origin", node)))
+            return ("s", "DIFF", (("state", state), ("rate", ("dif1", node))))
         if ref.kind == "SENSOR":
             kept = self.number(self.model.deck.senvals.get(ref.id, 0.0))
             return ("s", "SENSOR", (("kept", kept),))

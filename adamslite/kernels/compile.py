@@ -285,7 +285,7 @@ def _entry_points(group: ShapeGroup) -> list[str]:
     names = [f"{group.name}_residual"]
     if group.face in WITH_JACOBIAN:
         names.append(f"{group.name}_jacobian")
-    if group.meta["angles"] or group.meta["limits"]:
+    if group.meta["tracks"]:
         names.append(f"{group.name}_track")
     kinds = group.meta["guards"]
     names += [f"{group.name}_clock"] if kinds["clock"] else []

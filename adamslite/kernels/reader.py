@@ -57,7 +57,7 @@ class ExpressionReader:
                 return scope.elements[number]
             case ("s", keyword, fields):
                 return View(STATEMENTS[keyword], {name: self(t) for name, t in fields}, [])
-            case ("z" | "dif" | "dif1", node, *component):
+            case ("z" | "dif" | "dif1" | "origin", node, *component):
                 return scope.symbol(tree[0], self.n_bodies + node, *component)
             case ("o", op, args):
                 return self._operation(op, [self(t) for t in args])

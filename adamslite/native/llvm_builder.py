@@ -210,6 +210,11 @@ class Builder:
         self.lines.append(f"  {new} = fadd {FAST} double {old}, {self.operand(value)}")
         self.lines.append(f"  store double {new}, ptr {address}")
 
+    def store(self, array: str, base: str, shift: int, value: Value) -> None:
+        """``array[base + shift] = value``."""
+        address = self.address(array, base, shift)
+        self.lines.append(f"  store double {self.operand(value)}, ptr {address}")
+
     def store_real(self, position: int, value: Value) -> None:
         """Overwrite real ``position`` of the present instance."""
         address = self.emit(("ra", position), f"getelementptr double, ptr %rp, i64 {position}")

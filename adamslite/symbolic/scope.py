@@ -106,6 +106,7 @@ class Scope:
         self.symbols: dict[Leaf, Symbol] = {}
         self.angles: list[Expr] = []
         self.kept: list[Expr] = []
+        self.origins: dict[int, Expr] = {}
         self.limits: list[Expr] = []
         self.slope = Derivatives()
         self.elements: list[Seen] = []
@@ -221,6 +222,15 @@ class Scope:
         kinds = {self.leaves[symbol][0] for symbol in self.slope.symbols(sp.S.Zero + expr)}
         return kinds <= {*CLOCK_LEAVES, *FIXED_LEAVES}
 
+    def origin(self, state: Symbol, within: Expr) -> Expr:
+        """The value from which the state of a DIFF counts: what it was at the last accepted step at
+        which the condition ``within`` did not hold; 0 as long as there is none.
+        """
+        node = self.leaves[state][1]
+        origin = self.symbol("origin", node)
+        self.origins[node] = piecewise((origin, within), otherwise=state, order=-1)
+        return origin
+
     def limit(self, expr: Expr) -> None:
         """The law that is being written means nothing once ``expr`` is below zero; the time of the
         first accepted state where it is will be remembered.
@@ -277,7 +287,7 @@ class Scope:
             return self.symbol("sig", leaf[1], leaf[2] + 1)
         if kind == "dif":
             return self.symbol("dif1", leaf[1])
-        if kind in ("p", "turn", "kept", "mode", "nan"):
+        if kind in ("p", "turn", "kept", "origin", "mode", "nan"):
             return 0
         raise UndefinedRate(leaf)
 

@@ -62,6 +62,7 @@ from adamslite.integrators.events.guards import (
 from adamslite.integrators.events.sensors import sense, start_sensors
 from adamslite.integrators.events.stops import is_stop, next_stop, set_clock, set_pace
 from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.motion_equations import track
 from adamslite.native.translate import native
 
 
@@ -141,6 +142,9 @@ def pass_event(P: Problem, L: Plan, t: float) -> bool:
     if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return False
     hold_watch(P)
+    if met(P) and ns > 0:
+        track(P)
+        hold_watch(P)
     for i in range(n):
         S.jump = max(S.jump, abs(P.a[i] - old[i]) / max(1.0, abs(P.u[i])))
     for k in range(ns):

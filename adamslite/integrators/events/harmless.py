@@ -69,7 +69,10 @@ def small_change(P: Problem, L: Plan, phases: int, cu: float) -> bool:
     """Whether the residual of the present branches moves the converged state too little to see."""
     residual(P, phases, P.F)
     solve(L, P.LV, P.pivots, P.F, P.x, P.work)
-    largest = 0.0
+    largest, first = 0.0, P.sizes.m + P.sizes.nv
+    for k in range(P.sizes.ns):
+        size = abs(P.F[P.sizes.n + first + k])
+        largest = max(largest, size / max(1.0, abs(P.z[first + k])))
     for i in range(P.sizes.n):
         size = abs(P.F[i])
         largest = max(largest, size / max(1.0, abs(P.q[i])), cu * size / max(1.0, abs(P.u[i])))

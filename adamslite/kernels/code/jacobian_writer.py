@@ -14,6 +14,9 @@ from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
 from adamslite.symbolic.types import Expr, Leaf
 
+# Leaves that are no unknowns and do not change with them.
+FIXED = ("p", "t", "mode", "sig", "turn", "kept", "origin", "nan")
+
 
 class JacobianWriter(ResidualWriter):
     """Writes the loop body of the Jacobian; ``blocks`` are the pairs (row node, column node) it
@@ -93,7 +96,7 @@ class JacobianWriter(ResidualWriter):
         vectors: dict[Leaf, Vec] = {}
         for symbol in sorted(self.scope.slope.symbols(expr), key=str):
             leaf = self.scope.leaves[symbol]
-            if leaf[0] in ("p", "t", "mode", "sig", "turn", "kept", "nan"):
+            if leaf[0] in FIXED:
                 continue
             if self.rates_only and leaf[0] in ("d", "v", "x", "w", "dif"):
                 continue

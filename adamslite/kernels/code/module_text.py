@@ -15,8 +15,12 @@ from adamslite.symbolic.guards import guards
 from adamslite.symbolic.scope import Scope
 
 RESIDUAL_HEAD = (
-    "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias {reals} %reals, "
+    "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias readonly %reals, "
     "ptr noalias readonly %W, ptr noalias %F) nounwind"
+)
+TRACK_HEAD = (
+    "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias %reals, ptr %W, ptr %F) "
+    "nounwind"
 )
 JACOBIAN_HEAD = (
     "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias readonly %reals, "
@@ -55,6 +59,7 @@ def write_kernels(
         ``meta["blocks"]``: pairs (row node, column node) of Jacobian blocks in the order of the
         integers; ``meta["n_ints"]``: integers of an instance; ``meta["angles"]``: how many angles
         and numbers it remembers, ``meta["limits"]``: how many times of leaving its law;
+        ``meta["tracks"]``: whether accepted steps concern it;
         ``meta["mass"]``: a force depends on accelerations; ``meta["guards"]``: kinds of the guards
         of the clock and of the watch; ``meta["clock"]``: what depends on time alone.
     """
@@ -75,10 +80,11 @@ def write_kernels(
     writer = ResidualWriter(shape, scope)
     writer.residual(out)
     bodies.append((f"{name}_residual", RESIDUAL_HEAD, writer))
-    if shape.n_angles or shape.n_limits:
+    tracks = bool(shape.n_angles or shape.n_limits or scope.origins)
+    if tracks:
         writer = ResidualWriter(shape, scope)
         writer.track()
-        bodies.append((f"{name}_track", RESIDUAL_HEAD, writer))
+        bodies.append((f"{name}_track", TRACK_HEAD, writer))
     kinds = shape.guards.kinds
     evaluated = {"clock": kinds["clock"], "watch": kinds["watch"] + kinds["zone"]}
     for place, (kind, found) in enumerate(evaluated.items()):
@@ -92,6 +98,7 @@ def write_kernels(
         "blocks": blocks,
         "angles": shape.n_angles,
         "limits": len(scope.limits),
+        "tracks": tracks,
         "guards": kinds,
         "clock": clock,
         "mass": any(leaf[0] in ("a", "al") for leaf in scope.symbols),
@@ -108,10 +115,9 @@ def _module(bodies: list[tuple[str, str, ResidualWriter]], n_ints: int, n_reals:
             f"  %cp{n} = getelementptr double, ptr %c, i64 {n}\n  %c{n} = load double, ptr %cp{n}\n"
             for n in range(5)
         )
-        reals = "" if name.endswith("_track") else "readonly"
         parts.append(
             LOOP.format(
-                head=head.format(name=name, reals=reals),
+                head=head.format(name=name),
                 prelude=prelude if head is JACOBIAN_HEAD else "",
                 n_ints=n_ints,
                 n_reals=n_reals,

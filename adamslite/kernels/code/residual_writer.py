@@ -47,8 +47,8 @@ class ResidualWriter:
             )
         if kind in ("z", "dif"):
             return self.b.read("W", self.b.int_at(leaf[1]), leaf[2] if kind == "z" else 0)
-        if kind == "dif1":
-            return self.b.read("W", self.b.int_at(leaf[1]), 1)
+        if kind in ("dif1", "origin"):
+            return self.b.read("W", self.b.int_at(leaf[1]), 1 if kind == "dif1" else 2)
         if kind == "sig":
             return self.b.read("W", self.b.int_at(len(self.shape.widths) + leaf[1]), leaf[2])
         if kind == "kept":
@@ -131,6 +131,8 @@ class ResidualWriter:
         for n, wrapped in enumerate(self.scope.angles):
             angle = self.b.add(self.value(wrapped), self._turns(n))
             self.b.store_real(self.shape.n_params + n, angle)
+        for node, origin in self.scope.origins.items():
+            self.b.store("F", self.b.int_at(node), 2, self.value(origin))
         for n, number in enumerate(kept):
             self.b.store_real(self._kept_at(n), number)
         for n, limit in enumerate(self.scope.limits):

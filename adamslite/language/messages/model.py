@@ -211,15 +211,13 @@ MODEL: dict[str, Message] = {
     ),
     "friction-not-there": Message(
         "{label} cannot act in {joint}: friction of a joint {kind} is not supported",
-        "translational, revolute, cylindrical and spherical joints have friction",
-        ("JOINT/1, HOOKE, I=2, J=1\nFRICTION/1, JOINT=1",),
+        "translational, revolute, cylindrical, spherical, Hooke and universal joints have friction",
+        ("JOINT/1, PLANAR, I=2, J=1\nFRICTION/1, JOINT=1",),
     ),
-    "friction-creeps": Message(
-        "{label} lets its joint creep under a load that friction could hold",
-        "with MAX_STICTION_DEFORMATION it holds",
-        ("JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1",
-         "JOINT/1, SPHERICAL, I=2, J=1\nFRICTION/1, JOINT=1"),
-        severity=WARNING,
+    "friction-transition": Message(
+        "{label} must end its transition beyond STICTION_TRANSITION_VELOCITY",
+        "a TRANSITION_VELOCITY_COEFFICIENT is larger than 1; 1.5 is the default",
+        ("JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1, TRANSITION_VELOCITY_COEFFICIENT=1",),
     ),
     "no-effect": Message(
         "{word} has no effect in {label}",
@@ -229,7 +227,6 @@ MODEL: dict[str, Message] = {
          "MARKER/4, PART=1, QP=1,0,0\nSPRINGDAMPER/1, I=2, J=4, KT=1",
          "MARKER/4, PART=1, USEXP, XP=1,0,0, ZP=0,0,1\n"
          "SPRINGDAMPER/1, ROTATIONAL, I=2, J=4, K=1",
-         "JOINT/1, SPHERICAL, I=2, J=1\nFRICTION/1, JOINT=1, MAX_STICTION_DEFORMATION=1",
          "DIFF/1, DYNAMIC_HOLD, FUNCTION=1",
          "INTEGRATOR/HHT, KMAX=3", "INTEGRATOR/RKF45\nINTEGRATOR/PATTERN=T:F",
          "SENSOR/1, HALT, VALUE=1, BISECTION, FUNCTION=TIME",
