@@ -220,7 +220,7 @@ def test_the_reaction_of_a_gcon_is_at_its_i(given: str, sign: int, mass: float) 
 
 def test_friction_inactive_during_is_inactive() -> None:
     joint = "MARKER/4, PART=1\nJOINT/1, REVOLUTE, I=2, J=4\n"
-    friction = deck_with(joint + "FRICTION/1, JOINT=1, INACTIVE_DURING=STATIC").statements[-1]
+    friction = deck_with(joint + "FRICTION/1, JOINT=1, INACTIVE_DURING=STATIC").of("FRICTION")[0]
     assert friction.inactive == "STATIC"
     assert "passed-over" not in codes(joint + "FRICTION/1, JOINT=1, INACTIVE_DURING=STATIC")
 

@@ -31,22 +31,20 @@ DECKS = {
     "BEAM STRING": f"BEAM/1, I=21, J=31, LENGTH=0.8, {SECTION}, CRATIO=0.1, FORMULATION=STRING",
     "BEAM with CMATRIX": f"BEAM/1, I=21, J=31, LENGTH=0.8, {SECTION}, CMATRIX={LOWER}",
     **{
-        f"FRICTION {kind} {effect}": f"JOINT/1, {kind}, I=21, J=31\nFRICTION/1, JOINT=1"
-        f", EFFECT={effect}, PIN_RADIUS=0.3, FRICTION_FORCE_PRELOAD=1, FRICTION_TORQUE_PRELOAD=1"
+        f"FRICTION {kind} {effect} {edge}": f"JOINT/1, {kind}, I=21, J=31\nFRICTION/1, JOINT=1"
+        f", EFFECT={effect}, PIN_RADIUS=0.3, MAX_STICTION_DEFORMATION=0.5, FRICTION_FORCE_PRELOAD=1, FRICTION_TORQUE_PRELOAD=1"
         f", INITIAL_OVERLAP=0.4, STICTION_TRANSITION_VELOCITY={edge}"
         for kind, effect, edge in (
             ("TRANSLATIONAL", "ALL", 9),
+            ("TRANSLATIONAL", "ALL", 0.3),
+            ("REVOLUTE", "ALL", 0.3),
             ("REVOLUTE", "SLIDING", 0.01),
             ("CYLINDRICAL", "STICTION", 0.3),
             ("SPHERICAL", "ALL", 0.3),
+            ("SPHERICAL", "ALL", 9),
+            ("HOOKE", "ALL", 0.3),
+            ("UNIVERSAL", "ALL", 9),
         )
-    },
-    **{
-        f"FRICTION {kind} with stiction, {edge}": f"JOINT/1, {kind}, I=21, J=31\nFRICTION/1"
-        f", JOINT=1, PIN_RADIUS=0.3, STICTION_TRANSITION_VELOCITY={edge}"
-        ", MAX_STICTION_DEFORMATION=0.5, FRICTION_FORCE_PRELOAD=1, FRICTION_TORQUE_PRELOAD=1"
-        for kind in ("TRANSLATIONAL", "REVOLUTE")
-        for edge in (9, 0.3, 0.01)
     },
 }  # fmt: skip
 

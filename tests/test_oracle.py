@@ -194,7 +194,11 @@ def test_every_force_element_has_a_formula() -> None:
 # ---------------------------------------------------------------------------------- friction
 
 JOINT_OF = {"TRANSLATIONAL": "VZ=0.7", "REVOLUTE": "WZ=2.3", "CYLINDRICAL": "VZ=0.7, WZ=2.3",
-            "SPHERICAL": "WX=1.1, WY=-0.6, WZ=2.3"}  # fmt: skip
+            "SPHERICAL": "WX=1.1, WY=-0.6, WZ=2.3", "HOOKE I_YOKE": "WX=2.3, WY=-1.9",
+            "HOOKE J_YOKE": "WX=2.3, WY=-1.9", "UNIVERSAL I_YOKE": "WZ=2.3, WY=-1.9",
+            "UNIVERSAL J_YOKE": "WZ=2.3, WY=-1.9"}  # fmt: skip
+AXIS_OF = {"HOOKE I_YOKE": [1.0, 0, 0], "HOOKE J_YOKE": [0, 1.0, 0],
+           "UNIVERSAL I_YOKE": [0, 0, 1.0], "UNIVERSAL J_YOKE": [0, 1.0, 0]}  # fmt: skip
 RUBBING = """A part on a joint that rubs, its mass centre beside the joint: all reactions are there
 UNITS/SYSTEM=MKS
 ACCGRAV/IGRAV=3, JGRAV=-7, KGRAV={kgrav}
@@ -202,8 +206,9 @@ PART/1, GROUND
 MARKER/1, PART=1
 PART/2, MASS=2, CM=22, IP=0.3,0.4,0.5,0.05,-0.03,0.02, {start}
 MARKER/2, PART=2
+MARKER/4, PART=1, REULER=0,-90D,0
 MARKER/22, PART=2, QP=0.2,0.3,-0.4
-JOINT/1, {kind}, I=2, J=1
+JOINT/1, {kind}, I=2, J={j}
 GFORCE/1, I=2, JFLOAT=3, TX=2, TY=-3, TZ=1.5
 MARKER/3, PART=1, FLOATING
 FRICTION/1, JOINT=1, MU_STATIC=0.45, MU_DYNAMIC=0.25, STICTION_TRANSITION_VELOCITY={vs}
@@ -216,45 +221,41 @@ END
 """
 
 
-def coefficient(speed: float, vs: float, rest: float, moving: float) -> float:
-    """mu(|v|), and below vs its share for the preload."""
-    u = speed / vs
-    if u < 1:
-        return rest * u * (3 - u * u) / 2
-    if u < 1.5:
-        p = (u - 1) / 0.5
-        return rest + (moving - rest) * p * p * (3 - 2 * p)
-    return moving
+def step5(x: float, x0: float, h0: float, x1: float, h1: float) -> float:
+    d = min(max((x - x0) / (x1 - x0), 0), 1)
+    return h0 + (h1 - h0) * d**3 * (10 - 15 * d + 6 * d * d)
 
 
 def rubbed(
-    kind: str, reaction: Array, slide: float, w: Array, vs: float, effect: str, used: set[str]
+    joint: str, reaction: Array, slide: float, w: Array, vs: float, effect: str, used: set[str]
 ) -> tuple[Array, Array]:
-    """Friction force and torque on I, z the axis, from the table of the statement's page."""
+    """Friction force and torque on I, from the table of the statement's page; no creep yet."""
+    kind = joint.split(" ")[0]
+    axis = np.array(AXIS_OF.get(joint, [0, 0, 1.0]))
     F, T = reaction[:3], reaction[3:]
     if "REACTION_FORCE" not in used:
         F = ZERO
-    bending = np.hypot(T[0], T[1]) * ("BENDING_MOMENT" in used)
-    twist = abs(T[2]) * ("TORSIONAL_MOMENT" in used)
-    across = np.hypot(F[0], F[1])
+    bending = np.linalg.norm(T - (T @ axis) * axis) * ("BENDING_MOMENT" in used)
+    twist = abs(T @ axis) * ("TORSIONAL_MOMENT" in used)
+    across = np.linalg.norm(F - (F @ axis) * axis)
+    pin = across + abs(F @ axis) * 0.15 / 0.3 + bending / 0.4
     load = {
         "TRANSLATIONAL": across + bending / 0.8 + twist / 0.6,
-        "REVOLUTE": across + abs(F[2]) * 0.15 / 0.3 + bending / 0.4,
         "CYLINDRICAL": across + bending / 0.8,
         "SPHERICAL": float(np.linalg.norm(F)),
-    }[kind]
+    }.get(kind, pin)
     radius = 0.35 if kind == "SPHERICAL" else 0.3
-    along = np.array([0, 0, slide])
-    around = radius * (w if kind == "SPHERICAL" else np.array([0, 0, w[2]]))
+    along = np.array([0, 0, slide]) if kind in ("TRANSLATIONAL", "CYLINDRICAL") else ZERO
+    around = radius * (w if kind == "SPHERICAL" else (w @ axis) * axis)
+    around = ZERO if kind == "TRANSLATIONAL" else around
     slip = np.concatenate([along, around])
     speed = float(np.linalg.norm(slip))
     rest, moving = {"ALL": (0.45, 0.25), "SLIDING": (0.25, 0.25), "STICTION": (0.45, 0.0)}[effect]
-    own = {"TRANSLATIONAL": 0.9, "CYLINDRICAL": 0.9}.get(kind, 0.7 / radius)
-    own *= "PRELOAD" in used
-    ramp = min(1.0, speed / vs * (3 - (speed / vs) ** 2) / 2) if speed < vs else 1.0
-    size = coefficient(speed, vs, rest, moving) * load + own * ramp
-    push = -size * slip / speed
-    return push[:3], radius * push[3:]
+    share = step5(speed, -vs, -1, vs, 1) * slip / speed
+    mu = step5(speed, vs, rest, 1.5 * vs, moving) * share
+    fade = step5(speed, vs, 1, 1.5 * vs, 0) if effect == "STICTION" else 1
+    own = ("PRELOAD" in used) * fade * share
+    return -(mu[:3] * load + 0.9 * own[:3]), -(radius * mu[3:] * load + 0.7 * own[3:])
 
 
 INPUTS = {"PRELOAD", "REACTION_FORCE", "BENDING_MOMENT", "TORSIONAL_MOMENT"}
@@ -279,8 +280,11 @@ def test_friction_of_a_joint_with_one_input(kind: str, left: str) -> None:
 def check_friction(kind: str, effect: str, vs: float, more: str, used: set[str]) -> None:
     kgrav = 0.0 if kind == "TRANSLATIONAL" else 5.0
     start = start_of(kind)
+    joint, _, yoke = kind.partition(" ")
+    across = joint == "UNIVERSAL"
+    more = f", EFFECT={effect}{more}" + (f", YOKE={yoke}" if yoke else "")
     deck = RUBBING.format(
-        kind=kind, vs=vs, more=f", EFFECT={effect}{more}", start=start, kgrav=kgrav
+        kind=joint, j=4 if across else 1, vs=vs, more=more, start=start, kgrav=kgrav
     )
     results = al.simulate(quick(deck))
 
@@ -291,6 +295,8 @@ def check_friction(kind: str, effect: str, vs: float, more: str, used: set[str])
     arm = np.array([0.2, 0.3, -0.4])
     slide = results["PART/2.vz"][0] - np.cross(w, arm)[2]
     reaction, friction = six_of("JOINT/1"), six_of("FRICTION/1")
+    if across:  # friction is written along the axes of J
+        friction = np.concatenate([(f[0], f[2], -f[1]) for f in (friction[:3], friction[3:])])
     force, torque = rubbed(kind, reaction, slide, w, vs, effect, used)
     size = np.abs(friction).max() + 1e-3
     assert friction == pytest.approx(np.concatenate([force, torque]), abs=1e-9 * size)

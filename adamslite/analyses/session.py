@@ -56,7 +56,7 @@ from adamslite.equations.result_columns import columns
 from adamslite.equations.system import System
 from adamslite.gc_pause import without_collection
 from adamslite.integrators import contract
-from adamslite.integrators.contract import ACCELERATIONS, RECORD
+from adamslite.integrators.contract import ACCELERATIONS, RECORD, RECORD_AT_REST
 from adamslite.kernels.compile import compile_model
 from adamslite.model.model import assemble
 from adamslite.outputs.saved_files import SavedFiles
@@ -286,7 +286,7 @@ class Session:
             self.time = float(time)
             system.report.t = time
             if self.outcome is Outcome.DONE:
-                system.run(RECORD, 0)
+                system.run(RECORD_AT_REST, 0)
                 self._keep(system, np.array([time]), True)
 
     def _kinematics(self, times: np.ndarray) -> None:

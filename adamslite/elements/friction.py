@@ -1,6 +1,6 @@
 """FRICTION: dry friction in a joint, from the joint's own reaction.
 
-Equations (F, T: force and torque of the joint on I; a: the axis; ``_n`` across a, ``_a`` along it)::
+Equations (F, T: force and torque of the joint on I; a: axis; ``_n`` across a, ``_a`` along it)::
 
     joint            axis a            slip v             normal load N
     TRANSLATIONAL    z of J            speed along a      |F_n| + |T_n|/X + |T_a|/REACTION_ARM
@@ -15,7 +15,8 @@ Equations (F, T: force and torque of the joint on I; a: the axis; ``_n`` across 
     X = INITIAL_OVERLAP + s (DZ(I,J,J) - its value as drawn, or IC)
         s = 1, -1, 0 for OVERLAP_DELTA = INCREASE, DECREASE, CONSTANT
 
-    force on I  -(mu N + FRICTION_FORCE_PRELOAD d),  torques -(radius mu N + FRICTION_TORQUE_PRELOAD d)
+    force on I   -(mu N + FRICTION_FORCE_PRELOAD d)
+    torque on I  -(radius mu N + FRICTION_TORQUE_PRELOAD d)
 
 The vector mu and d, its direction, follow from the slip v and the creep D of the surfaces::
 
@@ -24,7 +25,8 @@ The vector mu and d, its direction, follow from the slip v and the creep D of th
     beyond vd     d = v/|v|,   mu = MU_DYNAMIC d
 
     beta = s(|v|/vs),   s(x) = STEP5(x, -1, -1, 1, 1) = (15 x - 10 x^3 + 3 x^5)/8
-    dD/dt = v below vs, from D = 0 when |v| falls below it; at |D| = Dm only what does not lengthen D
+    dD/dt = v below vs, from D = 0 when |v| falls below it
+            at |D| = Dm only what does not lengthen D
 
     vs = STICTION_TRANSITION_VELOCITY,  vd = TRANSITION_VELOCITY_COEFFICIENT vs
     Dm = MAX_STICTION_DEFORMATION
@@ -73,7 +75,7 @@ from adamslite.language.statement import (
     statement,
     words,
 )
-from adamslite.symbolic.scope import ZERO, Load, Scope, Vector, dot, minus, plus, scale
+from adamslite.symbolic.scope import ZERO, Load, Scope, Vector, dot, minus, scale
 from adamslite.symbolic.sympy_nodes import norm, piecewise, sp
 from adamslite.symbolic.types import Expr, Seen, Symbol
 
@@ -227,9 +229,9 @@ class Friction(Wrench, Statement):
                 own = preload(self, self.friction_torque_preload)
                 torque = minus(torque, scale(freedom.radius * mu * load + own * d, freedom.axis))
         if self.inactive == "STATIC":
-            rests = sp.And(scope.mode > STATICS - 0.5, scope.mode < STATICS + 0.5)
-            force, torque = ([piecewise((0, rests), otherwise=x) for x in v] for v in (force, torque))
-        return [Load(i, tuple(force), tuple(torque), j, follows=True)]
+            acts = piecewise((0, sp.Eq(scope.mode, STATICS)), otherwise=1)
+            force, torque = scale(acts, force), scale(acts, torque)
+        return [Load(i, force, torque, j, follows=True)]
 
     def state_rate(self: Seen, scope: Scope, number: int, state: Symbol) -> Expr:
         """Rate of a component of creep over MAX_STICTION_DEFORMATION."""
@@ -250,7 +252,7 @@ class Friction(Wrench, Statement):
     @property
     def result_names(self) -> tuple[str, ...]:
         """Force and torque on I along the axes of J, then what the law makes of the slip."""
-        return (*Wrench.result_names.fget(self), *CHANNELS)
+        return (*super().result_names, *CHANNELS)
 
     def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""

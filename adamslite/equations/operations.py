@@ -11,7 +11,9 @@ from adamslite.integrators.contract import (
     CLOCK,
     DONE,
     EQUILIBRIUM,
+    MODE_STATICS,
     RECORD,
+    RECORD_AT_REST,
     RESIDUAL,
     SPECTRUM,
     Problem,
@@ -28,7 +30,7 @@ from adamslite.native.translate import native
 @native
 def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
-    row ``phases``; CLOCK writes the guards of the clock at output times; AUDIT starts a balance.
+    row ``phases``, RECORD_AT_REST with the MODE of statics; CLOCK writes the guards of the clock at output times; AUDIT starts a balance.
     """
     if operation == CLOCK:
         return sample_clock(P)
@@ -40,7 +42,9 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     put_state(P, P.settings.t, P.q, P.u, P.a, P.z, P.rd)
     if operation == SPECTRUM:
         return spectrum(P)
-    if operation == RECORD:
+    if operation == RECORD_AT_REST:
+        P.W[1] = MODE_STATICS
+    if operation == RECORD or operation == RECORD_AT_REST:
         write_record(P, phases)
         track(P)
     elif operation == AUDIT:

@@ -94,9 +94,9 @@ MEASURES["FRICTION"] = "FRICTION"
 def friction(scope: Scope, id: Tree, jflag: int, comp: int, rm: Frame) -> Expr:
     """Component comp of the friction of FRICTION id, on marker I (jflag 0) or J (1).
 
-    comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, along the axes of marker rm; then, whatever
-    jflag and rm, 9 to 14 the coefficient MUX ... MURZ, 15 MU1, 16 to 21 the slip VX ... WZ, 22 to 27
-    the creep CREEP_X ... CREEP_AZ, 28 BETA, as on the page of FRICTION.
+    comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, along the axes of marker rm.  Whatever
+    jflag and rm, 9 to 14 are the coefficient MUX ... MURZ, 15 MU1, 16 to 21 the slip VX ... WZ,
+    22 to 27 the creep CREEP_X ... CREEP_AZ, 28 BETA: see the page of FRICTION.
     Unit: force, or force times length; 1, length/time, length.
     Source: Adams/Solver function FRICTION; from 9 an extension.
     """

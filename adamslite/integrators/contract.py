@@ -123,7 +123,8 @@ MODE_STATICS = 5.0
     SPECTRUM,
     CLOCK,
     AUDIT,
-) = range(8)
+    RECORD_AT_REST,
+) = range(9)
 
 
 class Sizes(Record):

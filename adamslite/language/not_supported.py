@@ -22,6 +22,10 @@ _ROUTINE = "libraries of the user cannot be loaded: write FUNCTION as an express
 _INTEGRATOR = (
     "a number of the integrator of ADAMS; the summary of a run prints those of this program"
 )
+_LUGRE = (
+    "it belongs to FORMULATION=LUGRE, whose bristle MAX_STICTION_DEFORMATION replaces; or write the "
+    "law as a DIFF and an SFORCE"
+)
 INSTEAD = {
     "CONTACT": "write the force between two bodies as an SFORCE with IMPACT(DM(i,j), VR(i,j), ...)",
     "GSE": "its equations are in a compiled routine, not in the deck; write linear ones as an LSE "
@@ -54,9 +58,14 @@ INSTEAD = {
     "FIELD FUNCTION": "write a GFORCE with that FUNCTION=USER(...), which --user binds",
     "FIELD ROUTINE": "write a GFORCE with that ROUTINE, which --user binds",
     "FILE COMMAND": "name the command file on the command line: `adamslite solve DECK FILE.acf`",
-    "FRICTION FORMULATION": "only the stick-slip law of STICTION_TRANSITION_VELOCITY is known",
-    "FRICTION OVERLAP_DELTA": "the overlap does not change: give its mean as INITIAL_OVERLAP",
-    "FRICTION TRANSITION_VELOCITY_COEFFICIENT": "delete it: its default, 1.5, is used",
+    "FRICTION BRISTLE_STIFFNESS_COEFFICIENT": _LUGRE,
+    "FRICTION DAMPING_COEFFICIENT": _LUGRE,
+    "FRICTION DECAY_EXPONENT_STRIBECK": _LUGRE,
+    "FRICTION MAX_FRICTION_FORCE": _LUGRE,
+    "FRICTION MAX_FRICTION_TORQUE": _LUGRE,
+    "FRICTION SMOOTH": _LUGRE,
+    "FRICTION VELOCITY_THRESHOLD_STRIBECK": _LUGRE,
+    "FRICTION VISCOUS_FRICTION_COEFFICIENT": _LUGRE,
     "INVPSD": "its random phases come from a generator that is not published: write the sum of "
     "sines a*SIN(2*PI*f*TIME+phase), or a SPLINE of the signal",
     "LINEAR MKB": _MATRICES,

@@ -1,47 +1,41 @@
 """Write the reference of friction that holds: scalar equations integrated by DOP853.
 
-The rest deflection and the sliding distance are closed forms, written as measures.
+The rest creep, the force of breakaway and the travel of a block that stays are closed forms,
+compared before they are written as measures.
 """
 
+import sys
 from pathlib import Path
 
 import numpy as np
-from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE.parent / "friction"))
+from stick_slip import Law, odd, solve  # noqa: E402
 
 DOWN, PRESS = 3.3552, 9.2184
 MASS, INERTIA, PIN = 2.0, 0.01, 0.05
-EDGE, GIVE, YIELDING = 0.1, 1e-4, 0.1
-END = 1.2
+GIVE, END = 1e-4, 1.2
+HIGH, LOW = Law(0.8, 0.6, give=GIVE), Law(0.3, 0.2, give=GIVE)
+BEARING = Law(0.5, 0.3, give=GIVE)
 HEADER = """# Friction that holds, DOP853 at rtol 1e-11: see README.md
 # written by make_reference.py
-# solve: --error 1e-8
+# solve: --error 1e-9
 # tolerance: abs 1e-6
 # tolerance PART/2.x: abs 1e-8
 # tolerance VARIABLE/turn: abs 1e-7
+# tolerance FRICTION/2.creep_z: abs 1e-8
 """
 
 
-def mu(speed, rest, moving):
-    """Coefficient at a slip >= 0."""
-    d = min(max((speed / EDGE - 1) / 0.5, 0), 1)
-    return rest + (moving - rest) * d * d * (3 - 2 * d)
+def block(law, speed=0.0, pull=lambda t: 0.0):
+    """Position and speed, and creep, of a block on the slope."""
 
+    def rates(t, y, mu, _):
+        return [y[1], DOWN + pull(t) / MASS - mu[0] * PRESS]
 
-def friction(v, b, rest, moving):
-    """Friction over the load, and db/dt."""
-    u = min(max(v / EDGE, -1), 1)
-    share = u * (3 - u * u) / 2
-    left = 1 - b if v > 0 else 1 + b
-    rate = v / GIVE * min(max(left / YIELDING, 0), 1)
-    return mu(abs(v), rest, moving) * (b + (1 - abs(b)) * share), rate
-
-
-def block(rest, moving, pull=lambda t: 0.0):
-    def f(t, y):
-        held, rate = friction(y[1], y[2], rest, moving)
-        return [y[1], DOWN + pull(t) / MASS - held * PRESS, rate]
-
-    return f
+    return solve(law, lambda y: y[1:], rates, [0.0, speed], times, longest=5e-4)
 
 
 def step(t, t0, t1):
@@ -49,53 +43,41 @@ def step(t, t0, t1):
     return d * d * (3 - 2 * d)
 
 
-def wheel(t, y):
-    held, rate = friction(PIN * y[1], y[2], 0.5, 0.3)
+def wheel(t, y, mu, _):
     torque = 0.3 * (step(t, 0, 0.2) - 2 * step(t, 0.5, 0.7))
     load = MASS * np.hypot(DOWN, PRESS)
-    return [y[1], (torque - held * load * PIN) / INERTIA, rate]
-
-
-def solve(f, speed, times):
-    """Position, speed and deflection (3, nt)."""
-    steps = {"rtol": 1e-11, "atol": 1e-13, "max_step": 2e-4}
-    return solve_ivp(f, (0, times[-1]), [0.0, speed, 0.0], "DOP853", times, **steps).y
-
-
-def sliding_distance(speed, rest, moving):
-    """Way to the first standstill: int v dv / (mu(v) PRESS - DOWN); the bristle is bent at once."""
-
-    def way(v):
-        return v / (mu(v, rest, moving) * PRESS - DOWN)
-
-    return sum(quad(way, *ends)[0] for ends in ((0, EDGE), (EDGE, 1.5 * EDGE), (1.5 * EDGE, speed)))
+    return [y[1], (torque - mu[0] * load * PIN) / INERTIA]
 
 
 times = np.linspace(0, END, 61)
-low, high = solve(block(0.8, 0.6), 0, times), solve(block(0.3, 0.2), 0, times)
-thrown = solve(block(0.8, 0.6), 1.5, times)
-pulled = solve(block(0.8, 0.6, lambda t: 10 * t), 0, times)
-turned = solve(wheel, 0, times)
+(low_x, low_v), (creep,) = block(HIGH)
+(high_x, high_v), _ = block(LOW)
+(thrown_x, thrown_v), (thrown_creep,) = block(HIGH, 1.5)
+pull = MASS * (HIGH.rest * PRESS - DOWN)
+(pulled_x, pulled_v), _ = block(HIGH, pull=lambda t: 10 * t)
+(turn, spin), _ = solve(BEARING, lambda y: PIN * y[1:], wheel, [0, 0], times, longest=5e-4)
 
 # The closed forms, against the integration before they are written.
-rest = GIVE * DOWN / (0.8 * PRESS)
-assert abs(low[0, -1] - rest) < 1e-11
-fine = solve(block(0.8, 0.6), 1.5, np.linspace(0, 0.7, 7001))
-way = sliding_distance(1.5, 0.8, 0.6)
-assert abs(fine[0].max() - way) < 1e-6
-sprung = way - GIVE * (1 - DOWN / (0.8 * PRESS))
+rest = GIVE * brentq(lambda x: odd(x) - DOWN / (HIGH.rest * PRESS), 0, 1, xtol=1e-14)
+assert abs(low_x[-1] - rest) < 1e-10 and abs(thrown_creep[-1] - rest) < 1e-10
+sliding = (thrown_v > 1.5 * HIGH.vs) & (times < 0.6)
+slowed = 1.5 - (HIGH.moving * PRESS - DOWN) * times
+assert sliding.sum() > 20 and abs(thrown_v - slowed)[sliding].max() < 1e-10
+before = pulled_x[times < 0.95 * pull / 10].max()
+assert before < GIVE < pulled_x[times > 1.02 * pull / 10].min()
 
 names = {
-    "PART/2.x": low[0], "PART/2.vx": low[1], "DIFF/FRICTION_2": low[2],
-    "PART/3.x": high[0], "PART/3.vx": high[1],
-    "PART/4.x": thrown[0], "PART/4.vx": thrown[1],
-    "PART/5.x": pulled[0], "PART/5.vx": pulled[1],
-    "VARIABLE/turn": turned[0], "PART/6.wy": turned[1],
+    "PART/2.x": low_x, "PART/2.vx": low_v, "FRICTION/2.creep_z": creep,
+    "PART/3.x": high_x, "PART/3.vx": high_v,
+    "PART/4.x": thrown_x, "PART/4.vx": thrown_v,
+    "PART/5.x": pulled_x, "PART/5.vx": pulled_v,
+    "VARIABLE/turn": turn, "PART/6.wy": spin,
 }  # fmt: skip
-measures = f"""# measure: last PART/2.x = {rest:.12g} tol abs 1e-8
-# measure: last PART/4.x = {sprung:.12g} tol abs 1e-7
+measures = f"""# measure: last PART/2.x = {rest:.12g} tol abs 1e-9
+# measure: last FRICTION/2.fz = {-MASS * DOWN:.12g} tol abs 1e-6
+# measure: last FRICTION/4.creep_z = {rest:.12g} tol abs 1e-9
 """
 table = np.column_stack([times, *names.values()])
 rows = [",".join(f"{value:.12g}" for value in row) for row in table]
 text = HEADER + measures + ",".join(["time", *names]) + "\n" + "\n".join(rows) + "\n"
-Path(__file__).with_name("reference.csv").write_text(text)
+(HERE / "reference.csv").write_text(text)

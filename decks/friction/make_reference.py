@@ -1,82 +1,88 @@
-"""Write the reference of the rubbing joints: scalar equations, integrated by DOP853.
+"""Write the reference of the rubbing joints: equations in one or two coordinates, by DOP853.
 
 The reaction of the pendulum's pin depends on the acceleration that its friction changes, so each
 evaluation there solves for the acceleration.
 """
 
+import sys
 from pathlib import Path
 
 import numpy as np
-from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
+from stick_slip import Law, coefficient, solve  # noqa: E402
+
 G, MASS, INERTIA = 9.81, 2.0, 0.01
-MU_S, MU_D, EDGE = 0.3, 0.2, 0.1
-PIN, BALL = 0.05, 0.04
-PRELOAD = 0.3
-ARM = 0.5
-HEADER = """# Friction in five joints, DOP853 at rtol 1e-11: see README.md
+LAW, PIN, BALL, AXIAL = Law(0.3, 0.2), 0.05, 0.04, 0.03
+PRELOAD, ARM, V0 = 0.3, 0.5, 1.5
+HEADER = """# Friction in seven joints, DOP853 at rtol 1e-11: see README.md
 # written by make_reference.py
 # solve: --error 1e-8
 # tolerance: abs 1e-5
-# tolerance FRICTION/1.fx: abs 1e-3
-time,PART/2.vx,PART/3.wz,PART/4.vz,PART/4.wz,PART/5.wy,PART/6.wz,VARIABLE/swing,FRICTION/1.fx"""
+# tolerance FRICTION/1.fz: abs 1e-3
+# tolerance FRICTION/1.creep_z: abs 1e-7
+# tolerance FRICTION/4.wy: abs 1e-6
+"""
 
 
-def mu(speed, rest=MU_S, moving=MU_D):
-    """Coefficient at a slip >= 0."""
-    u = speed / EDGE
-    if u <= 1:
-        return rest * u * (3 - u * u) / 2
-    d = min((u - 1) / 0.5, 1)
-    return rest + (moving - rest) * d * d * (3 - 2 * d)
+def wheel(radius, load, law=LAW):
+    """A wheel of INERTIA on a pin: slip and rates."""
+    return (
+        lambda y: radius * y,
+        lambda t, y, mu, _: -radius * mu * load / INERTIA,
+    ), law
 
 
-def block(_, v):
-    return [-np.sign(v[0]) * (mu(abs(v[0])) * G + mu(abs(v[0]), PRELOAD, PRELOAD) / MASS)]
+def turning(speed, radius, load, law=LAW, held=True):
+    (slip, rates), law = wheel(radius, load, law)
+    return solve(law, slip, rates, [speed], times, held)
 
 
-def wheel(_, w):
-    return [-np.sign(w[0]) * mu(abs(w[0]) * PIN) * MASS * G * PIN / INERTIA]
+def block(t, y, mu, direction):
+    return -(mu * MASS * G + PRELOAD * direction) / MASS
 
 
-def screw(_, y):
-    slip = np.array([y[0], y[1] * PIN])
-    size = np.hypot(*slip)
-    pull = mu(size) * MASS * G * slip / max(size, 1e-300)
-    return [-pull[0] / MASS, -pull[1] * PIN / INERTIA]
+def sleeve(t, y, mu, _):
+    return -MASS * G * mu * [1 / MASS, PIN / INERTIA]
 
 
-def ball(_, w):
-    # EFFECT = SLIDING
-    return [-np.sign(w[0]) * mu(abs(w[0]) * BALL, MU_D, MU_D) * MASS * G * BALL / INERTIA]
-
-
-def pendulum(_, y):
+def pendulum(t, y, mu, _):
     angle, rate = y
-    slip = np.sign(rate) * mu(abs(rate) * PIN)
 
     def surplus(turning):
         along = MASS * (ARM * rate**2 + G * np.cos(angle))
         across = MASS * (ARM * turning + G * np.sin(angle))
-        torque = -MASS * G * ARM * np.sin(angle) - slip * PIN * np.hypot(along, across)
+        torque = -MASS * G * ARM * np.sin(angle) - mu[0] * PIN * np.hypot(along, across)
         return (INERTIA + MASS * ARM**2) * turning - torque
 
     return [rate, brentq(surplus, -1e3, 1e3, xtol=1e-13)]
 
 
-def solve(f, start, times):
-    """Values (n, nt)."""
-    steps = {"rtol": 1e-11, "atol": 1e-12, "max_step": 5e-3}
-    return solve_ivp(f, (0, times[-1]), start, "DOP853", times, **steps).y
-
-
 times = np.linspace(0, 1.2, 61)
-v, wheeling = solve(block, [1.5], times)[0], solve(wheel, [15.0], times)[0]
-slide, turn = solve(screw, [0.4, 8.0], times)
-spin = solve(ball, [-15.0], times)[0]
-swing, rate = solve(pendulum, [2.0, 0.0], times)
-pull = [MASS * block(0, [each])[0] for each in v]
-table = np.column_stack([times, v, wheeling, slide, turn, spin, rate, swing, pull])
+(v,), (creep,) = solve(LAW, lambda y: y, block, [V0], times)
+(wheeling,), _ = turning(15.0, PIN, MASS * G)
+(slide, turn), _ = solve(LAW, lambda y: y * [1, PIN], sleeve, [0.4, 8.0], times)
+(spin,), _ = turning(-15.0, BALL, MASS * G, Law(0.2, 0.2), held=False)
+(swing, rate), _ = solve(LAW, lambda y: PIN * y[1:], pendulum, [2.0, 0.0], times)
+(hooke,), _ = turning(12.0, PIN, MASS * G)
+(cross,), _ = turning(-9.0, PIN, MASS * G * AXIAL / PIN)
+
+# While the block slides it is slowed down by MU_DYNAMIC g and the preload, from V0 on.
+sliding = v > 1.5 * LAW.vs
+slowed = V0 - (LAW.moving * G + PRELOAD / MASS) * times
+assert sliding.sum() > 20 and abs(v - slowed)[sliding].max() < 1e-10
+
+pulls = zip(v, creep, strict=True)
+laws = [coefficient(LAW, np.array([a]), np.array([d]), abs(a) < LAW.vs) for a, d in pulls]
+names = {
+    "PART/2.vx": v, "PART/3.wz": wheeling, "PART/4.vz": slide, "PART/4.wz": turn,
+    "PART/5.wy": spin, "PART/6.wz": rate, "VARIABLE/swing": swing, "PART/7.wx": hooke,
+    "PART/8.wy": cross, "FRICTION/1.fz": [-(mu[0] * MASS * G + PRELOAD * d[0]) for mu, d in laws],
+    "FRICTION/1.creep_z": creep, "FRICTION/4.wy": BALL * spin,
+}  # fmt: skip
+table = np.column_stack([times, *names.values()])
 rows = [",".join(f"{value:.12g}" for value in row) for row in table]
-Path(__file__).with_name("reference.csv").write_text("\n".join([HEADER, *rows]) + "\n")
+text = HEADER + ",".join(["time", *names]) + "\n" + "\n".join(rows) + "\n"
+(HERE / "reference.csv").write_text(text)

@@ -26,6 +26,7 @@ from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import magnitude, piecewise, root
 from adamslite.symbolic.types import Expr, Seen, Symbol
 
+
 class Regime(NamedTuple):
     """What the law says: direction and coefficient by components, both along the slip.
 
