@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import runpy
+from pathlib import Path
+
 import numpy as np
 import pytest
 from decklets import codes
@@ -24,6 +27,7 @@ MARKER/2, PART=2, REULER=90D,90D,0
 JOINT/1, TRANSLATIONAL, I=2, J=1
 FRICTION/1, JOINT=1, MU_STATIC=0.8, MU_DYNAMIC=0.6{}
 """
+LAW = Path(__file__).parents[1] / "decks" / "friction" / "stick_slip.py"
 GIVE = ", MAX_STICTION_DEFORMATION=1e-4"
 # (15 x - 10 x^3 + 3 x^5)/8 = 1/2
 HALF = 0.28112767042070575
@@ -105,6 +109,61 @@ def test_commands_change_a_friction() -> None:
     assert run(held)["PART/2.x"][-1] == pytest.approx(HALF * 1e-4, abs=1e-9)
     released = run(held.with_active("FRICTION", [1], False), end=0.5)
     assert released["PART/2.x"][-1] == pytest.approx(4 * 0.5**2 / 2, abs=1e-6)
+
+
+TO_AND_FRO = """a block pulled to and fro: it sticks, breaks away, slides and is caught again
+UNITS/SYSTEM=MKS
+ACCGRAV/KGRAV=-10
+PART/1, GROUND
+MARKER/1, PART=1, REULER=90D,90D,0
+PART/2, MASS=2, CM=2, IP=0.01,0.01,0.01, VX={v0}
+MARKER/2, PART=2, REULER=90D,90D,0
+JOINT/1, TRANSLATIONAL, I=2, J=1
+FRICTION/1, JOINT=1, MU_STATIC={rest}, MU_DYNAMIC={moving}, MAX_STICTION_DEFORMATION={give}
+, STICTION_TRANSITION_VELOCITY={vs}, FRICTION_FORCE_PRELOAD={own}
+SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=2, J=1, FUNCTION={pull}*SIN({w}*TIME)
+"""
+# The last one creeps to MAX_STICTION_DEFORMATION and back in every half period.
+SETS = (
+    {"rest": 0.5, "moving": 0.3, "vs": 0.1, "give": 0.01, "pull": 14, "w": 6, "own": 0, "v0": 0},
+    {
+        "rest": 0.4, "moving": 0.25, "vs": 0.02, "give": 1e-3, "pull": -11, "w": 3, "own": 0.7,
+        "v0": -1,
+    },
+    {"rest": 0.5, "moving": 0.3, "vs": 0.1, "give": 2e-3, "pull": 9.9, "w": 20, "own": 0, "v0": 0},
+)  # fmt: skip
+# Largest error of position and creep at ERROR = 1e-7; ten times that of the velocity.
+BANDS = {"GSTIFF": 1e-5, "RADAU": 1e-6, "ABAM": 1e-5, "HHT": 3e-3}
+
+
+@pytest.fixture(scope="module")
+def piecewise_solutions() -> list[tuple[np.ndarray, np.ndarray]]:
+    """The same scalar equations by DOP853, which begins again wherever the regime changes."""
+    module = runpy.run_path(str(LAW))
+    times = np.linspace(0, 1.5, 31)
+
+    def solved(p: dict[str, float]) -> tuple[np.ndarray, np.ndarray]:
+        law = module["Law"](p["rest"], p["moving"], p["vs"], p["give"])
+
+        def rates(t: float, y: np.ndarray, mu: np.ndarray, along: np.ndarray) -> list[float]:
+            push = p["pull"] * np.sin(p["w"] * t) - 20 * mu[0] - p["own"] * along[0]
+            return [y[1], push / 2]
+
+        return module["solve"](law, lambda y: y[1:], rates, [0, p["v0"]], times, longest=4e-3)
+
+    return [solved(p) for p in SETS]
+
+
+@pytest.mark.parametrize("method", BANDS)
+@pytest.mark.parametrize("n", range(len(SETS)))
+def test_to_and_fro(method: str, n: int, piecewise_solutions: list) -> None:
+    (x, v), (creep,) = piecewise_solutions[n]
+    deck = read(TO_AND_FRO.format(**SETS[n]))
+    found = simulate(assemble(deck), end=1.5, steps=30, error=1e-7, integrator=method)
+    assert found.outcome.name == "DONE"
+    assert found["PART/2.x"] == pytest.approx(x, abs=BANDS[method])
+    assert found["PART/2.vx"] == pytest.approx(v, abs=10 * BANDS[method])
+    assert found["FRICTION/1.creep_z"] == pytest.approx(creep, abs=BANDS[method])
 
 
 SPRING = "\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=2, J=1, FUNCTION=-100*DX(2,1)"

@@ -30,7 +30,8 @@ from adamslite.native.translate import native
 @native
 def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
-    row ``phases``, RECORD_AT_REST with the MODE of statics; CLOCK writes the guards of the clock at output times; AUDIT starts a balance.
+    row ``phases``, RECORD_AT_REST with the MODE of statics; CLOCK writes the guards of the clock
+    at output times; AUDIT starts a balance.
     """
     if operation == CLOCK:
         return sample_clock(P)

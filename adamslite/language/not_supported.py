@@ -23,8 +23,8 @@ _INTEGRATOR = (
     "a number of the integrator of ADAMS; the summary of a run prints those of this program"
 )
 _LUGRE = (
-    "it belongs to FORMULATION=LUGRE, whose bristle MAX_STICTION_DEFORMATION replaces; or write the "
-    "law as a DIFF and an SFORCE"
+    "it belongs to FORMULATION=LUGRE; MAX_STICTION_DEFORMATION gives the elasticity at rest, or "
+    "write that law as a DIFF and an SFORCE"
 )
 INSTEAD = {
     "CONTACT": "write the force between two bodies as an SFORCE with IMPACT(DM(i,j), VR(i,j), ...)",
