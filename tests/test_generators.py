@@ -29,6 +29,7 @@ QUICK = (
     "arrays",
     "beam-cantilever",
     "beam-string",
+    "nforce",
     "bushing",
     "chrono",
     "conical-pendulum",

@@ -5,6 +5,8 @@ Two seeds are two postures, two sets of rates and two systems of units.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import pytest
 from oracle import Flight, Marker, pair, projected_angles, reported, seen, velocity
@@ -33,8 +35,8 @@ def numbers(rng: np.random.Generator, count: int, size: float = 1.0) -> list[flo
     return [float(f"{v:.6g}") for v in rng.uniform(0.3, 2, count) * size]
 
 
-def listed(values: list[float]) -> str:
-    return ",".join(map(repr, values))
+def listed(values: Iterable[float]) -> str:
+    return ",".join(repr(float(value)) for value in values)
 
 
 # ---------------------------------------------------------------------------------- elements
@@ -158,6 +160,24 @@ def beam(f: Flight, ratio: bool, string: bool = False) -> tuple[list[str], list]
     return [line], from_six(f[i], f[j], load)
 
 
+def nforce(f: Flight) -> tuple[list[str], list]:
+    """Two markers on one J: their twelve displacements, damping and preload, a full matrix."""
+    *markers, j = f.pick(3)
+    k, c = (np.array(numbers(f.rng, 144)).reshape(12, 12) for _ in range(2))
+    rest, force = np.array(numbers(f.rng, 12)), np.array(numbers(f.rng, 12))
+    states = [six(f[i], f[j]) for i in markers]
+    x, v = (np.concatenate([state[n] for state in states]) for n in (0, 1))
+    load = force - k @ (x - rest) - c @ v
+    lines = [
+        f"MATRIX/{n}, FULL=RORDER, ROWS=12, COLUMNS={m.size // 12}, VALUES={listed(m.ravel())}"
+        for n, m in enumerate((k, c, rest, force), 1)
+    ]
+    ends = ",".join(map(str, markers))
+    lines += [f"NFORCE/1, IMARKERS={ends}, J={j}, KMATRIX=1, CMATRIX=2, LENGTH=3, FORCE=4"]
+    first, second = markers
+    return lines, from_six(f[first], f[j], load[:6]) + from_six(f[second], f[j], load[6:])
+
+
 ELEMENTS = {
     "SFORCE along": lambda f: sforce(f, False, False),
     "SFORCE along z only on I": lambda f: sforce(f, True, False),
@@ -171,6 +191,7 @@ ELEMENTS = {
     "BUSHING": bushing,
     "FIELD": lambda f: field(f, False),
     "FIELD with CRATIO": lambda f: field(f, True),
+    "NFORCE": nforce,
     "BEAM": lambda f: beam(f, False),
     "BEAM with CRATIO": lambda f: beam(f, True),
     "BEAM as a STRING": lambda f: beam(f, True, string=True),
@@ -187,7 +208,7 @@ def test_loads_of_an_element(name: str, seed: int) -> None:
 def test_every_force_element_has_a_formula() -> None:
     words = {name.split()[0] for name in ELEMENTS}
     forces = {key for key, kind in STATEMENTS.items() if hasattr(kind, "loads")}
-    assert forces - {Friction.keyword} == words
+    assert forces - {Friction.keyword} == words - {"NFORCE"}
     assert issubclass(Friction, Wrench)
 
 

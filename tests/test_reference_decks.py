@@ -27,6 +27,7 @@ FOLDERS = (
     "growing-mass-singular",
     "hanging-mass",
     "heavy-top",
+    "nforce",
     "paper-sforce",
     "pendulum-gcon",
     "pid-winch",

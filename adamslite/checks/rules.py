@@ -39,6 +39,7 @@ from adamslite.checks.markers import (
     frames,
     owners,
 )
+from adamslite.checks.nforces import NFORCE_RULES
 from adamslite.checks.posture import (
     facing_markers,
     inertia_at_mass_centre,
@@ -88,6 +89,7 @@ RULES: list[Rule] = [
     shapes,
     reserved_names,
     *REQUEST_RULES,
+    *NFORCE_RULES,
     unit_system,
     *CONSTRAINT_RULES,
     *TABLE_RULES,

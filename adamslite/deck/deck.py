@@ -72,6 +72,12 @@ class Deck:
         self._enter(statements)
         groups = [(each, each.companions(self)) for each in statements]
         self.statements = tuple(s for each, group in groups for s in (each, *group))
+        self._acts_for = {
+            (s.keyword, s.key): (each.keyword, each.key)
+            for each, group in groups
+            for s in group
+            if hasattr(s, "loads")
+        }
         if len(self.statements) > len(statements):
             self._enter(self.statements)
 
@@ -125,7 +131,13 @@ class Deck:
 
     def is_active(self, statement: Statement) -> bool:
         """Whether an element acts; everything does that DEACTIVATE has not named."""
-        return (statement.keyword, statement.key) not in self.inactive
+        own = statement.keyword, statement.key
+        return self._acts_for.get(own, own) not in self.inactive
+
+    def parts(self, statement: Statement) -> list[Statement]:
+        """The forces that a statement is made of, which act where it does."""
+        own = statement.keyword, statement.key
+        return [self.find(*key) for key, owner in self._acts_for.items() if owner == own]
 
     @overload
     def settings(self, kind: type[S]) -> S: ...

@@ -7,6 +7,7 @@ Equation, components along the axes of J (d = r_I - r_J)::
     force, torque on I = FORCE - KMATRIX (x - LENGTH) - CMATRIX v
     on J               = -force,  -torque - d x force
 
+With BY, x and v are those of that marker relative to J, and the load is on I all the same.
 CMATRIX = CRATIO KMATRIX when CRATIO is given.  A matrix is given column by column: its first
 six values are the effect of a unit displacement along x of J.  Sign: a positive diagonal pulls I
 back to LENGTH.  The angles are projections; two of the three must stay small.
@@ -27,6 +28,9 @@ class Field(Compliance, Statement):
     i: int | str = reference("I", to="MARKER", required=True, help="marker the force acts on")
     j: int | str = reference(
         "J", to="MARKER", required=True, help="reference marker, which takes the reaction"
+    )
+    by: int | str | None = reference(
+        "BY", to="MARKER", help="marker whose displacement counts; I unless given (an extension)"
     )
     kmatrix: tuple[float, ...] = vector(
         "KMATRIX", size=36, unit="force/length, torque/angle, ...", default=NOTHING * 6,

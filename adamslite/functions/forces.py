@@ -20,7 +20,8 @@ from adamslite.symbolic.types import Expr, Frame, Tree
 MEASURES: dict[str, str] = {}
 """Keyword of a statement -> the function that measures what it does."""
 NET: dict[str, int] = {}
-"""Function of the net force at a marker -> its component; written out before use."""
+"""Function of the net force at a marker -> its component; written out before use.  That of NFORCE
+has it among its arguments."""
 
 
 def measured(name: str, what: str, keyword: str = "") -> None:
@@ -120,5 +121,18 @@ measured("BUSH", "the force or torque of", "BUSHING")
 measured("FIELD", "the force or torque of")
 measured("BEAM", "the force or torque of")
 measured("SPDP", "the force or torque of", "SPRINGDAMPER")
+
+
+@function("NFORCE", "id:nforce at_marker:marker comp:constant{1..8} rm:marker=0")
+def nforce(scope: Scope, id: Tree, at_marker: Frame, comp: int, rm: Frame) -> Expr:
+    """Component comp of the load of NFORCE id on at_marker, one of its markers I or J.
+
+    comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, along the axes of marker rm.
+    Unit: force, or force times length.  Source: Adams/Solver function NFORCE.
+    """
+    raise LookupError("NFORCE is written out before it is evaluated")
+
+
+NET["NFORCE"] = 0
 for _number, _name in enumerate(("FM", "FX", "FY", "FZ", "TM", "TX", "TY", "TZ"), 1):
     net(_name, _number)

@@ -6,15 +6,13 @@ registered elsewhere is supported, whether or not it still stands here.
 
 STATEMENTS = frozenset(
     """CONTACT CVCV
-    GSE LSSMATRIX NFORCE PFORCE
+    GSE LSSMATRIX PFORCE
     SYSVAR UCON""".split()
 )
 
 COMMANDS = frozenset("CONTROL".split())
 
-FUNCTIONS = frozenset(
-    """AO CONTACT CURVE CVCV DELAY HSIZE INVPSD NFORCE NJAC NRHS ORDER TRANS""".split()
-)
+FUNCTIONS = frozenset("""AO CONTACT CURVE CVCV DELAY HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
 
 _MATRICES = "LINEAR/STATEMAT writes A, B, C and D of the same linear model"
 _TABULATE = "write points of the curve into a MATRIX: CURVE/id, MATRIX=id, CURVE_POINTS"
@@ -31,7 +29,6 @@ INSTEAD = {
     "GSE": "its equations are in a compiled routine, not in the deck; write linear ones as an LSE "
     "or TFSISO, others as DIFFs",
     "LSSMATRIX": "the matrices come from another program: write them as MATRIX and LSE",
-    "NFORCE": "it couples several markers: write a FIELD for each pair",
     "PFORCE": "its law is not published: write an SFORCE, a VFORCE or a FIELD",
     "SYSVAR": "its meaning is not published: write a VARIABLE",
     "UCON": "its equation is in a routine of the user: write it as GCON/id, FUNCTION=e",

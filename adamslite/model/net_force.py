@@ -9,6 +9,7 @@ Source: Adams/Solver C++ functions FX, TX; the value is the force on marker i, a
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Protocol
 
 from adamslite.deck.deck import Deck
@@ -29,12 +30,38 @@ class WithDeck(DrawnModel, Protocol):
 
 def written_out(call: Call, model: WithDeck) -> Node:
     """One of the functions of the net force as a sum of the elements' own."""
+    if call.name == "NFORCE":
+        return _of_nforce(call, model)
     i, j, k = (*(ref.id for ref in call.args if isinstance(ref, Ref)), 0)[:3]
-    component = NET[call.name]
-    if component in (1, 5):
-        parts = [_sum_of(model, i, j, component + n, 0) for n in (1, 2, 3)]
-        return Call("SQRT", (total([Op("*", (c, c)) for c in parts]),))
-    return _sum_of(model, i, j, component, k)
+    return _component(NET[call.name], lambda n: _sum_of(model, i, j, n, k))
+
+
+def _component(number: int, along: Callable[[int], Node]) -> Node:
+    """One of three components, or (numbers 1 and 5) the size of what they are of."""
+    if number not in (1, 5):
+        return along(number)
+    parts = [along(number + n) for n in (1, 2, 3)]
+    return Call("SQRT", (total([Op("*", (c, c)) for c in parts]),))
+
+
+def _of_nforce(call: Call, model: WithDeck) -> Node:
+    """The load on one marker of an NFORCE, of all the FIELDs it is made of."""
+    own, at, component, axes = call.args
+    assert isinstance(own, Ref) and isinstance(at, Ref) and isinstance(axes, Ref)
+    assert isinstance(component, Num)
+    fields = model.deck.parts(model.element(own.kind, own.id))
+
+    def along(number: int) -> Node:
+        return total(
+            [
+                measure("FIELD", Ref("FIELD", each.key), number, axes, jflag)
+                for each in fields
+                for jflag, end in enumerate(ends(model.deck, each))
+                if end == at.id
+            ]
+        )
+
+    return _component(int(component.value), along)
 
 
 def _sum_of(model: WithDeck, i: Key, j: Key, component: int, k: Key) -> Node:

@@ -22,7 +22,7 @@ from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement
 from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes, cross, dot, scale
-from adamslite.symbolic.types import Expr, Seen
+from adamslite.symbolic.types import Expr, Frame, Seen
 
 Row = tuple[float, ...]
 SIX = range(6)
@@ -55,25 +55,37 @@ class Compliance(Wrench):
 
     def loads(self: Seen, scope: Scope) -> list[Load]:
         """The wrench on I and what J gets."""
+        source = _source(self)
         if any(row[3] != 0 or row[4] != 0 for row in self.stiffness):
-            scope.limit(dot(scope.axes(self.i)[2], scope.axes(self.j)[2]))
-        strained = _strained(self, scope)
+            scope.limit(dot(scope.axes(source)[2], scope.axes(self.j)[2]))
+        strained, rates = _strained(self, scope), rate(scope, source, self.j)
         total = list(self.preload)
-        for matrix, values in ((self.stiffness, strained), (self.damping, rate(scope, self))):
+        for matrix, values in ((self.stiffness, strained), (self.damping, rates)):
             total = [t - _product(row, values) for t, row in zip(total, matrix, strict=True)]
         return between(scope, self.i, self.j, total)
 
     def stored(self: Seen, scope: Scope) -> Expr:
-        """(x - rest) . K (x - rest)/2 - preload . (x - rest), for a symmetric K."""
+        """(x - rest) . K (x - rest)/2 - preload . (x - rest), for a symmetric K.
+
+        Between two markers x_i . K x/2, half of what they store together.
+        """
         strained = _strained(self, scope)
+        alone = getattr(self, "by", None) is None
+        own = strained if alone else displacement(scope, self.i, self.j)
         pulls = zip(self.stiffness, self.preload, strict=True)
         pulled = [_product(row, strained) / 2 - force for row, force in pulls]
-        return _product(pulled, strained)
+        return _product(pulled, own)
+
+
+def _source(element: Seen) -> Frame:
+    """The marker whose displacement counts."""
+    by = getattr(element, "by", None)
+    return element.i if by is None else by
 
 
 def _strained(element: Seen, scope: Scope) -> list[Expr]:
     """x - rest"""
-    found = displacement(scope, element.i, element.j)
+    found = displacement(scope, _source(element), element.j)
     return [x - x0 for x, x0 in zip(found, element.rest, strict=True)]
 
 
@@ -87,9 +99,8 @@ def displacement(scope: Scope, i: int, j: int) -> list[Expr]:
     return place + [FUNCTIONS[name].body(scope, i, j) for name in ("AX", "AY", "AZ")]
 
 
-def rate(scope: Scope, ends: Seen) -> list[Expr]:
-    """Velocity and angular velocity of I seen from J, of anything with ends I and J."""
-    i, j = ends.i, ends.j
+def rate(scope: Scope, i: Frame, j: Frame) -> list[Expr]:
+    """Velocity and angular velocity of I seen from J."""
     speed = [relative_velocity(scope, i, j, axis) for axis in range(3)]
     return speed + [dot(scope.omega(i, j), axis) for axis in scope.axes(j)]
 

@@ -16,6 +16,11 @@ _LSE = _PARTS + "LSE/1, X=2, A=1"
 _FILTER = _PARTS + "TFSISO/1, X=2, U=1, Y=3"
 _STATICS = "\nSIMULATE/STATICS"
 
+_STRUCTURE = (
+    "MATRIX/1, SPARSE, ROWS=6, COLUMNS=6, VALUES=1,1,5\n"
+    "MATRIX/2, SPARSE, ROWS=6, COLUMNS=1, VALUES=1,1,5\n"
+    "NFORCE/1, IMARKERS=2, J=1"
+)
 SYSTEMS: dict[str, Message] = {
     "array-kind": Message(
         "{word} of {label} must be an ARRAY {word}, and {array} is an ARRAY {kind}",
@@ -111,5 +116,20 @@ SYSTEMS: dict[str, Message] = {
             _FILTER + ", NUM=1, DEN=0,1" + _STATICS,
         ),
         severity=NOTE,
+    ),
+    "nforce-matrix": Message(
+        "{word} of {label} is {matrix}, {size}, and must be {needed}",
+        "six rows for each of IMARKERS; KMATRIX and CMATRIX as many columns, LENGTH and FORCE one",
+        (_STRUCTURE + ", KMATRIX=2", _STRUCTURE + ", FORCE=1"),
+    ),
+    "marker-twice": Message(
+        "{label} has MARKER/{key} twice",
+        "IMARKERS and J are all different",
+        (_STRUCTURE.replace("=2,", "=2,2,"), _STRUCTURE.replace("=2,", "=2,1,")),
+    ),
+    "nforce-marker": Message(
+        "MARKER/{key} is none of {nforce}",
+        "it has {listed}",
+        (_STRUCTURE + "\nVARIABLE/1, FUNCTION=NFORCE(1,3,1)",),
     ),
 }
