@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from constraint_decks import BODIES, DECKS, deck
@@ -12,8 +14,9 @@ import adamslite as al
 from adamslite.analyses.initial.conditions import constraint_gradient
 from adamslite.analyses.initial.redundancy import row_name
 from adamslite.analyses.session import Session
-from adamslite.assembly.closing import moved
-from adamslite.assembly.rows import gradient, values
+from adamslite.assembly.closing import close, moved
+from adamslite.assembly.rank import dependent_of_many, dependent_rows, unit_rows
+from adamslite.assembly.rows import gradient, sparse_gradient, values
 from adamslite.assembly.scope import WIDTH, Posture
 from adamslite.assembly.start import closing_of, has_loops, redundant_rows
 from adamslite.equations.system import System
@@ -27,7 +30,8 @@ LOOPS = ("andrews/andrews", "bricard/bricard", "four-bar/four-bar", "slider-cran
          "torture/flattened/parallelogram", "three-joint-coupler/three-joint-coupler")  # fmt: skip
 
 
-@pytest.mark.parametrize("name", DECKS)
+@pytest.mark.parametrize("name", [name for name in DECKS if " of a velocity" not in name
+                                  and name[-8:] not in ("VELOCITY", "LERATION")])  # fmt: skip
 def test_derivatives_are_those_of_finite_differences(name: str) -> None:
     """Central differences with h = 1e-5: truncation h^2 times third derivatives of sizes up to
     some ten, round-off 1e-16/h: 1e-8 holds both.
@@ -35,11 +39,7 @@ def test_derivatives_are_those_of_finite_differences(name: str) -> None:
     model = Model(al.read(deck(name)))
     kept = [each for each in model.constraints if not each.is_rate(model)]
     at = Posture.drawn(model)
-    value, rows = gradient(model, at, kept)
-    if not kept:
-        return
-    direct = np.concatenate([values(model, at, each) for each in kept])
-    np.testing.assert_array_equal(value, direct)
+    rows = gradient(model, at, kept)
     for column in range(WIDTH * len(model.bodies)):
         step = np.zeros(WIDTH * len(model.bodies))
         step[column] = STEP
@@ -64,7 +64,7 @@ def test_derivatives_are_those_of_native_code(name: str) -> None:
     for b, body in enumerate(model.bodies):
         here += range(WIDTH * b, WIDTH * b + body.width)
         there += range(system.starts[b], system.starts[b] + body.width)
-    _, rows = gradient(model, Posture.drawn(model), model.constraints)
+    rows = gradient(model, Posture.drawn(model), model.constraints)
     np.testing.assert_allclose(rows[:, here], constraint_gradient(system)[:, there], atol=1e-14)
 
 
@@ -74,6 +74,45 @@ def test_redundant_rows_are_those_that_a_run_leaves_out(name: str) -> None:
     system = Session(of, None, {}).system
     left_out = [row_name(system, row) for row in system.elimination.dropped]
     assert has_loops(of) and redundant_rows(of) == left_out
+
+
+@pytest.mark.parametrize("name", fast(LOOPS, "andrews/andrews", "bricard/bricard"))
+def test_of_many_rows_as_many_are_left_out(name: str) -> None:
+    """The sparse method on what the dense one has found: as many rows, and the others are about as
+    far from dependence.
+    """
+    model, closing = closing_of(al.read(find("decks") / f"{name}.adm"))
+    posture = close(model, model.constraints, closing.posture).posture
+    sparse = sparse_gradient(model, posture, model.constraints)
+    rows = gradient(model, posture, model.constraints)
+    np.testing.assert_array_equal(sparse.toarray(), rows)
+    scaled = unit_rows(rows)
+    expected, found = dependent_rows(scaled), dependent_of_many(sparse)
+    assert len(found) == len(expected)
+    least = [np.linalg.svd(np.delete(scaled, out, axis=0))[1][-1] for out in (expected, found)]
+    assert least[1] > 0.1 * least[0]
+
+
+def test_a_loop_of_a_hundred_and_sixty_links() -> None:
+    """800 rows and more are sparse.  A closed chain of hinges with one axis, n links on the ground,
+    keeps 5 (n + 1) - 3 independent rows, so that n - 2 freedoms are left.
+    """
+    n, lines = 160, ["title", "PART/1, GROUND", "MARKER/1, PART=1", "MARKER/2, PART=1, QP=0,1,0"]
+    for k in range(n):
+        angle = math.pi * k / n
+        lines += [
+            f"PART/{k + 2}, MASS=1, CM={10 * k + 10}, IP=1,1,1, "
+            f"QG={math.sin(angle) / 2:.12f},{(1 - math.cos(angle)) / 2:.12f},0",
+            f"MARKER/{10 * k + 10}, PART={k + 2}",
+            f"JOINT/{k + 1}, REVOLUTE, I={10 * k + 10}, J={10 * k + 1 if k else 1}",
+        ]
+        ahead = math.pi * (k + 1) / n
+        dx, dy = (f(ahead) - f(angle) for f in (math.sin, lambda a: -math.cos(a)))
+        lines += [f"MARKER/{10 * k + 11}, PART={k + 2}, QP={dx / 2:.12f},{dy / 2:.12f},0"]
+    lines += [f"JOINT/{n + 1}, REVOLUTE, I={10 * n + 1}, J=2", "END", ""]
+    of = al.read("\n".join(lines))
+    assert closing_of(of)[1].closed
+    assert len(redundant_rows(of)) == 3
 
 
 def test_a_tree_has_no_loops() -> None:

@@ -125,7 +125,8 @@ def test_the_time_of_a_corner_is_reported() -> None:
 @pytest.mark.parametrize(
     "function",
     [
-        "200*DX(2,1)+VX(2,1)", "DX(2,1)+1*VX(2,1)", "DX(2,1)-DY(2,1)+0.5", "VX(2,1)+WZ(2)*DY(2,1)",
+        "200*DX(2,1)+VX(2,1)", "DX(2,1)/0.1+VX(2,1)", "DX(2,1)+1*VX(2,1)", "DX(2,1)-DY(2,1)+0.5",
+        "VX(2,1)+WZ(2)*DY(2,1)",
         "DX(2,1)/TIME-VX(2,1)", "SQRT(DX(2,1)**2+DY(2,1)**2)-DM(2,1)", "SIN(TIME)+DX(2,1)",
         "SIN(10*TIME)*DX(2,1)+DY(2,1)", "AZ(2,1)+ATAN2(DX(2,1),DY(2,1))", "FX(2)*DX(2)+TX(2)",
         "STEP(TIME,0,0,1,1)*DX(2)+DY(2)", "IF(DX(2,1): VX(2,1), 0, VY(2,1))", "-1*DX(2,1)+TIME",

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from adamslite.assembly.rows import gradient, values
+from adamslite.assembly.rank import MOST_DENSE, SHARED, solved
+from adamslite.assembly.rows import gradient, sparse_gradient, values
 from adamslite.assembly.scope import WIDTH, Posture
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.model.model import Model
@@ -25,38 +26,44 @@ MAX_ITERATIONS, HALVINGS = 60, 12
 CLOSED, OPEN = 1e-13, 1e-9
 # Largest turn of a part in one step [rad].
 MOST_TURN = 0.5
-# Share of the largest diagonal that is added to it.
-SHARED = 1e-14
 
 
 @dataclass
 class Closing:
-    """Where the constraints hold, or nearly; ``gaps``: what the rows of each are off by there.
+    """Where the constraints hold, or nearly.
 
-    ``closed``: whether the posture is one that a run can start from.
+    ``kept``: the holonomic ones; ``drawn``, ``gaps``: what the rows of each are off by at the start
+    and in the end; ``closed``: whether the posture is one that a run can start from.
     """
 
     posture: Posture
+    kept: list[Constraint]
+    drawn: list[np.ndarray]
     gaps: list[np.ndarray]
     closed: bool
 
 
-def close(model: Model, constraints: Sequence[Constraint], start: Posture) -> Closing:
-    """The posture nearest to ``start`` in which the holonomic ones of some constraints hold."""
+def close(
+    model: Model, constraints: Sequence[Constraint], start: Posture, closed: float = CLOSED
+) -> Closing:
+    """The posture nearest to ``start`` in which the holonomic ones of some constraints hold.
+
+    ``closed``: the share of the size of the model that is small enough.
+    """
     kept = [each for each in constraints if not each.is_rate(model)]
     with np.errstate(all="ignore"):  # what has no value stays so
-        return _closed(model, kept, start)
+        return _closed(model, kept, start, closed)
 
 
-def _closed(model: Model, kept: Sequence[Constraint], start: Posture) -> Closing:
+def _closed(model: Model, kept: list[Constraint], start: Posture, closed: float) -> Closing:
     scale = 1.0 / coordinate_weights(model).ravel()
     size = max(1.0, float(np.abs(start.x).max(initial=0.0)))
-    at, g = start, _all_values(model, start, kept)
+    at, first = start, _all_values(model, start, kept)
+    g = first
     for _ in range(MAX_ITERATIONS):
-        if not np.isfinite(g).all() or np.abs(g).max(initial=0.0) <= CLOSED * size:
+        if not np.isfinite(g).all() or np.abs(g).max(initial=0.0) <= closed * size:
             break
-        _, rows = gradient(model, at, kept)
-        step = _least_change(rows * scale, g)
+        step = _least_change(model, at, kept, scale, g)
         if not np.isfinite(step).all():
             break
         found = _damped(model, kept, at, step * scale, g)
@@ -64,23 +71,31 @@ def _closed(model: Model, kept: Sequence[Constraint], start: Posture) -> Closing
             break
         at, g = found
     edges = np.cumsum([each.n_rows for each in kept])[:-1]
-    gaps = np.split(g, edges) if kept else []
+    drawn, gaps = (np.split(each, edges) if kept else [] for each in (first, g))
     off = float(np.abs(g).max(initial=0.0))
-    return Closing(at, gaps, bool(off <= OPEN * size))
+    return Closing(at, kept, drawn, gaps, bool(off <= OPEN * size))
 
 
 def _all_values(model: Model, at: Posture, constraints: Sequence[Constraint]) -> np.ndarray:
     return np.concatenate([np.zeros(0), *(values(model, at, each) for each in constraints)])
 
 
-def _least_change(rows: np.ndarray, g: np.ndarray) -> np.ndarray:
-    """The smallest step that removes ``g`` to first order; not a number where there is none."""
-    square = rows @ rows.T
+def _least_change(
+    model: Model, at: Posture, kept: Sequence[Constraint], scale: np.ndarray, g: np.ndarray
+) -> np.ndarray:
+    """The smallest scaled step that removes ``g`` to first order; not a number where there is
+    none.
+    """
+    if len(g) > MOST_DENSE:
+        rows = sparse_gradient(model, at, kept).multiply(scale[None, :]).tocsr()
+        return rows.T @ solved(rows, g)
+    dense = gradient(model, at, kept) * scale
+    square = dense @ dense.T
     square[np.diag_indices_from(square)] += SHARED * float(np.diag(square).max())
     try:
-        return rows.T @ np.linalg.solve(square, g)
+        return dense.T @ np.linalg.solve(square, g)
     except np.linalg.LinAlgError:
-        return np.full(rows.shape[1], np.nan)
+        return np.full(len(scale), np.nan)
 
 
 def _damped(

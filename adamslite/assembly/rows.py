@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from math import isnan
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,6 +16,9 @@ from adamslite.symbolic.duals import Dual
 from adamslite.symbolic.sympy_nodes import with_numbers
 from adamslite.symbolic.types import Physics
 
+if TYPE_CHECKING:  # only large models need sparse matrices
+    from scipy.sparse import csr_array
+
 
 def values(model: Model, posture: Posture, constraint: Constraint) -> np.ndarray:
     """What the rows of a constraint are off by, (n_rows,); not a number where that is unknown."""
@@ -21,26 +26,51 @@ def values(model: Model, posture: Posture, constraint: Constraint) -> np.ndarray
     return np.array([row.value if isinstance(row, Dual) else row for row in rows], dtype=float)
 
 
-def gradient(
-    model: Model, posture: Posture, constraints: Sequence[Constraint]
-) -> tuple[np.ndarray, np.ndarray]:
-    """Values (m,) of all rows, and their derivatives (m, 6 n) by the motions of n bodies.
+class Block(NamedTuple):
+    """Derivatives of a row by the motion of a body: six, from the first column on."""
+
+    row: int
+    first: int
+    slope: np.ndarray
+
+
+def gradient(model: Model, posture: Posture, constraints: Sequence[Constraint]) -> np.ndarray:
+    """Derivatives (m, 6 n) of all rows by the motions of n bodies.
 
     Rows that constrain velocities are derived by velocities.
     """
-    value: list[float] = []
     rows = np.zeros((sum(each.n_rows for each in constraints), WIDTH * len(model.bodies)))
+    for row, first, slope in blocks(model, posture, constraints):
+        rows[row, first : first + WIDTH] = slope
+    return rows
+
+
+def sparse_gradient(model: Model, posture: Posture, constraints: Sequence[Constraint]) -> csr_array:
+    """The same, for thousands of rows."""
+    from scipy.sparse import csr_array
+
+    found = list(blocks(model, posture, constraints))
+    shape = (sum(each.n_rows for each in constraints), WIDTH * len(model.bodies))
+    at = np.repeat([each.row for each in found], WIDTH)
+    columns = np.array([each.first for each in found])[:, None] + np.arange(WIDTH)
+    slopes = np.array([each.slope for each in found])
+    return csr_array((slopes.ravel(), (at, columns.ravel())), shape=shape)
+
+
+def blocks(model: Model, posture: Posture, constraints: Sequence[Constraint]) -> Iterator[Block]:
+    """The derivatives that are not zero for every posture."""
+    number = 0
     for constraint in constraints:
         reader, found = _with_slopes(model, posture, constraint)
-        first = reader.width if reader.rates else 0
+        start = reader.width if reader.rates else 0
         for row in found:
-            number = row if isinstance(row, Dual) else Dual(row)
-            for column, body in enumerate(reader.bodies):
-                at = first + WIDTH * column
-                slope = number.slope[at : at + WIDTH] if np.ndim(number.slope) else 0.0
-                rows[len(value), WIDTH * body : WIDTH * (body + 1)] = slope
-            value.append(number.value)
-    return np.array(value), rows
+            slope = row.slope if isinstance(row, Dual) else 0.0
+            for column, body in enumerate(reader.bodies if np.ndim(slope) else ()):
+                at = start + WIDTH * column
+                yield Block(number, WIDTH * body, slope[at : at + WIDTH])
+            if isinstance(row, Dual) and isnan(row.value):
+                yield Block(number, 0, np.full(WIDTH, np.nan))
+            number += 1
 
 
 def _with_slopes(

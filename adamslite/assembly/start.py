@@ -6,9 +6,16 @@ from functools import lru_cache
 
 import numpy as np
 
-from adamslite.assembly.closing import Closing, close
-from adamslite.assembly.rank import RANK, dependent_rows, name_of_row, unit_rows
-from adamslite.assembly.rows import gradient
+from adamslite.assembly.closing import OPEN, Closing, close
+from adamslite.assembly.rank import (
+    MOST_DENSE,
+    RANK,
+    dependent_of_many,
+    dependent_rows,
+    name_of_row,
+    unit_rows,
+)
+from adamslite.assembly.rows import gradient, sparse_gradient
 from adamslite.assembly.scope import WIDTH, Posture
 from adamslite.assembly.start_conditions import conditions
 from adamslite.deck.deck import Deck
@@ -34,7 +41,7 @@ def closing_of(deck: Deck) -> tuple[Model, Closing]:
     active = [s for s in deck.statements if isinstance(s, Joint | Motion) and deck.is_active(s)]
     extra = [c for s in active for c in conditions(s) if c.level == "DISPLACEMENT"]
     model = Model(deck.with_more(extra) if extra else deck)
-    return model, close(model, model.constraints, Posture.drawn(model))
+    return model, close(model, model.constraints, Posture.drawn(model), OPEN)
 
 
 def redundant_rows(deck: Deck) -> list[str]:
@@ -42,10 +49,15 @@ def redundant_rows(deck: Deck) -> list[str]:
     if not has_loops(deck):
         return []
     started, closing = closing_of(deck)
+    posture = close(started, started.constraints, closing.posture).posture
     model = Model(deck) if len(started.deck.own) > len(deck.own) else started
+    weights = coordinate_weights(model).ravel()
     with np.errstate(all="ignore"):  # numbers that are too large
-        _, rows = gradient(model, closing.posture, model.constraints)
-        scaled = unit_rows(rows / coordinate_weights(model).ravel())
+        if sum(each.n_rows for each in model.constraints) > MOST_DENSE:
+            rows = sparse_gradient(model, posture, model.constraints)
+            dropped = dependent_of_many(rows.multiply(1.0 / weights[None, :]).tocsr())
+            return [name_of_row(model.constraints, row) for row in dropped]
+        scaled = unit_rows(gradient(model, posture, model.constraints) / weights)
     if not np.isfinite(scaled).all():
         return []
     return [name_of_row(model.constraints, row) for row in dependent_rows(scaled)]
@@ -98,7 +110,7 @@ def worst_gap(model: Model, closing: Closing) -> tuple[Constraint, str, float, l
     At the least sum of squares the gaps are a combination of rows that cancels: rows that stay open
     contradict each other.  None where a row has no value.
     """
-    kept = [each for each in model.constraints if not each.is_rate(model)]
+    kept = closing.kept
     worst = [float(np.abs(gap).max()) for gap in closing.gaps]
     if not np.isfinite(worst).all():
         return None
@@ -115,7 +127,7 @@ def loose_bodies(model: Model, posture: Posture) -> set[int]:
     Such motions are the null space of the constraint rows, of the columns of these bodies alone.
     """
     columns = [c for b, body in enumerate(model.bodies) for c in _weightless(b, body)]
-    _, rows = gradient(model, posture, model.constraints)
+    rows = gradient(model, posture, model.constraints)
     scaled = unit_rows(rows)[:, columns]
     if not columns or not np.isfinite(scaled).all():
         return set()

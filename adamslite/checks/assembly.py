@@ -39,14 +39,14 @@ def starts_apart(deck: Deck) -> Iterator[Diagnostic]:
     joints = [each for each in joints if deck.is_active(each)]
     if not joints:
         return
-    from adamslite.assembly.rows import values
-    from adamslite.assembly.scope import Posture
     from adamslite.assembly.start import closing_of, size_of
 
-    model, _ = closing_of(deck)
-    drawn, least = Posture.drawn(model), APART * size_of(model)
+    model, closing = closing_of(deck)
+    least = APART * size_of(model)
+    drawn = zip(closing.kept, closing.drawn, strict=True)
+    rows = {(each.keyword, each.key): gap for each, gap in drawn}
     for joint in joints:
-        gap, angle = _gap(model, joint, values(model, drawn, joint))
+        gap, angle = _gap(model, joint, rows[joint.keyword, joint.key])
         apart = f"{gap:.4g}{_unit(deck)} apart" if gap > least else ""
         askew = f"{angle:.4g} degrees out of line" if angle > ASKEW_DEGREES else ""
         if apart or askew:
