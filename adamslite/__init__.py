@@ -36,6 +36,7 @@ _HOME = {
     "compile_model": "kernels.compile",
     "linearize": "analyses.simulation",
     "read": "reading.read",
+    "reads": "deck.python_routine",
     "simulate": "analyses.simulation",
 }
 

@@ -277,3 +277,31 @@ def test_a_smooth_scene_has_no_guards_but_a_zone():
     scene = system(moved_by("-STEP(DX(2),0,0,1,1)"))
     assert [len(found) for found in scene.guarded.values()] == [0, 0, 1]
     assert system(moved_by("-SIN(DX(2))")).numbering.kind.size == 0
+
+
+# ---- branches that decide nothing ----------------------------------------------------------------
+
+TEETER = """
+ACCGRAV/JGRAV=-9.81
+PART/2, MASS=10, CM=20, IP=1,2,3
+MARKER/20, PART=2, QP=0.5,0.3,0
+MARKER/2, PART=2
+MARKER/23, PART=2, QP=1,0,0, REULER=0.3,0,0
+PART/3, MASS=10, CM=30, IP=1,2,3, QG=1,0,0, REULER=0.3,0,0
+MARKER/30, PART=3, QP=0.5,0.3,0.1
+MARKER/3, PART=3
+JOINT/1, REVOLUTE, I=2, J=1
+JOINT/2, REVOLUTE, I=3, J=23
+MOTION/2, JOINT=2, ROTATION, FUNCTION=0.0
+"""
+DAMPER = "SFORCE/1, ROTATION, I=3, J=23, FUNCTION=IF(ABS(AZ(3,23)): 0, 0, -40*WZ(3,23,23))\n"
+
+
+@pytest.mark.parametrize("formula", ("GSTIFF", "GSTIFF I3", "HHT", "RADAU", "RKF45"))
+def test_a_branch_that_round_off_decides_is_no_chatter(formula):
+    """A hinge that a MOTION keeps at zero: the damper behind the IF has nothing to damp."""
+    free, damped = (
+        done(GROUND + TEETER + law + "END\n", 0.5, **options(formula, 1e-3))["PART/3.phi"]
+        for law in ("", DAMPER)
+    )
+    assert damped == approx(free, abs=5e-3)

@@ -22,6 +22,7 @@ import adamslite.functions  # noqa: F401  fills the registry
 from adamslite.functions.vectors import VECTORS
 from adamslite.integrators import contract
 from adamslite.language.function import FUNCTIONS
+from adamslite.language.routines import USER
 from adamslite.native.compiler import FULL, QUICK
 
 BODIES = (
@@ -81,7 +82,7 @@ def intrinsics() -> list[str]:
     """Every function of numbers, of arguments that move."""
     found = []
     for name, function in FUNCTIONS.items():
-        if {p.kind for p in function.parameters} == {"number"}:
+        if name != USER and {p.kind for p in function.parameters} == {"number"}:
             repeated = function.parameters[-1].counts is not None
             args = OWN_NUMBERS.get(name) or NUMBERS[len(function.parameters) + repeated]
             first, *rest = args

@@ -305,6 +305,16 @@ def test_a_cancelled_mass_names_the_force_time_and_step():
     assert re.fullmatch(told, reason(results))
 
 
+def test_a_function_of_python_that_raises():
+    """The routine of VARIABLE/1 divides by zero at the start."""
+    law = "VARIABLE/1, FUNCTION=USER(0)\nVFORCE/1, I=2, J_PART=1, FX=VARVAL(1)\n"
+    text = FALLING.replace("END\n", "") + law + "END\n"
+    deck = al.read(text, user={"VARSUB": lambda given, time: 1 / given[0]})
+    results = al.simulate(deck, end=1.0, steps=2)
+    assert results.outcome is Outcome.ROUTINE_FAILED
+    assert re.match(r"VARIABLE/1 .* failed: ZeroDivisionError", results.message)
+
+
 def test_every_outcome_is_provoked():
     files = Path(__file__).parent.glob("test_outcomes*.py")
     text = "".join(file.read_text(encoding="utf-8") for file in files)

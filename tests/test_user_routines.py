@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from importlib.metadata import EntryPoint
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+import user_functions
 from decklets import told
 
 import adamslite as al
@@ -129,3 +132,113 @@ def test_a_sensor_and_a_motion_take_constants() -> None:
     results = al.simulate(deck, end=1.0, steps=2)
     assert results.outcome.name == "DONE"
     assert results["PART/2.z"] == pytest.approx(np.full(3, 0.25), abs=1e-9)
+
+
+# ---- functions of Python -------------------------------------------------------------------------
+
+MASS = """a mass at (1, 0, 0)
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=2, QG=1,0,0, {start}
+MARKER/2, POINT_MASS=2
+{law}
+END
+"""
+METHODS = ("GSTIFF", "HHT", "RADAU", "RKF45")
+
+
+def mass(law: str, start: str = "VX=0", **options: Any) -> al.Results:
+    """The mass under a law, with what is bound to it."""
+    deck = al.read(MASS.format(law=law, start=start), user=options.pop("user"))
+    return al.simulate(deck, **options)
+
+
+@pytest.mark.parametrize("function", ["spring", "exact_spring"])
+@pytest.mark.parametrize("integrator", METHODS)
+def test_a_spring_in_python_swings_as_one_in_the_deck(integrator: str, function: str) -> None:
+    """m x'' = -k x - c v: x = exp(-t/2) (cos w t + sin(w t)/(2 w)), w^2 = 100 - 1/4."""
+    law = "VARIABLE/1, FUNCTION=USER(200, 2)\nVFORCE/1, I=2, J_PART=1, FX=VARVAL(1)"
+    found = mass(law, user={"VARSUB": f"user_functions:{function}"}, end=1.0, steps=10,
+                 integrator=integrator, error=1e-7)  # fmt: skip
+    t, w = found.time, np.sqrt(99.75)
+    x = np.exp(-t / 2) * (np.cos(w * t) + np.sin(w * t) / (2 * w))
+    assert found["POINT_MASS/2.x"] == pytest.approx(x, abs=1e-4)
+
+
+@pytest.mark.parametrize("statement", ["VFORCE", "GFORCE"])
+def test_components_come_from_one_call(statement: str) -> None:
+    """A circle about marker 1: m v^2/r = k/r^2 with m = 2, k = 18, r = 1, v = 3."""
+
+    def all_six(*given: Any) -> tuple[float, ...]:
+        return (*user_functions.attraction(*given), 0.0, 0.0, 0.0)
+
+    all_six.reads = user_functions.attraction.reads  # type: ignore[attr-defined]
+    bound = {"GFORCE": all_six, "VFORCE": user_functions.attraction}[statement]
+    law = f"{statement}/1, I=2, J_PART=1, FUNCTION=USER(18)"
+    if statement == "GFORCE":  # its I has axes: a part, not a point
+        law = law.replace("I=2", "I=30")
+        law += "\nPART/3, MASS=2, IP=1,1,1, CM=30, QG=1,0,0, VY=3\nMARKER/30, PART=3"
+    found = mass(law, "VY=3", user={f"{statement}/1": bound}, end=2.0, steps=4, error=1e-8)
+    body = "PART/3" if statement == "GFORCE" else "POINT_MASS/2"
+    assert found[f"{body}.x"] == pytest.approx(np.cos(3 * found.time), abs=1e-5)
+    assert found[f"{body}.y"] == pytest.approx(np.sin(3 * found.time), abs=1e-5)
+
+
+def test_a_motion_in_python_has_its_acceleration() -> None:
+    """z = 0.3 sin 5t by differences of the function: velocity and acceleration follow."""
+    law = "PART/3, MASS=1, IP=1,1,1, CM=3\nMARKER/3, PART=3\nJOINT/1, TRANSLATIONAL, I=3, J=1\n"
+    law += "MOTION/1, JOINT=1, TRANSLATION, FUNCTION=USER(0.3, 5)"
+    found = mass(law, user={"MOTSUB": user_functions.swing}, end=1.0, steps=10, error=1e-8)
+    t = found.time
+    assert found["PART/3.z"] == pytest.approx(0.3 * np.sin(5 * t), abs=1e-8)
+    assert found["PART/3.vz"] == pytest.approx(1.5 * np.cos(5 * t), abs=1e-8)
+    assert found["PART/3.az"] == pytest.approx(-7.5 * np.sin(5 * t), abs=1e-5)
+
+
+def test_a_branch_that_python_decides_is_located() -> None:
+    """IF of sin(2 t): a force of 2 N on 2 kg from t = pi/2 on."""
+    law = "VARIABLE/1, FUNCTION=USER(1, 2)\nVFORCE/1, I=2, J_PART=1, FY=IF(VARVAL(1): 2, 2, 0)"
+    found = mass(law, user={"VARSUB": user_functions.swing}, end=3.0, steps=6, error=1e-6)
+    late = np.maximum(found.time - np.pi / 2, 0.0)
+    assert found["POINT_MASS/2.vy"] == pytest.approx(late, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("function", "said"),
+    [
+        ("broken_later", "ArithmeticError: the table ends here"),
+        ("two_values", "ValueError: it returned 2 values instead of 1"),
+    ],
+)
+def test_a_function_that_fails_ends_the_run_by_name(function: str, said: str) -> None:
+    law = "VARIABLE/1, FUNCTION=USER()\nVFORCE/1, I=2, J_PART=1, FX=VARVAL(1)"
+    found = mass(law, user={"VARSUB": f"user_functions:{function}"}, end=1.0, steps=10)
+    assert found.outcome is al.Outcome.ROUTINE_FAILED
+    assert found.message.startswith("VARIABLE/1 (<text>:7:1): at t = 0")
+    assert f"user_functions:{function} failed: {said}. " in found.message
+    assert found.time.size == 0 or found.time[-1] <= 0.5
+
+
+def test_a_deck_runs_again_after_a_function_has_failed() -> None:
+    law = "VARIABLE/1, FUNCTION=USER()\nVFORCE/1, I=2, J_PART=1, FX=VARVAL(1)"
+    text = MASS.format(law=law, start="VX=0")
+    deck = al.read(text, user={"VARSUB": user_functions.broken_later})
+    assert al.simulate(deck, end=1.0, steps=2).outcome is al.Outcome.ROUTINE_FAILED
+    assert al.simulate(deck, end=0.4, steps=2).outcome is al.Outcome.DONE
+
+
+def test_what_a_function_reads_may_depend_on_parameters() -> None:
+    """VARIABLE/2 is what the third parameter of VARIABLE/1 names, 7: 3 t."""
+    law = "VARIABLE/7, FUNCTION=3*TIME\nVARIABLE/1, FUNCTION=USER(0, 0, 7)"
+    found = mass(law, user={"VARSUB": user_functions.reads_by_parameter}, end=1.0, steps=4)
+    assert found["VARIABLE/1"] == pytest.approx(3 * found.time, abs=1e-12)
+
+
+def test_entry_points_of_packages_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    entry = EntryPoint("VARSUB", "user_functions:swing", "adamslite.user")
+    monkeypatch.setattr("importlib.metadata.entry_points", lambda group: [entry])
+    law = "VARIABLE/1, FUNCTION=USER(2, 3)"
+    found = mass(law, user=None, end=1.0, steps=4)
+    assert found["VARIABLE/1"] == pytest.approx(2 * np.sin(3 * found.time), abs=1e-12)
+    assert "user_functions:swing (adamslite.user VARSUB)" in found.meta["user"]

@@ -31,6 +31,9 @@ ROUND_OFF = 1e-12
 
 def explain(system: System, outcome: Outcome, unclosed: Unclosed | None) -> str:
     """One paragraph for the user: where, when, what, and the outcome's own remedy."""
+    failed = system.model.deck.user.failed
+    if failed:
+        return f"{failed.report()}. {Outcome.ROUTINE_FAILED.value}"
     if unclosed:
         return f"{_contradiction(unclosed)} {outcome.value}"
     text = REASONS.get(outcome, _when)(system)

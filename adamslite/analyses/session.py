@@ -41,7 +41,7 @@ from adamslite.analyses.saves import Saves
 from adamslite.analyses.sensors import AT_TIMES, SensorLog, require_none
 from adamslite.analyses.setting_commands import changes_the_model, updated
 from adamslite.analyses.static import StaticSettings, run_static
-from adamslite.analyses.subject import Subject, kernels_of
+from adamslite.analyses.subject import Subject, deck_of, kernels_of
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.equilibrium import Equilibrium
@@ -109,6 +109,7 @@ class Session:
         self.progress = progress
         self.flags = flags
         self.audited = audited
+        deck_of(scene).user.start()
         self.kernels = kernels_of(scene, progress, without, audited)
         self.without = without | self.kernels.model.without
         engine(progress=progress)
@@ -167,6 +168,8 @@ class Session:
                 self.change(self.deck.after(command))
                 if isinstance(command, Redefinition):
                     self.changes += (command,)
+            if self.deck.user.failed:
+                self.outcome = Outcome.ROUTINE_FAILED
 
     # settings
 

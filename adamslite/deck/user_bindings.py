@@ -22,7 +22,7 @@ import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from adamslite.deck.names import Key, Names, to_number
 from adamslite.errors import UsageError
@@ -30,6 +30,11 @@ from adamslite.language.abbreviations import match
 from adamslite.language.messages import did_you_mean
 from adamslite.language.routines import short_name
 from adamslite.language.statement import STATEMENTS
+
+if TYPE_CHECKING:  # few decks call routines, and numpy takes a while to load
+    from importlib.metadata import EntryPoint
+
+    from adamslite.deck.python_routine import Routine
 
 GROUP = "adamslite.user"
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?[dD]?")
@@ -53,7 +58,8 @@ class Bindings:
 
     ``statements``: by keyword and id as written in capitals; ``routines``: by name in capitals.
     ``used``: what each statement runs with instead of its routine; ``found``: bindings with a use;
-    ``called``: names of all routines, in capitals.
+    ``called``: names of all routines, in capitals; ``made``: functions of Python, by the numbers
+    that expressions have of them.
     """
 
     statements: dict[tuple[str, str], Binding] = field(default_factory=dict)
@@ -61,6 +67,7 @@ class Bindings:
     used: dict[str, Binding] = field(default_factory=dict)
     found: set[int] = field(default_factory=set)
     called: set[str] = field(default_factory=set)
+    made: list[Routine] = field(default_factory=list)
 
     def find(
         self, names: Names, place: tuple[str, Key], label: str, routine: str
@@ -88,6 +95,16 @@ class Bindings:
             if name in self.routines:
                 return self.routines[name]
         return None
+
+    @property
+    def failed(self) -> Routine | None:
+        """A routine that raised an exception, the first one."""
+        return next((each for each in self.made if each.fault is not None), None)
+
+    def start(self) -> None:
+        """A run begins: what earlier ones left in routines is forgotten."""
+        for each in self.made:
+            each.forget()
 
     def unused(self) -> list[str]:
         """Names of bindings that nothing has taken."""
@@ -206,8 +223,16 @@ def entry_point(routine: str) -> Binding | None:
     wanted = {routine.upper(), short_name(routine).upper()}
     for each in entry_points(group=GROUP):
         if each.name.upper() in wanted:
-            return Binding(f"{each.value} ({GROUP} {each.name})", function=each.load())
+            return Binding(f"{each.value} ({GROUP} {each.name})", function=_loaded(each))
     return None
+
+
+def _loaded(entry: EntryPoint) -> Callable[..., Any]:
+    try:
+        return entry.load()
+    except Exception as fault:
+        said = f"entry point {entry.name} = {entry.value} of {GROUP}"
+        raise UsageError(f"{said}: it cannot be loaded: {fault!r}") from fault
 
 
 def _key(word: str) -> Key:

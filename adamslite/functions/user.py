@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from adamslite.language.function import function
+from adamslite.symbolic.routines import routine_value
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr
 
 
 @function("USER", "*parameters:number[0..30]")
-def user(scope: Scope, *parameters: Expr) -> Expr:
+def user(scope: Scope, routine: int, component: int, *inputs: Expr) -> Expr:
     """What a routine returns that is no part of the deck; only as the whole of FUNCTION.
 
     The parameters, 30 numbers at most, go to the routine. ``--user`` binds numbers or a function
@@ -16,4 +17,4 @@ def user(scope: Scope, *parameters: Expr) -> Expr:
     them every routine that is missing is reported, with its calls; a REQUEST is left out.
     Unit: that of FUNCTION.  Source: Adams/Solver function USER.
     """
-    raise LookupError("nothing is bound to this call")
+    return routine_value(scope, routine, component, inputs)

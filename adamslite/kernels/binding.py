@@ -18,19 +18,23 @@ A bound tree is one of
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from adamslite import functions  # noqa: F401  registers the deck functions
 from adamslite.functions.forces import NET
 from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.language.function import FUNCTIONS, Function
 from adamslite.language.interfaces import Key
+from adamslite.language.routines import USER
 from adamslite.language.statement import Argument, Statement
 from adamslite.model.model import MassCentre, Model, NodeKey, folded
 from adamslite.model.net_force import written_out
 from adamslite.symbolic.interpolant import Interpolant
 from adamslite.symbolic.scope import ORIGIN, Slot
 from adamslite.symbolic.types import Tree
+
+if TYPE_CHECKING:  # few decks call routines
+    from adamslite.deck.python_routine import Routine
 
 IGNORED = ("text", "texts")
 # What cannot be switched off.
@@ -50,7 +54,7 @@ class Binding:
     nodes: list[NodeKey] = field(default_factory=list)
     params: list[float] = field(default_factory=list)
     signals: list[Key] = field(default_factory=list)
-    tables: list[Interpolant] = field(default_factory=list)
+    tables: list[Interpolant | Routine] = field(default_factory=list)
 
 
 class Binder:
@@ -131,7 +135,7 @@ class Binder:
         assert isinstance(value, Node)
         return self.expression(value)
 
-    def table(self, value: Interpolant) -> Tree:
+    def table(self, value: Interpolant | Routine) -> Tree:
         """Its number among those of the instance; nothing in it shapes the code."""
         tables = self.instance.tables
         if value not in tables:
@@ -204,6 +208,8 @@ class Binder:
         for arg in node.args:
             if type(arg) is Ref and arg.kind not in LASTING and self._is_off(arg):
                 return ("c", 0.0)
+        if node.name == USER:
+            return self._routine(node)
         function = FUNCTIONS[node.name]
         if node.name == "GCON" and node.args[2] == Num(0.0):  # its multiplier
             own = ("s", "GCON", (("multiplier", self._multiplier(node.args[0])),))
@@ -213,6 +219,14 @@ class Binder:
         taken = tuple([self._taken(function, n, a) for n, a in enumerate(node.args)])
         self.takes_rates = before
         return ("f", node.name, taken)
+
+    def _routine(self, node: Call) -> Tree:
+        """A value of a function of Python: its number, which value, what it reads."""
+        number, component, *inputs = node.args
+        assert isinstance(number, Num) and isinstance(component, Num)
+        called = self.table(self.model.deck.user.made[int(number.value)])
+        read = tuple(map(self.expression, inputs))
+        return ("f", USER, (called, ("c", int(component.value)), *read))
 
     def _multiplier(self, gcon: Node) -> Tree:
         assert isinstance(gcon, Ref)

@@ -38,6 +38,7 @@ from adamslite.language.expression import (
     walk,
 )
 from adamslite.language.interfaces import Key
+from adamslite.language.routines import USER
 from adamslite.language.statement import STATEMENTS, Statement, expressions
 from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
 from adamslite.model.net_force import written_out
@@ -280,7 +281,7 @@ class Model:
 
     def _time_only(self, node: Node, loops: set[Key]) -> bool:
         for each in walk(node):
-            if isinstance(each, Mode):
+            if isinstance(each, Mode) or (isinstance(each, Call) and each.name == USER):
                 return False
             if isinstance(each, Ref) and not STATEMENTS[each.kind].data:
                 if each.kind != "VARIABLE" or each.id in loops:

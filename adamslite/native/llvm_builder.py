@@ -135,6 +135,24 @@ class Builder:
         operands = ", ".join(f"{kind} {_operand(kind, value)}" for kind, value in args)
         return self.emit((name, *args), f"call {result} @{name}({operands})")
 
+    def call_routine(
+        self, name: str, table: str, which: list[int], inputs: list[Value], first: int
+    ) -> str:
+        """A native function of a table and integers that reads ``inputs`` from that table, where
+        they are stored from position ``first`` on.
+        """
+        self.called.add(name)
+        key = (name, table, *which, *inputs)
+        if key in self.numbered:
+            return self.numbered[key]
+        for position, value in enumerate(inputs, first):
+            at = self.emit(
+                ("in", table, position), f"getelementptr double, ptr {table}, i64 {position}"
+            )
+            self.lines.append(f"  store double {self.operand(value)}, ptr {at}")
+        given = ", ".join(f"i64 {number}" for number in which)
+        return self.emit(key, f"call double @{name}(ptr {table}, {given})")
+
     def power(self, base: Value, exponent: Fraction) -> Value:
         """``base**exponent``: products for integers, square roots for halves."""
         if exponent < 0:

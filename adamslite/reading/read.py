@@ -102,9 +102,9 @@ def _bound(
     commands: tuple[Command, ...], reading: Reading, given: Bindings, deck: Deck | None = None
 ) -> tuple[Command, ...]:
     """The statements with routines of the user bound; reading passes over decks without any."""
-    if not (reading.calls_user or given.statements):
+    if not (reading.resolver.calls_user or given.statements):
         return commands
-    binder = RoutineBinder(reading.names, given, deck)
+    binder = RoutineBinder(reading.resolver, given, deck)
     commands = binder.commands(commands)
     for each in binder.diagnostics:
         reading.log.take(each)

@@ -99,8 +99,7 @@ class Reading:
         self.entries: list[Entry] = []
         self.broken: set[str] = set()
         """Keywords of statements that could not be read, or not wholly."""
-        self.calls_user = False
-        """Whether a statement calls a routine of the user."""
+        self.resolver = Resolver(names, self.log)
         self._body: Body | None = None
         self._guesses: list[tuple[str, Syntax]] = []
         self._started: dict[str, int] = {}
@@ -299,7 +298,7 @@ class Reading:
     # ---- second pass --------------------------------------------------------------------------
 
     def _second_pass(self) -> tuple[Command, ...]:
-        resolver = Resolver(self.names, self.log)
+        resolver = self.resolver
         reader = ValueReader(self.names, resolver, self.log, self._ground)
         made: dict[int, Command | None] = {}
         for number, entry in enumerate(self.entries):
@@ -314,7 +313,6 @@ class Reading:
         for number, entry in enumerate(self.entries):
             if number not in made:
                 made[number] = self._statement(entry, reader)
-        self.calls_user = resolver.calls_user
         self.entries.clear()  # their tokens are most of what reading takes
         return tuple(each for _, each in sorted(made.items()) if each is not None)
 

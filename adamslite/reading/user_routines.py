@@ -12,15 +12,23 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from adamslite.deck.deck import Deck
-from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.statement_diagnostics import diagnose, place_of
 from adamslite.deck.user_bindings import Binding, Bindings
-from adamslite.language.diagnostics import NOWHERE, Diagnostic
-from adamslite.language.expression import Call, Node, Num
-from adamslite.language.messages import compose, did_you_mean
-from adamslite.language.routines import ARGUMENT, is_user_call, short_name, usual_name, written
+from adamslite.language.diagnostics import NOWHERE, Diagnostic, Source
+from adamslite.language.expression import TIME, Call, Node, Num, to_text
+from adamslite.language.messages import Log, compose, did_you_mean
+from adamslite.language.routines import (
+    ARGUMENT,
+    USER,
+    is_user_call,
+    short_name,
+    usual_name,
+    written,
+)
 from adamslite.language.statement import Statement
+from adamslite.reading.resolver import Resolver, Unresolved
+from adamslite.syntax.tokens import scan
 
 FIELD = ARGUMENT.lower()
 # Left out where its routine is missing: it changes nothing.
@@ -50,8 +58,9 @@ class UserCall:
 class RoutineBinder:
     """Binds the calls of one text; ``diagnostics`` is what there is to say."""
 
-    def __init__(self, names: Names, given: Bindings, deck: Deck | None = None) -> None:
-        self.names, self.given, self.deck = names, given, deck
+    def __init__(self, resolver: Resolver, given: Bindings, deck: Deck | None = None) -> None:
+        self.names, self.given, self.deck = resolver.names, given, deck
+        self.resolver = resolver
         self.diagnostics: list[Diagnostic] = []
         self.bound: list[UserCall] = []
         self.left_out: list[UserCall] = []
@@ -87,12 +96,73 @@ class RoutineBinder:
         keyword, key = call.command.keyword, call.command.key
         binding = self.given.find(self.names, (keyword, key), call.label, call.routine)
         if binding is not None:
+            if binding.function is not None:
+                return self._function(call, binding)
             return self._numbers(call, binding)
         if keyword == LEFT_OUT:
             self.left_out.append(call)
             return (None,) * len(call.fields)
         self.missing.setdefault(call.routine.upper(), []).append(call)
         return ()
+
+    def _function(self, call: UserCall, binding: Binding) -> Sequence[Node]:
+        """Calls of a function of Python with what it reads, one for each field."""
+        from adamslite.deck.python_routine import Routine
+
+        said = len(self.diagnostics)
+        inputs = [TIME, *self._read(call, binding)]
+        if len(self.diagnostics) > said:
+            return ()
+        label = f"{call.label} ({call.command.span})"
+        given = [each.value for each in call.call.args if isinstance(each, Num)]
+        count, number = len(call.fields), Num(float(len(self.given.made)))
+        assert binding.function is not None
+        self.given.made.append(
+            Routine(label, binding.text, binding.function, given, len(inputs), count)
+        )
+        self.bound.append(call)
+        return [Call(USER, (number, Num(float(k)), *inputs)) for k in range(count)]
+
+    def _read(self, call: UserCall, binding: Binding) -> Iterator[Node]:
+        """What the function declares that it reads, resolved."""
+        parameters = [to_text(each) for each in call.call.args]
+        values = {n: v for n, v in _values(call.command).items() if isinstance(v, int | str)}
+        for text in getattr(binding.function, "reads", ()):
+            try:
+                filled = text.format("", *parameters, id=call.command.key, **values)
+            except (IndexError, KeyError, ValueError) as fault:
+                self._cannot_read(call, binding, text, f"{{{fault}}} is not given")
+                continue
+            node, reason = self._resolved(filled)
+            if node is None:
+                self._cannot_read(call, binding, filled, reason)
+            else:
+                yield node
+
+    def _resolved(self, text: str) -> tuple[Node | None, str]:
+        """An expression of the deck; what is wrong with it where it is none."""
+        log = Log(Source(text))
+        resolver = Resolver(self.names, log)
+        known = self.resolver
+        resolver.constants, resolver.numbered = known.constants, known.numbered
+        tokens = [token for stretch in scan(text) for token in stretch]
+        try:
+            node = resolver.expression(tokens)
+        except Unresolved:
+            return None, "; ".join(each.message for each in log.finish())
+        return node, ""
+
+    def _cannot_read(self, call: UserCall, binding: Binding, text: str, reason: str) -> None:
+        self.diagnostics.append(
+            diagnose(
+                call.command,
+                "user-reads",
+                FIELD,
+                function=binding.text,
+                text=text,
+                reason=reason,
+            )  # fmt: skip
+        )
 
     def _numbers(self, call: UserCall, binding: Binding) -> Sequence[Node]:
         """A number for each field; a single zero is one for all."""

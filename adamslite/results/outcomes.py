@@ -52,6 +52,10 @@ class Outcome(Enum):
         "A motion that jumps needs an unbounded force. Let it rise over some time: STEP "
         "instead of IF, powers of TIME from 2 on (of a velocity, from 1 on)."
     )
+    ROUTINE_FAILED = (
+        "A function of Python that --user binds to a routine of the deck raised an exception, or "
+        "returned something other than the numbers it has to. Mend that function."
+    )
     INTERRUPTED = "The run was interrupted; everything computed until then is kept."
     UNSTABLE = (
         "The steps requested with HINIT are longer than an explicit integrator can take in this "

@@ -32,6 +32,8 @@ from adamslite.symbolic.types import Expr, Frame, Leaf, Read, Seen, Symbol, Tree
 
 ORIGIN = -1
 Vector = tuple[Expr, Expr, Expr]
+UNFORESEEN = "unforeseen"
+"""The leaf in what a function of Python returns: no bound of it is known before a run."""
 ZERO: Vector = (0, 0, 0)
 
 
@@ -287,7 +289,7 @@ class Scope:
             return self.symbol("sig", leaf[1], leaf[2] + 1)
         if kind == "dif":
             return self.symbol("dif1", leaf[1])
-        if kind in ("p", "turn", "kept", "origin", "mode", "nan"):
+        if kind in ("p", "turn", "kept", "origin", "mode", "nan", UNFORESEEN):
             return 0
         raise UndefinedRate(leaf)
 

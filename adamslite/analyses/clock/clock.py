@@ -86,7 +86,9 @@ def _used(code: list[Written], binding: Binding) -> Iterator[Used]:
         elif name == "sig":
             yield binding.signals[given[0]]
         elif name in LOOKUPS:
-            yield binding.tables[given[0]]
+            table = binding.tables[given[0]]
+            assert isinstance(table, Interpolant)
+            yield table
 
 
 def _moved(instruction: Instruction, place: Callable[[int], int]) -> Instruction:

@@ -49,9 +49,10 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.audit.balance import audit_from
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.event_rows import END, HIGH_ROW, HUGE, NONE
+from adamslite.integrators.event_rows import CHANGES, END, HIGH_ROW, HUGE, NONE
 from adamslite.integrators.events.dips import share_of_zone
 from adamslite.integrators.events.guards import (
+    HARMLESS,
     hold_watch,
     look_at_start,
     note_changes,
@@ -105,7 +106,7 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
     """
     remember_branches(P)
     turn_over(P, HIGH_ROW, 1.0)
-    note_changes(P, t, HIGH_ROW)
+    note_branches(P, L, t, HIGH_ROW)
     P.count.events += 1
     P.search.hunt = False
     if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
@@ -114,6 +115,42 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
     sense(P)
     audit_from(P, t)
     return True
+
+
+@native
+def note_branches(P: Problem, L: Plan, t: float, row: int) -> None:
+    """Count changes of branches; guards that chatter and decide nothing are only let go, and do not
+    end the run: IF(ABS(x): 0, 0, -c*v) of a joint that is held at 0 follows round-off.
+    """
+    S, freed = P.search, P.search.freed
+    note_changes(P, t, row)
+    if S.freed > freed and decides_nothing(P, L, t):
+        S.crawl, S.freed = 0, freed
+
+
+@native
+def decides_nothing(P: Problem, L: Plan, t: float) -> bool:
+    """Whether the branches of guards that were let go give the same accelerations."""
+    hold_free(P, 0.0, HUGE)
+    known = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
+    for i in range(P.sizes.n):
+        P.trial[i] = P.a[i]
+    hold_free(P, HUGE, 0.0 - HUGE)
+    known = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd) and known
+    hold_free(P, 0.0 - HUGE, 0.0)
+    largest = 0.0
+    for i in range(P.sizes.n):
+        largest = max(largest, abs(P.a[i] - P.trial[i]) / max(1.0, abs(P.u[i])))
+    return known and largest * P.settings.h_max <= HARMLESS * P.settings.error
+
+
+@native
+def hold_free(P: Problem, old: float, new: float) -> None:
+    """Another branch for the guards that were let go and have the ``old`` one."""
+    first, count = P.sizes.nw + P.sizes.clocks, P.sizes.watched
+    for k in range(count):
+        if P.margin[CHANGES * count + k] < 0.0 and P.W[first + k] == old:
+            P.W[first + k] = new
 
 
 @native
@@ -128,7 +165,7 @@ def pass_event(P: Problem, L: Plan, t: float) -> bool:
     P.count.events += 1
     S.hunt, S.jump = False, 0.0
     if met(P):
-        note_changes(P, t, END)
+        note_branches(P, L, t, END)
         S.jump = HUGE
     elif not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         return False

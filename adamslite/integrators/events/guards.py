@@ -39,6 +39,8 @@ CHATTER, CHATTER_SPAN = 10.0, 1e-3
 SLIDING_SPAN = 1e-4
 # After that, this many steps below this share of HMAX show that nothing else helps.
 CRAWLING, MOST_CRAWLED = 1e-4, 500
+# Branches that change the end of a step by less than this share of ERROR need no event.
+HARMLESS = 0.02
 # Changes nearer than this share of a step are one.
 SAME_TIME = 1e-6
 

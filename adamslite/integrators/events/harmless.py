@@ -5,6 +5,7 @@ from __future__ import annotations
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.event_rows import BEFORE, END, INSIDE, NONE
 from adamslite.integrators.events.guards import (
+    HARMLESS,
     SAME_TIME,
     crossing_share,
     margins,
@@ -20,8 +21,6 @@ from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import residual
 from adamslite.native.translate import native
 
-# Branches that change the end of a step by less than this share of ERROR need no event.
-HARMLESS = 0.02
 # So many groups of changes are tried one after another.
 MOST_GROUPS = 5
 
@@ -98,7 +97,11 @@ def exposes(P: Problem) -> bool:
 
 @native
 def forget(P: Problem) -> None:
-    """The branches that were turned over are those of the end; others are still examined."""
+    """The branches that were turned over are those of the end; others are still examined.  A guard
+    that keeps changing so is let go, and no reason to end the run.
+    """
+    crawl, freed = P.search.crawl, P.search.freed
     note_changes(P, P.W[0], END)
+    P.search.crawl, P.search.freed = crawl, freed
     P.search.taken, P.search.high = True, NONE
     margins(P, END)

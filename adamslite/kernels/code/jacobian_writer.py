@@ -10,12 +10,12 @@ from adamslite.kernels.code.kinematics import Columns, Vec
 from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.native.llvm_builder import Value
-from adamslite.symbolic.scope import Load, Scope, Slot
+from adamslite.symbolic.scope import UNFORESEEN, Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
 from adamslite.symbolic.types import Expr, Leaf
 
 # Leaves that are no unknowns and do not change with them.
-FIXED = ("p", "t", "mode", "sig", "turn", "kept", "origin", "nan")
+FIXED = ("p", "t", "mode", "sig", "turn", "kept", "origin", "nan", UNFORESEEN)
 
 
 class JacobianWriter(ResidualWriter):

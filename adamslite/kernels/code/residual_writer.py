@@ -8,7 +8,7 @@ from adamslite.kernels.code.kinematics import HEAD, MODE, TIME, Geometry, Vec
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.kernels.code.sympy_to_llvm import Lowering
 from adamslite.native.llvm_builder import Builder, Value
-from adamslite.symbolic.scope import Load, Scope, Slot
+from adamslite.symbolic.scope import UNFORESEEN, Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
 from adamslite.symbolic.types import Expr, Frame, Leaf
 
@@ -55,6 +55,8 @@ class ResidualWriter:
             return self.b.real_at(self._kept_at(leaf[1]))
         if kind == "nan":
             return math.nan
+        if kind == UNFORESEEN:
+            return 0.0
         return self._turns(leaf[1])
 
     def _head(self, position: int) -> str:

@@ -13,8 +13,11 @@ from adamslite.kernels.code.lookup import (
     piece_at,
     strip_at,
 )
+from adamslite.kernels.code.routine_call import routine_answer
 from adamslite.native.llvm_builder import LIBRARY, Builder, Value
 from adamslite.native.translate import symbol
+from adamslite.symbolic.routines import FIRST as ROUTINE_FIRST
+from adamslite.symbolic.routines import INPUTS
 from adamslite.symbolic.types import Expr, Symbol
 
 
@@ -144,6 +147,14 @@ class Lowering:
         known = (table, ("i64", piece), ("i64", strip), at, across)
         orders = (("i64", int(order)), ("i64", int(z_order)))
         return self.b.call_native(symbol(on_strip), "double", *known, *orders)
+
+    def _RoutineValue(self, expr: Expr) -> Value:
+        number, *which = map(int, expr.args[: ROUTINE_FIRST - 1])
+        table = self.b.table_at(self.tables_at + int(number))
+        inputs = [self(each) for each in expr.args[ROUTINE_FIRST:]]
+        return self.b.call_routine(
+            symbol(routine_answer), table, [*map(int, which)], inputs, INPUTS
+        )
 
     def _table(self, number: Expr) -> tuple[str, Value]:
         return "ptr", self.b.table_at(self.tables_at + int(number))

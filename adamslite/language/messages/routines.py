@@ -37,6 +37,12 @@ ROUTINES: dict[str, Message] = {
         (_GFORCE.format("1"), "VARIABLE/1, FUNCTION=USER(1)"),
         user=("GFORCE/1=1,2", "VARIABLE/1=1,2"),
     ),
+    "user-reads": Message(
+        "{function}, bound to {label}, reads {text}: {reason}",
+        "reads takes expressions of the deck; {{1}} is a parameter, {{id}} the id of the statement",
+        ("VARIABLE/1, FUNCTION=USER(1)",),
+        user=("VARSUB=user_functions:reads_what_is_not_there",),
+    ),
     "unknown-user": Message(
         "--user {option}: {reason}",
         "",
