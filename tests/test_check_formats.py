@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,8 @@ from decklets import told
 from test_messages import whole
 
 from adamslite.cli.main import main
-from adamslite.language.messages import MESSAGES
+from adamslite.language.diagnostics import Fix, Source
+from adamslite.language.messages import MESSAGES, START
 from adamslite.language.messages.formats import as_gcc, as_json, as_sarif
 
 DECK = """\
@@ -67,6 +69,8 @@ def test_json_has_every_field_and_every_place(check) -> None:
         "span": (span := {"line": 4, "column": 1, "end_line": 4, "end_column": 1 + len(line)}),
         "source_line": line,
         "places": [{"file": "a deck.adm"} | span],
+        "related": [],
+        "fixes": [],
     }
     assert error["code"] == "planned-function" and "2 times" in error["message"]
     lines = DECK.splitlines()
@@ -136,3 +140,152 @@ def test_every_message_has_places_within_its_deck(code: str) -> None:
             assert 1 <= place["line"] <= place["end_line"] <= len(lines)
             assert 1 <= place["column"] <= len(lines[place["line"] - 1]) + 1
             assert 1 <= place["end_column"] <= len(lines[place["end_line"] - 1]) + 1
+
+
+def applied(text: str, fix: Fix) -> str:
+    """The text once a correction has been accepted; its edits do not overlap."""
+    source = Source(text)
+    for span, new in sorted(fix.edits, key=lambda edit: edit.span.line, reverse=True):
+        start, end = (
+            source.starts[line - 1] + column - 1
+            for line, column in ((span.line, span.column), (span.end_line, span.end_column))
+        )
+        text = text[:start] + new + text[end:]
+    return text
+
+
+def corrected() -> Iterator[tuple[str, str]]:
+    """The broken decks of the table whose messages bring a correction."""
+    for code, entry in MESSAGES.items():
+        for broken in entry.broken:
+            text = whole(code, broken)
+            if any(each.fixes for each in told(text) if each.code == code):
+                yield code, text
+
+
+CORRECTED = list(corrected())
+SUGGESTED = [
+    ("SFORSE/1, I=1, J=2, FUNCTION=1", "SFORCE/1, I=1, J=2, FUNCTION=1"),
+    ("SFORCE/1, I=1, J=2, FUNCION=1", "SFORCE/1, I=1, J=2, FUNCTION=1"),
+    ("VARIABLE/1, FUNCTION=SQR(2)", "VARIABLE/1, FUNCTION=SQRT(2)"),
+    ("VARIABLE/1, FUNCTION=2TIME", "VARIABLE/1, FUNCTION=2*TIME"),
+    ("VARIABLE/1, FUNCTION=2^3", "VARIABLE/1, FUNCTION=2**3"),
+    ("PART/4, MASS=1, CM=2,", "PART/4, MASS=1, CM=2"),
+    ("REQUEST/1, F2=TIME\n, F3=TIME", "REQUEST/1, F2=TIME\\\n, F3=TIME"),
+    ("UNITS/SYSTEM=MKSA", "UNITS/SYSTEM=MKS"),
+    ("MARKER/wheel, PART=1\nVARIABLE/1, FUNCTION=DX(weel)",
+     "MARKER/wheel, PART=1\nVARIABLE/1, FUNCTION=DX(WHEEL)"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("broken", "correct"), SUGGESTED)
+def test_a_hint_is_a_correction(broken: str, correct: str) -> None:
+    text = START + broken + "\n"
+    (fix,) = next(each.fixes for each in told(text) if each.fixes)
+    assert applied(text, fix) == START + correct + "\n"
+
+
+@pytest.mark.parametrize(("code", "text"), CORRECTED, ids=[code for code, _ in CORRECTED])
+def test_a_correction_does_away_with_its_message(code: str, text: str) -> None:
+    found = next(each for each in told(text) if each.code == code and each.fixes)
+    for fix in found.fixes:
+        left = told(applied(text, fix))
+        assert not [each for each in left if (each.code, each.span) == (code, found.span)]
+        assert sum(each.code == code for each in left) < sum(e.code == code for e in told(text))
+
+
+RELATED = {
+    "the first definition": ("MARKER/2, PART=1", "duplicate-id", ["MARKER/2"]),
+    "the first argument": ("MARKER/4, PART=1, PART=1", "duplicate-argument", ["PART=1"]),
+    "the other ground": ("PART/7, GROUND", "two-grounds", ["PART/1, GROUND"]),
+    "both markers": (
+        "MARKER/4, PART=1, QP=9,9,9\nJOINT/1, SPHERICAL, I=2, J=4",
+        "starts-apart",
+        ["MARKER/2", "MARKER/4"],
+    ),
+    "who drives it already": (
+        "JOINT/1, REVOLUTE, I=2, J=1\nMOTION/1, JOINT=1, FUNCTION=1\n"
+        "MOTION/2, JOINT=1, FUNCTION=TIME",
+        "motion-twice",
+        ["MOTION/1"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", RELATED)
+def test_related_places(what: str) -> None:
+    broken, code, expected = RELATED[what]
+    text = START + broken + "\n"
+    lines = text.split("\n")
+    found = next(each for each in told(text) if each.code == code)
+    places = [span for span, _ in found.related]
+    assert [lines[p.line - 1][p.column - 1 : p.end_column - 1] for p in places] == expected
+
+
+INSIDE = [
+    ("JOINT/1, REVOLUTE, I=2, J=1\nMOTION/1, JOINT=1, FUNCTION=TIME+2*DX( 2, 1 )**2", "DX( 2, 1 )"),
+    ("MARKER/9, PART=2, FLOATING\nVARIABLE/1, FUNCTION=DX(2,1)+(DM(9, 1)-1)", "DM(9, 1)"),
+    ("SPLINE/1, X=1,2,3,4, Y=1,2,3,4\nVARIABLE/1, FUNCTION=1+AKISPL(TIME,1,1)", "AKISPL(TIME,1,1)"),
+    ("VARIABLE/v, FUNCTION=DX(2)\nJOINT/1, REVOLUTE, I=2, J=1\n"
+     "MOTION/1, JOINT=1, FUNCTION=1+SIN(v)", "SIN(v)"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("broken", "place"), INSIDE)
+def test_a_place_is_inside_the_expression(broken: str, place: str) -> None:
+    text = START + broken + "\n"
+    spans = [each.span for each in told(text) if each.is_error]
+    lines = text.split("\n")
+    assert place in [lines[s.line - 1][s.column - 1 : s.end_column - 1] for s in spans]
+
+
+REQUIRED = {
+    "log": {"version", "runs"},
+    "run": {"tool"},
+    "result": {"message", "ruleId", "level"},
+    "fix": {"artifactChanges"},
+    "change": {"artifactLocation", "replacements"},
+    "replacement": {"deletedRegion"},
+    "rule": {"id"},
+}
+"""Properties that SARIF 2.1.0 requires of its objects, and what viewers need besides."""
+
+
+def assert_valid_sarif(log: dict[str, Any]) -> None:
+    """The required properties and the ranges of section 3 of the standard."""
+    assert REQUIRED["log"] <= log.keys() and log["version"] == "2.1.0"
+    for run in log["runs"]:
+        assert REQUIRED["run"] <= run.keys() and run["tool"]["driver"]["name"]
+        rules = run["tool"]["driver"]["rules"]
+        assert all(REQUIRED["rule"] <= rule.keys() for rule in rules)
+        assert len({rule["id"] for rule in rules}) == len(rules)
+        for result in run["results"]:
+            assert REQUIRED["result"] <= result.keys() and result["message"]["text"]
+            assert result["level"] in ("none", "note", "warning", "error")
+            assert rules[result["ruleIndex"]]["id"] == result["ruleId"]
+            for place in [*result.get("locations", ()), *result.get("relatedLocations", ())]:
+                assert_valid_region(place["physicalLocation"]["region"])
+                assert place["physicalLocation"]["artifactLocation"]["uri"]
+            for fix in result.get("fixes", ()):
+                assert REQUIRED["fix"] <= fix.keys() and fix["artifactChanges"]
+                for change in fix["artifactChanges"]:
+                    assert REQUIRED["change"] <= change.keys() and change["replacements"]
+                    for replacement in change["replacements"]:
+                        assert REQUIRED["replacement"] <= replacement.keys()
+                        assert_valid_region(replacement["deletedRegion"])
+
+
+def assert_valid_region(region: dict[str, int]) -> None:
+    start = region["startLine"], region["startColumn"]
+    assert (1, 1) <= start <= (region["endLine"], region["endColumn"])
+    assert region["startColumn"] >= 1 and region["endColumn"] >= 1
+
+
+@pytest.mark.parametrize("code", MESSAGES)
+def test_sarif_has_what_the_standard_requires(code: str) -> None:
+    for broken in MESSAGES[code].broken:
+        found = told(whole(code, broken))
+        log = json.loads(as_sarif(found))
+        assert_valid_sarif(log)
+        results = log["runs"][0]["results"]
+        assert [len(each.get("fixes", ())) for each in results] == [len(d.fixes) for d in found]

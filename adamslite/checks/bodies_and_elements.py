@@ -8,6 +8,7 @@ time and runs in :func:`check` only.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from adamslite.checks.posture import (
     is_plain,
@@ -32,7 +33,7 @@ from adamslite.elements.units import Units
 from adamslite.elements.variable import Variable
 from adamslite.elements.vforce import Vforce
 from adamslite.elements.vtorque import Vtorque
-from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.diagnostics import Diagnostic, Related
 from adamslite.language.interfaces import Key
 from adamslite.language.messages import compose
 from adamslite.language.statement import Statement
@@ -72,7 +73,8 @@ def one_ground(deck: Deck) -> Iterator[Diagnostic]:
         source = deck.source
         yield compose("no-ground", source.span(0, len(source.line(1))), source.line(1))
     for part in grounds[1:]:
-        yield diagnose(part, "two-grounds", "ground")
+        first = Related(grounds[0].span, "the first one")
+        yield replace(diagnose(part, "two-grounds", "ground"), related=(first,))
 
 
 def ground_without_data(deck: Deck) -> Iterator[Diagnostic]:

@@ -8,7 +8,7 @@ from operator import ne
 
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.coupler import Coupler
 from adamslite.elements.curve import Curve
 from adamslite.elements.gcon import Gcon
@@ -184,7 +184,7 @@ def functions_of_time(deck: Deck) -> Iterator[Diagnostic]:
     for motion in deck.of(Motion):
         culprit = _not_of_time(deck, motion.function, ())
         if culprit:
-            yield diagnose(motion, "motion-not-of-time", "function", word=culprit)
+            yield diagnose_inside(motion, culprit, "motion-not-of-time", "function", word=culprit)
 
 
 def _not_of_time(deck: Deck, node: Node, inside: tuple[Key, ...]) -> str | None:

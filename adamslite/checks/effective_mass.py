@@ -12,13 +12,14 @@ reading a deck does not wait for an algebra system.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from adamslite.deck.deck import Deck
 from adamslite.elements.marker import Marker
 from adamslite.elements.part import Part
 from adamslite.elements.point_mass import PointMass
 from adamslite.elements.vforce import Vforce
-from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.diagnostics import Diagnostic, Edit, Fix
 from adamslite.language.expression import (
     NEGATE,
     Call,
@@ -139,10 +140,12 @@ def _value(deck: Deck, node: Node, time: float) -> float:
 def _warning(force: Vforce, field: str, body: str, mass: float, slope: Node) -> Diagnostic:
     """``mass`` is in units of force per acceleration, as the slope is."""
     fields = [each for each in AXES if force.given(each)]
-    lines = " \\\n      ".join(f", {each.upper()}= -( {_source(force, each)} )" for each in fields)
+    added = {each: f"{each.upper()}= -( {_source(force, each)} )" for each in fields}
+    lines = " \\\n      ".join(f", {each}" for each in added.values())
     spans = force.spans.home(field)
     span = spans[field]
-    return compose(
+    edits = tuple(Edit(force.spans.home(each)[each], text) for each, text in added.items())
+    warning = compose(
         "effective-mass",
         span,
         spans.first_line(span),
@@ -153,6 +156,7 @@ def _warning(force: Vforce, field: str, body: str, mass: float, slope: Node) -> 
         hint="as printed this removes inertia and the run stops where the effective mass reaches"
         f" zero; for a mass that is added write\n      {lines}",
     )
+    return replace(warning, fixes=(Fix("turn the force round: a mass that is added", edits),))
 
 
 def _in_product(slope: Node) -> str:

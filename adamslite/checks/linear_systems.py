@@ -9,7 +9,7 @@ from typing import Any
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.array import Array
 from adamslite.elements.bases.linear_system import LinearSystem, value_name
 from adamslite.elements.lse import Lse
@@ -167,7 +167,7 @@ def values_of_systems(deck: Deck) -> Iterator[Diagnostic]:
     for statement in deck.statements if unsure else ():
         for field, array, number in _missing_values(deck, statement, unsure):
             words = {"array": array.label, "number": number, "count": str(counts[array.key])}
-            yield diagnose(statement, "system-value", field, "", **words)
+            yield diagnose_inside(statement, array.key, "system-value", field, **words)
 
 
 def _missing_values(

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from adamslite.checks.rule import needs
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.gforce import Gforce
 from adamslite.elements.marker import Marker
 from adamslite.elements.ptcv import Ptcv
@@ -112,7 +112,7 @@ def floating_use(deck: Deck) -> Iterator[Diagnostic]:
         for field, key in _uses(statement) if not statement.inert else ():
             if key in floating and field != "jfloat":
                 word = statement.arguments[field].key
-                yield diagnose(statement, "floating-misused", field, word=word, key=key)
+                yield diagnose_inside(statement, key, "floating-misused", field, word=word, key=key)
 
 
 @needs("VFORCE", "VTORQUE", "GFORCE", "PTCV", "CVCV")

@@ -51,6 +51,7 @@ from adamslite.checks.runs import RUN_RULES
 from adamslite.checks.shapes import shapes
 from adamslite.checks.tables import TABLE_RULES
 from adamslite.deck.deck import Deck
+from adamslite.deck.named_places import with_named
 from adamslite.language.diagnostics import Diagnostic, sort_by_place
 from adamslite.language.messages.ignoring import judged
 
@@ -60,7 +61,7 @@ def check(deck: Deck) -> list[Diagnostic]:
 
     Comments ``! adamslite: ignore CODE`` of the deck are heeded.
     """
-    found = [*deck.warnings, *apply(ADVICE, deck)]
+    found = [*deck.warnings, *with_named(deck, apply(ADVICE, deck))]
     return sort_by_place(judged(deck.source, found, complete=True))
 
 

@@ -7,7 +7,7 @@ from math import isfinite
 
 from adamslite.checks.rule import Rule, positive
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.array import Array
 from adamslite.elements.bases.data_file import UnusableFile, columns
 from adamslite.elements.matrix import Matrix
@@ -86,12 +86,13 @@ def _misfit(deck: Deck, statement: Statement, field: str, call: Call) -> Iterato
     spline = deck.find(Spline, ref.id) if isinstance(ref, Ref) else None
     if spline is None:
         return
+    words = {"word": call.name, "spline": spline.label}
     if spline.family and call.name == "INTERP":
-        yield diagnose(statement, "spline-family", field, word=call.name, spline=spline.label)
+        yield diagnose_inside(statement, call.name, "spline-family", field, **words)
     elif spline.family and isinstance(order, Num) and order.value:
-        yield diagnose(statement, "family-derivative", field, word=call.name, spline=spline.label)
+        yield diagnose_inside(statement, call.name, "family-derivative", field, **words)
     elif not spline.family and call.name in FITS and fold(second) != 0.0:
-        yield diagnose(statement, "spline-curve", field, word=call.name, spline=spline.label)
+        yield diagnose_inside(statement, call.name, "spline-curve", field, **words)
 
 
 def arrays(deck: Deck) -> Iterator[Diagnostic]:

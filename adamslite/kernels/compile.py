@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
 from adamslite.kernels.binding import Binder, Binding, ForceLoop
@@ -127,7 +127,7 @@ def _add(
     try:
         fields, own = _bound(binder, statement, face)
     except ForceLoop as loop:
-        raise DeckError([diagnose(statement, "force-loop", other=str(loop))], model.deck) from None
+        raise DeckError([_loop(statement, str(loop))], model.deck) from None
     held = (statement.keyword, statement.key) in model.held
     rate = held and isinstance(statement, Constraint) and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
@@ -268,17 +268,22 @@ def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnost
             yield _no_rate(group, fault)
 
 
+def _loop(statement: Statement, other: str) -> Diagnostic:
+    return diagnose_inside(statement, other, "force-loop", other=other)
+
+
 def _no_rate(group: ShapeGroup, fault: UndefinedRate) -> Diagnostic:
     """What the equations would need the rate of."""
     kind, at, *_ = fault.leaf
     what = {"a": "an acceleration", "al": "an angular acceleration"}.get(kind, "a second rate")
+    label = ""
     if kind in ("z", "dif1"):
         binder = group.write.binder
         label = binder.model.element(*binder.instance.nodes[at - group.write.n_bodies]).label
         circular = label.startswith("VARIABLE")
         what = f"{label}, which depends on itself" if circular else f"a reaction of {label}"
         what = f"the rate of {label}" if kind == "dif1" else what
-    return diagnose(group.instances[0][0], "no-rate", what=what)
+    return diagnose_inside(group.instances[0][0], label, "no-rate", what=what)
 
 
 def _entry_points(group: ShapeGroup) -> list[str]:

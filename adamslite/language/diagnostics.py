@@ -9,7 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 ERROR = "error"
 WARNING = "warning"
@@ -154,6 +154,27 @@ class MergedSpans(Spans):
         return len(self.parts)
 
 
+class Related(NamedTuple):
+    """Another place that has to do with a message, and what is there."""
+
+    span: Span
+    message: str
+
+
+class Edit(NamedTuple):
+    """A text in place of what a span covers."""
+
+    span: Span
+    text: str
+
+
+class Fix(NamedTuple):
+    """A correction that the author may accept: all of its edits at once."""
+
+    title: str
+    edits: tuple[Edit, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
     """One message about a deck.
@@ -175,6 +196,10 @@ class Diagnostic:
         The line of the deck the span begins on; may be empty.
     places : tuple of Span
         Everywhere it applies, ``span`` first; empty unless the text tells several places once.
+    related : tuple of Related
+        Other places: where something was defined first, the statements that the message names.
+    fixes : tuple of Fix
+        Corrections, one of which may be chosen.
     """
 
     code: str
@@ -184,6 +209,8 @@ class Diagnostic:
     hint: str = ""
     source_line: str = ""
     places: tuple[Span, ...] = ()
+    related: tuple[Related, ...] = ()
+    fixes: tuple[Fix, ...] = ()
 
     @property
     def everywhere(self) -> tuple[Span, ...]:

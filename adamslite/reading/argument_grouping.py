@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from adamslite.language.abbreviations import Ambiguous, vocabulary
 from adamslite.language.messages import Log, did_you_mean
+from adamslite.language.messages.fixes import fix
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import STATEMENTS, Argument, Statement
 from adamslite.reading.argument_values import Refused, ValueReader
@@ -92,12 +93,14 @@ class Grouping:
             pieces.values, pieces.closed = [], False
             return pieces
         if argument.name in self.found:
-            self.log.add("duplicate-argument", token[2], end_of(token), word=argument.key)
+            place, first = (token[2], end_of(token)), self.found[argument.name].range
+            self.log.say("duplicate-argument", place, {"word": argument.key}, first=first)
             return None
         for other in self.found.values():
             if argument.name in other.argument.fills or other.argument.name in argument.fills:
                 hint = f"{other.argument.key} gives it too"
-                self.log.add("duplicate-argument", token[2], end_of(token), hint, word=argument.key)
+                place, words = (token[2], end_of(token)), {"word": argument.key}
+                self.log.say("duplicate-argument", place, words, hint, first=other.range)
                 return None
         pieces = self.found[argument.name] = Pieces(argument, token[2])
         return pieces
@@ -157,10 +160,11 @@ class Grouping:
         return " ".join(text.split())
 
     def _warn_open(self, at: int) -> None:
-        if self._inside_expression():
-            token = self.tokens[at]
-            word = spelled(token[1])
-            self.log.add("expression-not-closed", token[2], end_of(token), word=word)
+        if self.current and self._inside_expression():
+            token, end = self.tokens[at], self.current.range[1]
+            close = fix(self.log.source, "write a backslash", (end, end, "\\"))
+            words, place = {"word": spelled(token[1])}, (token[2], end_of(token))
+            self.log.say("expression-not-closed", place, words, fix=close)
 
     def _planned(self, key: str, token: Lexeme) -> None:
         keyword = self.cls.keyword

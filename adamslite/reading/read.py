@@ -18,6 +18,7 @@ from adamslite.checks.runs import (
     other_models,
 )
 from adamslite.deck.deck import ANALYSES, Deck
+from adamslite.deck.named_places import with_named
 from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.user_bindings import Bindings, Given, bindings
@@ -64,7 +65,7 @@ def read(source: str | Path, user: Mapping[str, Given] | Iterable[str] | None = 
         statements = tuple(each for each in read if isinstance(each, Statement))  # all of them
         deck = Deck(reading.log.source, title, statements, reading.names, path)
         deck.user = given
-        deck.warnings = _judged(deck, reading, RULES)
+        deck.warnings = _judged(deck, reading, RULES, deck)
     return deck
 
 
@@ -93,7 +94,7 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
         *determined_at_rest(deck, plain),
         *note_of_inert(commands),
     ]
-    found = _judged(run, reading, RUN_RULES)
+    found = _judged(run, reading, RUN_RULES, deck)
     commands.warnings = tuple(judged(run.source, found, complete=True))
     return commands
 
@@ -133,11 +134,15 @@ def _caused(deck: Deck, commands: Iterable[Command]) -> list[Diagnostic]:
     return list(found)
 
 
-def _judged(deck: Deck, reading: Reading, rules: Sequence[Rule]) -> tuple[Diagnostic, ...]:
-    """What reading and rules have to say; raises when there are errors."""
+def _judged(
+    deck: Deck, reading: Reading, rules: Sequence[Rule], named: Deck
+) -> tuple[Diagnostic, ...]:
+    """What reading and rules have to say; raises when there are errors.
 
+    ``named``: the deck that has the statements which messages name.
+    """
     deck.incomplete |= reading.broken
-    diagnostics = [*reading.log.finish(), *apply(rules, deck)]
+    diagnostics = with_named(named, [*reading.log.finish(), *apply(rules, deck)])
     if any(diagnostic.is_error for diagnostic in diagnostics):
         raise DeckError(judged(deck.source, diagnostics, complete=False), deck)
     return tuple(diagnostics)

@@ -245,7 +245,8 @@ class Reading:
             again = first != start and not cls.repeatable
             if again:
                 line, _ = self.log.source.place(first)
-                self.log.add("duplicate-statement", *syntax.range, word=cls.keyword, line=line)
+                words, end = {"word": cls.keyword, "line": line}, first + len(cls.keyword)
+                self.log.say("duplicate-statement", syntax.range, words, first=(first, end))
             self.entries.append(Entry(cls, syntax, 0, None, again))
             return
         id = self._id(cls, syntax)

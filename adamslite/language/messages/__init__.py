@@ -10,12 +10,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
+from adamslite.language.diagnostics import ERROR, Diagnostic, Fix, Related, Source, Span
 from adamslite.language.interfaces import Key
 from adamslite.language.messages.arguments import ARGUMENTS
 from adamslite.language.messages.constraints import CONSTRAINTS
 from adamslite.language.messages.entry import Message
 from adamslite.language.messages.expressions import EXPRESSIONS
+from adamslite.language.messages.fixes import fixes
 from adamslite.language.messages.lints import LINTS
 from adamslite.language.messages.model import MODEL
 from adamslite.language.messages.routines import ROUTINES
@@ -119,8 +120,27 @@ class Log:
 
     def add(self, code: str, start: int, end: int, hint: str = "", **words: object) -> None:
         """Say ``code`` about the characters from ``start`` to ``end``."""
+        self.say(code, (start, end), words, hint)
+
+    def say(
+        self,
+        code: str,
+        place: tuple[int, int],
+        words: Mapping[str, object],
+        hint: str = "",
+        first: tuple[int, int] | None = None,
+        fix: Fix | None = None,
+    ) -> None:
+        """The same with the offsets of what is there already, or a correction of its own."""
+        start, end = place
         span = self.source.span(start, end)
-        self.diagnostics.append(compose(code, span, self.source.line(span.line), hint, **words))
+        found = compose(code, span, self.source.line(span.line), hint, **words)
+        corrections = fixes(code, self.source, start, end, found.hint)
+        if first or fix or corrections:
+            related = (Related(self.source.span(*first), "the first one"),) if first else ()
+            every = (fix, *corrections) if fix else corrections
+            found = replace(found, related=related, fixes=every)
+        self.diagnostics.append(found)
         self._errors += MESSAGES[code].severity == ERROR
 
     def take(self, diagnostic: Diagnostic) -> None:

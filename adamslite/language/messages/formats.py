@@ -13,7 +13,7 @@ from typing import Any
 from urllib.parse import quote
 
 from adamslite import __version__
-from adamslite.language.diagnostics import Diagnostic, Span
+from adamslite.language.diagnostics import Diagnostic, Edit, Span
 from adamslite.language.messages import MESSAGES
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
@@ -67,8 +67,17 @@ def _data(each: Diagnostic) -> dict[str, Any]:
         "file": each.span.file,
         "span": _span(each.span),
         "source_line": each.source_line,
-        "places": [{"file": place.file} | _span(place) for place in each.everywhere],
+        "places": [_place(place) for place in each.everywhere],
+        "related": [{"message": text} | _place(place) for place, text in each.related],
+        "fixes": [
+            {"title": title, "edits": [_place(span) | {"text": text} for span, text in edits]}
+            for title, edits in each.fixes
+        ],
     }
+
+
+def _place(span: Span) -> dict[str, Any]:
+    return {"file": span.file} | _span(span)
 
 
 def _span(span: Span) -> dict[str, int]:
@@ -101,20 +110,39 @@ def _result(each: Diagnostic, rule: int) -> dict[str, Any]:
     }
     if each.span.line:
         result["locations"] = [_location(each.span)]
-    if each.places[1:]:
+    others = [*((place, "and here") for place in each.places[1:]), *each.related]
+    if others:
         result["relatedLocations"] = [
-            _location(place) | {"message": {"text": "and here"}} for place in each.places[1:]
+            _location(place) | {"message": {"text": text}} for place, text in others
         ]
+    if each.fixes:
+        result["fixes"] = [_fix(title, edits) for title, edits in each.fixes]
     return result
 
 
+def _fix(title: str, edits: Sequence[Edit]) -> dict[str, Any]:
+    """A correction; its edits are in one file."""
+    changes = [
+        {"deletedRegion": _region(span), "insertedContent": {"text": text}} for span, text in edits
+    ]
+    place = {"artifactLocation": {"uri": _uri(edits[0].span)}, "replacements": changes}
+    return {"description": {"text": title}, "artifactChanges": [place]}
+
+
 def _location(span: Span) -> dict[str, Any]:
+    place = {"artifactLocation": {"uri": _uri(span)}, "region": _region(span)}
+    return {"physicalLocation": place}
+
+
+def _uri(span: Span) -> str:
     path = Path(span.file)
-    uri = path.as_uri() if path.is_absolute() else quote(path.as_posix())
-    region = {
+    return path.as_uri() if path.is_absolute() else quote(path.as_posix())
+
+
+def _region(span: Span) -> dict[str, int]:
+    return {
         "startLine": span.line,
         "startColumn": span.column,
         "endLine": span.end_line,
         "endColumn": span.end_column,
     }
-    return {"physicalLocation": {"artifactLocation": {"uri": uri}, "region": region}}

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
 from adamslite.language.messages import MESSAGES, compose, did_you_mean
+from adamslite.language.messages.fixes import fixes
 
 COMMENT = re.compile(r"adamslite:[ \t]*ignore\b([^\n]*)", re.IGNORECASE)
 CODES = re.compile(r"[ \t]*[\w-]+(?:[ \t]*,[ \t]*[\w-]+)*")
@@ -129,4 +130,5 @@ def _meant(code: str) -> str:
 
 def _about(source: Source, each: Ignored, code: str, hint: str = "") -> Diagnostic:
     span = source.span(each.start, each.end)
-    return compose(code, span, source.line(span.line), hint, word=each.code or "code")
+    found = compose(code, span, source.line(span.line), hint, word=each.code or "code")
+    return replace(found, fixes=fixes(code, source, each.start, each.end, hint))
