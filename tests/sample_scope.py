@@ -32,7 +32,7 @@ def sample_table(number: int) -> Interpolant:
     """A table by its number; after those of all kinds that of the numbers of pieces."""
     if number == len(KINDS):
         return piece_numbers(KNOTS)
-    return interpolant(KNOTS, VALUES[:, None], KINDS[number])
+    return interpolant(KNOTS, np.outer(VALUES, [1.0, -0.5, 0.25]), KINDS[number])
 
 
 def table_value(number: int, curve: int, order: int, x) -> mp.mpf:
@@ -195,7 +195,7 @@ class SampleScope:
         tables = {kind: number for number, kind in enumerate(KINDS)}
         return SimpleNamespace(
             **{name: self.symbol(f"{name}_{id}", value) for name, value in values.items()},
-            **tables, pieces=len(KINDS), family=None,
+            **tables, pieces=len(KINDS), family=None, table=1, closed=None,
         )  # fmt: skip
 
     def of_time(self, expr) -> bool:

@@ -91,3 +91,33 @@ def test_no_point_of_a_curve_is_nearer_than_the_nearest(closed: bool) -> None:
             curve, point = through(points, closed), 3.0 * random.normal(size=3)
             found = np.linalg.norm(curve.at(np.array([curve.nearest(point)])) - point)
             assert found <= np.linalg.norm(curve.at(grid) - point, axis=1).min() + 1e-9
+
+
+@pytest.mark.parametrize("form", ["OPEN", "CLOSED"])
+def test_the_function_goes_through_the_points(form: str) -> None:
+    """On equal chords alpha = -1 + 2 t/5 meets a point at each whole t, with the spline's slope."""
+    points = np.array([[0, 0, 1], [3, 4, 1], [6, 8, 1], [9, 4, 1], [6, 0, 1], [3, -4, 1]], float)
+    points[-1] = points[0] if form == "CLOSED" else points[-1]
+    values = ",".join(f"{v:g}" for v in points.ravel())
+    shape = through(points, form == "CLOSED")
+    names = [f"{'xyz'[comp - 1]}{order}" for order in range(3) for comp in (1, 2, 3)]
+    lines = [
+        f"VARIABLE/{name}, FUNCTION=CURVE(0.4*TIME-1, {name[1]}, {'xyz'.index(name[0]) + 1}, 1)"
+        for name in names
+    ]
+    found = done(
+        f"{GROUND}MATRIX/1, ROWS=6, COLUMNS=3, VALUES={values}\nCURVE/1, {form}, MATRIX=1\n"
+        + "\n".join(lines)
+        + "\nVARIABLE/more, FUNCTION=CURVE(0.4*TIME+1, 0, 2, 1)\nEND\n",
+        end=5,
+        steps=25,
+    )
+    s = np.cumsum(np.append(0, np.linalg.norm(np.diff(points, axis=0), axis=1))) / shape.length
+    for order in range(3):
+        table = np.array([found[f"VARIABLE/{axis}{order}"] for axis in "xyz"]).T
+        assert table == pytest.approx(shape.at(found.time / 5, order) / 2**order, abs=1e-9)
+    if np.ptp(np.diff(s)) < 1e-12:
+        table = np.array([found[f"VARIABLE/{axis}0"] for axis in "xyz"]).T
+        assert table[::5] == pytest.approx(points, abs=1e-12)
+    around = found["VARIABLE/more"] - found["VARIABLE/y0"]
+    assert (np.abs(around).max() < 1e-12) == (form == "CLOSED")

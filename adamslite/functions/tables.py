@@ -1,10 +1,11 @@
-"""Values of tables: the points of a SPLINE joined in one of three ways."""
+"""Values of tables: points of a SPLINE, joined in one of three ways, and of a CURVE."""
 
 from __future__ import annotations
 
 from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import (
+    floor,
     lookup,
     lookup_between,
     lookup_between_with_corners,
@@ -52,6 +53,22 @@ def interp(scope: Scope, x: Expr, method: int, id: Tree, iord: int = 0) -> Expr:
         spline = scope.statement(id)
         return lookup_with_corners(spline.linear, spline.pieces, x, iord)
     return _value(scope, id, METHODS[method], x, 0, iord)
+
+
+@function("CURVE", "alpha:number iord:constant{0..2} comp:constant{1..3} id:curve")
+def curve(scope: Scope, alpha: Expr, iord: int, comp: int, id: Tree) -> Expr:
+    """A coordinate (comp 1 x, 2 y, 3 z) of CURVE id at alpha, or its derivative by alpha.
+
+    alpha runs from -1 at the first point to 1 at the last, in proportion to the chords between the
+    points; a closed curve goes on from the first.
+    Unit: length.  Source: Adams/Solver function CURVE, whose page leaves open how alpha is spread
+    over points that are not equally far apart.
+    """
+    found = scope.statement(id)
+    s = (1 + alpha) / 2
+    if found.closed:
+        s = s - floor(s)
+    return lookup(found.table, s, comp - 1, iord) / 2**iord
 
 
 def _value(scope: Scope, id: Tree, kind: str, x: Expr, z: Expr, order: int) -> Expr:

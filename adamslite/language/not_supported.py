@@ -12,7 +12,7 @@ STATEMENTS = frozenset(
 
 COMMANDS = frozenset("CONTROL".split())
 
-FUNCTIONS = frozenset("""AO CONTACT CURVE CVCV DELAY HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
+FUNCTIONS = frozenset("""AO CONTACT CVCV DELAY HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
 
 _MATRICES = "LINEAR/STATEMAT writes A, B, C and D of the same linear model"
 _TABULATE = "write points of the curve into a MATRIX: CURVE/id, MATRIX=id, CURVE_POINTS"
@@ -34,7 +34,6 @@ INSTEAD = {
     "UCON": "its equation is in a routine of the user: write it as GCON/id, FUNCTION=e",
     "CONTROL": "it calls a subroutine, which gives commands: write these into the command file",
     "AO": "its meaning is not published: write AX, AY, AZ or ORIENT",
-    "CURVE": "write its coordinates as SPLINEs over the parameter: CUBSPL(x, 0, id)",
     "HSIZE": _INTEGRATOR,
     "NJAC": _INTEGRATOR,
     "NRHS": _INTEGRATOR,
