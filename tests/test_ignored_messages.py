@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import pytest
 from decklets import told
+from test_messages import BROKEN, USER, whole
 
-from adamslite.language.messages import START
+from adamslite.language.diagnostics import ERROR
+from adamslite.language.messages import MESSAGES, START
 from adamslite.reading.read import read, read_commands
 
 PART = "PART/4, MASS=1, CM=4"
@@ -115,3 +117,18 @@ def test_a_comment_of_the_deck_about_an_error_is_reported_once() -> None:
     deck = read(START + "MARKER/4, PART=1 ! adamslite: ignore no-mass\n")
     commands = read_commands("PART/2, MASS=2\nSIMULATE/DYNAMIC, END=1, STEPS=1\n", deck)
     assert commands.warnings == ()
+
+
+QUIET = [(code, broken) for code, broken in BROKEN if MESSAGES[code].severity != ERROR]
+
+
+@pytest.mark.parametrize(("code", "broken"), QUIET)
+def test_every_warning_and_note_can_be_ignored_on_its_line(code: str, broken: str) -> None:
+    user = USER.get((code, broken))
+    lines = whole(code, broken).split("\n")
+    if code in ("ignored-error", "ignores-nothing"):
+        return
+    for each in told("\n".join(lines), user):
+        for place in each.everywhere:
+            lines[place.line - 1] += f" ! adamslite: ignore {code}"
+    assert told("\n".join(lines), user) == []

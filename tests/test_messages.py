@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from pathlib import Path
+from random import Random
 
 import pytest
 from decklets import told
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from adamslite.language.diagnostics import DeckError
+from adamslite.language.diagnostics import ERROR, DeckError
 from adamslite.language.messages import MESSAGES, START
 from adamslite.reading.read import read, read_commands
 from adamslite.scene import load_scene, with_missing_run
@@ -57,6 +60,48 @@ def test_a_broken_command_file_yields_its_message_only(code: str, broken: str) -
     except DeckError as error:
         found = error.diagnostics
     assert {diagnostic.code for diagnostic in found} == {code}
+
+
+# ---- several mistakes at once -------------------------------------------------------------------
+
+STARTS = re.compile(r"^[ \t]*([A-Za-z_]\w*)[ \t]*/[ \t]*(\d*)", re.MULTILINE)
+#: Reported once everything else is right: they need the equations.
+LAST = {"no-rate", "force-loop"}
+#: What these say depends on statements that may not be readable for another mistake.
+DEPENDENT = {"gcon-marker", "motion-not-of-time", "end-not-later"}
+TOGETHER, DECKS = 6, 150
+
+
+def defined(broken: str) -> set[tuple[str, str]]:
+    """Keywords and ids of the statements of an entry."""
+    return {(keyword.upper(), id) for keyword, id in STARTS.findall(broken)}
+
+
+def mixtures() -> Iterator[tuple[set[str], str]]:
+    """Decks of entries of the table with different ids, with the codes of all of them."""
+    random = Random(1)
+    entries = [
+        (code, broken)
+        for code, broken in BROKEN
+        if MESSAGES[code].severity == ERROR and code not in LAST | DEPENDENT
+        if whole(code, broken).startswith(START) and (code, broken) not in USER
+    ]
+    for _ in range(DECKS):
+        random.shuffle(entries)
+        taken: set[tuple[str, str]] = set()
+        chosen: list[tuple[str, str]] = []
+        for code, broken in entries:
+            if len(chosen) < TOGETHER and not taken & defined(broken):
+                taken |= defined(broken)
+                chosen.append((code, broken))
+        yield {code for code, _ in chosen}, "\n".join(broken for _, broken in chosen)
+
+
+def test_no_mistake_hides_another() -> None:
+    found = [(codes, text, told(START + text + "\n")) for codes, text in mixtures()]
+    assert sum(len(codes) for codes, *_ in found) > 5 * DECKS
+    hidden = [(codes - {each.code for each in all_told}, text) for codes, text, all_told in found]
+    assert [(codes, text) for codes, text in hidden if codes] == []
 
 
 @pytest.mark.parametrize("code", WHOLE)
