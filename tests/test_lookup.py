@@ -286,3 +286,33 @@ def test_a_motion_cannot_follow_the_corners_of_a_table() -> None:
     motion = "MOTION/1, I=20, J=1, X, FUNCTION=TABLE1(TIME+0.1, 1)\n"
     results = run(BODIES + written(1, "LINEAR", 61, (0.0,)) + motion + "END\n", 2.0)
     assert results.outcome is Outcome.BROKEN_MOTION
+
+
+@pytest.mark.parametrize(
+    ("formula", "most"), [("GSTIFF", 1.1), ("RADAU", 1.1), ("HHT", 1.1), ("ABAM", 2.1)]
+)
+@pytest.mark.parametrize("lines", [100, 1000])
+def test_straight_lines_of_time_take_a_step_or_two_each(
+    formula: str, most: float, lines: int
+) -> None:
+    """A mass is pushed by chords of 10 sin 2t, whose integral is exact, or by that sine itself.
+
+    The errors are of one size: v = 5 (1 - cos 2t) of the sine.
+    """
+    times = np.linspace(0.0, 10.0, lines + 1)
+    force = 10.0 * np.sin(2.0 * times)
+    chords = np.concatenate([[0.0], np.cumsum(np.diff(times) * (force[1:] + force[:-1]) / 2)])
+    listed = ",".join(map(repr, times.tolist())), ",".join(map(repr, force.tolist()))
+    deck = (
+        "chords\nPART/1, GROUND\nMARKER/1, PART=1\nPOINT_MASS/2, MASS=1, CM=2\n"
+        f"MARKER/2, POINT_MASS=2\nSPLINE/1, X={listed[0]}, Y={listed[1]}\n"
+        "VFORCE/1, I=2, J_PART=1, FX={}\\FY=0\\FZ=0\nEND\n"
+    )
+    chord, sine = (
+        done(deck.format(law), 10.0, 10, integrator=formula, error=1e-3)
+        for law in ("INTERP(TIME,1,1)", "10*SIN(2*TIME)")
+    )
+    assert chord.summary["steps"] <= most * max(lines, 300)
+    left = np.abs(sine["POINT_MASS/2.vx"] - 5.0 * (1.0 - np.cos(2.0 * sine.time))).max()
+    exact = np.interp(chord.time, times, chords)
+    assert np.abs(chord["POINT_MASS/2.vx"] - exact).max() <= 2.0 * left

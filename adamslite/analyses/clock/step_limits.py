@@ -1,7 +1,7 @@
 """Limits of the step size where expressions of time change within less than a step.
 
 An error test compares the ends of a step: a pulse between them is not there.  Where a curve has a
-time scale s (:mod:`adamslite.analyses.clock.changes`) below the longest step, or where two stops
+time scale s (:mod:`adamslite.analyses.clock.changes`) below the longest step, or where two edges
 are nearer than that to each other, steps are
 
     h <= share * s,     share = the least, or as many steps as are worth it shared among all pulses
@@ -9,6 +9,9 @@ are nearer than that to each other, steps are
 A share of a half is enough to see what there is; the error test does the rest in methods that test
 velocities.  The others need as many steps for a pulse as its impulse is to have digits: of 1/n of
 its length, trapezoids leave n^-2.
+
+Corners of tables are stops without a pace: a curve between two of them is a straight line, and each
+is the end of a step.  Where it is steep, methods that do not test velocities keep the pace.
 """
 
 from __future__ import annotations
@@ -66,10 +69,10 @@ def timetable(
     if not end > start:
         return Timetable(np.array([end]), np.array(contract.NO_PACE), [], [])
     found, overfull = edges(system, clock, times)
-    kinks, spans, paced = [found], [np.zeros((0, 3))], []
+    edged, corners, spans, paced = [found], [], [np.zeros((0, 3))], []
     for program, statement in clock.programs("curves").items():
         curve = time_scales(program, start, end, SHORT * longest)
-        kinks.append(curve.times)
+        edged.append(curve.times)
         if not curve.whole or _crossings(curve.spans) * SEEN > MOST:
             overfull.append(statement)
         else:
@@ -77,12 +80,15 @@ def timetable(
             spans.append(curve.spans)
     for program, statement in clock.programs("slopes").items():
         slope = time_scales(program, start, end, SHORT * longest)
-        kinks.append(slope.times)
+        corners.append(slope.times)
         overfull += [statement] if not slope.whole else []
-    found = merged(np.concatenate(kinks), times)
+    found = merged(np.concatenate([*edged, *corners]), times)
     if len(found) == 1 and not any(map(len, spans)):
         return Timetable(found, np.array(contract.NO_PACE), paced, overfull)
-    between = _between(found, start)
+    between = _between(merged(np.concatenate(edged), times), start)
+    if fine and corners:
+        steep = _overlapping(_between(found, start), np.concatenate(spans))
+        between = _least(np.concatenate([between, steep]))
     gaps = between[:, 1] - between[:, 0]
     spans.append(between[gaps < NEAR * longest])
     scales, looks = _least(np.concatenate(spans)), between[gaps < LONG * longest]
@@ -94,6 +100,14 @@ def _between(found: np.ndarray, start: float) -> np.ndarray:
     """The spans between stops with their time scales, (n, 3); none where there are no stops."""
     low = np.append(start, found[:-1])
     return np.stack([low, found, (found - low) / PARTS], axis=1)[len(found) == 1 :]
+
+
+def _overlapping(between: np.ndarray, spans: np.ndarray) -> np.ndarray:
+    """Those between stops (k, 3) that have a part in common with spans (n, 3)."""
+    low, high = np.sort(spans[:, 0]), np.sort(spans[:, 1])
+    begun = np.searchsorted(low, between[:, 1], side="left")
+    ended = np.searchsorted(high, between[:, 0], side="right")
+    return between[begun > ended]
 
 
 def _crossings(spans: np.ndarray) -> float:
