@@ -33,6 +33,7 @@ QUICK = (
     "bushing",
     "chrono",
     "conical-pendulum",
+    "delayed-brake",
     "gforce-pair",
     "growing-mass-dalembert",
     "growing-mass-printed",

@@ -22,6 +22,7 @@ FOLDERS = (
     "conical-pendulum",
     "four-bar",
     "friction-stiction",
+    "delayed-brake",
     "gforce-pair",
     "growing-mass-dalembert",
     "growing-mass-singular",

@@ -124,18 +124,19 @@ class Settings:
 def run_dynamic(
     system: System,
     times: np.ndarray,
+    apart: float,
     settings: Settings,
     watch: Callable[[float, float], None] | None,
     audited: bool = False,
 ) -> Outcome:
     """Integrate over ``times`` (nt,) and fill ``system.record``.
 
-    ``audited``: with a balance of energy in ``system.audit``.
+    ``apart``: the largest step between requested outputs; ``audited``: with a balance of energy in
+    ``system.audit``.
     """
     start, end = float(times[0]), float(times[-1])
-    output_step = float(np.diff(times).max()) if len(times) > 1 else end - start
-    fixed = settings.fixed_step(output_step)
-    hmax = fixed or settings.hmax or output_step
+    fixed = settings.fixed_step(apart)
+    hmax = fixed or settings.hmax or apart
     run = system.settings
     run.t, run.t_end, run.error = start, end, settings.error
     run.h_max, run.h_min = hmax, settings.least_step(end, hmax)
@@ -162,6 +163,11 @@ def run_dynamic(
         near = system.report.t >= system.broken.time - hmax
         return Outcome.BROKEN_MOTION if near else outcome
     return outcome
+
+
+def largest_step(times: np.ndarray) -> float:
+    """Between output times (nt,)."""
+    return float(np.diff(times).max()) if len(times) > 1 else 0.0
 
 
 def _scheduled(system: System, times: np.ndarray, settings: Settings, hmax: float) -> np.ndarray:

@@ -22,7 +22,8 @@ import numpy as np
 
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import without_value
-from adamslite.analyses.dynamic import Settings, run_dynamic
+from adamslite.analyses.delays import NO_PAST, Delays, require_no_delay
+from adamslite.analyses.dynamic import Settings, largest_step, run_dynamic
 from adamslite.analyses.history import History, Piece
 from adamslite.analyses.info import info
 from adamslite.analyses.initial.conditions import (
@@ -125,6 +126,7 @@ class Session:
         self.counts = contract.Counts.zeros()
         self.ways_to_fall = 0
         self.sensors = SensorLog()
+        self.delays = Delays()
         self.out_of_law: dict[str, str] = {}
         self.printed: list[str] = []
         self.assembled: list[str] = []
@@ -193,9 +195,11 @@ class Session:
                 self.present = self.assembled_of(system)
 
     def _do_save(self, command: Save) -> None:
+        require_no_delay(self.kernels, "SAVE", "its file does not hold the past")
         self.saves.save(self, command)
 
     def _do_reload(self, command: Reload) -> None:
+        require_no_delay(self.kernels, "RELOAD", "its file does not hold the past")
         self.saves.reload(self, command)
 
     # analyses
@@ -234,16 +238,18 @@ class Session:
         began = clock.process_time()
         engine(self.chosen.settings.formula.entry, self.progress)
         self.late_setup += clock.process_time() - began
-        self.outcome = self._integrated(system, times)
-        self._keep(system, self._sensed(system, times), False)
-        if self.outcome in STALLED and self._rank_changed(system):
-            self._continue(system, times)
+        apart = largest_step(times)
+        for span, wanted in self.delays.spans(self.kernels, system, times, self.settings.error):
+            self.outcome = self._integrated(system, span, apart)
+            self._keep(system, self._sensed(system, span), False, wanted)
+            if self.outcome in STALLED and self._rank_changed(system):
+                self._continue(system, span, wanted, apart)
 
-    def _integrated(self, system: System, times: np.ndarray) -> Outcome:
+    def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
         settings = self.chosen.settings
 
         def run() -> Outcome:
-            return run_dynamic(system, times, settings, self.progress, self.audited)
+            return run_dynamic(system, times, apart, settings, self.progress, self.audited)
 
         outcome = run() if "plane" in self.without else in_its_plane(system, run)
         self._note_balance(system)
@@ -263,13 +269,17 @@ class Session:
         leave_out_redundant(system)
         return True
 
-    def _continue(self, system: System, times: np.ndarray) -> None:
+    def _continue(
+        self, system: System, times: np.ndarray, wanted: np.ndarray, apart: float
+    ) -> None:
         """Go on from where a run stalled to the rest of its output times."""
+        require_no_delay(self.kernels, "A run whose constraints change their rank", NO_PAST)
+        later = times > self.time
         self.outcome = Outcome.DONE
-        rest = np.append(self.time, times[times > self.time])
-        self.outcome = run_dynamic(system, rest, self.chosen.settings, self.progress, self.audited)
+        rest, settings = np.append(self.time, times[later]), self.chosen.settings
+        self.outcome = run_dynamic(system, rest, apart, settings, self.progress, self.audited)
         self._note_balance(system)
-        self._keep(system, self._sensed(system, rest), False, own_start=False)
+        self._keep(system, self._sensed(system, rest), False, np.append(False, wanted[later]))
 
     def _sensed(self, system: System, times: np.ndarray) -> np.ndarray:
         """Times of the records of a run; where sensors have ended it, with one there at last."""
@@ -280,6 +290,9 @@ class Session:
 
     def _statics(self, times: np.ndarray) -> None:
         system = self.system
+        if len(times) > 1:
+            require_no_delay(self.kernels, "STATICS at several times", NO_PAST)
+        self.delays.hold(self.kernels, self.time)
         for time in times if len(times) > 1 else [self.time]:
             if self.outcome is not Outcome.DONE:
                 return
@@ -294,6 +307,7 @@ class Session:
 
     def _kinematics(self, times: np.ndarray) -> None:
         system = self.system
+        require_no_delay(self.kernels, "KINEMATICS", NO_PAST)
         if system.dof > 0:
             self.outcome = Outcome.NOT_KINEMATIC
             return
@@ -319,6 +333,7 @@ class Session:
     def _do_linear(self, command: Linear) -> None:
         from adamslite.analyses.linearization.linearization import carried_out
 
+        require_no_delay(self.kernels, "LINEAR", "x(t - delay) has no state matrix")
         self.linearizations.append(carried_out(command, self.system, self.time))
 
     def _do_info(self, command: Info) -> None:
@@ -388,15 +403,17 @@ class Session:
         return outcome
 
     def _keep(
-        self, system: System, times: np.ndarray, static: bool, own_start: bool = True
+        self, system: System, times: np.ndarray, static: bool, wanted: np.ndarray | None = None
     ) -> None:
-        """Keep the records made.  ``own_start``: the first time was requested."""
+        """Keep the records made, of which only those ``wanted`` were requested."""
         self.out_of_law = system.instances.out_of_law() | self.out_of_law
         made = system.count.records
         row = system.nw + system.sizes.n_out
         names, values = columns(system, system.record[: made * row].reshape(made, row))
-        first = 0 if own_start else 1
-        piece = Piece(times[first:made].copy(), names, values[first:])
+        kept = np.ones(made, dtype=bool)
+        if wanted is not None:
+            kept[: len(wanted)] = wanted[:made]
+        piece = Piece(times[:made][kept], names, values[kept])
         self.history.append(piece, static, self.began_static)
         self.began_static = static
         self.counts.add(system.count)

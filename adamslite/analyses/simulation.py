@@ -273,8 +273,14 @@ def _meta(session: Session) -> Mapping[str, str]:
         **_beyond(session),
         **session.sensors.meta,
         **({"info": "; ".join(session.printed)} if session.printed else {}),
+        **_past(session),
         **({"time": f"{hurried}: {FASTER}"} if hurried else {}),
     }
+
+
+def _past(session: Session) -> dict[str, str]:
+    note = session.delays.note(session.kernels)
+    return {"delay": f"the past of {note}"} if note else {}
 
 
 def _accuracy_note(session: Session) -> str:

@@ -9,6 +9,7 @@ from operator import ne
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
+from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.coupler import Coupler
 from adamslite.elements.curve import Curve
 from adamslite.elements.gcon import Gcon
@@ -21,9 +22,10 @@ from adamslite.elements.motion import Motion
 from adamslite.elements.ptcv import Ptcv
 from adamslite.elements.variable import Variable
 from adamslite.language.diagnostics import Diagnostic
-from adamslite.language.expression import Call, Mode, Node, Ref, walk
+from adamslite.language.expression import Call, Mode, Node, Ref, calls, walk
+from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import Key
-from adamslite.language.statement import STATEMENTS, Statement
+from adamslite.language.statement import STATEMENTS, Statement, expressions
 
 POINT = "POINT_MASS"
 TURNING = ("ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR")
@@ -219,6 +221,26 @@ def motion_starts(deck: Deck) -> Iterator[Diagnostic]:
                 yield diagnose(motion, "no-effect", field, word=field.upper(), reason=reason)
 
 
+def delayed_constraints(deck: Deck) -> Iterator[Diagnostic]:
+    """A delayed value may jump, which a constraint cannot follow."""
+    for each in deck.statements if deck.delays else ():
+        if isinstance(each, Motion | Constraint):
+            found = next((c for node in expressions(each) for c in _past(deck, node, ())), None)
+            if found is not None:
+                yield diagnose(each, "delayed-constraint", "function", word=found.name)
+
+
+def _past(deck: Deck, node: Node, inside: tuple[Key, ...]) -> Iterator[Call]:
+    """Calls that take past values, also in the variables of an expression."""
+    for call in calls(node):
+        if FUNCTIONS[call.name].takes_past:
+            yield call
+        elif call.name == "VARVAL" and isinstance(call.args[0], Ref):
+            variable = deck.find(Variable, call.args[0].id)
+            if variable is not None and variable.key not in inside:
+                yield from _past(deck, variable.function, (*inside, variable.key))
+
+
 def curves(deck: Deck) -> Iterator[Diagnostic]:
     for curve in deck.of(Curve):
         if curve.order != CUBIC:
@@ -277,5 +299,6 @@ CONSTRAINT_RULES: list[Rule] = [
     gears,
     driven_freedoms,
     functions_of_time,
+    delayed_constraints,
     motion_starts,
 ]

@@ -14,6 +14,7 @@ from functools import cached_property
 from pathlib import Path, PureWindowsPath
 from typing import Any, overload
 
+from adamslite.deck.delayed import delayed, watched
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.names import Key, Names
 from adamslite.deck.redefinition import Command, Redefinition, settled
@@ -71,7 +72,9 @@ class Deck:
         self._by_key: dict[tuple[str, Key], Statement] = {}
         self._enter(statements)
         groups = [(each, each.companions(self)) for each in statements]
-        self.statements = tuple(s for each, group in groups for s in (each, *group))
+        brought = tuple(s for each, group in groups for s in (each, *group))
+        self.delays = delayed(brought, names) if names.delays else {}
+        self.statements = (*brought, *(watched(call, key) for call, key in self.delays.items()))
         self._acts_for = {
             (s.keyword, s.key): (each.keyword, each.key)
             for each, group in groups

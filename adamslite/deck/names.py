@@ -31,6 +31,8 @@ class Names:
     def __init__(self) -> None:
         self.ids: dict[str, dict[Key, int]] = {}
         self.views: dict[str, dict[str, list[Key]]] = {}
+        self.delays = False
+        """Whether an expression takes values of the past."""
 
     def add(self, kind: str, key: Key, view: str | None, start: int) -> bool:
         """Enter the statement at offset ``start`` of the text; False when its id is taken."""

@@ -29,6 +29,7 @@ from adamslite.language.routines import USER
 from adamslite.language.statement import Argument, Statement
 from adamslite.model.model import MassCentre, Model, NodeKey, folded
 from adamslite.model.net_force import written_out
+from adamslite.model.past import past_of
 from adamslite.symbolic.interpolant import Interpolant
 from adamslite.symbolic.scope import ORIGIN, Slot
 from adamslite.symbolic.types import Tree
@@ -216,7 +217,7 @@ class Binder:
             return ("f", "GCON", (own, ("c", 0), ("c", 0), self.marker(0)))
         before = self.takes_rates
         self.takes_rates = before or node.name == "DDT"
-        taken = tuple([self._taken(function, n, a) for n, a in enumerate(node.args)])
+        taken = tuple([self._taken(function, n, node) for n in range(len(node.args))])
         self.takes_rates = before
         return ("f", node.name, taken)
 
@@ -236,8 +237,11 @@ class Binder:
         """A reference to an element that is switched off: whatever it measures is zero."""
         return not self.model.acts(self.model.element(ref.kind, ref.id))
 
-    def _taken(self, function: Function, n: int, node: Node) -> Tree:
+    def _taken(self, function: Function, n: int, call: Call) -> Tree:
         """Argument number ``n`` of a call."""
+        node = call.args[n]
+        if function.parameter(n).kind == "past":
+            return self.table(past_of(self.model, call).table)
         if type(node) is Ref:
             return self.reference(node)
         if type(node) is Num and function.parameter(n).kind == "constant":

@@ -17,6 +17,7 @@ The words of a signature are separated by blanks:
                     gets an ``int``
 ``c:constant{1..8}``  the same, with the values allowed (``{1..12,27}``)
 ``v:vector``        a vector, see :mod:`adamslite.functions.vectors`
+``e:past``          any expression; the body gets a table of its past values over TIME
 ``i:marker``        the id of a MARKER; the body gets a frame
 ``id:joint``        the id of a statement of that name (variable, diff, sforce ...); the body gets
                     what ``scope.statement(id)`` turns into that statement
@@ -35,7 +36,7 @@ from inspect import cleandoc
 
 from adamslite.symbolic.types import Expr
 
-NUMERIC_KINDS = ("number", "constant", "vector")
+NUMERIC_KINDS = ("number", "constant", "vector", "past")
 
 Mistake = tuple[int, str]
 Rule = Callable[..., Mistake | None]
@@ -105,6 +106,11 @@ class Function:
         """Whether numbers of a call can be wrong."""
         return bool(self.rule) or any(parameter.allowed for parameter in self.parameters)
 
+    @cached_property
+    def takes_past(self) -> bool:
+        """Whether it needs past values of an argument."""
+        return any(p.kind == "past" for p in self.parameters)
+
     def parameter(self, index: int) -> Parameter:
         """The parameter that takes argument number ``index``, counted from 0."""
         return self.parameters[min(index, len(self.parameters) - 1)]
@@ -129,8 +135,8 @@ class Function:
             p = self.parameter(index)
             if p.allowed and value is not None and value not in p.allowed:
                 found.append((index, f"{p.name} of {self.name} must be {listed(p.allowed)}"))
-        if self.rule and not found and len(values) >= len(self.parameters):
-            mistake = self.rule(*values)
+        if self.rule and not found and len(values) >= self.minimum:
+            mistake = self.rule(*values, *(p.default for p in self.parameters[len(values) :]))
             if mistake:
                 found.append(mistake)
         return found

@@ -12,7 +12,7 @@ STATEMENTS = frozenset(
 
 COMMANDS = frozenset("CONTROL".split())
 
-FUNCTIONS = frozenset("""AO CONTACT CVCV DELAY HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
+FUNCTIONS = frozenset("""AO CONTACT CVCV HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
 
 _MATRICES = "LINEAR/STATEMAT writes A, B, C and D of the same linear model"
 _TABULATE = "write points of the curve into a MATRIX: CURVE/id, MATRIX=id, CURVE_POINTS"
@@ -48,8 +48,6 @@ INSTEAD = {
     "CURVE MINPAR": _TABULATE,
     "CURVE ROUTINE": _TABULATE,
     "CVCV": "curves that roll on each other cannot be run; PTCV holds a point on one curve",
-    "DELAY": "for a delay of TIME alone, write the expression with TIME-tau for TIME, in a STEP or "
-    "IF that holds the start; a lag is a DIFF: FUNCTION=(VARVAL(id)-DIF(this))/tau",
     "FIELD NONLINEAR": "write a GFORCE with FUNCTION=USER(...), which --user binds",
     "FIELD FUNCTION": "write a GFORCE with that FUNCTION=USER(...), which --user binds",
     "FIELD ROUTINE": "write a GFORCE with that ROUTINE, which --user binds",

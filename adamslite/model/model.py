@@ -37,6 +37,7 @@ from adamslite.language.expression import (
     operate,
     walk,
 )
+from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
 from adamslite.language.statement import STATEMENTS, Statement, expressions
@@ -281,7 +282,7 @@ class Model:
 
     def _time_only(self, node: Node, loops: set[Key]) -> bool:
         for each in walk(node):
-            if isinstance(each, Mode) or (isinstance(each, Call) and each.name == USER):
+            if isinstance(each, Mode) or (isinstance(each, Call) and _has_memory(each)):
                 return False
             if isinstance(each, Ref) and not STATEMENTS[each.kind].data:
                 if each.kind != "VARIABLE" or each.id in loops:
@@ -294,6 +295,11 @@ class Model:
     def dof(self) -> int:
         """Unknowns of the bodies less constraint rows."""
         return sum(b.width for b in self.bodies) - sum(c.n_rows for c in self.constraints)
+
+
+def _has_memory(call: Call) -> bool:
+    """Whether a call gives more than a function of its arguments."""
+    return call.name == USER or FUNCTIONS[call.name].takes_past
 
 
 def folded(op: str, values: Sequence[float]) -> float:

@@ -231,6 +231,7 @@ class Resolver:
         if name in NUMBERED:
             return self._numbered(name, args[0], args[1], branches[1])
         args += [slot.default for slot in slots[len(args) :] if slot.default is not None]
+        self.names.delays = self.names.delays or function.takes_past
         return VECTORS[name](*args) if name in VECTORS else Call(name, tuple(args))
 
     def _user(self, at: int, branches: tuple[Tree, ...], depth: int) -> Node:

@@ -193,6 +193,11 @@ class Scope:
         return self.symbol("t")
 
     @property
+    def now(self) -> Expr:
+        """TIME in what becomes known with the motion only: it is not looked through beforehand."""
+        return self.symbol("now")
+
+    @property
     def mode(self) -> Expr:
         return self.symbol("mode")
 
@@ -283,7 +288,7 @@ class Scope:
             return self.alpha(leaf[1], leaf[2])[leaf[3]]
         if kind == "x":
             return cross(self.omega(leaf[1]), self.vector("x", leaf[1], leaf[2]))[leaf[3]]
-        if kind == "t":
+        if kind in ("t", "now"):
             return 1
         if kind == "sig" and leaf[2] < 2:
             return self.symbol("sig", leaf[1], leaf[2] + 1)

@@ -41,9 +41,9 @@ class ResidualWriter:
             return self.g.leaf(leaf)
         if kind == "p":
             return self.b.real_at(leaf[1])
-        if kind in ("t", "mode"):
+        if kind in ("t", "now", "mode"):
             return self.b.emit(
-                (kind,), f"load double, ptr {self._head(TIME if kind == 't' else MODE)}"
+                (kind,), f"load double, ptr {self._head(MODE if kind == 'mode' else TIME)}"
             )
         if kind in ("z", "dif"):
             return self.b.read("W", self.b.int_at(leaf[1]), leaf[2] if kind == "z" else 0)

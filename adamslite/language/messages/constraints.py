@@ -134,6 +134,14 @@ CONSTRAINTS: dict[str, Message] = {
             _PIN + "MOTION/1, JOINT=2, FUNCTION=TIME*MODE",
         ),
     ),
+    "delayed-constraint": Message(
+        "FUNCTION of {label} takes values of the past: {word}",
+        "they may jump, which a constraint cannot follow: use a force, or TIME-delay for TIME",
+        (
+            _PIN + "MOTION/1, JOINT=2, FUNCTION=DELAY(SIN(TIME),0.1)",
+            "VARIABLE/1, FUNCTION=DELAY(DX(2),0.1)\nGCON/1, FUNCTION=DY(2)-VARVAL(1)",
+        ),
+    ),
     "no-rate": Message(
         "{label} needs the rate of {what}",
         "a GCON takes displacements, velocities and TIME; d( )/dt takes what these and DIF make up",

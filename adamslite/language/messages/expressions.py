@@ -47,7 +47,7 @@ EXPRESSIONS: dict[str, Message] = {
     "planned-function": Message(
         "not supported yet: function {word}{times}",
         "the function exists in ADAMS; this program cannot run it",
-        _variables("INVPSD(TIME,1)+INVPSD(TIME,2)", "DELAY(TIME,1,0)"),
+        _variables("INVPSD(TIME,1)+INVPSD(TIME,2)"),
     ),
     "argument-count": Message(
         "{word} takes {limits} and has {count}",
