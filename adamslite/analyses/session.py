@@ -16,6 +16,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -41,7 +42,7 @@ from adamslite.analyses.planar_reduction import in_its_plane
 from adamslite.analyses.saves import Saves
 from adamslite.analyses.sensors import AT_TIMES, SensorLog, require_none
 from adamslite.analyses.setting_commands import changes_the_model, updated
-from adamslite.analyses.static import StaticSettings, run_static
+from adamslite.analyses.static import PIVOTING, StaticSettings, at_rest
 from adamslite.analyses.subject import Subject, deck_of, kernels_of
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command, Redefinition
@@ -68,9 +69,6 @@ from adamslite.results.results import Linearized
 
 # Outcomes after which the rank of the constraints is computed again.
 STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
-# Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
-# pivot.
-PIVOTING = 1500
 
 
 class Session:
@@ -298,7 +296,8 @@ class Session:
                 return
             system.settings.t = time
             system.start_record(np.array([time]))
-            self.outcome = self._at_rest(system)
+            pivoted = partial(self._renumbered, system, True)
+            self.outcome, self.ways_to_fall = at_rest(system, self.statics, pivoted)
             self.time = float(time)
             system.report.t = time
             if self.outcome is Outcome.DONE:
@@ -381,26 +380,6 @@ class Session:
         other.adopt(system)
         other.drop(system.elimination.dropped)
         return other
-
-    def _at_rest(self, system: System) -> Outcome:
-        """Equilibrium.
-
-        A stiffness alone, other than with the inertia of a time step, need not have regular blocks
-        on its diagonal: elimination without pivoting may blow up where the equilibrium is regular.
-        """
-        start = [(x, x.copy()) for x in (system.q, system.z, system.base)]
-        outcome = run_static(system, self.statics)
-        self.ways_to_fall = system.report.ways_to_fall
-        if outcome is Outcome.DONE or system.elimination.pivoting or system.nz > PIVOTING:
-            return outcome
-        for array, before in start:
-            array[:] = before
-        spare = self._renumbered(system, True)
-        outcome = run_static(spare, self.statics)
-        self.ways_to_fall = spare.report.ways_to_fall
-        system.adopt(spare)
-        system.count.add(spare.count)
-        return outcome
 
     def _keep(
         self, system: System, times: np.ndarray, static: bool, wanted: np.ndarray | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi
 
@@ -14,6 +15,9 @@ from adamslite.integrators.contract import EQUILIBRIUM, JACOBIAN, STATIC
 from adamslite.integrators.equilibrium_control import Control
 from adamslite.results.outcomes import Outcome
 
+# Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
+# pivot.
+PIVOTING = 1500
 # Unknowns up to which a count of unstable motions is confirmed by eigenvalues.
 CONFIRMED = 3000
 # Eigenvalues below this share of the largest are round-off, and an imaginary part of that size.
@@ -37,6 +41,28 @@ class StaticSettings:
     stability: float = 1e-5
     maxit: int = 25
     pattern: tuple[str, ...] = ()
+
+
+def at_rest(
+    system: System, settings: StaticSettings, pivoted: Callable[[], System]
+) -> tuple[Outcome, int]:
+    """Move ``system`` to an equilibrium; with the number of ways in which it is unstable.
+
+    A stiffness alone, other than with the inertia of a time step, need not have regular blocks on
+    its diagonal: elimination without pivoting may blow up where the equilibrium is regular.
+    ``pivoted``: another system in its state, eliminated with row pivoting.
+    """
+    start = [(x, x.copy()) for x in (system.q, system.z, system.base)]
+    outcome = run_static(system, settings)
+    if outcome is Outcome.DONE or system.elimination.pivoting or system.nz > PIVOTING:
+        return outcome, system.report.ways_to_fall
+    for array, before in start:
+        array[:] = before
+    spare = pivoted()
+    outcome = run_static(spare, settings)
+    system.adopt(spare)
+    system.count.add(spare.count)
+    return outcome, spare.report.ways_to_fall
 
 
 def run_static(system: System, settings: StaticSettings) -> Outcome:

@@ -101,6 +101,14 @@ class Function:
             return len(self.parameters)
         return None if last.counts[1] is None else len(self.parameters) - 1 + last.counts[1]
 
+    @property
+    def limits(self) -> str:
+        """How many arguments it takes, in words."""
+        least, most = self.minimum, self.maximum
+        if least == most:
+            return f"{least} argument{'s' * (least != 1)}"
+        return f"{least} or more arguments" if most is None else f"{least} to {most} arguments"
+
     @cached_property
     def ruled(self) -> bool:
         """Whether numbers of a call can be wrong."""

@@ -73,16 +73,16 @@ class Resolver:
     def expression(self, tokens: list[Lexeme]) -> Node:
         """The resolved expression; raises :class:`Unresolved` after logging what is wrong."""
         value = self._value(tokens)
-        if isinstance(value, Components):
-            self._refuse("vector-here", tokens[0], tokens[-1])
-        return value
+        if not isinstance(value, Components):
+            return value
+        self._refuse("vector-here", tokens[0], tokens[-1])
 
     def routine(self, tokens: list[Lexeme]) -> Node:
         """The same where a routine of the user has to be called."""
         value = self.expression(tokens)
-        if not is_user_call(value):
-            self._refuse("routine-here", tokens[0], tokens[-1])
-        return value
+        if is_user_call(value):
+            return value
+        self._refuse("routine-here", tokens[0], tokens[-1])
 
     def components(self, tokens: list[Lexeme]) -> Components:
         """The same of an expression that is a vector."""
@@ -284,7 +284,7 @@ class Resolver:
         if count < function.minimum or (most is not None and count > most):
             self._refuse(
                 "argument-count", self.tokens[at],
-                word=function.name, count=count, limits=_limits(function), usage=function.usage,
+                word=function.name, count=count, limits=function.limits, usage=function.usage,
             )  # fmt: skip
         if separators[:1] == ":" and not function.colon or ":" in separators[1:]:
             self._refuse("wrong-separator", self.tokens[at], usage=function.usage)
@@ -399,10 +399,3 @@ def _default(parameter: Parameter) -> Node | None:
     if parameter.statement:
         return Ref(parameter.statement, int(parameter.default))
     return Num(parameter.default)
-
-
-def _limits(function: Function) -> str:
-    least, most = function.minimum, function.maximum
-    if least == most:
-        return f"{least} argument{'s' * (least != 1)}"
-    return f"{least} or more arguments" if most is None else f"{least} to {most} arguments"
