@@ -4,8 +4,8 @@
     python tests/mutations.py 500 --solve   solve those that have no errors, too
     python tests/mutations.py --more FOLDER    of further decks, too
 
-A mutant is a deck with one to four random changes of its text.  Mutant number n is always the same.
-What ends in a traceback is printed with its number.
+A mutant is a deck with one to four random changes of its text, or of that of its command file.
+Mutant number n is always the same.  What ends in a traceback is printed with its number.
 """
 
 from __future__ import annotations
@@ -43,20 +43,31 @@ FOLDERS = [find("decks")]
 
 
 @cache
+def scenes() -> tuple[tuple[str, str], ...]:
+    """The texts of decks and of their command files, which may be missing."""
+    files = sorted(path for folder in FOLDERS for path in folder.rglob("*.adm"))
+    found = []
+    for path in files:
+        beside = path.with_suffix(".acf")
+        commands = beside.read_text("latin-1") if beside.is_file() else ""
+        found.append((path.read_text("latin-1"), commands))
+    return tuple(each for each in found if len(each[0]) < LONGEST)
+
+
 def decks() -> tuple[str, ...]:
     """The texts of the decks that are changed."""
-    files = sorted(path for folder in FOLDERS for path in folder.rglob("*.adm"))
-    texts = (path.read_text("latin-1") for path in files)
-    return tuple(text for text in texts if len(text) < LONGEST)
+    return tuple(deck for deck, _ in scenes())
 
 
-def mutant(number: int) -> str:
-    """The text of one mutant."""
+def mutant(number: int) -> tuple[str, str]:
+    """Deck and commands of one mutant."""
     random = Random(number)
-    text = random.choice(decks())
+    deck, commands = random.choice(scenes())
+    of_commands = bool(commands) and random.random() < 0.5
+    text = commands if of_commands else deck
     for _ in range(random.randint(1, 4)):
         text = random.choice(CHANGES)(random, text)
-    return text
+    return (deck, text) if of_commands else (text, commands)
 
 
 def _line(random: Random, text: str) -> tuple[list[str], int]:
@@ -146,8 +157,11 @@ def outcome(number: int, folder: Path, solve: bool = False) -> str:
 
     Whatever else is raised is a fault of the program.
     """
-    path = folder / "mutant.adm"
-    path.write_text(mutant(number), "utf-8", newline="")
+    path, commands = folder / "mutant.adm", folder / "mutant.acf"
+    for file, text in zip((path, commands), mutant(number), strict=True):
+        file.write_text(text, "utf-8", newline="")
+    if not commands.read_text():
+        commands.unlink()
     try:
         scene = load_scene(path)
         check.contents(scene)

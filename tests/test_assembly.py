@@ -136,15 +136,15 @@ def test_a_loop_beside_free_bodies_is_found() -> None:
 # ---- gaps -------------------------------------------------------------------------------------
 
 GAPS = [
-    ("QP=3,4,0", "SPHERICAL", "5 millimeter apart"),
-    ("QP=3,4,12", "CYLINDRICAL", "5 millimeter apart"),
-    ("QP=3,4,12", "PLANAR", "12 millimeter apart"),
+    ("QP=3,4,0", "SPHERICAL", "5 millimeters apart"),
+    ("QP=3,4,12", "CYLINDRICAL", "5 millimeters apart"),
+    ("QP=3,4,12", "PLANAR", "12 millimeters apart"),
     ("REULER=0,2D,0", "REVOLUTE", "2 degrees out of line"),
     ("REULER=30D,2D,-30D", "REVOLUTE", "2 degrees out of line"),
     ("REULER=0,2D,0", "FIXED", "2 degrees out of line"),
     ("REULER=0,170D,0", "FIXED", "10 degrees out of line"),
     ("REULER=0,100D,0", "FIXED", "80 degrees out of line"),
-    ("QP=0.5,0,0, REULER=7D,0,0", "FIXED", "0.5 millimeter apart and 7 degrees out of line"),
+    ("QP=0.5,0,0, REULER=7D,0,0", "FIXED", "0.5 millimeters apart and 7 degrees out of line"),
     ("REULER=0,93D,0", "UNIVERSAL", "3 degrees out of line"),
     ("REULER=3D,0,0", "HOOKE", "3 degrees out of line"),
 ]

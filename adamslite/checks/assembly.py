@@ -57,7 +57,10 @@ def starts_apart(deck: Deck) -> Iterator[Diagnostic]:
 def _unit(deck: Deck) -> str:
     """The unit of length with a blank before it, where the deck names one."""
     names = deck.single(Units).names
-    return f" {names[2].lower()}" if names else ""
+    if names is None:
+        return ""
+    unit = names[2].lower()
+    return " " + {"foot": "feet", "inch": "inches", "mils": "mils"}.get(unit, f"{unit}s")
 
 
 def _gap(model: Model, joint: Joint | Jprim, rows: np.ndarray) -> tuple[float, float]:
