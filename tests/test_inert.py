@@ -95,6 +95,8 @@ def test_the_text_is_kept(keyword: str) -> None:
         "VARIABLE/1, FUNCTION=2*DX(2,4)",
         "REQUEST/1, FORCE, I=2, J=4",
         "PART/5, MASS=1, CM=4",
+        "GRAPHICS/1, POINT, RM=4\nGRAPHICS/2, PLANE, RM=1\n"
+        "CONTACT/1, IGEOM=1, JGEOM=2, POISSON, PENALTY=1, RESTITUTION=1",
     ],
 )
 @pytest.mark.parametrize("body", ["FLEX_BODY/9\nMARKER/4", "FE_PART/9\nMARKER/4, FE_PART=9"])

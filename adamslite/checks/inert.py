@@ -11,6 +11,7 @@ from adamslite.checks.markers import references
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.statement_diagnostics import diagnose, place_of
+from adamslite.elements.contact import Contact
 from adamslite.elements.graphics import Graphics
 from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
@@ -47,9 +48,17 @@ def _flexible_uses(deck: Deck) -> Iterator[tuple[Statement, str, Key, Body]]:
     flexible = {key: body for key, body in owner.items() if body and body[0] in INSTEAD}
     acting = (each for each in deck.statements if not each.inert)
     for statement in acting if flexible else ():
-        for field, key in references(statement):
+        for field, key in (*references(statement), *_of_shapes(deck, statement)):
             if key in flexible:
                 yield statement, field, key, flexible[key]
+
+
+def _of_shapes(deck: Deck, statement: Statement) -> Iterator[tuple[str, Key]]:
+    """The markers of the shapes of a CONTACT, with the field."""
+    if isinstance(statement, Contact):
+        for field in ("igeom", "jgeom"):
+            found = (deck.find(Graphics, key) for key in getattr(statement, field))
+            yield from ((field, each.marker) for each in found if each and each.marker is not None)
 
 
 def joint_friction(deck: Deck) -> Iterator[Diagnostic]:
@@ -94,6 +103,8 @@ def _without_use(deck: Deck) -> Iterator[Statement]:
     needed |= {(joint.keyword, joint.key) for joint in deck.of(Joint) if _acting(joint)}
     needed |= {(output.keyword, output.key) for output, *_ in _changing_words(deck)}
     needed |= {(g.keyword, g.key) for g in deck.of(Graphics) if g.shape is None or g.missing}
+    touching = (key for each in deck.of(Contact) for key in (*each.igeom, *each.jgeom))
+    needed |= {(Graphics.keyword, key) for key in touching}
     yield from (each for each in deck.own if (each.keyword, each.key) not in needed)
 
 

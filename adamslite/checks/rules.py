@@ -21,6 +21,7 @@ from adamslite.checks.bodies_and_elements import (
     wrenches_on_points,
 )
 from adamslite.checks.constraints import CONSTRAINT_RULES
+from adamslite.checks.contacts import contact_laws, contact_shapes
 from adamslite.checks.dimensions import DIMENSION_RULES
 from adamslite.checks.effective_mass import effective_masses
 from adamslite.checks.equations import unformed_equations
@@ -88,6 +89,8 @@ RULES: list[Rule] = [
     idle_arguments,
     held_states,
     shapes,
+    contact_laws,
+    contact_shapes,
     reserved_names,
     *REQUEST_RULES,
     *NFORCE_RULES,

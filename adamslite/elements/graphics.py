@@ -156,3 +156,7 @@ class Graphics(Statement):
         if self.shape == "CYLINDER" and not (self.given("radius") or self.given("rm")):
             words.append("RADIUS")
         return words
+
+    def size(self, field: str) -> float:
+        """A length that is given."""
+        return float(getattr(self, field))

@@ -13,8 +13,8 @@ comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, components along the axes 
 from __future__ import annotations
 
 from adamslite.language.function import function
-from adamslite.symbolic.scope import Scope, dot
-from adamslite.symbolic.sympy_nodes import norm
+from adamslite.symbolic.scope import ZERO, Scope, Vector, cross, dot, plus, scale
+from adamslite.symbolic.sympy_nodes import norm, piecewise
 from adamslite.symbolic.types import Expr, Frame, Tree
 
 MEASURES: dict[str, str] = {}
@@ -44,7 +44,12 @@ def measured(name: str, what: str, keyword: str = "") -> None:
 
 def component(scope: Scope, id: Tree, jflag: int, comp: int, rm: Frame) -> Expr:
     """One component of the force or torque of an element."""
-    vector = scope.load(id, jflag)[(comp - 1) // 4]
+    return _part(scope, scope.load(id, jflag), comp, rm)
+
+
+def _part(scope: Scope, load: tuple[Vector, Vector], comp: int, rm: Frame) -> Expr:
+    """One component of a force and a torque."""
+    vector = load[(comp - 1) // 4]
     axis = (comp - 1) % 4
     return dot(vector, scope.axes(rm)[axis - 1]) if axis else norm(vector)
 
@@ -105,6 +110,48 @@ def friction(scope: Scope, id: Tree, jflag: int, comp: int, rm: Frame) -> Expr:
         return component(scope, id, jflag, comp, rm)
     view = scope.statement(id)
     return view.cls.values(view, scope)[comp - 9]
+
+
+MEASURES["CONTACT"] = "CONTACT"
+
+
+@function("CONTACT", "id:contact jflag:constant{0,1} comp:constant{1..10} rm:marker=0")
+def contact(scope: Scope, id: Tree, jflag: int, comp: int, rm: Frame) -> Expr:
+    """Component comp of the force of CONTACT id on the part of IGEOM (jflag 0) or JGEOM (1).
+
+    It is the sum over all points of contact; the torque is about the marker of the first shape of
+    IGEOM, for both parts.
+
+    comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, along the axes of marker rm; 9 how many
+    points touch, 10 the greatest depth of penetration.
+    Unit: force, or force times length; 1, length.  Source: Adams/Solver function CONTACT; the point
+    about which ADAMS takes the torque is not documented; from 9 an extension.
+    """
+    view = scope.statement(id)
+    if comp > 8:
+        depths = [point.cls.depth(point, scope) for point in view.points]
+        return _count(depths) if comp == 9 else _greatest(depths)
+    force, torque = ZERO, ZERO
+    for point in view.points:
+        (load,) = point.own_loads(scope)
+        arm = scope.position(load.frame, view.origin)
+        sign = -1 if (point.turned == "yes") != (jflag == 1) else 1
+        force = plus(force, scale(sign, load.force))
+        torque = plus(torque, scale(sign, plus(load.torque, cross(arm, load.force))))
+    return _part(scope, (force, torque), comp, rm)
+
+
+def _count(depths: list[Expr]) -> Expr:
+    """How many of the depths are of points that touch."""
+    return sum(piecewise((1, depth > 0), otherwise=0) for depth in depths)
+
+
+def _greatest(depths: list[Expr]) -> Expr:
+    """The greatest depth, 0 where nothing touches."""
+    found: Expr = 0
+    for depth in depths:
+        found = piecewise((depth, depth > found), otherwise=found)
+    return found
 
 
 measured("JOINT", "the reaction of")

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 from adamslite import functions  # noqa: F401  registers the deck functions
 from adamslite.functions.forces import NET
 from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
-from adamslite.language.function import FUNCTIONS, Function
+from adamslite.language.function import Function, find_function
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
 from adamslite.language.statement import Argument, Statement
@@ -211,7 +211,7 @@ class Binder:
                 return ("c", 0.0)
         if node.name == USER:
             return self._routine(node)
-        function = FUNCTIONS[node.name]
+        function = find_function(node.name)
         if node.name == "GCON" and node.args[2] == Num(0.0):  # its multiplier
             own = ("s", "GCON", (("multiplier", self._multiplier(node.args[0])),))
             return ("f", "GCON", (own, ("c", 0), ("c", 0), self.marker(0)))

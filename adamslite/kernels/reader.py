@@ -6,8 +6,8 @@ import math
 
 from adamslite.kernels.view import View
 from adamslite.language.expression import OPERATORS
-from adamslite.language.function import FUNCTIONS
-from adamslite.language.statement import STATEMENTS
+from adamslite.language.function import find_function
+from adamslite.language.statement import class_of
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Read, Tree
 
@@ -56,7 +56,7 @@ class ExpressionReader:
             case ("e", number):
                 return scope.elements[number]
             case ("s", keyword, fields):
-                return View(STATEMENTS[keyword], {name: self(t) for name, t in fields}, [])
+                return View(class_of(keyword), {name: self(t) for name, t in fields}, [])
             case ("z" | "dif" | "dif1" | "origin", node, *component):
                 return scope.symbol(tree[0], self.n_bodies + node, *component)
             case ("o", op, args):
@@ -65,7 +65,7 @@ class ExpressionReader:
 
     def _call(self, tree: Tree) -> Read:
         """A call of a deck function, which gets ids as they are bound: see Scope.statement."""
-        function = FUNCTIONS[tree[1]]
+        function = find_function(tree[1])
         kinds = [function.parameter(n).statement for n in range(len(tree[2]))]
         args = [
             self(arg) if kind in (None, "MARKER") else arg
@@ -92,7 +92,7 @@ def symbolic_view(
     keyword: str, fields: Tree, node: int, width: int, scope: Scope, n_bodies: int
 ) -> View:
     """The statement of bound fields; ``node`` is the slot of its own unknowns or -1."""
-    cls = STATEMENTS[keyword]
+    cls = class_of(keyword)
     values = {name: scope.read(tree) for name, tree in fields}
 
     def moving_view() -> View:

@@ -151,6 +151,13 @@ class Function:
 
 
 FUNCTIONS: dict[str, Function] = {}
+INTERNAL: dict[str, Function] = {}
+"""Functions that only statements use: no deck has them."""
+
+
+def find_function(name: str) -> Function:
+    """The function of that name, internal or not."""
+    return FUNCTIONS.get(name) or INTERNAL[name]
 
 
 def function(
@@ -160,8 +167,12 @@ def function(
     edges: Edges | None = None,
     order: int | None = None,
     rule: Rule | None = None,
+    internal: bool = False,
 ) -> Callable[[Body], Body]:
-    """Register the decorated body as deck function ``name``; see the module for the signature."""
+    """Register the decorated body as deck function ``name``; see the module for the signature.
+
+    ``internal``: no deck may use it, only statements do.
+    """
     words = signature.split()
     colon = words[0].endswith(":")
 
@@ -169,7 +180,7 @@ def function(
         if name in FUNCTIONS:
             raise ValueError(f"function {name} is registered twice")
         parameters = tuple(_parameter(word.removesuffix(":")) for word in words)
-        FUNCTIONS[name] = Function(
+        (INTERNAL if internal else FUNCTIONS)[name] = Function(
             name, parameters, body, cleandoc(body.__doc__ or ""), colon, edges, order, rule
         )
         return body

@@ -5,18 +5,19 @@ registered elsewhere is supported, whether or not it still stands here.
 """
 
 STATEMENTS = frozenset(
-    """CONTACT CVCV
+    """CVCV
     GSE LSSMATRIX PFORCE
     SYSVAR UCON""".split()
 )
 
 COMMANDS = frozenset("CONTROL".split())
 
-FUNCTIONS = frozenset("""AO CONTACT CVCV HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
+FUNCTIONS = frozenset("""AO CVCV HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
 
 _MATRICES = "LINEAR/STATEMAT writes A, B, C and D of the same linear model"
 _TABULATE = "write points of the curve into a MATRIX: CURVE/id, MATRIX=id, CURVE_POINTS"
 _ROUTINE = "libraries of the user cannot be loaded: write FUNCTION as an expression"
+_CONTACT = "routines of the user cannot be called: write IMPACT or POISSON, and COULOMB_FRICTION"
 _INTEGRATOR = (
     "a number of the integrator of ADAMS; the summary of a run prints those of this program"
 )
@@ -25,7 +26,10 @@ _LUGRE = (
     "write that law as a DIFF and an SFORCE"
 )
 INSTEAD = {
-    "CONTACT": "write the force between two bodies as an SFORCE with IMPACT(DM(i,j), VR(i,j), ...)",
+    "CONTACT FRICTION_FUNCTION": _CONTACT,
+    "CONTACT FRICTION_ROUTINE": _CONTACT,
+    "CONTACT NORMAL_FUNCTION": _CONTACT,
+    "CONTACT NORMAL_ROUTINE": _CONTACT,
     "GSE": "its equations are in a compiled routine, not in the deck; write linear ones as an LSE "
     "or TFSISO, others as DIFFs",
     "LSSMATRIX": "the matrices come from another program: write them as MATRIX and LSE",

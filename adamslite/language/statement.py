@@ -21,6 +21,8 @@ from adamslite.language.expression import Node
 from adamslite.language.interfaces import DrawnModel, Key, Lookup
 
 STATEMENTS: dict[str, type[Statement]] = {}
+INTERNAL: dict[str, type[Statement]] = {}
+"""Statements that only others bring with them: no deck has them."""
 NO_SPANS = Spans()
 S = TypeVar("S", bound="Statement")
 Field: TypeAlias = Any
@@ -293,6 +295,11 @@ class Statement:
         return field_name in self.spans
 
 
+def class_of(keyword: str) -> type[Statement]:
+    """The class of a statement, internal or not."""
+    return STATEMENTS.get(keyword) or INTERNAL[keyword]
+
+
 def expressions(statement: Statement) -> list[Node]:
     """The expressions among a statement's arguments."""
     values = (
@@ -315,6 +322,7 @@ def statement(
     planned: tuple[str, ...] = (),
     body: bool = False,
     data: bool = False,
+    internal: bool = False,
 ) -> Callable[[type[S]], type[S]]:
     """Register a class as the statement ``keyword``.
 
@@ -340,6 +348,8 @@ def statement(
         Markers without an owner behind it belong to it.
     data : bool
         Its arguments are seen by no kernel, only what it derives from them: tables.
+    internal : bool
+        No deck has it: another statement brings it with it.
     """
 
     def register(cls: type[S]) -> type[S]:
@@ -355,7 +365,7 @@ def statement(
         made.ends, made.ignored, made.planned, made.body = ends, ignored, planned, body
         made.data, made.inert = data, inert
         made.inert_fields = tuple(name for name, each in made.arguments.items() if each.inert)
-        STATEMENTS[keyword] = made
+        (INTERNAL if internal else STATEMENTS)[keyword] = made
         return made
 
     return register

@@ -40,7 +40,7 @@ from adamslite.language.expression import (
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
-from adamslite.language.statement import STATEMENTS, Statement, expressions
+from adamslite.language.statement import Statement, class_of, expressions
 from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
 from adamslite.model.net_force import written_out
 
@@ -284,7 +284,7 @@ class Model:
         for each in walk(node):
             if isinstance(each, Mode) or (isinstance(each, Call) and _has_memory(each)):
                 return False
-            if isinstance(each, Ref) and not STATEMENTS[each.kind].data:
+            if isinstance(each, Ref) and not class_of(each.kind).data:
                 if each.kind != "VARIABLE" or each.id in loops:
                     return False
                 if not self._time_only(self.variable(each.id).function, loops):

@@ -1,0 +1,176 @@
+"""Where two simple shapes touch: penetration, normal and common point.
+
+A *form* is a shape with its sizes, in the axes of its marker:
+
+========  ======================  ============================================================
+form      sizes                   body
+========  ======================  ============================================================
+BALL      r, x, y, z              a ball of radius r about (x, y, z); r = 0: a point
+PLANE                             all of z < 0
+BOX       x, y, z, a, b, c        half edges a, b, c about (x, y, z)
+CYLINDER  z, c, R                 half length c about (0, 0, z), radius R, flat ends
+RIM       z, R                    the edge of an end of a cylinder or cone, at (0, 0, z)
+========  ======================  ============================================================
+
+Each pair gives the depth [length] by which I is in J, the unit normal from J to I, and the common
+point, in the middle of the overlap, as its place relative to the marker of I; in ground axes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from adamslite.symbolic.scope import (
+    Scope,
+    Vector,
+    along_axes,
+    dot,
+    minus,
+    plus,
+    scale,
+)
+from adamslite.symbolic.sympy_nodes import magnitude, norm, piecewise, root, sp
+from adamslite.symbolic.types import Expr, Frame, Seen
+
+# Slant of an end from which on its edge alone touches: the contact moves there from its centre.
+LEVEL = 1e-3
+
+
+class Touch(NamedTuple):
+    """Penetration, normal from J to I, common point relative to the marker of I."""
+
+    depth: Expr
+    normal: Vector
+    arm: Vector
+
+
+def touch(scope: Scope, point: Seen) -> Touch:
+    """How the forms of a point of contact touch."""
+    return PAIRS[point.first, point.second](scope, point)
+
+
+def _centre(scope: Scope, frame: Frame, place: Sequence[Expr]) -> Vector:
+    """A place on a marker's body from the marker's origin, in ground axes."""
+    if all(each == 0 for each in place):
+        return 0, 0, 0
+    return along_axes(scope.axes(frame), (place[0], place[1], place[2]))
+
+
+def _of_ball(centre: Vector, radius: Expr, depth: Expr, normal: Vector) -> Touch:
+    """A ball that sinks in by ``depth``: the point is in the middle of the overlap."""
+    return Touch(depth, normal, minus(centre, scale(radius - depth / 2, normal)))
+
+
+def ball_on_plane(scope: Scope, point: Seen) -> Touch:
+    """depth = r - h, h: height of the centre"""
+    radius, *place = point.first_sizes
+    centre, normal = _centre(scope, point.i, place), scope.axes(point.j)[2]
+    height = dot(plus(scope.position(point.i, point.j), centre), normal)
+    return _of_ball(centre, radius, radius - height, normal)
+
+
+def ball_on_ball(scope: Scope, point: Seen) -> Touch:
+    """depth = r1 + r2 - distance of the centres"""
+    radius, *place = point.first_sizes
+    other, *there = point.second_sizes
+    centre = _centre(scope, point.i, place)
+    apart = minus(plus(scope.position(point.i, point.j), centre), _centre(scope, point.j, there))
+    distance = root(dot(apart, apart))
+    return _of_ball(centre, radius, radius + other - distance, scale(1 / distance, apart))
+
+
+def ball_on_box(scope: Scope, point: Seen) -> Touch:
+    """depth = r - distance from the box; r + distance to the nearest face for a centre inside"""
+    radius, *place = point.first_sizes
+    middle, half = point.second_sizes[:3], point.second_sizes[3:]
+    centre = _centre(scope, point.i, place)
+    at = _seen_from(scope, point, centre, (middle[0], middle[1], middle[2]))
+    beyond = [_beyond(x, a) for x, a in zip(at, half, strict=True)]
+    square = sum(each**2 for each in beyond)
+    left = [a - magnitude(x, None) for x, a in zip(at, half, strict=True)]
+    nearest = [
+        sp.And(left[0] <= left[1], left[0] <= left[2]),
+        sp.And(left[1] < left[0], left[1] <= left[2]),
+        sp.And(left[2] < left[0], left[2] < left[1]),
+    ]
+    outside, distance = square > 0, root(square)
+    depth = piecewise(
+        (radius - distance, outside), (radius + left[0], nearest[0]),
+        (radius + left[1], nearest[1]), otherwise=radius + left[2], order=0,
+    )  # fmt: skip
+    normal = [
+        piecewise((e / distance, outside), (_sign(x), near), otherwise=0, order=-1)
+        for e, x, near in zip(beyond, at, nearest, strict=True)
+    ]
+    axes = along_axes(scope.axes(point.j), (normal[0], normal[1], normal[2]))
+    return _of_ball(centre, radius, depth, axes)
+
+
+def ball_on_cylinder(scope: Scope, point: Seen) -> Touch:
+    """The same with a cylinder: distances along the axis and from it."""
+    radius, *place = point.first_sizes
+    middle, half, thickness = point.second_sizes
+    centre = _centre(scope, point.i, place)
+    x, y, z = _seen_from(scope, point, centre, (0, 0, middle))
+    from_axis = norm((x, y, 0))
+    aside = piecewise((from_axis - thickness, from_axis > thickness), otherwise=0, order=0)
+    along = _beyond(z, half)
+    square = aside**2 + along**2
+    to_side, to_end = thickness - from_axis, half - magnitude(z, None)
+    outside, sideways, distance = square > 0, to_side <= to_end, root(square)
+    depth = piecewise(
+        (radius - distance, outside), (radius + to_side, sideways), otherwise=radius + to_end,
+        order=0,
+    )  # fmt: skip
+    across = piecewise((aside / distance, outside), (1, sideways), otherwise=0, order=-1)
+    across = piecewise((across / from_axis, from_axis > 0), otherwise=0)
+    axial = piecewise((along / distance, outside), (0, sideways), otherwise=_sign(z), order=-1)
+    normal = along_axes(scope.axes(point.j), (across * x, across * y, axial))
+    return _of_ball(centre, radius, depth, normal)
+
+
+def rim_on_plane(scope: Scope, point: Seen) -> Touch:
+    """depth = R f(s) - h, at R f'(s) from the centre, s: sine between axis and normal, h: height
+
+    f = sqrt(s^2 + LEVEL^2) - LEVEL (1 - s^2)^2 is s but for ends that are almost level, which then
+    touch further inside: f(0) = 0, f(1) = 1, f'(1) = 1.  Whatever f, the force has a potential.
+    """
+    place, radius = point.first_sizes
+    axis, normal = scope.axes(point.i)[2], scope.axes(point.j)[2]
+    centre = scale(place, axis)
+    height = dot(plus(scope.position(point.i, point.j), centre), normal)
+    slant = minus(normal, scale(dot(axis, normal), axis))
+    square = dot(slant, slant)
+    rounded = root(square + LEVEL**2)
+    reach = rounded - LEVEL * (1 - square) ** 2
+    depth = radius * reach - height
+    outwards = 1 / rounded + 4 * LEVEL * (1 - square)
+    lowest = minus(centre, scale(radius * outwards, slant))
+    return Touch(depth, normal, plus(lowest, scale(depth / 2, normal)))
+
+
+def _seen_from(scope: Scope, point: Seen, centre: Vector, middle: Vector) -> Vector:
+    """The centre of a ball on I from a place on J, along the axes of J."""
+    apart = plus(scope.position(point.i, point.j), centre)
+    x, y, z = (dot(apart, axis) for axis in scope.axes(point.j))
+    return minus((x, y, z), middle)
+
+
+def _beyond(x: Expr, half: Expr) -> Expr:
+    """By how much x lies beyond -half ... half."""
+    return piecewise((x - half, x > half), (x + half, x < -half), otherwise=0, order=0)
+
+
+def _sign(x: Expr) -> Expr:
+    return piecewise((1, x >= 0), otherwise=-1, order=-1)
+
+
+PAIRS: dict[tuple[str, str], Callable[[Scope, Seen], Touch]] = {
+    ("BALL", "PLANE"): ball_on_plane,
+    ("BALL", "BALL"): ball_on_ball,
+    ("BALL", "BOX"): ball_on_box,
+    ("BALL", "CYLINDER"): ball_on_cylinder,
+    ("RIM", "PLANE"): rim_on_plane,
+}
+"""What is known of a form on I and a form on J."""
