@@ -16,6 +16,7 @@ import numpy as np
 import sympy as sp
 
 from adamslite.symbolic.interpolant import Interpolant, interpolant, piece_numbers
+from adamslite.symbolic.scope import Load
 
 GROUND = -1
 NOW = mp.mpf("0.7")
@@ -196,7 +197,16 @@ class SampleScope:
         return SimpleNamespace(
             **{name: self.symbol(f"{name}_{id}", value) for name, value in values.items()},
             **tables, pieces=len(KINDS), family=None, table=1, closed=None,
+            origin=1, points=[self._point(id)],
         )  # fmt: skip
+
+    def _point(self, id) -> SimpleNamespace:
+        """A point of contact: between frames 0 and 2."""
+        return SimpleNamespace(
+            turned=None,
+            own_loads=lambda scope: [Load(0, *scope.load(id, 0), 2, True)],
+            cls=SimpleNamespace(depth=lambda point, scope: self.symbol(f"depth_{id}", "0.3")),
+        )
 
     def of_time(self, expr) -> bool:
         return False

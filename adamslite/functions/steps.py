@@ -83,11 +83,11 @@ def impact(scope: Scope, x: Expr, v: Expr, x1: Expr, k: Expr, e: Expr, cmax: Exp
     pushes x up and does not pull.  Unit: force.  Source: Adams/Solver function IMPACT.
     """
     touching = x < x1
-    force = _spring(k, x1 - x, e) - v * step(scope, x, x1 - d, cmax, x1, 0)
+    force = spring(k, x1 - x, e) - v * step(scope, x, x1 - d, cmax, x1, 0)
     return piecewise((force, sp.And(touching, force > 0)), otherwise=0, order=0)
 
 
-def _spring(k: Expr, depth: Expr, e: Expr) -> Expr:
+def spring(k: Expr, depth: Expr, e: Expr) -> Expr:
     """k depth**e, continued as an odd function: a step that ends just behind the contact stays
     finite.
     """

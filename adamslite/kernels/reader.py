@@ -24,6 +24,7 @@ class ExpressionReader:
         self.scope = scope
         self.n_bodies = n_bodies
         self.memo: dict[Tree, Read] = {}
+        self.seen: set[Expr] = set()
 
     def __call__(self, tree: Tree) -> Read:
         if tree[0] == "c":  # not remembered: 0.0 and False are one key
@@ -36,9 +37,24 @@ class ExpressionReader:
         """What sympy knows to be undefined (a pole, a division by zero) becomes not-a-number."""
         from adamslite.symbolic.sympy_nodes import sp
 
-        if isinstance(value, sp.Basic) and value.has(sp.zoo, sp.nan):
+        if isinstance(value, sp.Basic) and self._is_undefined(value):
             return self.scope.symbol("nan")
         return value
+
+    def _is_undefined(self, value: Expr) -> bool:
+        """Whether a pole or not-a-number is part of an expression; each part is visited once."""
+        from adamslite.symbolic.sympy_nodes import sp
+
+        pending = [value]
+        while pending:
+            top = pending.pop()
+            if top in self.seen:
+                continue
+            if top is sp.zoo or top is sp.nan:
+                return True
+            self.seen.add(top)
+            pending += top.args
+        return False
 
     def _read(self, tree: Tree) -> Read:
         scope = self.scope

@@ -49,8 +49,10 @@ class Derivatives:
             return self._of_product(expr.args, symbol)
         if expr.is_Pow:
             base, exponent = expr.args
-            by_exponent = self(exponent, symbol) * sp.log(base)
-            return expr * (by_exponent + self(base, symbol) * exponent / base)
+            by_base = self(base, symbol) * exponent / base
+            slope = self(exponent, symbol)
+            # sympy asks a lot about the logarithm before it lets zero times it be zero.
+            return expr * (slope * sp.log(base) + by_base if slope != 0 else by_base)
         if type(expr).__name__ == "Piecewise":
             return expr.func(*[(self(each.expr, symbol), each.cond) for each in expr.args])
         if type(expr)._eval_derivative is sp.Function._eval_derivative:

@@ -21,6 +21,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from adamslite.symbolic.derivatives import Derivatives
 from adamslite.symbolic.types import Expr, Leaf, Symbol
 
 # How a guard is read: a relation > 0, a relation >= 0, a floor; a place within a zone.  Added to
@@ -60,13 +61,13 @@ def guards(expressions: Iterable[Expr], leaves: dict[Symbol, Leaf]) -> Guards:
     zones: dict[Expr, None] = {}
     for expression in expressions:
         _collect(expression, found, zones)
-    result = Guards()
+    result, symbols = Guards(), Derivatives().symbols
     for place in zones:
-        kinds = _changing(place, leaves)
+        kinds = _changing(symbols(place), leaves)
         if kinds and not kinds <= set(CLOCK_LEAVES):
             result.zone.append(place)
     for guard, order in found.items():
-        kinds = _changing(guard, leaves)
+        kinds = _changing(symbols(guard), leaves)
         if kinds and kinds <= set(CLOCK_LEAVES):
             result.clock.append(guard)
         elif kinds and order < 1:
@@ -76,9 +77,9 @@ def guards(expressions: Iterable[Expr], leaves: dict[Symbol, Leaf]) -> Guards:
     return result
 
 
-def _changing(expression: Expr, leaves: dict[Symbol, Leaf]) -> set[str]:
-    """Kinds of what an expression depends on and what is not fixed for a run."""
-    return {leaves[symbol][0] for symbol in expression.free_symbols} - set(FIXED_LEAVES)
+def _changing(symbols: Iterable[Symbol], leaves: dict[Symbol, Leaf]) -> set[str]:
+    """Kinds of those that are not fixed for a run."""
+    return {leaves[symbol][0] for symbol in symbols} - set(FIXED_LEAVES)
 
 
 def _collect(expression: Expr, found: dict[Expr, int], zones: dict[Expr, None]) -> None:

@@ -72,7 +72,7 @@ def _whole(shape: Shape) -> Form:
     """A shape as one form."""
     kind, sizes = solid(shape), tuple[float, ...]()
     if kind == "BALL":
-        sizes = (shape.size("xscale") / 2 if shape.shape == "ELLIPSOID" else 0.0, 0.0, 0.0, 0.0)
+        sizes = (shape.size("xscale") / 2 if shape.shape == "ELLIPSOID" else 0.0,)
     elif kind == "BOX":
         edges = [shape.size(field) for field in "xyz"]
         sizes = (*(edge / 2 for edge in edges), *(abs(edge) / 2 for edge in edges))
@@ -90,9 +90,11 @@ def _form(kind: str, shape: Shape, sizes: tuple[float, ...]) -> Form:
 def _edges(shape: Shape, kind: str) -> list[Form]:
     """What of a shape may touch a plane: the corners of a BOX, the edges of a CYLINDER."""
     if kind == "BOX":
-        corners = product(*((0.0, shape.size(field)) for field in "xyz"))
-        return [_form("BALL", shape, (0.0, *corner)) for corner in corners]
+        half = [shape.size(field) / 2 for field in "xyz"]
+        signs = product((-1.0, 1.0), repeat=3)
+        places = [[s * a for s, a in zip(each, half, strict=True)] for each in signs]
+        return [_form("CORNER", shape, (*half, *place)) for place in places]
     radii = {"CYLINDER": ("radius", "radius"), "FRUSTUM": ("bottom", "top")}.get(kind, ())
-    places = (0.0, shape.size("length")) if radii else ()
-    ends = zip(places, map(shape.size, radii), strict=True)
-    return [_form("RIM", shape, end) for end in ends]
+    middle = shape.size("length") / 2 if radii else 0.0
+    ends = zip((-middle, middle), map(shape.size, radii), strict=False)
+    return [_form("RIM", shape, (middle, *end)) for end in ends]

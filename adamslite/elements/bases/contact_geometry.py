@@ -5,20 +5,22 @@ A *form* is a shape with its sizes, in the axes of its marker:
 ========  ======================  ============================================================
 form      sizes                   body
 ========  ======================  ============================================================
-BALL      r, x, y, z              a ball of radius r about (x, y, z); r = 0: a point
+BALL      r                       a ball of radius r about the origin; r = 0: a point
+CORNER    x, y, z, a, b, c        the point (x + a, y + b, z + c)
 PLANE                             all of z < 0
 BOX       x, y, z, a, b, c        half edges a, b, c about (x, y, z)
 CYLINDER  z, c, R                 half length c about (0, 0, z), radius R, flat ends
-RIM       z, R                    the edge of an end of a cylinder or cone, at (0, 0, z)
+RIM       z, c, R                 the edge of an end of a cylinder or cone, at (0, 0, z + c)
 ========  ======================  ============================================================
 
+The place of a corner or edge is a sum of terms that are not zero: so all of them share one kernel.
 Each pair gives the depth [length] by which I is in J, the unit normal from J to I, and the common
 point, in the middle of the overlap, as its place relative to the marker of I; in ground axes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import NamedTuple
 
 from adamslite.symbolic.scope import (
@@ -31,7 +33,7 @@ from adamslite.symbolic.scope import (
     scale,
 )
 from adamslite.symbolic.sympy_nodes import magnitude, norm, piecewise, root, sp
-from adamslite.symbolic.types import Expr, Frame, Seen
+from adamslite.symbolic.types import Expr, Seen
 
 # Slant of an end from which on its edge alone touches: the contact moves there from its centre.
 LEVEL = 1e-3
@@ -50,42 +52,39 @@ def touch(scope: Scope, point: Seen) -> Touch:
     return PAIRS[point.first, point.second](scope, point)
 
 
-def _centre(scope: Scope, frame: Frame, place: Sequence[Expr]) -> Vector:
-    """A place on a marker's body from the marker's origin, in ground axes."""
-    if all(each == 0 for each in place):
-        return 0, 0, 0
-    return along_axes(scope.axes(frame), (place[0], place[1], place[2]))
-
-
-def _of_ball(centre: Vector, radius: Expr, depth: Expr, normal: Vector) -> Touch:
+def _of_ball(radius: Expr, depth: Expr, normal: Vector) -> Touch:
     """A ball that sinks in by ``depth``: the point is in the middle of the overlap."""
-    return Touch(depth, normal, minus(centre, scale(radius - depth / 2, normal)))
+    return Touch(depth, normal, scale(depth / 2 - radius, normal))
 
 
 def ball_on_plane(scope: Scope, point: Seen) -> Touch:
     """depth = r - h, h: height of the centre"""
-    radius, *place = point.first_sizes
-    centre, normal = _centre(scope, point.i, place), scope.axes(point.j)[2]
-    height = dot(plus(scope.position(point.i, point.j), centre), normal)
-    return _of_ball(centre, radius, radius - height, normal)
+    (radius,), normal = point.first_sizes, scope.axes(point.j)[2]
+    height = dot(scope.position(point.i, point.j), normal)
+    return _of_ball(radius, radius - height, normal)
+
+
+def corner_on_plane(scope: Scope, point: Seen) -> Touch:
+    """depth = -h"""
+    x, y, z, a, b, c = point.first_sizes
+    corner = along_axes(scope.axes(point.i), (x + a, y + b, z + c))
+    normal = scope.axes(point.j)[2]
+    depth = -dot(plus(scope.position(point.i, point.j), corner), normal)
+    return Touch(depth, normal, plus(corner, scale(depth / 2, normal)))
 
 
 def ball_on_ball(scope: Scope, point: Seen) -> Touch:
     """depth = r1 + r2 - distance of the centres"""
-    radius, *place = point.first_sizes
-    other, *there = point.second_sizes
-    centre = _centre(scope, point.i, place)
-    apart = minus(plus(scope.position(point.i, point.j), centre), _centre(scope, point.j, there))
+    (radius,), (other,) = point.first_sizes, point.second_sizes
+    apart = scope.position(point.i, point.j)
     distance = root(dot(apart, apart))
-    return _of_ball(centre, radius, radius + other - distance, scale(1 / distance, apart))
+    return _of_ball(radius, radius + other - distance, scale(1 / distance, apart))
 
 
 def ball_on_box(scope: Scope, point: Seen) -> Touch:
     """depth = r - distance from the box; r + distance to the nearest face for a centre inside"""
-    radius, *place = point.first_sizes
-    middle, half = point.second_sizes[:3], point.second_sizes[3:]
-    centre = _centre(scope, point.i, place)
-    at = _seen_from(scope, point, centre, (middle[0], middle[1], middle[2]))
+    (radius,), (x, y, z, *half) = point.first_sizes, point.second_sizes
+    at = _seen_from(scope, point, (x, y, z))
     beyond = [_beyond(x, a) for x, a in zip(at, half, strict=True)]
     square = sum(each**2 for each in beyond)
     left = [a - magnitude(x, None) for x, a in zip(at, half, strict=True)]
@@ -104,15 +103,13 @@ def ball_on_box(scope: Scope, point: Seen) -> Touch:
         for e, x, near in zip(beyond, at, nearest, strict=True)
     ]
     axes = along_axes(scope.axes(point.j), (normal[0], normal[1], normal[2]))
-    return _of_ball(centre, radius, depth, axes)
+    return _of_ball(radius, depth, axes)
 
 
 def ball_on_cylinder(scope: Scope, point: Seen) -> Touch:
     """The same with a cylinder: distances along the axis and from it."""
-    radius, *place = point.first_sizes
-    middle, half, thickness = point.second_sizes
-    centre = _centre(scope, point.i, place)
-    x, y, z = _seen_from(scope, point, centre, (0, 0, middle))
+    (radius,), (middle, half, thickness) = point.first_sizes, point.second_sizes
+    x, y, z = _seen_from(scope, point, (0, 0, middle))
     from_axis = norm((x, y, 0))
     aside = piecewise((from_axis - thickness, from_axis > thickness), otherwise=0, order=0)
     along = _beyond(z, half)
@@ -127,7 +124,7 @@ def ball_on_cylinder(scope: Scope, point: Seen) -> Touch:
     across = piecewise((across / from_axis, from_axis > 0), otherwise=0)
     axial = piecewise((along / distance, outside), (0, sideways), otherwise=_sign(z), order=-1)
     normal = along_axes(scope.axes(point.j), (across * x, across * y, axial))
-    return _of_ball(centre, radius, depth, normal)
+    return _of_ball(radius, depth, normal)
 
 
 def rim_on_plane(scope: Scope, point: Seen) -> Touch:
@@ -136,9 +133,9 @@ def rim_on_plane(scope: Scope, point: Seen) -> Touch:
     f = sqrt(s^2 + LEVEL^2) - LEVEL (1 - s^2)^2 is s but for ends that are almost level, which then
     touch further inside: f(0) = 0, f(1) = 1, f'(1) = 1.  Whatever f, the force has a potential.
     """
-    place, radius = point.first_sizes
+    middle, half, radius = point.first_sizes
     axis, normal = scope.axes(point.i)[2], scope.axes(point.j)[2]
-    centre = scale(place, axis)
+    centre = scale(middle + half, axis)
     height = dot(plus(scope.position(point.i, point.j), centre), normal)
     slant = minus(normal, scale(dot(axis, normal), axis))
     square = dot(slant, slant)
@@ -150,9 +147,9 @@ def rim_on_plane(scope: Scope, point: Seen) -> Touch:
     return Touch(depth, normal, plus(lowest, scale(depth / 2, normal)))
 
 
-def _seen_from(scope: Scope, point: Seen, centre: Vector, middle: Vector) -> Vector:
-    """The centre of a ball on I from a place on J, along the axes of J."""
-    apart = plus(scope.position(point.i, point.j), centre)
+def _seen_from(scope: Scope, point: Seen, middle: Vector) -> Vector:
+    """The marker of I from a place on J, along the axes of J."""
+    apart = scope.position(point.i, point.j)
     x, y, z = (dot(apart, axis) for axis in scope.axes(point.j))
     return minus((x, y, z), middle)
 
@@ -168,6 +165,7 @@ def _sign(x: Expr) -> Expr:
 
 PAIRS: dict[tuple[str, str], Callable[[Scope, Seen], Touch]] = {
     ("BALL", "PLANE"): ball_on_plane,
+    ("CORNER", "PLANE"): corner_on_plane,
     ("BALL", "BALL"): ball_on_ball,
     ("BALL", "BOX"): ball_on_box,
     ("BALL", "CYLINDER"): ball_on_cylinder,

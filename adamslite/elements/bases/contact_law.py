@@ -28,7 +28,7 @@ so that below vs a load up to MU_STATIC N is held, and beyond vs friction is as 
 
 from __future__ import annotations
 
-from adamslite.functions.steps import impact
+from adamslite.functions.steps import spring, step
 from adamslite.symbolic.scope import Vector, dot, minus, plus, scale
 from adamslite.symbolic.sympy_nodes import norm, piecewise, root
 from adamslite.symbolic.types import Expr, Seen
@@ -40,22 +40,23 @@ YIELDING = 0.9
 def normal_force(point: Seen, depth: Expr, rate: Expr) -> Expr:
     """N of the table above."""
     if point.law == "IMPACT":
-        return impact(
-            None, -depth, -rate, 0, point.stiffness, point.exponent, point.damping, point.dmax
+        elastic = spring(point.stiffness, depth, point.exponent)
+        damped = elastic + rate * step(None, depth, 0, 0, point.dmax, point.damping)
+        force = piecewise((damped, damped > 0), otherwise=0, order=0)
+    else:
+        elastic = point.stiffness * depth
+        least = point.restitution**2 * elastic
+        coming_out = elastic + point.damping * rate
+        force = piecewise(
+            (elastic, rate >= 0), (coming_out, coming_out > least), otherwise=least, order=0
         )
-    elastic = point.stiffness * depth
-    least = point.restitution**2 * elastic
-    coming_out = elastic + point.damping * rate
-    force = piecewise(
-        (elastic, rate >= 0), (coming_out, coming_out > least), otherwise=least, order=0
-    )
     return piecewise((force, depth > 0), otherwise=0, order=0)
 
 
 def friction(point: Seen, load: Expr, slip: Vector, bristle: Vector | None) -> Vector:
     """The force on I."""
     square = dot(slip, slip)
-    sliding = scale(-load * _over_speed(point, square), slip)
+    sliding = scale(-load * _over_speed(point, square, norm(slip)), slip)
     if bristle is None:
         return sliding
     share = square / point.vs**2
@@ -66,10 +67,9 @@ def friction(point: Seen, load: Expr, slip: Vector, bristle: Vector | None) -> V
     return plus(scale(weight, sliding), scale(holding, held))
 
 
-def _over_speed(point: Seen, square: Expr) -> Expr:
-    """mu over the slip, by the slip's square: even and smooth."""
+def _over_speed(point: Seen, square: Expr, speed: Expr) -> Expr:
+    """mu over the slip, by the slip's square where it is small: even and smooth."""
     rest, moving, vs, vd = point.mu_static, point.mu_dynamic, point.vs, point.vd
-    speed = root(square)
     passed = (speed - vs) / (vd - vs)
     falling = rest + (moving - rest) * passed**2 * (3 - 2 * passed)
     return piecewise(

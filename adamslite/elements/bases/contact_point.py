@@ -151,7 +151,7 @@ def _reduced_mass(point: ContactPoint, model: DrawnModel) -> float:
 
 def _is_central(point: Seen) -> bool:
     """Whether the normal passes through the marker of I: nothing turns it."""
-    return point.first == "BALL" and all(each == 0 for each in point.first_sizes[1:])
+    return bool(point.first == "BALL")
 
 
 def _relative_velocity(scope: Scope, point: Seen, found: Touch) -> Vector:
