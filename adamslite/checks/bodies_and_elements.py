@@ -67,11 +67,14 @@ def _is_ground(deck: Deck, body: Body | None) -> bool:
 
 
 @needs("PART")
-def one_ground(deck: Deck) -> Iterator[Diagnostic]:
-    grounds = [part for part in deck.of(Part) if part.ground]
-    if not grounds:
+def a_ground(deck: Deck) -> Iterator[Diagnostic]:
+    if not any(part.ground for part in deck.of(Part)):
         source = deck.source
         yield compose("no-ground", source.span(0, len(source.line(1))), source.line(1))
+
+
+def second_grounds(deck: Deck) -> Iterator[Diagnostic]:
+    grounds = [part for part in deck.of(Part) if part.ground]
     for part in grounds[1:]:
         first = Related(grounds[0].span, "the first one")
         yield replace(diagnose(part, "two-grounds", "ground"), related=(first,))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from adamslite.checks.assembly import ASSEMBLY_RULES
 from adamslite.checks.bodies_and_elements import (
+    a_ground,
     distinct_ends,
     frictions,
     ground_without_data,
@@ -12,9 +13,9 @@ from adamslite.checks.bodies_and_elements import (
     inertia,
     markers_of_bodies,
     masses,
-    one_ground,
     reactions,
     reserved_names,
+    second_grounds,
     sections,
     torques_on_points,
     unit_system,
@@ -67,7 +68,8 @@ def check(deck: Deck) -> list[Diagnostic]:
 
 
 RULES: list[Rule] = [
-    one_ground,
+    a_ground,
+    second_grounds,
     ground_without_data,
     masses,
     inertia,
