@@ -11,12 +11,14 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import adamslite
 from adamslite import manual
 from adamslite.deck.element_switch import SWITCHABLE
 from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.language.messages import START
 from adamslite.language.not_supported import STATEMENTS as NOT_SUPPORTED
 from adamslite.language.statement import STATEMENTS
 from adamslite.reading.read import read, read_commands
@@ -161,3 +163,39 @@ def test_the_tables_have_every_element_that_is_switched() -> None:
 @pytest.mark.parametrize("keyword", COMMANDS)
 def test_help_has_a_page_for_every_command(keyword: str) -> None:
     assert keyword in manual.pages(keyword.lower())
+
+
+STATEMENT_ROWS = tomllib.loads((SPEC / "statements.toml").read_text())
+RUN = "SIM/DYN, END=0.01, STEPS=1"
+ADDED = [
+    (keyword, word, entry["deck"], row[1])
+    for keyword, entry in STATEMENT_ROWS.items()
+    for word, row in entry.items()
+    if word not in ("deck", "is") and row[0] == "works" and row[1:] and row[1].startswith(",")
+    if entry["deck"].rpartition("\n")[2].startswith(f"{keyword}/") and "FILE" not in word
+]
+
+
+@pytest.mark.parametrize(
+    ("deck", "added"),
+    [each[2:] for each in ADDED],
+    ids=[f"{keyword} {word}" for keyword, word, *_ in ADDED],
+)
+def test_a_statement_that_a_command_changes_is_as_if_it_had_been_written_so(
+    deck: str, added: str
+) -> None:
+    """Arguments that are added by a command before the run, and in the deck."""
+    label = deck.rpartition("\n")[2].partition(",")[0]
+    changed, written = ran(deck, f"{label}{added}\n{RUN}"), ran(deck + added, RUN)
+    assert changed[:2] == written[:2]
+    assert np.allclose(changed[2], written[2], rtol=1e-9, atol=1e-12, equal_nan=True)
+
+
+def ran(deck: str, commands: str) -> tuple[Any, ...]:
+    """Outcome, columns and values of a run; of one that cannot be read its mistakes."""
+    try:
+        scene = read(START + deck + "\n")
+        results = adamslite.simulate(scene, commands=read_commands(commands + "\n", scene))
+    except DeckError as error:
+        return "", sorted({each.code for each in error.errors}), np.zeros(0)
+    return results.outcome, results.names, results.values
