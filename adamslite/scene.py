@@ -12,7 +12,7 @@ from adamslite.progress import Progress
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
     from adamslite.deck.deck import Deck
-    from adamslite.deck.redefinition import Command
+    from adamslite.reading.read import Commands
     from adamslite.results.results import Results
 
 
@@ -24,7 +24,7 @@ class Scene:
     ----------
     deck : Deck
         Without errors.
-    commands : tuple of Statement or Redefinition
+    commands : Commands
         What the command file says; empty when there is none.
     warnings : tuple of Diagnostic
         What `check` has to say about deck and commands.
@@ -36,7 +36,7 @@ class Scene:
     """
 
     deck: "Deck"
-    commands: tuple["Command", ...]
+    commands: "Commands"
     warnings: tuple[Diagnostic, ...]
     deck_path: Path
     commands_path: Path | None
@@ -44,8 +44,17 @@ class Scene:
 
     @property
     def read(self) -> tuple[Path, ...]:
-        """The files that were read."""
-        return (self.deck_path, *([self.commands_path] if self.commands_path else []))
+        """The files that were read, with tables that statements take from files."""
+        commands = [self.commands_path] if self.commands_path else []
+        changes = (getattr(command, "changes", {}).get("file") for command in self.commands)
+        named = (getattr(each, "file", None) for each in self.deck.statements)
+        tables = (self.deck.folder / name for name in (*named, *changes) if name)
+        return (self.deck_path, *commands, *tables)
+
+    @property
+    def stem(self) -> str:
+        """The first part of the names of files: what the commands say, else that of the deck."""
+        return self.commands.prefix or self.deck_path.stem
 
     @property
     def title(self) -> str:

@@ -177,3 +177,61 @@ def test_the_first_line_of_the_summary_names_commands_nobody_asked_for(folder, c
     assert capsys.readouterr().out.startswith("o.adm with o.acf beside it: ")
     assert main(["linear", "o.adm"]) == 0
     assert capsys.readouterr().err == "o.adm with o.acf beside it\n"
+
+
+# ---- tables that are read, and the output prefix ------------------------------------------------
+
+TABLE = "x,y\n0,0\n1,1\n2,4\n3,9\n"
+
+
+@pytest.mark.parametrize(
+    ("statement", "change"),
+    [
+        ("SPLINE/1, FILE=o.csv", ""),
+        ("SPLINE/1, FILE=./o.csv", ""),
+        ("SPLINE/1, FILE=other.csv", "SPLINE/1, FILE=o.csv"),
+        ("MATRIX/1, FILE=o.csv", ""),
+    ],
+)
+def test_a_table_that_the_deck_reads_is_not_written_over(
+    folder: Path, capsys: pytest.CaptureFixture, statement: str, change: str
+) -> None:
+    """The results of o.adm would go to o.csv."""
+    for name in ("o.csv", "other.csv"):
+        Path(name).write_text(TABLE)
+    Path("o.adm").write_text(DECK.replace("END\n", f"{statement}\nEND\n"))
+    commands(*filter(None, (change, RUN)))
+    said = refused(capsys, ["solve", "o.adm"], USAGE)
+    assert "o.csv' is read, and would be written over" in said
+    assert main(["solve", "o.adm", "-o", "r.csv"]) == 0
+
+
+@pytest.mark.parametrize("prefix", ["o\nrun 1", "file/model=o, output_prefix=run 1"])
+def test_the_output_prefix_names_the_results(
+    folder: Path, capsys: pytest.CaptureFixture, prefix: str
+) -> None:
+    commands(prefix, RUN, "LINEAR/EIGENSOL")
+    assert main(["solve", "o.adm"]) == 0
+    assert sorted(os.listdir()) == ["o.acf", "o.adm", "run 1.csv", "run 1.modes.csv"]
+    assert main(["solve", "o.adm", "-o", "r.csv"]) == 0
+    assert Path("r.csv").exists() and Path("r.modes.csv").exists()
+    assert "note" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("prefix", ["../precious", "C:\\run", ".run", "/tmp/run"])
+def test_a_prefix_elsewhere_is_not_followed(
+    folder: Path, capsys: pytest.CaptureFixture, prefix: str
+) -> None:
+    commands(f'file/model=o, output_prefix="{prefix}"', RUN)
+    assert main(["solve", "o.adm"]) == 0
+    assert Path("o.csv").exists() and "[prefix-unused]" in capsys.readouterr().err
+    assert (folder.parent / "precious").read_text() == "precious\n"
+
+
+def test_a_prefix_does_not_write_over_what_is_read(
+    folder: Path, capsys: pytest.CaptureFixture
+) -> None:
+    Path("road.csv").write_text(TABLE)
+    Path("o.adm").write_text(DECK.replace("END\n", "SPLINE/1, FILE=road.csv\nEND\n"))
+    commands("o", "road", RUN)
+    assert "road.csv' is read" in refused(capsys, ["solve", "o.adm"], USAGE)

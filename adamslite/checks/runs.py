@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
@@ -26,6 +25,7 @@ from adamslite.elements.simulate import MOST_STEPS, Simulate, output_steps
 from adamslite.elements.variable import Variable
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Node, Ref, calls, walk
+from adamslite.language.file_name import is_file_name
 from adamslite.language.interfaces import Key
 from adamslite.language.messages import did_you_mean
 from adamslite.language.method import USUAL, method_of, methods, without_effect
@@ -33,8 +33,6 @@ from adamslite.language.statement import STATEMENTS, Statement, expressions
 
 # What -0.333333333 is below -1/3.
 ROUNDED = 1e-9
-# The name of a file without a folder; one with a dot in front is for the system or hidden.
-FILE_NAME = re.compile(r"[^./\\:][^/\\:]*")
 AS_ALWAYS = "the next SIMULATE starts as every SIMULATE does"
 IDLE_IN_SENSOR = {
     "bisection": "the time is located anyway",
@@ -235,17 +233,21 @@ def file_names(deck: Deck) -> Iterator[Diagnostic]:
             continue
         name = each.file.casefold()
         other = known.setdefault(name, each)
-        if not FILE_NAME.fullmatch(each.file) or not each.file.isprintable():
+        if not is_file_name(each.file):
             yield diagnose(each, "not-a-file-name", "file", word=each.file or '""')
         elif other is not each and (isinstance(each, Linear) or isinstance(other, Linear)):
             what = f"that of an earlier {other.keyword}"
             yield diagnose(each, "file-taken", "file", word=each.file, what=what)
 
 
-def other_models(deck: Deck, commands: Iterable[Statement]) -> Iterator[Diagnostic]:
+def names_of_files(deck: Deck, commands: Iterable[Statement]) -> Iterator[Diagnostic]:
     for each in commands:
-        if isinstance(each, File) and each.model and not deck.is_called(each.model):
+        if not isinstance(each, File):
+            continue
+        if each.model and not deck.is_called(each.model):
             yield diagnose(each, "other-model", "model", word=each.model)
+        if each.output_prefix and not is_file_name(each.output_prefix):
+            yield diagnose(each, "prefix-unused", "output_prefix", word=each.output_prefix)
 
 
 def inputs_with_rates(deck: Deck, commands: Iterable[Statement]) -> Iterator[Diagnostic]:

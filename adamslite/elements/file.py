@@ -13,10 +13,11 @@ class File(Statement):
     """The first line of a command file; the deck is the one given on the command line.
 
     Instead of it two lines with bare names may stand on top, of the deck and of the output files.
-    Results go to a file with the name of the deck, or where the command line says.
+    The command line takes precedence: `adamslite solve -o FILE`.
     """
 
     model: str | None = text("MODEL", help="name of the deck; a note reports another one")
     output_prefix: str | None = text(
-        "OUTPUT_PREFIX", inert=True, help="first part of the names of output files"
+        "OUTPUT_PREFIX",
+        help="first part of the names of output files; the deck's unless given",
     )

@@ -15,15 +15,17 @@ from adamslite.checks.runs import (
     fixed_lists,
     inputs_with_rates,
     late_start_values,
-    other_models,
+    names_of_files,
 )
 from adamslite.deck.deck import ANALYSES, Deck
 from adamslite.deck.named_places import with_named
 from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.user_bindings import Bindings, Given, bindings
+from adamslite.elements.file import File
 from adamslite.gc_pause import without_collection
 from adamslite.language.diagnostics import DeckError, Diagnostic, Source
+from adamslite.language.file_name import is_file_name
 from adamslite.language.messages.ignoring import judged, without_ignored
 from adamslite.language.statement import Statement
 from adamslite.reading.statement_reader import Reading
@@ -73,6 +75,8 @@ class Commands(tuple[Command, ...]):
     """Commands in their order: statements, and :class:`Redefinition` for those that change one."""
 
     warnings: tuple[Diagnostic, ...] = ()
+    prefix: str = ""
+    """First part of the names of the files of a run; empty where the commands name none."""
 
 
 def read_commands(source: str | Path, deck: Deck) -> Commands:
@@ -90,11 +94,13 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
     reading.log.diagnostics += [
         *without_ignored(deck.source, _caused(deck, commands)),
         *inputs_with_rates(deck, plain),
-        *other_models(deck, plain),
+        *names_of_files(deck, plain),
         *determined_at_rest(deck, plain),
         *note_of_inert(commands),
     ]
     found = _judged(run, reading, RUN_RULES, deck)
+    named = [each.output_prefix or "" for each in plain if isinstance(each, File)]
+    commands.prefix = [reading.prefix, *filter(is_file_name, named)][-1]
     commands.warnings = tuple(judged(run.source, found, complete=True))
     return commands
 

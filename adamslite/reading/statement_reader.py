@@ -16,6 +16,7 @@ from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.part import Part
 from adamslite.language.abbreviations import PREFERRED, Ambiguous, match, vocabulary
 from adamslite.language.diagnostics import Source, Spans
+from adamslite.language.file_name import is_file_name
 from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.not_supported import COMMANDS as PLANNED_COMMANDS
 from adamslite.language.not_supported import STATEMENTS as PLANNED_STATEMENTS
@@ -100,6 +101,8 @@ class Reading:
         self.broken: set[str] = set()
         """Keywords of statements that could not be read, or not wholly."""
         self.resolver = Resolver(names, self.log)
+        self.prefix = ""
+        """Of output files, at the top of a command file."""
         self._body: Body | None = None
         self._guesses: list[tuple[str, Syntax]] = []
         self._started: dict[str, int] = {}
@@ -147,6 +150,11 @@ class Reading:
             if not names and self.deck and not self.deck.is_called(word):
                 at = first + line.index(word)
                 self.log.add("other-model", at, at + len(word), word=word)
+            if names and is_file_name(word):
+                self.prefix = word
+            elif names:
+                at = first + line.index(word)
+                self.log.add("prefix-unused", at, at + len(word), word=word)
             names, end = names + 1, start
         return min(end, len(text))
 

@@ -2,9 +2,10 @@
 
 How long to run: --end, else SIMULATE in COMMANDS.acf, else in the .acf of the deck's name beside
 the deck, else in the deck itself. The results go to DECK's name with .csv in the current directory,
-or to OUT, in the format of its suffix (`adamslite help formats` lists them); `-o -` writes a table
-to standard output. Beside it LINEAR/EIGENSOL writes OUT.modes.csv, LINEAR/STATEMAT its FILE or
-OUT.states.json (matrices A, B, C, D). All the command says goes to standard error.
+or to the output prefix that COMMANDS.acf names, or to OUT, in the format of its suffix (`adamslite
+help formats` lists them); `-o -` writes a table to standard output. Beside it LINEAR/EIGENSOL
+writes OUT.modes.csv, with COORDS OUT.shapes.csv, LINEAR/STATEMAT its FILE or OUT.states.json
+(matrices A, B, C, D), SAVE its FILE. All the command says goes to standard error.
 """
 
 import argparse
@@ -75,12 +76,12 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.results.formats import format_of
     from adamslite.scene import load_scene, run_scene
 
-    output = args.output or f"{args.deck.stem}.csv"
-    if output == STDOUT and args.summary == "json":
+    if args.output == STDOUT and args.summary == "json":
         raise UsageError(
             "'-o -' and '--summary json' both want standard output; give -o a file name"
         )
     scene = load_scene(args.deck, args.commands, args.user)
+    output = args.output or f"{scene.stem}.csv"
     files = []
     if output != STDOUT:
         files = plan(scene, output, bool(args.output))

@@ -78,6 +78,12 @@ RUNS: dict[str, Message] = {
         "modes are counted from 1: COORDS=1,25",
         commands=("LINEAR/EIGENSOL, COORDS=0,4", "LINEAR/EIGENSOL, COORDS=4,2"),
     ),
+    "prefix-unused": Message(
+        "{word} is not the plain name of a file: results are called as the deck",
+        "`adamslite solve -o FILE` writes them elsewhere",
+        commands=("FILE/OUTPUT_PREFIX=../a", "deck\nC:\\runs\\a\nSIM/STATICS"),
+        severity=NOTE,
+    ),
     "states-chosen": Message(
         "STATEMAT cannot use PSTATE: this program chooses the states of the matrices",
         "leave it out: eigenvalues and transfer functions do not depend on the choice of states",
