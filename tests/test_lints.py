@@ -214,3 +214,19 @@ def test_what_is_used_in_any_way_is_used() -> None:
 def test_ignored_on_its_line() -> None:
     line = "MARKER/4, PART=1, REULER=90,0,0 ! adamslite: ignore angle-in-radians, unused"
     assert codes(line) == []
+
+
+@pytest.mark.parametrize(
+    ("statement", "place", "text"),
+    [
+        ("VARIABLE/1, FUNCTION=-DX(2,1)-VX(2,1)", (8, 31), "VX(2,1)"),
+        ("MARKER/4, PART=2, REULER=0, 90, 0\nREQUEST/1, F1=DX(4)", (8, 29), "90"),
+        ("MOTION/1, I=2, J=1, X, FUNCTION=TIME\n, +MAX(0,TIME-1)", (9, 4), "MAX(0,TIME-1)"),
+    ],
+)
+def test_the_caret_is_at_the_function_or_number(
+    statement: str, place: tuple[int, int], text: str
+) -> None:
+    (one,) = told(START + statement + "\n")
+    assert (one.span.line, one.span.column) == place
+    assert one.source_line[one.span.column - 1 : one.span.end_column - 1] == text

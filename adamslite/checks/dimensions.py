@@ -17,11 +17,22 @@ from typing import NamedTuple
 
 from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose_inside
 from adamslite.elements.variable import Variable
 from adamslite.functions.forces import MEASURES, NET
 from adamslite.language.diagnostics import Diagnostic
-from adamslite.language.expression import NEGATE, Call, Node, Num, Op, Ref, Time, fold, to_text
+from adamslite.language.expression import (
+    NEGATE,
+    Call,
+    Node,
+    Num,
+    Op,
+    Ref,
+    Time,
+    fold,
+    to_text,
+    walk,
+)
 from adamslite.language.interfaces import Key
 
 Dimension = tuple[float, float, float]
@@ -82,9 +93,8 @@ def contradictions(deck: Deck) -> Iterator[Diagnostic]:
             reader.dimension(node)
             if reader.found:
                 first, second = reader.found
-                yield diagnose(
-                    statement, "dimensions", field, word=argument.key, first=first, second=second
-                )
+                words = {"word": argument.key, "first": first, "second": second}
+                yield diagnose_inside(statement, reader.name, "dimensions", field, **words)
 
 
 class Reader:
@@ -93,6 +103,8 @@ class Reader:
     def __init__(self, deck: Deck) -> None:
         self.deck = deck
         self.found: Contradiction | None = None
+        self.name = ""
+        """The function, or TIME, that the second part begins with."""
         self._variables: dict[Key, Dimension | None] = {}
 
     def dimension(self, node: Node) -> Dimension | None:
@@ -127,6 +139,7 @@ class Reader:
         for node, found in known[1:]:
             if found != known[0][1] and self.found is None:
                 self.found = Contradiction(_described(*known[0]), _described(node, found))
+                self.name = _first_name(node)
         return known[0][1] if known else None
 
     def _call(self, call: Call) -> Dimension | None:
@@ -163,6 +176,7 @@ class Reader:
         if is_way is None or is_rate is None or self.found:
             return
         if is_rate != _times(is_way, TIME, -1.0):
+            self.name = _first_name(rate)
             self.found = Contradiction(
                 f"the way {_described(way, is_way)}", f"the rate {_described(rate, is_rate)}"
             )
@@ -185,6 +199,15 @@ def _of_component(call: Call) -> Dimension | None:
     if not isinstance(component, Num):
         return None
     return FORCE if component.value in FORCES else TORQUE if component.value in TORQUES else None
+
+
+def _first_name(node: Node) -> str:
+    names = (
+        "TIME" if isinstance(each, Time) else each.name
+        for each in walk(node)
+        if isinstance(each, Time | Call)
+    )
+    return next(names, "")
 
 
 def _times(a: Dimension, b: Dimension, sign: float) -> Dimension:

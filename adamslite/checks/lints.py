@@ -9,7 +9,7 @@ from math import degrees, hypot, isfinite, pi
 from adamslite.checks.markers import references
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.accgrav import Accgrav
 from adamslite.elements.gcon import Gcon
 from adamslite.elements.marker import Marker
@@ -51,7 +51,8 @@ def angles_in_degrees(deck: Deck) -> Iterator[Diagnostic]:
         for value, text in zip(each.reuler, written.split(","), strict=False):
             if abs(value) > 2 * pi * (1 + ROUNDED) and PLAIN.fullmatch(text.strip()):
                 turns, text = f"{degrees(value):.4g}", text.strip()
-                yield diagnose(each, "angle-in-radians", "reuler", text=text, turns=turns)
+                words = {"text": text, "turns": turns}
+                yield diagnose_inside(each, text, "angle-in-radians", "reuler", **words)
                 break
 
 
@@ -154,7 +155,7 @@ def kinks(deck: Deck) -> Iterator[Diagnostic]:
             at = corner(model, each.function, least, until)
             found, when = (at[0], f" at {at[1]:.4g}") if at else ("", "")
         if found:
-            yield diagnose(each, "kink", "function", word=found, when=when)
+            yield diagnose_inside(each, found, "kink", "function", word=found, when=when)
 
 
 def _may_jump(deck: Deck, node: Node) -> bool:
