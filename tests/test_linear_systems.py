@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import user_functions
 from decklets import deck_with, function
 from scenes import GROUND, done
 
@@ -217,3 +218,55 @@ def test_start_values_of_a_system_that_has_moved_have_no_effect(change: str) -> 
     commands = read_commands(first + run, deck)
     assert not commands.warnings
     assert al.simulate(deck, commands=commands)["DIFF/ARRAY_2_1"][0] == 3
+
+
+GSE = """VARIABLE/1, FUNCTION={u}
+ARRAY/1, U, VARIABLES=1
+ARRAY/2, X, SIZE=2
+ARRAY/3, Y
+ARRAY/4, IC, NUMBERS=0.7,0
+GSE/1, NS=2, NO=1, X=2, U=1, Y=3, IC=4, FUNCTION=USER(25,1)
+INTEGRATOR/{method}ERROR=1E-7
+"""
+
+
+@pytest.mark.parametrize("method", ["", "RADAU, ", "ABAM, ", "HHT, "])
+def test_a_routine_of_state_equations(method: str) -> None:
+    """Let go at x1 = 0.7: x1 = 0.7 e^-t (cos w t + sin(w t)/w), w^2 = 24."""
+    text = GROUND + GSE.format(u=0, method=method) + "END\n"
+    deck = al.read(text, user={"GSESUB": user_functions.oscillator})
+    results = al.simulate(deck, end=1.0, steps=10)
+    t, w = results.time, np.sqrt(24)
+    expected = 0.7 * np.exp(-t) * (np.cos(w * t) + np.sin(w * t) / w)
+    allowed = 5e-7 * results.summary["steps"] + 1e-8
+    np.testing.assert_allclose(results["DIFF/ARRAY_2_1"], expected, rtol=0, atol=allowed)
+    output = results["VARIABLE/ARRAY_3_1"] / 3
+    np.testing.assert_allclose(output, expected, rtol=0, atol=allowed)
+
+
+def test_statics_of_a_routine_of_state_equations() -> None:
+    """25 x1 = u = -50, and y = 3 x1 - u/2."""
+    text = GROUND + GSE.format(u=-50, method="") + STATICS
+    results = al.simulate(al.read(text, user={"GSE/1": user_functions.oscillator}))
+    assert results["DIFF/ARRAY_2_1"][-1] == pytest.approx(-2.0, rel=1e-9)
+    assert results["VARIABLE/ARRAY_3_1"][-1] == pytest.approx(19.0, rel=1e-9)
+
+
+def test_numbers_in_place_of_state_equations() -> None:
+    """x' = (2, -3), y = 5; discrete states stay at their ICD, in statics too."""
+    text = GROUND + GSE.format(u=0, method="").replace("IC=4,", "IC=4, ND=1, XD=5, ICD=6,")
+    text = text.replace("FUNCTION=USER", "SAMPLE_PERIOD=0.1\\, INTERFACE=lib::rates, FUNCTION=USER")
+    text += "ARRAY/5, X, SIZE=1\nARRAY/6, IC, NUMBERS=8\nVARIABLE/2, FUNCTION=ARYVAL(5,1)\nEND\n"
+    results = al.simulate(al.read(text, user={"lib::rates": (2, -3, 5)}), end=1.0, steps=2)
+    assert results["DIFF/ARRAY_2_1"] == pytest.approx([0.7, 1.7, 2.7], abs=1e-9)
+    assert results["DIFF/ARRAY_2_2"] == pytest.approx([0.0, -1.5, -3.0], abs=1e-9)
+    assert results["VARIABLE/ARRAY_3_1"].tolist() == [5.0] * 3
+    assert results["VARIABLE/2"].tolist() == [8.0] * 3
+
+
+def test_a_routine_that_is_missing_is_named() -> None:
+    with pytest.raises(al.DeckError) as failed:
+        al.read(GROUND + GSE.format(u=0, method="") + "END\n")
+    (found,) = failed.value.diagnostics
+    assert found.code == "missing-routine" and "GSESUB" in found.message
+    assert "GSE/1=number" in found.hint

@@ -57,7 +57,7 @@ WORDS = list({**ELEMENTS, **CHANGES["data"]})
 
 
 def told(deck: str, commands: str) -> list[Diagnostic]:
-    found = read(PENDULUM + deck + "\n")
+    found = read(PENDULUM + deck + "\n", user={"GSESUB": 0.0} if "GSE" in deck else None)
     found.path = Path("deck.adm")
     try:
         return list(read_commands(commands + "\n", found).warnings)

@@ -62,3 +62,15 @@ def reads_what_is_not_there(parameters: Parameters, time: float, x: float) -> fl
 def reads_by_parameter(parameters: Parameters, time: float, x: float) -> float:
     """The VARIABLE that the third parameter names."""
     return x
+
+
+def constant(parameters: Parameters, time: float) -> float:
+    """1"""
+    return 1.0
+
+
+@reads("ARYVAL({x}, 1)", "ARYVAL({x}, 2)", "ARYVAL({u}, 1)")
+def oscillator(parameters: Parameters, time: float, x: float, v: float, u: float) -> Three:
+    """Rates of x1' = x2, x2' = -w^2 x1 - 2 d x2 + u, and the output 3 x1 - u/2."""
+    stiffness, decay = parameters
+    return v, -stiffness * x - 2.0 * decay * v + u, 3.0 * x - 0.5 * u

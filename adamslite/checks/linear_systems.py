@@ -1,4 +1,4 @@
-"""Rules about LSE and TFSISO, and the ARRAYs and MATRIXes that they name."""
+"""Rules about LSE, TFSISO and GSE, and the ARRAYs and MATRIXes that they name."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.array import Array
-from adamslite.elements.bases.linear_system import LinearSystem, value_name
+from adamslite.elements.bases.linear_system import LinearSystem
+from adamslite.elements.bases.system_element import SystemElement, value_name
+from adamslite.elements.gse import Gse
 from adamslite.elements.lse import Lse
 from adamslite.elements.matrix import Matrix
 from adamslite.elements.simulate import Simulate
@@ -19,11 +21,12 @@ from adamslite.elements.tfsiso import Tfsiso, degree
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Num, Ref, walk
 from adamslite.language.interfaces import Key
+from adamslite.language.routines import is_user_call
 from adamslite.language.statement import Statement, expressions
 
 # Singular values of a scaled matrix below this are round-off.
 RANK = 1e-12
-OWNED = ("x", "y")
+OWNED = ("X", "Y")
 PARTNERS = {
     "b": (("u",), "B takes the inputs u"),
     "c": (("y",), "C makes the outputs y"),
@@ -31,31 +34,40 @@ PARTNERS = {
 }
 
 
-def systems(deck: Deck) -> Iterator[LinearSystem]:
+def linear_systems(deck: Deck) -> Iterator[LinearSystem]:
     """The linear systems of a deck."""
     yield from deck.of(Lse)
     yield from deck.of(Tfsiso)
 
 
-def _array(deck: Deck, system: LinearSystem, field: str) -> Array | None:
+def systems(deck: Deck) -> Iterator[SystemElement]:
+    """All elements with ARRAYs of states and outputs."""
+    yield from linear_systems(deck)
+    yield from deck.of(Gse)
+
+
+def _array(deck: Deck, system: SystemElement, field: str) -> Array | None:
     key = getattr(system, field)
     return None if key is None else deck.find(Array, key)
 
 
 def arrays_of_systems(deck: Deck) -> Iterator[Diagnostic]:
     """Whether arrays are of the kinds that they are used as, and belong to one system only."""
-    owners: dict[Key, LinearSystem] = {}
+    owners: dict[Key, str] = {}
     for system in systems(deck):
-        for field in ("x", "u", "y", "ic"):
+        for field, kind in system.kinds.items():
             array = _array(deck, system, field)
             if array is None:
                 continue
-            word, label = field.upper(), array.label
-            if array.kind != word:
-                yield diagnose(system, "array-kind", field, word=word, array=label, kind=array.kind)
-            elif field in OWNED and owners.setdefault(array.key, system) is not system:
-                first = owners[array.key].label
+            label = array.label
+            if array.kind != kind:
+                words = {"word": field.upper(), "array": label, "needed": kind, "kind": array.kind}
+                yield diagnose(system, "array-kind", field, "", **words)
+            elif kind in OWNED and array.key in owners:
+                first = owners[array.key]
                 yield diagnose(system, "array-owners", field, array=label, first=first)
+            else:
+                owners[array.key] = system.label
 
 
 def partners(deck: Deck) -> Iterator[Diagnostic]:
@@ -73,7 +85,7 @@ def partners(deck: Deck) -> Iterator[Diagnostic]:
                 yield _part(system, field, other, "give it, or leave the ARRAY out")
 
 
-def _part(system: Lse, field: str, other: str, hint: str) -> Diagnostic:
+def _part(system: SystemElement, field: str, other: str, hint: str) -> Diagnostic:
     return diagnose(system, "system-part", field, hint, word=field.upper(), other=other)
 
 
@@ -117,21 +129,23 @@ def sizes_of_filters(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def _array_sizes(
-    deck: Deck, system: LinearSystem, states: int, outputs: int | None
+    deck: Deck, system: SystemElement, states: int, outputs: int | None, more: int = 0
 ) -> Iterator[Diagnostic]:
-    for field, count in (("x", states), ("y", outputs)):
-        array = _array(deck, system, field)
-        if array is None or array.size is None or count is None:
+    counts = {"x": states, "y": outputs, "xd": more}
+    for field, kind in system.kinds.items():
+        array, count = _array(deck, system, field), counts.get(field)
+        if array is None or array.size is None or count is None or kind not in OWNED:
             continue
         if array.size != count:
             yield _length(system, array, field, array.size, "values", count)
-    start = _array(deck, system, "ic")
-    if start is not None and start.kind == "IC" and len(start.numbers) not in (0, states):
-        yield _length(system, start, "ic", len(start.numbers), "NUMBERS", states)
+    for field, start in system.starts.items():
+        array, count = _array(deck, system, start), counts[field]
+        if array is not None and array.kind == "IC" and len(array.numbers) not in (0, count):
+            yield _length(system, array, start, len(array.numbers), "NUMBERS", count or 0)
 
 
 def _length(
-    system: LinearSystem, array: Array, field: str, count: int, what: str, needed: int
+    system: SystemElement, array: Array, field: str, count: int, what: str, needed: int
 ) -> Diagnostic:
     return diagnose(
         system, "system-array", field, array=array.label, count=count, what=what, needed=needed
@@ -149,20 +163,40 @@ def polynomials(deck: Deck) -> Iterator[Diagnostic]:
             yield diagnose(system, "improper-fraction", "numerator", above=above, below=below)
 
 
+GSE_PARTS = {"ns": ("x",), "no": ("y",), "nd": ("xd",)}
+
+
+def routine_systems(deck: Deck) -> Iterator[Diagnostic]:
+    """Whether a GSE has the ARRAYs of its states and outputs, and a routine."""
+    for system in deck.of(Gse):
+        for field, others in GSE_PARTS.items():
+            count = getattr(system, field)
+            if count < 0:
+                yield diagnose(system, "negative", field, word=field.upper())
+            for other in others:
+                there = getattr(system, other) is not None
+                if count > 0 and not there:
+                    yield _part(system, field, other.upper(), f"{other.upper()} is missing")
+                elif not count and there:
+                    yield _part(system, other, field.upper(), f"{field.upper()} is missing")
+        yield from _array_sizes(deck, system, system.ns, system.no, system.nd)
+        if not is_user_call(system.function):
+            yield diagnose(system, "no-routine", "function")
+
+
 @needs("ARRAY", "GSE", "LSE", "MATRIX", "TFSISO")
 def values_of_systems(deck: Deck) -> Iterator[Diagnostic]:
     """Whether states and outputs that expressions take from an ARRAY exist.
 
     Where SIZE is right the reader has seen to it.
     """
-    counts = {array.key: 0 for array in deck.of(Array) if array.kind.lower() in OWNED}
+    counts = {array.key: 0 for array in deck.of(Array) if array.kind in OWNED}
     for system in systems(deck):
-        found = system.matrices(deck)
+        found = system.counts(deck)
         if found is None:
             return  # another rule reports why
-        counts[system.x] = max(len(found.a), len(found.b))
-        if system.y is not None:
-            counts[system.y] = max(len(found.c), len(found.d))
+        arrays = {field: getattr(system, field) for field in found}
+        counts |= {arrays[f]: n for f, n in found.items() if arrays[f] is not None}
     unsure = [array for array in deck.of(Array) if array.size != counts.get(array.key, array.size)]
     for statement in deck.statements if unsure else ():
         for field, array, number in _missing_values(deck, statement, unsure):
@@ -192,7 +226,7 @@ def determined_at_rest(deck: Deck, commands: Iterable[Statement] = ()) -> Iterat
     runs = chain(deck.of(Simulate), commands)
     if not any(isinstance(run, Simulate) and run.kind == "STATICS" for run in runs):
         return
-    for system in systems(deck):
+    for system in linear_systems(deck):
         found = None if system.static_hold else system.matrices(deck)
         n = len(found.a) if found else 0
         if found is None or any(len(row) != n for row in found.a) or len(found.b) not in (0, n):
@@ -223,7 +257,8 @@ def late_start_numbers(deck: Deck, command: Redefinition[Any]) -> Iterator[Diagn
     if command.of is not Array or "numbers" not in command.changes:
         return
     for system in systems(deck):
-        if system.ic == command.key and not _takes(deck, f"ARYVAL({command.key},"):
+        starts = {getattr(system, field) for field in system.starts.values()}
+        if command.key in starts and not _takes(deck, f"ARYVAL({command.key},"):
             reason = f"{system.label} continues from the state that it has reached"
             yield diagnose(command, "no-effect", "numbers", word="NUMBERS", reason=reason)
 
@@ -244,6 +279,7 @@ SYSTEM_RULES: list[Rule] = [
     sizes_of_matrices,
     sizes_of_filters,
     polynomials,
+    routine_systems,
     values_of_systems,
     determined_at_rest,
 ]

@@ -143,6 +143,10 @@ LISTS = ("ARRAY", "PINPUT", "POUTPUT")
 
 def fixed_lists(command: Redefinition[Any]) -> Iterator[Diagnostic]:
     """What expressions have taken from a list of VARIABLEs when the deck was read."""
+    for field in ("function", "ns", "no", "nd") if command.keyword == "GSE" else ():
+        if field in command.changes:
+            hint = "what is bound to its routine is read with the deck"
+            yield diagnose(command, "array-fixed", field, hint, word=field.upper())
     for field in ("kind", "variables") if command.keyword in LISTS else ():
         if field in command.changes:
             word = "VARIABLES" if field == "variables" else "the kind"

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from adamslite.elements.bases.linear_system import Values
+from adamslite.elements.bases.system_element import Values
 from adamslite.language.expression import Call, Node, Num, Ref
 from adamslite.language.statement import (
     Statement,

@@ -9,9 +9,8 @@ Equation (x the values of ARRAY X, u of ARRAY U, y of ARRAY Y)::
 
 from __future__ import annotations
 
-from adamslite.elements.bases.linear_system import (
-    LinearSystem,
-    Matrices,
+from adamslite.elements.bases.linear_system import LinearSystem, Matrices
+from adamslite.elements.bases.system_element import (
     input_array,
     output_array,
     start_array,
@@ -30,7 +29,7 @@ class Lse(LinearSystem):
     DIFF/ARRAY_id_n and VARIABLE/ARRAY_id_n.
     """
 
-    x: int | str = state_array()
+    x: int | str = state_array(required=True)
     u: int | str | None = input_array()
     y: int | str | None = output_array()
     ic: int | str | None = start_array()

@@ -18,9 +18,8 @@ whose input is differentiated).  Which states ADAMS takes is not published; y is
 
 from __future__ import annotations
 
-from adamslite.elements.bases.linear_system import (
-    LinearSystem,
-    Matrices,
+from adamslite.elements.bases.linear_system import LinearSystem, Matrices
+from adamslite.elements.bases.system_element import (
     input_array,
     output_array,
     start_array,
@@ -41,7 +40,7 @@ class Tfsiso(LinearSystem):
     DIFF/ARRAY_id_n and VARIABLE/ARRAY_id_1.
     """
 
-    x: int | str = state_array()
+    x: int | str = state_array(required=True)
     u: int | str = input_array(required=True)
     y: int | str = output_array(required=True)
     ic: int | str | None = start_array()

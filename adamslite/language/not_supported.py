@@ -6,7 +6,7 @@ registered elsewhere is supported, whether or not it still stands here.
 
 STATEMENTS = frozenset(
     """CVCV
-    GSE LSSMATRIX PFORCE
+    LSSMATRIX PFORCE
     SYSVAR UCON""".split()
 )
 
@@ -30,8 +30,8 @@ INSTEAD = {
     "CONTACT FRICTION_ROUTINE": _CONTACT,
     "CONTACT NORMAL_FUNCTION": _CONTACT,
     "CONTACT NORMAL_ROUTINE": _CONTACT,
-    "GSE": "its equations are in a compiled routine, not in the deck; write linear ones as an LSE "
-    "or TFSISO, others as DIFFs",
+    "GSE IMPLICIT": "write each equation as a DIFF, IMPLICIT",
+    "GSE STATICS_ONLY": "write STATIC_HOLD on the other elements, or delete it",
     "LSSMATRIX": "the matrices come from another program: write them as MATRIX and LSE",
     "PFORCE": "its law is not published: write an SFORCE, a VFORCE or a FIELD",
     "SYSVAR": "its meaning is not published: write a VARIABLE",

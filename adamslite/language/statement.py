@@ -282,6 +282,19 @@ class Statement:
         """Values of ``result_names``, as expressions."""
         return []
 
+    def routine_count(self, fields: int) -> int:
+        """How many numbers a routine of the user returns for it, where so many fields call it."""
+        return fields
+
+    @property
+    def numbers_only(self) -> bool:
+        """Whether only numbers can stand for a routine of the user, no function."""
+        return False
+
+    def of_routine(self, fields: Sequence[str], values: Sequence[Node | None]) -> dict[str, object]:
+        """What fields become where they call a routine of the user that returns these values."""
+        return dict(zip(fields, values, strict=True))
+
     def constants(self) -> dict[str, float]:
         """Numbers this statement gives a name that expressions may use, names in capitals."""
         return {}

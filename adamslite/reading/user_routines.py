@@ -45,6 +45,12 @@ class UserCall:
     routine: str
 
     @property
+    def count(self) -> int:
+        """How many values the routine returns."""
+        fields, command = len(self.fields), self.command
+        return command.routine_count(fields) if isinstance(command, Statement) else fields
+
+    @property
     def label(self) -> str:
         return self.command.label
 
@@ -79,14 +85,18 @@ class RoutineBinder:
             return command
         call = UserCall(command, fields, values[fields[0]], self._routine(command))
         nodes = self._nodes(call)
-        changes: dict[str, Any] = dict(zip(fields, nodes, strict=True)) if nodes else {}
+        if not nodes:
+            return command
         if isinstance(command, Redefinition):
-            return replace(command, changes={**command.changes, **changes})
+            values = {**command.changes, **dict(zip(fields, nodes, strict=True))}
+            return replace(command, changes=values)
+        changes: dict[str, Any] = command.of_routine(fields, nodes)
         return replace(command, **changes)
 
     def _routine(self, command: Command) -> str:
         """Name of the routine that a statement calls."""
-        own = _values(command).get("routine")
+        values = _values(command)
+        own = values.get("routine") or next(iter(values.get("interface") or ()), None)
         if own is None and self.deck and isinstance(command, Redefinition):
             own = getattr(self.deck.find(command.keyword, command.key), "routine", None)
         return str(own or usual_name(command.keyword))
@@ -109,13 +119,16 @@ class RoutineBinder:
         """Calls of a function of Python with what it reads, one for each field."""
         from adamslite.deck.python_routine import Routine
 
+        if isinstance(call.command, Statement) and call.command.numbers_only:
+            self.diagnostics.append(diagnose(call.command, "discrete-states", FIELD))
+            return ()
         said = len(self.diagnostics)
         inputs = [TIME, *self._read(call, binding)]
         if len(self.diagnostics) > said:
             return ()
         label = f"{call.label} ({call.command.span})"
         given = [each.value for each in call.call.args if isinstance(each, Num)]
-        count, number = len(call.fields), Num(float(len(self.given.made)))
+        count, number = call.count, Num(float(len(self.given.made)))
         assert binding.function is not None
         self.given.made.append(
             Routine(label, binding.text, binding.function, given, len(inputs), count)
@@ -166,7 +179,7 @@ class RoutineBinder:
 
     def _numbers(self, call: UserCall, binding: Binding) -> Sequence[Node]:
         """A number for each field; a single zero is one for all."""
-        numbers, count = binding.numbers, len(call.fields)
+        numbers, count = binding.numbers, call.count
         if numbers == (0.0,):
             numbers *= count
         if len(numbers) != count:

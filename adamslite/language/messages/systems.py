@@ -14,6 +14,7 @@ _PARTS = (
 )
 _LSE = _PARTS + "LSE/1, X=2, A=1"
 _FILTER = _PARTS + "TFSISO/1, X=2, U=1, Y=3"
+_GSE = "ARRAY/1, X\nARRAY/2, Y\nARRAY/3, X\nARRAY/4, IC, NUMBERS=1\nGSE/1, NS=1, X=1"
 _STATICS = "\nSIMULATE/STATICS"
 
 _STRUCTURE = (
@@ -23,7 +24,7 @@ _STRUCTURE = (
 )
 SYSTEMS: dict[str, Message] = {
     "array-kind": Message(
-        "{word} of {label} must be an ARRAY {word}, and {array} is an ARRAY {kind}",
+        "{word} of {label} must be an ARRAY {needed}, and {array} is an ARRAY {kind}",
         "X are states, U inputs, Y outputs, IC numbers",
         (
             _PARTS + "LSE/1, X=3, A=1",
@@ -84,6 +85,17 @@ SYSTEMS: dict[str, Message] = {
             "ARRAY/1, Y\nVARIABLE/1, FUNCTION=ARYVAL(1,1)",
             _PARTS + "ARRAY/7, X\nLSE/1, X=7, A=1\nVARIABLE/3, FUNCTION=ARYVAL(7,3)",
         ),
+    ),
+    "no-routine": Message(
+        "FUNCTION of {label} must be USER(...)",
+        "of equations that are expressions each is a DIFF",
+        ("ARRAY/1, X\nGSE/1, NS=1, X=1, FUNCTION=TIME",),
+    ),
+    "discrete-states": Message(
+        "the discrete states of {label} can be read, but not computed",
+        "bind numbers to its routine; then they stay as ICD has them",
+        (_GSE + ", ND=1, XD=3, FUNCTION=USER(1)",),
+        user=("GSESUB=user_functions:constant",),
     ),
     "no-leading-coefficient": Message(
         "the last number of DENOMINATOR of {label} is zero",
