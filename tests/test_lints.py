@@ -230,3 +230,8 @@ def test_the_caret_is_at_the_function_or_number(
     (one,) = told(START + statement + "\n")
     assert (one.span.line, one.span.column) == place
     assert one.source_line[one.span.column - 1 : one.span.end_column - 1] == text
+
+
+def test_routines_of_the_user_may_ask_for_any_marker() -> None:
+    text = START + "MARKER/4, PART=1, QP=1,0,0\nVARIABLE/1, FUNCTION=USER(4)\n"
+    assert [each.code for each in told(text, ["VARIABLE/1=0"])] == ["user-bound"]

@@ -83,10 +83,12 @@ def unused(deck: Deck) -> Iterator[Diagnostic]:
     """Markers and constants to which no statement refers.
 
     A marker at the origin of its body may be there as its frame, a VARIABLE that changes in order
-    to be written.
+    to be written.  Routines of the user may ask for any of them.
     """
+    if deck.user.called:
+        return
     markers = [each for each in deck.of(Marker) if _is_placed(each)]
-    constants = [each for each in deck.of(Variable) if _is_constant(each)]
+    constants = [each for each in deck.of(Variable) if _is_constant(each.function)]
     if not (markers or constants):
         return
     used = set(_used(deck))
@@ -102,11 +104,8 @@ def _is_placed(marker: Marker) -> bool:
     return not marker.floating and any(map(marker.given, ("qp", "reuler", "zp", "xp")))
 
 
-def _is_constant(variable: Variable) -> bool:
-    """Whether the deck gives it a number; what a routine gives is meant to be written."""
-    if any(isinstance(each, Call | Time | Mode) for each in walk(variable.function)):
-        return False
-    return "USER" not in variable.spans.home("function").text("function").upper()
+def _is_constant(node: Node) -> bool:
+    return not any(isinstance(each, Call | Time | Mode) for each in walk(node))
 
 
 def _used(deck: Deck) -> Iterator[tuple[str, Key]]:
