@@ -219,3 +219,60 @@ def test_a_halted_run_is_no_failure(tmp_path, capsys) -> None:
     shown = capsys.readouterr().err
     assert "SENSOR with HALT ended the run" in shown
     assert "SENSOR/1 at t = " in shown
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_print_adds_an_output_each_time(method: str) -> None:
+    """sin(5 t) rises through 0.5 at (pi/6 + 2 n pi)/5."""
+    deck = f"""{FALLING}DIFF/1, IC=0, FUNCTION=5*DIF(2)
+DIFF/2, IC=1, FUNCTION=-5*DIF(1)
+SENSOR/1, PRINT, GE, VALUE=0.5, ERROR=0, FUNCTION=DIF(1)
+INTEGRATOR/{method}, ERROR=1E-8
+SIMULATE/DYNAMIC, END=3, STEPS=3
+END
+"""
+    results = simulate(read(deck))
+    crossings = (pi / 6 + 2 * pi * np.arange(3)) / 5
+    # The methods of order 2 are off by more than ERROR after three periods, NEWMARK as of order 1.
+    band = {"HHT": 1e-5, "NEWMARK": 1e-4}.get(method, 1e-6)
+    np.testing.assert_allclose(results.time, sorted([0, 1, 2, 3, *crossings]), atol=band)
+    assert results.meta["sensor passed"].endswith("and 2 times later")
+    np.testing.assert_allclose(results["DIFF/1"], np.sin(5 * results.time), atol=10 * band)
+
+
+def test_the_output_step_changes() -> None:
+    results = fall("SENSOR/1, DT=0.2, GE, VALUE=1.3, ERROR=0, FUNCTION=TIME")
+    expected = [0, 0.5, 1.0, 1.5, 1.7, 1.9, 2.0, 2.25, 2.5, 2.75, 3.0]
+    np.testing.assert_allclose(results.time, expected, atol=1e-12)
+    np.testing.assert_allclose(results["POINT_MASS/2.y"], -G * results.time**2 / 2, rtol=1e-7)
+
+
+@pytest.mark.parametrize("step", ["", ", STEPSIZE=1E-4"])
+def test_a_value_is_kept_while_the_analysis_continues(step: str) -> None:
+    """A thrust of twice the weight from y = -1 on, there at t1: y = -1 - v t + g t^2/2."""
+    deck = f"""{FALLING}SENSOR/1, EVALUATE=4*{G}\\, LE, VALUE=-1, ERROR=0, FUNCTION=DY(2,1){step}
+VFORCE/1, I=2, J_PART=1, FX=0\\FY=SENVAL(1)\\FZ=0
+INTEGRATOR/GSTIFF, ERROR=1E-8
+SIMULATE/DYNAMIC, END=1, STEPS=20
+END
+"""
+    results = simulate(read(deck))
+    first, t = sqrt(2 / G), results.time
+    late = np.maximum(t - first, 0.0)
+    expected = np.where(t < first, -G * t**2 / 2, -1 - sqrt(2 * G) * late + G * late**2 / 2)
+    np.testing.assert_allclose(results["POINT_MASS/2.y"], expected, atol=1e-6)
+    assert len(t) == 21
+
+
+def test_one_that_ends_and_one_that_continues() -> None:
+    results = fall(
+        "SENSOR/1, PRINT, GE, VALUE=0.3, ERROR=0, FUNCTION=TIME\n"
+        "SENSOR/2, HALT, GE, VALUE=0.7, ERROR=0, FUNCTION=TIME"
+    )
+    assert results.outcome is Outcome.HALTED
+    np.testing.assert_allclose(results.time, [0, 0.3, 0.5, 0.7], atol=1e-12)
+
+
+def test_one_that_is_true_from_the_start_acts_once() -> None:
+    results = fall("SENSOR/1, PRINT, GE, VALUE=-1, ERROR=0, FUNCTION=TIME")
+    assert results.time.tolist() == [0, 0.5, 1, 1.5, 2, 2.25, 2.5, 2.75, 3]

@@ -30,7 +30,7 @@ SOURCES = "\n".join(path.read_text() for path in PACKAGE.rglob("*.py"))
 POINTS = "x,y,z\n0,1,2\n1,2,3\n2,3,4\n3,4,5\n"
 NOT_SUPPORTED = {
     "planned-statement", "planned-argument", "planned-choice", "planned-function",
-    "discontinued-choice", "sensor-continues",
+    "discontinued-choice",
 }  # fmt: skip
 BOUND = {name: 0.0 for name in (*USUAL_NAMES.values(), "a::b")}
 """Routines of the user, without which a deck that calls them cannot be run."""

@@ -113,14 +113,19 @@ class Delays:
         self.longest = np.inf
 
     def spans(
-        self, kernels: Kernels, system: System, times: np.ndarray, error: float
+        self,
+        kernels: Kernels,
+        system: System,
+        times: np.ndarray,
+        wanted: np.ndarray,
+        error: float,
     ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Times of records, and which of them are requested; ask for the next span after a run
         over the last one.
         """
         calls = kernels.model.deck.delays
         if not calls:
-            yield times, np.ones(len(times), dtype=bool)
+            yield times, wanted
             return
         self.begin(kernels, float(times[0]))
         start = float(times[0])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from adamslite.analyses.sensors import EQUAL, require_changing, require_none
 from adamslite.equations.engine import ints
 from adamslite.equations.system import System
 from adamslite.integrators import contract
-from adamslite.language.method import FIXED, USUAL, Method, method_of
+from adamslite.language.method import FIXED, FIXED_BY_HINIT, USUAL, Method, method_of
 from adamslite.native.translate import Rows
 from adamslite.results.outcomes import Outcome
 
@@ -103,6 +103,11 @@ class Settings:
     def equal_steps(self, hmax: float) -> bool:
         """Whether the requested steps may not be shortened."""
         return self.formula.steps == FIXED or self.hinit == self.hmin == hmax
+
+    def starting_with(self, step: float | None) -> Settings:
+        """The same with a first step; HINIT of methods with equal steps is the size of all."""
+        equal = self.formula.steps in (FIXED, FIXED_BY_HINIT) or self.hinit is not None
+        return self if step is None or equal else replace(self, hinit=step)
 
     @property
     def interpolates(self) -> bool:

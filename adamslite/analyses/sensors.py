@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from adamslite.elements.sensor import Sensor
 from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
@@ -11,6 +12,8 @@ from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.language.interfaces import Key
 from adamslite.results.outcomes import Outcome
 
+# A sensor that has triggered does not do so again within this share of the longest step.
+ROUND_OFF = 1e-7
 CONSTANT = "its relation is always the same, because FUNCTION does not change"
 EQUAL = "a method with equal steps locates no event; use one with variable steps"
 AT_TIMES = "{kind} analyses of several times locate no event; use SIMULATE/DYNAMICS or DEACTIVATE"
@@ -45,32 +48,84 @@ def require_none(system: System, why: str) -> None:
 class SensorLog:
     """What sensors did in a session.
 
-    ``notes``: which of them ended an analysis, and when; ``values``: of EVALUATE, by key, of those
-    that ended the last one.
+    ``notes``: which of them ended an analysis, and when; ``acted``: how often others did, and when
+    first; ``values``: of EVALUATE, by key, of those that triggered last; ``asleep``: by key, until
+    when those that the analysis continued from are left out.
     """
 
     def __init__(self) -> None:
         self.notes: list[str] = []
+        self.acted: dict[str, tuple[int, float]] = {}
         self.values: dict[Key, float] = {}
+        self.asleep: dict[Key, float] = {}
+        self.continuing: list[Sensor] = []
 
     @property
     def meta(self) -> dict[str, str]:
         """The comment of the results."""
-        return {"sensor": "ended by " + "; ".join(self.notes)} if self.notes else {}
+        ended = {"sensor": "ended by " + "; ".join(self.notes)} if self.notes else {}
+        acted = "; ".join(
+            f"{label} at t = {first:.9g}" + (f" and {count - 1} times later" if count > 1 else "")
+            for label, (count, first) in self.acted.items()
+        )
+        return {**ended, **({"sensor passed": acted} if acted else {})}
 
-    def end(self, system: System, times: np.ndarray) -> tuple[Outcome, np.ndarray]:
+    def arm(self, system: System) -> None:
+        """Before a run: what has triggered and has not been false since sleeps."""
+        for row, (sensor, *_) in zip(system.sensors, system.numbering.sensors, strict=True):
+            row.asleep, row.quiet = sensor.key in self.asleep, self.asleep.get(sensor.key, 0.0)
+
+    def end(
+        self, system: System, times: np.ndarray, apart: float
+    ) -> tuple[Outcome, np.ndarray, bool]:
         """Write the record at the time at which sensors ended the run, instead of one at the same
-        time; the outcome, and the times (nt,) of all records.
+        time; the outcome, the times (nt,) of all records, and whether the last was requested.
+
+        ``apart``: the longest step of the run.
         """
         system.settings.t = time = float(system.report.t)
         if system.run(ACCELERATIONS) != contract.DONE:
-            return Outcome.UNDETERMINED, times
+            return Outcome.UNDETERMINED, times, True
         row = int(np.searchsorted(times[: system.count.records], time))
+        output = row < len(times) and times[row] == time
         system.run(RECORD, row)
         written = system.record.reshape(-1)[row * (system.nw + system.sizes.n_out) + system.nw :]
-        for sensor in system.triggered:
-            self.notes.append(f"{sensor.label} at t = {time:.9g}")
+        triggered, found = (
+            system.triggered,
+            zip(system.sensors, system.numbering.sensors, strict=True),
+        )
+        self.asleep = {
+            s.key: row.quiet for row, (s, *_) in found if row.asleep and s not in triggered
+        }
+        for sensor in triggered:
+            self._note(sensor, time)
+            if not sensor.ends_analysis:
+                self.asleep[sensor.key] = time + ROUND_OFF * apart
             if sensor.evaluate is not None:
                 self.values[sensor.key] = float(written[system.instances.outputs[sensor]])
-        halted = any(sensor.halt for sensor in system.triggered)
-        return Outcome.HALTED if halted else Outcome.DONE, np.append(times[:row], time)
+        halted, ended = (any(getattr(s, w) for s in triggered) for w in ("halt", "ends_analysis"))
+        self.continuing = [] if ended else triggered
+        wanted = output or ended or any(sensor.prints for sensor in triggered)
+        return Outcome.HALTED if halted else Outcome.DONE, np.append(times[:row], time), wanted
+
+    def _note(self, sensor: Sensor, time: float) -> None:
+        if sensor.ends_analysis:
+            self.notes.append(f"{sensor.label} at t = {time:.9g}")
+        else:
+            count, first = self.acted.get(sensor.label, (0, time))
+            self.acted[sensor.label] = count + 1, first
+
+    def rest(self, times: np.ndarray, time: float) -> np.ndarray:
+        """Output times after sensors that the analysis continues from; the first is its start."""
+        steps = [sensor.dt for sensor in self.continuing if sensor.dt is not None]
+        later, end = times[times > time], float(times[-1])
+        if steps and end > time:
+            count = int(np.ceil((end - time) / min(steps) * (1.0 - ROUND_OFF)))
+            later = np.append(time + min(steps) * np.arange(1, count), end)
+        return np.append(time, later)
+
+    @property
+    def first_step(self) -> float | None:
+        """The first step after them, where one is given."""
+        sizes = [sensor.stepsize for sensor in self.continuing if sensor.stepsize is not None]
+        return min(sizes, default=None)

@@ -158,9 +158,7 @@ class Session:
         for command in commands:
             if command.keyword == "STOP" or self.outcome is not Outcome.DONE:
                 return
-            if self.sensors.values:
-                self.change(self.deck.with_senvals(self.sensors.values))
-                self.sensors.values = {}
+            self._keep_senvals()
             action = getattr(self, f"_do_{command.keyword.lower()}", None)
             if action is not None:
                 action(command)
@@ -236,12 +234,35 @@ class Session:
         began = clock.process_time()
         engine(self.chosen.settings.formula.entry, self.progress)
         self.late_setup += clock.process_time() - began
-        apart = largest_step(times)
-        for span, wanted in self.delays.spans(self.kernels, system, times, self.settings.error):
+        self._run_over(times, np.ones(len(times), dtype=bool))
+        while self.sensors.continuing and self.time < times[-1]:
+            require_no_delay(self.kernels, "A SENSOR from which the analysis continues", NO_PAST)
+            times = self.sensors.rest(times, self.time)
+            self._after_sensors()
+            self._run_over(times, np.arange(len(times)) > 0)
+
+    def _run_over(self, times: np.ndarray, wanted: np.ndarray) -> None:
+        """Integrate over output times (nt,), of which those ``wanted`` were requested."""
+        system, apart, error = self.system, largest_step(times), self.settings.error
+        for span, kept in self.delays.spans(self.kernels, system, times, wanted, error):
+            self.sensors.arm(system)
             self.outcome = self._integrated(system, span, apart)
-            self._keep(system, self._sensed(system, span), False, wanted)
+            self._keep(system, *self._sensed(system, span, kept, apart))
             if self.outcome in STALLED and self._rank_changed(system):
-                self._continue(system, span, wanted, apart)
+                self._continue(system, span, kept, apart)
+
+    def _keep_senvals(self) -> None:
+        """SENVAL from now on, after sensors with EVALUATE have triggered."""
+        if self.sensors.values:
+            self.change(self.deck.with_senvals(self.sensors.values))
+            self.sensors.values = {}
+
+    def _after_sensors(self) -> None:
+        """What sensors change before the analysis continues: SENVAL, the first step."""
+        self._keep_senvals()
+        started = self.chosen.settings.starting_with(self.sensors.first_step)
+        self.chosen = replace(self.chosen, settings=started)
+        self.sensors.continuing = []
 
     def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
         settings = self.chosen.settings
@@ -277,14 +298,19 @@ class Session:
         rest, settings = np.append(self.time, times[later]), self.chosen.settings
         self.outcome = run_dynamic(system, rest, apart, settings, self.progress, self.audited)
         self._note_balance(system)
-        self._keep(system, self._sensed(system, rest), False, np.append(False, wanted[later]))
+        self._keep(system, *self._sensed(system, rest, np.append(False, wanted[later]), apart))
 
-    def _sensed(self, system: System, times: np.ndarray) -> np.ndarray:
-        """Times of the records of a run; where sensors have ended it, with one there at last."""
+    def _sensed(
+        self, system: System, times: np.ndarray, wanted: np.ndarray, apart: float
+    ) -> tuple[np.ndarray, bool, np.ndarray]:
+        """Times of the records of a run, that they are no equilibrium, and which were requested;
+        where sensors have ended the run, with one there at last.
+        """
         self.time = float(system.report.t)
         if self.outcome is Outcome.DONE and system.triggered:
-            self.outcome, times = self.sensors.end(system, times)
-        return times
+            self.outcome, times, last = self.sensors.end(system, times, apart)
+            wanted = np.append(wanted[: len(times) - 1], last)
+        return times, False, wanted
 
     def _statics(self, times: np.ndarray) -> None:
         system = self.system
@@ -389,9 +415,7 @@ class Session:
         made = system.count.records
         row = system.nw + system.sizes.n_out
         names, values = columns(system, system.record[: made * row].reshape(made, row))
-        kept = np.ones(made, dtype=bool)
-        if wanted is not None:
-            kept[: len(wanted)] = wanted[:made]
+        kept = np.ones(made, dtype=bool) if wanted is None else wanted[:made]
         piece = Piece(times[:made][kept], names, values[kept])
         self.history.append(piece, static, self.began_static)
         self.began_static = static

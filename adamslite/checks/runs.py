@@ -33,12 +33,13 @@ from adamslite.language.statement import STATEMENTS, Statement, expressions
 
 # What -0.333333333 is below -1/3.
 ROUNDED = 1e-9
-AS_ALWAYS = "the next SIMULATE starts as every SIMULATE does"
 IDLE_IN_SENSOR = {
     "bisection": "the time is located anyway",
-    "codgen": AS_ALWAYS,
-    "restart": AS_ALWAYS,
-    "stepsize": AS_ALWAYS,
+    "codgen": "every start analyses the matrix again",
+    "restart": "the integrator restarts anyway",
+}
+IDLE_AT_ITS_END = {
+    "stepsize": "the next SIMULATE starts as every SIMULATE does",
     "dt": "the next SIMULATE has output steps of its own",
 }
 TIMES = ("end", "duration", "dtout", "steps")
@@ -176,10 +177,17 @@ def sensors(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.of(Sensor):
         if each.error < 0:
             yield diagnose(each, "negative", "error", word="ERROR")
-        if not (each.halt or each.returns):
-            yield diagnose(each, "sensor-continues")
-        for field in filter(each.given, ("bisection", "codgen", "restart", "stepsize", "dt")):
-            yield _idle(each, field, field.upper(), IDLE_IN_SENSOR[field])
+        for field in ("stepsize", "dt"):
+            value = getattr(each, field)
+            if value is not None and value <= 0:
+                yield diagnose(each, "not-positive", field, word=field.upper())
+        idle = IDLE_IN_SENSOR | (IDLE_AT_ITS_END if each.ends_analysis else {})
+        for field in filter(each.given, idle):
+            yield _idle(each, field, field.upper(), idle[field])
+        if not (
+            each.ends_analysis or any(map(each.given, ("prints", "evaluate", "stepsize", "dt")))
+        ):
+            yield diagnose(each, "sensor-idle")
 
 
 def switched_elements(deck: Deck) -> Iterator[Diagnostic]:

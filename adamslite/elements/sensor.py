@@ -22,10 +22,13 @@ from adamslite.symbolic.types import Expr, Seen
 class Sensor(Statement):
     """Watches an expression during dynamic analyses.
 
-    The time at which the relation becomes true is located like the branch of an IF, and the last
-    output is written there.  RETURN hands over to the next command, HALT ends the run.  A relation
-    that is true at the start of a SIMULATE ends it there: DEACTIVATE the sensor before.  EQ is
-    also true where FUNCTION passes the whole window within a step, or jumps over it.
+    The time at which the relation becomes true is located like the branch of an IF.  RETURN hands
+    over to the next command, HALT ends the run, each with a last output there.  A relation that is
+    true at the start of a SIMULATE ends it there: DEACTIVATE the sensor before.  EQ is also true
+    where FUNCTION passes the whole window within a step, or jumps over it.
+
+    Without RETURN and HALT the analysis continues from there, the integrator with its first step.
+    Such a sensor acts once each time the relation becomes true.
     """
 
     function: Node = expression(
@@ -47,19 +50,24 @@ class Sensor(Statement):
     prints: bool = flag("PRINT", help="write an output at that time, as HALT and RETURN do")
     bisection: bool = flag("BISECTION", help="read, without effect: the time is located anyway")
     yydump: bool = flag("YYDUMP", inert=True, help="write the states to the message file of ADAMS")
-    codgen: bool = flag("CODGEN", help="read, without effect: the next SIMULATE starts as always")
-    restart: bool = flag("RESTART", help="read, without effect: the next SIMULATE starts as always")
+    codgen: bool = flag("CODGEN", help="read, without effect: every start does so")
+    restart: bool = flag("RESTART", help="read, without effect: the integrator restarts anyway")
     stepsize: float | None = number(
-        "STEPSIZE", unit="time", help="read, without effect: the next SIMULATE finds its first step"
+        "STEPSIZE", unit="time", help="the first step after it, where the analysis continues"
     )
     dt: float | None = number(
-        "DT", unit="time", help="read, without effect: the next SIMULATE has its own output steps"
+        "DT", unit="time", help="the output step after it, where the analysis continues"
     )
 
     @property
     def result_names(self) -> tuple[str, ...]:
         """evaluate: the present value of EVALUATE, of which SENVAL keeps the last."""
         return () if self.evaluate is None else ("evaluate",)
+
+    @property
+    def ends_analysis(self) -> bool:
+        """Whether the analysis ends with it."""
+        return self.halt or self.returns
 
     def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""

@@ -264,7 +264,8 @@ class Pace(Record):
 
 class SensorRow(Record):
     """A sensor: workspace offsets of the branches of its one or two relations, what they were (1
-    true, -1 false, 0 not known), whether it has triggered.
+    true, -1 false, 0 not known), whether it has triggered; whether it has before and has not been
+    false since (``asleep``), and the time up to which it does not do so again.
     """
 
     first: int
@@ -272,6 +273,8 @@ class SensorRow(Record):
     first_was: int
     second_was: int
     triggered: int
+    asleep: int
+    quiet: float
 
 
 class Undoing(Record):

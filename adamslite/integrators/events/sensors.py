@@ -3,7 +3,8 @@
 The relations of a sensor are guards like those of any IF; their changes are located, and the step
 ends there.  A sensor triggers when all of them are true at the start of a run, or when one becomes
 true while the others were; of EQ, a window |e - VALUE| <= ERROR with a relation for each border,
-that is the entry from below or above, however narrow the window is.
+that is the entry from below or above, however narrow the window is.  One after which the analysis
+continued sleeps until a relation has been false; round-off right after it triggered does not count.
 """
 
 from __future__ import annotations
@@ -28,8 +29,12 @@ def sense(P: Problem) -> None:
         second = 1 if P.W[P.sensors[k].second] > 0.0 else -1
         entered = first > 0 and P.sensors[k].first_was < 0
         entered = entered or (second > 0 and P.sensors[k].second_was < 0)
-        if entered or (first > 0 and second > 0):
+        entered = entered and P.W[0] > P.sensors[k].quiet
+        holds = first > 0 and second > 0
+        if entered or (holds and P.sensors[k].asleep == 0):
             P.sensors[k].triggered, P.settings.stop = 1, True
+        if not holds and P.W[0] > P.sensors[k].quiet:
+            P.sensors[k].asleep = 0
         P.sensors[k].first_was, P.sensors[k].second_was = first, second
 
 

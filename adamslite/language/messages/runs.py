@@ -30,11 +30,11 @@ RUNS: dict[str, Message] = {
          "SIMULATE/DYNAMICS, END=0, STEPS=9"),
         commands=("SIM/DYN, DURATION=2, STEPS=9\nSIM/STATICS\nSIM/DYN, END=2, STEPS=9",),
     ),
-    "sensor-continues": Message(
-        "{label} has neither HALT nor RETURN: a sensor that lets the analysis continue cannot be "
-        "run yet",
-        "add RETURN, and a second SIMULATE that continues from there",
-        ("SENSOR/1, FUNCTION=TIME\\, VALUE=1", "SENSOR/1, FUNCTION=TIME\\, VALUE=1, PRINT"),
+    "sensor-idle": Message(
+        "{label} does nothing when it triggers",
+        "give HALT, RETURN, PRINT, EVALUATE, DT or STEPSIZE",
+        ("SENSOR/1, FUNCTION=TIME\\, VALUE=1",),
+        severity=WARNING,
     ),
     "too-many-steps": Message(
         "SIMULATE requests {count:.3g} output steps; at most {most:.0e} are allowed",
