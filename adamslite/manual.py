@@ -273,7 +273,7 @@ def _value(each: Argument) -> str:
     if each.kind == "vectors":
         return f"{each.sizes[0]} to {each.sizes[1]} numbers, once or more"
     kinds = {
-        "reference": f"a {each.to}",
+        "reference": f"{'an' if each.to[:1] in 'AEIO' else 'a'} {each.to}",
         "references": f"several {each.to}",
         "words": f"{_listed(each.options)}, joined by `:`",
         "flag": "(no value)",
