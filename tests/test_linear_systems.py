@@ -270,3 +270,16 @@ def test_a_routine_that_is_missing_is_named() -> None:
     (found,) = failed.value.diagnostics
     assert found.code == "missing-routine" and "GSESUB" in found.message
     assert "GSE/1=number" in found.hint
+
+
+@pytest.mark.parametrize("method", sorted(set(methods()) - {"VERLET"}))
+def test_every_method_lifts_the_load(method: str) -> None:
+    """The winch of decks/pid-winch with its controller in the loop: ERROR in each step adds up."""
+    folder = find("decks") / "pid-winch"
+    reference = al.Results.load(folder / "pid-winch.reference.csv")
+    results = al.simulate(al.read(folder / "pid-winch.adm"), integrator=method, error=1e-6)
+    assert results.outcome is al.Outcome.DONE
+    rows = np.searchsorted(results.time, reference.time - 1e-9)
+    for name in ("PART/3.z", "VARIABLE/demand"):
+        allowed = 1e-6 * results.summary["steps"] * np.abs(reference[name]).max()
+        np.testing.assert_allclose(results[name][rows], reference[name], rtol=0, atol=allowed)
