@@ -93,6 +93,13 @@ DECKS: dict[str, tuple[int, str]] = {
         "MATRIX/1, ROWS=5, COLUMNS=3, VALUES=1,0,0, 0,1,0.1, -1,0,0, 0,-1,0, 1,0,0\n"
         "CURVE/1, CLOSED, MATRIX=1, CURVE_POINTS\nPTCV/1, I=40, CURVE=1, RM=1",
     ),
+    "CVCV": (
+        8,
+        "MATRIX/1, ROWS=5, COLUMNS=3, VALUES=0,0,0, 0.2,0.1,0, 0.4,0.3,0, 0.5,0.1,0, 0.7,0,0\n"
+        "MATRIX/2, ROWS=5, COLUMNS=3, VALUES=1,0,0, 0,1,0, -1,0,0, 0,-1,0, 1,0,0\n"
+        "CURVE/1, OPEN, MATRIX=1\nCURVE/2, CLOSED, MATRIX=2\n"
+        "CVCV/1, ICURVE=1, JCURVE=2, IRM=21, JRM=31",
+    ),
     "GCON": (1, "GCON/1, FUNCTION=DM(21,31)**2-DX(40,21,31)-1"),
     "GCON of a velocity": (1, "GCON/1, FUNCTION=VX(21,31,31)-WZ(21,1,21)"),
 }

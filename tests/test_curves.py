@@ -121,3 +121,65 @@ def test_the_function_goes_through_the_points(form: str) -> None:
         assert table[::5] == pytest.approx(points, abs=1e-12)
     around = found["VARIABLE/more"] - found["VARIABLE/y0"]
     assert (np.abs(around).max() < 1e-12) == (form == "CLOSED")
+
+
+def ring(n: int, radius: float, centre: tuple[float, float] = (0.0, 0.0)) -> str:
+    """The values of a circle."""
+    return ",".join(f"{v:.15g}" for v in (circle(n) * radius + [*centre, 0.0]).ravel())
+
+
+DISC = f"""{GROUND}ACCGRAV/JGRAV=-9.81
+MATRIX/1, ROWS=81, COLUMNS=3, VALUES={ring(80, 0.7)}
+MATRIX/2, ROWS=81, COLUMNS=3, VALUES={ring(80, 0.3, (0.1, -0.2))}
+CURVE/1, CLOSED, MATRIX=1
+CURVE/2, CLOSED, MATRIX=2
+PART/4, MASS=2, CM=4, IP=1,1,0.1, QG=0.6,-0.8,0, WZ=0.7
+MARKER/4, PART=4
+MARKER/5, PART=4, QP=-0.1,0.2,0
+JPRIM/1, INPLANE, I=4, J=1
+JPRIM/2, PARALLEL_AXES, I=4, J=1
+"""
+
+
+def test_a_disc_slides_below_another_one_as_a_pendulum() -> None:
+    """Centres 1 m apart: a pendulum of this length; nothing changes the disc's turning.
+
+    The curvature of the spline through 80 points is off by (2 pi/80)^2/12 = 5e-4 at most, its
+    normal by 1e-6, its radius by 1e-7.
+    """
+    text = f"{DISC}CVCV/1, ICURVE=2, JCURVE=1, IRM=5, JRM=1\nVARIABLE/1, FUNCTION=CVCV(1,0,1,0)\n"
+    found = done(text + "VARIABLE/2, FUNCTION=CVCV(1,0,8,0)\nEND\n", end=1.0, error=1e-8)
+    x, y = found["PART/4.x"], found["PART/4.y"]
+    assert np.hypot(x, y) == pytest.approx(1.0, abs=1e-6)
+    assert found["PART/4.wz"] == pytest.approx(0.7, abs=1e-5)
+    speed = 2 * 9.81 * (-0.8 - y)
+    assert found["PART/4.vx"] ** 2 + found["PART/4.vy"] ** 2 == pytest.approx(speed, abs=2e-5)
+    assert found["VARIABLE/1"] == pytest.approx(2 * (9.81 * -y + speed), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("more", "at"),
+    [
+        ("", (0.352416, 0.852416)),
+        (", IDISP=0.1,-0.5,0", (0.75, None)),
+        (", JDISP=0,-0.7,0", (None, 0.75)),
+    ],
+)
+def test_curves_start_where_they_are_closest_or_where_the_deck_has_it(
+    more: str, at: tuple[float | None, float | None]
+) -> None:
+    """The centre of the disc is at (0.6, -0.8): the contact is 53.13 degrees below the x axis."""
+    deck = al.read(f"{DISC}CVCV/1, ICURVE=2, JCURVE=1, IRM=5, JRM=1{more}\nEND\n")
+    starts = deck.find("CVCV", 1).derived(al.assemble(deck))["starts"]
+    for found, expected in zip(starts, at, strict=True):
+        assert expected is None or found == pytest.approx(expected, abs=1e-6)
+
+
+def test_a_point_starts_at_the_place_that_the_deck_gives() -> None:
+    """A bead drawn off a circle is put on its top, in the axes of a marker turned by 90 degrees."""
+    deck = bead(circle(60), "CLOSED", np.array([0.9, 0.3, 0.1]))
+    deck = deck.replace("RM=1\n", "RM=1, DISP=1,0,0, ICM=8\nMARKER/8, PART=1, REULER=90D,0,0\n")
+    found = done(deck.replace("VY=3", "VX=-3"), end=0.01)
+    start = [found[f"POINT_MASS/4.{axis}"][0] for axis in "xyz"]
+    assert start == pytest.approx([0.0, 1.0, 0.0], abs=1e-7)
+    assert found["POINT_MASS/4.vx"][0] == pytest.approx(-3.0, rel=1e-7)

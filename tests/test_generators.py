@@ -29,6 +29,7 @@ QUICK = (
     "arrays",
     "beam-cantilever",
     "beam-string",
+    "cam",
     "nforce",
     "bushing",
     "chrono",

@@ -179,7 +179,6 @@ def test_all_mistakes_are_told_at_once_and_in_order() -> None:
         ("VARIABLE/a, FUNCTION=1\nVARIABLE/1, FUNCTION=a(2)", "a is a VARIABLE"),
         ("CURVE/1, FUNCTION=USER(1)", "write points of the curve into a MATRIX"),
         ("CURVE/1, MINPAR=0", "write points of the curve into a MATRIX"),
-        ("CVCV/1, ICURVE=1, JCURVE=2", "curves that roll on each other cannot be run"),
         (f"BEAM/1, I=2, J=1, {SECTION}, FORMULATION=NONLINEAR", "a beam that bends far is a row"),
         ("VARIABLE/1, FUNCTION=2^3", "a power is written **"),
         ("VARIABLE/1, FUNCTION=TIME > 1", "IF(x: a, b, c)"),

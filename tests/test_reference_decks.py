@@ -17,6 +17,7 @@ FOLDERS = (
     "bushing",
     "cable-level3-n10",
     "cables/axial-echo",
+    "cam",
     "car-axis",
     "chrono",
     "conical-pendulum",

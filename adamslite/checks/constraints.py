@@ -12,6 +12,7 @@ from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.coupler import Coupler
 from adamslite.elements.curve import Curve
+from adamslite.elements.cvcv import Cvcv
 from adamslite.elements.gcon import Gcon
 from adamslite.elements.gear import Gear
 from adamslite.elements.joint import Joint
@@ -55,7 +56,8 @@ def _turns(deck: Deck, owner: tuple[str, Key] | None) -> bool:
 
 
 def pairs(deck: Deck) -> Iterator[Diagnostic]:
-    found: list[Jprim | Motion | Ptcv] = [*deck.of(Jprim), *deck.of(Motion), *deck.of(Ptcv)]
+    found: list[Jprim | Motion | Ptcv | Cvcv]
+    found = [*deck.of(Jprim), *deck.of(Motion), *deck.of(Ptcv), *deck.of(Cvcv)]
     for each in found:
         here, there = _owner(deck, each.i), _owner(deck, each.j)
         if here and here == there:
@@ -66,10 +68,12 @@ def pairs(deck: Deck) -> Iterator[Diagnostic]:
             yield diagnose(each, "torque-on-point", owner=f"{points[0][0]}/{points[0][1]}")
 
 
-def _holds_turns(element: Jprim | Motion | Ptcv) -> bool:
+def _holds_turns(element: Jprim | Motion | Ptcv | Cvcv) -> bool:
     """Whether its rows hold rotations: one of its markers has to be on a body that turns."""
     if isinstance(element, Jprim):
         return element.kind in TURNING
+    if isinstance(element, Cvcv):
+        return True
     return isinstance(element, Motion) and (element.axis or "")[:1] == "B"
 
 
@@ -267,13 +271,32 @@ def _points(curve: Curve, matrix: Matrix) -> Iterator[Diagnostic]:
 
 
 def floating_markers(deck: Deck) -> Iterator[Diagnostic]:
-    for each in deck.of(Ptcv):
-        floats, lies = _owner(deck, each.jfloat), _owner(deck, each.j)
-        if floats and lies and floats != lies:
-            owner = f"{floats[0]}/{floats[1]}"
-            yield diagnose(
-                each, "foreign-marker", "jfloat", word="JFLOAT", key=each.jfloat, owner=owner
-            )
+    for on_curve in deck.of(Ptcv):
+        yield from _floats(deck, on_curve, "jfloat", on_curve.j)
+    for rolling in deck.of(Cvcv):
+        yield from _floats(deck, rolling, "ifloat", rolling.i)
+        yield from _floats(deck, rolling, "jfloat", rolling.j)
+
+
+def _floats(deck: Deck, each: Statement, field: str, base: Key) -> Iterator[Diagnostic]:
+    """Whether a floating marker is on the part of the marker that a curve is fixed to."""
+    key = getattr(each, field)
+    floats, lies = _owner(deck, key), _owner(deck, base)
+    if floats and lies and floats != lies:
+        owner = f"{floats[0]}/{floats[1]}"
+        yield diagnose(each, "foreign-marker", field, word=field.upper(), key=key, owner=owner)
+
+
+def plane_curves(deck: Deck) -> Iterator[Diagnostic]:
+    """A CVCV rolls plane curves on each other."""
+    for each in deck.of(Cvcv):
+        for field in ("icurve", "jcurve"):
+            curve = deck.find(Curve, getattr(each, field))
+            if curve is None or curve.matrix is None:
+                continue
+            matrix = deck.find(Matrix, curve.matrix)
+            if matrix and matrix.complete and any(any(row[2:3]) for row in matrix.table):
+                yield diagnose(each, "curve-not-plane", field, curve=curve.label)
 
 
 @needs("VARIABLE")
@@ -293,6 +316,7 @@ CONSTRAINT_RULES: list[Rule] = [
     measured_markers,
     curves,
     floating_markers,
+    plane_curves,
     pairs,
     joint_sizes,
     couplers,

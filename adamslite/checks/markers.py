@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from adamslite.checks.rule import needs
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
+from adamslite.elements.cvcv import Cvcv
 from adamslite.elements.gforce import Gforce
 from adamslite.elements.marker import Marker
 from adamslite.elements.ptcv import Ptcv
@@ -110,14 +111,15 @@ def floating_use(deck: Deck) -> Iterator[Diagnostic]:
                 yield diagnose(force, "not-floating", "jfloat", key=force.jfloat)
     for statement in deck.statements if floating else ():
         for field, key in _uses(statement) if not statement.inert else ():
-            if key in floating and field != "jfloat":
+            if key in floating and field not in ("ifloat", "jfloat"):
                 word = statement.arguments[field].key
                 yield diagnose_inside(statement, key, "floating-misused", field, word=word, key=key)
 
 
 @needs("VFORCE", "VTORQUE", "GFORCE", "PTCV", "CVCV")
 def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
-    used = {each.jfloat for each in (*_following(deck), *deck.of(Ptcv))}
+    used = {each.jfloat for each in (*_following(deck), *deck.of(Ptcv), *deck.of(Cvcv))}
+    used |= {each.ifloat for each in deck.of(Cvcv)}
     idle = [each for each in deck.of(Marker) if each.floating and each.key not in used]
     if idle:
         listed = ", ".join(each.label for each in idle[:MOST_LISTED])

@@ -6,7 +6,8 @@ Equation (``d = r_I - r_RM``, c the curve in the axes of RM, s its parameter, an
 
 The path p is the x coordinate of a massless point of its own (``POINT_MASS/PTCV_id``, y and z kept
 at zero), so that it has a velocity and an acceleration like any coordinate.  Its equation of motion
-says that the reaction has no component along the curve.  s0 is the point nearest to I in the deck.
+says that the reaction has no component along the curve.  s0 is the point nearest to I in the deck,
+or nearest to DISP, from which the posture is then closed.
 
 Sign: the reaction reported acts on I; at the other end (jflag 1) the force acts on the part of RM,
 torque about RM's origin::
@@ -18,16 +19,16 @@ torque about RM's origin::
 from __future__ import annotations
 
 from adamslite.elements.bases.constraint import Constraint
+from adamslite.elements.bases.curve_point import carrier_name, carriers, parameter, point
 from adamslite.elements.bases.joint_coordinates import pose
 from adamslite.language.expression import Ref
 from adamslite.language.interfaces import DrawnModel, Lookup
-from adamslite.language.statement import STATEMENTS, Statement, reference, statement
-from adamslite.symbolic.scope import ORIGIN, Scope, along_axes, minus
-from adamslite.symbolic.sympy_nodes import floor, lookup
+from adamslite.language.statement import Statement, reference, statement, vector
+from adamslite.symbolic.scope import Scope, along_axes, minus
 from adamslite.symbolic.types import Expr, Seen
 
 
-@statement("PTCV", planned=("DISPLACEMENT", "VELOCITY", "IC"))
+@statement("PTCV", planned=("VELOCITY",))
 class Ptcv(Constraint, Statement):
     """Keeps marker I on a CURVE that is fixed to marker RM, without friction."""
 
@@ -37,6 +38,13 @@ class Ptcv(Constraint, Statement):
     )
     curve: int | str = reference("CURVE", to="CURVE", required=True, help="the curve")
     j: int | str = reference("RM", to="MARKER", required=True, help="marker the curve is fixed to")
+    disp: tuple[float, ...] | None = vector(
+        "DISPLACEMENT", size=3, unit="length", start=True,
+        help="point of the curve at the start, or near it, in the axes of ICM",
+    )  # fmt: skip
+    icm: int | str | None = reference(
+        "ICM", to="MARKER", start=True, help="marker that DISPLACEMENT refers to; RM unless given"
+    )
 
     @property
     def n_rows(self) -> int:
@@ -52,13 +60,11 @@ class Ptcv(Constraint, Statement):
     @property
     def slider(self) -> str:
         """Name of the massless point that carries the parameter."""
-        return f"PTCV_{self.key}"
+        return carrier_name(self)
 
     def companions(self, deck: Lookup) -> tuple[Statement, ...]:
         """The massless point and a marker on it."""
-        point = STATEMENTS["POINT_MASS"](id=self.slider, mass=0.0, spans=self.spans)
-        marker = STATEMENTS["MARKER"](id=self.slider, point_mass=point.key, spans=self.spans)
-        return (point, marker)
+        return carriers(self.slider, self, kept=self.disp is not None)
 
     def derived(self, model: DrawnModel) -> dict[str, object]:
         """The parameter of the drawn posture, and what carries it."""
@@ -66,16 +72,16 @@ class Ptcv(Constraint, Statement):
         return {"path": Ref("MARKER", self.slider.upper()), "start": start}
 
     def _nearest(self, model: DrawnModel) -> float:
-        """Parameter of the curve's point that is nearest to I."""
-        (r, _), (origin, axes) = pose(model, self.i), pose(model, self.j)
+        """Parameter of the curve's point that is nearest to I, or to DISP."""
+        r, _ = pose(model, self.i)
+        if self.disp is not None:
+            origin, axes = pose(model, self.j if self.icm is None else self.icm)
+            r = origin + axes @ self.disp
+        origin, axes = pose(model, self.j)
         return model.element("CURVE", self.curve).spline(model).nearest((r - origin) @ axes)
 
     def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """Rows that vanish."""
-        p, *unused = scope.position(self.path, ORIGIN)
-        s = self.start + p / self.curve.length
-        if self.curve.closed:
-            s = s - floor(s)
-        point = tuple(lookup(self.curve.table, s, component) for component in range(3))
-        placed = along_axes(scope.axes(self.j), point)
+        s, unused = parameter(scope, self.path, self.start, self.curve)
+        placed = along_axes(scope.axes(self.j), point(self.curve, s))
         return [*minus(scope.position(self.i, self.j), placed), *unused]

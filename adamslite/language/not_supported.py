@@ -4,15 +4,11 @@ They exist, so they are reported as "not supported yet" and not as "unknown".  A
 registered elsewhere is supported, whether or not it still stands here.
 """
 
-STATEMENTS = frozenset(
-    """CVCV
-    LSSMATRIX PFORCE
-    SYSVAR UCON""".split()
-)
+STATEMENTS = frozenset("""LSSMATRIX PFORCE SYSVAR UCON""".split())
 
 COMMANDS = frozenset("CONTROL".split())
 
-FUNCTIONS = frozenset("""AO CVCV HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
+FUNCTIONS = frozenset("""AO HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
 
 _MATRICES = "LINEAR/STATEMAT writes A, B, C and D of the same linear model"
 _TABULATE = "write points of the curve into a MATRIX: CURVE/id, MATRIX=id, CURVE_POINTS"
@@ -51,7 +47,6 @@ INSTEAD = {
     "CURVE MAXPAR": _TABULATE,
     "CURVE MINPAR": _TABULATE,
     "CURVE ROUTINE": _TABULATE,
-    "CVCV": "curves that roll on each other cannot be run; PTCV holds a point on one curve",
     "FIELD NONLINEAR": "write a GFORCE with FUNCTION=USER(...), which --user binds",
     "FIELD FUNCTION": "write a GFORCE with that FUNCTION=USER(...), which --user binds",
     "FIELD ROUTINE": "write a GFORCE with that ROUTINE, which --user binds",
@@ -69,8 +64,6 @@ INSTEAD = {
     "LINEAR MKB": _MATRICES,
     "LINEAR NASTRAN": _MATRICES,
     "MATRIX NAME": "a table .csv holds one matrix: name the file, MATRIX/id, FILE=name.csv",
-    "PTCV DISPLACEMENT": "the curve touches where the deck has it closest to I: move I there",
-    "PTCV IC": "the curve touches where the deck has it closest to I: move I there",
     "PTCV VELOCITY": "give the velocity to the bodies: PART/id, VX=, VY=, VZ=",
     "SAVE AUTOSAVE": "write SAVE between several SIMULATEs",
     "SPLINE ROUTINE": "write X and Y, or FILE= with a table .csv",

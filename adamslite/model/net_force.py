@@ -81,8 +81,10 @@ def ends(deck: Deck, element: Statement) -> tuple[Key | None, Key | None]:
     joint = getattr(element, "joint", None)
     if joint is not None:
         return ends(deck, deck.get(Joint, joint))
-    i, j = getattr(element, "i", None), getattr(element, "jfloat", None)
-    return i, j if j is not None else getattr(element, "j", None)
+    floating = getattr(element, "ifloat", None), getattr(element, "jfloat", None)
+    fixed = getattr(element, "i", None), getattr(element, "j", None)
+    i, j = (f if f is not None else m for f, m in zip(floating, fixed, strict=True))
+    return i, j
 
 
 def _flags(model: WithDeck, element: Statement, i: Key, j: Key) -> list[int]:

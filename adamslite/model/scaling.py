@@ -34,10 +34,11 @@ def rotation_weights(model: Model) -> np.ndarray:
     return 1.0 / square
 
 
-def coordinate_weights(model: Model) -> np.ndarray:
+def coordinate_weights(model: Model, speeds: bool = False) -> np.ndarray:
     """(n, 6) weights w of place and rotation of each body in sum w^2 (change)^2.
 
     That of a rotation is the part's radius of gyration, that of an EXACT coordinate ``EXACT``.
+    ``speeds``: of changes of velocities, which what has no mass does not resist in any case.
     """
     table = np.ones((len(model.bodies), 6))
     for w, body, rotation in zip(table, model.bodies, rotation_weights(model), strict=True):
@@ -45,10 +46,11 @@ def coordinate_weights(model: Model) -> np.ndarray:
             w[3:] = rotation**-0.5
         if body.mass == 0.0:
             w *= MASSLESS
-        exact = body.statement.exact
+        exact = () if speeds and body.mass == 0.0 else body.statement.exact
+        kept = EXACT if body.mass else EXACT / MASSLESS
         for c, words in enumerate((("X",), ("Y",), ("Z",), ("PSI", "THETA", "PHI"))):
             if any(word in exact for word in words):
-                w[c if c < 3 else slice(3, 6)] *= EXACT
+                w[c if c < 3 else slice(3, 6)] *= kept
     return table
 
 

@@ -132,7 +132,7 @@ def _velocities(system: System, free: Iterable[Constraint]) -> Unclosed | None:
         if not (np.isfinite(defect).all() and np.isfinite(gradient).all()):
             defect = defect + 0.0 * gradient.sum(axis=1)
             break
-        system.u[: system.n] -= _least_change(system, gradient, defect)
+        system.u[: system.n] -= _least_change(system, gradient, defect, speeds=True)
         defect = _residual(system, SPEEDS)[rows]
     size = max(1.0, float(np.abs(system.u).max()))
     return _unclosed(system, defect, kept, OPEN_SPEED * size, "velocity")
@@ -203,9 +203,11 @@ def _gradient(system: System, phases: int, kind: int, rows: np.ndarray) -> np.nd
     return system.dense_jacobian()[rows, : system.n]
 
 
-def _least_change(system: System, gradient: np.ndarray, defect: np.ndarray) -> np.ndarray:
+def _least_change(
+    system: System, gradient: np.ndarray, defect: np.ndarray, speeds: bool = False
+) -> np.ndarray:
     """Smallest weighted step that removes the defect to first order (redundant rows are shared)."""
-    scale = 1.0 / weights(system)
+    scale = 1.0 / weights(system, speeds)
     step, *_ = np.linalg.lstsq(gradient * scale, defect, rcond=RANK)
     return scale * step
 
@@ -222,10 +224,10 @@ def velocity_rows(system: System) -> np.ndarray:
     return np.concatenate([np.arange(first, first + system.holonomic), rates])
 
 
-def weights(system: System) -> np.ndarray:
-    """(n,) weights of the coordinates."""
+def weights(system: System, speeds: bool = False) -> np.ndarray:
+    """(n,) weights of the coordinates, or of their velocities."""
     model = system.model
-    table = model.once("coordinate weights", lambda: coordinate_weights(model))
+    table = model.once(("weights", speeds), lambda: coordinate_weights(model, speeds))
     w = np.ones(system.n)
     for b, body in enumerate(model.bodies):
         w[system.starts[b] : system.starts[b] + body.width] = table[b, : body.width]

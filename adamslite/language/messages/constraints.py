@@ -59,6 +59,16 @@ CONSTRAINTS: dict[str, Message] = {
             "MATRIX/1, SPARSE, ROWS=2, COLUMNS=3, VALUES=1,2,3,4",
         ),
     ),
+    "curve-not-plane": Message(
+        "{label} cannot roll {curve}, which is not plane",
+        "z of its points, the third column of its MATRIX, is zero for a CVCV",
+        (
+            "MATRIX/1, ROWS=3, COLUMNS=3, VALUES=0,0,0,1,0,0.1,2,1,0\n"
+            "MATRIX/2, ROWS=2, COLUMNS=3, VALUES=0,0,0,1,0,0\n"
+            "CURVE/1, MATRIX=1\nCURVE/2, MATRIX=2\n"
+            "CVCV/1, ICURVE=1, JCURVE=2, IRM=2, JRM=1",
+        ),
+    ),
     "matrix-place": Message(
         "{label} has a value at {place}",
         "a row and a column of it are whole numbers from 1 to ROWS and to COLUMNS",

@@ -63,7 +63,7 @@ STATEMENTS: dict[str, Message] = {
     "planned-statement": Message(
         "not supported yet: {word}{times}",
         "the statement exists in ADAMS; this program cannot run it",
-        ("LSSMATRIX/1", "CVCV/1\nCVCV/2, ICURVE=3"),
+        ("LSSMATRIX/1", "SYSVAR/1\nSYSVAR/2"),
     ),
     "command-in-deck": Message(
         "{word} is a command and does not belong in a deck",
