@@ -198,7 +198,12 @@ class SampleScope:
             **{name: self.symbol(f"{name}_{id}", value) for name, value in values.items()},
             **tables, pieces=len(KINDS), family=None, table=1, closed=None,
             origin=1, points=[self._point(id)],
+            cls=SimpleNamespace(values=lambda view, scope: self._values(id)),
         )  # fmt: skip
+
+    def _values(self, id) -> list:
+        """What FRICTION lists of a friction element."""
+        return [self.symbol(f"listed_{id}_{n}", f"0.{n + 1}") for n in range(20)]
 
     def _point(self, id) -> SimpleNamespace:
         """A point of contact: between frames 0 and 2."""

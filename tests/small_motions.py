@@ -74,7 +74,8 @@ class Flow:
         system.z[first : first + system.ns] += change[2 * n :]
         assert initial_conditions(system) is None
         before = self._state()
-        outcome = run_dynamic(system, np.array([t, t + time]), self.settings, lambda *_: None)
+        times = np.array([t, t + time])
+        outcome = run_dynamic(system, times, time, self.settings, lambda *_: None)
         assert outcome is Outcome.DONE
         return before, self._state()
 
