@@ -14,6 +14,7 @@ from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.outputs.saved_files import SavedFiles
 from adamslite.reading.read import read, read_commands
+from adamslite.resources import find
 from adamslite.results.results import Results
 
 FALL = """a mass that falls with 9.81 m/s2 from rest
@@ -360,3 +361,26 @@ def test_a_table_takes_no_other_file(chain: Callable[[str], int]) -> None:
     plain = "LINEAR/STATEMAT, FILE=pa"
     assert chain(f"LINEAR/STATEMAT, FILE=p, FORMAT=MATLAB\n{plain}") == 3
     assert chain("LINEAR/STATEMAT, FILE=o.c, FORMAT=MATLAB") == 0
+
+
+@pytest.mark.parametrize(
+    "deck",
+    [
+        "slider-crank/driven.adm",
+        "friction-stiction/friction-stiction.adm",
+        "arrays/arrays.adm",
+    ],
+)
+def test_decks_go_on_from_states_to_the_same_bits(deck: str, tmp_path: Path) -> None:
+    """Motions of time in a plane, creep, states: the first hundredth of a second."""
+    text = (find("decks") / deck).read_text()
+    first, between, second = (f"SIM/DYN, END={t}, STEPS=2" for t in (0.005, 0.0075, 0.01))
+    plain = run(text, f"{first}\n{second}")
+    kept = "SAVE/STATES, BUFFER=a\nSAVE/SYSTEM, FILE=a"
+    files = SavedFiles(tmp_path)
+    states = run(
+        text, f"{first}\n{kept}\n{between}\nRELOAD/STATES, BUFFER=a\n{second}", files=files
+    )
+    other = run(text, f"RELOAD/SYSTEM, FILE=a\n{second}", files=SavedFiles(tmp_path))
+    assert np.array_equal(states.values[-2:], plain.values[-2:])
+    assert np.array_equal(other.values[-2:], plain.values[-2:])

@@ -202,6 +202,7 @@ class Session:
 
     def _do_simulate(self, command: Simulate) -> None:
         self.system.elimination.unfold()
+        self.system.settings.t = self.time
         times = output_times(command, self.time)
         kind = command.kind
         if kind == "TRANSIENT":
