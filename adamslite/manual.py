@@ -252,6 +252,14 @@ def table(head: Row, rows: Iterable[Row]) -> str:
     )
 
 
+def argument(each: Argument) -> str:
+    """One argument by itself."""
+    key, value, unit, default, meaning = _argument_row(each)
+    omitted = default if each.required else default and f"default {default}"
+    facts = [value, unit and f"in {unit}", omitted]
+    return f"{key}: {meaning}\n\n{'; '.join(filter(None, facts))}\n"
+
+
 def _argument_row(each: Argument) -> Row:
     key = "(a word)" if each.bare else f"`{each.key}`"
     aliases = f" ({_listed(each.keys[1:])})" if each.keys[1:] else ""

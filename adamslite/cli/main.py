@@ -9,6 +9,7 @@
     adamslite cable  SPEC.toml              write the deck of a cable scene from a short description
     adamslite cache  [--clear]              what is kept between runs
     adamslite fmt    FILE ...               put decks and command files into the canonical layout
+    adamslite lsp                           serve editors (Language Server Protocol)
     adamslite help   [NAME]                 what a statement, a function or a message means
 
 Exit codes: 0 done or equal, 1 outside tolerance or not in the canonical layout, 2 usage,
@@ -33,6 +34,7 @@ from adamslite.cli.commands import (
     fmt,
     help,
     linear,
+    lsp,
     solve,
     verify,
 )
@@ -60,7 +62,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return args.run(args)
     try:
         code = args.run(args)
-        sys.stdout.flush()  # a reader that has gone is noticed here, not while the process ends
+        if not sys.stdout.closed:  # by a server that has served
+            sys.stdout.flush()  # a reader that has gone is noticed here, not while the process ends
         return code
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -85,7 +88,7 @@ def _parser() -> argparse.ArgumentParser:
         "--debug", action="store_true", help="show the traceback of a program fault"
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for module in (check, solve, diff, verify, linear, chart, cable, cache, fmt, help):
+    for module in (check, solve, diff, verify, linear, chart, cable, cache, fmt, lsp, help):
         name = module.__name__.rpartition(".")[2]
         summary = (module.__doc__ or "").partition("\n")[0]
         command = commands.add_parser(

@@ -51,6 +51,9 @@ class Names:
         found = self.views.get(kind, {}).get(word, []) if isinstance(word, str) else []
         return found[0] if len(found) == 1 else found or None
 
+    def used(self, kind: str, key: Key, start: int, end: int) -> None:
+        """Told of each place that refers to a statement; an index of places may be made of it."""
+
     def known(self, kind: str) -> list[str]:
         """Everything that may be written for a statement of this kind."""
         return [*map(str, self.ids.get(kind, ())), *self.views.get(kind, ())]

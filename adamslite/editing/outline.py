@@ -5,7 +5,7 @@ Two texts with the same outline are read alike.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ from adamslite.language.statement import Argument, Statement
 from adamslite.reading.argument_grouping import Grouping
 from adamslite.reading.statement_reader import Reading, known_keywords
 from adamslite.syntax.forms import Item
-from adamslite.syntax.lines import join
+from adamslite.syntax.lines import Logical, join
 from adamslite.syntax.syntax_errors import Syntax, statement_syntax
 from adamslite.syntax.tokens import Lexeme, end_of, scan
 
@@ -112,21 +112,31 @@ def head_end(text: str, place: str) -> int:
 
 def outline(text: str, place: str) -> Iterator[Written]:
     """The statements of a deck or of a command file, up to the END."""
+    yield from statements(text, head_end(text, place), len(text), place)
+
+
+def statements(text: str, start: int, end: int, place: str) -> Iterator[Written]:
+    """The statements in a stretch of a text, up to the END."""
     table = known_keywords(place)
-    stretches = scan(text, head_end(text, place))
-    for logical in join(stretches, ampersand=place == "command"):
-        written = Written(logical.tokens, logical.name, source=text)
-        syntax, mistakes = statement_syntax(logical)
-        if syntax and not mistakes:
-            found = match(PREFERRED.get(syntax.keyword, syntax.keyword), table)
-            if isinstance(found, type):
-                written.cls = found
-                written.given = _given(found, syntax, text)
-                if len(logical.tokens) == 1:
-                    written.given = [] if found.ends else None
+    for logical in join(scan(text[:end], start), ampersand=place == "command"):
+        written = _written(logical, text, table)
         yield written
         if written.cls and written.cls.ends:
             return
+
+
+def _written(logical: Logical, text: str, table: Mapping[str, type[Statement] | str]) -> Written:
+    written = Written(logical.tokens, logical.name, source=text)
+    syntax, mistakes = statement_syntax(logical)
+    keyword = spelled(logical.tokens[0][1]).upper()
+    found = match(PREFERRED.get(keyword, keyword), table)
+    if isinstance(found, type):
+        written.cls = found
+        if len(logical.tokens) == 1:
+            written.given = [] if found.ends else None
+        elif syntax and not mistakes:
+            written.given = _given(found, syntax, text)
+    return written
 
 
 def _given(cls: type[Statement], syntax: Syntax, text: str) -> list[Given] | None:

@@ -258,6 +258,8 @@ class ValueReader:
         if found is None:
             self.log.missing(self.names, kind, key, tokens[0][2], end_of(tokens[-1]))
             raise Refused
+        inner = unwrapped(tokens)
+        self.names.used(kind, found, inner[0][2], end_of(inner[-1]))
         return found
 
     def components(self, argument: Argument, values: list[list[Lexeme]]) -> tuple[Node, ...]:

@@ -59,7 +59,11 @@ def read(source: str | Path, user: Mapping[str, Given] | Iterable[str] | None = 
 
     given = bindings(user)
     text, path = _load(source)
-    reading = Reading(Source(text, str(path or "<text>")), Names(), "deck")
+    return read_by(Reading(Source(text, str(path or "<text>")), Names(), "deck"), path, given)
+
+
+def read_by(reading: Reading, path: Path | None, given: Bindings) -> Deck:
+    """The deck that a reading yields; parameters and errors as for :func:`read`."""
     title, start = reading.title()
     with without_collection():
         read = reading.statements(start)

@@ -196,6 +196,7 @@ class Resolver:
         if isinstance(found, list):
             self._ambiguous("VARIABLE", at, found)
         if found is not None:
+            self._used("VARIABLE", found, at)
             return Call("VARVAL", (Ref("VARIABLE", found),))
         if word in self.constants:
             return Num(self.constants[word], word)
@@ -336,7 +337,12 @@ class Resolver:
         if found is None:
             self.log.missing(self.names, kind, key, self.tokens[at][2], end_of(self.tokens[at]))
             raise Unresolved
+        self._used(kind, found, at)
         return found
+
+    def _used(self, kind: str, key: Key, at: int) -> None:
+        token = self.tokens[at]
+        self.names.used(kind, key, token[2], end_of(token))
 
     def _derivative(self, function: Function, tree: Tree) -> Node:
         """``VARVAL(d(x)/dt)``: the VARIABLE of that very name, else the rate of VARIABLE x."""

@@ -7,6 +7,7 @@ reads arguments and expressions.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import adamslite.elements  # noqa: F401  registers the statements
@@ -25,7 +26,7 @@ from adamslite.reading.argument_grouping import read_arguments
 from adamslite.reading.argument_values import ValueReader, to_id
 from adamslite.reading.resolver import Resolver
 from adamslite.syntax.lines import join
-from adamslite.syntax.syntax_errors import Syntax, statement_syntax
+from adamslite.syntax.syntax_errors import Faults, Syntax, statement_syntax
 from adamslite.syntax.tokens import end_of, scan
 
 Body = tuple[str, Key | None]
@@ -72,7 +73,7 @@ def known_keywords(place: str) -> dict[str, type[Statement] | str]:
     return {name: name for name in planned} | here
 
 
-def _gives_values(cls: type[Statement]) -> bool:
+def gives_values(cls: type[Statement]) -> bool:
     """Whether expressions take values of such a statement when they are read."""
     own = cls.constants, cls.numbered
     return own != (Statement.constants, Statement.numbered)
@@ -160,9 +161,7 @@ class Reading:
 
     def statements(self, start: int) -> tuple[Command, ...]:
         """All statements from offset ``start`` on; those with mistakes are left out."""
-        text = self.log.source.text
-        for logical in join(scan(text, start), ampersand=self.place == "command"):
-            syntax, found = statement_syntax(logical)
+        for syntax, found in self._syntax(start):
             cls = self._class(syntax) if syntax else None
             for mistake, tokens in found if not (cls and cls.ignored) else ():
                 first, last = tokens[mistake.first], tokens[mistake.last]
@@ -176,6 +175,11 @@ class Reading:
         for keyword, syntax in self._guesses:
             self._remember(keyword, syntax)
         return self._second_pass()
+
+    def _syntax(self, start: int) -> Iterator[tuple[Syntax | None, Faults]]:
+        """The syntax of each statement and the mistakes in it."""
+        tokens = scan(self.log.source.text, start)
+        return map(statement_syntax, join(tokens, ampersand=self.place == "command"))
 
     def _without_list(self, syntax: Syntax) -> Syntax:
         """A command without the word LIST, which is passed over as if it were one of its own."""
@@ -284,6 +288,10 @@ class Reading:
             labels = ", ".join(f"{cls.keyword}/{key}" for key in found[:5])
             self.log.add("ambiguous-name", *place, word=id, labels=labels)
         elif found is not None:
+            if not cls.singleton:
+                first = syntax.items[0]
+                place = tokens[first.start][2], end_of(tokens[first.end - 1])
+                self.names.used(cls.keyword, found, *place)
             self.entries.append(Entry(cls, syntax, found, None, changes=True))
         elif self.deck and cls.keyword not in self.deck.incomplete:
             end = end_of(tokens[syntax.items[0].end - 1])
@@ -311,9 +319,9 @@ class Reading:
         reader = ValueReader(self.names, resolver, self.log, self._ground)
         made: dict[int, Command | None] = {}
         for number, entry in enumerate(self.entries):
-            if _gives_values(entry.cls):
+            if gives_values(entry.cls):
                 made[number] = self._statement(entry, reader)
-        for giver in filter(_gives_values, STATEMENTS.values()):
+        for giver in filter(gives_values, STATEMENTS.values()):
             known = self.deck.of(giver) if self.deck else []
             given = [each for each in made.values() if type(each) is giver]
             for each in (giver(), *known, *given) if giver.singleton else (*known, *given):

@@ -6,7 +6,7 @@ the others.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from adamslite.language.spelling import spelled
 from adamslite.syntax.forms import Fault, Item, statement_form
@@ -54,13 +54,17 @@ class Syntax(NamedTuple):
         return self.tokens[0][2], end_of(self.tokens[-1])
 
 
-def statement_syntax(logical: Logical) -> tuple[Syntax | None, list[tuple[Mistake, list[Lexeme]]]]:
+Faults: TypeAlias = list[tuple[Mistake, list[Lexeme]]]
+"""Mistakes, each with the tokens it counts."""
+
+
+def statement_syntax(logical: Logical) -> tuple[Syntax | None, Faults]:
     """The syntax of a statement and the mistakes in it, each with the tokens it counts.
 
     The syntax is ``None`` when not even the name of the statement is known.
     """
     tokens = logical.tokens
-    found: list[tuple[Mistake, list[Lexeme]]] = []
+    found: Faults = []
     while True:
         form = statement_form(tuple([token[0] for token in tokens]))
         if not isinstance(form, Fault):

@@ -23,7 +23,7 @@ OPERATORS = {"PLUS": "+", "MINUS": "-", "STAR": "*", "SLASH": "/", "POWER": "**"
 STRETCH = 1 << 15
 """Characters that are scanned at once, at least."""
 
-_NEW_STATEMENT = re.compile(r"\n(?=[A-Za-z])")
+NEW_STATEMENT = re.compile(r"\n(?=[A-Za-z])")
 """Where a text may be cut: a line that begins with a letter continues no other."""
 
 
@@ -60,7 +60,7 @@ def scan(text: str, start: int = 0) -> Iterator[list[Lexeme]]:
     """
     kinds = _Kinds()
     while start < len(text):
-        cut = _NEW_STATEMENT.search(text, start + STRETCH)
+        cut = NEW_STATEMENT.search(text, start + STRETCH)
         end = cut.end() if cut else len(text)
         words = [*map(intern, _scanner().findall(text, start, end))]
         offsets = accumulate(map(len, words), initial=start)
