@@ -42,8 +42,8 @@ def test_values_are_those_of_the_definitions(name: str) -> None:
 
 @pytest.mark.parametrize("name", TABLE)
 def test_slopes_are_those_of_central_differences(name: str) -> None:
-    """Beside edges, h = 1e-6: h^2 times third derivatives of up to 1e4 (SWEEP) is 1e-8, round-off of
-    values up to 1e3 over h some 1e-7.
+    """Beside edges, h = 1e-6: h^2 times third derivatives of up to 1e4 (SWEEP) is 1e-8, round-off
+    of values up to 1e3 over h some 1e-7.
     """
     for args, _ in TABLE[name]:
         beside = [0.993 * a + 0.0071 * (n + 1) for n, a in enumerate(args)]
