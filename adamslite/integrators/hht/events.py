@@ -26,6 +26,9 @@ from adamslite.native.translate import native
 
 # The first step behind an event: where its estimated error is this share of ERROR.
 CAREFUL = 0.02
+# A step that ends at a crossing is not shorter than these shares of the step in which the crossing
+# was seen: at least, and at most for the sake of round-off [length over ERROR].
+SHORTEST, LONGEST, ROUND_OFF = 1e-6, 0.01, 4e-15
 
 
 @native
@@ -51,7 +54,20 @@ def end_at_crossing(P: Problem, L: Plan, C: Control) -> int:
     if starts_there(P):
         return switch_at_start(P, L, C)
     C.h, C.equal = shorter(P), 0
+    if P.search.cut > 1.0:
+        least = least_to_crossing(P)
+        if C.h < least:  # beyond the crossing, where branches have changed in any case
+            C.h, P.search.tolerance = least, least
     return RUNNING
+
+
+@native
+def least_to_crossing(P: Problem) -> float:
+    """The shortest step to a crossing: velocities, differences of positions over a step, keep
+    round-off below ERROR, unless that took too large a share of the step in which it was seen.
+    """
+    whole = P.search.whole
+    return max(SHORTEST * whole, min(ROUND_OFF / P.settings.error, LONGEST * whole))
 
 
 @native
