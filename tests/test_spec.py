@@ -32,7 +32,10 @@ NOT_SUPPORTED = {
     "planned-statement", "planned-argument", "planned-choice", "planned-function",
     "discontinued-choice",
 }  # fmt: skip
-BOUND = {name: 0.0 for name in (*USUAL_NAMES.values(), "a::b")}
+BOUND = {name: 0.0 for name in (*USUAL_NAMES.values(), "a::b")} | {
+    "CURSUB": (0, 0, 0, 1, 0, 0),
+    "c::d": (0, 0, 0, 1, 0, 0),
+}
 """Routines of the user, without which a deck that calls them cannot be run."""
 Row = tuple[str, str, str, str]
 

@@ -242,3 +242,52 @@ def test_entry_points_of_packages_are_found(monkeypatch: pytest.MonkeyPatch) -> 
     found = mass(law, user=None, end=1.0, steps=4)
     assert found["VARIABLE/1"] == pytest.approx(2 * np.sin(3 * found.time), abs=1e-12)
     assert "user_functions:swing (adamslite.user VARSUB)" in found.meta["user"]
+
+
+# ---- curves ----------------------------------------------------------------------------------
+
+BEAD = """a bead on a curve that a routine gives
+UNITS/SYSTEM=MKS
+ACCGRAV/JGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=2, QG={start}
+MARKER/2, POINT_MASS=2
+CURVE/1, {form}, MINPAR=0, MAXPAR=1, FUNCTION=USER(2)
+PTCV/1, I=2, CURVE=1, RM=1
+INTEGRATOR/GSTIFF, ERROR=1E-8
+SIMULATE/DYNAMIC, END=1, STEPS=10
+END
+"""
+
+
+def test_a_straight_curve_by_its_ends() -> None:
+    """A line at 45 degrees: the bead slides down with g/sqrt(2), x = -y = -g t^2/4."""
+    deck = BEAD.format(start="0,0,0", form="OPEN")
+    found = al.simulate(al.read(deck, user={"CURSUB": (5.0, 5.0, 0.0, -9.0, -9.0, 0.0)}))
+    assert found["POINT_MASS/2.y"] == pytest.approx(-9.81 * found.time**2 / 4, abs=1e-6)
+    assert found["POINT_MASS/2.x"] == pytest.approx(-9.81 * found.time**2 / 4, abs=1e-6)
+
+
+def test_a_curve_in_python() -> None:
+    """A circle of radius 2: v^2/2 + g y is 0 as at the start, to a share of 5e-6, and r is 2."""
+    deck = BEAD.format(start="2,0,0", form="CLOSED")
+    found = al.simulate(al.read(deck, user={"CURVE/1": user_functions.circle}))
+    x, y = found["POINT_MASS/2.x"], found["POINT_MASS/2.y"]
+    vx, vy = found["POINT_MASS/2.vx"], found["POINT_MASS/2.vy"]
+    assert np.hypot(x, y) == pytest.approx(2.0, abs=1e-7)
+    assert (vx**2 + vy**2) / 2 + 9.81 * y == pytest.approx(0.0, abs=1e-4)
+    assert y.min() < -1.0
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        ((0.0, 0.0, 0.0), "takes 6 values and gets 3"),
+        (lambda given, alpha: (alpha, 0.0), "ValueError: a curve returns x, y and z"),
+        (lambda given, alpha: (1 / alpha, 0.0, 0.0), "ZeroDivisionError"),
+    ],
+)
+def test_a_curve_that_cannot_be_is_reported(value: Any, said: str) -> None:
+    with pytest.raises(DeckError, match=said):
+        al.read(BEAD.format(start="2,0,0", form="OPEN"), user={"CURSUB": value})

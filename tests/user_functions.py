@@ -74,3 +74,9 @@ def oscillator(parameters: Parameters, time: float, x: float, v: float, u: float
     """Rates of x1' = x2, x2' = -w^2 x1 - 2 d x2 + u, and the output 3 x1 - u/2."""
     stiffness, decay = parameters
     return v, -stiffness * x - 2.0 * decay * v + u, 3.0 * x - 0.5 * u
+
+
+def circle(parameters: Parameters, alpha: float) -> Three:
+    """A circle about the origin."""
+    angle = 2.0 * math.pi * alpha
+    return parameters[0] * math.cos(angle), parameters[0] * math.sin(angle), 0.0

@@ -249,6 +249,8 @@ def curves(deck: Deck) -> Iterator[Diagnostic]:
     for curve in deck.of(Curve):
         if curve.order != CUBIC:
             yield diagnose(curve, "curve-order", "order", order=curve.order)
+        if curve.function is not None:
+            continue
         if curve.matrix is None:
             yield diagnose(curve, "missing-argument", word="MATRIX")
             continue

@@ -5,18 +5,36 @@ Equation (s from 0 at the first point to 1 at the last, proportional to the leng
     c(s) = cubic spline through the rows of MATRIX     OPEN: third derivative continuous next to the
                                                        ends; CLOSED: periodic, the last point being
                                                        the first again
+    the same through points that a routine gives       FUNCTION=USER(...), MINPAR <= alpha <= MAXPAR
 """
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import routine_name
 from adamslite.elements.bases.spline_curve import SplineCurve, through
+from adamslite.elements.bases.traced_curve import traced_points
+from adamslite.language.expression import Node
 from adamslite.language.interfaces import DrawnModel
-from adamslite.language.statement import Statement, choice, integer, reference, statement
+from adamslite.language.statement import (
+    Statement,
+    choice,
+    expression,
+    integer,
+    number,
+    reference,
+    statement,
+)
 
 
-@statement("CURVE", planned=("FUNCTION", "MINPAR", "MAXPAR", "ROUTINE"), data=True)
+@statement("CURVE", data=True)
 class Curve(Statement):
-    """Geometry for PTCV, in the axes of the marker to which the curve is fixed."""
+    """Geometry for PTCV, in the axes of the marker to which the curve is fixed.
+
+    To its routine ``--user`` binds six numbers, the first and the last point of a straight line, or
+    a function of Python, which returns x, y, z for (parameters, alpha).
+    """
+
+    alternatives = ((("matrix",), ("function", "routine", "minpar", "maxpar")),)
 
     form: str = choice(options=("OPEN", "CLOSED"), default="OPEN", help="whether it has ends")
     matrix: int | str | None = reference("MATRIX", to="MATRIX", help="points, one row x, y, z each")
@@ -26,11 +44,21 @@ class Curve(Statement):
     )  # fmt: skip
     order: int = integer("ORDER", default=4, help="degree of the pieces plus one; always 4")
 
+    function: Node | None = expression(
+        "FUNCTION", unit="length", help="USER(...), a routine that gives its points"
+    )
+    routine: str | None = routine_name()
+    minpar: float = number("MINPAR", unit="1", default=-1.0, help="alpha at the first point")
+    maxpar: float = number("MAXPAR", unit="1", default=1.0, help="alpha at the last point")
+
     def spline(self, model: DrawnModel) -> SplineCurve:
         """The curve itself."""
+        closed = self.form == "CLOSED"
+        if self.function is not None:
+            traced = traced_points(self.function)
+            return model.once(("CURVE", self.key), lambda: through(traced, closed))
         assert self.matrix is not None  # a rule requires it
         points = model.element("MATRIX", self.matrix)
-        closed = self.form == "CLOSED"
         return model.once(("CURVE", self.key), lambda: through(points.table, closed))
 
     def derived(self, model: DrawnModel) -> dict[str, object]:

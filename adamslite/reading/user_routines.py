@@ -15,6 +15,7 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.statement_diagnostics import diagnose, place_of
 from adamslite.deck.user_bindings import Binding, Bindings
+from adamslite.elements.bases.traced_curve import line, traced
 from adamslite.language.diagnostics import NOWHERE, Diagnostic, Source
 from adamslite.language.expression import TIME, Call, Node, Num, to_text
 from adamslite.language.messages import Log, compose, did_you_mean
@@ -33,6 +34,7 @@ from adamslite.syntax.tokens import scan
 FIELD = ARGUMENT.lower()
 # Left out where its routine is missing: it changes nothing.
 LEFT_OUT = "REQUEST"
+CURVE = "CURVE"
 
 
 @dataclass
@@ -106,6 +108,8 @@ class RoutineBinder:
         keyword, key = call.command.keyword, call.command.key
         binding = self.given.find(self.names, (keyword, key), call.label, call.routine)
         if binding is not None:
+            if keyword == CURVE:
+                return self._curve(call, binding)
             if binding.function is not None:
                 return self._function(call, binding)
             return self._numbers(call, binding)
@@ -114,6 +118,25 @@ class RoutineBinder:
             return (None,) * len(call.fields)
         self.missing.setdefault(call.routine.upper(), []).append(call)
         return ()
+
+    def _curve(self, call: UserCall, binding: Binding) -> Sequence[Node]:
+        """The points of a curve: two of a straight line, or those of a function of Python."""
+        count = 2 * len("xyz")
+        if binding.function is None and len(binding.numbers) != count:
+            self._wrong_count(call, binding, count)
+            return ()
+        self.bound.append(call)
+        if binding.function is None:
+            return [line(binding.numbers)]
+        function, values = binding.function, _values(call.command)
+        given = tuple(each.value for each in call.call.args if isinstance(each, Num))
+        try:
+            found = traced(lambda alpha: function(given, alpha), values["minpar"], values["maxpar"])
+        except Exception as fault:
+            text = f"alpha from {values['minpar']:g} to {values['maxpar']:g}"
+            self._cannot_read(call, binding, text, f"{type(fault).__name__}: {fault}")
+            return ()
+        return [found]
 
     def _function(self, call: UserCall, binding: Binding) -> Sequence[Node]:
         """Calls of a function of Python with what it reads, one for each field."""
@@ -183,13 +206,16 @@ class RoutineBinder:
         if numbers == (0.0,):
             numbers *= count
         if len(numbers) != count:
-            text, given = binding.text, len(numbers)
-            self.diagnostics.append(
-                diagnose(call.command, "user-values", FIELD, text=text, count=count, given=given)
-            )
+            self._wrong_count(call, binding, count)
             return ()
         self.bound.append(call)
         return [Num(value) for value in numbers]
+
+    def _wrong_count(self, call: UserCall, binding: Binding, count: int) -> None:
+        text, given = binding.text, len(binding.numbers)
+        self.diagnostics.append(
+            diagnose(call.command, "user-values", FIELD, text=text, count=count, given=given)
+        )
 
     # ---- messages ---------------------------------------------------------------------------
 
