@@ -17,7 +17,7 @@ from adamslite.results.outcomes import Outcome
 
 # Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
 # pivot.
-PIVOTING = 1500
+PIVOTING = 3000
 # Unknowns up to which a count of unstable motions is confirmed by eigenvalues.
 CONFIRMED = 3000
 # Eigenvalues below this share of the largest are round-off, and an imaginary part of that size.
