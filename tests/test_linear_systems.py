@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import user_functions
-from decklets import deck_with, function
+from decklets import codes, deck_with, function
 from scenes import GROUND, done
 
 import adamslite as al
@@ -283,3 +283,9 @@ def test_every_method_lifts_the_load(method: str) -> None:
     for name in ("PART/3.z", "VARIABLE/demand"):
         allowed = 1e-6 * results.summary["steps"] * np.abs(reference[name]).max()
         np.testing.assert_allclose(results[name][rows], reference[name], rtol=0, atol=allowed)
+
+
+@pytest.mark.parametrize("size", ["1E30", "-1", "0"])
+def test_an_array_of_any_size_is_read(size: str) -> None:
+    found = codes(f"ARRAY/1, X, SIZE={size}\nVARIABLE/1, FUNCTION=ARYVAL(1,1)")
+    assert found in (["system-value"], ["no-such-value"])

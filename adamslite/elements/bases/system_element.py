@@ -23,7 +23,7 @@ class Values(Sequence[Node]):
 
     def __init__(self, kind: str, array: Key, size: int | None) -> None:
         self.kind, self.array = kind, array
-        self.most = MOST if size is None else size
+        self.most = MOST if size is None else min(max(size, 0), MOST)
 
     def __len__(self) -> int:
         return self.most
