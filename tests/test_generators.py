@@ -34,6 +34,8 @@ QUICK = (
     "bushing",
     "chrono",
     "conical-pendulum",
+    "contact/bouncing-ball",
+    "contact/top",
     "delayed-brake",
     "gforce-pair",
     "growing-mass-dalembert",

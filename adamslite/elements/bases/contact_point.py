@@ -35,7 +35,7 @@ POINT = "CONTACT_POINT"
 AXES = ("X", "Y", "Z")
 # Damping that joins the branches of POISSON, times e in sqrt(PENALTY mass): the coefficient e of
 # restitution is exact but for a share of 1/JOINING^2, as long as it is above LEAST.
-JOINING, LEAST = 100.0, 0.1
+JOINING, LEAST = 300.0, 0.1
 
 
 class Law(NamedTuple):
