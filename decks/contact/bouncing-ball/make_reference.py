@@ -50,9 +50,8 @@ HEAD = """\
 
 def main() -> None:
     found = spans()
-    rows = [
-        f"{k * END / STEPS:.12g},{height(k * END / STEPS, found):.9g}" for k in range(STEPS + 1)
-    ]
+    times = [k * END / STEPS for k in range(STEPS + 1)]
+    rows = [f"{t:.12g},{height(t, found):.9g}" for t in times]
     text = HEAD + "time,REQUEST/1.F2\n" + "\n".join(rows) + "\n"
     Path(__file__).with_name("reference.csv").write_text(text)
 
