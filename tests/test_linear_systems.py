@@ -289,3 +289,15 @@ def test_every_method_lifts_the_load(method: str) -> None:
 def test_an_array_of_any_size_is_read(size: str) -> None:
     found = codes(f"ARRAY/1, X, SIZE={size}\nVARIABLE/1, FUNCTION=ARYVAL(1,1)")
     assert found in (["system-value"], ["no-such-value"])
+
+
+@pytest.mark.parametrize("form", ["FUNCTION=6-2*DIF(1)", "IMPLICIT, FUNCTION=DIF1(1)-6+2*DIF(1)"])
+@pytest.mark.parametrize("method", ["GSTIFF", "ABAM"])
+def test_dynamic_hold_lets_statics_alone_move_a_state(form: str, method: str) -> None:
+    """y = 1 at the start, 3 at rest; in between nothing moves it."""
+    text = GROUND + f"DIFF/1, IC=1, DYNAMIC_HOLD, {form}\nINTEGRATOR/{method}\n"
+    run = "SIM/DYN, END={}, STEPS=1\n"
+    deck = al.read(text + "END\n")
+    commands = read_commands(run.format(1) + "SIM/STATICS\n" + run.format(2), deck)
+    results = al.simulate(deck, commands=commands)
+    assert results["DIFF/1"] == pytest.approx([1, 1, 3, 3], rel=1e-9)

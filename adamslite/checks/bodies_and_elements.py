@@ -20,7 +20,6 @@ from adamslite.deck.names import RESERVED
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.beam import Beam
 from adamslite.elements.bushing import Bushing
-from adamslite.elements.diff import Diff
 from adamslite.elements.field import Field
 from adamslite.elements.friction import Friction
 from adamslite.elements.gforce import Gforce
@@ -242,13 +241,6 @@ def frictions(deck: Deck) -> Iterator[Diagnostic]:
         if each.given(field) and each.effect == "SLIDING":
             reason = "EFFECT=SLIDING leaves stiction out"
             yield diagnose(each, "no-effect", field, word=field.upper(), reason=reason)
-
-
-def held_states(deck: Deck) -> Iterator[Diagnostic]:
-    for state in deck.of(Diff):
-        if state.dynamic_hold:
-            reason, word = "a dynamic analysis integrates y", "DYNAMIC_HOLD"
-            yield diagnose(state, "no-effect", "dynamic_hold", word=word, reason=reason)
 
 
 def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:

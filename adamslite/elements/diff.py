@@ -6,6 +6,7 @@ Equation::
     IMPLICIT   0 = FUNCTION(y, dy/dt)         y = DIF(id), dy/dt = DIF1(id)
 
     statics    0 = FUNCTION with dy/dt = 0, or y as it is with STATIC_HOLD
+    elsewhere  dy/dt = 0 with DYNAMIC_HOLD
 """
 
 from __future__ import annotations
@@ -16,6 +17,9 @@ from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, expression, flag, statement, vector
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Seen
+
+# MODE of all analyses but statics, which have the next number.
+DYNAMICS = 4
 
 
 @statement("DIFF")
@@ -30,7 +34,7 @@ class Diff(Statement):
     static_hold: bool = flag(
         "STATIC_HOLD", help="statics keep y; without it they find the y at which dy/dt = 0"
     )
-    dynamic_hold: bool = flag("DYNAMIC_HOLD", help="read, without effect: y is integrated")
+    dynamic_hold: bool = flag("DYNAMIC_HOLD", help="y changes in statics alone")
     function: Node = expression(
         "FUNCTION", required=True, unit="that of y per time", help="dy/dt, or the residual"
     )
@@ -54,7 +58,11 @@ class Diff(Statement):
         state, rate = self.unknowns
         if hasattr(self, "owner"):
             return rate - self.owner.cls.state_rate(self.owner, scope, int(self.number), state)
-        return self.function if self.implicit else rate - self.function
+        residual = self.function if self.implicit else rate - self.function
+        if not self.dynamic_hold:
+            return residual
+        statics = scope.mode - DYNAMICS  # 1 in statics, 0 elsewhere
+        return statics * residual + (1 - statics) * rate
 
     @property
     def result_names(self) -> tuple[str, ...]:
