@@ -291,3 +291,55 @@ def test_a_curve_in_python() -> None:
 def test_a_curve_that_cannot_be_is_reported(value: Any, said: str) -> None:
     with pytest.raises(DeckError, match=said):
         al.read(BEAD.format(start="2,0,0", form="OPEN"), user={"CURSUB": value})
+
+
+COUPLED = """a slider that follows a turning part
+PART/1, GROUND
+MARKER/31, PART=1
+MARKER/32, PART=1, QP=0,1,0
+PART/2, MASS=2, CM=21, IP=1,1,1
+MARKER/21, PART=2
+PART/3, MASS=1, CM=22, IP=1,1,3, QG=0,1,0
+MARKER/22, PART=3
+JOINT/1, TRANSLATIONAL, I=21, J=31
+JOINT/2, REVOLUTE, I=22, J=32
+MOTION/1, JOINT=2, VELOCITY, FUNCTION=2+TIME
+COUPLER/1, JOINTS=1,2, FUNCTION=USER(0.25)
+INTEGRATOR/GSTIFF, ERROR=1E-8
+SIMULATE/DYNAMIC, END=2, STEPS=8
+END
+"""
+
+
+def test_a_coupler_follows_the_relation_of_a_routine() -> None:
+    """Travel 0.25 angle^2 with angle 2 t + t^2/2; the coupler carries m z" of the slider."""
+    function = {"COUSUB": user_functions.screw}
+    text = COUPLED.replace("INTEGRATOR", "VARIABLE/1, FUNCTION=COUPLER(1,0,4,0)\nINTEGRATOR")
+    found = al.simulate(al.read(text, user=function))
+    t = found.time
+    angle, rate = 2 * t + t**2 / 2, 2 + t
+    assert found["PART/2.z"] == pytest.approx(0.25 * angle**2, abs=1e-5)
+    assert found["PART/2.vz"] == pytest.approx(0.5 * angle * rate, abs=1e-6)
+    assert found["VARIABLE/1"] == pytest.approx(2 * 0.5 * (rate**2 + angle), rel=1e-4)
+
+
+def test_a_field_has_the_law_of_a_routine_or_of_expressions() -> None:
+    """A cubic spring: 1/2 m v^2 + 1/2 k x^2 + 1/4 h x^4 stays, for the routine and the deck."""
+    body = (
+        "a cubic spring\nPART/1, GROUND\nMARKER/1, PART=1\n"
+        "PART/2, MASS=2, CM=2, IP=1,1,1, QG=0.5,0,0, VX=1, WZ=0.4\nMARKER/2, PART=2\n"
+        "{field}\nSIMULATE/DYNAMIC, END=3, STEPS=30\nINTEGRATOR/GSTIFF, ERROR=1E-8\nEND\n"
+    )
+    routine = "FIELD/1, I=2, J=1, FORMULATION=NONLINEAR, FUNCTION=USER(3, 5)"
+    written = "FIELD/1, I=2, J=1, FX=-3*DX(2,1,1)-5*DX(2,1,1)**3\\ TZ=-3*AZ(2,1)"
+    bound = {"FIELD/1": user_functions.hardening}
+    by_routine = al.simulate(al.read(body.format(field=routine), user=bound))
+    by_deck = al.simulate(al.read(body.format(field=written)))
+    for found in (by_routine, by_deck):
+        x, v = found["PART/2.x"], found["PART/2.vx"]
+        assert v**2 + 1.5 * x**2 + 1.25 * x**4 == pytest.approx(1.453125, abs=1e-5)
+        root = np.sqrt(3.0)
+        assert found["PART/2.psi"] == pytest.approx(
+            0.4 / root * np.sin(root * found.time), abs=1e-6
+        )
+    assert by_routine["FIELD/1.fx"] == pytest.approx(by_deck["FIELD/1.fx"], abs=1e-4)

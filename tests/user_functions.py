@@ -80,3 +80,16 @@ def circle(parameters: Parameters, alpha: float) -> Three:
     """A circle about the origin."""
     angle = 2.0 * math.pi * alpha
     return parameters[0] * math.cos(angle), parameters[0] * math.sin(angle), 0.0
+
+
+@reads("DZ(21, 31, 31)", "AZ(22, 32)")
+def screw(parameters: Parameters, time: float, travel: float, angle: float) -> float:
+    """A coupling that bends: the travel is the square of the angle, times a factor."""
+    return travel - parameters[0] * angle**2
+
+
+@reads("DX({i}, {j}, {j})", "AZ({i}, {j})")
+def hardening(parameters: Parameters, time: float, x: float, angle: float) -> list[float]:
+    """A cubic spring along x and a torsional one about z."""
+    soft, stiff = parameters
+    return [-soft * x - stiff * x**3, 0.0, 0.0, 0.0, 0.0, -soft * angle]

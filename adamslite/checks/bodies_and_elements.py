@@ -223,6 +223,19 @@ def sections(deck: Deck) -> Iterator[Diagnostic]:
     for each in (*deck.of(Beam), *deck.of(Field)):
         if each.given("cratio") and each.given("cmatrix"):
             yield diagnose(each, "two-dampings", "cmatrix")
+    for field in deck.of(Field):
+        yield from _one_law(field)
+
+
+def _one_law(field: Field) -> Iterator[Diagnostic]:
+    """A FIELD has matrices or a FUNCTION."""
+    linear = ("by", "kmatrix", "cmatrix", "cratio", "length", "force")
+    if field.nonlinear:
+        for name in filter(field.given, linear):
+            reason = "FUNCTION gives the load"
+            yield diagnose(field, "no-effect", name, word=name.upper(), reason=reason)
+    elif field.formulation == "NONLINEAR":
+        yield diagnose(field, "missing-argument", word="FUNCTION", hint="FUNCTION: the law")
 
 
 def frictions(deck: Deck) -> Iterator[Diagnostic]:

@@ -101,6 +101,14 @@ def couplers(deck: Deck) -> Iterator[Diagnostic]:
         if count not in (2, 3):
             yield diagnose(coupler, "coupled-count", "joints", count=count, expected="two or three")
             continue
+        if coupler.function is not None:
+            if coupler.given("scales"):
+                reason = "FUNCTION gives the relation"
+                yield diagnose(coupler, "no-effect", "scales", word="SCALES", reason=reason)
+            continue
+        if not coupler.scales:
+            yield diagnose(coupler, "missing-argument", word="SCALES")
+            continue
         if len(coupler.scales) not in (count - 1, count):
             yield diagnose(
                 coupler, "scale-count", "scales", count=len(coupler.scales), joints=count

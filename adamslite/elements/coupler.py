@@ -2,15 +2,19 @@
 
 Equation (q the translation or rotation of I relative to J of each joint)::
 
-    r1 (q1 - q1_0) + r2 (q2 - q2_0) [+ r3 (q3 - q3_0)] = 0
+    r1 (q1 - q1_0) + r2 (q2 - q2_0) [+ r3 (q3 - q3_0)] = 0         or  FUNCTION = 0
 
 Sign: q is positive along and about z of J; rotations count full turns.  q_0 is the
 value in the posture of the deck, in which the joints are coupled.
 The reaction reported acts on I of the first joint.
+
+FUNCTION=USER(...) is a routine of the user that vanishes where the joints are as they should be; a
+function of Python says by its ``reads`` which displacements it needs.
 """
 
 from __future__ import annotations
 
+from adamslite.elements.bases.arguments import routine_name
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.bases.joint_coordinates import (
     angle_since,
@@ -19,13 +23,22 @@ from adamslite.elements.bases.joint_coordinates import (
     slide,
     turn,
 )
+from adamslite.elements.gcon import measures_rates
+from adamslite.language.expression import Node
 from adamslite.language.interfaces import DrawnModel
-from adamslite.language.statement import Statement, references, statement, vector, words
+from adamslite.language.statement import (
+    Statement,
+    expression,
+    references,
+    statement,
+    vector,
+    words,
+)
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Seen
 
 
-@statement("COUPLER", planned=("FUNCTION",))
+@statement("COUPLER")
 class Coupler(Constraint, Statement):
     """Couples the freedoms of translational, revolute and cylindrical joints."""
 
@@ -33,7 +46,7 @@ class Coupler(Constraint, Statement):
         "JOINTS", to="JOINT", required=True, help="two or three joints"
     )
     scales: tuple[float, ...] = vector(
-        "SCALES", size=1, most=3, required=True, unit="per length, or per angle",
+        "SCALES", size=1, most=3, default=(), unit="per length, or per angle",
         help="r1, r2 and r3; r1 is 1 when one is missing",
     )  # fmt: skip
     type: tuple[str, ...] = words(
@@ -41,11 +54,20 @@ class Coupler(Constraint, Statement):
         help="T or R for each joint; needed for cylindrical joints",
     )  # fmt: skip
 
+    function: Node | None = expression(
+        "FUNCTION", unit="the user's", help="USER(...), a routine that vanishes; without SCALES"
+    )
+    routine: str | None = routine_name()
+
     @property
     def factors(self) -> tuple[float, ...]:
         """r1, r2 and r3."""
         missing = len(self.scales) < len(self.joints)
         return (1.0, *self.scales) if missing else self.scales
+
+    def is_rate(self, model: DrawnModel) -> bool:
+        """Whether FUNCTION measures velocities."""
+        return self.function is not None and measures_rates(self.function, model)
 
     @property
     def row_names(self) -> tuple[str, ...]:
@@ -71,6 +93,8 @@ class Coupler(Constraint, Statement):
 
     def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """The row that vanishes."""
+        if self.function is not None:
+            return [self.function]
         row = 0
         for joint, name, since, factor in zip(
             self.joints, self.chosen, self.since, self.factors, strict=True

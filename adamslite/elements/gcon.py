@@ -52,15 +52,7 @@ class Gcon(Constraint):
 
     def is_rate(self, model: DrawnModel) -> bool:
         """Whether FUNCTION measures velocities, itself or through variables."""
-        pending, seen = [self.function], set()
-        while pending:
-            for node in walk(pending.pop()):
-                if isinstance(node, Call) and node.name in RATES:
-                    return True
-                if isinstance(node, Ref) and node.kind == "VARIABLE" and node.id not in seen:
-                    seen.add(node.id)
-                    pending.append(model.variable(node.id).function)
-        return False
+        return measures_rates(self.function, model)
 
     def pairs(self, model: DrawnModel) -> list[tuple[Key, Key]]:
         """Markers (i, j) of the measures in FUNCTION, both ways round; those of I and J first."""
@@ -123,6 +115,19 @@ class Gcon(Constraint):
     def outputs(self, model: DrawnModel) -> list[Node]:
         """Values of ``result_names``."""
         return [measure("GCON", Ref("GCON", self.key), 0)]
+
+
+def measures_rates(function: Node, model: DrawnModel) -> bool:
+    """Whether an expression measures velocities, itself or through variables."""
+    pending, seen = [function], set()
+    while pending:
+        for node in walk(pending.pop()):
+            if isinstance(node, Call) and node.name in RATES:
+                return True
+            if isinstance(node, Ref) and node.kind == "VARIABLE" and node.id not in seen:
+                seen.add(node.id)
+                pending.append(model.variable(node.id).function)
+    return False
 
 
 def _differs(marker: Key, wanted: Key | None) -> bool:

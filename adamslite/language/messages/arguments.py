@@ -23,7 +23,7 @@ ARGUMENTS: dict[str, Message] = {
     "planned-argument": Message(
         "not supported yet: argument {word} of {keyword}{times}",
         "the argument exists in ADAMS; this program cannot run it",
-        ("FIELD/1, I=2, J=1, FUNCTION=1\nFIELD/2, I=2, J=1, FUNCTION=1",),
+        ("MATRIX/1, NAME=a, FILE=b.csv\nMATRIX/2, NAME=a, FILE=b.csv",),
     ),
     "duplicate-argument": Message(
         "{word} is given twice",
