@@ -5,9 +5,9 @@ Equation::
     EIGENSOL   s x = A x
     STATEMAT   dx/dt = A x + B u,   y = C x + D u      u of PINPUT, y of POUTPUT
 
-x holds the small motions that the constraints allow, their speeds, and the states of DIFFs, as an
-observer sees them: on the ground, or on the body of RM, whose axes turn with it.  A position is a
-vector from the observer, a change of attitude a rotation vector, both along the observer's axes;
+x holds the small motions that the constraints allow, their speeds, and the states of DIFF, LSE,
+TFSISO and GSE, as an observer sees them: on the ground, or on the body of RM, whose axes turn with
+it.  A position is a vector from the observer, a change of attitude a rotation vector, both along the observer's axes;
 the body of the observer (b) moves relative to the ground::
 
     xi = E^T (dx - dx_b - phi_b x r),    sigma = E^T (phi - phi_b)        r = x - x_b
