@@ -7,8 +7,8 @@ Equation::
 
 x holds the small motions that the constraints allow, their speeds, and the states of DIFF, LSE,
 TFSISO and GSE, as an observer sees them: on the ground, or on the body of RM, whose axes turn with
-it.  A position is a vector from the observer, a change of attitude a rotation vector, both along the observer's axes;
-the body of the observer (b) moves relative to the ground::
+it.  A position is a vector from the observer, a change of attitude a rotation vector, both along
+the observer's axes; the body of the observer (b) moves relative to the ground::
 
     xi = E^T (dx - dx_b - phi_b x r),    sigma = E^T (phi - phi_b)        r = x - x_b
 
