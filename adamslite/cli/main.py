@@ -10,6 +10,7 @@
     adamslite cache  [--clear]              what is kept between runs
     adamslite fmt    FILE ...               put decks and command files into the canonical layout
     adamslite lsp                           serve editors (Language Server Protocol)
+    adamslite editors DIR                   write colours, snippets and a folder for VS Code
     adamslite help   [NAME]                 what a statement, a function or a message means
 
 Exit codes: 0 done or equal, 1 outside tolerance or not in the canonical layout, 2 usage,
@@ -31,6 +32,7 @@ from adamslite.cli.commands import (
     chart,
     check,
     diff,
+    editors,
     fmt,
     help,
     linear,
@@ -40,6 +42,9 @@ from adamslite.cli.commands import (
 )
 from adamslite.cli.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, STOPPED_EARLY, USAGE
 
+COMMANDS = (
+    check, solve, diff, verify, linear, chart, cable, cache, fmt, lsp, editors, help,
+)  # fmt: skip
 EXIT_CODES = """exit codes:
   0 done, or equal        1 outside tolerance, or not in the canonical layout
   2 usage                 3 the deck has errors
@@ -88,7 +93,7 @@ def _parser() -> argparse.ArgumentParser:
         "--debug", action="store_true", help="show the traceback of a program fault"
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for module in (check, solve, diff, verify, linear, chart, cable, cache, fmt, lsp, help):
+    for module in COMMANDS:
         name = module.__name__.rpartition(".")[2]
         summary = (module.__doc__ or "").partition("\n")[0]
         command = commands.add_parser(
