@@ -8,7 +8,6 @@ from decklets import told
 from scenes import GROUND, PENDULUM, done, run
 
 import adamslite as al
-from adamslite.language.diagnostics import DeckError
 
 SPRING = (
     GROUND
@@ -69,6 +68,12 @@ def test_si1_is_solved_as_si2_and_says_so():
     assert warning.source_line[warning.span.column - 1 :] == "SI1"
 
 
-def test_hastiff_says_what_to_write_instead():
-    with pytest.raises(DeckError, match="write GSTIFF, SI2"):
-        al.read(PENDULUM.replace("END", "INTEGRATOR/HASTIFF\nEND"))
+def test_hastiff_runs_as_what_adams_has_instead():
+    """The same numbers as those of GSTIFF, SI2, and a warning."""
+    one, two = (
+        done(PENDULUM.replace("END", f"INTEGRATOR/{form}\nEND"), 1.0).values
+        for form in ("HASTIFF", "GSTIFF, SI2")
+    )
+    np.testing.assert_array_equal(one, two)
+    (warning, *_) = told(PENDULUM.replace("END", "INTEGRATOR/HASTIFF\nEND"))
+    assert warning.message == "ADAMS has discontinued HASTIFF; GSTIFF, SI2 runs in its place"

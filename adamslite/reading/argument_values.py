@@ -182,7 +182,9 @@ class ValueReader:
         option = self._option(argument, unwrapped(values[0]) or values[0])
         for given_up, instead in argument.discontinued:
             if option == given_up:
-                self._refuse("discontinued-choice", values[0], word=option, instead=instead)
+                place = values[0][0][2], end_of(values[0][-1])
+                self.log.add("discontinued-choice", *place, word=option, instead=instead)
+                option = instead.partition(",")[0]
         if argument.supported and option not in argument.supported:
             token = values[0][0]
             self.log.tally(

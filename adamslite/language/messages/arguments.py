@@ -91,8 +91,8 @@ ARGUMENTS: dict[str, Message] = {
          ", GMOD=1",),
     ),
     "discontinued-choice": Message(
-        "ADAMS has discontinued {word}, and this program does not support it", "write {instead}",
-        ("INTEGRATOR/HASTIFF",),
+        "ADAMS has discontinued {word}; {instead} runs in its place", "write {instead}",
+        ("INTEGRATOR/HASTIFF",), severity=WARNING,
     ),
     "expression-not-closed": Message(
         "the expression before {word} does not end with a backslash",
