@@ -22,7 +22,12 @@ if TYPE_CHECKING:  # only large models need sparse matrices
 
 def values(model: Model, posture: Posture, constraint: Constraint) -> np.ndarray:
     """What the rows of a constraint are off by, (n_rows,); not a number where that is unknown."""
-    rows = _computed(constraint, NumberReader(model, posture, False))
+    return values_by(constraint, NumberReader(model, posture, False))
+
+
+def values_by(constraint: Constraint, reader: NumberReader) -> np.ndarray:
+    """The same by a reader of any model."""
+    rows = _computed(constraint, reader)
     return np.array([row.value if isinstance(row, Dual) else row for row in rows], dtype=float)
 
 

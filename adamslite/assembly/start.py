@@ -20,7 +20,6 @@ from adamslite.assembly.scope import WIDTH, Posture
 from adamslite.assembly.start_conditions import conditions
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
-from adamslite.elements.bases.joint_coordinates import pose
 from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
 from adamslite.elements.motion import Motion
@@ -90,18 +89,6 @@ def _body(deck: Deck, marker: Key | None) -> Body | None:
     if found is None or found.owner is None:
         return None
     return GROUND if getattr(deck.find(*found.owner), "ground", False) else found.owner
-
-
-def size_of(model: Model) -> float:
-    """The largest distance along an axis between bodies and markers of joints; 1 where all lie in
-    one place.
-    """
-    places = [body.x for body in model.bodies]
-    for each in model.constraints:
-        ends = (getattr(each, name, None) for name in ("i", "j"))
-        places += [pose(model, end)[0] for end in ends if end is not None]
-    extent = float(np.ptp(np.array(places), axis=0).max()) if places else 0.0
-    return extent or 1.0
 
 
 def worst_gap(model: Model, closing: Closing) -> tuple[Constraint, str, float, list[str]] | None:

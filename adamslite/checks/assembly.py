@@ -6,47 +6,32 @@ These need the posture of the deck in numbers; they run in :func:`check` only.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import asin, atan2, degrees, hypot
-from typing import TYPE_CHECKING
+from math import hypot
 
 from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose
-from adamslite.elements.bases.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
-from adamslite.elements.joint import Joint
-from adamslite.elements.jprim import Jprim
+from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.part import Part
 from adamslite.elements.sforce import Sforce
 from adamslite.elements.springdamper import Springdamper
 from adamslite.elements.units import Units
 from adamslite.language.diagnostics import Diagnostic
 
-if TYPE_CHECKING:  # decks without constraints do without numpy
-    import numpy as np
-
-    from adamslite.model.model import Model
-
 # Gaps below this share of the size of a model, and angles below this, are digits of numbers.
 APART, ASKEW_DEGREES = 1e-5, 1e-2
 # Distances below this share of the size of a model are none.
 ROUND_OFF = 1e-12
-LENGTHS = {*TOGETHER, *ON_LINE, "offset along z_J"}
 
 
 def starts_apart(deck: Deck) -> Iterator[Diagnostic]:
     """Joints whose markers are apart or misaligned as the deck draws them."""
-    joints: list[Joint | Jprim] = [*deck.of(Joint), *deck.of(Jprim)]
-    joints = [each for each in joints if deck.is_active(each)]
-    if not joints:
+    if not any(deck.of(kind) for kind in ("JOINT", "JPRIM")):
         return
-    from adamslite.assembly.start import closing_of, size_of
+    from adamslite.assembly.drawn import gaps, size_of
 
-    model, closing = closing_of(deck)
-    least = APART * size_of(model)
-    drawn = zip(closing.kept, closing.drawn, strict=True)
-    rows = {(each.keyword, each.key): gap for each, gap in drawn}
-    for joint in joints:
-        gap, angle = _gap(model, joint, rows[joint.keyword, joint.key])
+    least = APART * size_of(deck)
+    for joint, (gap, angle, _) in gaps(deck):
         apart = f"{gap:.4g}{_unit(deck)} apart" if gap > least else ""
         askew = f"{angle:.4g} degrees out of line" if angle > ASKEW_DEGREES else ""
         if apart or askew:
@@ -63,41 +48,16 @@ def _unit(deck: Deck) -> str:
     return " " + {"foot": "feet", "inch": "inches", "mils": "mils"}.get(unit, f"{unit}s")
 
 
-def _gap(model: Model, joint: Joint | Jprim, rows: np.ndarray) -> tuple[float, float]:
-    """What a joint is apart [length] and out of line [degrees]."""
-    named = list(zip(joint.row_names, rows.tolist(), strict=True))
-    gap = hypot(*(value for name, value in named if name in LENGTHS))
-    angles = [value for name, value in named if name in (*PARALLEL, *SAME_TURN)]
-    if len(angles) == len(PARALLEL + SAME_TURN):
-        return gap, _turn(model, joint)
-    angles += [value for name, value in named if name.startswith("right angle")]
-    angles += [value / 2 for name, value in named if name == "equal speed"]
-    return gap, degrees(asin(min(1.0, hypot(*angles))))
-
-
-def _turn(model: Model, joint: Joint | Jprim) -> float:
-    """The smallest rotation that makes the axes of I parallel to those of J [degrees].
-
-    They may point opposite ways in pairs: of the rotation matrix R = diag(1, 1, 1), (1, -1, -1),
-    ... whichever is nearest counts, by its vector (R - R^T)/2 of length sin and trace 1 + 2 cos.
-    """
-    from adamslite.elements.bases.joint_coordinates import pose
-
-    r = pose(model, joint.j)[1].T @ pose(model, joint.i)[1]
-    signs = max(
-        ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)),
-        key=lambda s: float(r[0, 0] * s[0] + r[1, 1] * s[1] + r[2, 2] * s[2]),
-    )
-    r = r * signs
-    twice = hypot(r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1])
-    return degrees(atan2(twice, float(r.trace()) - 1.0))
-
-
 def stays_open(deck: Deck) -> Iterator[Diagnostic]:
     """Constraints that no posture near that of the deck satisfies together."""
     if not any(isinstance(each, Constraint) for each in deck.statements):
         return
+    from adamslite.assembly.closing import OPEN
+    from adamslite.assembly.drawn import is_closed_as_drawn
     from adamslite.assembly.start import closing_of, worst_gap
+
+    if is_closed_as_drawn(deck, OPEN):
+        return
 
     model, closing = closing_of(deck)
     if closing.closed:
@@ -121,14 +81,22 @@ def ends_coincide(deck: Deck) -> Iterator[Diagnostic]:
     ]
     if not forces:
         return
-    from adamslite.assembly.scope import NumberScope
-    from adamslite.assembly.start import closing_of, size_of
+    import numpy as np
 
-    model, closing = closing_of(deck)
-    least = ROUND_OFF * size_of(model)
+    from adamslite.assembly.closing import OPEN
+    from adamslite.assembly.drawn import is_closed_as_drawn, place_of, size_of, spot
+    from adamslite.assembly.scope import NumberScope
+    from adamslite.assembly.start import closing_of
+
+    as_drawn, least = is_closed_as_drawn(deck, OPEN), ROUND_OFF * size_of(deck)
     for each in forces:
-        reach = NumberScope(model, closing.posture, False).position(each.i, each.j)
-        if hypot(*(component.value for component in reach)) <= least:
+        if as_drawn:
+            reach = place_of(spot(deck, each.i)).p - place_of(spot(deck, each.j)).p
+        else:
+            model, closing = closing_of(deck)
+            between = NumberScope(model, closing.posture, False).position(each.i, each.j)
+            reach = np.array([component.value for component in between])
+        if hypot(*reach) <= least:
             yield diagnose(each, "ends-coincide", "i", i=each.i, j=each.j)
 
 

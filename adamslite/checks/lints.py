@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator, Sequence
 from math import degrees, hypot, isfinite, pi
 
-from adamslite.checks.markers import references
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
@@ -23,7 +22,7 @@ from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Mode, Node, Ref, Time, calls, walk
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import Key
-from adamslite.language.statement import Statement, expressions
+from adamslite.language.statement import Statement
 from adamslite.language.units import G0, INCH, LENGTH, TIME
 
 # What is written as a plain number, without D for degrees.
@@ -35,6 +34,8 @@ LENGTHS = (1.0, 1e-2, 1e-3, 1e3, INCH, 12 * INCH)
 TIMES = (1.0, 1e-3)
 MOST_LISTED = 6
 INTEGER = re.compile(r"\b\d{1,18}\b")
+Fields = tuple[list[tuple[str, str]], list[str]]
+"""Fields that refer to markers or variables, with the keyword, and those with expressions."""
 
 
 # ---- numbers -----------------------------------------------------------------------------------
@@ -110,19 +111,29 @@ def _is_constant(node: Node) -> bool:
 
 def _used(deck: Deck) -> Iterator[tuple[str, Key]]:
     """Keyword and id of the markers and variables to which statements refer."""
+    known: dict[type[Statement], Fields] = {}
     for statement in deck.statements:
-        for _, key in references(statement):
-            yield "MARKER", key
-        for node in expressions(statement):
-            yield from ((r.kind, r.id) for r in walk(node) if isinstance(r, Ref))
-        for field, argument in statement.arguments.items():
-            if argument.to == "VARIABLE":
-                value = getattr(statement, field)
-                yield from (("VARIABLE", key) for key in _several(value))
+        cls = type(statement)
+        if cls not in known:
+            known[cls] = _fields(cls)
+        references, formulas = known[cls]
+        for field, keyword in references:
+            yield from ((keyword, key) for key in _several(getattr(statement, field)))
+        for field in formulas:
+            node = getattr(statement, field)
+            if node is not None:
+                yield from ((r.kind, r.id) for r in walk(node) if type(r) is Ref)
         if statement.inert:  # its text alone is kept, and may name any of them
             for number in INTEGER.findall(getattr(statement, "written", "")):
                 yield "MARKER", int(number)
                 yield "VARIABLE", int(number)
+
+
+def _fields(cls: type[Statement]) -> Fields:
+    to = [
+        (name, each.to) for name, each in cls.arguments.items() if each.to in ("MARKER", "VARIABLE")
+    ]
+    return to, [name for name, each in cls.arguments.items() if each.kind == "expression"]
 
 
 def _several(value: Key | Sequence[Key] | None) -> Sequence[Key]:
