@@ -137,6 +137,7 @@ def test_a_loop_beside_free_bodies_is_found() -> None:
 
 GAPS = [
     ("QP=3,4,0", "SPHERICAL", "5 millimeters apart"),
+    ("QP=0,0,1", "SPHERICAL", "1 millimeter apart"),
     ("QP=3,4,12", "CYLINDRICAL", "5 millimeters apart"),
     ("QP=3,4,12", "PLANAR", "12 millimeters apart"),
     ("REULER=0,2D,0", "REVOLUTE", "2 degrees out of line"),

@@ -32,20 +32,21 @@ def starts_apart(deck: Deck) -> Iterator[Diagnostic]:
 
     least = APART * size_of(deck)
     for joint, (gap, angle, _) in gaps(deck):
-        apart = f"{gap:.4g}{_unit(deck)} apart" if gap > least else ""
+        apart = f"{_length(deck, gap)} apart" if gap > least else ""
         askew = f"{angle:.4g} degrees out of line" if angle > ASKEW_DEGREES else ""
         if apart or askew:
             how = " and ".join(filter(None, (apart, askew)))
             yield diagnose(joint, "starts-apart", "i", how=how, i=joint.i, j=joint.j)
 
 
-def _unit(deck: Deck) -> str:
-    """The unit of length with a blank before it, where the deck names one."""
-    names = deck.single(Units).names
+def _length(deck: Deck, value: float) -> str:
+    """A length with its unit, where the deck names one."""
+    names, text = deck.single(Units).names, f"{value:.4g}"
     if names is None:
-        return ""
+        return text
     unit = names[2].lower()
-    return " " + {"foot": "feet", "inch": "inches", "mils": "mils"}.get(unit, f"{unit}s")
+    several = {"foot": "feet", "inch": "inches", "mils": "mils"}.get(unit, f"{unit}s")
+    return f"{text} {unit if text == '1' else several}"
 
 
 def stays_open(deck: Deck) -> Iterator[Diagnostic]:

@@ -17,8 +17,8 @@ LINTS: dict[str, Message] = {
         severity=WARNING,
     ),
     "stays-open": Message(
-        "no start satisfies all constraints: {row} of {label} stays off by {size}{also}",
-        "a run ends before its first step; compare the lengths and places of these statements",
+        "from the posture of the deck {row} of {label} cannot be closed, by {size}{also}",
+        "a run ends before its first step: no start near it satisfies all constraints",
         ("MARKER/4, PART=1\nJPRIM/1, INPLANE, I=2, J=4\n"
          "GCON/1, FUNCTION=DZ(2)-0.1",),
         severity=WARNING,
