@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import adamslite
+from adamslite.analyses.linearization.eigen import balance
 from adamslite.cli.main import main
 from adamslite.reading.read import read_commands
 
@@ -144,3 +145,11 @@ def test_solve_writes_what_linear_found(tmp_path: Path, monkeypatch) -> None:
     ]  # fmt: skip
     assert json.loads(Path("plant.mat").read_text())["feedthrough"] == [[0.0], [0.5]]
     assert json.loads(Path("x.states.json").read_text())["inputs"] == []
+
+
+@pytest.mark.filterwarnings("error")
+def test_scales_beyond_all_integers_raise_no_warning() -> None:
+    """A column that is all but empty is scaled by more than 2^63."""
+    a = np.array([[3.46e-28, 8.2e-31, 0.33], [0, 0.09, 4.5e-13], [0, 0, 3.6e-16]])
+    scale = balance(a)
+    assert np.isfinite(scale).all() and scale.max() / scale.min() > 2.0**63

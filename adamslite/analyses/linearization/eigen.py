@@ -34,7 +34,9 @@ def balance(a: np.ndarray) -> np.ndarray:
 
     if not len(a):
         return np.ones(0)
-    return matrix_balance(a, permute=False, separate=True)[1][0]
+    # scipy also makes integers of the scales, for a permutation that is not asked for.
+    with np.errstate(invalid="ignore"):
+        return matrix_balance(a, permute=False, separate=True)[1][0]
 
 
 def _eigen(a: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
