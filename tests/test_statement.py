@@ -29,7 +29,7 @@ def test_there_is_one_file_for_each_statement() -> None:
 @pytest.mark.parametrize("cls", CLASSES)
 def test_a_statement_says_what_it_is(cls: type[Statement]) -> None:
     assert cls.__doc__
-    assert "Equation" in sys.modules[cls.__module__].__doc__ or cls.keyword == "REQUEST"
+    assert "Equation" in sys.modules[cls.__module__].__doc__ or cls.keyword in ("REQUEST", "INFO")
     for argument in cls.arguments.values():
         assert argument.help and not argument.help.endswith(".")
         assert argument.unit or argument.kind not in NUMERIC

@@ -85,7 +85,7 @@ STATE = (9, 10)
 
 @statement(
     "CONTACT",
-    planned=("FRICTION_FUNCTION", "FRICTION_ROUTINE", "NORMAL_FUNCTION", "NORMAL_ROUTINE"),
+    planned=("FRICTION_FUNCTION", "NORMAL_FUNCTION"),
 )  # fmt: skip
 class Contact(Wrench, Statement):
     """Contact between shapes that GRAPHICS describe."""
@@ -134,6 +134,13 @@ class Contact(Wrench, Statement):
         "MAX_STICTION_DEFORMATION", unit="length", default=0.01,
         help="STICTION=ON: deformation at which it slips",
     )  # fmt: skip
+
+    normal_routine: str | None = text(
+        "NORMAL_ROUTINE", inert=True, help="routine of NORMAL_FUNCTION, without which it is idle"
+    )
+    friction_routine: str | None = text(
+        "FRICTION_ROUTINE", inert=True, help="the same of FRICTION_FUNCTION"
+    )
 
     laws: ClassVar[dict[str, tuple[str, ...]]] = {
         "IMPACT": ("stiffness", "exponent", "damping", "dmax"),

@@ -91,12 +91,9 @@ CHANNELS = (
     "creep_x", "creep_y", "creep_z", "creep_ax", "creep_ay", "creep_az", "beta",
 )  # fmt: skip
 
-# Words of the LuGre law, whose defaults are not known.
-LUGRE = (
-    "BRISTLE_STIFFNESS_COEFFICIENT", "DAMPING_COEFFICIENT", "VISCOUS_FRICTION_COEFFICIENT",
-    "VELOCITY_THRESHOLD_STRIBECK", "DECAY_EXPONENT_STRIBECK", "SMOOTH", "MAX_FRICTION_FORCE",
-    "MAX_FRICTION_TORQUE",
-)  # fmt: skip
+
+def _lugre(key: str, unit: str, help: str) -> float | None:
+    return number(key, unit=unit, inert=True, help=f"{help}; of FORMULATION=LUGRE alone")
 
 
 def _arm(key: str, default: float, help: str) -> float:
@@ -115,7 +112,7 @@ class Freedom(NamedTuple):
     channel: int
 
 
-@statement("FRICTION", planned=LUGRE)
+@statement("FRICTION")
 class Friction(Wrench, Statement):
     """Friction of a translational, revolute, cylindrical, spherical, Hooke or universal joint."""
 
@@ -182,6 +179,25 @@ class Friction(Wrench, Statement):
     inactive: str | None = choice(
         "INACTIVE", "INACTIVE_DURING", options=("STATIC",), help="no friction in statics"
     )
+
+    bristle_stiffness: float | None = _lugre(
+        "BRISTLE_STIFFNESS_COEFFICIENT", "1/length", "stiffness of the bristles"
+    )
+    bristle_damping: float | None = _lugre(
+        "DAMPING_COEFFICIENT", "time/length", "damping of the bristles"
+    )
+    viscous_friction: float | None = _lugre(
+        "VISCOUS_FRICTION_COEFFICIENT", "time/length", "viscous coefficient"
+    )
+    stribeck_velocity: float | None = _lugre(
+        "VELOCITY_THRESHOLD_STRIBECK", "length/time", "velocity of the Stribeck effect"
+    )
+    stribeck_exponent: float | None = _lugre(
+        "DECAY_EXPONENT_STRIBECK", "1", "exponent of the Stribeck effect"
+    )
+    smooth: float | None = _lugre("SMOOTH", "1", "smoothing")
+    max_friction_force: float | None = _lugre("MAX_FRICTION_FORCE", "force", "greatest force")
+    max_friction_torque: float | None = _lugre("MAX_FRICTION_TORQUE", "torque", "greatest torque")
 
     joints: ClassVar[tuple[str, ...]] = (*SLIDES, *TURNS, "SPHERICAL")
     beyond = "moved until its parts no longer overlap"

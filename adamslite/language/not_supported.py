@@ -17,15 +17,11 @@ _CONTACT = "routines of the user cannot be called: write IMPACT or POISSON, and 
 _INTEGRATOR = (
     "a number of the integrator of ADAMS; the summary of a run prints those of this program"
 )
-_LUGRE = (
-    "it belongs to FORMULATION=LUGRE; MAX_STICTION_DEFORMATION gives the elasticity at rest, or "
-    "write that law as a DIFF and an SFORCE"
-)
 INSTEAD = {
+    "FRICTION LUGRE": "the defaults of its words are not published: MAX_STICTION_DEFORMATION gives "
+    "the elasticity at rest, or write that law as a DIFF and an SFORCE",
     "CONTACT FRICTION_FUNCTION": _CONTACT,
-    "CONTACT FRICTION_ROUTINE": _CONTACT,
     "CONTACT NORMAL_FUNCTION": _CONTACT,
-    "CONTACT NORMAL_ROUTINE": _CONTACT,
     "GSE IMPLICIT": "write each equation as a DIFF, IMPLICIT",
     "GSE STATICS_ONLY": "write STATIC_HOLD on the other elements, or delete it",
     "LSSMATRIX": "the matrices come from another program: write them as MATRIX and LSE",
@@ -43,14 +39,6 @@ INSTEAD = {
     "BEAM NONLINEAR": "a beam that bends far is a row of STRING ones with parts between them",
     "CURVE CONTROL_POINTS": _TABULATE,
     "FILE COMMAND": "name the command file on the command line: `adamslite solve DECK FILE.acf`",
-    "FRICTION BRISTLE_STIFFNESS_COEFFICIENT": _LUGRE,
-    "FRICTION DAMPING_COEFFICIENT": _LUGRE,
-    "FRICTION DECAY_EXPONENT_STRIBECK": _LUGRE,
-    "FRICTION MAX_FRICTION_FORCE": _LUGRE,
-    "FRICTION MAX_FRICTION_TORQUE": _LUGRE,
-    "FRICTION SMOOTH": _LUGRE,
-    "FRICTION VELOCITY_THRESHOLD_STRIBECK": _LUGRE,
-    "FRICTION VISCOUS_FRICTION_COEFFICIENT": _LUGRE,
     "INVPSD": "its random phases come from a generator that is not published: write the sum of "
     "sines a*SIN(2*PI*f*TIME+phase), or a SPLINE of the signal",
     "LINEAR MKB": _MATRICES,
