@@ -196,3 +196,17 @@ def test_mode_is_5_in_statics() -> None:
     deck = slope(push)
     found = simulate(deck, commands=read_commands("SIM/STATICS\n", deck))
     assert found["PART/2.x"][-1] == pytest.approx(0.08, abs=1e-9)
+
+
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "ABAM"])
+def test_small_motions_of_a_joint_at_rest(method: str) -> None:
+    """m x" = -c v - k D, D' = v about D* with s(D*/Dm) = 1/2: c = 15/8 mu N/vs is the mean of both
+    directions, k = 15/8 mu N (1 - (D*/Dm)^2)^2/Dm; the block may rest anywhere.
+    """
+    deck = slope("")
+    commands = read_commands("SIM/DYN, END=4, STEPS=2\nLINEAR/EIGENSOL\n", deck)
+    found = simulate(deck, commands=commands, error=1e-8, integrator=method)
+    c, k = 15 / 8 * 16 / 0.1, 15 / 8 * 16 * (1 - HALF**2) ** 2 / 0.01
+    slow, fast = np.sort(np.abs(np.roots([2, c, k])))
+    modes = np.sort(np.abs(found.linearizations[0].model.eigenvalues))
+    assert modes == pytest.approx([0, slow, fast], rel=1e-3, abs=1e-9)

@@ -28,6 +28,7 @@ FOLDERS = (
     "contact/rolling-sphere",
     "contact/top",
     "four-bar",
+    "friction-ball",
     "friction-stiction",
     "delayed-brake",
     "gforce-pair",

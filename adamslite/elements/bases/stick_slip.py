@@ -26,6 +26,9 @@ from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import magnitude, piecewise, root
 from adamslite.symbolic.types import Expr, Seen, Symbol
 
+# A slip below this share of vs is none.
+STILL = 1e-6
+
 
 class Regime(NamedTuple):
     """What the law says: direction and coefficient by components, both along the slip.
@@ -44,7 +47,7 @@ def regime(scope: Scope, friction: Seen, slip: Sequence[Expr]) -> Regime:
     edge = friction.stiction_transition_velocity
     end = edge * friction.transition_velocity_coefficient
     rest, moving = coefficients(friction)
-    within, speed = _is_slow(friction, slip), size(slip)
+    within, speed = _is_slow(friction, slip), speed_of(slip, STILL * edge)
     slow = square(slip) / edge**2
     ramp = (15 - 10 * slow + 3 * slow**2) / (8 * edge)
     beta = speed * ramp
@@ -72,7 +75,7 @@ def creep_rate(
         along = along + v * d
     scope.origin(state, within)
     length = square(creep)
-    grows = piecewise((along, along > 0), otherwise=0) / length
+    grows = piecewise((along, along > 0), otherwise=0, order=0) / length
     barred = piecewise((grows * creep[number], length >= 1), otherwise=0, order=-1)
     allowed = slip[number] - barred
     rate = piecewise((allowed, within), otherwise=0, order=-1)
@@ -110,9 +113,16 @@ def square(vector: Sequence[Expr]) -> Expr:
     return sum(component**2 for component in vector)
 
 
+def speed_of(slip: Sequence[Expr], still: Expr) -> Expr:
+    """|v|; below ``still`` v^2/still, so that a joint at rest has one linear law: the mean of those
+    of slips to either side.
+    """
+    total = square(slip)
+    moving = magnitude(slip[0]) if len(slip) == 1 else root(total)
+    return piecewise((total / still, total < still**2), otherwise=moving)
+
+
 def size(vector: Sequence[Expr]) -> Expr:
-    """|v|; at the zero vector its derivative is 0, the mean of those from all sides."""
-    if len(vector) == 1:
-        return magnitude(vector[0])
+    """|D|; at the zero vector its derivative is 0."""
     total = square(vector)
     return piecewise((root(total), total > 0), otherwise=0)
