@@ -236,6 +236,8 @@ class NumberScope:
 
     def derivative(self, value: Number) -> Dual:
         """Total time derivative, where rates count: slope times velocity."""
+        if not self.rates:
+            raise Unmeasured
         if not isinstance(value, Dual) or not isinstance(value.slope, np.ndarray):
             return Dual(0.0)
         speed = np.zeros(self.width)
