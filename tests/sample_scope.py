@@ -196,7 +196,7 @@ class SampleScope:
         tables = {kind: number for number, kind in enumerate(KINDS)}
         return SimpleNamespace(
             **{name: self.symbol(f"{name}_{id}", value) for name, value in values.items()},
-            **tables, pieces=len(KINDS), family=None, table=1, closed=None,
+            **tables, pieces=len(KINDS), family=None, over_alpha=1, first=-1, last=1, closed=None,
             origin=1, points=[self._point(id)],
             cls=SimpleNamespace(values=lambda view, scope: self._values(id)),
         )  # fmt: skip

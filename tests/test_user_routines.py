@@ -293,6 +293,28 @@ def test_a_curve_that_cannot_be_is_reported(value: Any, said: str) -> None:
         al.read(BEAD.format(start="2,0,0", form="OPEN"), user={"CURSUB": value})
 
 
+def test_the_function_curve_is_at_the_parameter_of_the_routine() -> None:
+    """alpha^3, sin(alpha) and their derivatives, from MINPAR = 0.5 to MAXPAR = 2.5."""
+    names = [(comp, order) for comp in (1, 2) for order in (0, 1, 2)]
+    lines = [
+        f"VARIABLE/c{comp}{order}, FUNCTION=CURVE(TIME+0.5, {order}, {comp}, 1)"
+        for comp, order in names
+    ]
+    deck = (
+        "a curve\nPART/1, GROUND\nCURVE/1, OPEN, MINPAR=0.5, MAXPAR=2.5, FUNCTION=USER()\n"
+        + "\n".join(lines)
+        + "\nSIMULATE/DYNAMIC, END=2, STEPS=7\nEND\n"
+    )
+    found = al.simulate(al.read(deck, user={"CURVE/1": user_functions.quickening}))
+    a = found.time + 0.5
+    expected = {1: (a**3, 3 * a**2, 6 * a), 2: (np.sin(a), np.cos(a), -np.sin(a))}
+    for comp, order in names:
+        allowed = 1e-6 * 10.0 ** (2 * order)
+        assert found[f"VARIABLE/c{comp}{order}"] == pytest.approx(
+            expected[comp][order], abs=allowed
+        )
+
+
 COUPLED = """a slider that follows a turning part
 PART/1, GROUND
 MARKER/31, PART=1

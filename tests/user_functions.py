@@ -82,6 +82,11 @@ def circle(parameters: Parameters, alpha: float) -> Three:
     return parameters[0] * math.cos(angle), parameters[0] * math.sin(angle), 0.0
 
 
+def quickening(parameters: Parameters, alpha: float) -> Three:
+    """A curve on which equal steps of alpha are ever longer."""
+    return alpha**3, math.sin(alpha), 1.0
+
+
 @reads("DZ(21, 31, 31)", "AZ(22, 32)")
 def screw(parameters: Parameters, time: float, travel: float, angle: float) -> float:
     """A coupling that bends: the travel is the square of the angle, times a factor."""

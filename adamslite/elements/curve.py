@@ -24,6 +24,7 @@ from adamslite.language.statement import (
     reference,
     statement,
 )
+from adamslite.symbolic.interpolant import Interpolant, interpolant
 
 
 @statement("CURVE", data=True)
@@ -61,10 +62,26 @@ class Curve(Statement):
         points = model.element("MATRIX", self.matrix)
         return model.once(("CURVE", self.key), lambda: through(points.table, closed))
 
-    def derived(self, model: DrawnModel) -> dict[str, object]:
-        """The curve as a table, and the length of its chords."""
+    def over_alpha(self, model: DrawnModel) -> Interpolant:
+        """The curve over (alpha - first)/(last - first): a routine has points at equal steps."""
         spline = self.spline(model)
+        if self.function is None:
+            return spline.table
+        points = traced_points(self.function)
+        alpha = [n / (len(points) - 1) for n in range(len(points))]
+        kind = "periodic" if spline.closed else "not-a-knot"
+        if spline.closed:
+            points[-1] = points[0]
+        return interpolant(alpha, points, kind, "piece")
+
+    def derived(self, model: DrawnModel) -> dict[str, object]:
+        """The curve as a table over its length and over alpha, and the length of its chords."""
+        spline = self.spline(model)
+        routine = self.function is not None
         return {
+            "over_alpha": model.once(("CURVE", self.key, "a"), lambda: self.over_alpha(model)),
+            "first": self.minpar if routine else -1.0,
+            "last": self.maxpar if routine else 1.0,
             "table": spline.table,
             "length": spline.length,
             "closed": "yes" if self.form == "CLOSED" else None,

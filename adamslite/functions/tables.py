@@ -60,15 +60,16 @@ def curve(scope: Scope, alpha: Expr, iord: int, comp: int, id: Tree) -> Expr:
     """A coordinate (comp 1 x, 2 y, 3 z) of CURVE id at alpha, or its derivative by alpha.
 
     alpha runs from -1 at the first point to 1 at the last, in proportion to the chords between the
-    points; a closed curve goes on from the first.
+    points, with FUNCTION=USER from MINPAR to MAXPAR; a closed curve goes on from the first.
     Unit: length.  Source: Adams/Solver function CURVE, whose page leaves open how alpha is spread
     over points that are not equally far apart.
     """
     found = scope.statement(id)
-    s = (1 + alpha) / 2
+    span = found.last - found.first
+    s = (alpha - found.first) / span
     if found.closed:
         s = s - floor(s)
-    return lookup(found.table, s, comp - 1, iord) / 2**iord
+    return lookup(found.over_alpha, s, comp - 1, iord) / span**iord
 
 
 def _value(scope: Scope, id: Tree, kind: str, x: Expr, z: Expr, order: int) -> Expr:
