@@ -206,23 +206,22 @@ def _plan(
     """What to carry out: settings of the deck, then the commands, or the deck's own SIMULATE
     statements.
 
-    Flags replace the last SIMULATE/DYNAMICS and what follows it.
+    Flags replace the last SIMULATE, where it stands; one that takes no time is not replaced.
     """
     own = [s for s in deck.statements if s.keyword in SETTINGS]
     given = any(isinstance(c, Simulate) for c in commands)
     plan: list[Command] = [*own, *([] if given else deck.of(Simulate)), *commands]
-    last = next((s for s in reversed(plan) if isinstance(s, Simulate)), None)
-    if end is None and last is None:
+    plan = [each for each in plan if each.keyword != "STOP"]
+    runs = [(k, each) for k, each in enumerate(plan) if isinstance(each, Simulate)]
+    if end is None and not runs:
         raise UsageError(Outcome.NO_END_TIME.value)
     if end is None and steps is None:
         return plan
-    keep = [s for s in plan if s is not last and s.keyword != "STOP"]
-    if last is None:
-        return [*keep, _dynamics(end, steps=steps)]
-    dtout = last.dtout if steps is None else None
-    if end is not None:
-        return [*keep, _dynamics(end, steps=steps, dtout=dtout)]
-    return [*keep, _dynamics(last.end, last.duration, steps, dtout)]
+    at, last = next((run for run in reversed(runs) if not run[1].at_once), (len(plan), None))
+    dtout = last.dtout if last and steps is None else None
+    if end is None and last:
+        return [*plan[:at], _dynamics(last.end, last.duration, steps, dtout), *plan[at + 1 :]]
+    return [*plan[:at], _dynamics(end, steps=steps, dtout=dtout), *plan[at + 1 :]]
 
 
 def _without_value(time: np.ndarray, names: tuple[str, ...], values: np.ndarray) -> str:
