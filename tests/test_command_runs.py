@@ -384,3 +384,27 @@ def test_decks_go_on_from_states_to_the_same_bits(deck: str, tmp_path: Path) -> 
     other = run(text, f"RELOAD/SYSTEM, FILE=a\n{second}", files=SavedFiles(tmp_path))
     assert np.array_equal(states.values[-2:], plain.values[-2:])
     assert np.array_equal(other.values[-2:], plain.values[-2:])
+
+
+# ---- flags beside commands --------------------------------------------------------------------
+
+
+def test_a_flag_for_the_end_leaves_commands_in_their_order() -> None:
+    """What follows the last SIMULATE sees its end: y = -4.905 t^2 at t = 2."""
+    after = "INFO/DISP, I=2\nLINEAR/EIGENSOL"
+    results = run(FALL, f"SIM/DYN, END=1, STEPS=4\n{after}\nSTOP", end=2.0, steps=2, error=1e-9)
+    assert results.time == pytest.approx([0, 1, 2])
+    assert results.linearizations[0].time == 2.0
+    assert "t = 2: DISPLACEMENT I=2: DM 19.62" in results.meta["info"]
+    fewer = run(FALL, f"SIM/DYN, END=1, STEPS=4\n{after}", steps=1, error=1e-9)
+    assert fewer.time == pytest.approx([0, 1]) and fewer.linearizations[0].time == 1.0
+
+
+def test_a_flag_for_the_end_replaces_no_equilibrium() -> None:
+    """The spring of 100 N/m holds 2 kg 0.1962 m lower; from there nothing moves."""
+    spring = (
+        "SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=3, K=100, LENGTH=1\nMARKER/3, PART=1, QP=0,1,0\n"
+    )
+    results = run(FALL + spring, "SIM/STATICS", end=2.0, steps=2)
+    assert results.time == pytest.approx([0, 1, 2])
+    assert results["POINT_MASS/2.y"] == pytest.approx([-0.1962] * 3, abs=1e-6)

@@ -168,7 +168,7 @@ def test_changes_are_checked_where_they_come_to_run() -> None:
         ("VARIABLE/5, FUNCTION=VARVAL(66)", "missing-reference", ""),
         ("MARKER/4, QP=1,2", "value-count", ""),
         ("BEEM/1", "unknown-statement", ""),
-        ("CVCV/1, ICURVE=1", "planned-statement", ""),
+        ("PFORCE/1, I=1", "planned-statement", ""),
     ],
 )
 def test_what_cannot_change(text: str, code: str, hint: str) -> None:
@@ -329,7 +329,7 @@ def test_switches_survive_other_changes() -> None:
         ("DEACTIVATE/JOINT, ID=11", "missing-reference"),
         ("DEACTIVATE/JOINT, RANGE=100,200", "empty-range"),
         ("DEACTIVATE/JOINT, RANGE=100", "value-count"),
-        ("DEACTIVATE/CVCV, ID=1", "planned-statement"),
+        ("DEACTIVATE/CVCV, ID=1", "missing-reference"),
         ("DEACTIVATE/WHEEL, ID=1", "unknown-argument"),
         ("DEACTIVATE/JOINT, ID=1.5", "bad-id"),
     ],

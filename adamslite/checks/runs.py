@@ -29,7 +29,7 @@ from adamslite.language.file_name import is_file_name
 from adamslite.language.interfaces import Key
 from adamslite.language.messages import did_you_mean
 from adamslite.language.method import USUAL, method_of, methods, without_effect
-from adamslite.language.statement import STATEMENTS, Statement, expressions
+from adamslite.language.statement import Statement, expressions
 
 # What -0.333333333 is below -1/3.
 ROUNDED = 1e-9
@@ -193,9 +193,6 @@ def sensors(deck: Deck) -> Iterator[Diagnostic]:
 def switched_elements(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.statements:
         if not isinstance(each, Activate | Deactivate):
-            continue
-        if each.kind not in STATEMENTS:
-            yield diagnose(each, "planned-statement", "kind", word=each.kind, times="")
             continue
         if not each.ids and each.range is None:
             yield diagnose(each, "missing-argument", word="ID", hint="ID=1,2 or RANGE=first,last")
