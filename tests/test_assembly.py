@@ -193,7 +193,7 @@ def test_a_row_that_no_posture_decides_is_left_alone() -> None:
     deck = "VARIABLE/1, FUNCTION=DM(21,40)\nGCON/1, FUNCTION=VARVAL(d(1)/dt)-DX(21,31)\nEND\n"
     of = al.read(BODIES + deck)
     assert not np.isfinite(values(Model(of), Posture.drawn(Model(of)), of.of("GCON")[0])).any()
-    assert [each.code for each in al.check(of)] == ["no-rate"] and redundant_rows(of) == []
+    assert "no-rate" in {each.code for each in al.check(of)} and redundant_rows(of) == []
 
 
 def test_constraints_without_a_start_are_reported_with_what_they_contradict() -> None:
