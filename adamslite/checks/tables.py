@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import isfinite
+from math import dist, isfinite
 
 from adamslite.checks.rule import Rule, positive
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.array import Array
 from adamslite.elements.bases.data_file import UnusableFile, columns
+from adamslite.elements.curve import Curve
 from adamslite.elements.matrix import Matrix
 from adamslite.elements.spline import LEAST, Spline
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Num, Ref, calls, fold, walk
 from adamslite.language.statement import Statement, expressions
 
+# Chords of the same length but for round-off and few digits.
+EVEN = 1.01
 FITS = ("AKISPL", "CUBSPL")
 
 
@@ -95,6 +98,28 @@ def _misfit(deck: Deck, statement: Statement, field: str, call: Call) -> Iterato
         yield diagnose_inside(statement, call.name, "spline-curve", field, **words)
 
 
+def curve_calls(deck: Deck) -> Iterator[Diagnostic]:
+    """Where alpha runs over points that are not equally far apart, of which ADAMS says nothing."""
+    for statement in deck.statements if deck.of(Curve) else ():
+        for field, argument in statement.arguments.items():
+            node = getattr(statement, field) if argument.kind == "expression" else None
+            for call in calls(node, "CURVE") if node is not None else ():
+                curve = deck.find(Curve, next(a.id for a in call.args if isinstance(a, Ref)))
+                if curve is not None and _uneven(deck, curve):
+                    words = {"curve": curve.label}
+                    yield diagnose_inside(statement, call.name, "curve-uneven", field, **words)
+
+
+def _uneven(deck: Deck, curve: Curve) -> bool:
+    """Whether the chords of a curve through points differ in length."""
+    matrix = None if curve.matrix is None else deck.find(Matrix, curve.matrix)
+    if matrix is None or not matrix.complete or matrix.columns != 3:
+        return False
+    points = matrix.table
+    chords = [dist(a, b) for a, b in zip(points, points[1:], strict=False)]
+    return bool(chords) and max(chords) > EVEN * min(chords)
+
+
 def arrays(deck: Deck) -> Iterator[Diagnostic]:
     for array in deck.of(Array):
         filled = {"IC": "numbers", "U": "variables"}.get(array.kind, "")
@@ -149,4 +174,6 @@ def _elements(deck: Deck, matrix: Matrix) -> Iterator[Diagnostic]:
         yield diagnose(matrix, "matrix-place", "values", place=matrix.misplaced)
 
 
-TABLE_RULES: list[Rule] = [spline_points, spline_calls, arrays, values_of_arrays, matrices]
+TABLE_RULES: list[Rule] = [
+    spline_points, spline_calls, curve_calls, arrays, values_of_arrays, matrices,
+]  # fmt: skip

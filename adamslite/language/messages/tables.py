@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from adamslite.language.diagnostics import NOTE
 from adamslite.language.messages.entry import Message
 
 _CURVE = "SPLINE/1, X=0,1,2,3, Y=0,1,4,9\nVARIABLE/1, FUNCTION="
@@ -39,6 +40,15 @@ TABLES: dict[str, Message] = {
         "{word} has no derivatives of {spline}, which is a family of curves",
         "leave the order out; derivatives are those of a single curve",
         (_FAMILY + "AKISPL(TIME,0.5,1,1)", _FAMILY + "CUBSPL(TIME,0,1,2)"),
+    ),
+    "curve-uneven": Message(
+        "the points of {curve} are not equally far apart, and alpha of CURVE runs along them",
+        "ADAMS does not publish how it spreads alpha; give points at equal distances to be sure",
+        (
+            "MATRIX/1, ROWS=3, COLUMNS=3, VALUES=0,0,0, 1,0,0, 4,0,0\nCURVE/1, MATRIX=1\n"
+            "VARIABLE/1, FUNCTION=CURVE(TIME,0,1,1)",
+        ),
+        severity=NOTE,
     ),
     "spline-sources": Message(
         "{label} has both X, Y and FILE",
