@@ -5,8 +5,13 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from queue import Queue
+from threading import Thread
 from types import TracebackType
 from typing import Any
+
+LONGEST = 60
+"""Seconds after which an answer is not waited for any more."""
 
 
 class Client:
@@ -16,6 +21,9 @@ class Client:
         command = [sys.executable, "-m", "adamslite", "lsp", "--stdio"]
         pipe = subprocess.PIPE
         self.process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL)
+        self.received: Queue[dict[str, Any]] = Queue()
+        self.listener = Thread(target=self._listen, daemon=True)
+        self.listener.start()
         self.number = 0
         self.notes: list[dict[str, Any]] = []
 
@@ -31,10 +39,11 @@ class Client:
         if kind is None:
             self.request("shutdown")
             self.notify("exit")
-            assert self.process.wait(20) == 0
+            assert self.process.wait(LONGEST) == 0
         else:
             self.process.kill()
             self.process.wait()
+        self.listener.join()
         for stream in (self.process.stdin, self.process.stdout):
             assert stream
             stream.close()
@@ -45,14 +54,21 @@ class Client:
         self.process.stdin.write(b"Content-Length: %d\r\n\r\n" % len(data) + data)
         self.process.stdin.flush()
 
-    def _receive(self) -> dict[str, Any]:
-        stream, length = self.process.stdout, 0
+    def _listen(self) -> None:
+        """Collect what the server sends, until it has gone."""
+        stream = self.process.stdout
         assert stream
-        while line := stream.readline().strip():
-            name, _, value = line.partition(b":")
-            length = int(value) if name.lower() == b"content-length" else length
-        assert length, "the server has gone"
-        return json.loads(stream.read(length))
+        while True:
+            length = 0
+            while line := stream.readline().strip():
+                name, _, value = line.partition(b":")
+                length = int(value) if name.lower() == b"content-length" else length
+            if not length:
+                return
+            self.received.put(json.loads(stream.read(length)))
+
+    def _receive(self) -> dict[str, Any]:
+        return self.received.get(timeout=LONGEST)
 
     def request(self, method: str, **params: Any) -> Any:
         """The result of a request; an error of the server is raised as one."""

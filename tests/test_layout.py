@@ -154,10 +154,12 @@ DECK = "a title\r\npart/1, ground\r\n! ä\r\nend\r\n"
 def test_a_file_keeps_encoding_and_line_ends(tmp_path: Path, capsys, encoding: str) -> None:
     path = tmp_path / "deck.adm"
     path.write_bytes(DECK.encode(encoding))
+    path.chmod(0o600)
     assert main(["fmt", "--check", str(path)]) == 1
     assert path.read_bytes() == DECK.encode(encoding)
     assert main(["fmt", str(path)]) == 0
     assert path.read_bytes().decode(encoding) == "a title\r\nPART/1, GROUND\r\n! ä\r\nEND\r\n"
     assert str(path) in capsys.readouterr().out
+    assert path.stat().st_mode & 0o777 == 0o600
     assert main(["fmt", "--check", str(path)]) == 0
     assert capsys.readouterr().out == ""

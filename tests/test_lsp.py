@@ -70,6 +70,21 @@ def test_messages_come_while_typing(client: Client) -> None:
     assert first["location"]["range"]["start"] == place(1, 0)
 
 
+def test_advice_comes_later_and_stays_where_it_is(client: Client) -> None:
+    """What takes an assembly of the model is not waited for; edits elsewhere move it along."""
+    uri = "file:///nowhere/advice.adm"
+    apart = DECK.replace("QP=0,-1,0\nJOINT", "QP=0,-2,0\nJOINT")
+    assert client.open(uri, apart) == []
+    (told,) = client.messages(uri, 1)
+    assert told["code"] == "starts-apart" and told["range"]["start"]["line"] == 6
+    client.edit(uri, 2, (2, 0, 2, 0, "! a comment\n"))
+    (told,) = client.messages(uri, 2)
+    assert told["code"] == "starts-apart" and told["range"]["start"]["line"] == 7
+    client.edit(uri, 3, (6, 23, 6, 25, "-1"))
+    client.messages(uri, 3)
+    assert client.messages(uri, 3) == []
+
+
 def test_hover_is_the_page(client: Client) -> None:
     found = client.at("hover", URI, *around("JOINT"))
     assert found["contents"]["value"].startswith("## JOINT")

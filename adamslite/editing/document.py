@@ -12,10 +12,12 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.names import Key, Names
 from adamslite.deck.user_bindings import bindings
+from adamslite.editing.moved import moved
 from adamslite.editing.outline import Written, head_end, statements
 from adamslite.editing.rereading import Memory, Notebook, Rereading, Use
 from adamslite.gc_pause import without_collection
-from adamslite.language.diagnostics import DeckError, Diagnostic, Source, Span
+from adamslite.language.diagnostics import DeckError, Diagnostic, Source, Span, sort_by_place
+from adamslite.language.messages.ignoring import without_ignored
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Statement
 from adamslite.reading.read import read_by, read_commands
@@ -171,6 +173,7 @@ class Document:
         self.place = place
         self.content = Content(Source("", self.file), place, None, Names(), [], ())
         self._memory = Memory()
+        self._advice: tuple[Diagnostic, ...] = ()
 
     def update(self, text: str, deck: Content | None = None) -> Content:
         """Read the text; ``deck`` is what the commands are for."""
@@ -187,10 +190,12 @@ class Document:
             self.content = self._deck(source)
 
     def _deck(self, source: Source) -> Content:
+        self._advice = tuple(moved(self._advice, self.content.source, source))
         reading = Rereading(source, self._memory)
         try:
             deck = read_by(reading, self.path, bindings(None))
-            found = tuple(check(deck))
+            known = without_ignored(source, deck.warnings)
+            found = tuple(sort_by_place([*known, *self._advice]))
         except DeckError as fault:
             deck, found = fault.deck, fault.diagnostics
         uses = [
@@ -199,6 +204,24 @@ class Document:
             for kind, key, a, b in each
         ]
         return Content(source, self.place, deck, reading.names, uses, found)
+
+    def complete(self, content: Content) -> bool:
+        """Take the advice of `check` in, which an edit does not wait for; whether that is new.
+
+        It may run beside edits: what comes late is not taken.
+        """
+        deck = content.deck
+        broken = any(each.is_error for each in content.diagnostics)
+        if content.place == "command" or deck is None or broken:
+            return False
+        found = tuple(check(deck))
+        if content is not self.content:
+            return False
+        known = {*without_ignored(content.source, deck.warnings)}
+        self._advice = tuple(each for each in found if each not in known)
+        changed = found != content.diagnostics
+        content.diagnostics = found
+        return changed
 
     def _commands(self, source: Source, deck: Content | None) -> Content:
         if deck is None or deck.deck is None:

@@ -22,6 +22,8 @@ from adamslite.errors import UsageError
 
 PAUSE = 0.02
 """Seconds without a further edit before messages are published."""
+REST = 0.3
+"""And before the advice is added that takes an assembly of the model."""
 KINDS = {
     complete.STATEMENT: lsp.CompletionItemKind.Class,
     complete.ARGUMENT: lsp.CompletionItemKind.Field,
@@ -55,19 +57,34 @@ def start() -> None:
 # ---- texts -------------------------------------------------------------------------------------
 
 
-def opened(ls: Server, params: lsp.DidOpenTextDocumentParams) -> None:
+async def opened(ls: Server, params: lsp.DidOpenTextDocumentParams) -> None:
     ls.publish(params.text_document.uri)
+    await _completed(ls, params.text_document.uri)
 
 
 async def changed(ls: Server, params: lsp.DidChangeTextDocumentParams) -> None:
     uri, version = params.text_document.uri, params.text_document.version
     await asyncio.sleep(PAUSE)
-    open_one = ls.workspace.text_documents.get(uri)
-    if open_one is None or open_one.version != version:
+    if ls.version_of(uri) != version:
         return
     ls.publish(uri)
     for other in ls.beside(uri, COMMAND_SUFFIXES) if place_of(uri) == "deck" else ():
         ls.publish(other)
+    await _completed(ls, uri)
+
+
+async def _completed(ls: Server, uri: str) -> None:
+    """Add the advice once there is no edit for a while; it may take long, so beside all else."""
+    version = ls.version_of(uri)
+    await asyncio.sleep(REST)
+    if version is None or ls.version_of(uri) != version:
+        return
+    _, document = ls.documents[uri]
+    if (
+        await asyncio.to_thread(document.complete, document.content)
+        and ls.version_of(uri) == version
+    ):
+        ls.publish(uri)
 
 
 def closed(ls: Server, params: lsp.DidCloseTextDocumentParams) -> None:

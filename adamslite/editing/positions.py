@@ -5,6 +5,7 @@ from __future__ import annotations
 from lsprotocol import types as lsp
 
 from adamslite.editing.document import Content
+from adamslite.editing.moved import same_lines
 from adamslite.language.diagnostics import Span
 
 UNITS = {"utf-8": ("utf-8", 1), "utf-16": ("utf-16-le", 2)}
@@ -67,10 +68,7 @@ class Positions:
 def changed_lines(old: str, new: str) -> tuple[int, int, str]:
     """The stretch of lines that differs: offsets in the old text, and the new text for it."""
     before, after = old.splitlines(keepends=True), new.splitlines(keepends=True)
-    least = min(len(before), len(after))
-    head = next((n for n in range(least) if before[n] != after[n]), least)
-    rest = least - head
-    tail = next((n for n in range(rest) if before[-1 - n] != after[-1 - n]), rest)
+    head, tail = same_lines(before, after)
     start = sum(map(len, before[:head]))
     end = start + sum(map(len, before[head : len(before) - tail]))
     return start, end, "".join(after[head : len(after) - tail])

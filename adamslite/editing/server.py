@@ -50,6 +50,11 @@ class Server(LanguageServer):
         self.documents[uri] = (open_one.version if open_one else None, document)
         return document.content
 
+    def version_of(self, uri: str) -> int | None:
+        """The version of a text that is open; None of others."""
+        found = self.workspace.text_documents.get(uri)
+        return found.version if found else None
+
     def _deck_of(self, uri: str, document: Document) -> Content | None:
         beside = self.beside(uri, DECK_SUFFIXES) if document.place == "command" else []
         return self.content(beside[0]) if beside else None

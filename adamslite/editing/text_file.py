@@ -26,10 +26,12 @@ class TextFile(NamedTuple):
         return place_of(self.path)
 
     def replace(self, text: str) -> None:
-        """Write another text, whole or not at all."""
+        """Write another text, whole or not at all; who may read the file stays."""
         data = text.replace("\n", self.line_end).encode(self.encoding)
+        mode = self.path.stat().st_mode
         with whole_file(self.path, binary=True) as stream:
             stream.write(data)
+        self.path.chmod(mode)
 
 
 def place_of(path: str | Path) -> str:

@@ -110,7 +110,7 @@ def _result(each: Diagnostic, rule: int) -> dict[str, Any]:
     }
     if each.span.line:
         result["locations"] = [_location(each.span)]
-    others = [*((place, "and here") for place in each.places[1:]), *each.related]
+    others = dict.fromkeys([*((place, "and here") for place in each.places[1:]), *each.related])
     if others:
         result["relatedLocations"] = [
             _location(place) | {"message": {"text": text}} for place, text in others
