@@ -12,6 +12,7 @@ from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.bases.constraint import Constraint
+from adamslite.elements.marker import Marker
 from adamslite.elements.part import Part
 from adamslite.elements.sforce import Sforce
 from adamslite.elements.springdamper import Springdamper
@@ -80,6 +81,8 @@ def ends_coincide(deck: Deck) -> Iterator[Diagnostic]:
         if each.kind == "TRANSLATIONAL" and deck.is_active(each) and each.i != each.j
         if not (isinstance(each, Sforce) and each.actiononly)
     ]
+    if not any(isinstance(each, Constraint) for each in deck.statements):
+        forces = [each for each in forces if not _plainly_apart(deck, each)]
     if not forces:
         return
     import numpy as np
@@ -99,6 +102,20 @@ def ends_coincide(deck: Deck) -> Iterator[Diagnostic]:
             reach = np.array([component.value for component in between])
         if hypot(*reach) <= least:
             yield diagnose(each, "ends-coincide", "i", i=each.i, j=each.j)
+
+
+def _plainly_apart(deck: Deck, force: Sforce | Springdamper) -> bool:
+    """Whether its ends are on bodies with the axes of ground, in different places: most are, and
+    small decks do without numpy.
+    """
+    ends = []
+    for key in (force.i, force.j):
+        marker = deck.get(Marker, key)
+        body = deck.find(*marker.owner) if marker.owner else None
+        if body is None or any(body.given(field) for field in ("reuler", "zg", "xg")):
+            return False
+        ends.append([a + b for a, b in zip(body.qg, marker.qp, strict=True)])
+    return max(abs(a - b) for a, b in zip(*ends, strict=True)) > ROUND_OFF * max(map(abs, ends[0]))
 
 
 def massless_freedoms(deck: Deck) -> Iterator[Diagnostic]:
