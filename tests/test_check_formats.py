@@ -88,6 +88,20 @@ def test_a_note_of_what_is_passed_over_has_its_places(check) -> None:
     assert [(place["line"], place["column"]) for place in note["places"]] == [(9, 1), (10, 1)]
 
 
+@pytest.mark.parametrize(
+    ("added", "code"),
+    [
+        ("MARKER/4, PART=2, QP=1,0,0\nMARKER/5, PART=2, QP=2,0,0\n", "unused"),
+        ("MARKER/4, PART=2, FLOATING\nMARKER/5, PART=2, FLOATING\n", "floating-unused"),
+    ],
+)
+def test_a_message_about_several_statements_has_all_of_them(added: str, code: str) -> None:
+    text = START + added
+    (found,) = [each for each in told(text) if each.code == code]
+    first = START.count("\n") + 1
+    assert [place.line for place in found.everywhere] == [first, first + 1]
+
+
 def test_sarif_has_rules_and_regions(check) -> None:
     code, out = check("sarif", DECK)
     log: dict[str, Any] = json.loads(out)

@@ -239,7 +239,9 @@ def delayed_constraints(deck: Deck) -> Iterator[Diagnostic]:
         if isinstance(each, Motion | Constraint):
             found = next((c for node in expressions(each) for c in _past(deck, node, ())), None)
             if found is not None:
-                yield diagnose(each, "delayed-constraint", "function", word=found.name)
+                yield diagnose_inside(
+                    each, found.name, "delayed-constraint", "function", word=found.name
+                )
 
 
 def _past(deck: Deck, node: Node, inside: tuple[Key, ...]) -> Iterator[Call]:

@@ -8,7 +8,7 @@ from math import degrees, hypot, isfinite, pi
 
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
+from adamslite.deck.statement_diagnostics import diagnose, diagnose_all, diagnose_inside
 from adamslite.elements.accgrav import Accgrav
 from adamslite.elements.gcon import Gcon
 from adamslite.elements.marker import Marker
@@ -98,7 +98,7 @@ def unused(deck: Deck) -> Iterator[Diagnostic]:
     if idle:
         listed = ", ".join(each.label for each in idle[:MOST_LISTED])
         more = f" and {len(idle) - MOST_LISTED} more" if len(idle) > MOST_LISTED else ""
-        yield diagnose(idle[0], "unused", listed=listed + more)
+        yield diagnose_all(idle, "unused", listed=listed + more)
 
 
 def _is_placed(marker: Marker) -> bool:

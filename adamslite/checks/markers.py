@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from adamslite.checks.rule import needs
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
+from adamslite.deck.statement_diagnostics import diagnose, diagnose_all, diagnose_inside
 from adamslite.elements.cvcv import Cvcv
 from adamslite.elements.gforce import Gforce
 from adamslite.elements.marker import Marker
@@ -124,4 +124,4 @@ def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
     if idle:
         listed = ", ".join(each.label for each in idle[:MOST_LISTED])
         more = f" and {len(idle) - MOST_LISTED} more" if len(idle) > MOST_LISTED else ""
-        yield diagnose(idle[0], "floating-unused", listed=listed + more)
+        yield diagnose_all(idle, "floating-unused", listed=listed + more)

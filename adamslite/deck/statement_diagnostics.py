@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, TypeAlias
 
 from adamslite.deck.redefinition import Redefinition
@@ -21,6 +22,12 @@ def diagnose(
 ) -> Diagnostic:
     """A message about a statement, or about one of its arguments."""
     return _at(statement, code, field, place_of(statement, field), hint, words)
+
+
+def diagnose_all(statements: Sequence[Owner], code: str, **words: object) -> Diagnostic:
+    """One message about several statements, at the first; all of them are among its places."""
+    places = tuple(place_of(each) for each in statements)
+    return replace(_at(statements[0], code, "", places[0], "", words), places=places)
 
 
 def diagnose_inside(
