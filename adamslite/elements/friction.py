@@ -26,7 +26,7 @@ The vector mu and d, its direction, follow from the slip v and the creep D of th
 
     beta = s(|v|/vs),   s(x) = STEP5(x, -1, -1, 1, 1) = (15 x - 10 x^3 + 3 x^5)/8
     dD/dt = v below vs, from D = 0 when |v| falls below it
-            at |D| = Dm only what does not lengthen D
+            what lengthens D fades out between Dm and 1.01 Dm, where friction is the same
 
     vs = STICTION_TRANSITION_VELOCITY,  vd = TRANSITION_VELOCITY_COEFFICIENT vs
     Dm = MAX_STICTION_DEFORMATION

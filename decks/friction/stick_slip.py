@@ -44,6 +44,14 @@ def coefficient(law, v, creep, slow):
     return mu * toward(v), toward(v)
 
 
+def longer(law, v, creep):
+    """What of v lengthens a creep beyond the greatest: it fades out within one per cent."""
+    length = creep @ creep / law.give**2
+    if length <= 1:
+        return 0 * creep
+    return step5(length, 1, 0, 1.01**2, 1) * max(v @ creep, 0) * creep / (creep @ creep)
+
+
 def solve(law, slip, rates, start, times, held=True, longest=1e-3):
     """Motion (n, nt) and creep (m, nt) of y' = rates(t, y, mu, direction) with slip(y).
 
@@ -51,37 +59,28 @@ def solve(law, slip, rates, start, times, held=True, longest=1e-3):
     """
     m, n = len(slip(np.array(start, dtype=float))), len(start)
     y, t = np.array([*start, *np.zeros(m)], dtype=float), times[0]
-    slow, full = np.linalg.norm(slip(y[:n])) < law.vs, False
+    slow = np.linalg.norm(slip(y[:n])) < law.vs
     found = np.zeros((n + m, len(times)))
     while t < times[-1]:
 
-        def f(t, y, slow=slow, full=full):
+        def f(t, y, slow=slow):
             v, creep = slip(y[:n]), y[n:]
-            moved = v * (slow and held)
-            if full:
-                moved = moved - max(v @ creep, 0) * creep / (creep @ creep)
+            moved = (v - longer(law, v, creep)) * (slow and held)
             return [*rates(t, y[:n], *coefficient(law, v, creep, slow)), *moved]
 
         def leaves(t, y):
             return law.vs - np.linalg.norm(slip(y[:n]))
 
-        def fills(t, y, full=full):
-            return slip(y[:n]) @ y[n:] if full else law.give - np.linalg.norm(y[n:])
-
-        leaves.direction, fills.direction = (-1 if slow else 1), -1
-        leaves.terminal = fills.terminal = True
+        leaves.direction, leaves.terminal = (-1 if slow else 1), True
         part = solve_ivp(
             f, (t, times[-1]), y, "DOP853", rtol=1e-11, atol=1e-13, max_step=longest,
-            events=[leaves, fills] if slow else [leaves], dense_output=True,
+            events=leaves, dense_output=True,
         )  # fmt: skip
         now = (times >= t) & (times <= part.t[-1])
         if now.any():
             found[:, now] = part.sol(times[now])
         t, y = part.t[-1], part.y[:, -1]
-        if part.status == 1 and len(part.t_events[0]):
-            slow, full = not slow, False
+        if part.status == 1:
+            slow = not slow
             y[n:] = 0.0
-        elif part.status == 1:
-            full = not full
-            y[n:] *= 1 - 1e-14
     return found[:n], found[n:]

@@ -9,7 +9,8 @@ TRANSITION_VELOCITY_COEFFICIENT is another factor, Dm: MAX_STICTION_DEFORMATION)
 
     s(x) = STEP5(x, -1, -1, 1, 1) = (15 x - 10 x^3 + 3 x^5)/8 for |x| < 1
 
-    dD/dt = v      where |v| < vs, D = 0 when it begins; at |D| = Dm only what does not lengthen D
+    dD/dt = v - f max(v . D, 0) D/|D|^2      where |v| < vs, D = 0 when it begins
+    f = STEP5(|D|^2, Dm^2, 0, (1.01 Dm)^2, 1)     what lengthens D fades out beyond Dm
     D = 0          beyond vs
 
 The coefficient and its first two derivatives are continuous at vs, vd and Dm; where v turns round
@@ -26,6 +27,9 @@ from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import magnitude, piecewise, root
 from adamslite.symbolic.types import Expr, Seen, Symbol
 
+# Creep fades out between MAX_STICTION_DEFORMATION and this multiple of it, where friction no longer
+# changes with it: an end at once were an event that a joint rests on.
+LONGEST = 1.01
 # A slip below this share of vs is none.
 STILL = 1e-6
 
@@ -70,16 +74,22 @@ def creep_rate(
     scope: Scope, friction: Seen, slip: Sequence[Expr], number: int, state: Symbol
 ) -> Expr:
     """Rate of a component of D/Dm; the state counts from where sliding ended."""
-    within, creep, along = _is_slow(friction, slip), friction.creep, 0
-    for v, d in zip(slip, creep, strict=True):
-        along = along + v * d
+    within, creep = _is_slow(friction, slip), friction.creep
     scope.origin(state, within)
     length = square(creep)
-    grows = piecewise((along, along > 0), otherwise=0, order=0) / length
-    barred = piecewise((grows * creep[number], length >= 1), otherwise=0, order=-1)
-    allowed = slip[number] - barred
-    rate = piecewise((allowed, within), otherwise=0, order=-1)
+    full = step5(scope, length, 1, 0, LONGEST**2, 1)
+    barred = piecewise((0, length <= 1), otherwise=full * _lengthening(slip, creep) / length)
+    rate = slip[number] - barred * creep[number]
+    rate = piecewise((rate, within), otherwise=0, order=-1)
     return rate / friction.max_stiction_deformation
+
+
+def _lengthening(slip: Sequence[Expr], creep: Sequence[Expr]) -> Expr:
+    """v . D where that is positive, else 0."""
+    along: Expr = sum(v * d for v, d in zip(slip, creep, strict=True))
+    if len(slip) == 1:  # by |v|, which turns round where friction does
+        return (along + magnitude(slip[0]) * magnitude(creep[0], None)) / 2
+    return piecewise((along, along > 0), otherwise=0)
 
 
 def coefficients(friction: Seen) -> tuple[Expr, Expr]:
