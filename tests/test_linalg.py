@@ -119,14 +119,14 @@ def test_negative_pivots_are_negative_eigenvalues(pattern, sizes):
         edges = [e for e in PATTERNS[pattern] if max(e) < count]
         full = random_matrix(widths, both_ways(edges, count), seed, symmetric=True)
         arrays = eliminate(full, widths, both_ways(edges, count))
-        found = blocks.signature(*arrays, np.zeros(len(full)))
+        found = blocks.signature(*arrays, np.zeros(len(full)), 0.0)
         assert found == (np.linalg.eigvalsh(full) < 0).sum()
 
 
 @pytest.mark.parametrize("full", (np.diag([2.0, 0.0, -1.0]), np.diag([0.0, 2.0, 1.0])))
 def test_a_singular_matrix_has_no_signature(full):
     arrays = eliminate(full, [3], {(0, 0)})
-    assert blocks.signature(*arrays, np.zeros(3)) == -1
+    assert blocks.signature(*arrays, np.zeros(3), 0.0) == -1
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")

@@ -27,6 +27,7 @@ from adamslite.analyses.delays import NO_PAST, Delays, require_no_delay
 from adamslite.analyses.dynamic import Settings, largest_step, run_dynamic
 from adamslite.analyses.history import History, Piece
 from adamslite.analyses.info import info
+from adamslite.analyses.initial.algebraic_states import settle_states
 from adamslite.analyses.initial.conditions import (
     Unclosed,
     consistent_velocities,
@@ -392,6 +393,7 @@ class Session:
             self.assembled = system.largest_changes()
             self.speeds = system.changed_speeds()
         settle_variables(system)
+        settle_states(system)
         leave_out_redundant(system)
         system.settings.t = self.time
         small = system.nz <= PIVOTING and not system.elimination.pivoting

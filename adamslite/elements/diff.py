@@ -5,6 +5,11 @@ Equation::
     explicit   dy/dt = FUNCTION
     IMPLICIT   0 = FUNCTION(y, dy/dt)         y = DIF(id), dy/dt = DIF1(id)
 
+A FUNCTION without DIF1(id) is an algebraic equation for y, often written to have the rate of an
+expression: FUNCTION=e-DIF(id) gives DIF1(id) = de/dt.  y starts where it holds, and then follows
+
+    d/dt FUNCTION = 0
+
     statics    0 = FUNCTION with dy/dt = 0, or y as it is with STATIC_HOLD
     elsewhere  dy/dt = 0 with DYNAMIC_HOLD
 """
@@ -16,6 +21,7 @@ from adamslite.language.expression import Call, Node, Ref
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, expression, flag, statement, vector
 from adamslite.symbolic.scope import Scope
+from adamslite.symbolic.sympy_nodes import piecewise, sp
 from adamslite.symbolic.types import Expr, Seen
 
 # MODE of all analyses but statics, which have the next number.
@@ -58,11 +64,11 @@ class Diff(Statement):
         state, rate = self.unknowns
         if hasattr(self, "owner"):
             return rate - self.owner.cls.state_rate(self.owner, scope, int(self.number), state)
-        residual = self.function if self.implicit else rate - self.function
-        if not self.dynamic_hold:
+        residual = sp.S.Zero + (self.function if self.implicit else rate - self.function)
+        if not self.dynamic_hold and rate in residual.free_symbols:
             return residual
-        statics = scope.mode - DYNAMICS  # 1 in statics, 0 elsewhere
-        return statics * residual + (1 - statics) * rate
+        moving = rate if self.dynamic_hold else scope.derivative(residual)
+        return piecewise((residual, scope.mode > DYNAMICS), otherwise=moving)
 
     @property
     def result_names(self) -> tuple[str, ...]:

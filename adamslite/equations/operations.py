@@ -15,6 +15,7 @@ from adamslite.integrators.contract import (
     RECORD,
     RECORD_AT_REST,
     RESIDUAL,
+    RESIDUAL_AT_REST,
     SPECTRUM,
     Problem,
 )
@@ -30,7 +31,7 @@ from adamslite.native.translate import native
 @native
 def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
-    row ``phases``, RECORD_AT_REST with the MODE of statics; CLOCK writes the guards of the clock
+    row ``phases``; what is AT_REST has the MODE of statics; CLOCK writes the guards of the clock
     at output times; AUDIT starts a balance.
     """
     if operation == CLOCK:
@@ -43,14 +44,14 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     put_state(P, P.settings.t, P.q, P.u, P.a, P.z, P.rd)
     if operation == SPECTRUM:
         return spectrum(P)
-    if operation == RECORD_AT_REST:
+    if operation == RECORD_AT_REST or operation == RESIDUAL_AT_REST:
         P.W[1] = MODE_STATICS
     if operation == RECORD or operation == RECORD_AT_REST:
         write_record(P, phases)
         track(P)
     elif operation == AUDIT:
         start_balance(P)
-    elif operation == RESIDUAL:
+    elif operation == RESIDUAL or operation == RESIDUAL_AT_REST:
         residual(P, phases, P.F)
     else:
         jacobian(P, phases, P.coef, P.J)

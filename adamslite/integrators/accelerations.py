@@ -34,6 +34,8 @@ NOT_A_NUMBER = 1e301
 SLOW = 0.03
 # A pivot of the acceleration matrix below this share of its first value has vanished.
 VANISHING = 1e-3
+# A pivot that others have brought down to this share of what it was is round-off.
+LATE = 1e-11
 
 
 @native
@@ -123,7 +125,7 @@ def correct_rates(P: Problem, a: Reals, z: Reals, sd: Reals) -> float:
 def mass_signature(P: Problem, L: Plan, found: Reals) -> int:
     """Negative pivots of the acceleration matrix at the workspace's state; -1 when singular."""
     acceleration_matrix(P)
-    return signature(L, P.LA, P.pivots_a, P.work, found)
+    return signature(L, P.LA, P.pivots_a, P.work, found, LATE)
 
 
 @native

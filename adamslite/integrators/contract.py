@@ -124,7 +124,8 @@ MODE_STATICS = 5.0
     CLOCK,
     AUDIT,
     RECORD_AT_REST,
-) = range(9)
+    RESIDUAL_AT_REST,
+) = range(10)
 
 
 class Sizes(Record):

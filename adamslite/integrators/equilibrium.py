@@ -160,7 +160,7 @@ def pivot_signs(P: Problem, L: Plan, stiffness: float, mass: float) -> int:
     for k in range(P.unit.size):
         P.LV[P.unit[k]] = 1.0
     P.count.factorizations += 1
-    return signature(L, P.LV, P.pivots, P.work, P.x)
+    return signature(L, P.LV, P.pivots, P.work, P.x, 0.0)
 
 
 @native

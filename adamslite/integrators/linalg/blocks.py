@@ -160,16 +160,16 @@ def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
 
 
 @native
-def signature(L: Plan, LV: Reals, pivots: Ints, work: Reals, found: Reals) -> int:
-    """Factor and count negative pivots; -1 when singular."""
+def signature(L: Plan, LV: Reals, pivots: Ints, work: Reals, found: Reals, late: float) -> int:
+    """Factor and count negative pivots, ``late`` as there; -1 when singular."""
     n = L.size.size
     if n == 1:
-        only = negative_pivots(LV, 0, L.size[0], work, found, 0)
+        only = negative_pivots(LV, 0, L.size[0], work, found, 0, late)
         return only if invert(LV, 0, L.size[0], pivots, 0, work) else -1
     at, count = 0, 0
     for k in range(n):
         s, o = L.size[k], L.diagonal[k]
-        count += negative_pivots(LV, o, s, work, found, L.start[k])
+        count += negative_pivots(LV, o, s, work, found, L.start[k], late)
         if not invert(LV, o, s, pivots, L.start[k], work):
             return -1
         lo, hi = L.first[k], L.first[k + 1]

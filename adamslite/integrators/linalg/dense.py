@@ -138,31 +138,82 @@ def product(n: int, a: Reals, x: Reals) -> float:
 
 
 @native
-def negative_pivots(A: Reals, o: int, s: int, work: Reals, found: Reals, at: int) -> int:
-    """Negative pivots of a block eliminated without pivoting; the pivots go to ``found``.
+def negative_pivots(
+    A: Reals, o: int, s: int, work: Reals, found: Reals, at: int, late: float
+) -> int:
+    """Negative pivots of a block eliminated along its diagonal; the pivots go to ``found``.
 
     Their number is the signature when the matrix is symmetric (Sylvester) and changes when it
     becomes singular.  A pivot of zero eliminates nothing, nor does one that is round-off of its row
     (the inertia of a rod about its own axis, turned): what it would leave of the others is noise.
+    With ``late`` above zero it waits for those after it (the point without mass of a PTCV), and so
+    does one below this share of what it was before (the second of two rows that hold the same).
     """
     n = coupled(A, o, s)
     for i in range(n * s):
         work[i] = A[o + i]
-    for k in range(n, s):
-        found[at + k] = 1.0
-    count = 0
+    for k in range(s):
+        found[at + k] = abs(A[o + k * s + k])
+    count, waiting = 0, 0
     for k in range(n):
-        pivot, top = work[k * s + k], 0.0
-        for j in range(k + 1, n):
-            top = max(top, abs(work[k * s + j]))
-        if abs(pivot) <= NOISE * top:
+        pivot, rest = work[k * s + k], n - k - 1
+        top = NOISE * largest(work[k * s + k + 1 :], rest)
+        if abs(pivot) <= max(top, late * found[at + k]):
             pivot = 0.0
+            waiting += 1
         found[at + k] = pivot
         if pivot < 0.0:
             count += 1
-        rest = n - k - 1
         for i in range(k + 1, n if pivot != 0.0 else 0):
             factor = work[i * s + k] / pivot
             if factor != 0.0:
                 subtract_row(factor, work[k * s + k + 1 :], rest, work[i * s + k + 1 :])
+                found[at + i] = max(found[at + i], abs(work[i * s + i]))
+        if late > 0.0 and waiting > 0 and pivot != 0.0:
+            out_of_waiting(work, s, n, k, found, at)
+    if late > 0.0 and waiting > 0:
+        count += late_negatives(A, o, s, n, work, found, at, late)
     return count
+
+
+@native
+def out_of_waiting(work: Reals, s: int, n: int, k: int, found: Reals, at: int) -> None:
+    """Take pivot k out of the rows and columns before it that wait."""
+    pivot = work[k * s + k]
+    for w in range(k):
+        if found[at + w] == 0.0:
+            factor, across = work[w * s + k] / pivot, work[k * s + w]
+            for i in range(k + 1, n):
+                work[i * s + w] -= work[i * s + k] / pivot * across
+                work[w * s + i] -= factor * work[k * s + i]
+            for v in range(k):
+                if found[at + v] == 0.0:
+                    work[w * s + v] -= factor * work[k * s + v]
+
+
+@native
+def late_negatives(
+    A: Reals, o: int, s: int, n: int, work: Reals, found: Reals, at: int, late: float
+) -> int:
+    """Negative ones among the pivots that have waited, where others have made them any."""
+    count = 0
+    for k in range(n):
+        pivot = work[k * s + k]
+        if found[at + k] == 0.0 and abs(pivot) > late * largest(A[o + k * s :], n):
+            found[at + k] = pivot
+            count += 1 if pivot < 0.0 else 0
+            for i in range(n):
+                factor = work[i * s + k] / pivot
+                for j in range(n if found[at + i] == 0.0 else 0):
+                    if found[at + j] == 0.0:
+                        work[i * s + j] -= factor * work[k * s + j]
+    return count
+
+
+@native
+def largest(a: Reals, n: int) -> float:
+    """The largest of |a_j|, j < n."""
+    top = 0.0
+    for j in range(n):
+        top = max(top, abs(a[j]))
+    return top
