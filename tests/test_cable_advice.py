@@ -1,5 +1,6 @@
 """What `adamslite check` says about cables, and that its advice holds."""
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -195,3 +196,23 @@ def test_check_prints_a_few_lines_for_a_cable_and_none_without(capsys) -> None:
     assert "ale form, 32 of them; GSTIFF ERROR=2E-06" in told[6]
     assert main(["check", str(DECKS / "pendulum-revolute" / "pendulum-revolute.adm")]) == 0
     assert "cable" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("hook", "said"),
+    [
+        ("MARKER/1, PART=1", "from MARKER/1 to MARKER/1"),
+        ("PART/9, MASS=500, CM=1, IP=9,9,9\nMARKER/1, PART=9", "from PART/9 to PART/9"),
+        ("POINT_MASS/9, MASS=0.5\nMARKER/1, POINT_MASS=9", "round through POINT_MASS/"),
+    ],
+)
+def test_a_rope_with_both_ends_on_one_hook_is_no_ring(hook: str, said: str) -> None:
+    """Seven springs round a heptagon: six masses of 0.5, and what holds the rope."""
+    corners = [(math.cos(k * math.tau / 7), math.sin(k * math.tau / 7)) for k in range(7)]
+    lines = ["title", "PART/1, GROUND", f"{hook}, QP={corners[0][0] - 1!r},0,0"]
+    for k, (x, y) in enumerate(corners[1:], 2):
+        lines += [f"POINT_MASS/{k}, MASS=0.5, QG={x - 1!r},{y!r},0", f"MARKER/{k}, POINT_MASS={k}"]
+    for k in range(1, 8):
+        lines.append(f"SPRINGDAMPER/{k}, I={k % 7 + 1}, J={k}, K=1000, LENGTH=0.86")
+    found = about_cables(adamslite.read("\n".join([*lines, "END", ""])))
+    assert any(line.strip().startswith(f"cable {said}") for line in found)

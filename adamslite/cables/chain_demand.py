@@ -75,9 +75,8 @@ def demand_on(chain: Chain, posture: Posture, end: float) -> ChainDemand:
 
 def _tips(chain: Chain) -> list[Body]:
     """Ends that are bodies."""
-    return (
-        [] if chain.is_ring else [e for e in (chain.nodes[0], chain.nodes[-1]) if e[0] != "MARKER"]
-    )
+    ends = () if chain.is_ring else dict.fromkeys((chain.nodes[0], chain.nodes[-1]))
+    return [end for end in ends if end[0] != "MARKER"]
 
 
 def _is_tied(deck: Deck) -> bool:

@@ -52,15 +52,14 @@ class Link:
 
 @dataclass(frozen=True)
 class Chain:
-    """Springs in a row; node k is between link k - 1 and link k, the first and last are ends."""
+    """Springs in a row; node k is between link k - 1 and link k, the first and last are ends.
+
+    ``is_ring``: whether it closes on itself without an end; both ends may be on one body or hook.
+    """
 
     links: tuple[Link, ...]
     nodes: tuple[Body, ...]
-
-    @property
-    def is_ring(self) -> bool:
-        """Whether it closes on itself."""
-        return self.nodes[0] == self.nodes[-1]
+    is_ring: bool = False
 
     @property
     def inner(self) -> tuple[Body, ...]:
@@ -233,7 +232,8 @@ def _rows(joined: dict[Body, dict[Body, Link]], inside: Callable[[Body], bool]) 
                 nodes.append(after)
                 links.append(link)
                 used.add(id(link.statement))
-            yield Chain(tuple(links), tuple(nodes))
+            closed = nodes[-1] == start and inside(start)
+            yield Chain(tuple(links), tuple(nodes), closed)
 
 
 def _is_cable(chain: Chain) -> bool:
