@@ -12,7 +12,8 @@ from random_decks import decks
 from adamslite.cli.main import main
 from adamslite.editing.layout import formatted
 from adamslite.editing.text_file import read_text
-from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.language.diagnostics import DeckError
+from adamslite.language.messages.ignoring import judged
 from adamslite.reading.read import read
 from adamslite.resources import find
 
@@ -55,6 +56,10 @@ LAYOUTS = {
         "PART/2\n, MASS=1\n, CM=2  ! adamslite: ignore no-inertia",
         "PART/2\n, MASS=1\n, CM=2  ! adamslite: ignore no-inertia",
     ),
+    "statements of a line with such a comment stay together": (
+        "PART/2, MASS=1;PART/3, MASS = 1  ! adamslite: ignore no-inertia",
+        "PART/2, MASS=1; PART/3, MASS=1  ! adamslite: ignore no-inertia",
+    ),
     "functions closed by a slash get the backslash": (
         "REQUEST/1, F2=DX(2)/\n, F3=DY(2)/",
         "REQUEST/1, F2=DX(2)\\ F3=DY(2)",
@@ -76,9 +81,9 @@ def said(text: str) -> tuple[object, ...]:
     """What reading a deck gives, without places."""
     try:
         deck = read(text)
-        found: tuple[Diagnostic, ...] = deck.warnings
+        found = judged(deck.source, deck.warnings, complete=True)
     except DeckError as fault:
-        deck, found = fault.deck, fault.diagnostics
+        deck, found = fault.deck, [*fault.diagnostics]
     statements = [
         (each.keyword, each.id, each.name)
         + tuple((name, repr(getattr(each, name))) for name in each.arguments)
@@ -131,6 +136,26 @@ def test_a_spoiled_deck_says_the_same_in_its_layout(path: Path, data: st.DataObj
         sign = data.draw(st.sampled_from([*"\n!,;&=()\\/*'\" ", "\n,", ", ", "END\n"]))
         text = text[:at] + sign + text[at + data.draw(st.integers(0, 2)) :]
     assert_same_deck(text)
+
+
+IGNORING = """\
+decks in which comments ignore something
+PART/1, GROUND
+PART/2, MASS=1, CM=2; PART/3, MASS=1, CM=3 ! adamslite: ignore no-inertia
+MARKER/2, PART=2; MARKER/3, PART=3
+PART/4
+, MASS=1     ! adamslite: ignore no-inertia
+, CM=4; MARKER/4, PART=4
+PART/5, MASS=1, CM=5 ! adamslite: ignore no-inertia
+MARKER/5, PART=5 ! adamslite: ignore no-inertia
+"""
+
+
+def test_what_is_ignored_stays_ignored() -> None:
+    layout = formatted(IGNORING)
+    assert said(layout) == said(IGNORING)
+    assert said(IGNORING)[2] == [("ignores-nothing", "note")]
+    assert formatted(layout) == layout
 
 
 def test_names_at_the_top_of_a_command_file_stay() -> None:

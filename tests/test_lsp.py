@@ -156,6 +156,9 @@ def test_a_command_file_knows_its_deck(client: Client, tmp_path: Path) -> None:
     ]
     (found,) = client.at("definition", commands, 1, 10)
     assert found["uri"] == deck and found["range"]["start"]["line"] == 7
+    with pytest.raises(RuntimeError, match="first correct"):
+        client.at("rename", commands, 0, 21, newName="7")
+    client.edit(commands, 2, (2, 0, 3, 0, ""))
     found = client.at("rename", commands, 0, 21, newName="7")
     assert {uri: len(edits) for uri, edits in found["changes"].items()} == {deck: 1, commands: 1}
 

@@ -118,6 +118,12 @@ def test_a_name_and_an_id_are_renamed_apart() -> None:
         assert renamed_in(content, NAMED.index(place), "99") == by_id
 
 
+def test_a_deck_that_cannot_be_read_wholly_is_not_renamed_in() -> None:
+    content = Document("x.adm", "deck").update(NAMED.replace("DX(10,11)", "DX(10,11"))
+    with pytest.raises(UsageError, match="first correct the statements of VARIABLE"):
+        renamed_in(content, NAMED.index("10, PART"), "99")
+
+
 @pytest.mark.parametrize(
     ("place", "new", "reason"),
     [

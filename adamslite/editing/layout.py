@@ -83,6 +83,7 @@ def _laid_out(said: list[Written], place: str) -> str:
     else:
         rest = head_end(text, place)
         head, lines = text[:rest], list(_between(text[rest : said[0].start]))
+    together = False
     for each, follower in pairwise([*said, None]):
         assert each is not None
         stop = follower.start if follower else len(text)
@@ -91,8 +92,13 @@ def _laid_out(said: list[Written], place: str) -> str:
             each.given = None
         over = bool(each.cls and each.cls.ends)
         gap = "" if over else text[rest:stop]
-        lines += _statement_lines(each, _comment(gap.partition("\n")[0]), place, rest)
-        lines += _between(gap)
+        ignoring = _ignoring(text, rest)
+        behind = _comment(gap.partition("\n")[0])
+        found = _statement_lines(each, behind, place, rest, ignoring)
+        if together:
+            lines[-1] = Line(f"{lines[-1].code}; {found[0].code}", found.pop(0).comment)
+        lines += [*found, *_between(gap)]
+        together = ignoring and follower is not None and "\n" not in gap
         if over:
             return _text(head, lines) + text[rest:].rstrip() + "\n"
     return _text(head, lines).rstrip() + "\n"
@@ -111,6 +117,13 @@ def _real_end(text: str, each: Written, stop: int) -> int:
     return signs[-1].end() if signs else each.end
 
 
+def _ignoring(text: str, start: int) -> bool:
+    """Whether the comment at the end of a line ignores messages."""
+    end = text.find("\n", start)
+    comment = _comment(text[start : end if end >= 0 else len(text)])
+    return bool(IGNORING.search(comment))
+
+
 def _comment(stretch: str) -> str:
     found = COMMENT.search(stretch)
     return found[0].rstrip() if found else ""
@@ -123,15 +136,16 @@ def _between(gap: str) -> Iterator[Line]:
         yield from (Line("", each) for each in ([*same] if comment else [""]))
 
 
-def _statement_lines(each: Written, behind: str, place: str, end: int = 0) -> list[Line]:
+def _statement_lines(
+    each: Written, behind: str, place: str, end: int = 0, ignoring: bool = False
+) -> list[Line]:
     """The lines of a statement; ``behind`` is the comment behind it."""
     text = each.source
     found = pieces(each) if each.given is not None else []
     if not found or any("\n" in piece.text for piece in found):
         return [Line(text[each.start : end or each.end], behind)]
     commented = any("!" in text[a.end : b.start] for a, b in pairwise(found))
-    keep = commented or IGNORING.search(behind)
-    rows = kept(found, text) if keep else filled(found, text)
+    rows = kept(found, text) if commented or ignoring else filled(found, text)
     lines = []
     for number, row in enumerate(rows):
         last = row is rows[-1]

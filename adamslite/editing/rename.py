@@ -27,12 +27,14 @@ def rename(texts: Sequence[Content], at: Content, offset: int, new: str) -> list
     Raises
     ------
     UsageError
-        When there is nothing to rename, or the name will not do.
+        When there is nothing to rename, the name will not do, or a text cannot be read wholly.
     """
     symbol = at.symbol_at(offset)
     if symbol is None:
         raise UsageError("there is no id or name here")
     written = _canonical(at.text[symbol.start : symbol.end])
+    for text in texts:
+        _need_readable(text)
     _need_free(at, symbol.kind, written == symbol.key, new)
     found = []
     for text in texts:
@@ -56,6 +58,15 @@ def _own(text: Content, symbol: Use) -> Iterator[Use]:
 def _canonical(word: str) -> Key:
     word = spelled(word.strip() or " ").upper()
     return int(word) if word.isdigit() else word
+
+
+def _need_readable(text: Content) -> None:
+    """Raise an error where statements cannot be read: they may refer to what is renamed."""
+    unread = text.deck.incomplete if text.deck and text.place == "deck" else set()
+    wrong = text.place == "command" and any(each.is_error for each in text.diagnostics)
+    if unread or wrong:
+        what = f"of {', '.join(sorted(unread))} " if unread else "of the command file "
+        raise UsageError(f"first correct the statements {what}that cannot be read")
 
 
 def _need_free(at: Content, kind: str, is_id: bool, new: str) -> None:
