@@ -21,7 +21,6 @@ from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.beam import Beam
 from adamslite.elements.bushing import Bushing
 from adamslite.elements.field import Field
-from adamslite.elements.friction import Friction
 from adamslite.elements.gforce import Gforce
 from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
@@ -236,24 +235,6 @@ def _one_law(field: Field) -> Iterator[Diagnostic]:
             yield diagnose(field, "no-effect", name, word=name.upper(), reason=reason)
     elif field.formulation == "NONLINEAR":
         yield diagnose(field, "missing-argument", word="FUNCTION", hint="FUNCTION: the law")
-
-
-def frictions(deck: Deck) -> Iterator[Diagnostic]:
-    sizes = (
-        "stiction_transition_velocity", "max_stiction_deformation", "pin_radius", "ball_radius",
-        "friction_arm", "bending_reaction_arm", "reaction_arm", "initial_overlap",
-    )  # fmt: skip
-    for each in deck.of(Friction):
-        yield from positive(each, *sizes)
-        if each.transition_velocity_coefficient <= 1.0:
-            yield diagnose(each, "friction-transition", "transition_velocity_coefficient")
-        joint = deck.find(Joint, each.joint)
-        if joint and joint.kind not in each.joints:
-            yield diagnose(each, "friction-not-there", "joint", joint=joint.label, kind=joint.kind)
-        field = "max_stiction_deformation"
-        if each.given(field) and each.effect == "SLIDING":
-            reason = "EFFECT=SLIDING leaves stiction out"
-            yield diagnose(each, "no-effect", field, word=field.upper(), reason=reason)
 
 
 def idle_arguments(deck: Deck) -> Iterator[Diagnostic]:

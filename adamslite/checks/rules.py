@@ -6,7 +6,6 @@ from adamslite.checks.assembly import ASSEMBLY_RULES
 from adamslite.checks.bodies_and_elements import (
     a_ground,
     distinct_ends,
-    frictions,
     ground_without_data,
     idle_arguments,
     inertia,
@@ -25,6 +24,7 @@ from adamslite.checks.contacts import contact_laws, contact_shapes
 from adamslite.checks.dimensions import DIMENSION_RULES
 from adamslite.checks.effective_mass import effective_masses
 from adamslite.checks.equations import unformed_equations
+from adamslite.checks.frictions import frictions
 from adamslite.checks.inert import (
     acts_on_flexible,
     changed_requests,

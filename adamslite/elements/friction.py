@@ -31,8 +31,20 @@ The vector mu and d, its direction, follow from the slip v and the creep D of th
     vs = STICTION_TRANSITION_VELOCITY,  vd = TRANSITION_VELOCITY_COEFFICIENT vs
     Dm = MAX_STICTION_DEFORMATION
 
-A joint at rest under a load yields by D, s(|D|/Dm) = load/(MU_STATIC N), and stays; it breaks away
-where that share is 1.  Creep and slip of a SPHERICAL joint have components along the axes of I.
+FORMULATION=LUGRE has a law without regimes instead, z being the deformation of bristles in place of
+the creep (results beta = 0, mu1 = k |z|)::
+
+    mu = k z + c dz/dt + f v,    d = k z/g
+    dz/dt = v - k |v| z/g,       g = MU_DYNAMIC + (MU_STATIC - MU_DYNAMIC) exp(-(|v|/w)^p)
+
+    k = BRISTLE_STIFFNESS_COEFFICIENT,  c = DAMPING_COEFFICIENT,  f = VISCOUS_FRICTION_COEFFICIENT
+    w = VELOCITY_THRESHOLD_STRIBECK,    p = DECAY_EXPONENT_STRIBECK
+
+MAX_FRICTION_FORCE and MAX_FRICTION_TORQUE shorten the force and the torque of either law.
+
+By the stick-slip law a joint at rest under a load yields by D, s(|D|/Dm) = load/(MU_STATIC N), and
+stays; it breaks away where that share is 1.  Creep, bristles and slip of a SPHERICAL joint have
+components along the axes of I.
 
 The reaction is that of the joint at the same time, solved for with all other unknowns.
 INPUTS leaves out terms of N or the preload: REACTION_FORCE F, BENDING_MOMENT T_n, TORSIONAL_MOMENT
@@ -52,16 +64,18 @@ one.  With INACTIVE=STATIC there is no friction there.
 Source: Adams/Solver statement FRICTION; Adams/View help "Translational Joint" and "Friction Regime
 Determination".  The law below vs and its STEP5 were fitted to results of Adams for spherical
 joints; that creep ends at Dm is documented.  The weights of N in the other joints follow the
-descriptions of their arguments.
+descriptions of their arguments.  LUGRE: Canudas de Wit, Olsson, Astrom, Lischinsky, A New Model for
+Control of Systems with Friction, IEEE Transactions on Automatic Control 40 (1995).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from types import ModuleType
 from typing import ClassVar, NamedTuple
 
+from adamslite.elements.bases import lugre, stick_slip
 from adamslite.elements.bases.joint_coordinates import built_slide, relative_velocity, slide
-from adamslite.elements.bases.stick_slip import creep_rate, regime
 from adamslite.elements.bases.wrench import Wrench
 from adamslite.elements.joint import Joint
 from adamslite.language.expression import COMPONENTS, Call, Node, Num, Ref, measure
@@ -92,12 +106,12 @@ CHANNELS = (
 )  # fmt: skip
 
 
-def _lugre(key: str, unit: str, help: str) -> float | None:
-    return number(key, unit=unit, inert=True, help=f"{help}; of FORMULATION=LUGRE alone")
-
-
 def _arm(key: str, default: float, help: str) -> float:
     return number(key, unit="length", default=default, help=help)
+
+
+def _of_lugre(key: str, unit: str, help: str) -> float | None:
+    return number(key, unit=unit, help=f"LUGRE: {help}")
 
 
 class Freedom(NamedTuple):
@@ -120,8 +134,8 @@ class Friction(Wrench, Statement):
         "JOINT", to="JOINT", required=True, help="the joint that has friction"
     )
     formulation: str = choice(
-        "FORMULATION", options=("ORIGINAL", "LUGRE"), supported=("ORIGINAL",), default="ORIGINAL",
-        help="the law",
+        "FORMULATION", options=("ORIGINAL", "LUGRE"), default="ORIGINAL",
+        help="the law: stick-slip, or that of bristles",
     )  # fmt: skip
     mu_static: float = number("MU_STATIC", unit="1", default=0.5, help="coefficient at rest")
     mu_dynamic: float = number("MU_DYNAMIC", unit="1", default=0.3, help="coefficient in motion")
@@ -170,6 +184,31 @@ class Friction(Wrench, Statement):
         "FRICTION_TORQUE_PRELOAD", unit="torque", default=0.0,
         help="friction torque without load: all but TRANSLATIONAL",
     )  # fmt: skip
+    max_friction_force: float | None = number(
+        "MAX_FRICTION_FORCE",
+        unit="force",
+        help="largest friction force: TRANSLATIONAL, CYLINDRICAL",
+    )
+    max_friction_torque: float | None = number(
+        "MAX_FRICTION_TORQUE", unit="torque", help="largest friction torque: all but TRANSLATIONAL"
+    )
+    bristle_stiffness_coefficient: float | None = _of_lugre(
+        "BRISTLE_STIFFNESS_COEFFICIENT",
+        "1/length",
+        "k: coefficient per deformation of the bristles",
+    )
+    damping_coefficient: float | None = _of_lugre(
+        "DAMPING_COEFFICIENT", "time/length", "c: coefficient per rate of their deformation"
+    )
+    viscous_friction_coefficient: float | None = _of_lugre(
+        "VISCOUS_FRICTION_COEFFICIENT", "time/length", "f: coefficient per slip"
+    )
+    velocity_threshold_stribeck: float | None = _of_lugre(
+        "VELOCITY_THRESHOLD_STRIBECK", "length/time", "w: slip at which MU_STATIC has decayed"
+    )
+    decay_exponent_stribeck: float | None = _of_lugre(
+        "DECAY_EXPONENT_STRIBECK", "1", "p: exponent of the decay, often 2"
+    )
     effect: str = choice(
         "EFFECT", options=("ALL", "STICTION", "SLIDING"), default="ALL", help="regimes that act"
     )
@@ -180,30 +219,15 @@ class Friction(Wrench, Statement):
         "INACTIVE", "INACTIVE_DURING", options=("STATIC",), help="no friction in statics"
     )
 
-    bristle_stiffness: float | None = _lugre(
-        "BRISTLE_STIFFNESS_COEFFICIENT", "1/length", "stiffness of the bristles"
+    smooth: float | None = number(
+        "SMOOTH", unit="1", inert=True, help="LUGRE: its meaning is not published"
     )
-    bristle_damping: float | None = _lugre(
-        "DAMPING_COEFFICIENT", "time/length", "damping of the bristles"
-    )
-    viscous_friction: float | None = _lugre(
-        "VISCOUS_FRICTION_COEFFICIENT", "time/length", "viscous coefficient"
-    )
-    stribeck_velocity: float | None = _lugre(
-        "VELOCITY_THRESHOLD_STRIBECK", "length/time", "velocity of the Stribeck effect"
-    )
-    stribeck_exponent: float | None = _lugre(
-        "DECAY_EXPONENT_STRIBECK", "1", "exponent of the Stribeck effect"
-    )
-    smooth: float | None = _lugre("SMOOTH", "1", "smoothing")
-    max_friction_force: float | None = _lugre("MAX_FRICTION_FORCE", "force", "greatest force")
-    max_friction_torque: float | None = _lugre("MAX_FRICTION_TORQUE", "torque", "greatest torque")
 
     joints: ClassVar[tuple[str, ...]] = (*SLIDES, *TURNS, "SPHERICAL")
     beyond = "moved until its parts no longer overlap"
 
     def states(self, joint: Joint | None) -> list[str]:
-        """Names of the DIFFs that are its creep over MAX_STICTION_DEFORMATION."""
+        """Names of the DIFFs that are its creep, made dimensionless by its law."""
         if joint is None or joint.kind not in self.joints or self.effect == "SLIDING":
             return []
         return [f"FRICTION_{self.key}{end}".upper() for end in STATES.get(joint.kind, ("",))]
@@ -235,7 +259,7 @@ class Friction(Wrench, Statement):
         """Friction on I and its reaction on J."""
         i, j = self.joint.i, self.joint.j
         freedoms, load = slips(scope, self), normal_load(scope, self)
-        found = regime(scope, self, [each.speed for each in freedoms])
+        found = law(self).regime(scope, self, [each.speed for each in freedoms])
         force, torque = ZERO, ZERO
         for freedom, d, mu in zip(freedoms, found.direction, found.coefficient, strict=True):
             if freedom.radius is None:
@@ -244,25 +268,29 @@ class Friction(Wrench, Statement):
             else:
                 own = preload(self, self.friction_torque_preload)
                 torque = minus(torque, scale(freedom.radius * mu * load + own * d, freedom.axis))
+        force, torque = (
+            capped(force, self.max_friction_force),
+            capped(torque, self.max_friction_torque),
+        )
         if self.inactive == "STATIC":
             acts = piecewise((0, sp.Eq(scope.mode, STATICS)), otherwise=1)
             force, torque = scale(acts, force), scale(acts, torque)
         return [Load(i, force, torque, j, follows=True)]
 
     def state_rate(self: Seen, scope: Scope, number: int, state: Symbol) -> Expr:
-        """Rate of a component of creep over MAX_STICTION_DEFORMATION."""
-        return creep_rate(scope, self, [each.speed for each in slips(scope, self)], number, state)
+        """Rate of a component of what its law keeps of creep."""
+        slip = [each.speed for each in slips(scope, self)]
+        return law(self).creep_rate(scope, self, slip, number, state)
 
     def values(self: Seen, scope: Scope) -> list[Expr]:
         """Values of ``CHANNELS``."""
         freedoms = slips(scope, self)
-        found = regime(scope, self, [each.speed for each in freedoms])
+        found = law(self).regime(scope, self, [each.speed for each in freedoms])
         at = [each.channel for each in freedoms]
-        deformed = [self.max_stiction_deformation * b for b in self.creep]
-        deformed = [piecewise((d, found.beta < 1), otherwise=0) for d in deformed]
         return [
             *_spread(at, [-mu for mu in found.coefficient]), found.creep_term,
-            *_spread(at, [each.speed for each in freedoms]), *_spread(at, deformed), found.beta,
+            *_spread(at, [each.speed for each in freedoms]), *_spread(at, found.deformation),
+            found.beta,
         ]  # fmt: skip
 
     @property
@@ -275,6 +303,19 @@ class Friction(Wrench, Statement):
         own, rm = Ref("FRICTION", self.key), Ref("MARKER", model.element("JOINT", self.joint).j)
         numbers = [*COMPONENTS, *range(9, 9 + len(CHANNELS))]
         return [Call("FRICTION", (own, Num(0.0), Num(float(n)), rm)) for n in numbers]
+
+
+def law(friction: Seen) -> ModuleType:
+    """The module of its law, which has ``regime`` and ``creep_rate``."""
+    return lugre if friction.formulation == "LUGRE" else stick_slip
+
+
+def capped(load: Vector, most: Expr | None) -> Vector:
+    """A force or torque, shortened to the size ``most`` where it is larger."""
+    if most is None:
+        return load
+    size = norm(load)
+    return scale(piecewise((most / size, size > most), otherwise=1, order=0), load)
 
 
 def _spread(at: Sequence[int], values: Sequence[Expr]) -> list[Expr]:

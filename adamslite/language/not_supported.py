@@ -18,8 +18,6 @@ _INTEGRATOR = (
     "a number of the integrator of ADAMS; the summary of a run prints those of this program"
 )
 INSTEAD = {
-    "FRICTION LUGRE": "the defaults of its words are not published: MAX_STICTION_DEFORMATION gives "
-    "the elasticity at rest, or write that law as a DIFF and an SFORCE",
     "CONTACT FRICTION_FUNCTION": _CONTACT,
     "CONTACT NORMAL_FUNCTION": _CONTACT,
     "GSE IMPLICIT": "write each equation as a DIFF, IMPLICIT",

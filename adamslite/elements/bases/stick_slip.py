@@ -44,6 +44,7 @@ class Regime(NamedTuple):
     coefficient: list[Expr]
     creep_term: Expr
     beta: Expr
+    deformation: list[Expr]
 
 
 def regime(scope: Scope, friction: Seen, slip: Sequence[Expr]) -> Regime:
@@ -62,11 +63,16 @@ def regime(scope: Scope, friction: Seen, slip: Sequence[Expr]) -> Regime:
     ]
     mu = step5(scope, speed, edge, rest, end, moving)
     fade = step5(scope, speed, edge, 1, end, 0) if friction.effect == "STICTION" else 1
+    blend = piecewise((beta, within), otherwise=1)
     return Regime(
         [fade * d for d in direction],
         [mu * d for d in direction],
         piecewise((rest * creep_term, within), otherwise=0),
-        piecewise((beta, within), otherwise=1),
+        blend,
+        [
+            piecewise((friction.max_stiction_deformation * d, blend < 1), otherwise=0)
+            for d in friction.creep
+        ],
     )
 
 

@@ -219,6 +219,12 @@ MODEL: dict[str, Message] = {
         "a TRANSITION_VELOCITY_COEFFICIENT is larger than 1; 1.5 is the default",
         ("JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1, TRANSITION_VELOCITY_COEFFICIENT=1",),
     ),
+    "not-with-bristles": Message(
+        "{word} of {label} does not go with FORMULATION=LUGRE",
+        "the law has no regimes that could act alone: delete EFFECT",
+        ("JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1, FORMULATION=LUGRE, EFFECT=SLIDING"
+         ", BRISTLE=1, DAMPING=1, VISCOUS=1, VELOCITY=1, DECAY=2",),
+    ),
     "no-effect": Message(
         "{word} has no effect in {label}",
         "{reason}",

@@ -22,7 +22,8 @@ SHAPES: dict[str, Message] = {
          "GRAPHICS/1, BOX, X=1, Y=1, Z=1", "GRAPHICS/1, PLANE, XMIN=1",
          "GRAPHICS/1, FORCE, EID=1, EMARKER=2", "GRAPHICS/1, SPDP, I=1",
          FLOOR + "CONTACT/1, IGEOM=1, JGEOM=2, IMPACT, STIFFNESS=1",
-         FLOOR + f"{MEET}, COULOMB_FRICTION=ON, MU_STATIC=1"),
+         FLOOR + f"{MEET}, COULOMB_FRICTION=ON, MU_STATIC=1",
+         "JOINT/1, REVOLUTE, I=2, J=1\nFRICTION/1, JOINT=1, FORMULATION=LUGRE"),
     ),
     "contact-shape": Message(
         "{label} cannot compute how {shape} touches: it is of kind {kind}",
