@@ -16,7 +16,7 @@ from adamslite.elements.reload import Reload
 from adamslite.elements.save import Save
 from adamslite.errors import UsageError
 from adamslite.language.diagnostics import DeckError, Diagnostic
-from adamslite.outputs.modes import shapes_beside
+from adamslite.outputs.modes import files_beside
 from adamslite.outputs.saved_files import missing
 from adamslite.outputs.whole_files import need_writable, same_file
 
@@ -76,8 +76,7 @@ def _all_files(commands: Sequence[Linear], paths: Sequence[Path]) -> Iterator[tu
     """Every file that LINEAR commands write, with its command."""
     for command, path in zip(commands, paths, strict=True):
         yield from ((command, path.with_name(path.name + part)) for part in command.parts)
-        if command.kind == "EIGENSOL" and command.shapes:
-            yield command, shapes_beside(path)
+        yield from ((command, other) for other in files_beside(path, command).values())
 
 
 def _written_twice(made: Iterable[tuple[Linear, Path]]) -> Iterator[Diagnostic]:

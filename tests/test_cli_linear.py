@@ -25,6 +25,8 @@ class Modes:
     input_matrix: np.ndarray = field(default_factory=lambda: np.array([[0.0], [1.0]]))
     output_matrix: np.ndarray = field(default_factory=lambda: np.array([[1.0, 0.0]]))
     feedthrough: np.ndarray = field(default_factory=lambda: np.zeros((1, 1)))
+    kinetic: np.ndarray = field(default_factory=lambda: np.ones((1, 4)))
+    bodies: tuple[str, ...] = ("PART/2",)
     inputs: tuple[str, ...] = ("VARIABLE/1",)
     outputs: tuple[str, ...] = ("VARIABLE/2",)
     note: str = ""

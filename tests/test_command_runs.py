@@ -408,3 +408,41 @@ def test_a_flag_for_the_end_replaces_no_equilibrium() -> None:
     results = run(FALL + spring, "SIM/STATICS", end=2.0, steps=2)
     assert results.time == pytest.approx([0, 1, 2])
     assert results["POINT_MASS/2.y"] == pytest.approx([-0.1962] * 3, abs=1e-6)
+
+
+def test_kenergy_writes_shares_of_bodies(chain: Callable[[str], int]) -> None:
+    """Masses of 1 and 3 on three springs: shares m phi^2 of the modes of (K - w^2 M) phi = 0."""
+    Path("o.adm").write_text(CHAIN.replace("POINT_MASS/3, MASS=1", "POINT_MASS/3, MASS=3"))
+    assert chain("LINEAR/EIGENSOL, KENERGY=1,2") == 0
+    rows = [line.split(",") for line in Path("o.kinetic.csv").read_text().splitlines()[1:]]
+    found = np.array([float(row[3]) for row in rows]).reshape(2, 2)
+    mass = np.array([1.0, 3.0])
+    squares, modes = np.linalg.eig(np.array([[8.0, -4.0], [-4.0, 8.0]]) / mass[:, None])
+    shares = (mass[:, None] * modes**2)[:, np.argsort(squares)]
+    assert found == pytest.approx((shares / shares.sum(axis=0)).T, abs=1e-9)
+    assert [row[2] for row in rows] == ["POINT_MASS/2", "POINT_MASS/3"] * 2
+
+
+@pytest.mark.parametrize("turned", [("IP=5,6,3", ""), ("IP=5,3,6", ", REULER=0,90D,0")])
+def test_kinetic_energy_of_turning_parts(
+    chain: Callable[[str], int], turned: tuple[str, str]
+) -> None:
+    """Flywheels of 3 and 1 kg m2 about z on torsion springs of 2 N m, ground - first - second.
+
+    (K - w^2 I) phi = 0 with K = [[4, -2], [-2, 2]]; also where y of the mass centre is along z.
+    """
+    tensor, axes = turned
+    Path("o.adm").write_text(
+        "flywheels\nPART/1, GROUND\nMARKER/1, PART=1\n"
+        f"PART/2, MASS=1, CM=2, {tensor}\nMARKER/2, PART=2{axes}\nMARKER/4, PART=2\n"
+        "PART/3, MASS=1, CM=3, IP=5,5,1\nMARKER/3, PART=3\n"
+        "JOINT/1, REVOLUTE, I=4, J=1\nJOINT/2, REVOLUTE, I=3, J=1\n"
+        "SPRINGDAMPER/1, ROTATIONAL, I=4, J=1, KT=2\nSPRINGDAMPER/2, ROTATIONAL, I=3, J=4, KT=2\n"
+    )
+    assert chain("LINEAR/EIGENSOL, KENERGY=1,2") == 0
+    rows = [line.split(",") for line in Path("o.kinetic.csv").read_text().splitlines()[1:]]
+    found = np.array([float(row[3]) for row in rows]).reshape(2, 2)
+    inertia = np.array([3.0, 1.0])
+    squares, modes = np.linalg.eig(np.array([[4.0, -2.0], [-2.0, 2.0]]) / inertia[:, None])
+    shares = (inertia[:, None] * modes**2)[:, np.argsort(squares)]
+    assert found == pytest.approx((shares / shares.sum(axis=0)).T, abs=1e-9)

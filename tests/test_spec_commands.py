@@ -76,6 +76,7 @@ def outcome(deck: str, commands: str) -> tuple[Any, ...]:
             *each[:3],
             each.form == "MATLAB",
             each.shapes,
+            each.energies,
             *(vars(each.model)[key].tolist() for key in MATRICES),
         )
         for each in results.linearizations

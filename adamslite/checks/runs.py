@@ -218,10 +218,11 @@ def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
         for field in ("file", "format", "pinput", "poutput"):
             if each.kind == "EIGENSOL" and each.given(field):
                 yield _idle(each, field, field.upper(), "EIGENSOL has neither input nor output")
-        if each.kind == "STATEMAT" and each.coords:
-            yield _idle(each, "coords", "COORDS", "STATEMAT finds no modes")
-        elif each.shapes and not 1 <= each.shapes[0] <= each.shapes[1]:
-            yield diagnose(each, "no-such-modes", "coords")
+        for field, modes in (("coords", each.shapes), ("kinetic", each.energies)):
+            if each.kind == "STATEMAT" and modes:
+                yield _idle(each, field, field.upper(), "STATEMAT finds no modes")
+            elif modes and not 1 <= modes[0] <= modes[1]:
+                yield diagnose(each, "no-such-modes", field, word=field.upper())
         if each.kind == "STATEMAT" and each.format == "MATRIXX":
             yield _idle(each, "format", "MATRIXX", "its layout is not published")
         if each.pstate is not None and each.kind == "EIGENSOL":

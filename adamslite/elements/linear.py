@@ -40,13 +40,17 @@ def _modes(key: str, what: str, short: str = "") -> tuple[str, ...]:
     return texts(*keys, inert=True, help=f"first and last mode whose {what} ADAMS prints")
 
 
+def _range(given: tuple[float, ...]) -> tuple[int, int] | None:
+    return (round(given[0]), round(given[-1])) if given else None
+
+
 @statement("LINEAR", singleton=True, repeatable=True, place="command")
 class Linear(Statement):
     """Eigenvalues and mode shapes, or the matrices of the linearised model.
 
     EIGENSOL writes NAME.modes.csv, and with COORDS the magnitudes and phases of mode shapes to
-    NAME.shapes.csv, the largest of a mode 1 at phase 0; STATEMAT writes its FILE or
-    NAME.states.json.
+    NAME.shapes.csv, the largest of a mode 1 at phase 0, with KINETIC the shares of bodies in the
+    kinetic energy to NAME.kinetic.csv; STATEMAT writes its FILE or NAME.states.json.
     """
 
     kind: str = choice(
@@ -76,14 +80,22 @@ class Linear(Statement):
         help="first and last mode whose shape is written",
     )  # fmt: skip
     energy: tuple[str, ...] = _modes("ENERGY", "energies")
-    kinetic: tuple[str, ...] = _modes("KINETIC", "kinetic energies", "KENERGY")
+    kinetic: tuple[float, ...] = vector(
+        "KINETIC", "KENERGY", size=1, most=2, unit="1", default=(),
+        help="first and last mode of which the share of each body in the energy is written",
+    )  # fmt: skip
     strain: tuple[str, ...] = _modes("STRAIN", "strain energies", "SENERGY")
     dissipation: tuple[str, ...] = _modes("DISSIPATION", "dissipated energies", "DENERGY")
 
     @property
     def shapes(self) -> tuple[int, int] | None:
         """First and last mode whose shape is written."""
-        return (round(self.coords[0]), round(self.coords[-1])) if self.coords else None
+        return _range(self.coords)
+
+    @property
+    def energies(self) -> tuple[int, int] | None:
+        """The same of kinetic energies."""
+        return _range(self.kinetic)
 
     @property
     def parts(self) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from adamslite.elements.linear import Linear
 from adamslite.errors import UsageError
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.linearization import Linearization
@@ -87,17 +88,19 @@ def save_command(made: Linearized, path: Path) -> list[Path]:
     if made.kind == "STATEMAT" and made.form == "MATLAB":
         return _save_tables(made.model, path)
     save(made.model, path)
-    if made.kind == "STATEMAT" or made.shapes is None:
-        return [path]
-    beside = shapes_beside(path)
-    with whole_file(beside) as stream:
-        stream.write(_shapes(made.model, *made.shapes))
-    return [path, beside]
+    write = {"shapes": _shapes, "kinetic": _energies}
+    beside = files_beside(path, made)
+    for word, other in beside.items():
+        with whole_file(other) as stream:
+            stream.write(write[word](made))
+    return [path, *beside.values()]
 
 
-def shapes_beside(path: Path) -> Path:
-    """The file of mode shapes beside that of the modes."""
-    return path.with_name(f"{path.name.removesuffix('.modes.csv')}.shapes.csv")
+def files_beside(path: Path, made: Linear | Linearized) -> dict[str, Path]:
+    """The files that an EIGENSOL writes beside that of its modes, by what is in them."""
+    asked = {"shapes": made.shapes, "kinetic": made.energies} if made.kind == "EIGENSOL" else {}
+    stem = path.name.removesuffix(".modes.csv")
+    return {word: path.with_name(f"{stem}.{word}.csv") for word, modes in asked.items() if modes}
 
 
 def _save_tables(model: Linearization, path: Path) -> list[Path]:
@@ -115,10 +118,28 @@ def _save_tables(model: Linearization, path: Path) -> list[Path]:
     return paths
 
 
-def _shapes(found: Linearization, first: int, last: int) -> str:
+def _rows_between(found: Linearization, modes: tuple[int, int] | None) -> list[ModeRow]:
+    """The modes from a first to a last one."""
+    first, last = modes or (1, 0)
+    return mode_rows(found)[first - 1 : last]
+
+
+def _energies(made: Linearized) -> str:
+    """Shares of bodies in the kinetic energy of modes."""
+    found = made.model
+    lines = ["mode,frequency,body,share"]
+    for row in _rows_between(found, made.energies):
+        shares = found.kinetic[:, row.place].tolist()
+        lines += [f"{row.number},{row.frequency!r},{name},{share!r}"
+                  for name, share in zip(found.bodies, shares, strict=True)]  # fmt: skip
+    return "\n".join(lines) + "\n"
+
+
+def _shapes(made: Linearized) -> str:
     """Magnitudes and phases [degrees] of the coordinates of modes; the largest of a mode is 1."""
+    found = made.model
     lines = ["mode,frequency,coordinate,magnitude,phase"]
-    for row in mode_rows(found)[first - 1 : last]:
+    for row in _rows_between(found, made.shapes):
         shape = found.modes[:, row.place]
         far = np.abs(shape)
         largest = shape[np.flatnonzero(far >= (1.0 - ALIKE) * far.max())[0]] if far.any() else 1.0
@@ -168,6 +189,8 @@ def _json(linearization: Linearization) -> str:
         "input_matrix": found.input_matrix.tolist(),
         "output_matrix": found.output_matrix.tolist(),
         "feedthrough": found.feedthrough.tolist(),
+        "bodies": list(found.bodies),
+        "kinetic": found.kinetic.tolist(),
         "note": found.note,
     }
     return json.dumps(whole, indent=1) + "\n"

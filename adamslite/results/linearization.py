@@ -31,6 +31,10 @@ class Linearization:
         B, C, D; w is added to the VARIABLEs of PINPUT, v = C x + D w is those of POUTPUT.
     coordinates, inputs, outputs : tuple of str
         Names of the rows of ``modes``, of w and of v.
+    kinetic : (nb, nx) array
+        Share of each body in the kinetic energy of each mode; zeros where a mode has none.
+    bodies : tuple of str
+        Names of the rows of ``kinetic``.
     steady : bool
         Whether A to D stay constant along the motion.
     steady_for : str
@@ -47,6 +51,8 @@ class Linearization:
     feedthrough: np.ndarray
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
+    kinetic: np.ndarray
+    bodies: tuple[str, ...]
     steady: bool = True
     steady_for: str = ""
 

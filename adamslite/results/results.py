@@ -27,7 +27,8 @@ class Linearized(NamedTuple):
     """One LINEAR command: ``kind`` EIGENSOL or STATEMAT, its FILE if it names one, the ``time`` of
     the state, and the :class:`~adamslite.results.linearization.Linearization`.
 
-    ``form`` MATLAB: matrices as plain tables; ``shapes``: first and last mode whose shape counts.
+    ``form`` MATLAB: matrices as plain tables; ``shapes``, ``energies``: first and last mode of
+    which these are written.
     """
 
     kind: str
@@ -36,6 +37,7 @@ class Linearized(NamedTuple):
     model: Linearization
     form: str | None = None
     shapes: tuple[int, int] | None = None
+    energies: tuple[int, int] | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -23,6 +23,7 @@ from adamslite.elements.pinput import Pinput
 from adamslite.elements.poutput import Poutput
 from adamslite.equations.system import System
 from adamslite.language.interfaces import Key
+from adamslite.model.model import PART
 from adamslite.results.linearization import Linearization
 from adamslite.results.results import Linearized
 
@@ -37,7 +38,10 @@ def carried_out(command: Linear, system: System, time: float) -> Linearized:
     seen = None if command.poutput is None else deck.find(Poutput, command.poutput)
     inputs, outputs = (port.variables if port else () for port in (given, seen))
     found = linear(system, inputs, outputs, not command.nodamping, command.rm)
-    return Linearized(command.kind, command.file, time, found, command.format, command.shapes)
+    return Linearized(
+        command.kind, command.file, time, found,
+        form=command.format, shapes=command.shapes, energies=command.energies,
+    )  # fmt: skip
 
 
 def linear(
@@ -86,8 +90,26 @@ def linear(
         state_matrix=a, coordinates=_names(system), input_matrix=b, output_matrix=c, feedthrough=d,
         inputs=tuple(f"VARIABLE/{key}" for key in inputs),
         outputs=tuple(f"VARIABLE/{key}" for key in outputs),
+        kinetic=_kinetic_shares(system, found.instant.attitude, speed)[:, order],
+        bodies=tuple(body.statement.label for body in system.model.bodies),
         steady=steady, steady_for=steady_for,
     )  # fmt: skip
+
+
+def _kinetic_shares(system: System, attitude: np.ndarray, speed: np.ndarray) -> np.ndarray:
+    """Shares (nb, nx) of bodies in m |v|^2 + w* R I R^T w, from speeds (n, nx) in ground axes and
+    attitudes (nb, 3, 3).
+    """
+    energy = np.zeros((len(system.mass), speed.shape[1]))
+    inertia = system.inertia.reshape(-1, 3, 3)
+    for b, body in enumerate(system.model.bodies):
+        i = system.starts[b]
+        energy[b] = system.mass[b] * (np.abs(speed[i : i + 3]) ** 2).sum(axis=0)
+        if body.width == PART:
+            spin = attitude[b].T @ speed[i + 3 : i + 6]
+            energy[b] += (spin.conj() * (inertia[b] @ spin)).sum(axis=0).real
+    whole = energy.sum(axis=0)
+    return energy / np.where(whole > 0.0, whole, 1.0)
 
 
 def _factors(places: np.ndarray, speeds: np.ndarray) -> np.ndarray:

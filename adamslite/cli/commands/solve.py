@@ -4,8 +4,9 @@ How long to run: --end, else SIMULATE in COMMANDS.acf, else in the .acf of the d
 the deck, else in the deck itself. The results go to DECK's name with .csv in the current directory,
 or to the output prefix that COMMANDS.acf names, or to OUT, in the format of its suffix (`adamslite
 help formats` lists them); `-o -` writes a table to standard output. Beside it LINEAR/EIGENSOL
-writes OUT.modes.csv, with COORDS OUT.shapes.csv, LINEAR/STATEMAT its FILE or OUT.states.json
-(matrices A, B, C, D), SAVE its FILE. All the command says goes to standard error.
+writes OUT.modes.csv, with COORDS and KENERGY OUT.shapes.csv and OUT.kinetic.csv, LINEAR/STATEMAT
+its FILE or OUT.states.json (matrices A, B, C, D), SAVE its FILE. All the command says goes to
+standard error.
 """
 
 import argparse

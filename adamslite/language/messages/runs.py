@@ -74,9 +74,9 @@ RUNS: dict[str, Message] = {
         severity=NOTE,
     ),
     "no-such-modes": Message(
-        "COORDS is not the number of a first and of a last mode",
-        "modes are counted from 1: COORDS=1,25",
-        commands=("LINEAR/EIGENSOL, COORDS=0,4", "LINEAR/EIGENSOL, COORDS=4,2"),
+        "{word} is not the number of a first and of a last mode",
+        "modes are counted from 1: {word}=1,25",
+        commands=("LINEAR/EIGENSOL, COORDS=0,4", "LINEAR/EIGENSOL, KENERGY=4,2"),
     ),
     "prefix-unused": Message(
         "{word} is not the plain name of a file: results are called as the deck",
