@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import signal
 import sys
 import traceback
 from collections import Counter
@@ -25,7 +26,7 @@ from adamslite.cli.commands import check
 from adamslite.errors import RunFailed, UsageError
 from adamslite.language.diagnostics import DeckError
 from adamslite.resources import find
-from adamslite.scene import load_scene, run_scene
+from adamslite.scene import Scene, load_scene, run_scene
 
 WORD = re.compile(r"[A-Za-z_]\w*")
 NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d*)?(?:[EeDd][-+]?\d+)?")
@@ -37,6 +38,8 @@ PIECES = (
 )  # fmt: skip
 LONGEST = 60_000
 """Characters of the largest deck that is changed: reading takes its time for all of it."""
+PATIENCE = 60
+"""Seconds a run may take."""
 
 
 FOLDERS = [find("decks")]
@@ -168,12 +171,19 @@ def outcome(number: int, folder: Path, solve: bool = False) -> str:
     except DeckError as fault:
         assert str(fault) and all(each.span.line >= 1 for each in fault.errors)
         return "errors"
-    if not solve:
-        return "checked"
+    return _solved(scene) if solve else "checked"
+
+
+def _solved(scene: Scene) -> str:
+    """What comes of a run, which is interrupted after a minute as by Ctrl-C."""
+    signal.signal(signal.SIGALRM, signal.default_int_handler)
+    signal.alarm(PATIENCE)
     try:
         results = run_scene(scene, {})
-    except (RunFailed, UsageError, DeckError):
+    except (RunFailed, UsageError, DeckError, KeyboardInterrupt):
         return "stopped"
+    finally:
+        signal.alarm(0)
     return "solved" if results.outcome is al.Outcome.DONE else "stopped"
 
 
