@@ -73,7 +73,8 @@ def test_every_abbreviation_is_coloured() -> None:
         for length in range(1, len(keyword)):
             word = keyword[:length]
             if match(PREFERRED.get(word, word), table) == meant:
-                assert PATTERNS["statement"].fullmatch(f"{word}/1"), word
+                line = f"{word}/1"
+                assert PATTERNS["statement"].fullmatch(line) or PATTERNS["setting"].match(line)
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
@@ -99,6 +100,7 @@ def test_the_colours_of_some_lines() -> None:
         ("90D", "constant.numeric"),
         ("\\", "punctuation.separator"),
     ]
+    assert scopes("INTEGRATOR/GSTIFF, SI2")[2] == ("GSTIFF", "constant.other.option")
     assert scopes("END") == [("END", "keyword.control.statement")]
 
 

@@ -57,10 +57,13 @@ def _rules() -> dict[str, Grammar]:
         }),
         "comment": _rule("![^\\n]*$", {"0": "comment.line.adams"}),
         "text": _rule('"[^"\\n]*"', {"0": "string.quoted.double.adams"}),
-        "statement": _rule(f"(?i)(?:^|;)[ \\t]*({_abbreviated()})[ \\t]*(/){ID}?", {
+        "statement": _rule(f"(?i)(?:^|;)[ \\t]*({_abbreviated(False)})[ \\t]*(/){ID}?", {
             "1": "keyword.control.statement.adams",
             "2": "punctuation.separator.adams",
             "3": "entity.name.id.adams",
+        }),
+        "setting": _rule(f"(?i)(?:^|;)[ \\t]*({_abbreviated(True)})[ \\t]*(/)", {
+            "1": "keyword.control.statement.adams", "2": "punctuation.separator.adams",
         }),
         "end": _rule(f"(?i)^[ \\t]*({_words(ends)})[ \\t]*$", {
             "1": "keyword.control.statement.adams",
@@ -106,11 +109,16 @@ def _options() -> set[str]:
     }
 
 
-def _abbreviated() -> str:
-    """Every beginning of a statement's name that a deck or a command file may have."""
+def _abbreviated(singleton: bool) -> str:
+    """Every beginning of a statement's name that a deck or a command file may have.
+
+    ``singleton``: of those without an id, or of all others.
+    """
     tables = known_keywords("deck"), known_keywords("command")
     found = {}
-    for keyword in tables[1]:
+    for keyword, meant in tables[1].items():
+        if singleton != getattr(meant, "singleton", False):
+            continue
         beginnings = (keyword[:length] for length in range(1, len(keyword) + 1))
         shortest = next(word for word in beginnings if any(_is(word, keyword, t) for t in tables))
         tail = ""
