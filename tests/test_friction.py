@@ -210,3 +210,40 @@ def test_small_motions_of_a_joint_at_rest(method: str) -> None:
     slow, fast = np.sort(np.abs(np.roots([2, c, k])))
     modes = np.sort(np.abs(found.linearizations[0].model.eigenvalues))
     assert modes == pytest.approx([0, slow, fast], rel=1e-3, abs=1e-9)
+
+
+CYCLES = "\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=2, J=1, FUNCTION=20*SIN(9*TIME)"
+
+
+def test_a_state_that_was_saved_continues_as_before() -> None:
+    """The creep counts from where sliding ended, also after RELOAD."""
+    deck = slope(CYCLES)
+    run_ = "SIM/DYN, END=1.3, STEPS=13\n{}SIM/DYN, END=2, STEPS=7\n"
+    away = "SAVE/STATES, BUFFER=1\nSIM/DYN, END=1.6, STEPS=5\nRELOAD/STATES, BUFFER=1\n"
+    plain, again = (
+        simulate(deck, commands=read_commands(run_.format(more), deck), error=1e-8)
+        for more in ("", away)
+    )
+    for name in ("PART/2.x", "PART/2.vx", "FRICTION/1.creep_z"):
+        assert again[name][-7:] == pytest.approx(plain[name][-7:], abs=2e-6)
+    assert plain["FRICTION/1.creep_z"][13] < -1e-3
+
+
+def test_a_joint_that_is_switched_off_has_no_friction() -> None:
+    """Free fall along the slope and off it, with a preload that would brake it."""
+    deck = slope(", FRICTION_FORCE_PRELOAD=6").with_active("JOINT", [1], False)
+    found = run(deck, end=0.5)
+    assert found["PART/2.x"][-1] == pytest.approx(4 * 0.5**2 / 2, abs=1e-6)
+    assert found["FRICTION/1.fz"] == pytest.approx(0.0, abs=0)
+
+
+@pytest.mark.parametrize("name", ["top", "top-stops"])
+@pytest.mark.parametrize(("method", "band"), [("HHT", 5e-4), ("RADAU", 1e-6), ("ABAM", 1e-5)])
+def test_a_top_in_a_cup(name: str, method: str, band: float) -> None:
+    """The references of decks/friction-ball by other methods; HHT once left by 3 per cent."""
+    folder = LAW.parents[1] / "friction-ball"
+    reference = Results.load(folder / f"{name}.reference.csv")
+    deck = read((folder / f"{name}.adm").read_text(encoding="utf-8"))
+    found = simulate(assemble(deck), end=2, steps=40, error=1e-8, integrator=method)
+    for axis in "xyz":
+        assert found[f"PART/2.w{axis}"] == pytest.approx(reference[f"PART/2.w{axis}"], abs=band)

@@ -44,12 +44,14 @@ class State:
     @classmethod
     def of(cls, system: System, time: float, at_rest: bool) -> State:
         """A copy of the state that ``system`` holds."""
+        system.count_states_from_here()
         arrays = {name: getattr(system, name).copy() for name in ARRAYS}
         memories = {whose: row.copy() for whose, row in system.instances.memories()}
         return cls(time, at_rest, arrays, memories, list(system.elimination.dropped))
 
     def put_into(self, system: System) -> None:
         """Restore it, in the system that it is of or in one with the same unknowns."""
+        system.count_states_from_here()
         if any(len(values) != len(getattr(system, name)) for name, values in self.arrays.items()):
             raise UsageError("RELOAD: the state is that of another model")
         for name, values in self.arrays.items():

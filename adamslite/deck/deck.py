@@ -135,7 +135,13 @@ class Deck:
     def is_active(self, statement: Statement) -> bool:
         """Whether an element acts; everything does that DEACTIVATE has not named."""
         own = statement.keyword, statement.key
-        return self._acts_for.get(own, own) not in self.inactive
+        if self._acts_for.get(own, own) in self.inactive:
+            return False
+        field = statement.acts_with
+        if not field:
+            return True
+        other = self.find(statement.arguments[field].to, getattr(statement, field))
+        return other is None or self.is_active(other)
 
     def parts(self, statement: Statement) -> list[Statement]:
         """The forces that a statement is made of, which act where it does."""

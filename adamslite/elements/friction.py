@@ -224,6 +224,7 @@ class Friction(Wrench, Statement):
     )
 
     joints: ClassVar[tuple[str, ...]] = (*SLIDES, *TURNS, "SPHERICAL")
+    acts_with: ClassVar[str] = "joint"
     beyond = "moved until its parts no longer overlap"
 
     def states(self, joint: Joint | None) -> list[str]:

@@ -199,6 +199,8 @@ class System:
     def adopt(self, other: System) -> None:
         """Take over the state of another system of (almost) the same model."""
         self.instances.remember(other.instances.memories())
+        other.count_states_from_here()
+        self.count_states_from_here()
         for node, k in self.node_at.items():
             at = other.node_at.get(self._named(node, other))
             if at is None or other.widths[at] != self.widths[k]:
@@ -211,9 +213,15 @@ class System:
                 self.base[b : b + 9] = other.base[c : c + 9]
             elif node[0] != "MU":
                 self.z[i - self.n : i - self.n + w] = other.z[j - other.n : j - other.n + w]
-            if node[0] == "DIFF":  # counted from here
-                self.z[i - self.n] -= other.W[other.w_at[node] + contract.STATE_ORIGIN]
-                self.W[self.w_at[node] + contract.STATE_ORIGIN] = 0.0
+
+    def count_states_from_here(self) -> None:
+        """States whose origin has moved have it at zero again."""
+        for k in range(self.ns):
+            n = self.m + self.nv + k
+            at = self.numbering.scalar[n] + contract.STATE_ORIGIN
+            for values in (self.z, self.rz, self.pz):
+                values[n] -= self.W[at]
+            self.W[at] = 0.0
 
     def _named(self, node: NodeKey, other: System) -> NodeKey:
         """The node of another system that is the same statement."""

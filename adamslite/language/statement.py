@@ -210,6 +210,8 @@ class Statement:
     planned: ClassVar[tuple[str, ...]] = ()
     body: ClassVar[bool] = False
     data: ClassVar[bool] = False
+    acts_with: ClassVar[str] = ""
+    """The field that names the statement without which this one does nothing."""
     alternatives: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
     """Groups of fields that exclude each other: giving one in a command drops the other groups."""
 
