@@ -208,6 +208,23 @@ def test_a_correction_does_away_with_its_message(code: str, text: str) -> None:
         assert sum(each.code == code for each in left) < sum(e.code == code for e in told(text))
 
 
+LEFT_OUT = [
+    ("PART/9, GROUND,\n, VX=1\n, VY=2", "PART/9, GROUND\n, VY=2"),
+    ("PART/9, GROUND, VX=1, MATERIAL=a", "PART/9, GROUND, MATERIAL=a"),
+    ("PART/9, GROUND ! b\n, VX=1, MATERIAL=a", "PART/9, GROUND ! b\n, MATERIAL=a"),
+    ("PART/9, GROUND, ! b\n, VX=1, MATERIAL=a", None),
+    ("PART/9, VX=1, GROUND", "PART/9, GROUND"),
+]
+
+
+@pytest.mark.parametrize(("written", "left"), LEFT_OUT)
+def test_what_has_no_effect_may_be_left_out(written: str, left: str | None) -> None:
+    """Without breaking the lines round it."""
+    text = f"title\n{written}\n"
+    found = next(each for each in told(text) if each.code == "ground-with-data")
+    assert [applied(text, fix) for fix in found.fixes] == [f"title\n{left}\n"] * bool(left)
+
+
 RELATED = {
     "the first definition": ("MARKER/2, PART=1", "duplicate-id", ["MARKER/2"]),
     "the first argument": ("MARKER/4, PART=1, PART=1", "duplicate-argument", ["PART=1"]),

@@ -10,6 +10,7 @@ from adamslite.deck.redefinition import Redefinition
 from adamslite.language.diagnostics import Diagnostic, Span, Spans
 from adamslite.language.interfaces import Key
 from adamslite.language.messages import compose
+from adamslite.language.messages.fixes import NEEDLESS, left_out
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Statement
 from adamslite.syntax.tokens import CLOSES, Lexeme, end_of, scan
@@ -48,8 +49,13 @@ def diagnose_inside(
 def _at(
     statement: Owner, code: str, field: str, span: Span, hint: str, words: Mapping[str, object]
 ) -> Diagnostic:
-    line = statement.spans.home(field).first_line(span)
-    return compose(code, span, line, hint, label=statement.label, **words)
+    spans = statement.spans.home(field)
+    line = spans.first_line(span)
+    message = compose(code, span, line, hint, label=statement.label, **words)
+    if code in NEEDLESS and field in spans and spans.source:
+        found = left_out(spans.source, *spans.ranges[field])
+        return replace(message, fixes=(found,)) if found else message
+    return message
 
 
 def place_of(statement: Owner, field: str = "") -> Span:

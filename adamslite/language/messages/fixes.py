@@ -14,6 +14,11 @@ REPLACED = frozenset(
     unknown-name unknown-statement""".split()
 )
 """Codes of messages about a word that is replaced by the one that may have been meant."""
+NEEDLESS = frozenset("floating-placed ground-with-data no-effect".split())
+"""Codes of messages about an argument that may be left out."""
+SEPARATOR = re.compile(r"(,[ \t]*\n)?[ \t]*,\s*$")
+FARTHEST = 200
+"""Characters before an argument in which its comma is looked for."""
 INSTEAD = {"^": "**", "÷": "/", "{": "(", "}": ")"}
 """What is written for a character of other languages."""
 
@@ -29,6 +34,21 @@ def fixes(code: str, source: Source, start: int, end: int, hint: str) -> tuple[F
     make = CORRECTIONS.get(code)
     found = make(source.text, start, end, hint) if make else iter(())
     return tuple(fix(source, title, change) for title, change in found)
+
+
+def left_out(source: Source, start: int, end: int) -> Fix | None:
+    """The argument at these offsets left out, with the comma before it; None where that is not
+    all there is to do.
+    """
+    text = source.text
+    comma = SEPARATOR.search(text, max(0, start - FARTHEST), start)
+    if comma is None or text[end:].lstrip()[:1] == "\\":
+        return None
+    above = text[: comma.start()].rstrip().rpartition("\n")[2].partition("!")[0]
+    if above.rstrip().endswith(","):
+        return None
+    word = " ".join(text[start:end].split())
+    return fix(source, f"leave out {word}", (comma.start(), end, ""))
 
 
 def fix(source: Source, title: str, *changes: Change) -> Fix:
