@@ -7,7 +7,7 @@ import pytest
 from scenes import GROUND, done
 
 import adamslite as al
-from adamslite.elements.bases.spline_curve import through
+from adamslite.elements.bases.spline_curve import guided, through
 
 
 def bead(points: np.ndarray, form: str, start: np.ndarray) -> str:
@@ -183,3 +183,37 @@ def test_a_point_starts_at_the_place_that_the_deck_gives() -> None:
     start = [found[f"POINT_MASS/4.{axis}"][0] for axis in "xyz"]
     assert start == pytest.approx([0.0, 1.0, 0.0], abs=1e-7)
     assert found["POINT_MASS/4.vx"][0] == pytest.approx(-3.0, rel=1e-7)
+
+
+def test_four_control_points_are_a_bezier_curve() -> None:
+    """(1-s)^3 P0 + 3 (1-s)^2 s P1 + 3 (1-s) s^2 P2 + s^3 P3, also a little beyond its ends."""
+    points = np.array([[0, 0, 1], [1, 3, 0], [2, -1, 4], [5, 2, 2]], float)
+    s = np.linspace(-0.1, 1.1, 13)
+    share = np.array([(1 - s) ** 3, 3 * (1 - s) ** 2 * s, 3 * (1 - s) * s**2, s**3])
+    assert guided(points, False).at(s) == pytest.approx(share.T @ points, abs=1e-13)
+
+
+def test_a_ring_of_control_points_closes_smoothly() -> None:
+    """At a whole step it is (P0 + 4 P1 + P2)/6, and through the seam its bend is continuous."""
+    points = np.random.default_rng(2).normal(size=(7, 3))
+    points[-1] = points[0]
+    ring = guided(points, True)
+    steps = np.arange(6) / 6
+    turned = [np.roll(points[:-1], -n, axis=0) for n in range(3)]
+    expected = (turned[0] + 4 * turned[1] + turned[2]) / 6
+    assert ring.at(steps) == pytest.approx(expected, abs=1e-13)
+    for order in range(3):
+        near = ring.at(np.array([1e-9, 1 - 1e-9]), order)
+        assert near[0] == pytest.approx(near[1], abs=1e-5)
+
+
+def test_a_deck_may_give_control_points() -> None:
+    found = done(
+        f"{GROUND}MATRIX/1, ROWS=4, COLUMNS=3, VALUES=0,0,0, 1,3,0, 2,-1,0, 5,2,0\n"
+        "CURVE/1, OPEN, MATRIX=1, CONTROL_POINTS\n"
+        "VARIABLE/1, FUNCTION=CURVE(2*TIME-1,0,2,1)\nEND\n",
+        end=1,
+    )
+    s = found.time
+    expected = 9 * (1 - s) ** 2 * s - 3 * (1 - s) * s**2 + 2 * s**3
+    assert found["VARIABLE/1"] == pytest.approx(expected, abs=1e-12)

@@ -272,7 +272,7 @@ def curves(deck: Deck) -> Iterator[Diagnostic]:
 def _points(curve: Curve, matrix: Matrix) -> Iterator[Diagnostic]:
     """Whether the points are enough, and whether a closed curve ends where it begins."""
     closed = curve.form == "CLOSED"
-    points, least = matrix.table, 4 if closed else 2
+    points, least = matrix.table, 4 if closed or curve.points == "CONTROL_POINTS" else 2
     different = 1 + sum(map(ne, points, points[1:]))
     if matrix.columns != 3 or different < least:
         yield diagnose(curve, "curve-points", "matrix", matrix=matrix.label, least=least)

@@ -113,6 +113,8 @@ def curve_calls(deck: Deck) -> Iterator[Diagnostic]:
 def _uneven(deck: Deck, curve: Curve) -> bool:
     """Whether the chords of a curve through points differ in length."""
     matrix = None if curve.matrix is None else deck.find(Matrix, curve.matrix)
+    if curve.points == "CONTROL_POINTS":
+        return False
     if matrix is None or not matrix.complete or matrix.columns != 3:
         return False
     points = matrix.table

@@ -5,13 +5,14 @@ Equation (s from 0 at the first point to 1 at the last, proportional to the leng
     c(s) = cubic spline through the rows of MATRIX     OPEN: third derivative continuous next to the
                                                        ends; CLOSED: periodic, the last point being
                                                        the first again
+    CONTROL_POINTS: the cubic B-spline of the rows, over equal steps of s
     the same through points that a routine gives       FUNCTION=USER(...), MINPAR <= alpha <= MAXPAR
 """
 
 from __future__ import annotations
 
 from adamslite.elements.bases.arguments import routine_name
-from adamslite.elements.bases.spline_curve import SplineCurve, through
+from adamslite.elements.bases.spline_curve import SplineCurve, guided, through
 from adamslite.elements.bases.traced_curve import traced_points
 from adamslite.language.expression import Node
 from adamslite.language.interfaces import DrawnModel
@@ -40,8 +41,8 @@ class Curve(Statement):
     form: str = choice(options=("OPEN", "CLOSED"), default="OPEN", help="whether it has ends")
     matrix: int | str | None = reference("MATRIX", to="MATRIX", help="points, one row x, y, z each")
     points: str = choice(
-        options=("CURVE_POINTS", "CONTROL_POINTS"), supported=("CURVE_POINTS",),
-        default="CURVE_POINTS", help="what the rows of MATRIX are",
+        options=("CURVE_POINTS", "CONTROL_POINTS"), default="CURVE_POINTS",
+        help="what the rows of MATRIX are: the curve goes through them, or is guided by them",
     )  # fmt: skip
     order: int = integer("ORDER", default=4, help="degree of the pieces plus one; always 4")
 
@@ -60,7 +61,8 @@ class Curve(Statement):
             return model.once(("CURVE", self.key), lambda: through(traced, closed))
         assert self.matrix is not None  # a rule requires it
         points = model.element("MATRIX", self.matrix)
-        return model.once(("CURVE", self.key), lambda: through(points.table, closed))
+        made = guided if self.points == "CONTROL_POINTS" else through
+        return model.once(("CURVE", self.key), lambda: made(points.table, closed))
 
     def over_alpha(self, model: DrawnModel) -> Interpolant:
         """The curve over (alpha - first)/(last - first): a routine has points at equal steps."""

@@ -11,7 +11,6 @@ COMMANDS = frozenset("CONTROL".split())
 FUNCTIONS = frozenset("""AO HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
 
 _MATRICES = "LINEAR/STATEMAT writes A, B, C and D of the same linear model"
-_TABULATE = "write points of the curve into a MATRIX: CURVE/id, MATRIX=id, CURVE_POINTS"
 _ROUTINE = "libraries of the user cannot be loaded: write FUNCTION as an expression"
 _CONTACT = "routines of the user cannot be called: write IMPACT or POISSON, and COULOMB_FRICTION"
 _INTEGRATOR = (
@@ -35,7 +34,6 @@ INSTEAD = {
     "TRANS": "write the components in the axes of the marker: DX(i,j,rm), DY(i,j,rm), DZ(i,j,rm)",
     "ARRAY ROUTINE": _ROUTINE,
     "BEAM NONLINEAR": "a beam that bends far is a row of STRING ones with parts between them",
-    "CURVE CONTROL_POINTS": _TABULATE,
     "FILE COMMAND": "name the command file on the command line: `adamslite solve DECK FILE.acf`",
     "INVPSD": "its random phases come from a generator that is not published: write the sum of "
     "sines a*SIN(2*PI*f*TIME+phase), or a SPLINE of the signal",

@@ -83,6 +83,19 @@ def interpolant(
     return joined(x, np.concatenate([ends[0][None], inner, ends[1][None]]), places)
 
 
+def continued(knots: np.ndarray, pieces: np.ndarray) -> Interpolant:
+    """The table of given ``pieces`` (n - 1, m, 4) between the knots, the outer two of which
+    continue beyond them.
+    """
+    import numpy as np
+
+    t = np.append(np.zeros(len(pieces)), knots[-1] - knots[-2])
+    all_at = np.concatenate([pieces, pieces[-1:]])
+    y = np.stack([_polynomial(a, each, 0) for a, each in zip(all_at, t, strict=True)])
+    ends = [_end(knots, y, pieces, "piece", last) for last in (False, True)]
+    return joined(knots, np.concatenate([ends[0][None], pieces, ends[1][None]]))
+
+
 def joined(knots: np.ndarray, pieces: np.ndarray, places: ArrayLike | None = None) -> Interpolant:
     """The table of given ``pieces`` (n + 1, m, 4) over ``knots`` (n,)."""
     import numpy as np

@@ -1,8 +1,13 @@
-"""A cubic spline through points of space, over the length of its chords.
+"""A cubic spline through points of space, over the length of its chords, or guided by them.
 
 Equation (c the curve, s from 0 at the first point to 1 at the last)::
 
     c(s_k) = point k,     s_k = length of the chords up to point k over that of all
+
+Guided by control points P it is their cubic B-spline over equal steps of s, with the first and the
+last point at open ends::
+
+    c(s) = sum_k P_k B_k(s)
 
 Open ends take the third derivative from their neighbours ("not a knot"), a closed curve goes
 through its seam with slope and bend.
@@ -15,13 +20,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from adamslite.symbolic.interpolant import Interpolant, interpolant
+from adamslite.symbolic.interpolant import Interpolant, continued, interpolant
 
 if TYPE_CHECKING:  # reading a deck does without numpy
     import numpy as np
 
 # How finely the nearest point is looked for before it is polished, per piece; steps of that.
 SAMPLES, POLISHED = 20, 20
+DEGREE = 3
+# Of parameters from 0 to 1.
+TINY = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,3 +104,27 @@ def through(points: np.ndarray, closed: bool) -> SplineCurve:
     ring = points.copy()
     ring[-1] = ring[0]
     return SplineCurve(interpolant(s, ring, "periodic", "piece"), length, True)
+
+
+def guided(points: np.ndarray, closed: bool) -> SplineCurve:
+    """The cubic B-spline of control points (n, 3), n at least 4; a closed one ends where it begins,
+    and the last point is the first again.
+    """
+    import numpy as np
+    from scipy.interpolate import BSpline, PPoly
+
+    points = np.asarray(points, dtype=float)
+    if closed:
+        points = np.concatenate([points[:-1], points[:DEGREE]])
+        knots = np.arange(-DEGREE, len(points) + 1.0) / (len(points) - DEGREE)
+    else:
+        inner = np.linspace(0.0, 1.0, len(points) - DEGREE + 1)
+        knots = np.concatenate([np.zeros(DEGREE), inner, np.ones(DEGREE)])
+    found = [PPoly.from_spline(BSpline(knots, column, DEGREE)) for column in points.T]
+    starts, ends = knots[:-1], knots[1:]
+    there = (starts < ends) & (starts > -TINY) & (ends < 1.0 + TINY)
+    x = np.append(starts[there], 1.0)
+    pieces = np.stack([each.c[::-1, there].T for each in found], axis=1)
+    table = continued(x, pieces)
+    length = float(np.linalg.norm(np.diff(table.at(x), axis=0), axis=1).sum())
+    return SplineCurve(table, length, closed)
