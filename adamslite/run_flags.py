@@ -101,4 +101,4 @@ def parse_flags(words: Sequence[str]) -> dict[str, Any]:
     add_run_flags(parser)
     add_user_flag(parser)
     args = parser.parse_args(words)
-    return {**run_options(args), **({"user": args.user} if args.user else {})}
+    return {**run_options(args), **({"user": tuple(args.user)} if args.user else {})}

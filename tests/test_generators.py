@@ -33,6 +33,7 @@ QUICK = (
     "nforce",
     "bushing",
     "chrono",
+    "user-routine",
     "conical-pendulum",
     "contact/bouncing-ball",
     "contact/top",

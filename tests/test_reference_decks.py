@@ -47,6 +47,7 @@ FOLDERS = (
     "spring-pendulum",
     "three-joint-coupler",
     "transfer-functions",
+    "user-routine",
     "view-crank",
 )
 

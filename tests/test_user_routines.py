@@ -79,6 +79,7 @@ def test_every_missing_routine_is_told_once_with_all_its_calls() -> None:
         ("VARSUB=math:cosh2", "there is no cosh2; did you mean cosh"),
         ("VARSUB=no_such_module:f", "importing no_such_module failed"),
         ("VARSUB=math:pi", "pi is no function"),
+        ("VARSUB=1e400", "a number is finite"),
     ],
 )
 def test_a_binding_that_cannot_be_is_told(option: str, message: str) -> None:
@@ -237,7 +238,7 @@ def test_what_a_function_reads_may_depend_on_parameters() -> None:
 
 def test_entry_points_of_packages_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
     entry = EntryPoint("VARSUB", "user_functions:swing", "adamslite.user")
-    monkeypatch.setattr("importlib.metadata.entry_points", lambda group: [entry])
+    monkeypatch.setattr("adamslite.deck.user_bindings.offered", lambda: (entry,))
     law = "VARIABLE/1, FUNCTION=USER(2, 3)"
     found = mass(law, user=None, end=1.0, steps=4)
     assert found["VARIABLE/1"] == pytest.approx(2 * np.sin(3 * found.time), abs=1e-12)
@@ -365,3 +366,9 @@ def test_a_field_has_the_law_of_a_routine_or_of_expressions() -> None:
             0.4 / root * np.sin(root * found.time), abs=1e-6
         )
     assert by_routine["FIELD/1.fx"] == pytest.approx(by_deck["FIELD/1.fx"], abs=1e-4)
+
+
+@pytest.mark.parametrize("value", [None, {}, "nan", [1.0, None], float("inf")])
+def test_what_is_no_number_cannot_be_bound(value: Any) -> None:
+    with pytest.raises((UsageError, DeckError), match="a number|takes 1 values and gets 0"):
+        al.read(FALL, user={"VARIABLE/7": value, "gust": 0.0})

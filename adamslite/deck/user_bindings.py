@@ -21,6 +21,8 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -39,6 +41,8 @@ if TYPE_CHECKING:  # few decks call routines, and numpy takes a while to load
 GROUP = "adamslite.user"
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?[dD]?")
 FUNCTION = re.compile(r"([A-Za-z_][\w.]*):([A-Za-z_][\w.]*)")
+
+WANTED = "write a number, numbers separated by commas, or a function of Python as module:function"
 
 Given = float | Sequence[float] | str | Callable[..., Any]
 
@@ -168,8 +172,17 @@ def _binding(name: str, value: Given) -> Binding:
         return Binding(_spelled(value), function=value)
     if isinstance(value, str):
         return _from_text(name, value.strip())
-    numbers = (value,) if isinstance(value, int | float) else tuple(value)
-    return Binding(", ".join(f"{each:g}" for each in numbers), tuple(map(float, numbers)))
+    try:
+        numbers = tuple(map(float, value)) if isinstance(value, Iterable) else (float(value),)
+    except (TypeError, ValueError):
+        raise UsageError(f"--user {name}={value!r}: {WANTED}") from None
+    return _numbers(name, ", ".join(f"{each:.12g}" for each in numbers), numbers)
+
+
+def _numbers(name: str, text: str, numbers: tuple[float, ...]) -> Binding:
+    if not all(map(isfinite, numbers)):
+        raise UsageError(f"--user {name}={text}: a number is finite")
+    return Binding(text, numbers)
 
 
 def _spelled(function: Callable[..., Any]) -> str:
@@ -180,13 +193,10 @@ def _spelled(function: Callable[..., Any]) -> str:
 def _from_text(name: str, value: str) -> Binding:
     pieces = [piece.strip() for piece in value.split(",")]
     if all(NUMBER.fullmatch(piece) for piece in pieces):
-        return Binding(", ".join(pieces), tuple(map(_number, pieces)))
+        return _numbers(name, ", ".join(pieces), tuple(map(_number, pieces)))
     found = FUNCTION.fullmatch(value)
     if found is None:
-        raise UsageError(
-            f"--user {name}={value}: write a number, numbers separated by commas, or a function of "
-            "Python as module:function"
-        )
+        raise UsageError(f"--user {name}={value}: {WANTED}")
     return Binding(value, function=_imported(name, found[1], found[2]))
 
 
@@ -218,13 +228,19 @@ def _imported(name: str, module_name: str, path: str) -> Callable[..., Any]:
 
 def entry_point(routine: str) -> Binding | None:
     """What an installed package offers under the name of a routine."""
-    from importlib.metadata import entry_points
-
     wanted = {routine.upper(), short_name(routine).upper()}
-    for each in entry_points(group=GROUP):
+    for each in offered():
         if each.name.upper() in wanted:
             return Binding(f"{each.value} ({GROUP} {each.name})", function=_loaded(each))
     return None
+
+
+@cache
+def offered() -> tuple[EntryPoint, ...]:
+    """All entry points of the group."""
+    from importlib.metadata import entry_points
+
+    return tuple(entry_points(group=GROUP))
 
 
 def _loaded(entry: EntryPoint) -> Callable[..., Any]:
