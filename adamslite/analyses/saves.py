@@ -57,7 +57,7 @@ class Saves:
     def save(self, session: Session, command: Save) -> None:
         """Keep the present state."""
         system = session.system
-        if session.outcome is not Outcome.DONE:
+        if session.outcome is not Outcome.DONE or not command.where[1]:  # AUTOSAVE alone
             return
         kept = Kept(
             State.of(system, session.time, session.began_static), session.kernels, system,

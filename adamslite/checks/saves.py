@@ -18,12 +18,17 @@ def places_of_states(deck: Deck) -> Iterator[Diagnostic]:
         if not isinstance(each, Save | Reload):
             continue
         needed, other = ("buffer", "file") if each.kind == "STATES" else ("file", "buffer")
-        if not getattr(each, needed):
+        if not getattr(each, needed) and not _only_automatic(each):
             hint = f"{each.keyword}/STATES, BUFFER=name or {each.keyword}/SYSTEM, FILE=name"
             yield diagnose(each, "missing-argument", word=needed.upper(), hint=hint)
         if each.given(other):
             reason = f"{each.kind} goes to a {needed.upper()}"
             yield diagnose(each, "no-effect", other, word=other.upper(), reason=reason)
+
+
+def _only_automatic(command: Save | Reload) -> bool:
+    """Whether it is about AUTOSAVE alone, and keeps nothing at this time."""
+    return isinstance(command, Save) and command.given("autosave")
 
 
 def buffers_that_are_filled(deck: Deck) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ Equation: none.
 
 from __future__ import annotations
 
-from adamslite.language.statement import Statement, choice, statement, text
+from adamslite.language.statement import Statement, choice, integer, statement, text
 
 
 def saved_kind(default: str) -> str:
@@ -44,7 +44,7 @@ class Kept:
         return self.kind, self.buffer if self.kind == "STATES" else self.file
 
 
-@statement("SAVE", singleton=True, repeatable=True, place="command", planned=("AUTOSAVE",))
+@statement("SAVE", singleton=True, repeatable=True, place="command")
 class Save(Kept, Statement):
     """Keeps the present state under a name.
 
@@ -56,3 +56,6 @@ class Save(Kept, Statement):
     buffer: str | None = saved_buffer()
     file: str | None = saved_file()
     title: str | None = saved_title()
+    autosave: int | None = integer(
+        "AUTOSAVE", inert=True, help="steps after which ADAMS writes a file of its own"
+    )

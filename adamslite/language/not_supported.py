@@ -41,7 +41,6 @@ INSTEAD = {
     "LINEAR NASTRAN": _MATRICES,
     "MATRIX NAME": "a table .csv holds one matrix: name the file, MATRIX/id, FILE=name.csv",
     "PTCV VELOCITY": "give the velocity to the bodies: PART/id, VX=, VY=, VZ=",
-    "SAVE AUTOSAVE": "write SAVE between several SIMULATEs",
     "SPLINE ROUTINE": "write X and Y, or FILE= with a table .csv",
 }
 """What to write instead and why, by statement, function, statement and argument, or statement and
