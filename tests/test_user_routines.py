@@ -372,3 +372,19 @@ def test_a_field_has_the_law_of_a_routine_or_of_expressions() -> None:
 def test_what_is_no_number_cannot_be_bound(value: Any) -> None:
     with pytest.raises((UsageError, DeckError), match="a number|takes 1 values and gets 0"):
         al.read(FALL, user={"VARIABLE/7": value, "gust": 0.0})
+
+
+def test_a_ucon_holds_what_a_routine_says() -> None:
+    """A pendulum of length 1 from the level: v^2 = -2 g y, and the string pulls with 3 m g sin."""
+    deck = (
+        "a pendulum\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1, PART=1\n"
+        "POINT_MASS/2, MASS=2, QG=1,0,0\nMARKER/2, POINT_MASS=2\nUCON/1, FUNCTION=USER(1)\n"
+        "INTEGRATOR/GSTIFF, ERROR=1E-8\nSIMULATE/DYNAMIC, END=1, STEPS=10\nEND\n"
+    )
+    found = al.simulate(al.read(deck, user={"UCOSUB": user_functions.ring}))
+    y, speed = (
+        found["POINT_MASS/2.y"],
+        found["POINT_MASS/2.vx"] ** 2 + found["POINT_MASS/2.vy"] ** 2,
+    )
+    assert speed == pytest.approx(-2 * 9.81 * y, abs=1e-5)
+    assert found["GCON/UCON_1.f"] == pytest.approx(3 * 2 * 9.81 * y, abs=1e-4)

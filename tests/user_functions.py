@@ -82,6 +82,12 @@ def circle(parameters: Parameters, alpha: float) -> Three:
     return parameters[0] * math.cos(angle), parameters[0] * math.sin(angle), 0.0
 
 
+@reads("DM(2, 1)")
+def ring(parameters: Parameters, time: float, distance: float) -> float:
+    """A point that stays at a distance."""
+    return distance - parameters[0]
+
+
 def quickening(parameters: Parameters, alpha: float) -> Three:
     """A curve on which equal steps of alpha are ever longer."""
     return alpha**3, math.sin(alpha), 1.0

@@ -4,7 +4,7 @@ They exist, so they are reported as "not supported yet" and not as "unknown".  A
 registered elsewhere is supported, whether or not it still stands here.
 """
 
-STATEMENTS = frozenset("""LSSMATRIX PFORCE SYSVAR UCON""".split())
+STATEMENTS = frozenset("""LSSMATRIX PFORCE SYSVAR""".split())
 
 COMMANDS = frozenset("CONTROL".split())
 
@@ -24,7 +24,6 @@ INSTEAD = {
     "LSSMATRIX": "the matrices come from another program: write them as MATRIX and LSE",
     "PFORCE": "its law is not published: write an SFORCE, a VFORCE or a FIELD",
     "SYSVAR": "its meaning is not published: write a VARIABLE",
-    "UCON": "its equation is in a routine of the user: write it as GCON/id, FUNCTION=e",
     "CONTROL": "it calls a subroutine, which gives commands: write these into the command file",
     "AO": "its meaning is not published: write AX, AY, AZ or ORIENT",
     "HSIZE": _INTEGRATOR,
