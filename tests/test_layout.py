@@ -165,6 +165,12 @@ def test_names_at_the_top_of_a_command_file_stay() -> None:
     assert formatted(layout, "command") == layout
 
 
+def test_what_any_layout_would_change_stays() -> None:
+    """On a line of its own the first word would be the name of a model."""
+    text = "f;odel=1\nSIMULATE/DYNAMICS,  END=1\n"
+    assert formatted(text, "command") == text
+
+
 def test_a_long_command_is_continued_by_ampersands() -> None:
     text = "VARIABLE/1, FUNCTION=" + " + ".join(["STEP(TIME,0,0,1,1)"] * 3) + "\n"
     layout = formatted(text, "command")

@@ -43,10 +43,10 @@ def formatted(text: str, place: str = "deck") -> str:
     place : str
         ``"deck"`` or ``"command"``.
 
-    Raises
-    ------
-    RuntimeError
-        When the result would be read in another way: a fault of the program.
+    Returns
+    -------
+    str
+        The text itself where any other one would be read differently.
     """
     said = list(outline(text, place))
     if not said or any(each.tokens[0][0] == "COMMA" for each in said):
@@ -56,9 +56,8 @@ def formatted(text: str, place: str = "deck") -> str:
     for each in said:
         if each.given is not None and not _is_safe(each, place):
             each.given = None
-    if not _says_the_same(result := _laid_out(said, place), said, place):
-        raise RuntimeError("the canonical layout would change what the text says")
-    return result
+    result = _laid_out(said, place)
+    return result if _says_the_same(result, said, place) else text
 
 
 def _says_the_same(result: str, said: list[Written], place: str) -> bool:
