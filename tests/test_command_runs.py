@@ -446,3 +446,28 @@ def test_kinetic_energy_of_turning_parts(
     squares, modes = np.linalg.eig(np.array([[4.0, -2.0], [-2.0, 2.0]]) / inertia[:, None])
     shares = (inertia[:, None] * modes**2)[:, np.argsort(squares)]
     assert found == pytest.approx((shares / shares.sum(axis=0)).T, abs=1e-9)
+
+
+def test_a_sensor_that_has_acted_since_acts_again(tmp_path: Path) -> None:
+    """SENVAL is 2 t of the time at which the sensor passes t = 0.5, and 0 before; also when that
+    has happened before RELOAD already.
+    """
+    deck = FALL + (
+        "SENSOR/1, FUNCTION=TIME\\, VALUE=0.5, GE, ERROR=1E-9, EVALUATE=2*TIME\n"
+        "REQUEST/2, F2=SENVAL(1)\n"
+    )
+    for kept, change in (
+        ("STATES, BUFFER=a", ""),
+        ("STATES, BUFFER=a", "REQUEST/1, F2=DX(2)\n"),
+        ("SYSTEM, FILE=a", ""),
+    ):
+        results = run(
+            deck,
+            f"SIM/DYN, END=0.25, STEPS=1\nSAVE/{kept}\nSIM/DYN, END=1, STEPS=3\n{change}"
+            f"RELOAD/{kept}\nSIM/DYN, END=1, STEPS=3",
+            files=SavedFiles(tmp_path),
+        )
+        back = np.flatnonzero(np.diff(results.time) < 0)[0] + 1
+        value = results["REQUEST/2.F2"]
+        assert results.time[back] == 0.25 and value[back] == 0.0
+        assert value[back - 1] == pytest.approx(1.0, abs=1e-6) == value[-1]

@@ -7,8 +7,9 @@ have changed, as they were written; the deck itself must be the same.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
+from operator import is_
 from typing import Any, NoReturn
 
 import numpy as np
@@ -20,19 +21,22 @@ from adamslite.deck.redefinition import Redefinition
 from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.kernels.compile import Kernels
+from adamslite.language.interfaces import Key
 from adamslite.reading.read import read_commands
 
 HEAD = "saved by adamslite"
 VERSION = 1
 ARRAYS = ("q", "u", "a", "base", "z", "mu", "ra", "rz", "rd", "pz")
 Owner = tuple[Any, ...]
+NONE: Mapping[Key, float] = {}
 
 
 @dataclass(frozen=True)
 class State:
     """Time, and the arrays of a system that the next analysis begins with.
 
-    ``memories``: of kernels, as angles that are counted; ``dropped``: redundant rows.
+    ``memories``: of kernels, as angles that are counted; ``dropped``: redundant rows; ``asleep``:
+    sensors that have triggered, as :class:`~adamslite.analyses.sensors.SensorLog` has them.
     """
 
     time: float
@@ -40,14 +44,18 @@ class State:
     arrays: dict[str, np.ndarray]
     memories: dict[Owner, np.ndarray]
     dropped: list[int]
+    asleep: dict[Key, float]
 
     @classmethod
-    def of(cls, system: System, time: float, at_rest: bool) -> State:
+    def of(
+        cls, system: System, time: float, at_rest: bool, asleep: Mapping[Key, float] = NONE
+    ) -> State:
         """A copy of the state that ``system`` holds."""
         system.count_states_from_here()
         arrays = {name: getattr(system, name).copy() for name in ARRAYS}
         memories = {whose: row.copy() for whose, row in system.instances.memories()}
-        return cls(time, at_rest, arrays, memories, list(system.elimination.dropped))
+        dropped = list(system.elimination.dropped)
+        return cls(time, at_rest, arrays, memories, dropped, dict(asleep))
 
     def put_into(self, system: System) -> None:
         """Restore it, in the system that it is of or in one with the same unknowns."""
@@ -73,6 +81,12 @@ class Kept:
     statics: StaticSettings
     changes: tuple[Redefinition[Any], ...]
 
+    def has_model_of(self, deck: Deck) -> bool:
+        """Whether no command has changed the model since; SENVAL belongs to the state."""
+        mine = self.kernels.model.deck
+        same = len(deck.own) == len(mine.own) and deck.inactive == mine.inactive
+        return same and all(map(is_, deck.own, mine.own))
+
     def text(self) -> str:
         """The session as text."""
         deck, state = self.kernels.model.deck, self.state
@@ -89,6 +103,7 @@ class Kept:
             "arrays": {name: values.tolist() for name, values in state.arrays.items()},
             "memories": [[*whose, values.tolist()] for whose, values in state.memories.items()],
             "dropped": [int(row) for row in state.dropped],
+            "asleep": list(map(list, state.asleep.items())),
         }
         return json.dumps(whole, indent=1) + "\n"
 
@@ -130,6 +145,7 @@ def document(text: str, name: str, deck: Deck) -> Document:
             {each: np.array(whole["arrays"][each], dtype=float) for each in ARRAYS},
             {tuple(whose): np.array(row, dtype=float) for *whose, row in whole["memories"]},
             [int(row) for row in whole["dropped"]],
+            {key: float(until) for key, until in whole["asleep"]},
         )  # fmt: skip
         settings = Settings(**_tuples(whole["settings"]))
         return Document(state, deck, settings, StaticSettings(**_tuples(whole["statics"])), changes)

@@ -7,6 +7,7 @@ from typing import Any, Protocol
 
 from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.saved_state import Kept, State, document
+from adamslite.analyses.sensors import SensorLog
 from adamslite.analyses.static import StaticSettings
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition
@@ -30,7 +31,10 @@ class Session(Protocol):
     time: float
     began_static: bool
     outcome: Outcome
+    sensors: SensorLog
 
+    @property
+    def deck(self) -> Deck: ...
     @property
     def system(self) -> System: ...
     def change(self, deck: Deck) -> None: ...
@@ -60,8 +64,8 @@ class Saves:
         if session.outcome is not Outcome.DONE or not command.where[1]:  # AUTOSAVE alone
             return
         kept = Kept(
-            State.of(system, session.time, session.began_static), session.kernels, system,
-            session.settings, session.statics, session.changes,
+            State.of(system, session.time, session.began_static, session.sensors.asleep),
+            session.kernels, system, session.settings, session.statics, session.changes,
         )  # fmt: skip
         self._kept[command.where] = kept
         if command.kind == "SYSTEM" and command.file is not None:
@@ -72,21 +76,24 @@ class Saves:
         kept = self._kept.get(command.where)
         if kept is None:
             self._reload_file(session, str(command.file))
-        elif command.kind == "SYSTEM":
-            session.kernels, session.present = kept.kernels, kept.system
-            session.settings, session.statics = kept.settings, kept.statics
-            session.changes = kept.changes
-            _put(kept.state, session)
-        elif session.system is kept.system:
-            _put(kept.state, session)
-        else:
+        elif command.kind == "STATES" and not kept.has_model_of(session.deck):
             self._reload_states(session, kept)
+        else:
+            session.kernels, session.present = kept.kernels, kept.system
+            if command.kind == "SYSTEM":
+                session.settings, session.statics = kept.settings, kept.statics
+                session.changes = kept.changes
+            _put(kept.state, session)
 
     def _reload_states(self, session: Session, kept: Kept) -> None:
         """Put states into a model that has changed since: its constraints are closed again."""
+        senvals = kept.kernels.model.deck.senvals
+        if session.deck.senvals != senvals:
+            none = dict.fromkeys(session.deck.senvals, 0.0)
+            session.change(session.deck.with_senvals(none | senvals))
         system = session.system
         kept.state.put_into(kept.system)
-        session.time, session.began_static = kept.state.time, kept.state.at_rest
+        _set(kept.state, session)
         system.adopt(kept.system)
         system.settings.t = session.time
         if session.is_driven(system):
@@ -110,4 +117,10 @@ class Saves:
 def _put(state: State, session: Session) -> None:
     """Put a state into the system that it belongs to."""
     state.put_into(session.system)
+    _set(state, session)
+
+
+def _set(state: State, session: Session) -> None:
+    """What the session itself holds of a state."""
     session.time, session.began_static = state.time, state.at_rest
+    session.sensors.asleep = dict(state.asleep)
