@@ -316,6 +316,18 @@ def test_the_function_curve_is_at_the_parameter_of_the_routine() -> None:
         )
 
 
+def test_a_curve_in_space_does_not_roll() -> None:
+    deck = (
+        "a cam\nPART/1, GROUND\nMARKER/1, PART=1\n"
+        "PART/2, MASS=1, CM=2, IP=1,1,1\nMARKER/2, PART=2\n"
+        "CURVE/1, OPEN, FUNCTION=USER()\nCURVE/2, OPEN, FUNCTION=USER()\n"
+        "CVCV/1, ICURVE=1, JCURVE=2, IRM=2, JRM=1\nEND\n"
+    )
+    flat, high = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0, 0.0, 0.2)
+    with pytest.raises(DeckError, match="cannot roll CURVE/2, which is not plane"):
+        al.read(deck, user={"CURVE/1": flat, "CURVE/2": high})
+
+
 COUPLED = """a slider that follows a turning part
 PART/1, GROUND
 MARKER/31, PART=1

@@ -10,6 +10,7 @@ from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
+from adamslite.elements.bases.traced_curve import POINTS
 from adamslite.elements.coupler import Coupler
 from adamslite.elements.curve import Curve
 from adamslite.elements.cvcv import Cvcv
@@ -23,7 +24,7 @@ from adamslite.elements.motion import Motion
 from adamslite.elements.ptcv import Ptcv
 from adamslite.elements.variable import Variable
 from adamslite.language.diagnostics import Diagnostic
-from adamslite.language.expression import Call, Mode, Node, Ref, calls, walk
+from adamslite.language.expression import Call, Mode, Node, Num, Ref, calls, walk
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import STATEMENTS, Statement, expressions
@@ -304,11 +305,17 @@ def plane_curves(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.of(Cvcv):
         for field in ("icurve", "jcurve"):
             curve = deck.find(Curve, getattr(each, field))
-            if curve is None or curve.matrix is None:
-                continue
-            matrix = deck.find(Matrix, curve.matrix)
-            if matrix and matrix.complete and any(any(row[2:3]) for row in matrix.table):
+            if curve is not None and any(_heights(deck, curve)):
                 yield diagnose(each, "curve-not-plane", field, curve=curve.label)
+
+
+def _heights(deck: Deck, curve: Curve) -> Iterator[float]:
+    """z of the points of a curve, as far as they are known."""
+    if isinstance(curve.function, Call) and curve.function.name == POINTS:
+        yield from (each.value for each in curve.function.args[2::3] if isinstance(each, Num))
+    matrix = deck.find(Matrix, curve.matrix) if curve.matrix is not None else None
+    if matrix and matrix.complete:
+        yield from (row[2] for row in matrix.table if len(row) > 2)
 
 
 @needs("VARIABLE")
