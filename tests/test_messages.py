@@ -202,12 +202,12 @@ def test_one_argument_is_one_argument() -> None:
 
 def test_what_is_not_supported_is_told_once_with_its_number() -> None:
     """A reference to a statement that cannot be run is no mistake of its own."""
-    text = "LSSMATRIX/1\nLSSMATRIX/2\nPFORCE/1, X=1\nVARIABLE/1, FUNCTION=HSIZE(1)+HSIZE(2)"
+    text = "LSSMATRIX/1\nLSSMATRIX/2\nPFORCE/1, X=1\nVARIABLE/1, FUNCTION=AO(1,2)+AO(2,1)"
     found = told(START + text + "\n")
     assert [d.message for d in found] == [
         "not supported yet: LSSMATRIX (2 times, first here)",
         "not supported yet: PFORCE",
-        "not supported yet: function HSIZE (2 times, first here)",
+        "not supported yet: function AO (2 times, first here)",
     ]
 
 

@@ -15,6 +15,7 @@ from decklets import told
 
 from adamslite import manual
 from adamslite.checks.rules import check
+from adamslite.functions.integration import NUMBERS
 from adamslite.language.diagnostics import ERROR, DeckError, Diagnostic
 from adamslite.language.messages import START
 from adamslite.language.not_supported import COMMANDS, FUNCTIONS, INSTEAD
@@ -99,7 +100,8 @@ def test_every_word_of_a_statement_works_or_is_reported(row: Row, folder: Path) 
 @pytest.mark.parametrize("name", CALLS)
 def test_every_function_has_a_value_or_is_rejected_with_what_to_write(name: str) -> None:
     status, expression, *needed = CALLS[name]
-    deck = "\n".join([*needed, f"VARIABLE/999, FUNCTION={expression}"])
+    place = "REQUEST/999, F2" if name in NUMBERS else "VARIABLE/999, FUNCTION"
+    deck = "\n".join([*needed, f"{place}={expression}"])
     errors = [each for each in told(START + deck + "\n", BOUND) if each.severity == ERROR]
     assert [each.code for each in errors] == ["planned-function"] * (status == "refused")
     assert all(each.hint == INSTEAD[name] for each in errors)

@@ -6,10 +6,12 @@ from collections.abc import Iterator
 
 from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.mrequest import ALL, KINDS, Mrequest
 from adamslite.elements.request import Request
+from adamslite.functions.integration import NUMBERS
 from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.expression import calls
 from adamslite.language.messages import did_you_mean
 
 
@@ -44,4 +46,15 @@ def many_requests(deck: Deck) -> Iterator[Diagnostic]:
                 )  # fmt: skip
 
 
-REQUEST_RULES: list[Rule] = [requests, many_requests]
+def numbers_of_the_run(deck: Deck) -> Iterator[Diagnostic]:
+    """Numbers of the integrator, where they are more than an output."""
+    for each in deck.statements:
+        if isinstance(each, Request):
+            continue
+        for field, argument in each.arguments.items():
+            node = getattr(each, field) if argument.kind == "expression" else None
+            for call in calls(node, *NUMBERS) if node is not None else ():
+                yield diagnose_inside(each, call.name, "only-an-output", field, word=call.name)
+
+
+REQUEST_RULES: list[Rule] = [requests, many_requests, numbers_of_the_run]

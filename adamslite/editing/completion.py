@@ -108,7 +108,7 @@ def _expression(content: Content, tokens: list[Lexeme], opened: list[int]) -> It
         for kind, _, _ in tokens[opened[-1] + 1 :]:
             depth += (kind in CLOSES) - (kind in CLOSES.values())
             count += depth == 0 and kind in ("COMMA", "COLON")
-        if kind_of_id := function.parameter(count).statement:
+        if function.parameters and (kind_of_id := function.parameter(count).statement):
             yield from _ids(content, kind_of_id)
             return
     for each in FUNCTIONS.values():

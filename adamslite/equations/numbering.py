@@ -15,7 +15,7 @@ from adamslite.kernels.compile import Kernels
 from adamslite.language.statement import Statement
 from adamslite.model.model import PART, NodeKey
 
-HEAD = 2
+HEAD = 6
 POINT_SIZE, PART_SIZE = 9, 24
 
 

@@ -97,6 +97,8 @@ STABLE = 0.93
 # A state of DIFF in the workspace: its value, its rate, the value from which it counts.
 STATE_SIZE, STATE_ORIGIN = 3, 2
 MODE_DYNAMICS = 4.0
+# Numbers of the integrator in the workspace: size and order of the step, Jacobians, residuals.
+STEP_AT, ORDER_AT, JACOBIANS_AT, RESIDUALS_AT = 2, 3, 4, 5
 MODE_STATICS = 5.0
 
 (

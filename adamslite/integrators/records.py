@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import OUTPUTS, POSITION_ROWS, Problem
+from adamslite.integrators.contract import (
+    JACOBIANS_AT,
+    ORDER_AT,
+    OUTPUTS,
+    POSITION_ROWS,
+    RESIDUALS_AT,
+    STEP_AT,
+    Problem,
+)
 from adamslite.integrators.motion_equations import run_groups
 from adamslite.native.translate import native
 
@@ -16,6 +24,8 @@ def write_record(P: Problem, row: int) -> None:
     """Workspace and outputs into one row of the record."""
     nw, n_out = P.sizes.nw, P.sizes.n_out
     o = row * (nw + n_out)
+    P.W[STEP_AT], P.W[ORDER_AT] = P.report.h, float(P.report.order)
+    P.W[JACOBIANS_AT], P.W[RESIDUALS_AT] = float(P.count.jacobians), float(P.count.residuals)
     for i in range(nw):
         P.record[o + i] = P.W[i]
     out = P.record[o + nw :]

@@ -96,6 +96,8 @@ class Function:
     @cached_property
     def maximum(self) -> int | None:
         """The largest number of arguments; ``None`` when there is no limit."""
+        if not self.parameters:
+            return 0
         last = self.parameters[-1]
         if not last.counts:
             return len(self.parameters)
@@ -174,7 +176,7 @@ def function(
     ``internal``: no deck may use it, only statements do.
     """
     words = signature.split()
-    colon = words[0].endswith(":")
+    colon = bool(words) and words[0].endswith(":")
 
     def register(body: Body) -> Body:
         if name in FUNCTIONS:

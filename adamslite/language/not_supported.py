@@ -8,14 +8,11 @@ STATEMENTS = frozenset("""LSSMATRIX PFORCE SYSVAR""".split())
 
 COMMANDS = frozenset("CONTROL".split())
 
-FUNCTIONS = frozenset("""AO HSIZE INVPSD NJAC NRHS ORDER TRANS""".split())
+FUNCTIONS = frozenset("""AO INVPSD TRANS""".split())
 
 _MATRICES = "LINEAR/STATEMAT writes A, B, C and D of the same linear model"
 _ROUTINE = "libraries of the user cannot be loaded: write FUNCTION as an expression"
 _CONTACT = "routines of the user cannot be called: write IMPACT or POISSON, and COULOMB_FRICTION"
-_INTEGRATOR = (
-    "a number of the integrator of ADAMS; the summary of a run prints those of this program"
-)
 INSTEAD = {
     "CONTACT FRICTION_FUNCTION": _CONTACT,
     "CONTACT NORMAL_FUNCTION": _CONTACT,
@@ -26,10 +23,6 @@ INSTEAD = {
     "SYSVAR": "its meaning is not published: write a VARIABLE",
     "CONTROL": "it calls a subroutine, which gives commands: write these into the command file",
     "AO": "its meaning is not published: write AX, AY, AZ or ORIENT",
-    "HSIZE": _INTEGRATOR,
-    "NJAC": _INTEGRATOR,
-    "NRHS": _INTEGRATOR,
-    "ORDER": _INTEGRATOR,
     "TRANS": "write the components in the axes of the marker: DX(i,j,rm), DY(i,j,rm), DZ(i,j,rm)",
     "ARRAY ROUTINE": _ROUTINE,
     "BEAM NONLINEAR": "a beam that bends far is a row of STRING ones with parts between them",

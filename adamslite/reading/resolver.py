@@ -220,7 +220,7 @@ class Resolver:
             return self._user(at, branches, depth)
         self._count(function, at, separators, branches)
         slots = self._signature(function)
-        if slots[0].kind == "VARIABLE" and branches[0][0] == "operation":
+        if branches and slots[0].kind == "VARIABLE" and branches[0][0] == "operation":
             return self._derivative(function, branches[0])
         last = len(slots) - 1
         args = [

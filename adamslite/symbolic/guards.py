@@ -29,7 +29,7 @@ from adamslite.symbolic.types import Expr, Leaf, Symbol
 STRICT, WEAK, FLOOR, ZONE = range(4)
 JUMPS = 4
 CLOCK_LEAVES = ("t", "sig")
-FIXED_LEAVES = ("p", "mode", "nan")
+FIXED_LEAVES = ("p", "mode", "run", "nan")
 RELATIONS = ("<", ">", "<=", ">=")
 
 

@@ -294,7 +294,7 @@ class Scope:
             return self.symbol("sig", leaf[1], leaf[2] + 1)
         if kind == "dif":
             return self.symbol("dif1", leaf[1])
-        if kind in ("p", "turn", "kept", "origin", "mode", "nan", UNFORESEEN):
+        if kind in ("p", "turn", "kept", "origin", "mode", "run", "nan", UNFORESEEN):
             return 0
         raise UndefinedRate(leaf)
 

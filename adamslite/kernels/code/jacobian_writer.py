@@ -15,7 +15,7 @@ from adamslite.symbolic.sympy_nodes import sp
 from adamslite.symbolic.types import Expr, Leaf
 
 # Leaves that are no unknowns and do not change with them.
-FIXED = ("p", "t", "now", "mode", "sig", "turn", "kept", "origin", "nan", UNFORESEEN)
+FIXED = ("p", "t", "now", "mode", "run", "sig", "turn", "kept", "origin", "nan", UNFORESEEN)
 
 
 class JacobianWriter(ResidualWriter):

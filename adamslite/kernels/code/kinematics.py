@@ -31,7 +31,7 @@ Vec = list[Value]
 POSITION, VELOCITY, ACCELERATION, OMEGA, ALPHA, ATTITUDE = 0, 3, 6, 9, 12, 15
 POINT_SIZE, PART_SIZE = 9, 24
 # The head of the workspace.
-TIME, MODE, HEAD = 0, 1, 2
+TIME, MODE, RUN, HEAD = 0, 1, 2, 6
 
 
 class Geometry:

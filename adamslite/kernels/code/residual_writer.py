@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from adamslite.kernels.code.kinematics import HEAD, MODE, TIME, Geometry, Vec
+from adamslite.kernels.code.kinematics import HEAD, MODE, RUN, TIME, Geometry, Vec
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.kernels.code.sympy_to_llvm import Lowering
 from adamslite.native.llvm_builder import Builder, Value
@@ -41,10 +41,9 @@ class ResidualWriter:
             return self.g.leaf(leaf)
         if kind == "p":
             return self.b.real_at(leaf[1])
-        if kind in ("t", "now", "mode"):
-            return self.b.emit(
-                (kind,), f"load double, ptr {self._head(MODE if kind == 'mode' else TIME)}"
-            )
+        if kind in ("t", "now", "mode", "run"):
+            at = RUN + leaf[1] if kind == "run" else MODE if kind == "mode" else TIME
+            return self.b.emit(leaf, f"load double, ptr {self._head(at)}")
         if kind in ("z", "dif"):
             return self.b.read("W", self.b.int_at(leaf[1]), leaf[2] if kind == "z" else 0)
         if kind in ("dif1", "origin"):

@@ -49,6 +49,11 @@ EXPRESSIONS: dict[str, Message] = {
         "the function exists in ADAMS; this program cannot run it",
         _variables("INVPSD(TIME,1)+INVPSD(TIME,2)"),
     ),
+    "only-an-output": Message(
+        "{label} cannot use {word}(), which is known at output times only",
+        "write it into a request: REQUEST/id, F2={word}()",
+        _variables("HSIZE()", "2*ORDER()", "NJAC()", "NRHS()"),
+    ),
     "argument-count": Message(
         "{word} takes {limits} and has {count}",
         "it is written {usage}",
