@@ -24,14 +24,16 @@ if TYPE_CHECKING:
     from adamslite.scene import Scene
 
 READ = "read by this run"
-KINDS = {"EIGENSOL": "modes.csv", "STATEMAT": "states.json", "MATLAB": "states."}
+KINDS = {
+    "EIGENSOL": "modes.csv", "STATEMAT": "states.json", "MATLAB": "states.", "MKB": "mkb.json",
+}  # fmt: skip
 
 
 def plan(scene: Scene, output: str | Path, named: bool) -> list[Path]:
     """The files that the LINEAR commands of a scene will fill, in their order.
 
-    EIGENSOL goes to ``<output>.modes.csv``, STATEMAT to its FILE or ``<output>.states.json``; a
-    second one of a kind is numbered.
+    EIGENSOL goes to ``<output>.modes.csv``, STATEMAT to its FILE or ``<output>.states.json``, MKB
+    to its FILE or ``<output>.mkb.json``; a second one of a kind is numbered.
 
     Parameters
     ----------
@@ -69,7 +71,7 @@ def plan(scene: Scene, output: str | Path, named: bool) -> list[Path]:
 
 def _file(command: Linear | Save | Reload) -> str:
     """The FILE of a command that has an effect."""
-    return command.file or "" if command.kind in ("STATEMAT", "SYSTEM") else ""
+    return command.file or "" if command.kind in ("STATEMAT", "MKB", "SYSTEM") else ""
 
 
 def _all_files(commands: Sequence[Linear], paths: Sequence[Path]) -> Iterator[tuple[Linear, Path]]:

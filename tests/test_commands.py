@@ -243,7 +243,7 @@ def test_an_analysis_at_once_writes_once() -> None:
         ("LINEAR/STATEMAT, FORMAT=MATRIXX", "no-effect"),
         ("LINEAR/STATEMAT, COORDS=1,2", "no-effect"),
         ("LINEAR/STATEMAT, PSTATE=1", "missing-reference"),
-        ("LINEAR/MKB", "planned-choice"),
+        ("LINEAR/NASTRAN", "planned-choice"),
         ("LINEAR/STATEMAT, PINPUT=2", "missing-reference"),
     ],
 )

@@ -213,22 +213,29 @@ def _missing(deck: Deck, switch: Activate | Deactivate, key: Key) -> Iterator[Di
         yield diagnose(switch, "missing-reference", "ids", kind=switch.kind, key=key, hint=hint)
 
 
+NO_PORTS = "EIGENSOL has neither input nor output"
+ONE_FORM = "MKB has one form, without outputs"
+IDLE_IN_LINEAR = {
+    "EIGENSOL": dict.fromkeys(("file", "format", "pinput", "poutput"), NO_PORTS)
+    | {"pstate": "eigenvalues do not depend on the states"},
+    "STATEMAT": dict.fromkeys(("coords", "kinetic"), "STATEMAT finds no modes"),
+    "MKB": dict.fromkeys(("coords", "kinetic"), "MKB finds no modes")
+    | dict.fromkeys(("format", "poutput"), ONE_FORM),
+}
+
+
 def linear_arguments(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.of(Linear):
-        for field in ("file", "format", "pinput", "poutput"):
-            if each.kind == "EIGENSOL" and each.given(field):
-                yield _idle(each, field, field.upper(), "EIGENSOL has neither input nor output")
+        idle = IDLE_IN_LINEAR.get(each.kind, {})
+        for field in filter(each.given, idle):
+            yield _idle(each, field, field.upper(), idle[field])
         for field, modes in (("coords", each.shapes), ("kinetic", each.energies)):
-            if each.kind == "STATEMAT" and modes:
-                yield _idle(each, field, field.upper(), "STATEMAT finds no modes")
-            elif modes and not 1 <= modes[0] <= modes[1]:
+            if field not in idle and modes and not 1 <= modes[0] <= modes[1]:
                 yield diagnose(each, "no-such-modes", field, word=field.upper())
         if each.kind == "STATEMAT" and each.format == "MATRIXX":
             yield _idle(each, "format", "MATRIXX", "its layout is not published")
-        if each.pstate is not None and each.kind == "EIGENSOL":
-            yield _idle(each, "pstate", "PSTATE", "eigenvalues do not depend on the states")
-        elif each.pstate is not None:
-            yield diagnose(each, "states-chosen", "pstate")
+        if each.pstate is not None and "pstate" not in idle:
+            yield diagnose(each, "states-chosen", "pstate", word=each.kind)
 
 
 def file_names(deck: Deck) -> Iterator[Diagnostic]:

@@ -4,6 +4,7 @@ Equation::
 
     EIGENSOL   s x = A x
     STATEMAT   dx/dt = A x + B u,   y = C x + D u      u of PINPUT, y of POUTPUT
+    MKB        M y" + B y' + K y = F u                 where all states are motions
 
 x holds the small motions that the constraints allow, their speeds, and the states of DIFF, LSE,
 TFSISO and GSE, as an observer sees them: on the ground, or on the body of RM, whose axes turn with
@@ -50,12 +51,13 @@ class Linear(Statement):
 
     EIGENSOL writes NAME.modes.csv, and with COORDS the magnitudes and phases of mode shapes to
     NAME.shapes.csv, the largest of a mode 1 at phase 0, with KINETIC the shares of bodies in the
-    kinetic energy to NAME.kinetic.csv; STATEMAT writes its FILE or NAME.states.json.
+    kinetic energy to NAME.kinetic.csv; STATEMAT writes its FILE or NAME.states.json, MKB its FILE
+    or NAME.mkb.json.
     """
 
     kind: str = choice(
         options=("EIGENSOL", "STATEMAT", "MKB", "NASTRAN"), required=True,
-        supported=("EIGENSOL", "STATEMAT"), help="eigenvalues, or state matrices",
+        supported=("EIGENSOL", "STATEMAT", "MKB"), help="eigenvalues, or which matrices",
     )  # fmt: skip
     nodamping: bool = flag("NODAMPING", help="leave out what depends on velocities")
     rm: int | str | None = reference(
@@ -100,7 +102,7 @@ class Linear(Statement):
     @property
     def parts(self) -> tuple[str, ...]:
         """What is added to the name of its file for each file that it writes."""
-        if self.kind == "EIGENSOL" or self.format != "MATLAB":
+        if self.kind != "STATEMAT" or self.format != "MATLAB":
             return ("",)
         given, seen = self.pinput is not None, self.poutput is not None
         return ("a", *("b" * given), *("c" * seen), *("d" * (given and seen)))

@@ -29,7 +29,6 @@ INSTEAD = {
     "FILE COMMAND": "name the command file on the command line: `adamslite solve DECK FILE.acf`",
     "INVPSD": "its random phases come from a generator that is not published: write the sum of "
     "sines a*SIN(2*PI*f*TIME+phase), or a SPLINE of the signal",
-    "LINEAR MKB": _MATRICES,
     "LINEAR NASTRAN": _MATRICES,
     "MATRIX NAME": "a table .csv holds one matrix: name the file, MATRIX/id, FILE=name.csv",
     "PTCV VELOCITY": "give the velocity to the bodies: PART/id, VX=, VY=, VZ=",

@@ -13,6 +13,7 @@ import numpy as np
 
 from adamslite.elements.linear import Linear
 from adamslite.errors import UsageError
+from adamslite.outputs.second_order import save_second_order
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.linearization import Linearization
 from adamslite.results.results import Linearized
@@ -85,6 +86,8 @@ def save_command(made: Linearized, path: Path) -> list[Path]:
 
     ``path`` is that of modes or of the state matrices; files beside it have names made from it.
     """
+    if made.kind == "MKB":
+        return save_second_order(made, path)
     if made.kind == "STATEMAT" and made.form == "MATLAB":
         return _save_tables(made.model, path)
     save(made.model, path)

@@ -4,10 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
+from typing import NamedTuple
 
 import numpy as np
 
 VARIES = "the linear system varies with time: its eigenvalues are those of this moment only"
+
+
+class SecondOrder(NamedTuple):
+    """M y'' + B y' + K y = F w, where body coordinates move by ``basis`` (n, f) times y; M of the
+    kinetic energy y' M y'/2.
+    """
+
+    mass: np.ndarray
+    damping: np.ndarray
+    stiffness: np.ndarray
+    input_matrix: np.ndarray
+    basis: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -35,6 +48,8 @@ class Linearization:
         Share of each body in the kinetic energy of each mode; zeros where a mode has none.
     bodies : tuple of str
         Names of the rows of ``kinetic``.
+    second_order : SecondOrder or None
+        The same as equations of second order, where all states are motions.
     steady : bool
         Whether A to D stay constant along the motion.
     steady_for : str
@@ -53,6 +68,7 @@ class Linearization:
     outputs: tuple[str, ...]
     kinetic: np.ndarray
     bodies: tuple[str, ...]
+    second_order: SecondOrder | None = None
     steady: bool = True
     steady_for: str = ""
 

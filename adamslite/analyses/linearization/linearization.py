@@ -15,20 +15,26 @@ import numpy as np
 
 from adamslite.analyses.initial.conditions import consistent_velocities
 from adamslite.analyses.linearization.eigen import eigen
-from adamslite.analyses.linearization.first_order import Ports
+from adamslite.analyses.linearization.first_order import FirstOrder, Ports
 from adamslite.analyses.linearization.observer import Observer
 from adamslite.analyses.linearization.stationarity import Trajectory
 from adamslite.elements.linear import Linear
 from adamslite.elements.pinput import Pinput
 from adamslite.elements.poutput import Poutput
 from adamslite.equations.system import System
+from adamslite.errors import UsageError
 from adamslite.language.interfaces import Key
 from adamslite.model.model import PART
-from adamslite.results.linearization import Linearization
+from adamslite.results.linearization import Linearization, SecondOrder
 from adamslite.results.results import Linearized
 
 # Displacements that differ by less than this share are equally large: the first one counts.
 ALIKE = 1e-6
+NO_SECOND_ORDER = (
+    "LINEAR/MKB cannot write this model as M y'' + B y' + K y: it has states that are no motions "
+    "(DIFF, LSE, TFSISO, GSE, FRICTION, MOTION/ACCELERATION) or constraints of velocities. "
+    "LINEAR/STATEMAT writes its matrices A, B, C, D."
+)
 
 
 def carried_out(command: Linear, system: System, time: float) -> Linearized:
@@ -38,6 +44,8 @@ def carried_out(command: Linear, system: System, time: float) -> Linearized:
     seen = None if command.poutput is None else deck.find(Poutput, command.poutput)
     inputs, outputs = (port.variables if port else () for port in (given, seen))
     found = linear(system, inputs, outputs, not command.nodamping, command.rm)
+    if command.kind == "MKB" and found.second_order is None:
+        raise UsageError(NO_SECOND_ORDER)
     return Linearized(
         command.kind, command.file, time, found,
         form=command.format, shapes=command.shapes, energies=command.energies,
@@ -92,7 +100,22 @@ def linear(
         outputs=tuple(f"VARIABLE/{key}" for key in outputs),
         kinetic=_kinetic_shares(system, found.instant.attitude, speed)[:, order],
         bodies=tuple(body.statement.label for body in system.model.bodies),
-        steady=steady, steady_for=steady_for,
+        second_order=_second_order(found, b), steady=steady, steady_for=steady_for,
+    )  # fmt: skip
+
+
+def _second_order(found: FirstOrder, inputs: np.ndarray) -> SecondOrder | None:
+    """M, and B, K, F from p' = -M^-1 (B p + K y - F w); None where x is more than (y, p)."""
+    f, g = found.basis.speeds[0].shape
+    if f != g or found.held.shape[1] > f:
+        return None
+    moved = found.q @ found.basis.speeds[0]
+    n = len(moved)
+    mass = moved.T @ (found.instant.by_acceleration[:n, :n] @ moved)
+    pushed = found.whole[f : 2 * f]
+    return SecondOrder(
+        mass, -mass @ pushed[:, f : 2 * f], -mass @ pushed[:, :f], mass @ inputs[f : 2 * f],
+        found.basis.positions[0],
     )  # fmt: skip
 
 

@@ -85,7 +85,7 @@ RUNS: dict[str, Message] = {
         severity=NOTE,
     ),
     "states-chosen": Message(
-        "STATEMAT cannot use PSTATE: this program chooses the states of the matrices",
+        "{word} cannot use PSTATE: this program chooses the states of the matrices",
         "leave it out: eigenvalues and transfer functions do not depend on the choice of states",
         commands=("LINEAR/STATEMAT, PSTATE=1",),
         deck="VARIABLE/1, FUNCTION=DX(2)\nPSTATE/1, VARIABLES=1\n",
