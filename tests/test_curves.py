@@ -217,3 +217,24 @@ def test_a_deck_may_give_control_points() -> None:
     s = found.time
     expected = 9 * (1 - s) ** 2 * s - 3 * (1 - s) * s**2 + 2 * s**3
     assert found["VARIABLE/1"] == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize("speed", [3.0, -2.0])
+def test_a_bead_starts_at_its_velocity_along_the_curve(speed: float) -> None:
+    """On a circle drawn from angle 0 upwards: y' = speed at the right, and it stays."""
+    deck = bead(circle(400), "CLOSED", np.array([1.0, 0.0, 0.0]))
+    deck = deck.replace("VY=3", "VY=0").replace("RM=1\n", f"RM=1, VELOCITY={speed}\n")
+    results = done(deck, end=0.5, error=1e-9)
+    assert results["POINT_MASS/4.vy"][0] == pytest.approx(speed, rel=1e-9)
+    assert results["REQUEST/1.F2"] == pytest.approx(abs(speed), abs=1e-6)
+    assert results["POINT_MASS/4.y"][-1] == pytest.approx(np.sin(0.5 * speed), abs=1e-5)
+
+
+def test_its_velocity_holds_where_the_posture_closes() -> None:
+    """Drawn beside a parabola with unequal chords, and free to move onto it."""
+    x = np.array([0.0, 0.3, 1.0, 2.0, 2.5])
+    rows = np.column_stack([x, x**2, 0.0 * x])
+    deck = bead(rows, "OPEN", np.array([1.3, 1.5, 0.2])).replace("VY=3", "VY=0")
+    results = done(deck.replace("RM=1\n", "RM=1, VELOCITY=-1.5\n"), end=0.2, error=1e-9)
+    assert results["REQUEST/1.F2"] == pytest.approx(1.5, abs=1e-6)
+    assert results["POINT_MASS/4.vx"][0] < 0

@@ -1,9 +1,13 @@
-"""What IC, ICTRAN, ICROT and ICDISP demand of the start, as motions."""
+"""What IC, ICTRAN, ICROT, ICDISP and VELOCITY of a PTCV demand of the start, as motions."""
 
 from __future__ import annotations
 
+from adamslite.deck.deck import Deck
 from adamslite.elements.joint import Joint
+from adamslite.elements.marker import Marker
 from adamslite.elements.motion import Motion
+from adamslite.elements.part import Part
+from adamslite.elements.ptcv import Ptcv
 from adamslite.language.expression import Num
 from adamslite.language.interfaces import Key
 
@@ -41,3 +45,22 @@ def conditions(statement: Joint | Motion) -> list[Condition]:
         for level, value in zip(("DISPLACEMENT", "VELOCITY"), values, strict=True)
         if value is not None
     ]
+
+
+def speed_on_curve(deck: Deck, constraint: Ptcv, rate: float) -> tuple[Marker, Condition]:
+    """A motion of the massless point that carries the parameter, at ``rate``, and a marker on the
+    ground for it.
+    """
+    ground = next(part.key for part in deck.of(Part) if part.ground)
+    fixed = Marker(id=f"{constraint.slider}_GROUND".upper(), part=ground, spans=constraint.spans)
+    condition = Condition(
+        id=f"{constraint.label} velocity",
+        name=f"VELOCITY of {constraint.label}",
+        axis="X",
+        level="VELOCITY",
+        function=Num(rate),
+        i=constraint.slider.upper(),
+        j=fixed.key,
+        spans=constraint.spans,
+    )
+    return fixed, condition

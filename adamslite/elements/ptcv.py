@@ -7,7 +7,7 @@ Equation (``d = r_I - r_RM``, c the curve in the axes of RM, s its parameter, an
 The path p is the x coordinate of a massless point of its own (``POINT_MASS/PTCV_id``, y and z kept
 at zero), so that it has a velocity and an acceleration like any coordinate.  Its equation of motion
 says that the reaction has no component along the curve.  s0 is the point nearest to I in the deck,
-or nearest to DISP, from which the posture is then closed.
+or nearest to DISP, from which the posture is then closed.  VELOCITY is |c'| dp/dt / length there.
 
 Sign: the reaction reported acts on I; at the other end (jflag 1) the force acts on the part of RM,
 torque about RM's origin::
@@ -23,12 +23,12 @@ from adamslite.elements.bases.curve_point import carrier_name, carriers, paramet
 from adamslite.elements.bases.joint_coordinates import pose
 from adamslite.language.expression import Ref
 from adamslite.language.interfaces import DrawnModel, Lookup
-from adamslite.language.statement import Statement, reference, statement, vector
+from adamslite.language.statement import Statement, number, reference, statement, vector
 from adamslite.symbolic.scope import Scope, along_axes, minus
 from adamslite.symbolic.types import Expr, Seen
 
 
-@statement("PTCV", planned=("VELOCITY",))
+@statement("PTCV")
 class Ptcv(Constraint, Statement):
     """Keeps marker I on a CURVE that is fixed to marker RM, without friction."""
 
@@ -41,6 +41,10 @@ class Ptcv(Constraint, Statement):
     disp: tuple[float, ...] | None = vector(
         "DISPLACEMENT", size=3, unit="length", start=True,
         help="point of the curve at the start, or near it, in the axes of ICM",
+    )  # fmt: skip
+    velocity: float | None = number(
+        "VELOCITY", unit="length/time", start=True,
+        help="speed of I along the curve at the start, positive towards its last point",
     )  # fmt: skip
     icm: int | str | None = reference(
         "ICM", to="MARKER", start=True, help="marker that DISPLACEMENT refers to; RM unless given"
@@ -70,6 +74,15 @@ class Ptcv(Constraint, Statement):
         """The parameter of the drawn posture, and what carries it."""
         start = model.once(("PTCV", self.key), lambda: self._nearest(model))
         return {"path": Ref("MARKER", self.slider.upper()), "start": start}
+
+    def rate(self, model: DrawnModel, path: float) -> float:
+        """dp/dt at the path p for VELOCITY."""
+        import numpy as np
+
+        spline = model.element("CURVE", self.curve).spline(model)
+        start = model.once(("PTCV", self.key), lambda: self._nearest(model))
+        slope = spline.at(np.array([start + path / spline.length]), 1)[0]
+        return float((self.velocity or 0.0) * spline.length / np.linalg.norm(slope))
 
     def _nearest(self, model: DrawnModel) -> float:
         """Parameter of the curve's point that is nearest to I, or to DISP."""

@@ -31,7 +31,6 @@ INSTEAD = {
     "sines a*SIN(2*PI*f*TIME+phase), or a SPLINE of the signal",
     "LINEAR NASTRAN": _MATRICES,
     "MATRIX NAME": "a table .csv holds one matrix: name the file, MATRIX/id, FILE=name.csv",
-    "PTCV VELOCITY": "give the velocity to the bodies: PART/id, VX=, VY=, VZ=",
     "SPLINE ROUTINE": "write X and Y, or FILE= with a table .csv",
 }
 """What to write instead and why, by statement, function, statement and argument, or statement and
