@@ -6,6 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from constraint_decks import BODIES
+from newton_matrix import matrix_error
 from oracle import Flight, Marker, reported
 
 Array = np.ndarray
@@ -190,3 +192,16 @@ def test_accelerations_of_touching_bodies(name: str, seed: int) -> None:
     assert measured == pytest.approx(on_i, rel=1e-6, abs=1e-9)
     assert results["CONTACT/1.incidents"][0] == sum(depth > 0 for depth in depths)
     assert results["CONTACT/1.depth"][0] == pytest.approx(max(0.0, *depths), rel=1e-6)
+
+
+# ------------------------------------------------------------------------------- exact derivatives
+
+
+@pytest.mark.parametrize("slow", [0.05, 1.0, 30.0])
+@pytest.mark.parametrize("name", ("ball on ball", "box on plane"))
+def test_the_newton_matrix_agrees_with_differences(name: str, slow: float) -> None:
+    """With friction that sticks, and transition velocities below, at and beyond the slip."""
+    first, second, _ = shapes(name, 21, 31, 1.5)
+    law = statement("IMPACT", (slow, 2 * slow), "IGEOM=1, JGEOM=2")
+    held = f"{law}, STICTION=ON, MAX_STICTION_DEFORMATION=2"
+    assert matrix_error(f"{BODIES}{first}\n{second}\n{held}\nEND\n", False) < 1e-6

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from typing import TypeVar
 
 from adamslite.checks.markers import references
 from adamslite.deck.deck import Deck
@@ -27,6 +28,7 @@ CHANGING = {
 }  # fmt: skip
 WORD = re.compile(r"[A-Za-z]\w*")
 Body = tuple[str, Key]
+C = TypeVar("C", bound=Command)
 INSTEAD = {
     "FLEX_BODY": "write it as a rigid PART, or as PARTs that BEAM or FIELD elements join",
     "FE_PART": "write it as a chain of PARTs that BEAM elements join",
@@ -103,9 +105,17 @@ def _without_use(deck: Deck) -> Iterator[Statement]:
     needed |= {(joint.keyword, joint.key) for joint in deck.of(Joint) if _acting(joint)}
     needed |= {(output.keyword, output.key) for output, *_ in _changing_words(deck)}
     needed |= {(g.keyword, g.key) for g in deck.of(Graphics) if g.shape is None or g.missing}
-    touching = (key for each in deck.of(Contact) for key in (*each.igeom, *each.jgeom))
-    needed |= {(Graphics.keyword, key) for key in touching}
-    yield from (each for each in deck.own if (each.keyword, each.key) not in needed)
+    yield from (
+        each for each in untouched(deck, deck.own) if (each.keyword, each.key) not in needed
+    )
+
+
+def untouched(deck: Deck, commands: Iterable[C]) -> Iterator[C]:
+    """Statements and commands but those of shapes that touch."""
+    touching = {key for each in deck.of(Contact) for key in (*each.igeom, *each.jgeom)}
+    for each in commands:
+        if not (each.keyword == Graphics.keyword and each.key in touching):
+            yield each
 
 
 def in_one_note(
@@ -116,7 +126,7 @@ def in_one_note(
     notes = [each for each in found if each.code == "passed-over"]
     if len(notes) < 2:
         return found
-    (whole,) = note_of_inert([*_without_use(deck), *commands])
+    (whole,) = note_of_inert([*_without_use(deck), *untouched(deck, commands)])
     places = tuple(place for each in notes for place in each.everywhere)
     note = replace(notes[0], message=whole.message, places=places)
     rest = (each for each in found if each not in notes[1:])

@@ -36,8 +36,8 @@ below: its XMIN ... YMAX are those of the drawing.  A point has no size: nothing
 about the normal.
 
 POISSON: coming out gives back e^2 of the work of sinking in, so a free impact ends with e times its
-speed, whatever the masses, the speed and PENALTY.  c = 300 (1 - e^2)/e sqrt(PENALTY m), m: reduced
-mass of both parts, only joins the branches, for bodies that lie still; it changes e by 1e-5 of it
+speed, whatever the masses, the speed and PENALTY.  c = 100 (1 - e^2)/e sqrt(PENALTY m), m: reduced
+mass of both parts, only joins the branches, for bodies that lie still; it changes e by 1e-4 of it
 at most, more below e = 0.1.
 
 STICTION=ON: below vs the surfaces hold a load up to MU_STATIC N by bristles, which yield by

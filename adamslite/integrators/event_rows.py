@@ -43,6 +43,7 @@ class Search(Record):
     span                 share of a zone that a step may cross
     window_low, window_high   the window that is examined
     past_size            size of the step before, 0 when its rates are not known
+    ahead                time from the start of the step to where its early rates reach
     """
 
     stop_at: int
@@ -76,3 +77,4 @@ class Search(Record):
     window_low: float
     window_high: float
     past_size: float
+    ahead: float

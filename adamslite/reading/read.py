@@ -6,7 +6,7 @@ from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from adamslite.checks.inert import note_of_inert
+from adamslite.checks.inert import note_of_inert, untouched
 from adamslite.checks.linear_systems import determined_at_rest, late_start_numbers
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.rules import RULES
@@ -100,7 +100,7 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
         *inputs_with_rates(deck, plain),
         *names_of_files(deck, plain),
         *determined_at_rest(deck, plain),
-        *note_of_inert(commands),
+        *note_of_inert(untouched(deck, commands)),
     ]
     found = _judged(run, reading, RUN_RULES, deck)
     named = [each.output_prefix or "" for each in plain if isinstance(each, File)]

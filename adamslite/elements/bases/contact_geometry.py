@@ -40,11 +40,16 @@ LEVEL = 1e-3
 
 
 class Touch(NamedTuple):
-    """Penetration, normal from J to I, common point relative to the marker of I."""
+    """Penetration, normal from J to I, common point relative to the marker of I.
+
+    ``overlap`` has the sign of ``depth`` and no kink where shapes pass each other at a distance, so
+    that a step cannot miss an overlap.
+    """
 
     depth: Expr
     normal: Vector
     arm: Vector
+    overlap: Expr
 
 
 def touch(scope: Scope, point: Seen) -> Touch:
@@ -52,16 +57,16 @@ def touch(scope: Scope, point: Seen) -> Touch:
     return PAIRS[point.first, point.second](scope, point)
 
 
-def _of_ball(radius: Expr, depth: Expr, normal: Vector) -> Touch:
+def _of_ball(radius: Expr, depth: Expr, normal: Vector, overlap: Expr) -> Touch:
     """A ball that sinks in by ``depth``: the point is in the middle of the overlap."""
-    return Touch(depth, normal, scale(depth / 2 - radius, normal))
+    return Touch(depth, normal, scale(depth / 2 - radius, normal), overlap)
 
 
 def ball_on_plane(scope: Scope, point: Seen) -> Touch:
     """depth = r - h, h: height of the centre"""
     (radius,), normal = point.first_sizes, scope.axes(point.j)[2]
     height = dot(scope.position(point.i, point.j), normal)
-    return _of_ball(radius, radius - height, normal)
+    return _of_ball(radius, radius - height, normal, radius - height)
 
 
 def corner_on_plane(scope: Scope, point: Seen) -> Touch:
@@ -70,15 +75,16 @@ def corner_on_plane(scope: Scope, point: Seen) -> Touch:
     corner = along_axes(scope.axes(point.i), (x + a, y + b, z + c))
     normal = scope.axes(point.j)[2]
     depth = -dot(plus(scope.position(point.i, point.j), corner), normal)
-    return Touch(depth, normal, plus(corner, scale(depth / 2, normal)))
+    return Touch(depth, normal, plus(corner, scale(depth / 2, normal)), depth)
 
 
 def ball_on_ball(scope: Scope, point: Seen) -> Touch:
     """depth = r1 + r2 - distance of the centres"""
     (radius,), (other,) = point.first_sizes, point.second_sizes
     apart = scope.position(point.i, point.j)
-    distance = root(dot(apart, apart))
-    return _of_ball(radius, radius + other - distance, scale(1 / distance, apart))
+    square = dot(apart, apart)
+    distance, near = root(square), radius + other
+    return _of_ball(radius, near - distance, scale(1 / distance, apart), near**2 - square)
 
 
 def ball_on_box(scope: Scope, point: Seen) -> Touch:
@@ -87,13 +93,14 @@ def ball_on_box(scope: Scope, point: Seen) -> Touch:
     at = _seen_from(scope, point, (x, y, z))
     beyond = [_beyond(x, a) for x, a in zip(at, half, strict=True)]
     square = sum(each**2 for each in beyond)
-    left = [a - magnitude(x, None) for x, a in zip(at, half, strict=True)]
-    nearest = [
-        sp.And(left[0] <= left[1], left[0] <= left[2]),
-        sp.And(left[1] < left[0], left[1] <= left[2]),
-        sp.And(left[2] < left[0], left[2] < left[1]),
-    ]
     outside, distance = square > 0, root(square)
+    left = [a - magnitude(x, None) for x, a in zip(at, half, strict=True)]
+    # Which face is the nearest is of no interest outside.
+    xy, xz, yz = (
+        piecewise((-1, outside), otherwise=a - b) <= 0
+        for a, b in ((left[0], left[1]), (left[0], left[2]), (left[1], left[2]))
+    )
+    nearest = [sp.And(xy, xz), sp.And(sp.Not(xy), yz), sp.And(sp.Not(xz), sp.Not(yz))]
     depth = piecewise(
         (radius - distance, outside), (radius + left[0], nearest[0]),
         (radius + left[1], nearest[1]), otherwise=radius + left[2], order=0,
@@ -103,7 +110,8 @@ def ball_on_box(scope: Scope, point: Seen) -> Touch:
         for e, x, near in zip(beyond, at, nearest, strict=True)
     ]
     axes = along_axes(scope.axes(point.j), (normal[0], normal[1], normal[2]))
-    return _of_ball(radius, depth, axes)
+    overlap = radius**2 - square if radius != 0 else depth
+    return _of_ball(radius, depth, axes, overlap)
 
 
 def ball_on_cylinder(scope: Scope, point: Seen) -> Touch:
@@ -111,11 +119,13 @@ def ball_on_cylinder(scope: Scope, point: Seen) -> Touch:
     (radius,), (middle, half, thickness) = point.first_sizes, point.second_sizes
     x, y, z = _seen_from(scope, point, (0, 0, middle))
     from_axis = norm((x, y, 0))
-    aside = piecewise((from_axis - thickness, from_axis > thickness), otherwise=0, order=0)
+    beside = x**2 + y**2 > thickness**2
+    aside = piecewise((from_axis - thickness, beside), otherwise=0, order=0)
     along = _beyond(z, half)
     square = aside**2 + along**2
     to_side, to_end = thickness - from_axis, half - magnitude(z, None)
-    outside, sideways, distance = square > 0, to_side <= to_end, root(square)
+    outside, distance = square > 0, root(square)
+    sideways = piecewise((-1, outside), otherwise=to_side - to_end) <= 0
     depth = piecewise(
         (radius - distance, outside), (radius + to_side, sideways), otherwise=radius + to_end,
         order=0,
@@ -124,7 +134,8 @@ def ball_on_cylinder(scope: Scope, point: Seen) -> Touch:
     across = piecewise((across / from_axis, from_axis > 0), otherwise=0)
     axial = piecewise((along / distance, outside), (0, sideways), otherwise=_sign(z), order=-1)
     normal = along_axes(scope.axes(point.j), (across * x, across * y, axial))
-    return _of_ball(radius, depth, normal)
+    overlap = radius**2 - square if radius != 0 else depth
+    return _of_ball(radius, depth, normal, overlap)
 
 
 def rim_on_plane(scope: Scope, point: Seen) -> Touch:
@@ -144,7 +155,7 @@ def rim_on_plane(scope: Scope, point: Seen) -> Touch:
     depth = radius * reach - height
     outwards = 1 / rounded + 4 * LEVEL * (1 - square)
     lowest = minus(centre, scale(radius * outwards, slant))
-    return Touch(depth, normal, plus(lowest, scale(depth / 2, normal)))
+    return Touch(depth, normal, plus(lowest, scale(depth / 2, normal)), depth)
 
 
 def _seen_from(scope: Scope, point: Seen, middle: Vector) -> Vector:

@@ -28,6 +28,7 @@ so that below vs a load up to MU_STATIC N is held, and beyond vs friction is as 
 
 from __future__ import annotations
 
+from adamslite.elements.bases.contact_geometry import Touch
 from adamslite.functions.steps import spring, step
 from adamslite.symbolic.scope import Vector, dot, minus, plus, scale
 from adamslite.symbolic.sympy_nodes import norm, piecewise, root
@@ -37,20 +38,32 @@ from adamslite.symbolic.types import Expr, Seen
 YIELDING = 0.9
 
 
-def normal_force(point: Seen, depth: Expr, rate: Expr) -> Expr:
+def normal_force(point: Seen, found: Touch, rate: Expr) -> Expr:
     """N of the table above."""
+    touching = found.overlap > 0
+    depth = piecewise((found.depth, touching), otherwise=0)
     if point.law == "IMPACT":
         elastic = spring(point.stiffness, depth, point.exponent)
         damped = elastic + rate * step(None, depth, 0, 0, point.dmax, point.damping)
-        force = piecewise((damped, damped > 0), otherwise=0, order=0)
+        force = piecewise((damped, _meant(damped, touching) > 0), otherwise=0, order=0)
     else:
         elastic = point.stiffness * depth
         least = point.restitution**2 * elastic
         coming_out = elastic + point.damping * rate
         force = piecewise(
-            (elastic, rate >= 0), (coming_out, coming_out > least), otherwise=least, order=0
+            (elastic, _meant(rate, touching) >= 0),
+            (coming_out, _meant(coming_out - least, touching) > 0),
+            otherwise=least,
+            order=0,
         )
-    return piecewise((force, depth > 0), otherwise=0, order=0)
+    return piecewise((force, touching), otherwise=0, order=0)
+
+
+def _meant(guard: Expr, condition: Expr) -> Expr:
+    """A guard that means something under a condition only: elsewhere it does not move, so that no
+    step is examined for its sake.
+    """
+    return piecewise((guard, condition), otherwise=1)
 
 
 def friction(point: Seen, load: Expr, slip: Vector, bristle: Vector | None) -> Vector:

@@ -35,7 +35,7 @@ POINT = "CONTACT_POINT"
 AXES = ("X", "Y", "Z")
 # Damping that joins the branches of POISSON, times e in sqrt(PENALTY mass): the coefficient e of
 # restitution is exact but for a share of 1/JOINING^2, as long as it is above LEAST.
-JOINING, LEAST = 300.0, 0.1
+JOINING, LEAST = 100.0, 0.1
 
 
 class Law(NamedTuple):
@@ -124,7 +124,7 @@ class ContactPoint(Statement):
         """The force on I at the common point; the opposite on J at the same place."""
         found = touch(scope, self)
         speed = _relative_velocity(scope, self, found)
-        load = normal_force(self, found.depth, -dot(speed, found.normal))
+        load = normal_force(self, found, -dot(speed, found.normal))
         force, torque = scale(load, found.normal), ZERO
         if self.rubs:
             slip = across(speed, found.normal)
@@ -179,7 +179,7 @@ def contact_bristle(scope: Scope, id: Tree, axis: int) -> Expr:
     found = touch(scope, point)
     slip = across(_relative_velocity(scope, point, found), found.normal)
     bristle = _bristle(scope, point, found)
-    rate = bristle_rate(point, slip, bristle, found.depth > 0)
+    rate = bristle_rate(point, slip, bristle, found.overlap > 0)
     straight, moving = -point.bristle[axis], dot(rate, scope.axes(point.j)[axis])
     at_rest = sp.And(scope.mode > STATICS[0], scope.mode < STATICS[1])
     return piecewise((straight, at_rest), otherwise=moving)

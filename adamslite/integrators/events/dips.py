@@ -65,6 +65,21 @@ def dip(a: float, b: float, r: float, s: float, behind: float) -> float:
 
 
 @native
+def tangent(near: float, far: float, rise: float, reach: float, other: float) -> float:
+    """The slope at an end of a step of the cubic that rises by ``rise`` in it, from its difference
+    quotients at this end and at the other one, which reach so far inwards, as shares of the step.
+
+    As slopes they would be off by as much as the curve bends within their reach, which hides what
+    is passed in less.
+    """
+    here = near - rise * reach * (3.0 - 2.0 * reach)
+    there = far - rise * other * (3.0 - 2.0 * other)
+    own, opposite = (1.0 - reach) * (1.0 - reach), (1.0 - other) * (1.0 - other)
+    mixed = reach * (1.0 - reach) * other * (1.0 - other)
+    return (opposite * here + reach * (1.0 - reach) * there) / (own * opposite - mixed)
+
+
+@native
 def meeting(a: float, b: float, r: float, s: float) -> float:
     """The share at which the tangents at both ends meet below zero, else ``NONE``.
 

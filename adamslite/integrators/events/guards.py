@@ -28,6 +28,7 @@ from adamslite.integrators.event_rows import (
     ZONE_EARLY,
     ZONE_LATE,
 )
+from adamslite.integrators.events.dips import LITTLE
 from adamslite.integrators.events.sensors import sense
 from adamslite.integrators.motion_equations import WATCH, guard_values
 from adamslite.native.translate import native
@@ -191,7 +192,7 @@ def keep_margins(P: Problem) -> None:
     for k in range(zones):
         P.zone[START * zones + k] = P.zone[END * zones + k]
         P.zone[ZONE_EARLY * zones + k] = P.zone[ZONE_LATE * zones + k]
-    S.known, S.rated = S.rated, False
+    S.known, S.rated, S.ahead = S.rated, False, 0.0 - LITTLE * S.size
 
 
 @native

@@ -100,7 +100,7 @@ def judge(P: Problem) -> None:
             choose(P)
     elif S.stage == RATE_BEFORE:
         rates(P, START, EARLY, ZONE_EARLY)
-        S.known = True
+        S.known, S.ahead = True, LITTLE * S.size
         choose(P)
     elif S.stage == BRACKET:
         narrow(P, found)

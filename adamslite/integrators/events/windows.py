@@ -29,7 +29,7 @@ from adamslite.integrators.event_rows import (
     RIGHT_RATE,
     START,
 )
-from adamslite.integrators.events.dips import DEEPEST, LITTLE, NEAR, cubic, dip
+from adamslite.integrators.events.dips import DEEPEST, LITTLE, NEAR, cubic, dip, tangent
 from adamslite.integrators.events.guards import copy_margins, is_taken
 from adamslite.native.translate import native
 
@@ -142,6 +142,10 @@ def is_trusted(P: Problem) -> bool:
     for k in range(count):
         a, b = P.margin[left * count + k], P.margin[right * count + k]
         r, s = h * P.margin[early * count + k], h * P.margin[late * count + k]
+        if width == 1.0:
+            ahead = S.ahead / S.size
+            slope = tangent(r, s, b - a, ahead, LITTLE)
+            r, s = slope, tangent(s, r, b - a, LITTLE, ahead)
         m, swing = P.margin[INSIDE * count + k], abs(r) + abs(s)
         off = abs(m - cubic(a, b, r, s, x))
         low = min(a, b, m) - DEEPEST * swing
@@ -172,5 +176,9 @@ def next_dip(P: Problem) -> float:
         r, s = h * P.margin[early * count + k], h * P.margin[late * count + k]
         swing = abs(r) + abs(s)
         if min(a, b) < DEEPEST * swing and (b >= 0.0 or s < 0.0) and not is_taken(P, k):
+            if width == 1.0:
+                ahead = S.ahead / S.size
+                slope = tangent(r, s, b - a, ahead, LITTLE)
+                r, s = slope, tangent(s, r, b - a, LITTLE, ahead)
             first = min(first, dip(a, b, r, s, behind))
     return S.window_low + width * first if first < 1.0 else NONE

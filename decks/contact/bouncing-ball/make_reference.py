@@ -44,7 +44,7 @@ def height(t: float, found: list[Span]) -> float:
 HEAD = """\
 # Free fall and harmonic motion, joined exactly: see README.md
 # written by make_reference.py
-# tolerance: abs 2e-5
+# tolerance: abs 1e-4
 """
 
 
