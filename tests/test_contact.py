@@ -146,6 +146,8 @@ def shapes(name: str, i: int, j: int, a: float) -> Shapes:
     }[name]  # fmt: skip
 
 
+# Their kernels take several seconds to compile.
+LONG = {"ball on box": pytest.mark.slow}
 NAMES = (
     "ball on plane", "point on plane", "ball on ball", "ball on box", "ball on cylinder",
     "box on plane", "cylinder on plane", "frustum on plane",
@@ -164,7 +166,7 @@ def statement(law: str, slow: tuple[float, float], sides: str) -> str:
     )
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [pytest.param(each, marks=LONG.get(each, ())) for each in NAMES])
 @pytest.mark.parametrize("seed", SEEDS)
 def test_accelerations_of_touching_bodies(name: str, seed: int) -> None:
     """The slip is below, between and above the transition velocities by the seed."""
@@ -198,7 +200,9 @@ def test_accelerations_of_touching_bodies(name: str, seed: int) -> None:
 
 
 @pytest.mark.parametrize("slow", [0.05, 1.0, 30.0])
-@pytest.mark.parametrize("name", ("ball on ball", "box on plane"))
+@pytest.mark.parametrize(
+    "name", ["ball on ball", pytest.param("box on plane", marks=pytest.mark.slow)]
+)
 def test_the_newton_matrix_agrees_with_differences(name: str, slow: float) -> None:
     """With friction that sticks, and transition velocities below, at and beyond the slip."""
     first, second, _ = shapes(name, 21, 31, 1.5)
