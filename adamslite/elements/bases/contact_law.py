@@ -36,6 +36,7 @@ from adamslite.symbolic.types import Expr, Seen
 
 # Deflection from which bristles begin to slip.
 YIELDING = 0.9
+FAR = 1e30
 
 
 def normal_force(point: Seen, found: Touch, rate: Expr) -> Expr:
@@ -61,9 +62,9 @@ def normal_force(point: Seen, found: Touch, rate: Expr) -> Expr:
 
 def _meant(guard: Expr, condition: Expr) -> Expr:
     """A guard that means something under a condition only: elsewhere it does not move, so that no
-    step is examined for its sake.
+    step is examined for its sake, and is so far from changing that the condition changes before.
     """
-    return piecewise((guard, condition), otherwise=1)
+    return piecewise((guard, condition), otherwise=FAR)
 
 
 def friction(point: Seen, load: Expr, slip: Vector, bristle: Vector | None) -> Vector:
