@@ -44,21 +44,6 @@ def test_an_impact_has_the_stated_restitution(method: str, e: float) -> None:
     assert results["PART/3.vx"][-1] == pytest.approx(25 * (1 + e), abs=close)
 
 
-DAMPED = "IMPACT, STIFFNESS=1E9, EXPONENT=1, DAMPING=1E8, DMAX=1E-6"
-
-
-@pytest.mark.parametrize("law", ["POISSON, PENALTY=1E9, RESTITUTION=0", DAMPED])
-@pytest.mark.parametrize("method", ["GSTIFF", "RADAU"])
-@pytest.mark.parametrize("error", [1e-8, 1e-6])
-def test_a_step_may_end_where_the_contact_has_nothing_more_to_say(
-    method: str, law: str, error: float
-) -> None:
-    """At t = 0.5 free flight has both centres in one place, and nothing would hold what parts."""
-    deck = balls(method, error, x=-50.0, e=0).replace("POISSON, PENALTY=1E9, RESTITUTION=0", law)
-    results = al.simulate(read(deck), end=1, steps=2)
-    assert results["PART/2.vx"][-1] == pytest.approx(25, abs=1)
-
-
 @pytest.mark.parametrize("system", ["MKS", "CGS", "IPS"])
 def test_restitution_in_any_units(system: str) -> None:
     results = al.simulate(read(balls("RADAU", 1e-8, system=system, e=0.5)), end=1, steps=2)
