@@ -31,6 +31,8 @@ def vectors_of(m: Moving, n: list[int]) -> dict[str, np.ndarray]:
         f"UVX({a})": i.A[:, 0],
         f"UVY({a})": i.A[:, 1],
         f"UVZ({a},{c})": k.A.T @ i.A[:, 2],
+        f"TRANS(DXYZ({a},{b}),{c})": seen(i, j, k),
+        f"TRANS(DXYZ({a},{b},{c}),{d},{c})": seen(i, j, frame),
         f"UV(DXYZ({a},{b}))": apart / np.linalg.norm(apart),
         f"-2*DXYZ({a},{b})/4+UVX({c})*3": 3 * k.A[:, 0] - apart / 2,
         f"UVX({a})-DX({a},{b})*UVY({c})": i.A[:, 0] - apart[0] * k.A[:, 1],

@@ -44,6 +44,14 @@ MAG = """Size of v: the square root of v*v.
     Source: Adams/Solver C++ function MAG.
     """
 
+TRANS = """Vector v, which has its components along the axes of k, along the axes of marker i.
+
+    Unit: that of v.  Source: Adams/Solver C++ lists the name, but publishes no page of it: a note
+    says so where it is used; DX(i,j,k), DY and DZ leave nothing open.
+    """
+
+ASSUMED = ("TRANS",)
+"""Functions whose meaning is not published."""
 VECTORS: dict[str, Writing] = {}
 """Function of vectors -> how it is written in scalar functions, from its resolved arguments."""
 
@@ -80,6 +88,11 @@ def _size(v: Components) -> Node:
 
 def _unit(v: Components) -> Components:
     return Components(*[Op("/", (a, _size(v))) for a in v])
+
+
+def _seen_by(v: Components, i: Node, k: Node) -> Components:
+    axes = (VECTORS[f"UV{axis}"](i, k) for axis in "XYZ")
+    return Components(*[dot_product(v, axis) for axis in axes if isinstance(axis, Components)])
 
 
 def _vector(name: str, signature: str, page: str, writing: Writing) -> None:
@@ -142,3 +155,4 @@ for _number in range(3):
     _of_axis(_number)
 _vector("UV", "v:vector", UV, _unit)
 _vector("MAG", "v:vector", MAG, _size)
+_vector("TRANS", "v:vector i:marker k:marker=0", TRANS, _seen_by)

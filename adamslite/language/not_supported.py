@@ -8,7 +8,7 @@ STATEMENTS = frozenset("""LSSMATRIX PFORCE SYSVAR""".split())
 
 COMMANDS = frozenset("CONTROL".split())
 
-FUNCTIONS = frozenset("""AO INVPSD TRANS""".split())
+FUNCTIONS = frozenset("""AO INVPSD""".split())
 
 _MATRICES = "LINEAR/STATEMAT writes A, B, C and D of the same linear model"
 _ROUTINE = "libraries of the user cannot be loaded: write FUNCTION as an expression"
@@ -23,7 +23,6 @@ INSTEAD = {
     "SYSVAR": "its meaning is not published: write a VARIABLE",
     "CONTROL": "it calls a subroutine, which gives commands: write these into the command file",
     "AO": "its meaning is not published: write AX, AY, AZ or ORIENT",
-    "TRANS": "write the components in the axes of the marker: DX(i,j,rm), DY(i,j,rm), DZ(i,j,rm)",
     "ARRAY ROUTINE": _ROUTINE,
     "BEAM NONLINEAR": "a beam that bends far is a row of STRING ones with parts between them",
     "FILE COMMAND": "name the command file on the command line: `adamslite solve DECK FILE.acf`",

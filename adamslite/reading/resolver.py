@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, NoReturn
 from adamslite import functions  # noqa: F401  registers the functions
 from adamslite.deck.names import RESERVED, Key, Names, to_number
 from adamslite.functions.arrays import NUMBERED
-from adamslite.functions.vectors import VECTORS, Components, Value, combined, negated
+from adamslite.functions.vectors import ASSUMED, VECTORS, Components, Value, combined, negated
 from adamslite.language.expression import Call, Node, Num, Op, Ref, fold
 from adamslite.language.function import FUNCTIONS, Function, Parameter
 from adamslite.language.messages import Log, did_you_mean
@@ -233,6 +233,8 @@ class Resolver:
             return self._numbered(name, args[0], args[1], branches[1])
         args += [slot.default for slot in slots[len(args) :] if slot.default is not None]
         self.names.delays = self.names.delays or function.takes_past
+        if name in ASSUMED:
+            self._log("assumed-meaning", self.tokens[at], self.tokens[at], word=name)
         return VECTORS[name](*args) if name in VECTORS else Call(name, tuple(args))
 
     def _user(self, at: int, branches: tuple[Tree, ...], depth: int) -> Node:

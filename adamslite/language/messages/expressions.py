@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from adamslite.language.diagnostics import NOTE
 from adamslite.language.messages.entry import Message
 
 
@@ -53,6 +54,12 @@ EXPRESSIONS: dict[str, Message] = {
         "{label} cannot use {word}(), which is known at output times only",
         "write it into a request: REQUEST/id, F2={word}()",
         _variables("HSIZE()", "2*ORDER()", "NJAC()", "NRHS()"),
+    ),
+    "assumed-meaning": Message(
+        "ADAMS does not publish what {word} means",
+        "`adamslite help {word}` says what it does here; DX(i,j,k), DY and DZ do not leave it open",
+        _variables("UVX(2)*TRANS(DXYZ(2,1),2)"),
+        severity=NOTE,
     ),
     "argument-count": Message(
         "{word} takes {limits} and has {count}",
