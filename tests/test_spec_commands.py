@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tiers import every
 
 import adamslite
 from adamslite import manual
@@ -117,7 +118,7 @@ def test_every_word_of_a_command_has_its_effect_or_says_so(row: tuple[str, ...])
     assert bool(found) or status == "works"
 
 
-@pytest.mark.parametrize(("word", "row"), list(zip(WORDS, CHANGED, strict=True)), ids=WORDS)
+@pytest.mark.parametrize(("word", "row"), every(4, zip(WORDS, CHANGED, strict=True)), ids=WORDS)
 def test_every_statement_changes_by_a_command_or_says_so(word: str, row: tuple[str, ...]) -> None:
     status, deck, change = row
     found = told(FREE + deck, change)
@@ -129,7 +130,7 @@ def test_every_statement_changes_by_a_command_or_says_so(word: str, row: tuple[s
         assert same == (status == "inert")
 
 
-@pytest.mark.parametrize(("switch", "kind"), SWITCHED)
+@pytest.mark.parametrize(("switch", "kind"), every(4, SWITCHED))
 @pytest.mark.parametrize("chosen", ["ID=1", "RANGE=1,9"])
 def test_every_element_is_switched_off_and_on(switch: str, kind: str, chosen: str) -> None:
     deck = FREE + ELEMENTS[kind][0]
@@ -179,7 +180,7 @@ ADDED = [
 
 @pytest.mark.parametrize(
     ("deck", "added"),
-    [each[2:] for each in ADDED],
+    every(5, (each[2:] for each in ADDED)),
     ids=[f"{keyword} {word}" for keyword, word, *_ in ADDED],
 )
 def test_a_statement_that_a_command_changes_is_as_if_it_had_been_written_so(
