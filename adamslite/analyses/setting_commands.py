@@ -29,5 +29,6 @@ def updated(settings: S, command: Integrator | Equilibrium) -> S:
 def changes_the_model(command: Command) -> bool:
     """Whether a command that is not an analysis changes the model or its elements."""
     if isinstance(command, Redefinition):
-        return bool(command.changes)
+        # Shapes are drawn only, but for those that touch.
+        return bool(command.changes) and (not command.of.inert or hasattr(command.of, "shape"))
     return not command.inert and command.keyword not in SETTLED
