@@ -163,7 +163,7 @@ class Session:
             action = getattr(self, f"_do_{command.keyword.lower()}", None)
             if action is not None:
                 action(command)
-            elif changes_the_model(command):
+            elif changes_the_model(command, self.deck):
                 self.change(self.deck.after(command))
                 if isinstance(command, Redefinition):
                     self.changes += (command,)

@@ -7,8 +7,11 @@ from typing import TypeVar
 
 from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.static import StaticSettings
+from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command, Redefinition
+from adamslite.elements.contact import Contact
 from adamslite.elements.equilibrium import Equilibrium
+from adamslite.elements.graphics import Graphics
 from adamslite.elements.integrator import Integrator
 
 # What is settled before a run: the deck, the end of its commands, settings without effect.
@@ -26,9 +29,10 @@ def updated(settings: S, command: Integrator | Equilibrium) -> S:
     return replace(settings, **given)
 
 
-def changes_the_model(command: Command) -> bool:
+def changes_the_model(command: Command, deck: Deck) -> bool:
     """Whether a command that is not an analysis changes the model or its elements."""
     if isinstance(command, Redefinition):
-        # Shapes are drawn only, but for those that touch.
-        return bool(command.changes) and (not command.of.inert or hasattr(command.of, "shape"))
+        # Shapes are only drawn where nothing touches.
+        touches = issubclass(command.of, Graphics) and bool(deck.of(Contact))
+        return bool(command.changes) and (touches or not command.of.inert)
     return not command.inert and command.keyword not in SETTLED
