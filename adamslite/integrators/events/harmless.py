@@ -18,11 +18,13 @@ from adamslite.integrators.events.search import ends_beyond
 from adamslite.integrators.events.sensors import meets_sensor
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import HUGE, Plan
-from adamslite.integrators.motion_equations import residual
-from adamslite.native.translate import native
+from adamslite.integrators.motion_equations import PART, residual
+from adamslite.native.translate import Reals, native
 
 # So many groups of changes are tried one after another.
 MOST_GROUPS = 5
+# Where, back from the end to the last change, branches are compared once more.
+MIDWAY = 0.38
 
 
 @native
@@ -44,7 +46,7 @@ def take_harmless(P: Problem, L: Plan, phases: int, cu: float) -> None:
         turn_back(P)
         turn_over(P, END, share)
         harmless = small_change(P, L, phases, cu)
-    if harmless and not exposes(P):
+    if harmless and not exposes(P) and not matters_before(P, L, phases, cu):
         forget(P)
     else:
         turn_back(P)
@@ -67,6 +69,12 @@ def next_change(P: Problem, share: float) -> float:
 def small_change(P: Problem, L: Plan, phases: int, cu: float) -> bool:
     """Whether the residual of the present branches moves the converged state too little to see."""
     residual(P, phases, P.F)
+    return moves_little(P, L, cu)
+
+
+@native
+def moves_little(P: Problem, L: Plan, cu: float) -> bool:
+    """Whether Newton's increment for the residual in ``P.F`` is too small to see."""
     solve(L, P.LV, P.pivots, P.F, P.x, P.work)
     largest, first = 0.0, P.sizes.m + P.sizes.nv
     for k in range(P.sizes.ns):
@@ -79,6 +87,61 @@ def small_change(P: Problem, L: Plan, phases: int, cu: float) -> bool:
         if not abs(P.F[k]) < HUGE:
             return False
     return largest <= HARMLESS * P.settings.error
+
+
+@native
+def matters_before(P: Problem, L: Plan, phases: int, cu: float) -> bool:
+    """Whether the branches of the end differ from those of the start between the last change and
+    the end: at the end alone they may be equal by chance, as where a force ends at zero.
+
+    The state in between is that of the end, moved back along its rates; any near it would do.
+    """
+    nw, last = P.sizes.nw, 0.0
+    for k in range(P.sizes.watched):
+        if P.margin[END * P.sizes.watched + k] < 0.0:
+            last = max(last, crossing_share(P, k))
+    for k in range(nw):
+        P.guard[k] = P.W[k]
+    move_back(P, MIDWAY * (1.0 - last) * P.search.size)
+    residual(P, phases, P.F)
+    for i in range(P.sizes.nz):
+        P.x[i] = P.F[i]
+    turn_back(P)
+    residual(P, phases, P.F)
+    for i in range(P.sizes.nz):
+        P.F[i] -= P.x[i]
+    for k in range(nw):
+        P.W[k] = P.guard[k]
+    turn_over(P, END, 1.0)
+    return not moves_little(P, L, cu)
+
+
+@native
+def move_back(P: Problem, time: float) -> None:
+    """The workspace's state ``time`` earlier, to first order."""
+    W, first = P.W, P.sizes.m + P.sizes.nv
+    W[0] -= time
+    for b in range(P.sizes.nb):
+        o = P.body[b].at
+        for k in range(3):
+            W[o + k] -= time * W[o + 3 + k]
+            W[o + 3 + k] -= time * W[o + 6 + k]
+        if P.body[b].width == PART:
+            turn_back_part(W[o + 9 :], W[o + 15 :], time)
+            for k in range(3):
+                W[o + 9 + k] -= time * W[o + 12 + k]
+    for k in range(P.sizes.ns):
+        W[P.scalar[first + k]] -= time * W[P.scalar[first + k] + 1]
+
+
+@native
+def turn_back_part(w: Reals, R: Reals, time: float) -> None:
+    """R - time [w] R."""
+    for j in range(3):
+        x, y, z = R[j], R[3 + j], R[6 + j]
+        R[j] -= time * (w[1] * z - w[2] * y)
+        R[3 + j] -= time * (w[2] * x - w[0] * z)
+        R[6 + j] -= time * (w[0] * y - w[1] * x)
 
 
 @native
