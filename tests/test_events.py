@@ -231,8 +231,8 @@ def test_in_and_out_within_one_step():
 @pytest.mark.parametrize("formula", FORMULAS)
 @pytest.mark.parametrize("way", (1, -1))
 def test_a_force_that_ends_at_zero_where_a_step_does(formula, error, way):
-    """x" = 5 (x - 1) (3 - x) from x = 1 on, with x' = 1: in free flight the run ends at x = 3, where
-    the force is zero again.  And mirrored.
+    """x" = 5 (x - 1) (3 - x) from x = 1 on, with x' = 1: in free flight the run ends at x = 3,
+    where the force is zero again.  And mirrored.
     """
     x, sign = ("DX(2)", "") if way > 0 else ("(-DX(2))", "-")
     force = f"{sign}IF({x}-1: 0, 0, 5*({x}-1)*(3-{x}))"
