@@ -23,8 +23,8 @@ from adamslite.native.translate import Reals, native
 
 # So many groups of changes are tried one after another.
 MOST_GROUPS = 5
-# Where, back from the end to the last change, branches are compared once more.
-MIDWAY = 0.38
+# Where, on the way back from the end to the last change, branches are compared once more.
+SHORTLY = 0.1
 
 
 @native
@@ -69,12 +69,12 @@ def next_change(P: Problem, share: float) -> float:
 def small_change(P: Problem, L: Plan, phases: int, cu: float) -> bool:
     """Whether the residual of the present branches moves the converged state too little to see."""
     residual(P, phases, P.F)
-    return moves_little(P, L, cu)
+    return moves_little(P, L, cu, HARMLESS)
 
 
 @native
-def moves_little(P: Problem, L: Plan, cu: float) -> bool:
-    """Whether Newton's increment for the residual in ``P.F`` is too small to see."""
+def moves_little(P: Problem, L: Plan, cu: float, share: float) -> bool:
+    """Whether Newton's increment for the residual in ``P.F`` is below a share of ERROR."""
     solve(L, P.LV, P.pivots, P.F, P.x, P.work)
     largest, first = 0.0, P.sizes.m + P.sizes.nv
     for k in range(P.sizes.ns):
@@ -86,13 +86,13 @@ def moves_little(P: Problem, L: Plan, cu: float) -> bool:
     for k in range(P.sizes.nz):
         if not abs(P.F[k]) < HUGE:
             return False
-    return largest <= HARMLESS * P.settings.error
+    return largest <= share * P.settings.error
 
 
 @native
 def matters_before(P: Problem, L: Plan, phases: int, cu: float) -> bool:
-    """Whether the branches of the end differ from those of the start between the last change and
-    the end: at the end alone they may be equal by chance, as where a force ends at zero.
+    """Whether the branches of the end differ by more than ERROR from those of the start shortly
+    before it: at the end alone they may be equal by chance, as where a force ends at zero.
 
     The state in between is that of the end, moved back along its rates; any near it would do.
     """
@@ -102,7 +102,7 @@ def matters_before(P: Problem, L: Plan, phases: int, cu: float) -> bool:
             last = max(last, crossing_share(P, k))
     for k in range(nw):
         P.guard[k] = P.W[k]
-    move_back(P, MIDWAY * (1.0 - last) * P.search.size)
+    move_back(P, SHORTLY * (1.0 - last) * P.search.size)
     residual(P, phases, P.F)
     for i in range(P.sizes.nz):
         P.x[i] = P.F[i]
@@ -113,7 +113,7 @@ def matters_before(P: Problem, L: Plan, phases: int, cu: float) -> bool:
     for k in range(nw):
         P.W[k] = P.guard[k]
     turn_over(P, END, 1.0)
-    return not moves_little(P, L, cu)
+    return not moves_little(P, L, cu, 1.0)
 
 
 @native
