@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.event_rows import BEFORE, END, INSIDE, NONE
+from adamslite.integrators.event_rows import BEFORE, END, INSIDE, LOW_ROW, NONE
 from adamslite.integrators.events.guards import (
     HARMLESS,
     SAME_TIME,
@@ -23,7 +23,7 @@ from adamslite.native.translate import Reals, native
 
 # So many groups of changes are tried one after another.
 MOST_GROUPS = 5
-# Where, on the way back from the end to the last change, branches are compared once more.
+# Where, on the way back from the end to the first change, branches are compared once more.
 SHORTLY = 0.1
 
 
@@ -91,18 +91,23 @@ def moves_little(P: Problem, L: Plan, cu: float, share: float) -> bool:
 
 @native
 def matters_before(P: Problem, L: Plan, phases: int, cu: float) -> bool:
-    """Whether the branches of the end differ by more than ERROR from those of the start shortly
-    before it: at the end alone they may be equal by chance, as where a force ends at zero.
+    """Whether shortly before the end the branches that the step kept are off by more than ERROR.
 
-    The state in between is that of the end, moved back along its rates; any near it would do.
+    At the end alone branches may make no difference by chance: a force ends at zero, or centres
+    meet and no normal says which way they move.  The state before it is that of the end, moved back
+    along its rates; any near it would do.  There guards are evaluated as they are.
     """
-    nw, last = P.sizes.nw, 0.0
-    for k in range(P.sizes.watched):
-        if P.margin[END * P.sizes.watched + k] < 0.0:
-            last = max(last, crossing_share(P, k))
+    nw, count, change = P.sizes.nw, P.sizes.watched, 1.0
+    first = nw + P.sizes.clocks
+    for k in range(count):
+        P.margin[LOW_ROW * count + k] = P.W[first + k]
+        if P.margin[END * count + k] < 0.0:
+            change = min(change, crossing_share(P, k))
     for k in range(nw):
         P.guard[k] = P.W[k]
-    move_back(P, SHORTLY * (1.0 - last) * P.search.size)
+    move_back(P, SHORTLY * (1.0 - change) * P.search.size)
+    for k in range(count):
+        P.W[first + k] = 0.0
     residual(P, phases, P.F)
     for i in range(P.sizes.nz):
         P.x[i] = P.F[i]
@@ -112,7 +117,8 @@ def matters_before(P: Problem, L: Plan, phases: int, cu: float) -> bool:
         P.F[i] -= P.x[i]
     for k in range(nw):
         P.W[k] = P.guard[k]
-    turn_over(P, END, 1.0)
+    for k in range(count):
+        P.W[first + k] = P.margin[LOW_ROW * count + k]
     return not moves_little(P, L, cu, 1.0)
 
 
