@@ -47,7 +47,7 @@ def test_an_impact_has_the_stated_restitution(method: str, e: float) -> None:
 @pytest.mark.parametrize("error", [1e-4, 1e-6, 1e-7, 1e-9])
 @pytest.mark.parametrize("x", [-50, -50.003])
 def test_centres_that_would_meet_where_a_step_ends(error: float, x: float) -> None:
-    """In free flight both centres are in one place at t = 0.5, an output: depth without a normal."""
+    """In free flight both centres are in one place at t = 0.5, an output: there is no normal."""
     results = al.simulate(read(balls("RADAU", error, e=0, x=x)), end=1, steps=2)
     assert results["PART/2.vx"][-1] == pytest.approx(25, abs=0.2)
 
