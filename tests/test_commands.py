@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_deck import public_deck
 
 from adamslite.analyses.output_times import output_times
 from adamslite.deck.deck import Deck
@@ -375,27 +374,3 @@ def test_one_note_for_deck_and_commands(tmp_path: Path) -> None:
     assert note.message.endswith(": OUTPUT (2), DEBUG, RESULTS")
     assert Path(note.span.file).name == "rig.adm"
     assert [Path(each.file).suffix for each in note.places] == [".adm", ".adm", ".acf", ".acf"]
-
-
-def public_commands(name: str) -> tuple[Commands | None, set[str]]:
-    """Commands of a public file for its deck as far as that can be read; what is not supported."""
-    path = public_deck(name)
-    try:
-        deck = read(path.with_suffix(".adm"))
-    except DeckError as error:
-        deck = error.deck
-    try:
-        return read_commands(path, deck), set()
-    except DeckError as error:
-        codes = {each.code for each in error.errors}
-        assert codes <= {"planned-statement", "planned-choice", "planned-argument"}
-        return None, {each.message for each in error.errors}
-
-
-def test_public_command_files_are_read() -> None:
-    read_, missing = public_commands("Test01_ADAMS.acf")
-    assert read_ and [each.label for each in read_][-2:] == ["SIMULATE", "STOP"]
-    read_, missing = public_commands("generic_model.acf")
-    assert read_ and [each.label for each in read_] == ["FILE", "SIMULATE", "STOP"]
-    read_, missing = public_commands("drill_string.acf")
-    assert read_ or missing == {"not supported yet: INTEGRATOR of the kind HHT"}

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import os
-import re
-from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -16,7 +13,6 @@ from adamslite.checks.rules import check
 from adamslite.language.diagnostics import DeckError
 from adamslite.language.expression import GROUND_FRAME, Call, Num, Op, Ref, to_text
 from adamslite.language.messages import START
-from adamslite.language.statement import STATEMENTS
 from adamslite.reading.read import read, read_commands
 
 PAPER = r"""the statements of the paper, as printed
@@ -279,40 +275,6 @@ def test_mistakes_in_command_files_are_told_like_those_in_decks() -> None:
         "unknown-argument",
         "planned-statement",
     ]
-
-
-# ---- decks that others wrote ------------------------------------------------------------------
-
-
-def public_deck(name: str) -> Path:
-    """A public deck, if the folder with them is there."""
-    folder = os.environ.get("ADAMSLITE_PUBLIC_DECKS")
-    beside = Path(__file__).parents[2] / "shared" / "decks"
-    found = sorted((Path(folder) if folder else beside).rglob(name))
-    if not found:
-        pytest.skip(f"{name} is not there; ADAMSLITE_PUBLIC_DECKS names the folder of public decks")
-    return found[0]
-
-
-PLANNED = {"planned-statement", "planned-argument", "planned-choice", "planned-function"}
-
-
-@pytest.mark.parametrize(
-    "name",
-    ["generic_model.adm", "analysis_with_spikes.adm", "drill_string.adm", "Test01_ADAMS.adm"],
-)
-def test_public_decks_are_read_and_what_is_missing_is_named(name: str) -> None:
-    path = public_deck(name)
-    try:
-        found = read(path).warnings
-    except DeckError as error:
-        found = error.errors
-    written = set(re.findall(r"^([A-Z_]+)/", path.read_text(errors="replace"), re.MULTILINE))
-    assert {d.code for d in found if d.is_error} <= PLANNED
-    words = {d.message.split(":")[1].split()[0] for d in found if d.code == "planned-statement"}
-    assert words == written - set(STATEMENTS)
-    told_of = Counter(d.message for d in found if d.code in PLANNED)
-    assert max(told_of.values(), default=1) == 1
 
 
 def test_deck_with_everything_reads_quickly_enough_to_be_used() -> None:
