@@ -35,6 +35,7 @@ from adamslite.outputs.saved_files import SavedFiles
 from adamslite.progress import Progress
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
+from adamslite.results.source import source_of
 
 # Few runs need them, and they take a while to load.
 if TYPE_CHECKING:
@@ -101,7 +102,8 @@ def simulate(
     UsageError
         When nothing says how long to run, or there is no such rule.
     """
-    began, commands = clock.process_time(), tuple(commands)
+    began, source = clock.process_time(), source_of(deck_of(scene), commands)
+    commands = tuple(commands)
     options = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
     flags = {name: value for name, value in options.items() if value is not None}
     plan = _plan(deck_of(scene), commands, end, steps)
@@ -114,7 +116,7 @@ def simulate(
     session.execute(plan[first:])
     late, now = session.late_setup, clock.process_time()
     cpu = (ready - began + late, now - ready - late)
-    results = _results(session, cpu)
+    results = replace(_results(session, cpu), source=source)
     if not confirm:
         return results
     again = partial(

@@ -81,6 +81,8 @@ class Commands(tuple[Command, ...]):
     warnings: tuple[Diagnostic, ...] = ()
     prefix: str = ""
     """First part of the names of the files of a run; empty where the commands name none."""
+    source: Source | None = None
+    """The text that they were read from."""
 
 
 def read_commands(source: str | Path, deck: Deck) -> Commands:
@@ -90,7 +92,12 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
     """
 
     text, path = _load(source)
-    reading = Reading(Source(text, str(path or "<commands>")), deck.names, "command", deck)
+    return commands_of(Source(text, str(path or "<commands>")), deck, path)
+
+
+def commands_of(source: Source, deck: Deck, path: Path | None = None) -> Commands:
+    """The commands of a text; see :func:`read_commands`."""
+    reading = Reading(source, deck.names, "command", deck)
     read = reading.statements(reading.names_on_top())
     commands = Commands(_bound(read, reading, deck.user, deck))
     plain = tuple(each for each in commands if isinstance(each, Statement))
@@ -104,6 +111,7 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
     ]
     found = _judged(run, reading, RUN_RULES, deck)
     named = [each.output_prefix or "" for each in plain if isinstance(each, File)]
+    commands.source = reading.log.source
     commands.prefix = [reading.prefix, *filter(is_file_name, named)][-1]
     commands.warnings = tuple(judged(run.source, found, complete=True))
     return commands

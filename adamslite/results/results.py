@@ -14,6 +14,7 @@ from adamslite.results.confirmation import Confirmation
 from adamslite.results.formats import format_of
 from adamslite.results.linearization import Linearization
 from adamslite.results.outcomes import Outcome
+from adamslite.results.source import RunSource
 
 
 class UnknownChannel(KeyError):
@@ -68,6 +69,8 @@ class Results:
     confirmation : Confirmation
         The two other runs of a confirmation, when it was requested
         (:mod:`adamslite.analyses.confirmation`).
+    source : RunSource or None
+        The texts of deck and command file; None where they are not known.
     """
 
     time: np.ndarray
@@ -80,6 +83,7 @@ class Results:
     linearizations: tuple[Linearized, ...] = ()
     balances: tuple[Balance, ...] = ()
     confirmation: Confirmation | None = None
+    source: RunSource | None = None
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return the (nt,) history called `name` (upper or lower case), or the times for "time"."""
