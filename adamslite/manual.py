@@ -68,7 +68,7 @@ Row = Sequence[str]
 
 
 def statements() -> str:
-    """The page of all statements: docs/statements.md."""
+    """The page of all statements: docs/reference/statements.md."""
     pages = (statement(STATEMENTS[keyword]) for keyword in sorted(STATEMENTS))
     missing = _missing("statement or command", MISSING_STATEMENTS | MISSING_COMMANDS)
     return "\n".join([HEAD, STATEMENTS_INTRO, *pages, missing])
@@ -81,7 +81,7 @@ def _missing(kind: str, names: Iterable[str]) -> str:
 
 
 def deck_functions() -> str:
-    """The page of all functions by family: docs/functions.md."""
+    """The page of all functions by family: docs/reference/functions.md."""
     parts, family = [HEAD, FUNCTIONS_INTRO], ""
     for each in FUNCTIONS.values():
         if each.body.__module__ != family:
@@ -94,14 +94,14 @@ def deck_functions() -> str:
 
 
 def messages() -> str:
-    """The page of all messages and outcomes: docs/messages.md."""
+    """The page of all messages and outcomes: docs/reference/messages.md."""
     entries = (message(code, each) for code, each in MESSAGES.items())
     outcomes = table(("outcome", "sentence"), [(f"`{o.name}`", o.value) for o in Outcome])
     return "\n".join([HEAD, MESSAGES_INTRO, *entries, OUTCOMES_INTRO, outcomes])
 
 
 def integrators() -> str:
-    """The page of methods and arguments: docs/integrators.md."""
+    """The page of methods and arguments: docs/reference/integrators.md."""
     found = declared()
     head = ("argument", *(_listed(each.names) for each in found))
     rows = [(f"`{word}`", *(_use(each.use(word)) for each in found)) for word in ARGUMENTS]
@@ -140,7 +140,7 @@ def _integrator_page(method: Method) -> str:
 
 
 def result_formats() -> str:
-    """The page of the formats of result files: docs/formats.md."""
+    """The page of the formats of result files: docs/reference/formats.md."""
     rows = [
         (f"`{suffix}`", each.what, "written, read" if each.read else "written")
         for suffix, each in sorted(formats().items())

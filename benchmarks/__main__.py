@@ -40,7 +40,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--limit", type=Path, help="folder of the hand-coded C programs")
     parser.add_argument("--quick", action="store_true", help="small scenes, under three minutes")
     parser.add_argument("--out", type=Path, default=RESULTS, help="folder of tables and charts")
-    parser.add_argument("--docs", action="store_true", help="write docs/accuracy*.md and charts")
+    parser.add_argument("--docs", action="store_true", help="write the pages on accuracy")
     parser.add_argument("--decks", type=Path, metavar="FOLDER", help="only write all decks there")
     args = parser.parse_args()
     if args.quick:

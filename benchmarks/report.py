@@ -1,4 +1,4 @@
-"""The pages docs/accuracy.md and docs/accuracy-tables.md, and the charts, from docs/accuracy.
+"""The pages accuracy.md and accuracy-tables.md of docs/background, and the charts beside them.
 
     python -m benchmarks --docs      measures everything but the matrix and ends with this
     python -m benchmarks.matrix      measures the matrix and ends with this
@@ -21,7 +21,7 @@ from benchmarks.charts import GROWTH, draw_all, file_name, title
 from benchmarks.points import Row
 from benchmarks.tables import by_scene
 
-PAGE = Path(__file__).parent.parent / "docs" / "accuracy.md"
+PAGE = Path(__file__).parent.parent / "docs" / "background" / "accuracy.md"
 FOLDER = PAGE.with_suffix("")
 
 HEAD = """# Speed against accuracy
@@ -32,7 +32,8 @@ turns; milliseconds are those of one machine, so only their ratios mean anything
 are absolute, at the end of a scene, against references that none of the programs computed.
 
 The tables behind this page: [{tables}]({tables}). The scenes, and how they are
-measured: [benchmarks/README.md](../benchmarks/README.md). Written by `python -m benchmarks --docs`.
+measured: [benchmarks/README.md](../../benchmarks/README.md).
+Written by `python -m benchmarks --docs`.
 """
 
 SECTIONS = {

@@ -8,18 +8,18 @@ from pathlib import Path
 from adamslite import manual
 
 PAGES = {
-    "statements.md": manual.statements,
-    "functions.md": manual.deck_functions,
-    "messages.md": manual.messages,
-    "integrators.md": manual.integrators,
-    "formats.md": manual.result_formats,
+    "reference/statements.md": manual.statements,
+    "reference/functions.md": manual.deck_functions,
+    "reference/messages.md": manual.messages,
+    "reference/integrators.md": manual.integrators,
+    "reference/formats.md": manual.result_formats,
 }
 
 
 def main() -> None:
-    """Write every page beside this file."""
+    """Write every page into its folder beside this file."""
     for name, page in PAGES.items():
-        Path(__file__).with_name(name).write_text(page(), encoding="utf-8")
+        (Path(__file__).parent / name).write_text(page(), encoding="utf-8")
 
 
 if __name__ == "__main__":

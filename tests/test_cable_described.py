@@ -1,4 +1,4 @@
-"""The descriptions in decks/cables/described and in docs/cable-command.md, and their decks."""
+"""Descriptions in decks/cables/described and docs/reference/cable-command.md, and their decks."""
 
 import re
 from pathlib import Path
@@ -13,7 +13,7 @@ from adamslite.cables.scene import deck
 from adamslite.resources import find
 
 DESCRIBED = sorted((find("decks") / "cables" / "described").glob("*.toml"))
-PAGE = Path(__file__).parent.parent / "docs" / "cable-command.md"
+PAGE = Path(__file__).parent.parent / "docs" / "reference" / "cable-command.md"
 
 
 @pytest.mark.parametrize("path", DESCRIBED, ids=lambda path: path.stem)

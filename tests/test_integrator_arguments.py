@@ -1,4 +1,4 @@
-"""Every argument of INTEGRATOR has the effect that docs/integrators.md says, or a note says none.
+"""Every argument of INTEGRATOR has the effect that integrators.md says, or a note says none.
 
 The scene is the pendulum of `scenes`, released level, unless a test says otherwise.
 """

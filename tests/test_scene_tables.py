@@ -1,4 +1,4 @@
-"""docs/cable_scenes.py: its tables, on a folder of its own and a run that is not solved."""
+"""Tables of docs/background/cable_scenes.py, on a folder of its own and a run not solved."""
 
 import importlib.util
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ from fakes import fall
 from adamslite.resources import find
 from adamslite.results.results import Results
 
-SCRIPT = Path(__file__).parent.parent / "docs" / "cable_scenes.py"
+SCRIPT = Path(__file__).parent.parent / "docs" / "background" / "cable_scenes.py"
 PAGE = """\
 # Cables
 <!-- acceptance -->

@@ -21,7 +21,7 @@ Sources: sections from the discrete spectrum w_k = (2 c/H) sin(k pi/2N). Behind 
 come the way l through sections, its jump ripples as the integral of Airy's function does,
 x^(-3/4) sin(2/3 x^(3/2) + pi/4)/sqrt(pi) at x = U t/((H/2) (l/H)^(1/3)), x ~ N^(2/3): its mean
 from one time to another is off by x^(-5/4)/(x2 - x1) ~ N^(-3/2). The factors are measured, see
-docs/cables.md.
+docs/background/cables.md.
 """
 
 from dataclasses import dataclass

@@ -8,7 +8,8 @@ Unstretched cable of stiffness EA [N] and mass rho per unstretched length [kg/m]
 
 Sources: F. O. Ringleb, Motion and stress of an elastic cable due to impact, J. Appl. Mech. 24(3),
 1957, 417; J. C. Smith, F. L. McCrackin, H. F. Schiefer, Textile Res. J. 28, 1958. The forms with
-pretension and those at the sheave were derived from the momentum of the fronts, see docs/cables.md.
+pretension and those at the sheave were derived from the momentum of the fronts:
+docs/background/cables.md.
 """
 
 from dataclasses import dataclass

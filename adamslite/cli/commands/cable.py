@@ -1,8 +1,8 @@
 """write the deck of a cable scene from a short description
 
 SPEC.toml says what the cable is, where it goes and how good the answer has to be; the deck is
-written as plain statements that can be edited. docs/cable-command.md has every key. Exit code 3
-when the description has mistakes; warnings alone do not count.
+written as plain statements that can be edited. docs/reference/cable-command.md
+has every key. Exit code 3 when the description has mistakes; warnings alone do not count.
 """
 
 import argparse

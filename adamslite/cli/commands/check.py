@@ -1,8 +1,8 @@
 """what is wrong with a deck, and what it contains
 
 Prints every error and warning with its place, then what the deck consists of and, for cables, how
-fast waves are in them and what model they need (docs/cables.md). Exit code 3 when there are errors;
-warnings alone do not count.
+fast waves are in them and what model they need (docs/background/cables.md). Exit code 3
+when there are errors; warnings alone do not count.
 
 For other programs --format writes the messages alone: gcc (one line FILE:LINE:COLUMN: SEVERITY:
 MESSAGE [CODE] for each place), json (a list of objects) or sarif (SARIF 2.1.0).

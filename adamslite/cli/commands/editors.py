@@ -1,8 +1,8 @@
 """write what editors need: colours, snippets, a folder for VS Code
 
 DIR gets a TextMate grammar and snippets for decks and for command files, and the folder vscode,
-which is an extension: copy it to ~/.vscode/extensions/adamslite (docs/editor.md). Everything is
-made from the statements and functions that this version knows.
+which is an extension: copy it to ~/.vscode/extensions/adamslite (docs/how-to/editor.md).
+Everything is made from the statements and functions that this version knows.
 """
 
 import argparse

@@ -1,9 +1,10 @@
 """put decks and command files into the canonical layout
 
 Keywords in full and in capitals, one blank behind the comma between arguments, lines of at most 80
-columns, comments aligned (docs/editor.md). What a file says, its comments and its names stay; a
-statement with a mistake stays as it is. Each file is written whole or not at all. With --check
-nothing is written: the files that would change are listed, and the exit code is 1 if there are any.
+columns, comments aligned (docs/how-to/editor.md). What a file says, its comments and its names
+stay; a statement with a mistake stays as it is. Each file is written whole or not at all. With
+--check nothing is written: the files that would change are listed, and the exit code is 1 if there
+are any.
 """
 
 import argparse

@@ -1,7 +1,7 @@
 """serve editors: messages while typing, pages, completion, renaming (Language Server Protocol)
 
 An editor starts it and talks to it over standard input and output; `adamslite editors` writes what
-VS Code needs for that (docs/editor.md). It needs the extra [lsp].
+VS Code needs for that (docs/how-to/editor.md). It needs the extra [lsp].
 """
 
 import argparse

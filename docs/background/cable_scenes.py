@@ -1,6 +1,6 @@
 """Measure every scene of decks/cables and the acceptance table; write both into cables.md.
 
-python docs/cable_scenes.py [folder ...]     some minutes of CPU, one deck after the other
+python docs/background/cable_scenes.py [folder ...]     some minutes of CPU, one deck at a time
 
 Folders are relative to decks: `cables/crane`; without any, all. Rows of other folders stay.
 
@@ -13,13 +13,14 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent))
+ROOT = HERE.parent.parent
+sys.path.insert(0, str(ROOT))
 
 from adamslite.results.results import Results  # noqa: E402
 from adamslite.verification.reference_file import Reference, read_reference  # noqa: E402  (a checkout need not be installed)
 from adamslite.verification.verification import Case, find_cases, solve_quietly  # noqa: E402
 
-DECKS, PAGE = HERE.parent / "decks", HERE / "cables.md"
+DECKS, PAGE = ROOT / "decks", HERE / "cables.md"
 
 #: Number, quantity, folder, beginning of the deck's name, and of the measure or of the column.
 ACCEPTANCE = (

@@ -1,6 +1,6 @@
 """Measure the kink load at a sheave against the number of elements; draw kink-load.svg.
 
-python docs/kink_load.py        about two minutes of CPU; needs nothing but the package
+python docs/background/kink_load.py        about two minutes of CPU; needs nothing but the package
 
 The decks are those of decks/cables/kink-free-running at other numbers of elements. Rows of the
 tables of cables.md are printed as they are measured.
@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent / "decks" / "cables"), str(HERE.parent)]
+ROOT = HERE.parent.parent
+sys.path[:0] = [str(ROOT / "decks" / "cables"), str(ROOT)]
 
 from kinks import REFERENCE, brute_force, growing, windows  # noqa: E402  (beside the decks)
 
