@@ -32,6 +32,21 @@ MARKER/3, PART=2, QP=-1,0,0
 JOINT/1, REVOLUTE, I=3, J=1
 END
 """
+# A hinge that a MOTION keeps at zero, with a damper on a branch that round-off decides.
+TEETER = """\
+ACCGRAV/JGRAV=-9.81
+PART/2, MASS=10, CM=20, IP=1,2,3
+MARKER/20, PART=2, QP=0.5,0.3,0
+MARKER/2, PART=2
+MARKER/23, PART=2, QP=1,0,0, REULER=0.3,0,0
+PART/3, MASS=10, CM=30, IP=1,2,3, QG=1,0,0, REULER=0.3,0,0
+MARKER/30, PART=3, QP=0.5,0.3,0.1
+MARKER/3, PART=3
+JOINT/1, REVOLUTE, I=2, J=1
+JOINT/2, REVOLUTE, I=3, J=23
+MOTION/2, JOINT=2, ROTATION, FUNCTION=0.0
+"""
+DAMPER = "SFORCE/1, ROTATION, I=3, J=23, FUNCTION=IF(ABS(AZ(3,23)): 0, 0, -40*WZ(3,23,23))\n"
 LENGTH, GRAVITY, MASS, INERTIA = 1.0, 9.81, 2.0, 0.3
 #: m x'' = -k (x - 1) with m = 2, k = 8, let go at x = 2.
 SPRING = (

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import GROUND, PENDULUM, chain, interpreted, run
+from scenes import DAMPER, GROUND, PENDULUM, TEETER, chain, interpreted, run
 from tiers import every
 
 import adamslite as al
@@ -167,23 +167,8 @@ MARKER/2, POINT_MASS=2
 VFORCE/1, I=2, J_PART=1, FX=IF(0.98-SIN(40*DX(2)):1,0,0)
 END
 """
-# A hinge that a MOTION keeps at zero, with a damper on a branch that round-off decides: so are its
-# steps, which differ from Python to native code.
-TEETERS = f"""{GROUND}\
-ACCGRAV/JGRAV=-9.81
-PART/2, MASS=10, CM=20, IP=1,2,3
-MARKER/20, PART=2, QP=0.5,0.3,0
-MARKER/2, PART=2
-MARKER/23, PART=2, QP=1,0,0, REULER=0.3,0,0
-PART/3, MASS=10, CM=30, IP=1,2,3, QG=1,0,0, REULER=0.3,0,0
-MARKER/30, PART=3, QP=0.5,0.3,0.1
-MARKER/3, PART=3
-JOINT/1, REVOLUTE, I=2, J=1
-JOINT/2, REVOLUTE, I=3, J=23
-MOTION/2, JOINT=2, ROTATION, FUNCTION=0.0
-SFORCE/1, ROTATION, I=3, J=23, FUNCTION=IF(ABS(AZ(3,23)): 0, 0, -40*WZ(3,23,23))
-END
-"""
+# Its steps are those of round-off, which differs from Python to native code.
+TEETERS = f"{GROUND}{TEETER}{DAMPER}END\n"
 RUNS = {
     f"{name} {method}": (deck, method) for name, deck in DECKS.items() for method in INTEGRATORS
 }

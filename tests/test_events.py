@@ -7,7 +7,7 @@ from math import asin, pi, sqrt
 import numpy as np
 import pytest
 from pytest import approx
-from scenes import GROUND, PENDULUM, carriage, done, options, run, system
+from scenes import DAMPER, GROUND, PENDULUM, TEETER, carriage, done, options, run, system
 
 from adamslite.analyses.clock.stops import stops
 from adamslite.results.outcomes import Outcome
@@ -296,21 +296,6 @@ def test_a_smooth_scene_has_no_guards_but_a_zone():
 
 
 # ---- branches that decide nothing ----------------------------------------------------------------
-
-TEETER = """
-ACCGRAV/JGRAV=-9.81
-PART/2, MASS=10, CM=20, IP=1,2,3
-MARKER/20, PART=2, QP=0.5,0.3,0
-MARKER/2, PART=2
-MARKER/23, PART=2, QP=1,0,0, REULER=0.3,0,0
-PART/3, MASS=10, CM=30, IP=1,2,3, QG=1,0,0, REULER=0.3,0,0
-MARKER/30, PART=3, QP=0.5,0.3,0.1
-MARKER/3, PART=3
-JOINT/1, REVOLUTE, I=2, J=1
-JOINT/2, REVOLUTE, I=3, J=23
-MOTION/2, JOINT=2, ROTATION, FUNCTION=0.0
-"""
-DAMPER = "SFORCE/1, ROTATION, I=3, J=23, FUNCTION=IF(ABS(AZ(3,23)): 0, 0, -40*WZ(3,23,23))\n"
 
 
 @pytest.mark.parametrize("formula", ("GSTIFF", "GSTIFF I3", "HHT", "RADAU", "RKF45"))

@@ -17,35 +17,22 @@ import time as clock
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.clock.clock import Clock
-from adamslite.analyses.clock.motion_jumps import without_value
-from adamslite.analyses.delays import NO_PAST, Delays, require_no_delay
-from adamslite.analyses.dynamic import Settings, largest_step, run_dynamic
-from adamslite.analyses.history import History, Piece
+from adamslite.analyses.delays import NO_PAST, require_no_delay
+from adamslite.analyses.dynamic import largest_step, run_dynamic
 from adamslite.analyses.info import info
-from adamslite.analyses.initial.algebraic_states import settle_states
-from adamslite.analyses.initial.conditions import (
-    Unclosed,
-    consistent_velocities,
-    initial_conditions,
-    settle_variables,
-)
-from adamslite.analyses.initial.joint_start import start_of_joints
+from adamslite.analyses.initial.conditions import consistent_velocities
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
 from adamslite.analyses.kinematic import run_kinematic
-from adamslite.analyses.method_choice import MethodChoice, choose_method
+from adamslite.analyses.method_choice import choose_method
 from adamslite.analyses.output_times import output_times
 from adamslite.analyses.planar_reduction import in_its_plane
-from adamslite.analyses.saves import Saves
-from adamslite.analyses.sensors import AT_TIMES, SensorLog, require_none
+from adamslite.analyses.sensors import AT_TIMES, require_none
+from adamslite.analyses.session_state import SessionState
 from adamslite.analyses.setting_commands import changes_the_model, updated
-from adamslite.analyses.static import PIVOTING, StaticSettings, at_rest
-from adamslite.analyses.subject import Subject, deck_of, kernels_of
-from adamslite.deck.deck import Deck
+from adamslite.analyses.static import StaticSettings, at_rest
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.equilibrium import Equilibrium
 from adamslite.elements.info import Info
@@ -55,104 +42,17 @@ from adamslite.elements.reload import Reload
 from adamslite.elements.save import Save
 from adamslite.elements.simulate import Simulate
 from adamslite.equations.engine import engine
-from adamslite.equations.result_columns import columns
 from adamslite.equations.system import System
-from adamslite.gc_pause import without_collection
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD, RECORD_AT_REST
-from adamslite.kernels.compile import compile_model
-from adamslite.model.model import assemble
-from adamslite.outputs.saved_files import SavedFiles
-from adamslite.progress import Progress
-from adamslite.results.balance import Balance
 from adamslite.results.outcomes import Outcome
-from adamslite.results.results import Linearized
 
 # Outcomes after which the rank of the constraints is computed again.
 STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
 
 
-class Session:
-    """The state of a run.
-
-    Attributes
-    ----------
-    system : System
-        Equations and present state.
-    time : float
-        Time reached.
-    history : History
-        What the analyses wrote.
-    late_setup : float
-        CPU [s] of compiling an integrator when a run first needed it.
-    outcome, unclosed
-        How the last analysis ended; the constraint that stayed open, if one did.
-    present : System or None
-        ``system``, as far as it is there; ``began_static``: it is at rest after an equilibrium.
-    saves, changes
-        What SAVE has kept; commands that have changed statements of the deck.
-    sensors : SensorLog
-    linearizations : list of Linearized
-    balances : list of Balance
-        What the audits of dynamic analyses found.
-    """
-
-    def __init__(
-        self,
-        scene: Subject,
-        progress: Progress | None,
-        flags: dict[str, Any],
-        without: frozenset[str] = frozenset(),
-        audited: bool = False,
-        files: SavedFiles | None = None,
-    ) -> None:
-        self.progress = progress
-        self.flags = flags
-        self.audited = audited
-        deck_of(scene).user.start()
-        self.kernels = kernels_of(scene, progress, without, audited)
-        self.without = without | self.kernels.model.without
-        engine(progress=progress)
-        self.settings = replace(Settings(), **flags)
-        self.chosen = MethodChoice(self.settings)
-        self.statics = StaticSettings()
-        self.time = self.late_setup = 0.0
-        self.history = History()
-        self.outcome = Outcome.DONE
-        self.unclosed: Unclosed | None = None
-        self.linearizations: list[Linearized] = []
-        self.balances: list[Balance] = []
-        self.counts = contract.Counts.zeros()
-        self.ways_to_fall = 0
-        self.sensors = SensorLog()
-        self.delays = Delays()
-        self.out_of_law: dict[str, str] = {}
-        self.printed: list[str] = []
-        self.assembled: list[str] = []
-        self.speeds: list[str] = []
-        self.saves = Saves(files or SavedFiles(), self.deck)
-        self.changes: tuple[Redefinition[Any], ...] = ()
-        self.present: System | None = None
-        self.began_static = False
-
-    @property
-    def deck(self) -> Deck:
-        """As the commands so far have left it."""
-        return self.kernels.model.deck
-
-    @property
-    def system(self) -> System:
-        """The equations, numbered and assembled when first needed."""
-        if self.present is None:
-            system = self.present = self.numbered(False)
-            if self.is_driven(system):
-                self.unclosed = start_of_joints(system, self.progress)
-                self.present = self.assembled_of(system)
-        return self.present
-
-    def prepare(self) -> None:
-        """Number and assemble the equations now."""
-        self.present = self.system
+class Session(SessionState):
+    """Commands and what each does to the model and its state."""
 
     def execute(self, commands: Iterable[Command]) -> None:
         """Carry out commands until one stops the run or an analysis ends early."""
@@ -178,18 +78,7 @@ class Session:
     def _do_equilibrium(self, command: Equilibrium) -> None:
         self.statics = updated(StaticSettings() if command.default else self.statics, command)
 
-    # changes of the model
-
-    def change(self, deck: Deck) -> None:
-        """Go on with another deck from the present state."""
-        old = self.present
-        self.kernels = compile_model(assemble(deck, self.without), self.progress, self.audited)
-        self.present = None
-        if old is not None:
-            system = self.present = self.numbered(False)
-            system.adopt(old)
-            if self.is_driven(system):
-                self.present = self.assembled_of(system)
+    # kept states
 
     def _do_save(self, command: Save) -> None:
         require_no_delay(self.kernels, "SAVE", "its file does not hold the past")
@@ -232,7 +121,7 @@ class Session:
                 return
         self.chosen = choose_method(system, times, self.settings)
         if system.sizes.si2 and system.holonomic and self.chosen.settings.form != "SI2":
-            system = self.present = self._renumbered(system, system.elimination.pivoting)
+            system = self.present = self.renumbered(system, system.elimination.pivoting)
         began = clock.process_time()
         engine(self.chosen.settings.formula.entry, self.progress)
         self.late_setup += clock.process_time() - began
@@ -249,7 +138,7 @@ class Session:
         for span, kept in self.delays.spans(self.kernels, system, times, wanted, error):
             self.sensors.arm(system)
             self.outcome = self._integrated(system, span, apart)
-            self._keep(system, *self._sensed(system, span, kept, apart))
+            self.keep(system, *self._sensed(system, span, kept, apart))
             if self.outcome in STALLED and self._rank_changed(system):
                 self._continue(system, span, kept, apart)
 
@@ -300,7 +189,7 @@ class Session:
         rest, settings = np.append(self.time, times[later]), self.chosen.settings
         self.outcome = run_dynamic(system, rest, apart, settings, self.progress, self.audited)
         self._note_balance(system)
-        self._keep(system, *self._sensed(system, rest, np.append(False, wanted[later]), apart))
+        self.keep(system, *self._sensed(system, rest, np.append(False, wanted[later]), apart))
 
     def _sensed(
         self, system: System, times: np.ndarray, wanted: np.ndarray, apart: float
@@ -324,13 +213,13 @@ class Session:
                 return
             system.settings.t = time
             system.start_record(np.array([time]))
-            pivoted = partial(self._renumbered, system, True)
+            pivoted = partial(self.renumbered, system, True)
             self.outcome, self.ways_to_fall = at_rest(system, self.statics, pivoted)
             self.time = float(time)
             system.report.t = time
             if self.outcome is Outcome.DONE:
                 system.run(RECORD_AT_REST, 0)
-                self._keep(system, np.array([time]), True)
+                self.keep(system, np.array([time]), True)
 
     def _kinematics(self, times: np.ndarray) -> None:
         system = self.system
@@ -340,7 +229,7 @@ class Session:
             return
         self.outcome, self.unclosed = run_kinematic(system, times)
         self.time = float(system.report.t)
-        self._keep(system, times, False)
+        self.keep(system, times, False)
 
     def _has_rates(self) -> bool:
         """Whether TIME alone does not determine a posture: states, MOTIONs that give speeds."""
@@ -355,7 +244,7 @@ class Session:
             self.outcome = Outcome.UNDETERMINED
             return
         system.run(RECORD, 0)
-        self._keep(system, np.array([self.time]), True)
+        self.keep(system, np.array([self.time]), True)
 
     def _do_linear(self, command: Linear) -> None:
         from adamslite.analyses.linearization.linearization import carried_out
@@ -365,61 +254,3 @@ class Session:
 
     def _do_info(self, command: Info) -> None:
         self.printed.append(info(self.system, command, self.time))
-
-    # helpers
-
-    def numbered(self, pivoting: bool, form: str = "") -> System:
-        with without_collection():
-            stabilised = (form or self.settings.form) == "SI2"
-            system = System(self.kernels, stabilised, pivoting)
-        system.settings.t = self.time
-        return system
-
-    def is_driven(self, system: System) -> bool:
-        """Whether all that drives a constraint has a value at this time."""
-        system.broken = without_value(Clock(self.kernels), self.time)
-        if system.broken:
-            self.outcome = Outcome.BROKEN_MOTION
-            system.report.t = self.time
-        return system.broken is None
-
-    def assembled_of(self, system: System) -> System:
-        """Consistent positions and velocities, redundant rows, a regular elimination order."""
-        self.unclosed = self.unclosed or initial_conditions(system)
-        if self.unclosed:
-            self.outcome = self.unclosed.outcome
-            return system
-        if self.time == 0.0 and not self.history.pieces:
-            self.assembled = system.largest_changes()
-            self.speeds = system.changed_speeds()
-        settle_variables(system)
-        settle_states(system)
-        leave_out_redundant(system)
-        system.settings.t = self.time
-        small = system.nz <= PIVOTING and not system.elimination.pivoting
-        if small and system.run(ACCELERATIONS) != contract.DONE and np.isfinite(system.F).all():
-            return self._renumbered(system, True)
-        return system
-
-    def _renumbered(self, system: System, pivoting: bool) -> System:
-        """``system`` in its present state, in the formulation of the method that AUTO picked, or
-        eliminated with row pivoting.
-        """
-        other = self.numbered(pivoting, self.chosen.settings.form)
-        other.adopt(system)
-        other.drop(system.elimination.dropped)
-        return other
-
-    def _keep(
-        self, system: System, times: np.ndarray, static: bool, wanted: np.ndarray | None = None
-    ) -> None:
-        """Keep the records made, of which only those ``wanted`` were requested."""
-        self.out_of_law = system.instances.out_of_law() | self.out_of_law
-        made = system.count.records
-        row = system.nw + system.sizes.n_out
-        names, values = columns(system, system.record[: made * row].reshape(made, row))
-        kept = np.ones(made, dtype=bool) if wanted is None else wanted[:made]
-        piece = Piece(times[:made][kept], names, values[kept])
-        self.history.append(piece, static, self.began_static)
-        self.began_static = static
-        self.counts.add(system.count)

@@ -109,14 +109,7 @@ def simulate(
     plan = _plan(deck_of(scene), commands, end, steps)
     files = files or SavedFiles()
     session = Session(scene, progress, flags, left_off(no_reduction), audit, files)
-    first = next((k for k, c in enumerate(plan) if not _sets_up(c)), len(plan))
-    session.execute(plan[:first])
-    session.prepare()
-    ready = clock.process_time()
-    session.execute(plan[first:])
-    late, now = session.late_setup, clock.process_time()
-    cpu = (ready - began + late, now - ready - late)
-    results = replace(_results(session, cpu), source=source)
+    results = replace(_results(session, _carried_out(session, plan, began)), source=source)
     if not confirm:
         return results
     again = partial(
@@ -124,6 +117,17 @@ def simulate(
         no_reduction=no_reduction, files=files.to_read,
     )  # fmt: skip
     return _confirmed(results, session, again)
+
+
+def _carried_out(session: Session, plan: list[Command], began: float) -> tuple[float, float]:
+    """Carry out the plan; CPU [s] of what comes before the first analysis, and of the rest."""
+    first = next((k for k, c in enumerate(plan) if not _sets_up(c)), len(plan))
+    session.execute(plan[:first])
+    session.prepare()
+    ready = clock.process_time()
+    session.execute(plan[first:])
+    late, now = session.late_setup, clock.process_time()
+    return ready - began + late, now - ready - late
 
 
 def _sets_up(command: Command) -> bool:

@@ -6,49 +6,29 @@ from adamslite.language.function import function
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr
 
-NUMBERS = ("HSIZE", "ORDER", "NJAC", "NRHS")
-"""In the order in which the workspace has them, behind time and MODE."""
+NUMBERS = {
+    "HSIZE": ("Size of the step that the output time lies in; 0 at the start.", "time"),
+    "ORDER": ("Order of the formula of the step that the output time lies in.", "none"),
+    "NJAC": ("How many Jacobians this analysis has evaluated up to the output time.", "none"),
+    "NRHS": ("How many residuals this analysis has evaluated up to the output time.", "none"),
+}
+"""What each is and its unit, in the order in which the workspace has them, behind time and MODE."""
 
 
-def _number(scope: Scope, name: str) -> Expr:
-    return scope.symbol("run", NUMBERS.index(name))
+def _number(name: str, place: int) -> None:
+    """Register the function of the number at a place."""
+    what, unit = NUMBERS[name]
 
+    def number(scope: Scope) -> Expr:
+        return scope.symbol("run", place)
 
-@function("HSIZE", "")
-def hsize(scope: Scope) -> Expr:
-    """Size of the step that the output time lies in; 0 at the start. Only in REQUEST.
-
-    It is a number of the integrator of this program, and another one with another method or ERROR.
-    Unit: time.  Source: Adams/Solver function HSIZE.
-    """
-    return _number(scope, "HSIZE")
-
-
-@function("ORDER", "")
-def order(scope: Scope) -> Expr:
-    """Order of the formula of the step that the output time lies in. Only in REQUEST.
+    number.__doc__ = f"""{what} Only in REQUEST.
 
     It is a number of the integrator of this program, and another one with another method or ERROR.
-    Unit: none.  Source: Adams/Solver function ORDER.
+    Unit: {unit}.  Source: Adams/Solver function {name}.
     """
-    return _number(scope, "ORDER")
+    function(name, "")(number)
 
 
-@function("NJAC", "")
-def njac(scope: Scope) -> Expr:
-    """How many Jacobians this analysis has evaluated up to the output time. Only in REQUEST.
-
-    It is a number of the integrator of this program, and another one with another method or ERROR.
-    Unit: none.  Source: Adams/Solver function NJAC.
-    """
-    return _number(scope, "NJAC")
-
-
-@function("NRHS", "")
-def nrhs(scope: Scope) -> Expr:
-    """How many residuals this analysis has evaluated up to the output time. Only in REQUEST.
-
-    It is a number of the integrator of this program, and another one with another method or ERROR.
-    Unit: none.  Source: Adams/Solver function NRHS.
-    """
-    return _number(scope, "NRHS")
+for _place, _name in enumerate(NUMBERS):
+    _number(_name, _place)

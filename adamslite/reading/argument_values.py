@@ -15,7 +15,8 @@ from adamslite.language.routines import ARGUMENT as ROUTINE_ARGUMENT
 from adamslite.language.routines import is_user_call
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
-from adamslite.reading.resolver import Resolver, Unresolved
+from adamslite.reading.expression_names import Unresolved
+from adamslite.reading.resolver import Resolver
 from adamslite.syntax.tokens import CLOSES, Lexeme, end_of
 
 GROUND = "GROUND"

@@ -1,4 +1,4 @@
-"""Resolves names: ids of statements, and the names in expressions.
+"""Resolves expressions: from the tree of a text to the tree that is compiled.
 
 A resolved expression (:mod:`adamslite.language.expression`) holds numbers, ids and calls with all
 their arguments; every name in it was looked up here.
@@ -8,31 +8,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple, NoReturn
+from typing import Any, NamedTuple
 
-from adamslite import functions  # noqa: F401  registers the functions
 from adamslite.deck.names import RESERVED, Key, Names, to_number
 from adamslite.functions.arrays import NUMBERED
 from adamslite.functions.vectors import ASSUMED, VECTORS, Components, Value, combined, negated
 from adamslite.language.expression import Call, Node, Num, Op, Ref, fold
 from adamslite.language.function import FUNCTIONS, Function, Parameter
-from adamslite.language.messages import Log, did_you_mean
-from adamslite.language.not_supported import FUNCTIONS as PLANNED
+from adamslite.language.messages import Log
 from adamslite.language.routines import USER, is_user_call
 from adamslite.language.spelling import spelled
+from adamslite.reading.expression_names import ExpressionNames, Unresolved
 from adamslite.syntax.forms import Fault, Tree, expression_form
 from adamslite.syntax.syntax_errors import expression_mistake
-from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
+from adamslite.syntax.tokens import OPERATORS, Lexeme
 
 DEEPEST = 100
 LONGEST_CHAIN = 16
-# Any number of so many digits fits into 64 bits.
-ID_DIGITS = 18
 _STAND_IN = Num(0.0)
-
-
-class Unresolved(Exception):
-    """An expression could not be resolved; the reason has been logged."""
 
 
 class _Slot(NamedTuple):
@@ -46,7 +39,7 @@ class _Slot(NamedTuple):
     default: Node | None
 
 
-class Resolver:
+class Resolver(ExpressionNames):
     """Resolves expressions of one deck.
 
     Parameters
@@ -56,13 +49,9 @@ class Resolver:
     """
 
     def __init__(self, names: Names, log: Log) -> None:
-        self.names = names
-        self.log = log
-        self.constants: dict[str, float] = {}
-        """Numbers that statements of the deck give a name, unless a VARIABLE has it."""
+        super().__init__(names, log)
         self.numbered: dict[tuple[str, Key], Sequence[Node]] = {}
         """Values that statements list, by keyword and id."""
-        self.tokens: list[Lexeme] = []
         self.failed = False
         self.calls_user = False
         """Whether one of them is a routine that is no part of the deck."""
@@ -188,26 +177,6 @@ class Resolver:
         right = [("+" if op == sign else "-", node) for op, node in terms[half:]]
         return self._combined(sign, self._sum(terms[:half], at), self._sum(right, at), at)
 
-    def _name(self, at: int) -> Node:
-        word = spelled(self.tokens[at][1]).upper()
-        if word in RESERVED:
-            return RESERVED[word]
-        found = self.names.find("VARIABLE", word)
-        if isinstance(found, list):
-            self._ambiguous("VARIABLE", at, found)
-        if found is not None:
-            self._used("VARIABLE", found, at)
-            return Call("VARVAL", (Ref("VARIABLE", found),))
-        if word in self.constants:
-            return Num(self.constants[word], word)
-        written = self.tokens[at][1]
-        if word in FUNCTIONS:
-            hint = f"{word} is a function: write {FUNCTIONS[word].usage}"
-        else:
-            known = [*RESERVED, *self.constants, *self.names.known("VARIABLE")]
-            hint = did_you_mean(word, known)
-        self._refuse("unknown-name", self.tokens[at], word=written, hint=hint)
-
     # ---- calls --------------------------------------------------------------------------------
 
     def _call(self, tree: Tree, depth: int) -> Value:
@@ -265,21 +234,6 @@ class Resolver:
             self._slots[function.name] = slots
         return slots
 
-    def _unknown_function(self, name: str, at: int) -> NoReturn:
-        token = self.tokens[at]
-        if name in PLANNED:
-            self.log.tally("planned-function", name, token[2], end_of(token), word=name)
-            raise Unresolved
-        if self.names.find("VARIABLE", name) is not None:
-            hint = f"{token[1]} is a VARIABLE: an operator is missing before the bracket"
-        elif name in RESERVED:
-            hint = f"{name} takes no arguments: write {name}"
-        elif name == "D":
-            hint = "the time derivative of a VARIABLE is written VARVAL(d(name)/dt)"
-        else:
-            hint = did_you_mean(name, [*FUNCTIONS, *PLANNED])
-        self._refuse("unknown-function", token, word=token[1], hint=hint)
-
     def _count(
         self, function: Function, at: int, separators: str, branches: tuple[Tree, ...]
     ) -> None:
@@ -319,33 +273,6 @@ class Resolver:
         self.failed = True
         return Components(_STAND_IN, _STAND_IN, _STAND_IN) if slot.vector else _STAND_IN
 
-    def _reference(self, function: Function, kind: str, branch: Tree) -> Ref:
-        rule, first = branch[0], branch[1]
-        text = self.tokens[first][1]
-        if rule == "number" and text.isdigit() and len(text) <= ID_DIGITS:
-            key: Key = int(text)
-            if key == 0 and kind == "MARKER":
-                return Ref(kind, 0)
-        elif rule == "name":
-            key = spelled(text).upper()
-        else:
-            self._refuse("not-an-id", self.tokens[first], word=function.name, kind=kind)
-        return Ref(kind, self._find(kind, key, first))
-
-    def _find(self, kind: str, key: Key, at: int) -> Key:
-        found = self.names.find(kind, key)
-        if isinstance(found, list):
-            self._ambiguous(kind, at, found)
-        if found is None:
-            self.log.missing(self.names, kind, key, self.tokens[at][2], end_of(self.tokens[at]))
-            raise Unresolved
-        self._used(kind, found, at)
-        return found
-
-    def _used(self, kind: str, key: Key, at: int) -> None:
-        token = self.tokens[at]
-        self.names.used(kind, key, token[2], end_of(token))
-
     def _derivative(self, function: Function, tree: Tree) -> Node:
         """``VARVAL(d(x)/dt)``: the VARIABLE of that very name, else the rate of VARIABLE x."""
         _, slash, top, bottom = tree
@@ -384,21 +311,6 @@ class Resolver:
             token = self.tokens[branches[index][1]]
             self._log("function-rule", token, token, sentence=sentence)
             self.failed = True
-
-    # ---- messages -----------------------------------------------------------------------------
-
-    def _ambiguous(self, kind: str, at: int, found: list[Key]) -> NoReturn:
-        labels = ", ".join(f"{kind}/{key}" for key in found[:5])
-        self._refuse("ambiguous-name", self.tokens[at], word=self.tokens[at][1], labels=labels)
-
-    def _log(self, code: str, first: Lexeme, last: Lexeme, hint: str = "", **words: object) -> None:
-        self.log.add(code, first[2], end_of(last), hint, **words)
-
-    def _refuse(
-        self, code: str, first: Lexeme, last: Lexeme | None = None, hint: str = "", **words: object
-    ) -> NoReturn:
-        self._log(code, first, last or first, hint, **words)
-        raise Unresolved
 
 
 def _default(parameter: Parameter) -> Node | None:

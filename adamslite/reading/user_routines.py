@@ -28,7 +28,8 @@ from adamslite.language.routines import (
     written,
 )
 from adamslite.language.statement import Statement
-from adamslite.reading.resolver import Resolver, Unresolved
+from adamslite.reading.expression_names import Unresolved
+from adamslite.reading.resolver import Resolver
 from adamslite.syntax.tokens import scan
 
 FIELD = ARGUMENT.lower()

@@ -12,6 +12,8 @@ Sign: the reaction is what acts **on I**, torque about I's origin; J gets the op
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+
 from adamslite.language.expression import COMPONENTS, Node, Ref, measure
 from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement
@@ -25,12 +27,12 @@ PARALLEL = ("rotation about y_J (z_I . x_J)", "rotation about x_J (z_I . y_J)")
 SAME_TURN = ("rotation about z_J (x_I . y_J)",)
 
 
-class Constraint(Statement):
+class Constraint(Statement, ABC):
     """Statements with rows that vanish."""
 
+    @abstractmethod
     def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """The rows, of I and J as ``scope`` has them."""
-        raise NotImplementedError
 
     @property
     def n_rows(self) -> int:

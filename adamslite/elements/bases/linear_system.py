@@ -9,6 +9,7 @@ Zeros of the matrices are left out of the sums.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
@@ -34,9 +35,9 @@ class LinearSystem(SystemElement):
     x: Key
     u: Key | None
 
+    @abstractmethod
     def matrices(self, deck: Lookup) -> Matrices | None:
         """The matrices of the system; None where one of them cannot be read."""
-        raise NotImplementedError
 
     def counts(self, deck: Lookup) -> dict[str, int] | None:
         """Rows of A or B, and of C or D."""

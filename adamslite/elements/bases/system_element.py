@@ -7,6 +7,7 @@ Names (A the id of the ARRAY, n from 1)::
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from typing import ClassVar, overload
 
@@ -70,7 +71,7 @@ def static_hold() -> Field:
     return flag("STATIC_HOLD", help="statics keep x; without it they find the x where dx/dt = 0")
 
 
-class SystemElement(Statement):
+class SystemElement(Statement, ABC):
     """What LSE, TFSISO and GSE share.
 
     ``kinds``: of the ARRAYs that its fields name.  ``starts``: the field with the start values of
@@ -82,16 +83,16 @@ class SystemElement(Statement):
 
     static_hold: bool
 
+    @abstractmethod
     def counts(self, deck: Lookup) -> dict[str, int] | None:
         """How many states and outputs there are, by field; None where mistakes leave it open."""
-        raise NotImplementedError
 
+    @abstractmethod
     def equations(self, deck: Lookup) -> Iterator[tuple[str, Iterator[Node]]]:
         """Rates of the states, values of the outputs, by field.
 
         Sizes that do not fit are reported by rules; here what fits is taken.
         """
-        raise NotImplementedError
 
     def holds(self, field: str) -> bool:
         """Whether statics keep the states of a field."""

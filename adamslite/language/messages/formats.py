@@ -81,12 +81,7 @@ def _place(span: Span) -> dict[str, Any]:
 
 
 def _span(span: Span) -> dict[str, int]:
-    return {
-        "line": span.line,
-        "column": span.column,
-        "end_line": span.end_line,
-        "end_column": span.end_column,
-    }
+    return _ends(span, "line", "column", "end_line", "end_column")
 
 
 def _rule(code: str) -> dict[str, Any]:
@@ -140,9 +135,10 @@ def _uri(span: Span) -> str:
 
 
 def _region(span: Span) -> dict[str, int]:
-    return {
-        "startLine": span.line,
-        "startColumn": span.column,
-        "endLine": span.end_line,
-        "endColumn": span.end_column,
-    }
+    return _ends(span, "startLine", "startColumn", "endLine", "endColumn")
+
+
+def _ends(span: Span, *names: str) -> dict[str, int]:
+    """First and last place of a span under the names that a format has for them."""
+    ends = (span.line, span.column, span.end_line, span.end_column)
+    return dict(zip(names, ends, strict=True))

@@ -1,0 +1,195 @@
+"""The state of a session: the model as the commands have left it, its equations, their values.
+
+::
+
+    deck --compile_model--> kernels --numbered--> system --assembled_of--> a consistent state
+
+Another deck takes over the values of bodies, multipliers and states that it still has.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from adamslite.analyses.clock.clock import Clock
+from adamslite.analyses.clock.motion_jumps import without_value
+from adamslite.analyses.delays import Delays
+from adamslite.analyses.dynamic import Settings
+from adamslite.analyses.history import History, Piece
+from adamslite.analyses.initial.algebraic_states import settle_states
+from adamslite.analyses.initial.conditions import Unclosed, initial_conditions, settle_variables
+from adamslite.analyses.initial.joint_start import start_of_joints
+from adamslite.analyses.initial.redundancy import leave_out_redundant
+from adamslite.analyses.method_choice import MethodChoice
+from adamslite.analyses.saves import Saves
+from adamslite.analyses.sensors import SensorLog
+from adamslite.analyses.static import PIVOTING, StaticSettings
+from adamslite.analyses.subject import Subject, deck_of, kernels_of
+from adamslite.deck.deck import Deck
+from adamslite.deck.redefinition import Redefinition
+from adamslite.equations.engine import engine
+from adamslite.equations.result_columns import columns
+from adamslite.equations.system import System
+from adamslite.gc_pause import without_collection
+from adamslite.integrators import contract
+from adamslite.integrators.contract import ACCELERATIONS
+from adamslite.kernels.compile import compile_model
+from adamslite.model.model import assemble
+from adamslite.outputs.saved_files import SavedFiles
+from adamslite.progress import Progress
+from adamslite.results.balance import Balance
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Linearized
+
+
+class SessionState:
+    """A model and its present state.
+
+    Attributes
+    ----------
+    system : System
+        Equations and present state.
+    time : float
+        Time reached.
+    history : History
+        What the analyses wrote.
+    late_setup : float
+        CPU [s] of compiling an integrator when a run first needed it.
+    outcome, unclosed
+        How the last analysis ended; the constraint that stayed open, if one did.
+    present : System or None
+        ``system``, as far as it is there; ``began_static``: it is at rest after an equilibrium.
+    saves, changes
+        What SAVE has kept; commands that have changed statements of the deck.
+    sensors : SensorLog
+    linearizations : list of Linearized
+    balances : list of Balance
+        What the audits of dynamic analyses found.
+    """
+
+    def __init__(
+        self,
+        scene: Subject,
+        progress: Progress | None,
+        flags: dict[str, Any],
+        without: frozenset[str] = frozenset(),
+        audited: bool = False,
+        files: SavedFiles | None = None,
+    ) -> None:
+        self.progress = progress
+        self.flags = flags
+        self.audited = audited
+        deck_of(scene).user.start()
+        self.kernels = kernels_of(scene, progress, without, audited)
+        self.without = without | self.kernels.model.without
+        engine(progress=progress)
+        self.settings = replace(Settings(), **flags)
+        self.chosen = MethodChoice(self.settings)
+        self.statics = StaticSettings()
+        self.time = self.late_setup = 0.0
+        self.history = History()
+        self.outcome = Outcome.DONE
+        self.unclosed: Unclosed | None = None
+        self.linearizations: list[Linearized] = []
+        self.balances: list[Balance] = []
+        self.counts = contract.Counts.zeros()
+        self.ways_to_fall = 0
+        self.sensors = SensorLog()
+        self.delays = Delays()
+        self.out_of_law: dict[str, str] = {}
+        self.printed: list[str] = []
+        self.assembled: list[str] = []
+        self.speeds: list[str] = []
+        self.saves = Saves(files or SavedFiles(), self.deck)
+        self.changes: tuple[Redefinition[Any], ...] = ()
+        self.present: System | None = None
+        self.began_static = False
+
+    @property
+    def deck(self) -> Deck:
+        """As the commands so far have left it."""
+        return self.kernels.model.deck
+
+    @property
+    def system(self) -> System:
+        """The equations, numbered and assembled when first needed."""
+        if self.present is None:
+            system = self.present = self.numbered(False)
+            if self.is_driven(system):
+                self.unclosed = start_of_joints(system, self.progress)
+                self.present = self.assembled_of(system)
+        return self.present
+
+    def prepare(self) -> None:
+        """Number and assemble the equations now."""
+        self.present = self.system
+
+    def change(self, deck: Deck) -> None:
+        """Go on with another deck from the present state."""
+        old = self.present
+        self.kernels = compile_model(assemble(deck, self.without), self.progress, self.audited)
+        self.present = None
+        if old is not None:
+            system = self.present = self.numbered(False)
+            system.adopt(old)
+            if self.is_driven(system):
+                self.present = self.assembled_of(system)
+
+    def numbered(self, pivoting: bool, form: str = "") -> System:
+        with without_collection():
+            stabilised = (form or self.settings.form) == "SI2"
+            system = System(self.kernels, stabilised, pivoting)
+        system.settings.t = self.time
+        return system
+
+    def is_driven(self, system: System) -> bool:
+        """Whether all that drives a constraint has a value at this time."""
+        system.broken = without_value(Clock(self.kernels), self.time)
+        if system.broken:
+            self.outcome = Outcome.BROKEN_MOTION
+            system.report.t = self.time
+        return system.broken is None
+
+    def assembled_of(self, system: System) -> System:
+        """Consistent positions and velocities, redundant rows, a regular elimination order."""
+        self.unclosed = self.unclosed or initial_conditions(system)
+        if self.unclosed:
+            self.outcome = self.unclosed.outcome
+            return system
+        if self.time == 0.0 and not self.history.pieces:
+            self.assembled = system.largest_changes()
+            self.speeds = system.changed_speeds()
+        settle_variables(system)
+        settle_states(system)
+        leave_out_redundant(system)
+        system.settings.t = self.time
+        small = system.nz <= PIVOTING and not system.elimination.pivoting
+        if small and system.run(ACCELERATIONS) != contract.DONE and np.isfinite(system.F).all():
+            return self.renumbered(system, True)
+        return system
+
+    def renumbered(self, system: System, pivoting: bool) -> System:
+        """``system`` in its present state, in the formulation of the method that AUTO picked, or
+        eliminated with row pivoting.
+        """
+        other = self.numbered(pivoting, self.chosen.settings.form)
+        other.adopt(system)
+        other.drop(system.elimination.dropped)
+        return other
+
+    def keep(
+        self, system: System, times: np.ndarray, static: bool, wanted: np.ndarray | None = None
+    ) -> None:
+        """Keep the records made, of which only those ``wanted`` were requested."""
+        self.out_of_law = system.instances.out_of_law() | self.out_of_law
+        made = system.count.records
+        row = system.nw + system.sizes.n_out
+        names, values = columns(system, system.record[: made * row].reshape(made, row))
+        kept = np.ones(made, dtype=bool) if wanted is None else wanted[:made]
+        piece = Piece(times[:made][kept], names, values[kept])
+        self.history.append(piece, static, self.began_static)
+        self.began_static = static
+        self.counts.add(system.count)
