@@ -74,6 +74,19 @@ SYSTEMS = {
     "MKS": ("NEWTON", "KILOGRAM", "METER", "SECOND"),
 }
 NO_SYSTEM = "NONE"
+SYMBOLS = {
+    "CENTINEWTON": "cN", "DYNE": "dyn", "KILOGRAM_FORCE": "kgf", "KNEWTON": "kN",
+    "KPOUND_FORCE": "klbf", "MEGANEWTON": "MN", "MICRONEWTON": "uN", "MILLINEWTON": "mN",
+    "NANONEWTON": "nN", "NEWTON": "N", "OUNCE_FORCE": "ozf", "POUND_FORCE": "lbf",
+    "POUNDAL": "pdl", "GRAM": "g", "KILOGRAM": "kg", "KPOUND_MASS": "klb", "MILLIGRAM": "mg",
+    "MICROGRAM": "ug", "NANOGRAM": "ng", "OUNCE_MASS": "oz", "POUND_MASS": "lb",
+    "SLINCH": "slinch", "SLUG": "slug", "TONNE": "t", "US_TON": "ton", "ANGSTROM": "angstrom",
+    "CENTIMETER": "cm", "FOOT": "ft", "KILOMETER": "km", "INCH": "in", "METER": "m",
+    "MICROINCH": "uin", "MICROMETER": "um", "MILE": "mi", "MILLIMETER": "mm", "MILS": "mil",
+    "NANOMETER": "nm", "YARD": "yd", "DAY": "d", "HOUR": "h", "MICROSECOND": "us",
+    "MILLISECONDS": "ms", "MINUTE": "min", "NANOSECOND": "ns", "SECOND": "s",
+}  # fmt: skip
+"""How the units are written beside numbers."""
 
 
 def conversion(force: str, mass: str, length: str, time: str) -> float:

@@ -5,16 +5,21 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from adamslite.language.diagnostics import DeckError
 from adamslite.results.balance import Balance
+from adamslite.results.channels import Channel, describe, unit_symbols
 from adamslite.results.confirmation import Confirmation
 from adamslite.results.formats import format_of
 from adamslite.results.linearization import Linearization
 from adamslite.results.outcomes import Outcome
 from adamslite.results.source import RunSource
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
 
 
 class UnknownChannel(KeyError):
@@ -71,6 +76,8 @@ class Results:
         (:mod:`adamslite.analyses.confirmation`).
     source : RunSource or None
         The texts of deck and command file; None where they are not known.
+    channels : mapping of str to Channel
+        Units and titles of columns, where a file has named them; see :meth:`channel`.
     """
 
     time: np.ndarray
@@ -84,6 +91,7 @@ class Results:
     balances: tuple[Balance, ...] = ()
     confirmation: Confirmation | None = None
     source: RunSource | None = None
+    channels: Mapping[str, Channel] = field(default_factory=dict, repr=False)
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return the (nt,) history called `name` (upper or lower case), or the times for "time"."""
@@ -100,6 +108,20 @@ class Results:
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)
 
+    def channel(self, name: str) -> Channel:
+        """Statement, quantity and unit of the column called `name`, or of "time"."""
+        if name.casefold() == "time":
+            return Channel("time", "", "", "", "time", self.unit_symbols.get("time", ""))
+        if name not in self:
+            raise UnknownChannel(self._unknown(name))
+        name = self.names[self._column[name.casefold()]]
+        return self.channels.get(name) or describe(name, self.unit_symbols, self._deck)
+
+    @cached_property
+    def unit_symbols(self) -> dict[str, str]:
+        """Symbols by ``force``, ``mass``, ``length``, ``time``; empty where none are known."""
+        return unit_symbols(self.meta.get("units", ""))
+
     def save(self, path: str | Path) -> None:
         """Write the results to `path` in the format of its suffix.
 
@@ -113,6 +135,13 @@ class Results:
         read = format_of(path, to_read=True).read
         assert read is not None
         return read(path)
+
+    @cached_property
+    def _deck(self) -> "Deck | None":
+        try:
+            return self.source.read()[0] if self.source else None
+        except DeckError:
+            return None  # the tables that it names are not here
 
     @cached_property
     def _column(self) -> dict[str, int]:

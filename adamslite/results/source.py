@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -36,6 +36,8 @@ class RunSource:
     folder : str
         Where the deck was, with the tables that it names; empty in results that were read from a
         file, which may be of another machine.
+    made : tuple or None
+        Deck and commands as they were read for the run, where this process has run it.
     """
 
     deck: str
@@ -44,6 +46,11 @@ class RunSource:
     commands_name: str = ""
     user: tuple[str, ...] = ()
     folder: str = ""
+    made: tuple[Deck, Commands] | None = field(default=None, compare=False, repr=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The texts, from which everything is read again."""
+        return {name: value for name, value in vars(self).items() if name != "made"}
 
     @property
     def stem(self) -> str:
@@ -64,6 +71,8 @@ class RunSource:
         from adamslite.reading.read import Commands, commands_of, read_by
         from adamslite.reading.statement_reader import Reading
 
+        if self.made:
+            return self.made
         path = None if self.name == NO_FILE else Path(self.folder, self.name)
         reading = Reading(Source(self.deck, self.name), Names(), "deck")
         deck = read_by(reading, path, bindings(list(self.user)))
@@ -74,6 +83,8 @@ class RunSource:
 
 def source_of(deck: Deck, commands: Iterable[Command]) -> RunSource:
     """The texts that a deck and its commands were read from."""
+    from adamslite.reading.read import Commands
+
     written = getattr(commands, "source", None)
     return RunSource(
         deck=deck.source.text,
@@ -82,4 +93,5 @@ def source_of(deck: Deck, commands: Iterable[Command]) -> RunSource:
         commands_name=Path(written.file).name if written else "",
         user=tuple(f"{label}={each.text}" for label, each in deck.user.used.items()),
         folder=str(deck.path.parent) if deck.path else "",
+        made=(deck, Commands(commands)),
     )

@@ -1,0 +1,144 @@
+"""What the columns of results are: their units, and a title for an axis.
+
+Units are formed from those of the deck (``m``, ``m/s^2``, ``N m``); angles are in radians. They
+are known for bodies and forces, and for a REQUEST of a kind; those of expressions are what CUNITS
+names.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from adamslite.language.units import SYMBOLS
+
+if TYPE_CHECKING:  # to compare tables no statement is needed
+    from adamslite.deck.deck import Deck
+
+ANGLE, LENGTH, TIME, FORCE = "angle", "length", "time", "force"
+TORQUE = "torque"
+QUANTITIES = {
+    **dict.fromkeys(("x", "y", "z"), ("position", LENGTH)),
+    **dict.fromkeys(("psi", "theta", "phi"), ("angle", ANGLE)),
+    **dict.fromkeys(("vx", "vy", "vz"), ("velocity", "length/time")),
+    **dict.fromkeys(("wx", "wy", "wz"), ("angular velocity", "angle/time")),
+    **dict.fromkeys(("ax", "ay", "az"), ("acceleration", "length/time^2")),
+    **dict.fromkeys(("alx", "aly", "alz"), ("angular acceleration", "angle/time^2")),
+    **dict.fromkeys(("fx", "fy", "fz"), ("force", FORCE)),
+    **dict.fromkeys(("tx", "ty", "tz"), ("torque", TORQUE)),
+    "depth": ("depth", LENGTH),
+}
+"""Quantity and dimension by the last part of a column's name."""
+REQUESTED = {
+    "DISPLACEMENT": ("displacement", LENGTH, "angle", ANGLE),
+    "VELOCITY": ("velocity", "length/time", "angular velocity", "angle/time"),
+    "ACCELERATION": ("acceleration", "length/time^2", "angular acceleration", "angle/time^2"),
+    "FORCE": ("force", FORCE, "torque", TORQUE),
+}
+ALONG = ("f",)
+UNKNOWN = ("", "")
+
+
+class Channel(NamedTuple):
+    """A column: ``PART/2.x`` is component ``x`` of statement ``PART/2``.
+
+    ``title``: a name given in the deck, or empty; ``quantity``: what the number is, in words;
+    ``unit``: its symbol, empty without a dimension or where it is not known.
+    """
+
+    name: str
+    statement: str
+    component: str
+    title: str = ""
+    quantity: str = ""
+    unit: str = ""
+
+    @property
+    def long_name(self) -> str:
+        """``velocity vx of PART/2 (boom)``."""
+        what = f"{self.quantity} {self.component}".strip()
+        of = f"{self.statement} ({self.title})" if self.title else self.statement
+        return f"{what} of {of}" if what else of
+
+
+def describe(name: str, units: dict[str, str], deck: Deck | None = None) -> Channel:
+    """What a column is.
+
+    Parameters
+    ----------
+    units : dict
+        Symbols by ``length``, ``time``, ``force``, as :func:`unit_symbols` has them.
+    deck : Deck, optional
+        Without it the kind of an SFORCE or REQUEST is not known.
+    """
+    label, _, component = name.rpartition(".")
+    if not label or "/" not in label:
+        label, component = name, ""
+    keyword, _, id = label.partition("/")
+    found = deck.find(keyword, int(id) if id.isdigit() else id) if deck else None
+    quantity, dimension = _quantity(keyword, component, found)
+    unit = _own_unit(found, component) or in_units(dimension, units)
+    title = found.name or _comment(found) if found else ""
+    return Channel(name, label, component, title, quantity, unit)
+
+
+def _quantity(keyword: str, component: str, found: Any) -> tuple[str, str]:
+    """Quantity and dimension."""
+    if _is_request(found):
+        return _requested(found, component)
+    if component in ALONG and keyword in ("SFORCE", "SPRINGDAMPER"):
+        if found is None:
+            return UNKNOWN
+        turns = getattr(found, "kind", "") == "ROTATIONAL"
+        return ("torque", TORQUE) if turns else ("force", FORCE)
+    # Slip at a joint with friction is a length or an angle, by the joint.
+    slip = keyword == "FRICTION" and component[:1] not in "ft"
+    return UNKNOWN if slip or keyword == "REQUEST" else QUANTITIES.get(component, UNKNOWN)
+
+
+def _is_request(found: Any) -> bool:
+    return found is not None and found.keyword == "REQUEST"
+
+
+def _requested(request: Any, component: str) -> tuple[str, str]:
+    if request.kind is None or not component[1:].isdigit():
+        return UNKNOWN
+    number = int(component[1:])
+    at = 0 if number <= 4 else 2
+    return REQUESTED[request.kind][at], REQUESTED[request.kind][at + 1]
+
+
+def _own_unit(found: Any, component: str) -> str:
+    """What CUNITS of a REQUEST names for a component."""
+    named = found.cunits if _is_request(found) else ()
+    number = int(component[1:]) if component[1:].isdigit() else 0
+    return named[number - 1] if 0 < number <= len(named) else ""
+
+
+def _comment(found: Any) -> str:
+    return str(getattr(found, "comment", None) or "")
+
+
+def in_units(dimension: str, units: dict[str, str]) -> str:
+    """``length/time^2`` as ``m/s^2``; empty where a unit of it is not known."""
+    if dimension == TORQUE:
+        parts = [units.get(FORCE, ""), units.get(LENGTH, "")]
+        return " ".join(parts) if all(parts) else ""
+    top, _, bottom = dimension.partition("/")
+    upper = "rad" if top == ANGLE else units.get(top, "")
+    base, power, exponent = bottom.partition("^")
+    lower = units.get(base, "") + power + exponent if units.get(base) else ""
+    if not bottom:
+        return upper
+    return f"{upper}/{lower}" if upper and lower else ""
+
+
+def unit_symbols(names: str) -> dict[str, str]:
+    """Symbols of the units that the comment ``units`` of results names: force, mass, length, time.
+
+    Empty where the deck names none.
+    """
+    words = names.split()
+    if len(words) != 4 or any(word not in SYMBOLS for word in words):
+        return {}
+    symbols = (SYMBOLS[word] for word in words)
+    return dict(zip((FORCE, "mass", LENGTH, TIME), symbols, strict=True))
