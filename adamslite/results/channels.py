@@ -1,8 +1,8 @@
 """What the columns of results are: their units, and a title for an axis.
 
 Units are formed from those of the deck (``m``, ``m/s^2``, ``N m``); angles are in radians. They
-are known for bodies and forces, and for a REQUEST of a kind; those of expressions are what CUNITS
-names.
+are known for bodies, for forces, and for what expressions measure; CUNITS of a REQUEST names
+others.
 """
 
 from __future__ import annotations
@@ -10,12 +10,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from adamslite.language.units import SYMBOLS
+from adamslite.results.quantities import ANGLE, FORCE, LENGTH, TIME, TORQUE, UNKNOWN, quantity_of
 
 if TYPE_CHECKING:  # to compare tables no statement is needed
     from adamslite.deck.deck import Deck
 
-ANGLE, LENGTH, TIME, FORCE = "angle", "length", "time", "force"
-TORQUE = "torque"
 QUANTITIES = {
     **dict.fromkeys(("x", "y", "z"), ("position", LENGTH)),
     **dict.fromkeys(("psi", "theta", "phi"), ("angle", ANGLE)),
@@ -26,8 +25,15 @@ QUANTITIES = {
     **dict.fromkeys(("fx", "fy", "fz"), ("force", FORCE)),
     **dict.fromkeys(("tx", "ty", "tz"), ("torque", TORQUE)),
     "depth": ("depth", LENGTH),
+    "incidents": ("touching points", ""),
 }
 """Quantity and dimension by the last part of a column's name."""
+SLIP = {
+    **dict.fromkeys(("mux", "muy", "muz", "murx", "mury", "murz", "mu1"), ("coefficient", "")),
+    **dict.fromkeys(("creep_x", "creep_y", "creep_z"), ("creep", LENGTH)),
+    **dict.fromkeys(("creep_ax", "creep_ay", "creep_az"), ("creep", ANGLE)),
+}
+"""The same of FRICTION, beside forces and rates."""
 REQUESTED = {
     "DISPLACEMENT": ("displacement", LENGTH, "angle", ANGLE),
     "VELOCITY": ("velocity", "length/time", "angular velocity", "angle/time"),
@@ -35,7 +41,6 @@ REQUESTED = {
     "FORCE": ("force", FORCE, "torque", TORQUE),
 }
 ALONG = ("f",)
-UNKNOWN = ("", "")
 
 
 class Channel(NamedTuple):
@@ -75,36 +80,42 @@ def describe(name: str, units: dict[str, str], deck: Deck | None = None) -> Chan
         label, component = name, ""
     keyword, _, id = label.partition("/")
     found = deck.find(keyword, int(id) if id.isdigit() else id) if deck else None
-    quantity, dimension = _quantity(keyword, component, found)
+    quantity, dimension = _quantity(keyword, component, found, deck)
     unit = _own_unit(found, component) or in_units(dimension, units)
     title = found.name or _comment(found) if found else ""
     return Channel(name, label, component, title, quantity, unit)
 
 
-def _quantity(keyword: str, component: str, found: Any) -> tuple[str, str]:
+def _quantity(keyword: str, component: str, found: Any, deck: Deck | None) -> tuple[str, str]:
     """Quantity and dimension."""
-    if _is_request(found):
-        return _requested(found, component)
+    if keyword in ("REQUEST", "VARIABLE"):
+        return _expressed(found, component, deck) if found and deck else UNKNOWN
     if component in ALONG and keyword in ("SFORCE", "SPRINGDAMPER"):
         if found is None:
-            return UNKNOWN
+            return "force or torque", ""
         turns = getattr(found, "kind", "") == "ROTATIONAL"
         return ("torque", TORQUE) if turns else ("force", FORCE)
-    # Slip at a joint with friction is a length or an angle, by the joint.
-    slip = keyword == "FRICTION" and component[:1] not in "ft"
-    return UNKNOWN if slip or keyword == "REQUEST" else QUANTITIES.get(component, UNKNOWN)
+    known = {**QUANTITIES, **SLIP} if keyword == "FRICTION" else QUANTITIES
+    return known.get(component, UNKNOWN)
 
 
 def _is_request(found: Any) -> bool:
     return found is not None and found.keyword == "REQUEST"
 
 
-def _requested(request: Any, component: str) -> tuple[str, str]:
-    if request.kind is None or not component[1:].isdigit():
+def _expressed(found: Any, component: str, deck: Deck) -> tuple[str, str]:
+    """Of a VARIABLE, or of a component of a REQUEST."""
+    if found.keyword == "VARIABLE":
+        return quantity_of(found.function, deck)
+    if component not in found.result_names:  # of another deck
         return UNKNOWN
     number = int(component[1:])
+    if found.variables:
+        return quantity_of(deck.find("VARIABLE", found.variables[number - 1]).function, deck)
+    if found.kind is None:
+        return quantity_of(found.functions[number - 1], deck)
     at = 0 if number <= 4 else 2
-    return REQUESTED[request.kind][at], REQUESTED[request.kind][at + 1]
+    return REQUESTED[found.kind][at], REQUESTED[found.kind][at + 1]
 
 
 def _own_unit(found: Any, component: str) -> str:
