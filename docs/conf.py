@@ -22,9 +22,17 @@ project = "adamslite"
 author = copyright = "the adamslite authors"
 release = version = __version__
 
-extensions = ["myst_parser"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+smartquotes = False  # -- is the beginning of a flag
+default_role = "code"
 myst_heading_anchors = 4
 highlight_language = "none"
+
+autodoc_typehints = "none"  # the docstrings have types, with shapes
+autodoc_preserve_defaults = True
+napoleon_google_docstring = False
+# Types in docstrings are words ("(nt,) array", "iterable of str"), not names to be looked up.
+nitpick_ignore_regex = [("py:.*", ".*")]
 
 html_theme = "furo"
 html_title = "adamslite"

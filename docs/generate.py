@@ -5,14 +5,23 @@ python docs/generate.py
 
 from pathlib import Path
 
-from adamslite import manual
+from adamslite.cli.main import command_parsers
+from adamslite.manual.api import python_names
+from adamslite.manual.commands import commands
+from adamslite.manual.formats import result_formats
+from adamslite.manual.functions import deck_functions
+from adamslite.manual.integrators import integrators
+from adamslite.manual.messages import messages
+from adamslite.manual.statements import statements
 
 PAGES = {
-    "reference/statements.md": manual.statements,
-    "reference/functions.md": manual.deck_functions,
-    "reference/messages.md": manual.messages,
-    "reference/integrators.md": manual.integrators,
-    "reference/formats.md": manual.result_formats,
+    "reference/statements.md": statements,
+    "reference/functions.md": deck_functions,
+    "reference/messages.md": messages,
+    "reference/integrators.md": integrators,
+    "reference/formats.md": result_formats,
+    "reference/commands.md": lambda: commands(command_parsers()),
+    "reference/api.md": python_names,
 }
 
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from fakes import fall
 
-from adamslite import manual
 from adamslite.cli.main import main
 from adamslite.errors import FormatError, UsageError
+from adamslite.manual.formats import result_formats
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results import formats
 from adamslite.results.outcomes import Outcome
@@ -117,7 +117,7 @@ def test_a_new_format_is_solved_into_and_compared(lines, tmp_path, monkeypatch, 
     assert "all within their tolerances" in capsys.readouterr().out
     assert main(["help", "formats"]) == 0
     assert "| `.lines` | a line of JSON per result" in capsys.readouterr().out
-    assert "`.lines`" in manual.result_formats()
+    assert "`.lines`" in result_formats()
 
 
 def test_a_wrong_suffix_is_answered_with_those_there_are(lines, tmp_path, capsys) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from decklets import told
 
-from adamslite import manual
+import adamslite
 from adamslite.checks.rules import check
 from adamslite.functions.integration import NUMBERS
 from adamslite.language.diagnostics import ERROR, DeckError, Diagnostic
@@ -22,11 +22,12 @@ from adamslite.language.not_supported import COMMANDS, FUNCTIONS, INSTEAD
 from adamslite.language.not_supported import STATEMENTS as REJECTED
 from adamslite.language.routines import USUAL_NAMES
 from adamslite.language.statement import STATEMENTS, Statement
+from adamslite.manual import lookup
 from adamslite.reading.read import read
 
 SPEC = Path(__file__).parent / "spec"
 TABLES = {path.stem: tomllib.loads(path.read_text()) for path in SPEC.glob("*.toml")}
-PACKAGE = Path(manual.__file__).parent
+PACKAGE = Path(adamslite.__file__).parent
 SOURCES = "\n".join(path.read_text() for path in PACKAGE.rglob("*.py"))
 POINTS = "x,y,z\n0,1,2\n1,2,3\n2,3,4\n3,4,5\n"
 NOT_SUPPORTED = {
@@ -132,7 +133,7 @@ NAMES = sorted({*TABLES["statements"], *CALLS, *COMMANDS, *REJECTED, *FUNCTIONS}
 
 @pytest.mark.parametrize("name", NAMES)
 def test_help_has_a_page_for_every_name(name: str) -> None:
-    assert name in manual.pages(name)
+    assert name in lookup.pages(name)
 
 
 def test_what_is_rejected_is_known_by_what_to_write_instead() -> None:

@@ -16,12 +16,12 @@ import pytest
 from tiers import every
 
 import adamslite
-from adamslite import manual
 from adamslite.deck.element_switch import SWITCHABLE
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.messages import START
 from adamslite.language.not_supported import STATEMENTS as NOT_SUPPORTED
 from adamslite.language.statement import STATEMENTS
+from adamslite.manual import lookup
 from adamslite.reading.read import read, read_commands
 
 SPEC = Path(__file__).parent / "spec"
@@ -164,7 +164,7 @@ def test_the_tables_have_every_element_that_is_switched() -> None:
 
 @pytest.mark.parametrize("keyword", COMMANDS)
 def test_help_has_a_page_for_every_command(keyword: str) -> None:
-    assert keyword in manual.pages(keyword.lower())
+    assert keyword in lookup.pages(keyword.lower())
 
 
 STATEMENT_ROWS = tomllib.loads((SPEC / "statements.toml").read_text())

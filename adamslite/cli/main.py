@@ -11,7 +11,7 @@
     adamslite fmt    FILE ...               put decks and command files into the canonical layout
     adamslite lsp                           serve editors (Language Server Protocol)
     adamslite editors DIR                   write colours, snippets and a folder for VS Code
-    adamslite help   [NAME]                 what a statement, a function or a message means
+    adamslite help   [NAME]                 print the page of a statement, a function, ...
 
 Exit codes: 0 done or equal, 1 outside tolerance or not in the canonical layout, 2 usage,
 3 the deck has errors, 4 the solver stopped early (results so far are written), 5 reading or
@@ -23,7 +23,7 @@ Only argparse and its like are imported here: everything else waits until a comm
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from adamslite import __version__
 from adamslite.cli.commands import (
@@ -80,6 +80,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _explain(fault)
 
 
+def command_parsers() -> Mapping[str, argparse.ArgumentParser]:
+    """The parser of each command, by its name."""
+    return dict(_parser().get_default("parsers"))
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="adamslite",
@@ -106,6 +111,7 @@ def _parser() -> argparse.ArgumentParser:
         )
         module.add_arguments(command)
         command.set_defaults(run=module.run)
+    parser.set_defaults(parsers=commands.choices)
     return parser
 
 

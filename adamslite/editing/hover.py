@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from adamslite import manual
 from adamslite.editing.document import Content
 from adamslite.editing.outline import Written
 from adamslite.language.abbreviations import Ambiguous, vocabulary
@@ -13,6 +12,10 @@ from adamslite.language.messages import MESSAGES
 from adamslite.language.messages.ignoring import COMMENT
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument
+from adamslite.manual.functions import function as function_page
+from adamslite.manual.messages import message
+from adamslite.manual.statements import argument
+from adamslite.manual.statements import statement as statement_page
 from adamslite.syntax.tokens import CLOSES, Lexeme, end_of
 
 WORD = re.compile(r"[\w-]+")
@@ -43,7 +46,7 @@ def _message(content: Content, offset: int, line: str) -> tuple[str, int, int] |
     for word in WORD.finditer(line, comment.start(1)) if comment else ():
         code = word[0].lower()
         if word.start() <= offset - start < word.end() and code in MESSAGES:
-            return manual.message(code, MESSAGES[code]), start + word.start(), start + word.end()
+            return message(code, MESSAGES[code]), start + word.start(), start + word.end()
     return None
 
 
@@ -51,13 +54,13 @@ def _page(content: Content, written: Written, number: int) -> str | None:
     token = written.tokens[number]
     behind = written.tokens[number + 1][0] if number + 1 < len(written.tokens) else ""
     if number == 0:
-        return manual.statement(written.cls) if written.cls else None
+        return statement_page(written.cls) if written.cls else None
     if behind == "EQUAL" and written.cls:
         meaning = vocabulary(written.cls).keyed(token[1])
-        return manual.argument(meaning) if isinstance(meaning, Argument) else None
+        return argument(meaning) if isinstance(meaning, Argument) else None
     function = FUNCTIONS.get(spelled(token[1]).upper()) if token[0] == "NAME" else None
     if function and behind in CLOSES:
-        return manual.function(function)
+        return function_page(function)
     return _symbol(content, token) or (_flag(written, token) if written.cls else None)
 
 
@@ -78,4 +81,4 @@ def _flag(written: Written, token: Lexeme) -> str | None:
     meaning = vocabulary(written.cls).flag(token[1]) if token[0] == "NAME" else None
     if meaning is None or isinstance(meaning, Ambiguous):
         return None
-    return manual.argument(meaning[0])
+    return argument(meaning[0])

@@ -29,7 +29,10 @@ COLUMNS = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite chart`."""
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
-    parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    parser.add_argument(
+        "commands", metavar="COMMANDS.acf", type=Path, nargs="?",
+        help="command file; without it the .acf beside the deck",
+    )  # fmt: skip
     add_user_flag(parser)
     parser.add_argument(
         "-o", "--output", metavar="NAME", help="of the files, without suffix (DECK's name-chart)"
@@ -37,12 +40,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--end", type=positive, metavar="T", help="end time")
     parser.add_argument("--steps", type=count, metavar="N", help="number of output steps")
     parser.add_argument(
-        "--integrator", type=str.upper, nargs="+", metavar="NAME", help="only these"
+        "--integrator", type=str.upper, nargs="+", metavar="NAME", help="only these methods"
     )
-    parser.add_argument("--error", type=positive, nargs="+", metavar="TOL", help="only these")
-    parser.add_argument("--channel", nargs="+", default=[], metavar="C", help="what must be right")
-    parser.add_argument("--digits", type=count, default=3, metavar="D", help="to recommend for (3)")
-    parser.add_argument("--repeats", type=count, default=3, metavar="R", help="of each run (3)")
+    parser.add_argument("--error", type=positive, nargs="+", metavar="TOL", help="only these ERROR")
+    parser.add_argument("--channel", nargs="+", default=[], metavar="C", help="result that counts")
+    parser.add_argument(
+        "--digits", type=count, default=3, metavar="D", help="recommend for D digits (3)"
+    )
+    parser.add_argument("--repeats", type=count, default=3, metavar="R", help="runs of each (3)")
     parser.add_argument(
         "--patience", type=positive, default=20.0, metavar="S", help="CPU [s] a run may take (20)"
     )

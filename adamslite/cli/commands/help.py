@@ -1,6 +1,8 @@
-"""what a statement, a function or a message means
+"""print the page of a name
 
-Without a name it lists what there is; `integrators` and `formats` print those there are.
+Of a statement, an argument, a function, an integrator, a command, a name of the Python package, a
+message or an outcome of a run. Without a name it lists what there is; `integrators` and `formats`
+print those there are.
 """
 
 import argparse
@@ -11,12 +13,15 @@ from adamslite.cli.commands.codes import DONE
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite help`."""
-    parser.add_argument("name", metavar="NAME", nargs="?", help="as in SFORCE, STEP5, no-ground")
+    parser.add_argument(
+        "name", metavar="NAME", nargs="?", help="as in SFORCE, QP, STEP5, GSTIFF, solve, no-ground"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
     """Print the pages of a name, or the names."""
-    from adamslite import manual
+    from adamslite.manual import lookup
 
-    sys.stdout.write(manual.pages(args.name) if args.name else manual.contents())
+    text = lookup.pages(args.name, args.parsers) if args.name else lookup.contents(args.parsers)
+    sys.stdout.write(text)
     return DONE

@@ -3,10 +3,10 @@
 Prints number, undamped frequency, damping ratio and eigenvalue of every mode about the state the
 commands lead to: COMMANDS.acf, else the .acf of the deck's name beside the deck, else the deck's
 own SIMULATE. Without any of them it is the initial state. With --time the motion is followed up
-to T. With --rm
-MARKER motions are those that an observer on its body sees; without, what the last LINEAR command
-asks for, else those seen from the ground. A line below the table says where the linear system
-varies with time. FILE.csv takes the table, FILE.json everything: mode shapes and state matrix too.
+to T. With --rm MARKER motions are those that an observer on its body sees; without, what the last
+LINEAR command requires, else those seen from the ground. A line below the table says where the
+linear system varies with time. FILE.csv takes the table, FILE.json everything: mode shapes and
+state matrix too.
 """
 
 import argparse
@@ -20,7 +20,10 @@ from adamslite.run_flags import add_user_flag, instant
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite linear`."""
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
-    parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    parser.add_argument(
+        "commands", metavar="COMMANDS.acf", type=Path, nargs="?",
+        help="command file; without it the .acf beside the deck",
+    )  # fmt: skip
     add_user_flag(parser)
     parser.add_argument("--time", type=instant, metavar="T", help="linearise at this time")
     parser.add_argument("--rm", metavar="MARKER", help="marker of the body of the observer")

@@ -53,7 +53,10 @@ NOTES = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite solve`."""
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
-    parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
+    parser.add_argument(
+        "commands", metavar="COMMANDS.acf", type=Path, nargs="?",
+        help="command file; without it the .acf beside the deck",
+    )  # fmt: skip
     add_user_flag(parser)
     parser.add_argument("-o", "--output", metavar="OUT", help="result file, or - for stdout")
     add_run_flags(parser)

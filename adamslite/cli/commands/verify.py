@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite verify`."""
-    parser.add_argument("paths", metavar="DIR|DECK", type=Path, nargs="*")
+    parser.add_argument("paths", metavar="DIR|DECK", type=Path, nargs="*", help="folders and decks")
     parser.add_argument(
         "-j", "--jobs", metavar="N", type=count, default=_processors(),
         help="processes that share the decks (default: as many as there are processors)",

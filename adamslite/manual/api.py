@@ -1,0 +1,60 @@
+"""Pages of the names of the Python package, from their docstrings."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+import adamslite
+from adamslite.manual.markdown import HEAD, heading
+
+INTRO = """# Python
+
+The names of `import adamslite as al`; [README.md](../../README.md#python) shows them at work.
+"""
+#: Names of the package that are described, in the order of the pipeline.
+NAMES = tuple(name for name in adamslite.__all__ if not name.startswith("_"))
+
+
+def python_names() -> str:
+    """The page of all names, for the site only: docs/reference/api.md."""
+    return "\n".join([HEAD, INTRO, *map(_directive, NAMES)])
+
+
+def _directive(name: str) -> str:
+    """What makes Sphinx print signature and docstring."""
+    if inspect.isclass(getattr(adamslite, name)):
+        kind, options = "class", "   :members:\n   :inherited-members: Exception, Enum\n"
+    else:
+        kind, options = "function", ""
+    return f"## {name}\n\n```{{eval-rst}}\n.. auto{kind}:: adamslite.{name}\n{options}```\n"
+
+
+def python_name(name: str) -> str:
+    """One name: how it is called, its docstring, the methods of a class."""
+    value = getattr(adamslite, name)
+    parts = [f"## adamslite.{name}\n", f"    {name}{_parameters(value)}\n", _doc(value)]
+    if inspect.isclass(value):
+        parts += [f"    {each}\n        {heading(inspect.getdoc(getattr(value, each)))}"
+                  for each in _methods(value)]  # fmt: skip
+        parts += [""]
+    return "\n".join(parts)
+
+
+def _doc(value: Any) -> str:
+    return (inspect.getdoc(value) or "") + "\n"
+
+
+def _parameters(value: Any) -> str:
+    """The parameters by name and default; their types are in the docstring."""
+    bare = [
+        each.replace(annotation=inspect.Parameter.empty)
+        for each in inspect.signature(value).parameters.values()
+    ]
+    return str(inspect.Signature(bare))
+
+
+def _methods(cls: type) -> list[str]:
+    """Public methods and properties that have a docstring."""
+    found = inspect.getmembers(cls, lambda each: callable(each) or isinstance(each, property))
+    return [name for name, each in found if not name.startswith("_") and inspect.getdoc(each)]
