@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 from page_blocks import ROOT, Reader, agree, blocks
 
+from adamslite.language.not_supported import INSTEAD
+
 GUIDES = sorted(
     page
     for room in ("tutorials", "how-to")
@@ -68,3 +70,11 @@ def test_a_page_that_is_wrong_is_noticed(fault: str, tmp_path: Path) -> None:
     page.write_text(BROKEN[fault], encoding="utf-8")
     with pytest.raises(AssertionError, match="page.md:"):
         Reader(page, tmp_path).follow()
+
+
+def test_what_is_refused_is_on_the_page_for_users_of_adams() -> None:
+    page = (ROOT / "docs" / "tutorials" / "coming-from-adams.md").read_text(encoding="utf-8")
+    rows = [line for line in page.partition("## Refused")[2].splitlines() if line.startswith("|")]
+    for name in INSTEAD:
+        words = name.split()
+        assert any(all(word in row for word in words) for row in rows), name
