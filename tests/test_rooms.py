@@ -43,6 +43,8 @@ integrators.methods
 equations
 results
 outputs
+drawing
+page
 analyses.clock analyses.initial
 analyses.linearization
 analyses

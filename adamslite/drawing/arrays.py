@@ -1,0 +1,63 @@
+"""Arrays of a page: numbers in one compressed block, and references to them.
+
+A reference is ``{"at": offset in bytes, "shape": [...], "coding": "f32" | "i16"}``.
+
+    f32   float32, little-endian, row by row
+    i16   [..., C]: value = low[c] + step[c] k, k from 0 to 65535; stored are the differences of k
+          along the first axis modulo 65536 (the first row as it is), all low bytes, then all high
+          bytes, which compresses better than the numbers
+"""
+
+from __future__ import annotations
+
+import zlib
+from base64 import b64encode
+from typing import Any
+
+import numpy as np
+
+Reference = dict[str, Any]
+LEVELS = 65535
+"""Steps from the least to the largest value of a component of 16 bits."""
+COMPRESSION = 6
+# Below this, numbers of 32 bits lose digits.
+LEAST = float(np.finfo(np.float32).tiny)
+LARGEST = float(np.finfo(np.float32).max)
+
+
+class Block:
+    """Arrays one after the other, each from a multiple of four bytes on."""
+
+    def __init__(self) -> None:
+        self._pieces: list[bytes] = []
+        self._size = 0
+
+    def f32(self, values: np.ndarray) -> Reference:
+        """Numbers with seven digits; what is no number stays none."""
+        values = np.clip(np.asarray(values, dtype=float), -LARGEST, LARGEST)
+        small = np.where(np.abs(values) < LEAST, 0.0, values)
+        return self._reference(small.astype("<f4").tobytes(), values.shape, "f32")
+
+    def i16(self, values: np.ndarray) -> Reference:
+        """Numbers to 1/65535 of the range of their component; all must be finite."""
+        values = np.asarray(values, dtype=float)
+        rows = values.reshape(-1, values.shape[-1])
+        low = rows.min(axis=0)
+        step = (rows.max(axis=0) - low) / LEVELS
+        k = np.rint((rows - low) / np.where(step > 0, step, 1.0)).astype(np.uint16)
+        k = k.reshape(values.shape)
+        stored = np.diff(k, axis=0, prepend=np.zeros_like(k[:1])).astype("<u2")
+        planes = stored.reshape(-1).view(np.uint8).reshape(-1, 2).T
+        made = self._reference(planes.tobytes(), values.shape, "i16")
+        return {**made, "low": low.tolist(), "step": step.tolist()}
+
+    def _reference(self, content: bytes, shape: tuple[int, ...], coding: str) -> Reference:
+        at = self._size
+        padded = content + bytes(-len(content) % 4)
+        self._pieces.append(padded)
+        self._size += len(padded)
+        return {"at": at, "shape": list(shape), "coding": coding}
+
+    def text(self) -> str:
+        """The block, compressed (RFC 1950), in base 64."""
+        return b64encode(zlib.compress(b"".join(self._pieces), COMPRESSION)).decode("ascii")

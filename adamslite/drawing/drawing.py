@@ -1,0 +1,91 @@
+"""A deck and its results, ready to be drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+import numpy as np
+
+from adamslite.deck.deck import Deck
+from adamslite.drawing.arrays import Block, Reference
+from adamslite.drawing.decimation import frames
+from adamslite.drawing.frames import Frames
+from adamslite.drawing.motion import Motion
+from adamslite.elements.marker import Marker
+from adamslite.language.interfaces import Key
+from adamslite.model.model import PART, Model
+from adamslite.results.results import Results
+
+# Numbers that a frame of a part and of a point mass takes.
+OF_PART, OF_POINT = 7, 3
+
+
+class Drawing:
+    """What all that is drawn has in common.
+
+    Attributes
+    ----------
+    deck : Deck
+    model : Model
+    results : Results
+    motion : Motion
+        Of the bodies, at the frames that are drawn.
+    block : Block
+        Where arrays go.
+    notes : list of str
+        What a reader of the picture must know.
+    """
+
+    def __init__(self, deck: Deck, results: Results) -> None:
+        self.deck, self.results = deck, results
+        self.model = Model(deck)
+        numbers = sum(OF_PART if b.width == PART else OF_POINT for b in self.model.bodies)
+        self.motion = Motion(self.model, results, frames(results.time, numbers))
+        self.block = Block()
+        self.notes = list(self.motion.notes)
+
+    @property
+    def frames(self) -> Frames:
+        """Markers in the axes of their bodies."""
+        return self.motion.frames
+
+    @cached_property
+    def markers(self) -> list[Marker]:
+        """The markers that have a place."""
+        return [each for each in self.deck.of(Marker) if each.owner and not each.floating]
+
+    @cached_property
+    def by_body(self) -> dict[int, list[Key]]:
+        """The markers of each body."""
+        found: dict[int, list[Key]] = {}
+        for each in self.markers:
+            found.setdefault(self.frames.body(each.key), []).append(each.key)
+        return found
+
+    @cached_property
+    def size(self) -> float:
+        """The diagonal of the box around all bodies and markers at the first frame; 1 if none."""
+        places = np.array([*self._places()])
+        diagonal = float(np.linalg.norm(np.ptp(places, axis=0))) if len(places) else 0.0
+        return diagonal if 0 < diagonal < np.inf else 1.0
+
+    def _places(self) -> Iterator[np.ndarray]:
+        yield from (track.position[0] for track in self.motion.tracks[1:])
+        for each in self.markers:
+            yield self.motion.places(each.key)[0]
+
+    def moving(self, values: np.ndarray) -> Reference | list[float]:
+        """Values (nt, n) of the frames as a reference, or one row where nothing changes."""
+        changes = np.ptp(values, axis=0)
+        if not (changes > STILL * np.maximum(np.abs(values).max(axis=0), TINY)).any():
+            return [float(x) for x in values[0]]
+        return self.block.i16(values)
+
+    def history(self, values: np.ndarray | None) -> Reference | None:
+        """Values (nt,) or (nt, n) of the frames with seven digits."""
+        return None if values is None else self.block.f32(values)
+
+
+# Changes that are round-off: as a share of the values.
+STILL, TINY = 1e-12, 1e-300

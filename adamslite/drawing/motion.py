@@ -1,0 +1,129 @@
+"""How the bodies of a model move by its results.
+
+A result names the mass centre of ``PART/2`` by x, y, z and the attitude of its CM marker by the
+angles psi, theta, phi of the sequence 3-1-3, all in ground.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from adamslite.drawing.attitudes import (
+    UPRIGHT,
+    continuous,
+    from_313,
+    from_axes,
+    inverse,
+    product,
+    rotated,
+)
+from adamslite.drawing.frames import Frames
+from adamslite.language.interfaces import Key
+from adamslite.model.model import Body, Model
+from adamslite.results.results import Results
+
+PLACE = ("x", "y", "z")
+ANGLES = ("psi", "theta", "phi")
+MOST_NAMED = 3
+
+
+@dataclass(frozen=True)
+class Track:
+    """Position (nt, 3) and attitude (nt, 4) of a body's frame in ground; `has_turned` when the
+    attitude is more than that of ground."""
+
+    position: np.ndarray
+    attitude: np.ndarray
+    has_turned: bool
+
+
+class Motion:
+    """Tracks of all bodies at some rows of the results.
+
+    Attributes
+    ----------
+    time : (nt,) array
+    tracks : list of Track
+        That of ground first.
+    notes : list of str
+        What the results lack.
+    """
+
+    def __init__(self, model: Model, results: Results, rows: np.ndarray) -> None:
+        self.frames = Frames(model)
+        self.results = results
+        self.rows = rows
+        self.time = results.time[rows] if len(rows) else np.zeros(1)
+        self.notes: list[str] = []
+        still = np.zeros((len(self.time), 3))
+        self.tracks = [Track(still, np.tile(UPRIGHT, (len(still), 1)), False)]
+        self._missing: list[str] = []
+        self._without_value: list[str] = []
+        self.tracks += [self._track(model, body) for body in model.bodies]
+        self._tell("is not in the results and stays where the deck has it", self._missing)
+        self._tell("has no position at some times and waits there", self._without_value)
+
+    def column(self, name: str) -> np.ndarray | None:
+        """A column at the frames, (nt,); None when there is none."""
+        if name not in self.results or not len(self.rows):
+            return None
+        return self.results[name][self.rows]
+
+    def columns(self, label: str, suffixes: tuple[str, ...]) -> np.ndarray | None:
+        """Columns of a statement at the frames, (nt, n); None unless there are all of them."""
+        found = [self.column(f"{label}.{suffix}") for suffix in suffixes]
+        if any(each is None for each in found):
+            return None
+        return np.stack(found, axis=1)  # type: ignore[arg-type]
+
+    def places(self, marker: Key) -> np.ndarray:
+        """Origin of a marker in ground, (nt, 3)."""
+        place = self.frames.place(marker)
+        track = self.tracks[place.body + 1]
+        if not track.has_turned:
+            return track.position + place.p
+        return track.position + rotated(track.attitude, place.p)
+
+    def in_ground(self, marker: Key, vectors: np.ndarray) -> np.ndarray:
+        """Vectors (nt, 3) given along the axes of a marker, along those of ground."""
+        place = self.frames.place(marker)
+        along_body = vectors @ place.axes.T
+        track = self.tracks[place.body + 1]
+        return rotated(track.attitude, along_body) if track.has_turned else along_body
+
+    def _track(self, model: Model, body: Body) -> Track:
+        label = body.statement.label
+        start = from_axes(body.attitude)
+        position = self._held(label, self.columns(label, PLACE), lambda: body.x)
+        if body.statement.keyword != "PART":
+            return Track(position, np.tile(UPRIGHT, (len(position), 1)), False)
+        cm = body.statement.cm
+        own = from_axes(model.marker(cm).axes) if cm is not None else UPRIGHT
+        angles = self._held(label, self.columns(label, ANGLES), lambda: np.full(3, np.nan))
+        turned = product(from_313(angles), inverse(own))
+        attitude = np.where(np.isfinite(turned), turned, start)
+        moves = bool((np.abs(np.abs(attitude @ UPRIGHT) - 1) > 0).any())
+        return Track(position, continuous(attitude), moves)
+
+    def _held(
+        self, label: str, values: np.ndarray | None, start: Callable[[], np.ndarray]
+    ) -> np.ndarray:
+        """Values without gaps: before the first number that of the start, later the last one."""
+        if values is None:
+            self._missing.append(label)
+            return np.tile(start(), (len(self.time), 1))
+        good = np.isfinite(values).all(axis=1)
+        if good.all():
+            return values
+        self._without_value.append(label)
+        last = np.maximum.accumulate(np.where(good, np.arange(len(good)), -1))
+        return np.where(last[:, None] < 0, start(), values[np.maximum(last, 0)])
+
+    def _tell(self, what: str, labels: list[str]) -> None:
+        labels = list(dict.fromkeys(labels))
+        if labels:
+            more = f" and {len(labels) - MOST_NAMED} more" if len(labels) > MOST_NAMED else ""
+            self.notes.append(f"{', '.join(labels[:MOST_NAMED])}{more}: {what}")

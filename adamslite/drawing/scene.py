@@ -1,0 +1,82 @@
+"""The scene of a page: what is drawn of a deck and its results, as plain data and one block of
+arrays.
+
+Points are ``[body, x, y, z]``, frames ``[body, x, y, z, qx, qy, qz, qw]``, in the axes of the body
+(:mod:`adamslite.drawing.frames`); arrays are references (:mod:`adamslite.drawing.arrays`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from adamslite.deck.deck import Deck
+from adamslite.drawing.against import against
+from adamslite.drawing.arrows import arrows
+from adamslite.drawing.bodies import bodies
+from adamslite.drawing.cable_lines import cable_lines
+from adamslite.drawing.channels import channels, unit_symbols
+from adamslite.drawing.derived_shapes import derived_shapes
+from adamslite.drawing.drawing import Drawing
+from adamslite.drawing.events import events
+from adamslite.drawing.joints import joints
+from adamslite.drawing.lines import links, springs
+from adamslite.drawing.modes import modes
+from adamslite.drawing.shapes import graphics, outlines, shapes
+from adamslite.results.results import Results
+
+VERSION = 1
+
+
+@dataclass(frozen=True)
+class Scene:
+    """``plain``: all but the arrays; ``block``: the arrays, compressed, in base 64."""
+
+    plain: dict[str, Any]
+    block: str
+
+
+def scene(deck: Deck, results: Results, other: Results | None = None, name: str = "") -> Scene:
+    """The scene of a deck and its results, and of other results beside them.
+
+    `name` is what the other results are called.
+    """
+    drawing = Drawing(deck, results)
+    statements = graphics(drawing)
+    cables, taken, inner = cable_lines(drawing)
+    solids = shapes(drawing, statements)
+    drawn = {each["body"] for each in solids} | inner
+    file = deck.path.name if deck.path else ""
+    plain = {
+        "version": VERSION,
+        "title": deck.title,
+        "name": Path(file).stem or "scene",
+        "deck": file,
+        "outcome": results.message or results.outcome.value,
+        "units": unit_symbols(deck),
+        "times": drawing.block.f32(drawing.motion.time),
+        "gravity": [float(g) for g in deck.gravity],
+        "up": up(deck.gravity),
+        "bodies": bodies(drawing),
+        "shapes": [*solids, *derived_shapes(drawing, drawn)],
+        "outlines": outlines(drawing, statements),
+        "springs": springs(drawing, statements, taken),
+        "joints": joints(drawing),
+        "links": links(drawing, taken),
+        "cables": cables,
+        "arrows": arrows(drawing, statements, taken),
+        "channels": channels(deck, results, drawing.block),
+        "events": events(results),
+        "modes": modes(drawing),
+        "against": against(drawing, other, name) if other else None,
+    }
+    return Scene({**plain, "notes": drawing.notes}, drawing.block.text())
+
+
+def up(gravity: tuple[float, float, float]) -> str:
+    """The axis against gravity; y without."""
+    largest = int(np.argmax(np.abs(gravity)))
+    return "xyz"[largest] if gravity[largest] else "y"
