@@ -15,7 +15,8 @@ What a block is follows from its language and from a comment of HTML on the line
 
 Commands are `adamslite` and `python`. They run in an empty folder that holds the files of the page:
 those of its blocks and those to which it links (decks, command files, descriptions, tables and
-programs). Folders of `decks/` that a command names are there too.
+programs). Folders of `decks/` and `docs/` whose files a command
+names are there too.
 
 Printed text agrees when it is the same but for these differences: "..." stands for any text in a
 line, alone on a line for any lines; blanks may be more or fewer; seconds of CPU are any; counts of
@@ -45,6 +46,8 @@ FENCE = re.compile(
     r"^(?:<!-- (?P<said>.*?) -->\n)?```(?P<language>\w*)\n(?P<text>.*?)^```$", re.M | re.S
 )
 LINK = re.compile(r"\]\(([^)\s#]+\.(?:adm|acf|toml|csv|res|req|py))\)")
+#: A folder of the repository with a file that a command or a program names.
+USED = re.compile(r"[ \"]((?:decks|docs)/[\w/-]+)/[\w.-]+")
 NUMBER = re.compile(r"(?<![\w.])([-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?)(?![\w])")
 COUNTED = re.compile(r"^ *(steps|Newton iterations|Jacobians|evaluations|iterations)\b")
 TIMED = re.compile(r"^ *CPU\b|\d s$")
@@ -141,8 +144,8 @@ class Reader:
         for link in LINK.findall(self.text):
             if not link.startswith("http"):
                 shutil.copy(page.parent / link, folder)
-        for case in set(re.findall(r"^\$? ?.*?\b(decks/[\w-]+)/", self.text, re.M)):
-            shutil.copytree(ROOT / case, folder / case)
+        for case in set(USED.findall(self.text)):
+            shutil.copytree(ROOT / case, folder / case, dirs_exist_ok=True)
 
     def follow(self) -> None:
         """Run every block; the first that does not do what the page says raises."""
@@ -203,13 +206,13 @@ class Reader:
 
 def _commands(block: Block) -> Iterator[tuple[str, str]]:
     """Each command of a block, and what is printed below it."""
-    text = block.text.replace("\\\n", " ")
     if block.language == "sh":
-        yield from ((line, "") for line in text.splitlines() if line and not line.startswith("#"))
+        lines = block.text.replace("\\\n", " ").splitlines()
+        yield from ((line, "") for line in lines if line and not line.startswith("#"))
         return
-    for piece in re.split(r"^\$ ", text, flags=re.M)[1:]:
-        command, _, printed = piece.partition("\n")
-        yield command, printed
+    for piece in re.split(r"^\$ ", block.text, flags=re.M)[1:]:
+        command, _, printed = re.split(r"(?<!\\)(\n|\Z)", piece, maxsplit=1)
+        yield command.replace("\\\n", " "), printed
 
 
 def run(command: str, folder: Path) -> tuple[int, str]:
