@@ -28,16 +28,18 @@ STARTED = time.time()
 
 _HOME = {
     "DeckError": "language.diagnostics",
+    "DeckWarning": "errors",
     "Outcome": "results.outcomes",
     "Results": "results.results",
     "assemble": "model.model",
     "check": "checks.rules",
     "compare": "results.comparison",
     "compile_model": "kernels.compile",
-    "linearize": "analyses.simulation",
+    "linearize": "api.runs",
     "read": "reading.read",
+    "read_commands": "reading.read",
     "reads": "deck.python_routine",
-    "simulate": "analyses.simulation",
+    "simulate": "api.runs",
 }
 
 __all__ = ["__version__", *_HOME]

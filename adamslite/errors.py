@@ -11,3 +11,7 @@ class RunFailed(RuntimeError):
 
 class FormatError(ValueError):
     """A file that is not what it should be; the message says file, line and why."""
+
+
+class DeckWarning(UserWarning):
+    """A warning about a deck that Python reads on the way to a run, with its place and a hint."""

@@ -6,14 +6,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import adamslite
-from adamslite.errors import UsageError
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.progress import Progress
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
     from adamslite.deck.deck import Deck
+    from adamslite.deck.user_bindings import Given
     from adamslite.reading.read import Commands
     from adamslite.results.results import Results
+
+    User = Mapping[str, Given] | Iterable[str] | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,17 +66,33 @@ class Scene:
         return str(self.deck_path)
 
 
-def load_scene(
-    deck_path: Path, commands_path: Path | None = None, user: Iterable[str] = ()
-) -> Scene:
+def load_scene(deck_path: Path, commands_path: Path | None = None, user: "User" = ()) -> Scene:
     """Read and check a deck and its command file, by default the `.acf` of its name beside it.
 
-    `user` is what is bound to routines that are no part of them, each as `NAME=VALUE`.
+    `user` is what is bound to routines that are no part of them, as `read` takes it.
 
     Raises
     ------
     DeckError
         With everything that is wrong in the two files.
+    """
+    chosen = commands_path or command_file_beside(deck_path)
+    deck, commands, warnings = read_together(deck_path, chosen, user)
+    return Scene(
+        deck=deck, commands=commands, warnings=warnings, deck_path=deck_path,
+        commands_path=chosen, beside=commands_path is None and chosen is not None,
+    )  # fmt: skip
+
+
+def read_together(
+    deck_source: str | Path, commands_source: str | Path | None, user: "User"
+) -> tuple["Deck", "Commands", tuple[Diagnostic, ...]]:
+    """A deck and its commands, files or texts, and everything to say about them.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong in both.
     """
     from adamslite.checks.inert import in_one_note
     from adamslite.reading.read import Commands, read_commands
@@ -82,26 +100,22 @@ def load_scene(
 
     found: list[Diagnostic] = []
     try:
-        deck = adamslite.read(deck_path, user)
+        deck = adamslite.read(deck_source, user)
         found += adamslite.check(deck)
     except DeckError as fault:
         deck = fault.deck
         found += fault.diagnostics
-    chosen = commands_path or command_file_beside(deck_path)
     commands = Commands()
-    if chosen and deck:
+    if commands_source and deck:
         try:
-            commands = read_commands(chosen, deck)
+            commands = read_commands(commands_source, deck)
             found = in_one_note([*found, *commands.warnings], deck, commands)
         except DeckError as fault:
             found += fault.diagnostics
     found += unused_bindings(deck) if deck else ()
     if any(diagnostic.is_error for diagnostic in found):
         raise DeckError(found, deck)
-    return Scene(
-        deck=deck, commands=commands, warnings=tuple(found), deck_path=deck_path,
-        commands_path=chosen, beside=commands_path is None and chosen is not None,
-    )  # fmt: skip
+    return deck, commands, tuple(found)
 
 
 def with_missing_run(scene: Scene) -> Scene:
@@ -137,18 +151,8 @@ def run_scene(
     UsageError
         When there is no such integrator, or nothing says how long to run.
     """
-    if "integrator" in options:
-        _need_integrator(options["integrator"])
     if any(command.keyword in ("SAVE", "RELOAD") for command in scene.commands):
         from adamslite.outputs.saved_files import SavedFiles
 
         options = {**options, "files": SavedFiles(folder)}
     return adamslite.simulate(scene.deck, commands=scene.commands, progress=progress, **options)
-
-
-def _need_integrator(name: str) -> None:
-    from adamslite.elements.integrator import Integrator
-
-    known = Integrator.arguments["method"].supported
-    if name not in known:
-        raise UsageError(f"--integrator {name}: there are {', '.join(known)}")

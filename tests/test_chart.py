@@ -18,6 +18,7 @@ from adamslite.errors import RunFailed, UsageError
 from adamslite.language.method import AUTO
 from adamslite.outputs import chart as drawing
 from adamslite.outputs.chart import spread
+from adamslite.progress import RunState
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.run_error import error_of
@@ -164,7 +165,7 @@ def test_a_run_that_takes_too_long_is_given_up() -> None:
     def slow(progress: Any, **options: Any) -> Results:
         try:
             while True:
-                progress(0.1, 1.0)
+                progress.watch(RunState(time=0.1, end=1.0))
         except KeyboardInterrupt:
             return body(outcome=Outcome.INTERRUPTED)
 

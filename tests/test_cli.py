@@ -17,7 +17,6 @@ from adamslite.elements.joint import Joint
 from adamslite.elements.part import Part
 from adamslite.errors import UsageError
 from adamslite.language.diagnostics import Diagnostic, Span
-from adamslite.progress import TalkingProgress
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
@@ -73,7 +72,6 @@ def test_flags_reach_simulate(pipeline) -> None:
         ["--steps", "0"],
         ["--error", "inf"],
         ["--formulation", "I4"],
-        ["--integrator", "EULER"],
         ["--bogus"],
         ["-o", "-", "--summary", "json"],
     ],
@@ -260,35 +258,6 @@ def test_a_reader_that_goes_away_is_no_fault(tmp_path: Path) -> None:
     assert run.stderr == ""
 
 
-class Terminal:
-    """A stream that claims to be a terminal."""
-
-    def __init__(self, live: bool) -> None:
-        self.live = live
-        self.text = ""
-
-    def isatty(self) -> bool:
-        return self.live
-
-    def write(self, text: str) -> None:
-        self.text += text
-
-    def flush(self) -> None:
-        pass
-
-
-def test_progress_is_drawn_on_a_terminal_only() -> None:
-    terminal, file = Terminal(True), Terminal(False)
-    for stream in (terminal, file):
-        progress = TalkingProgress(stream)
-        progress(0.5, 2.0)
-        progress(0.6, 2.0)  # too soon to be drawn
-        progress.say("compiling once")
-        progress.close()
-    assert terminal.text == "\rt = 0.5 of 2\r" + " " * 12 + "\rcompiling once\n"
-    assert file.text == "compiling once\n"
-
-
 def test_ctrl_c_writes_what_is_computed(tmp_path: Path) -> None:
     deck, output = tmp_path / "fall.adm", tmp_path / "fall.csv"
     deck.write_text(FALLING)
@@ -298,9 +267,9 @@ def test_ctrl_c_writes_what_is_computed(tmp_path: Path) -> None:
         "import signal, sys\n"
         "from adamslite import progress\n"
         "from adamslite.cli import main as cli\n"
-        "def interrupt(self, time, end):\n"
+        "def interrupt(self, state):\n"
         "    signal.raise_signal(signal.SIGINT)\n"
-        "progress.TalkingProgress.__call__ = interrupt\n"
+        "progress.TalkingProgress.watch = interrupt\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "sys.exit(cli.main(sys.argv[1:]))\n"
     )

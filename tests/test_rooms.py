@@ -54,6 +54,7 @@ result_files
 verification
 manual
 editing
+api
 cli.commands
 cli
 __main__

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, fields, replace
 
@@ -13,11 +12,13 @@ from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import first_jump
 from adamslite.analyses.clock.step_limits import timetable
 from adamslite.analyses.sensors import EQUAL, require_changing, require_none
+from adamslite.analyses.step_limits import StepLimits
 from adamslite.equations.engine import ints
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.language.method import FIXED, FIXED_BY_HINIT, USUAL, Method, method_of
 from adamslite.native.translate import Rows
+from adamslite.progress import Progress, RunState
 from adamslite.results.outcomes import Outcome
 
 # Of a method with fixed steps where the deck gives none.
@@ -131,7 +132,7 @@ def run_dynamic(
     times: np.ndarray,
     apart: float,
     settings: Settings,
-    watch: Callable[[float, float], None] | None,
+    progress: Progress | None,
     audited: bool = False,
 ) -> Outcome:
     """Integrate over ``times`` (nt,) and fill ``system.record``.
@@ -159,7 +160,7 @@ def run_dynamic(
     require_changing(system)
     start_audit(system, audited)
     system.start_record(times)
-    code = _watched(system, method.entry, watch, end)
+    code = _watched(system, method.entry, progress, start, end)
     system.release_guards()
     if system.search.loose:
         require_none(system, EQUAL)
@@ -214,16 +215,27 @@ def _named(system: System, code: int) -> Outcome:
 
 
 def _watched(
-    system: System, entry: str, watch: Callable[[float, float], None] | None, end: float
+    system: System, entry: str, progress: Progress | None, start: float, end: float
 ) -> int:
+    limits = StepLimits(system)
     # Not Thread.join: in Python 3.11 an interrupted join takes a running thread for finished.
     with ThreadPoolExecutor(max_workers=1) as pool:
         running = pool.submit(system.integrate, entry)
         while not running.done():
             try:
                 wait([running], timeout=WATCH_INTERVAL)
-                if watch and not running.done():
-                    watch(float(system.report.t), end)
+                if progress and not running.done():
+                    progress.watch(_state(system, limits, start, end))
             except KeyboardInterrupt:
                 system.settings.stop = True
         return running.result()
+
+
+def _state(system: System, limits: StepLimits, start: float, end: float) -> RunState:
+    """What another thread sees of a running integration, without stopping it."""
+    report = system.report
+    limits.look()
+    return RunState(
+        time=float(report.t), start=start, end=end, step=float(report.h), order=int(report.order),
+        steps=int(system.count.steps), limit=limits.reason,
+    )  # fmt: skip

@@ -15,6 +15,7 @@ from adamslite.analyses.buckling import buckled
 from adamslite.analyses.failure_report import explain
 from adamslite.analyses.initial.redundancy import row_name
 from adamslite.analyses.output_times import spread_times
+from adamslite.analyses.run_options import checked
 from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
 from adamslite.analyses.subject import Subject, deck_of
@@ -100,12 +101,16 @@ def simulate(
     Raises
     ------
     UsageError
-        When nothing says how long to run, or there is no such rule.
+        When nothing says how long to run, there is no such rule, or an option is none.
     """
     began, source = clock.process_time(), source_of(deck_of(scene), commands)
     commands = tuple(commands)
-    options = {"method": integrator, "formulation": formulation, "error": error, "hmax": hmax}
-    flags = {name: value for name, value in options.items() if value is not None}
+    options = checked(
+        {"end": end, "steps": steps, "integrator": integrator, "formulation": formulation,
+         "error": error, "hmax": hmax}
+    )  # fmt: skip
+    end, steps = options.pop("end", None), options.pop("steps", None)
+    flags = {{"integrator": "method"}.get(name, name): each for name, each in options.items()}
     plan = _plan(deck_of(scene), commands, end, steps)
     files = files or SavedFiles()
     session = Session(scene, progress, flags, left_off(no_reduction), audit, files)

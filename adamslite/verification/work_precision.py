@@ -15,7 +15,7 @@ from typing import Any, Protocol, TypeVar
 
 from adamslite.errors import RunFailed, UsageError
 from adamslite.language.method import FIXED, declared, method_of
-from adamslite.progress import Progress
+from adamslite.progress import Progress, RunState
 from adamslite.results.comparison import fits
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results, UnknownChannel
@@ -178,8 +178,8 @@ class Patience(Progress):
         self.seconds, self.progress, self.over = seconds, progress or Progress(), False
         self._start = clock.process_time()
 
-    def __call__(self, time: float, end: float) -> None:
-        self.progress(time, end)
+    def watch(self, state: RunState) -> None:
+        self.progress.watch(state)
         if clock.process_time() - self._start > self.seconds:
             self.over = True
             raise KeyboardInterrupt

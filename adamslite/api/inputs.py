@@ -1,0 +1,114 @@
+"""What a caller names: a deck as a path, a text or an object, and the commands of its run."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from adamslite.deck.deck import Deck
+from adamslite.deck.redefinition import Command
+from adamslite.deck.user_bindings import Given
+from adamslite.errors import DeckWarning, UsageError
+from adamslite.language.abbreviations import match
+from adamslite.language.diagnostics import WARNING, Diagnostic
+from adamslite.language.statement import STATEMENTS
+from adamslite.reading.read import Commands, read_commands
+from adamslite.scene import command_file_beside, read_together
+
+if TYPE_CHECKING:  # numpy is not needed to check a deck
+    from adamslite.analyses.subject import Subject
+
+CommandSource: TypeAlias = str | os.PathLike[str] | Iterable[str] | Iterable[Command] | None
+"""A command file, the text of one, its statements, or None: the file beside the deck."""
+User: TypeAlias = Mapping[str, Given] | Iterable[str] | None
+FRAMES = 4
+"""From :func:`_warn` up to the line of the caller of a public function."""
+
+
+class Inputs(NamedTuple):
+    """A deck or what was made from it, the commands of its run, and the messages about both."""
+
+    subject: Subject
+    commands: Sequence[Command]
+    messages: tuple[Diagnostic, ...] = ()
+
+
+def inputs(
+    scene: Subject | str | os.PathLike[str], commands: CommandSource, user: User = None
+) -> Inputs:
+    """Read what has to be read; warnings of check about it are warnings of Python.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong in deck and commands.
+    UsageError
+        When ``user`` is given for a deck that has been read.
+    """
+    if isinstance(scene, str | os.PathLike):
+        found = read_inputs(scene, commands, user)
+    else:
+        if user is not None:
+            raise UsageError(
+                "user= is for reading: give it to adamslite.read, which made this deck"
+            )
+        found = _with_commands(scene, commands)
+    _warn(found.messages)
+    return found
+
+
+def read_inputs(scene: str | os.PathLike[str], commands: CommandSource, user: User) -> Inputs:
+    """Deck and commands as they are read, checked and reported by the command line."""
+    source = Path(scene) if isinstance(scene, os.PathLike) or "\n" not in scene else scene
+    given = _source(commands)
+    if given is None and isinstance(source, Path):
+        given = command_file_beside(source)
+    if isinstance(given, str | Path) or given is None:
+        return Inputs(*read_together(source, given, user))
+    deck, _, messages = read_together(source, None, user)
+    return Inputs(deck, given, messages)
+
+
+def _with_commands(subject: Subject, commands: CommandSource) -> Inputs:
+    """A deck takes the file beside it, like its path; a model and its kernels have no file."""
+    given = _source(commands)
+    if given is None and isinstance(subject, Deck) and subject.path:
+        given = command_file_beside(subject.path)
+    if given is None:
+        return Inputs(subject, ())
+    if not isinstance(given, str | Path):
+        return Inputs(subject, given)
+    from adamslite.analyses.subject import deck_of
+
+    read = read_commands(given, deck_of(subject))
+    return Inputs(subject, read, read.warnings)
+
+
+def _source(commands: CommandSource) -> str | Path | Sequence[Command] | None:
+    """A path, a text with line breaks, statements, or None."""
+    if commands is None or isinstance(commands, Commands):
+        return commands
+    if isinstance(commands, str):
+        return f"{commands}\n" if "\n" in commands or _is_statement(commands) else Path(commands)
+    if isinstance(commands, os.PathLike):
+        return Path(commands)
+    listed = tuple(commands)
+    texts = [each for each in listed if isinstance(each, str)]
+    if texts and len(texts) == len(listed):
+        return "".join(f"{each}\n" for each in texts)
+    return Commands(each for each in listed if not isinstance(each, str))
+
+
+def _is_statement(text: str) -> bool:
+    """Whether one line is a command, not a file: it begins with a keyword and names no file."""
+    word = text.replace(",", "/").partition("/")[0].strip().upper()
+    return bool(word) and match(word, STATEMENTS) is not None and not os.path.exists(text)
+
+
+def _warn(messages: Iterable[Diagnostic]) -> None:
+    for each in messages:
+        if each.severity == WARNING:
+            warnings.warn(each.render(), DeckWarning, stacklevel=FRAMES)

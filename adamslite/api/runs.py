@@ -1,0 +1,121 @@
+"""`simulate` and `linearize` as users of Python call them: for paths, texts and decks."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from adamslite.analyses import simulation
+from adamslite.analyses.subject import Subject
+from adamslite.api.inputs import CommandSource, User, inputs
+from adamslite.language.interfaces import Key
+from adamslite.outputs.saved_files import SavedFiles
+from adamslite.progress import Progress, progress_of
+from adamslite.results.results import Results
+
+if TYPE_CHECKING:
+    from adamslite.results.linearization import Linearization
+
+
+def simulate(
+    scene: Subject | str | os.PathLike[str],
+    end: float | None = None,
+    steps: int | None = None,
+    integrator: str | None = None,
+    formulation: str | None = None,
+    error: float | None = None,
+    hmax: float | None = None,
+    commands: CommandSource = None,
+    user: User = None,
+    progress: Progress | Callable[[float, float], Any] | bool | None = None,
+    no_reduction: Iterable[str] = (),
+    audit: bool = False,
+    confirm: bool = False,
+    files: SavedFiles | str | os.PathLike[str] | None = None,
+) -> Results:
+    """Run a deck, as `adamslite solve` does.
+
+    Parameters
+    ----------
+    scene : str, Path, Deck, Model or Kernels
+        A file, the text of a deck (more than one line), or what another stage returned.
+    end, steps : float, int
+        End time and number of output steps; instead of SIMULATE.
+    integrator, formulation, error, hmax
+        Win over INTEGRATOR in ``commands``, which wins over the deck.
+    commands : str, Path, or iterable of str or of statements
+        A command file, its text, or its lines.  By default the ``.acf`` of the name of the deck
+        beside it, where there is one; ``()`` runs the deck without it.
+    user : mapping or iterable of str
+        What ``FUNCTION=USER(...)`` means, of a path or text: see :func:`adamslite.read`.
+    progress : bool, callable or Progress
+        True shows how far the run is, False does not; by default it is shown in notebooks.  A
+        function is called as ``progress(time, end)`` about ten times a second.
+    no_reduction : iterable of str
+        Rules of :mod:`adamslite.model.reduction` not to apply; ``points`` and ``variables`` of a
+        model are settled when it is assembled.
+    audit : bool
+        Follow the balance of energy; elastic elements of ready kernels are not followed.
+    confirm : bool
+        Run again, more tightly and by another method, and say how far the results agree.
+    files : str, Path or SavedFiles
+        The folder of the files of SAVE and RELOAD; in memory unless given.
+
+    Warns
+    -----
+    DeckWarning
+        For every warning about a deck or command file that is read here.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong in deck and commands.
+    UsageError
+        When nothing says how long to run, or an argument is not what it has to be.
+    """
+    given = inputs(scene, commands, user)
+    kept = SavedFiles(Path(files)) if isinstance(files, str | os.PathLike) else files
+    shown = progress_of(progress)
+    try:
+        return simulation.simulate(
+            given.subject, end, steps, integrator, formulation, error, hmax, given.commands,
+            shown, no_reduction, audit, confirm, kept,
+        )  # fmt: skip
+    finally:
+        shown.close()
+
+
+def linearize(
+    scene: Subject | str | os.PathLike[str],
+    commands: CommandSource = None,
+    time: float | None = None,
+    rm: Key | None = None,
+    user: User = None,
+) -> Linearization:
+    """The model about one state, as `adamslite linear` finds it.
+
+    Without commands, and without SIMULATE in the deck, the assembled start is taken as it is.  A
+    LINEAR command decides state and observer; otherwise it is the last state.
+
+    Parameters
+    ----------
+    scene, commands, user
+        As for :func:`simulate`.
+    time : float
+        The motion is followed up to this time.
+    rm : int or str
+        A MARKER on whose body the observer stands.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong in deck and commands.
+    UsageError
+        When there is no such MARKER.
+    RunFailed
+        When the state could not be reached.
+    """
+    given = inputs(scene, commands, user)
+    return simulation.linearize(given.subject, given.commands, time, rm)
