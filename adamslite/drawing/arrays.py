@@ -1,15 +1,17 @@
 """Arrays of a page: numbers in one compressed block, and references to them.
 
-A reference is ``{"at": offset in bytes, "shape": [...], "coding": "f32" | "i16"}``.
+A reference is ``{"at": offset in bytes, "shape": [...], "coding": "f32" | "i16" | "json"}``.
 
     f32   float32, little-endian, row by row
-    i16   [..., C]: value = low[c] + step[c] k, k from 0 to 65535; stored are the differences of k
-          along the first axis modulo 65536 (the first row as it is), all low bytes, then all high
-          bytes, which compresses better than the numbers
+    i16   [n] or [..., C]: value = low[c] + step[c] k, k from 0 to 65535; stored are the differences
+          of k along the first axis modulo 65536 (the first row as it is), all low bytes, then all
+          high bytes, which compresses better than the numbers
+    json  text in UTF-8, as many bytes as the shape says: long lists of names compress well
 """
 
 from __future__ import annotations
 
+import json
 import zlib
 from base64 import b64encode
 from typing import Any
@@ -18,7 +20,8 @@ import numpy as np
 
 Reference = dict[str, Any]
 LEVELS = 65535
-"""Steps from the least to the largest value of a component of 16 bits."""
+"""Most steps from the least to the largest value of a component."""
+DIGITS = 8
 COMPRESSION = 6
 # Below this, numbers of 32 bits lose digits.
 LEAST = float(np.finfo(np.float32).tiny)
@@ -38,18 +41,24 @@ class Block:
         small = np.where(np.abs(values) < LEAST, 0.0, values)
         return self._reference(small.astype("<f4").tobytes(), values.shape, "f32")
 
-    def i16(self, values: np.ndarray) -> Reference:
-        """Numbers to 1/65535 of the range of their component; all must be finite."""
+    def i16(self, values: np.ndarray, levels: int = LEVELS) -> Reference:
+        """Numbers in so many steps of the range of their component; all must be finite."""
         values = np.asarray(values, dtype=float)
-        rows = values.reshape(-1, values.shape[-1])
-        low = rows.min(axis=0)
-        step = (rows.max(axis=0) - low) / LEVELS
-        k = np.rint((rows - low) / np.where(step > 0, step, 1.0)).astype(np.uint16)
-        k = k.reshape(values.shape)
+        rows = values.reshape(-1, values.shape[-1] if values.ndim > 1 else 1)
+        low = short(rows.min(axis=0))
+        step = short((rows.max(axis=0) - low) / levels)
+        k = np.clip(np.rint((rows - low) / np.where(step > 0, step, 1.0)), 0, levels)
+        k = k.astype(np.uint16).reshape(values.shape)
         stored = np.diff(k, axis=0, prepend=np.zeros_like(k[:1])).astype("<u2")
         planes = stored.reshape(-1).view(np.uint8).reshape(-1, 2).T
         made = self._reference(planes.tobytes(), values.shape, "i16")
         return {**made, "low": low.tolist(), "step": step.tolist()}
+
+    def json(self, plain: object) -> Reference:
+        """A list of plain data."""
+        text = json.dumps(plain, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+        content = text.encode()
+        return self._reference(content, (len(content),), "json")
 
     def _reference(self, content: bytes, shape: tuple[int, ...], coding: str) -> Reference:
         at = self._size
@@ -61,3 +70,11 @@ class Block:
     def text(self) -> str:
         """The block, compressed (RFC 1950), in base 64."""
         return b64encode(zlib.compress(b"".join(self._pieces), COMPRESSION)).decode("ascii")
+
+
+def short(values: np.ndarray) -> np.ndarray:
+    """Numbers to the digits that 16 bits can show, which are fewer to write."""
+    size = np.floor(np.log10(np.maximum(np.abs(values), LEAST)))
+    power = 10.0 ** (DIGITS - size)
+    found: np.ndarray = np.rint(values * power) / power
+    return found

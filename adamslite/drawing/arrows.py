@@ -23,13 +23,18 @@ MOST = 120
 Z = np.array([0.0, 0.0, 1.0])
 
 
-def arrows(drawing: Drawing, statements: list[Graphics], taken: set[str]) -> list[Arrow]:
-    """Those of GRAPHICS/FORCE first, then of all elements that are no part of a cable."""
+def arrows(
+    drawing: Drawing, statements: list[Graphics], taken: set[str], inner: set[int]
+) -> list[Arrow]:
+    """Those of GRAPHICS/FORCE first, then of all elements that are no part of a cable: no section
+    (`taken`), and on none of its masses (`inner`).
+    """
     found = [each for graphics in statements for each in _asked(drawing, graphics)]
-    have = {each["statement"] for each in found}
+    have = {each["statement"] for each in found} | taken
     for keyword in (*ALONG_LINE, *WITH_COMPONENTS):
         for element in drawing.deck.of(keyword):
-            if element.label not in taken and element.label not in have:
+            i, _ = _ends(drawing, element)
+            if i is not None and element.label not in have and drawing.frames.body(i) not in inner:
                 found += _of(drawing, element)
     if len(found) > MOST:
         drawing.notes.append(f"arrows of the first {MOST} of {len(found)} forces are drawn")

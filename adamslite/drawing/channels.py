@@ -27,6 +27,13 @@ SYMBOLS = {
 }  # fmt: skip
 """Names of units in a deck, and how they are written on an axis."""
 
+EXACT = 150_000
+"""Numbers of all channels up to which each has seven digits."""
+LEVELS = 16383
+"""Steps of the range of a channel, where there are more: no screen shows them."""
+LISTED = 300
+"""Channels that are listed in plain text; more are compressed."""
+
 
 def unit_symbols(deck: Deck) -> dict[str, str]:
     """Symbols of length, mass, time, force and angle; empty where the deck does not name them."""
@@ -40,6 +47,7 @@ def channels(deck: Deck, results: Results, block: Block) -> dict[str, Any]:
     symbols = unit_symbols(deck)
     statements = {each.label: each for each in deck.statements}
     time, values = points(results.time, results.values)
+    fits = values.size <= EXACT
     named = []
     for column, name in enumerate(results.names):
         label, _, suffix = name.partition(".")
@@ -49,13 +57,14 @@ def channels(deck: Deck, results: Results, block: Block) -> dict[str, Any]:
             "name": name,
             "unit": unit_of(getattr(statement, "keyword", ""), statement, suffix, symbols),
             "label": (statement.name if statement else None) or "",
-            "values": block.f32(own),
+            "values": block.f32(own) if fits or not _is_finite(own) else block.i16(own, LEVELS),
         })  # fmt: skip
-    return {"times": block.f32(time), "list": named}
+    listed = block.json(named) if len(named) > LISTED else named
+    return {"times": block.f32(time), "list": listed}
 
 
-def _moves(values: np.ndarray) -> bool:
-    return not len(values) or not np.isfinite(values).all() or bool(np.ptp(values) > 0)
+def _is_finite(values: np.ndarray) -> bool:
+    return bool(len(values)) and bool(np.isfinite(values).all())
 
 
 def unit_of(keyword: str, statement: object, suffix: str, symbols: dict[str, str]) -> str:

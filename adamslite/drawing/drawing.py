@@ -83,8 +83,10 @@ class Drawing:
         return self.block.i16(values)
 
     def history(self, values: np.ndarray | None) -> Reference | None:
-        """Values (nt,) or (nt, n) of the frames with seven digits."""
-        return None if values is None else self.block.f32(values)
+        """Values (nt,) or (nt, n) of the frames; none where there is no number."""
+        if values is None:
+            return None
+        return self.block.i16(values) if np.isfinite(values).all() else self.block.f32(values)
 
 
 # Changes that are round-off: as a share of the values.

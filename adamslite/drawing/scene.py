@@ -67,7 +67,7 @@ def scene(deck: Deck, results: Results, other: Results | None = None, name: str 
         "joints": joints(drawing),
         "links": links(drawing, taken),
         "cables": cables,
-        "arrows": arrows(drawing, statements, taken),
+        "arrows": arrows(drawing, statements, taken, inner),
         "channels": channels(deck, results, drawing.block),
         "events": events(results),
         "modes": modes(drawing),
