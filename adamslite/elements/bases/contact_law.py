@@ -40,9 +40,13 @@ FAR = 1e30
 
 
 def normal_force(point: Seen, found: Touch, rate: Expr) -> Expr:
-    """N of the table above."""
+    """N of the table above.
+
+    The branch of a contact goes on with depths below zero: a step that is too long leads far out of
+    it, and where nothing acted there its error would seem small.
+    """
     touching = found.overlap > 0
-    depth = piecewise((found.depth, touching), otherwise=0)
+    depth = found.depth
     if point.law == "IMPACT":
         elastic = spring(point.stiffness, depth, point.exponent)
         damped = elastic + rate * step(None, depth, 0, 0, point.dmax, point.damping)
