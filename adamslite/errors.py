@@ -1,8 +1,16 @@
 """Errors that are not mistakes of a deck: wrong use of a command, or of a file."""
 
+from adamslite.notation import shown
+
 
 class UsageError(ValueError):
-    """The command was not given what it needs; the message says what is missing."""
+    """The command was not given what it needs; the message says what is missing.
+
+    It is written as the command line has it and shown to users of Python as they write it.
+    """
+
+    def __str__(self) -> str:
+        return shown(super().__str__())
 
 
 class RunFailed(RuntimeError):

@@ -14,7 +14,8 @@ PACKAGE = Path(adamslite.__file__).parent
 #: Rooms and single modules from the ground up. A room in the same line as another neither imports
 #: it nor is imported by it.
 FLOORS = """
-errors resources gc_pause
+notation resources gc_pause
+errors
 caching
 native
 native.translate symbolic

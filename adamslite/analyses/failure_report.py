@@ -33,11 +33,11 @@ def explain(system: System, outcome: Outcome, unclosed: Unclosed | None) -> str:
     """One paragraph for the user: where, when, what, and the outcome's own remedy."""
     failed = system.model.deck.user.failed
     if failed:
-        return f"{failed.report()}. {Outcome.ROUTINE_FAILED.value}"
+        return f"{failed.report()}. {Outcome.ROUTINE_FAILED.sentence}"
     if unclosed:
-        return f"{_contradiction(unclosed)} {outcome.value}"
+        return f"{_contradiction(unclosed)} {outcome.sentence}"
     text = REASONS.get(outcome, _when)(system)
-    return f"{text[:1].upper()}{text[1:]}. {outcome.value}"
+    return f"{text[:1].upper()}{text[1:]}. {outcome.sentence}"
 
 
 def _contradiction(unclosed: Unclosed) -> str:

@@ -187,7 +187,7 @@ def _marker(deck: Deck, word: str) -> Key:
     found = deck.find(Marker, int(word) if word.isdigit() else word)
     if found is None:
         hint = did_you_mean(word, deck.names.known("MARKER"))
-        raise UsageError(f"--rm: there is no MARKER/{word}" + (f"; {hint}" if hint else ""))
+        raise UsageError(f"--rm {word}: there is no MARKER/{word}" + (f"; {hint}" if hint else ""))
     return found.key
 
 

@@ -43,6 +43,7 @@ from adamslite.cli.commands import (
     view,
 )
 from adamslite.cli.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, STOPPED_EARLY, USAGE
+from adamslite.notation import COMMAND_LINE, notation
 
 COMMANDS = (
     check, solve, view, diff, verify, linear, chart, cable, cache, fmt, lsp, editors, help,
@@ -61,6 +62,11 @@ REPORT = (
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line `argv` (default: of the process) and return the exit code."""
+    with notation(COMMAND_LINE):
+        return _run(argv)
+
+
+def _run(argv: Sequence[str] | None) -> int:
     try:
         args = _parser().parse_args(argv)
     except SystemExit as leaving:

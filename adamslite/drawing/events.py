@@ -20,5 +20,5 @@ def events(results: Results) -> list[dict[str, Any]]:
             for time in AT.findall(sentence)[:1]:
                 found.append({"time": float(time), "text": sentence})
     if not results.outcome.is_requested and len(results.time):
-        found.append({"time": float(results.time[-1]), "text": results.outcome.value})
+        found.append({"time": float(results.time[-1]), "text": results.outcome.sentence})
     return sorted(found, key=lambda each: each["time"])

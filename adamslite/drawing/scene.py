@@ -55,7 +55,7 @@ def scene(deck: Deck, results: Results, other: Results | None = None, name: str 
         "title": deck.title,
         "name": Path(file).stem or "scene",
         "deck": file,
-        "outcome": results.message or results.outcome.value,
+        "outcome": results.message or results.outcome.sentence,
         "units": unit_symbols(deck),
         "times": drawing.block.f32(drawing.motion.time),
         "gravity": [float(g) for g in deck.gravity],

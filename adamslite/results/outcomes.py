@@ -2,9 +2,14 @@
 
 from enum import Enum
 
+from adamslite.notation import shown
+
 
 class Outcome(Enum):
-    """The ways a run ends; the value says what happened and what to do about it."""
+    """The ways a run ends; the value says what happened and what to do about it.
+
+    It is written for the command line; ``sentence`` for whoever reads it.
+    """
 
     DONE = "The run reached its end."
     HALTED = "A SENSOR with HALT ended the run."
@@ -71,6 +76,11 @@ class Outcome(Enum):
         "(second argument, or a .acf of the deck's name beside it), or in the deck itself, "
         "or use the flags --end T --steps N."
     )
+
+    @property
+    def sentence(self) -> str:
+        """What happened and what to do about it, with options as the reader writes them."""
+        return shown(self.value)
 
     @property
     def is_requested(self) -> bool:

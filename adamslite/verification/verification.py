@@ -13,6 +13,7 @@ from itertools import chain, groupby
 from pathlib import Path
 from typing import Any
 
+from adamslite import notation
 from adamslite.errors import FormatError, UsageError
 from adamslite.language.diagnostics import DeckError
 from adamslite.progress import Progress
@@ -100,7 +101,10 @@ def verify(cases: Iterable[Case], run: Run | None = None, jobs: int = 1) -> Iter
         for group in decks:
             yield from judge_deck(group)
         return
-    with ProcessPoolExecutor(min(jobs, len(decks))) as pool:
+    # Also where processes are not forked, messages are written as here.
+    with ProcessPoolExecutor(
+        min(jobs, len(decks)), initializer=notation.use, initargs=(notation.current(),)
+    ) as pool:
         yield from chain.from_iterable(pool.map(judge_deck, decks))
 
 
@@ -171,7 +175,7 @@ def _judge(case: Case, run: Run) -> Verdict:
 
 def _wrong_ending(reference: Reference, results: Results) -> str:
     if results.outcome is not reference.outcome:
-        cause = " ".join((results.message or results.outcome.value).split())
+        cause = " ".join((results.message or results.outcome.sentence).split())
         return f"ended with {results.outcome.name}, not {reference.outcome.name}: {cause}"
     if reference.stop:
         time, slack = reference.stop

@@ -236,7 +236,7 @@ def find_truth(run: Run, tried: Iterable[Variant], channels: Sequence[str] = ())
             _need_something(tight, channels)
             done.append(Tight(variant, tight, error_of(less, tight, channels)))
         else:
-            why = tight.message or less.message or Outcome.NOT_FINITE.value
+            why = tight.message or less.message or Outcome.NOT_FINITE.sentence
             failures.append(f"{variant.label} ERROR={TIGHT:g}: {why}")
     if not done:
         raise RunFailed(f"there is no reference to chart against. {' '.join(failures)}")
@@ -298,7 +298,7 @@ def climb(
         if results.outcome is Outcome.DONE:
             point.error = max(error_of(results, truth.results, channels), truth.doubt)
         else:
-            point.reason = results.message or results.outcome.value
+            point.reason = results.message or results.outcome.sentence
         point.given_up = results.outcome is Outcome.INTERRUPTED
         yield point
         if point.given_up:

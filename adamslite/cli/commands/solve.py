@@ -137,7 +137,7 @@ def _summarize(
     elif not args.quiet:
         shown = "standard output" if output == STDOUT else output
         sentence = (
-            results.outcome.value
+            results.outcome.sentence
             if results.outcome.is_requested
             else f"stopped early ({results.outcome.name})"
         )
@@ -152,7 +152,7 @@ def _summarize(
                 sys.stderr.write(f"  {note:<20} {results.meta[note]}\n")
     _tell_trust(scene, args, results)
     if not results.outcome.is_requested:
-        sys.stderr.write(f"adamslite: {results.message or results.outcome.value}\n")
+        sys.stderr.write(f"adamslite: {results.message or results.outcome.sentence}\n")
 
 
 def _tell_trust(scene: "Scene", args: argparse.Namespace, results: "Results") -> None:

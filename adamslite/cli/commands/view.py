@@ -98,7 +98,7 @@ def _solved(args: argparse.Namespace) -> tuple["Deck", "Results", list[Path]]:
     finally:
         progress.close()
     if not results.outcome.is_requested:
-        sys.stderr.write(f"adamslite: {results.message or results.outcome.value}\n")
+        sys.stderr.write(f"adamslite: {results.message or results.outcome.sentence}\n")
     return at_start(scene.deck, scene.commands), results, list(scene.read)
 
 

@@ -26,6 +26,7 @@ from adamslite.language.messages.statements import STATEMENTS
 from adamslite.language.messages.systems import SYSTEMS
 from adamslite.language.messages.tables import TABLES
 from adamslite.language.not_supported import INSTEAD
+from adamslite.notation import shown
 
 # Of words that may have been meant: likeness at least (1: equal), and what they may fall behind by.
 LIKENESS, SPREAD = 0.6, 0.1
@@ -65,10 +66,8 @@ def compose(
 ) -> Diagnostic:
     """The message ``code`` with its words filled in; ``hint=`` replaces the hint of the table."""
     message = MESSAGES[code]
-    hint = hint or message.hint.format(**words)
-    return Diagnostic(
-        code, message.severity, message.sentence.format(**words), span, hint, source_line
-    )
+    sentence, hint = message.sentence.format(**words), hint or message.hint.format(**words)
+    return Diagnostic(code, message.severity, shown(sentence), span, shown(hint), source_line)
 
 
 def did_you_mean(word: str, candidates: Iterable[str]) -> str:

@@ -1,0 +1,120 @@
+"""How options are written: `--end T` on the command line, `end=T` in Python.
+
+Messages are written as the command line has them.  Shown to a user of Python they are translated:
+
+    use the flags --end T --steps N       use the arguments end=T, steps=N
+    --integrator EULER: there are ...     integrator='EULER': there are ...
+    --user VARIABLE/1=0                   user={'VARIABLE/1': 0}
+    `adamslite check` prints ...          `adamslite.check` prints ...
+
+An option that a message names alone is followed by nothing, or by a value that is a word in
+capitals or ends with a colon.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+
+PYTHON, COMMAND_LINE = "Python", "command line"
+
+#: What Python calls otherwise than by an option.
+PHRASES = {
+    "the flags --": "the arguments --",
+    "(second argument, or ": "(commands=, or ",
+    "name the command file on the command line: `adamslite solve DECK FILE.acf`":
+        "give the command file to the run: `adamslite.simulate(DECK, commands=FILE)`",
+    "`adamslite solve -o FILE`": "`Results.save`",
+    "give -o another name": "choose another name",
+    "`solve`": "`simulate`",
+}  # fmt: skip
+#: Functions of Python whose names are not those of their commands.
+FUNCTIONS = {"solve": "simulate", "linear": "linearize"}
+#: Values of `--user` that stand for others.
+FORMS = {"module:function": "function", "number": "number"}
+
+_notation = PYTHON
+
+
+@contextmanager
+def notation(name: str) -> Iterator[None]:
+    """Meanwhile messages are written for the command line, or for Python."""
+    before = current()
+    use(name)
+    try:
+        yield
+    finally:
+        use(before)
+
+
+def use(name: str) -> None:
+    """Write messages for the command line, or for Python, from now on."""
+    global _notation
+    _notation = name
+
+
+def current() -> str:
+    """For whom messages are written: ``PYTHON`` unless the command line runs."""
+    return _notation
+
+
+def shown(text: str) -> str:
+    """A message as its reader writes options."""
+    return text if _notation == COMMAND_LINE else in_python(text)
+
+
+def in_python(text: str) -> str:
+    """A message in the notation of Python; see the module."""
+    if "-" not in text and "`" not in text:
+        return text
+    for phrase, other in PHRASES.items():
+        text = text.replace(phrase, other)
+    binding, option, command, several = _patterns()
+    text = several.sub(r"\1, \2", text)
+    text = binding.sub(_binding, text)
+    text = option.sub(_option, text)
+    return command.sub(_command, text)
+
+
+@cache
+def _patterns() -> tuple[re.Pattern[str], ...]:
+    """Bindings, options, commands in backticks, and options that follow each other."""
+    name = r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)"
+    value = r"(?: ([A-Z]+\b(?![a-z/=])|[^\s:]+(?=: )))?"
+    return (
+        re.compile(r"(?<![\w-])--user ([^\s=:]+)=([^\s;]*[^\s;:,])"),
+        re.compile(name + value),
+        re.compile(r"`adamslite ([a-z]+)(?: ([^`]+))?`"),
+        re.compile(r"(--[a-z]+ [A-Z]+) (--[a-z])"),
+    )
+
+
+def _binding(found: re.Match[str]) -> str:
+    name, value = found.groups()
+    return f"user={{{name!r}: {_literal(value)}}}"
+
+
+def _literal(value: str) -> str:
+    if value in FORMS:
+        return FORMS[value]
+    try:
+        float(value)
+    except ValueError:
+        return repr(value)
+    return value
+
+
+def _option(found: re.Match[str]) -> str:
+    name, value = found[1].replace("-", "_"), found[2]
+    if value is None:
+        return f"{name}="
+    if name == "user":
+        return f"user={{{value!r}: ...}}"
+    return f"{name}={value if value.isupper() and len(value) == 1 else _literal(value)}"
+
+
+def _command(found: re.Match[str]) -> str:
+    name, given = FUNCTIONS.get(found[1], found[1]), found[2]
+    return f"`adamslite.{name}{f'({given!r})' if given else ''}`"
