@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from adamslite.manual.markdown import HEAD, table
-from adamslite.results.formats import formats
+import sys
+
+from adamslite.manual.markdown import HEAD, markdown, table
+from adamslite.outputs import attributes
+from adamslite.results.formats import Format, formats
 
 INTRO = """# Formats of result files
 
 The suffix of a name decides: `adamslite solve DECK -o NAME.csv`. What can be read can be compared:
-`adamslite diff A B`.
+`adamslite diff A B`. A failed write leaves an earlier file as it was.
 """
 
 
@@ -18,4 +21,11 @@ def result_formats() -> str:
         (f"`{suffix}`", each.what, "written, read" if each.read else "written")
         for suffix, each in sorted(formats().items())
     ]
-    return "\n".join([HEAD, INTRO, table(("suffix", "content", "can be"), rows)])
+    parts = [HEAD, INTRO, table(("suffix", "content", "can be"), rows)]
+    parts.append(f"## Texts of a run\n\n{markdown(attributes.__doc__)}")
+    return "\n".join([*parts, *(_layout(*each) for each in sorted(formats().items()))])
+
+
+def _layout(suffix: str, format: Format) -> str:
+    """What such a file holds, in detail: the documentation of its module."""
+    return f"## `{suffix}`\n\n{markdown(sys.modules[format.write.__module__].__doc__)}"

@@ -20,6 +20,7 @@ import numpy as np
 
 import adamslite
 from adamslite.errors import FormatError
+from adamslite.outputs.number_text import lines
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.formats import register_format
 from adamslite.results.outcomes import Outcome
@@ -49,8 +50,7 @@ def write_to(results: Results, stream: IO[str]) -> None:
         stream.write(f"# outcome: {results.outcome.name} {_one_line(results.message)}\n")
     header = csv.writer(stream, lineterminator="\n")
     header.writerow(["time", *results.names])
-    for time, row in zip(results.time.tolist(), results.values, strict=True):
-        stream.write(",".join(map(repr, (time, *row.tolist()))) + "\n")
+    stream.writelines(lines(np.column_stack([results.time, results.values])))
 
 
 def read(path: str | Path) -> Results:

@@ -153,3 +153,8 @@ def unit_symbols(names: str) -> dict[str, str]:
         return {}
     symbols = (SYMBOLS[word] for word in words)
     return dict(zip((FORCE, "mass", LENGTH, TIME), symbols, strict=True))
+
+
+def with_units(units: dict[str, str]) -> dict[str, Channel]:
+    """Columns by name, of which a file knows the unit."""
+    return {name: describe(name, {})._replace(unit=unit) for name, unit in units.items() if unit}

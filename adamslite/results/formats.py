@@ -29,12 +29,24 @@ DEFAULT = ".csv"
 
 @dataclass(frozen=True)
 class Format:
-    """How files of one suffix are written and read, and a sentence about what they hold."""
+    """How files of one suffix are written and read, and a sentence about what they hold.
+
+    ``library``: loads what they need beyond the dependencies of the package, or raises a
+    UsageError that says what to install.  ``exact``: names, times and numbers come back to the
+    bit.
+    """
 
     suffix: str
     what: str
     write: Callable[[Written, str | Path], None]
     read: Callable[[str | Path], Written] | None = None
+    library: Callable[[], object] | None = None
+    exact: bool = True
+
+    def require_library(self) -> None:
+        """Raise UsageError where a library is missing, before a run rather than after it."""
+        if self.library is not None:
+            self.library()
 
 
 _FORMATS: dict[str, Format] = {}
@@ -45,11 +57,13 @@ def register_format(
     what: str,
     write: Callable[[Written, str | Path], None],
     read: Callable[[str | Path], Written] | None = None,
+    library: Callable[[], object] | None = None,
+    exact: bool = True,
 ) -> None:
     """Enter the format of a suffix, which begins with a dot and is in lower case."""
     if suffix in _FORMATS:
         raise ValueError(f"format {suffix} is registered twice")
-    _FORMATS[suffix] = Format(suffix, what, write, read)
+    _FORMATS[suffix] = Format(suffix, what, write, read, library, exact)
 
 
 @cache

@@ -89,7 +89,7 @@ def run(args: argparse.Namespace) -> int:
     files = []
     if output != STDOUT:
         files = plan(scene, output, bool(args.output))
-        format_of(output)
+        format_of(output).require_library()
     if not args.quiet:
         _tell_warnings(scene)
     progress = Progress() if args.quiet else TalkingProgress()

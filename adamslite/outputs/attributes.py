@@ -1,0 +1,96 @@
+"""What a file says of its run, as texts by name::
+
+    title               first line of the deck
+    program             adamslite and its version
+    deck, deck_name     text of the deck, its file name
+    deck_sha256         hash of the text
+    commands            text of the command file
+    commands_name       its file name
+    user                what was bound to routines of the user (JSON, a list)
+    units               of force, mass, length and time
+    integrator          method, formulation, ERROR
+    outcome, message    how the run ended, and why it ended early
+    summary             counters of the run (JSON)
+    comments            the comment lines of a .csv (JSON)
+
+What is not known is left out.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+import adamslite
+from adamslite.errors import FormatError
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
+from adamslite.results.source import NO_FILE, RunSource
+
+
+def attributes(results: Results) -> dict[str, str]:
+    """Texts by name; what is not known is left out."""
+    source, meta = results.source, results.meta
+    found = {
+        "title": meta.get("deck", ""),
+        "program": f"adamslite {adamslite.__version__}",
+        "deck": source.deck if source else "",
+        "deck_name": source.name if source else "",
+        "deck_sha256": meta.get("deck hash", ""),
+        "commands": source.commands if source else "",
+        "commands_name": source.commands_name if source else "",
+        "user": json.dumps(source.user) if source and source.user else "",
+        "units": meta.get("units", ""),
+        "integrator": meta.get("integrator", ""),
+        "outcome": results.outcome.name,
+        "message": results.message,
+        "summary": json.dumps(dict(results.summary), default=_plain) if results.summary else "",
+        "comments": json.dumps(dict(meta)) if meta else "",
+    }
+    return {name: text for name, text in found.items() if text}
+
+
+def _plain(value: Any) -> Any:
+    """A number of numpy as one of Python; anything else as text."""
+    return value.item() if isinstance(value, np.generic) else str(value)
+
+
+def restored(found: Mapping[str, str]) -> dict[str, Any]:
+    """Arguments of :class:`Results` from the texts that :func:`attributes` gives.
+
+    Raises
+    ------
+    FormatError
+        When they are not of this program.
+    """
+    try:
+        outcome = Outcome[found.get("outcome", "DONE")]
+        meta = {
+            str(key): str(text) for key, text in json.loads(found.get("comments", "{}")).items()
+        }
+        summary = dict(json.loads(found.get("summary", "{}")))
+        user = tuple(map(str, json.loads(found.get("user", "[]"))))
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise FormatError("its attributes are not those of adamslite") from None
+    source = None
+    if found.get("deck"):
+        source = RunSource(
+            deck=found["deck"], name=found.get("deck_name", NO_FILE), user=user,
+            commands=found.get("commands", ""), commands_name=found.get("commands_name", ""),
+        )  # fmt: skip
+    return {
+        "meta": meta, "summary": summary, "outcome": outcome, "source": source,
+        "message": found.get("message", ""),
+    }  # fmt: skip
+
+
+def need_rows(results: Results) -> None:
+    """Raise ValueError unless there is a row of values for each time."""
+    if results.values.shape != (len(results.time), len(results.names)):
+        raise ValueError(
+            f"{len(results.time)} times and {len(results.names)} names do not belong to values of "
+            f"shape {results.values.shape}"
+        )

@@ -1,0 +1,90 @@
+"""Parquet: a column for the time and one for each result; needs pyarrow (extra ``parquet``).
+
+The metadata of a column has its ``unit``; that of the table are the texts of the run, see
+above.
+"""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from adamslite.errors import FormatError, UsageError
+from adamslite.outputs.attributes import attributes, need_rows, restored
+from adamslite.outputs.whole_files import whole_file
+from adamslite.results.channels import with_units
+from adamslite.results.formats import register_format
+from adamslite.results.results import Results
+
+MISSING = "files .parquet need pyarrow: pip install 'adamslite[parquet]'"
+
+
+def write(results: Results, path: str | Path) -> None:
+    """Write `results` to the file `path`, whole or not at all."""
+    arrow, parquet = _library()
+    need_rows(results)
+    fields, columns = [], []
+    for name in ("time", *results.names):
+        unit = {"unit": results.channel(name).unit}
+        fields.append(arrow.field(name, arrow.float64(), metadata=unit))
+        columns.append(arrow.array(np.ascontiguousarray(results[name])))
+    schema = arrow.schema(fields, metadata=attributes(results))
+    memory = BytesIO()
+    parquet.write_table(arrow.table(columns, schema=schema), memory)
+    with whole_file(path, binary=True) as stream:
+        stream.write(memory.getbuffer())
+
+
+def read(path: str | Path) -> Results:
+    """Read what :func:`write` wrote, or any table of numbers with a first column ``time``.
+
+    Raises
+    ------
+    FormatError
+        When it is no such file, or is cut off.
+    UsageError
+        When pyarrow is not installed.
+    """
+    arrow, parquet = _library()
+    data = Path(path).read_bytes()
+    try:
+        table = parquet.read_table(BytesIO(data))
+    except (arrow.ArrowException, OSError, ValueError) as fault:
+        reason = " ".join(str(fault).split())
+        raise FormatError(f"{path} is no Parquet file, or is damaged: {reason}") from None
+    names = tuple(table.column_names[1:])
+    if table.column_names[:1] != ["time"]:
+        raise FormatError(f"{path}: its first column must be 'time'")
+    try:
+        columns = [table.column(n).to_numpy().astype(float) for n in range(table.num_columns)]
+    except (ValueError, TypeError):
+        raise FormatError(f"{path}: a column of it is not of numbers") from None
+    values = np.column_stack(columns)
+    found = {key.decode(): text.decode() for key, text in (table.schema.metadata or {}).items()}
+    metadata = {field.name: field.metadata or {} for field in table.schema}
+    units = {name: metadata[name].get(b"unit", b"").decode() for name in names}
+    run = restored(found)
+    channels = {} if run["source"] else with_units(units)
+    time, values = values[:, 0].copy(), np.ascontiguousarray(values[:, 1:])
+    return Results(time=time, names=names, values=values, channels=channels, **run)
+
+
+def _library() -> tuple[Any, Any]:
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise UsageError(MISSING) from None
+    return pyarrow, pyarrow.parquet
+
+
+register_format(
+    ".parquet",
+    "Parquet: a column of numbers for the time and for each result; needs pyarrow",
+    write,
+    read,
+    library=_library,
+)
