@@ -1,0 +1,135 @@
+// Channels of a result: their values, and the searchable list from which curves are chosen.
+import { h, icon } from "./dom.js";
+
+const LISTED = 150;
+
+export class Channels {
+    constructor({ times, list }, archive) {
+        this.archive = archive;
+        this.times = archive.track(times)?.data ?? new Float32Array(0);
+        this.list = list;
+        this.byName = new Map(list.map((channel) => [channel.name, channel]));
+        this.values = new Map();
+    }
+
+    has(name) {
+        return this.byName.has(name);
+    }
+
+    unit(name) {
+        return this.byName.get(name)?.unit ?? "";
+    }
+
+    label(name) {
+        return this.byName.get(name)?.label ?? "";
+    }
+
+    data(name) {
+        if (!this.values.has(name)) this.values.set(name, this.archive.track(this.byName.get(name).values).data);
+        return this.values.get(name);
+    }
+
+    /** Value at a time, on the straight line between output times. */
+    at(name, time) {
+        const { times } = this;
+        const values = this.data(name);
+        if (!times.length || time < times[0] || time > times[times.length - 1]) return NaN;
+        let low = 0;
+        let high = times.length - 1;
+        while (high - low > 1) {
+            const middle = (low + high) >> 1;
+            if (times[middle] <= time) low = middle;
+            else high = middle;
+        }
+        if (time === times[high] || low === high) return values[high];
+        const f = (time - times[low]) / (times[high] - times[low]);
+        return f === 0 ? values[low] : values[low] + f * (values[high] - values[low]);
+    }
+
+    /** Channels whose name, label or unit hold all words, in the order of the result. */
+    search(words) {
+        const parts = words.toLowerCase().split(/\s+/).filter(Boolean);
+        return this.list.filter(({ name, label, unit }) => {
+            const text = `${name} ${label ?? ""} ${unit}`.toLowerCase();
+            return parts.every((part) => text.includes(part));
+        });
+    }
+
+    /** What is plotted at first: requests, else the coordinate that moves most of each kind. */
+    first() {
+        const requests = this.list.filter(({ name }) => name.startsWith("REQUEST/") && this.#span(name) > 0);
+        const units = [...new Set(requests.map(({ unit }) => unit))].slice(0, 2);
+        if (units.length) {
+            return units.flatMap((unit) => requests.filter((each) => each.unit === unit).slice(0, 3)).map(({ name }) => name);
+        }
+        const places = this.list.filter(({ name }) => /\.[xyz]$/.test(name));
+        const widest = places.map(({ name }) => [this.#span(name), name]).sort((a, b) => b[0] - a[0])[0];
+        if (!widest || !(widest[0] > 0)) return this.list.slice(0, 1).map(({ name }) => name);
+        return [widest[1]];
+    }
+
+    #span(name) {
+        let low = Infinity;
+        let high = -Infinity;
+        for (const value of this.data(name)) {
+            if (value < low) low = value;
+            if (value > high) high = value;
+        }
+        return high - low;
+    }
+}
+
+/** The field for words and the list of what they find. */
+export class ChannelPicker {
+    constructor(channels, chosen, toggle) {
+        this.channels = channels;
+        this.chosen = chosen;
+        this.toggle = toggle;
+        this.input = h("input", {
+            type: "search", placeholder: `Search ${channels.list.length} channels: name, unit`, "aria-label": "search channels",
+            oninput: () => this.refresh(), onfocus: () => this.open(true),
+        });
+        this.list = h("div", { class: "channels", role: "listbox", hidden: true });
+        this.element = h("div", { class: "picker" }, this.input, this.list);
+        this.element.addEventListener("keydown", (event) => {
+            if (event.key !== "Escape") return;
+            this.open(false);
+            this.input.blur();
+        });
+        document.addEventListener("pointerdown", ({ target }) => {
+            if (!this.element.contains(target)) this.open(false);
+        });
+    }
+
+    open(shown) {
+        this.list.hidden = !shown;
+        if (shown) this.refresh();
+    }
+
+    refresh() {
+        const found = this.channels.search(this.input.value);
+        const rows = found.slice(0, LISTED).map((channel) => this.#row(channel));
+        const rest = found.length - rows.length;
+        if (rest > 0) rows.push(h("p", { class: "hint" }, `and ${rest} more: type to narrow`));
+        if (!found.length) rows.push(h("p", { class: "hint" }, "no channel has these words"));
+        this.list.replaceChildren(...rows);
+    }
+
+    #row({ name, unit, label }) {
+        const chosen = this.chosen().includes(name);
+        return h(
+            "button",
+            {
+                type: "button", role: "option", class: "channel", "aria-selected": String(chosen),
+                onclick: () => {
+                    this.toggle(name);
+                    this.refresh();
+                },
+            },
+            icon(chosen ? "close" : "plus"),
+            h("span", { class: "name" }, name),
+            h("span", { class: "what" }, label && label !== name ? label : ""),
+            h("span", { class: "unit" }, unit),
+        );
+    }
+}

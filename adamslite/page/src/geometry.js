@@ -1,0 +1,100 @@
+// Unit geometries that shapes and symbols are scaled from. Axes of symmetry lie along z.
+import {
+    BoxGeometry, BufferAttribute, CylinderGeometry, IcosahedronGeometry, LatheGeometry, OctahedronGeometry,
+    PlaneGeometry, SphereGeometry, TorusGeometry, TubeGeometry, Vector2, Vector3, Curve,
+} from "three";
+import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+
+/** A frustum from z = 0 (radius `bottom`) to z = 1 (radius `top`), its sector beginning at x. */
+export function frustum(bottom, top, angle, sides) {
+    const whole = angle >= 2 * Math.PI - 1e-6;
+    const around = Math.max(Math.ceil((sides * Math.min(angle, 2 * Math.PI)) / (2 * Math.PI)), 3);
+    const geometry = new CylinderGeometry(top, bottom, 1, around, 1, false, Math.PI / 2, whole ? 2 * Math.PI : angle);
+    return geometry.rotateX(Math.PI / 2).translate(0, 0, 0.5);
+}
+
+export const box = () => new BoxGeometry(1, 1, 1);
+export const ball = (fine) => (fine ? new SphereGeometry(1, 28, 18) : new IcosahedronGeometry(1, 1));
+export const torus = (major, minor) => new TorusGeometry(major, minor, 14, 56);
+
+/** A rectangle from (0, 0) to (1, 1). */
+export const rectangle = () => new PlaneGeometry(1, 1).translate(0.5, 0.5, 0);
+
+function painted(geometry, value) {
+    const plain = geometry.index ? geometry.toNonIndexed() : geometry;
+    const colours = new Float32Array(3 * plain.getAttribute("position").count).fill(value);
+    plain.setAttribute("color", new BufferAttribute(colours, 3));
+    return plain;
+}
+
+// Half of the section of a sheave of radius and width 1: hub, web, rim with a groove.
+const SECTION = [
+    [0, 0.5], [0.2, 0.5], [0.2, 0.2], [0.74, 0.2], [0.74, 0.5], [0.97, 0.5], [0.9, 0.18],
+];
+
+/** A sheave of radius and width 1, centred, with one dark spoke that shows its turning. */
+export function wheel(sides) {
+    const half = SECTION.map(([r, z]) => new Vector2(r, z));
+    const profile = [...half, ...half.slice().reverse().map(({ x, y }) => new Vector2(x, -y))].reverse();
+    const body = new LatheGeometry(profile, sides).rotateX(Math.PI / 2);
+    const flat = body.toNonIndexed();
+    flat.computeVertexNormals();
+    const spoke = new BoxGeometry(0.58, 0.11, 0.62).translate(0.47, 0, 0);
+    return mergeGeometries([painted(flat, 1), painted(spoke, 0.12)]);
+}
+
+class Helix extends Curve {
+    constructor(coils, radius) {
+        super();
+        this.coils = coils;
+        this.radius = radius;
+    }
+
+    // Straight along the axis in the first and the last tenth, in coils between.
+    getPoint(t, target = new Vector3()) {
+        const part = Math.min(Math.max((t - 0.1) / 0.8, 0), 1);
+        const ease = Math.min(1, Math.min(t, 1 - t) / 0.1);
+        const angle = 2 * Math.PI * this.coils * part;
+        const radius = this.radius * ease;
+        return target.set(radius * Math.cos(angle), radius * Math.sin(angle), t);
+    }
+}
+
+/** A coil spring from z = 0 to z = 1 whose wire is round at the length `length`. */
+export function coil(coils, radius, wire, length, fine) {
+    const curve = new Helix(coils, radius / length);
+    const around = fine ? 7 : 3;
+    const along = Math.ceil(coils * (fine ? 20 : 8)) + 8;
+    return new TubeGeometry(curve, along, wire / length, around, false).scale(length, length, 1);
+}
+
+const bar = (radius, length, sides = 20) =>
+    new CylinderGeometry(radius, radius, length, sides).rotateX(Math.PI / 2);
+const merged = (...parts) => mergeGeometries(parts.map((part) => (part.index ? part.toNonIndexed() : part)));
+
+function screw() {
+    const threads = [-0.8, -0.4, 0, 0.4, 0.8].map((z) => new TorusGeometry(0.45, 0.12, 6, 18).translate(0, 0, z));
+    return merged(bar(0.35, 2.4), ...threads);
+}
+
+// Symbols of joints, of size 1, along the z axis of the joint's I marker.
+const SYMBOLS = {
+    REVOLUTE: () => merged(bar(0.3, 2), new TorusGeometry(0.62, 0.17, 10, 28)),
+    CYLINDRICAL: () => merged(bar(0.3, 3), bar(0.6, 1.2)),
+    TRANSLATIONAL: () => merged(new BoxGeometry(1.1, 1.1, 1.4), new BoxGeometry(0.4, 0.4, 3.2)),
+    SPHERICAL: () => new SphereGeometry(0.65, 20, 14),
+    FIXED: () => merged(new BoxGeometry(1.1, 1.1, 0.3), new BoxGeometry(0.3, 1.1, 1.1), new BoxGeometry(1.1, 0.3, 1.1)),
+    UNIVERSAL: () => merged(bar(0.22, 2), bar(0.22, 2).rotateX(Math.PI / 2), new SphereGeometry(0.42, 14, 10)),
+    PLANAR: () => merged(new BoxGeometry(2.4, 2.4, 0.12), bar(0.15, 1.4)),
+    SCREW: screw,
+    OTHER: () => new OctahedronGeometry(0.6),
+};
+SYMBOLS.HOOKE = SYMBOLS.UNIVERSAL;
+SYMBOLS.CONVEL = SYMBOLS.UNIVERSAL;
+
+export const symbolKind = (kind) => (kind in SYMBOLS ? kind : "OTHER");
+export const symbol = (kind) => SYMBOLS[kind]();
+
+/** An arrow of length 1 along z: its shaft (drawn shorter by the head) and its head. */
+export const arrowShaft = () => new CylinderGeometry(1, 1, 1, 12).rotateX(Math.PI / 2).translate(0, 0, 0.5);
+export const arrowHead = () => new CylinderGeometry(0, 1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, -0.5);

@@ -1,0 +1,33 @@
+// Joints as symbols at their I markers.
+import { symbol, symbolKind } from "./geometry.js";
+import { Instances, placed } from "./instances.js";
+
+export class Joints {
+    constructor(joints, bodies, stage, look) {
+        const kinds = new Map();
+        for (const { kind, i } of joints) {
+            const key = symbolKind(kind);
+            if (!kinds.has(key)) kinds.set(key, []);
+            const size = look.joint;
+            kinds.get(key).push({
+                body: i[0],
+                local: placed(i.slice(1), [0, 0, 0], [size, size, size]),
+                colour: stage.palette.joint,
+            });
+        }
+        this.groups = [...kinds].map(([kind, items]) => new Instances(symbol(kind), items, bodies));
+        for (const group of this.groups) stage.add(...group.objects);
+    }
+
+    update() {
+        for (const group of this.groups) group.update();
+    }
+
+    setTheme(palette) {
+        for (const group of this.groups) group.paint(null, () => palette.joint);
+    }
+
+    set visible(shown) {
+        for (const { mesh } of this.groups) mesh.visible = shown;
+    }
+}

@@ -1,0 +1,284 @@
+// Curves over time: one plot for each unit, with a cursor that is the time of the scene.
+import uPlot from "uplot";
+import { curveColour } from "./colours.js";
+import { h, iconButton, short } from "./dom.js";
+
+const WHEEL = 0.85; // of the window that one click of the wheel keeps
+
+const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** Other values at these times, on straight lines between theirs; none outside. */
+function resampled(channels, name, times) {
+    return Array.from(times, (time) => {
+        const value = channels.at(name, time);
+        return Number.isNaN(value) ? null : value;
+    });
+}
+
+const gaps = (values) => Array.from(values, (value) => (Number.isFinite(value) ? value : null));
+
+/** One plot: all its curves have one unit. */
+class Plot {
+    constructor(owner, unit, names, difference = false) {
+        this.owner = owner;
+        this.unit = unit;
+        this.names = names;
+        this.difference = difference;
+        this.holder = h("div", { class: "curves" });
+        this.legend = h("ul", { class: "legend" });
+        this.cursor = h("div", { class: "cursor" });
+        this.element = h("section", { class: difference ? "plot difference" : "plot" }, this.#head(), this.holder, this.legend);
+        this.values = [];
+    }
+
+    #head() {
+        const { owner } = this;
+        const what = this.difference ? `Difference to ${owner.against.name}` : this.#quantity();
+        return h(
+            "header",
+            {},
+            h("h3", {}, what),
+            iconButton("zoom", "Whole time (double click); the wheel zooms, dragging with shift selects", () => owner.zoom(null)),
+            iconButton("image", "Save this plot as PNG", () => owner.save.plot(this)),
+            iconButton("table", "Save the curves shown as CSV", () => owner.save.curves()),
+        );
+    }
+
+    #quantity() {
+        return this.names.length === 1 ? this.names[0] : `${this.names.length} channels${this.unit ? ` in ${this.unit}` : ""}`;
+    }
+
+    #series() {
+        const { channels, against } = this.owner;
+        const { times } = channels;
+        const data = [];
+        const series = [];
+        this.names.forEach((name) => {
+            const stroke = this.owner.colour(name);
+            const other = against?.channels.has(name) ? resampled(against.channels, name, times) : null;
+            const own = gaps(channels.data(name));
+            if (this.difference) {
+                data.push(own.map((value, k) => (value === null || !other || other[k] === null ? null : value - other[k])));
+                series.push({ stroke, width: 1.75 });
+                return;
+            }
+            data.push(own);
+            series.push({ stroke, width: 2 });
+            if (other) {
+                data.push(other);
+                series.push({ stroke, width: 1.5, dash: [6, 4] });
+            }
+        });
+        return { data: [Array.from(times), ...data], series };
+    }
+
+    build(width, height) {
+        this.chart?.destroy();
+        const { data, series } = this.#series();
+        const ink = css("--muted");
+        const grid = { stroke: css("--rule"), width: 1 };
+        const axis = { stroke: ink, grid, ticks: { ...grid, size: 4 }, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif" };
+        const unit = this.owner.timeUnit;
+        this.chart = new uPlot(
+            {
+                width,
+                height,
+                series: [{}, ...series.map((each) => ({ ...each, points: { show: false } }))],
+                legend: { show: false },
+                scales: { x: { time: false }, y: { range: (u, low, high) => spread(low, high) } },
+                cursor: { show: false },
+                padding: [8, 12, 0, 0],
+                axes: [
+                    { ...axis, label: unit ? `time (${unit})` : "time", labelSize: 16, size: 30, labelGap: 0 },
+                    { ...axis, label: this.unit ? `(${this.unit})` : "", labelSize: 16, size: 52, labelGap: 0, values: (u, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick, 6))) },
+                ],
+                hooks: { drawClear: [(u) => this.owner.drawEvents(u)], setScale: [() => this.moveCursor(this.owner.time)] },
+            },
+            data,
+            this.holder,
+        );
+        this.chart.over.append(this.cursor);
+        this.owner.listen(this.chart);
+        if (this.owner.window) this.chart.setScale("x", this.owner.window);
+        this.#legend();
+        this.moveCursor(this.owner.time);
+    }
+
+    #legend() {
+        this.values = [];
+        const rows = this.names.map((name) => {
+            const value = h("span", { class: "value" });
+            this.values.push(value);
+            const label = this.owner.channels.label(name);
+            return h(
+                "li",
+                {},
+                h("i", { class: "swatch", style: `background: ${this.owner.colour(name)}` }),
+                h("span", { class: "name", title: label }, this.difference ? `Δ ${name}` : name),
+                value,
+                this.difference ? null : iconButton("close", `Remove ${name}`, () => this.owner.toggle(name)),
+            );
+        });
+        this.legend.replaceChildren(...rows);
+    }
+
+    moveCursor(time) {
+        if (!this.chart) return;
+        const { min, max } = this.chart.scales.x;
+        const inside = time >= min && time <= max;
+        this.cursor.style.display = inside ? "" : "none";
+        if (inside) this.cursor.style.transform = `translateX(${this.chart.valToPos(time, "x").toFixed(2)}px)`;
+        this.names.forEach((name, k) => {
+            if (this.values[k]) this.values[k].textContent = this.#reading(name, time);
+        });
+    }
+
+    #reading(name, time) {
+        const { channels, against } = this.owner;
+        const own = channels.at(name, time);
+        const unit = this.unit ? ` ${this.unit}` : "";
+        if (!against?.channels.has(name)) return short(own, 5) + unit;
+        const other = against.channels.at(name, time);
+        return this.difference ? short(own - other, 3) + unit : `${short(own, 5)} | ${short(other, 5)}${unit}`;
+    }
+}
+
+/** A little more than the values; around a constant, a tenth of it. */
+function spread(low, high) {
+    if (low === null || low === undefined) return [0, 1];
+    const room = high > low ? 0.06 * (high - low) : Math.abs(low) * 0.1 || 1;
+    return [low - room, high + room];
+}
+
+export class Plots {
+    /** `seek(time)` is called when a place on a plot is chosen; `save` writes files. */
+    constructor({ channels, against, timeUnit, events, seek, save }) {
+        Object.assign(this, { channels, against, timeUnit, events, seek, save });
+        this.time = 0;
+        this.window = null;
+        this.names = [];
+        this.plots = [];
+        this.element = h("div", { class: "plots" });
+        this.hint = h("p", { class: "hint" }, "Drag over a plot to move through time; the wheel zooms.");
+        new ResizeObserver(() => this.layout()).observe(this.element);
+    }
+
+    colour(name) {
+        return curveColour(this.names.indexOf(name));
+    }
+
+    toggle(name) {
+        this.set(this.names.includes(name) ? this.names.filter((each) => each !== name) : [...this.names, name]);
+    }
+
+    /** Shows these channels, those of one unit together. */
+    set(names) {
+        this.names = names.filter((name) => this.channels.has(name));
+        for (const plot of this.plots) plot.chart?.destroy();
+        const units = [...new Set(this.names.map((name) => this.channels.unit(name)))];
+        this.plots = units.flatMap((unit) => {
+            const together = this.names.filter((name) => this.channels.unit(name) === unit);
+            const shared = together.filter((name) => this.against?.channels.has(name));
+            const plots = [new Plot(this, unit, together)];
+            return shared.length ? [...plots, new Plot(this, unit, shared, true)] : plots;
+        });
+        this.element.replaceChildren(...this.plots.map(({ element }) => element), this.hint);
+        this.hint.textContent = this.names.length
+            ? "Drag over a plot to move through time; the wheel zooms."
+            : "Choose a channel above to plot it.";
+        this.built = null;
+        this.layout();
+    }
+
+    layout() {
+        const width = Math.floor(this.element.clientWidth) - 2;
+        const key = `${width} ${this.names.join()}`;
+        if (width < 60 || key === this.built) return;
+        this.built = key;
+        for (const plot of this.plots) plot.build(width, plot.difference ? 130 : this.plots.length > 2 ? 170 : 210);
+    }
+
+    setTheme() {
+        this.built = null;
+        this.layout();
+    }
+
+    setTime(time) {
+        this.time = time;
+        for (const plot of this.plots) plot.moveCursor(time);
+    }
+
+    /** Time at which the cursor of the first plot stands, as it is drawn. */
+    get cursorTime() {
+        const plot = this.plots[0];
+        if (!plot?.chart || plot.cursor.style.display === "none") return null;
+        return plot.chart.posToVal(new DOMMatrix(plot.cursor.style.transform).e, "x");
+    }
+
+    /** Shows a part of the time, {min, max}, in all plots; null: all of it. */
+    zoom(window) {
+        const { times } = this.channels;
+        const [first, last] = [times[0], times[times.length - 1]];
+        this.window = window && { min: Math.max(window.min, first), max: Math.min(window.max, last) };
+        if (this.window && this.window.max - this.window.min >= last - first) this.window = null;
+        for (const { chart } of this.plots) chart?.setScale("x", this.window ?? { min: first, max: last });
+    }
+
+    drawEvents(u) {
+        const { ctx, bbox } = u;
+        ctx.save();
+        ctx.strokeStyle = css("--muted");
+        ctx.setLineDash([2 * devicePixelRatio, 4 * devicePixelRatio]);
+        for (const { time } of this.events) {
+            const x = u.valToPos(time, "x", true);
+            if (x < bbox.left || x > bbox.left + bbox.width) continue;
+            ctx.beginPath();
+            ctx.moveTo(x, bbox.top);
+            ctx.lineTo(x, bbox.top + bbox.height);
+            ctx.stroke();
+        }
+        ctx.restore();
+    }
+
+    // Dragging moves the time; with shift it selects a window; the wheel zooms about the pointer.
+    listen(chart) {
+        const { over } = chart;
+        const timeAt = ({ clientX }) => chart.posToVal(clientX - over.getBoundingClientRect().left, "x");
+        let from = null;
+        over.style.touchAction = "pan-y";
+        over.addEventListener("pointerdown", (event) => {
+            if (event.button !== 0) return;
+            over.setPointerCapture(event.pointerId);
+            from = event.shiftKey ? timeAt(event) : null;
+            if (from === null) this.seek(timeAt(event));
+        });
+        over.addEventListener("pointermove", (event) => {
+            if (!over.hasPointerCapture(event.pointerId)) return;
+            if (from === null) this.seek(timeAt(event));
+            else this.#select(chart, from, timeAt(event));
+        });
+        over.addEventListener("pointerup", (event) => {
+            if (from !== null) this.#selected(chart, from, timeAt(event));
+            from = null;
+        });
+        over.addEventListener("dblclick", () => this.zoom(null));
+        over.addEventListener("wheel", (event) => this.#wheel(chart, event, timeAt(event)), { passive: false });
+    }
+
+    #select(chart, from, to) {
+        const [left, right] = [from, to].map((time) => chart.valToPos(time, "x")).sort((a, b) => a - b);
+        chart.setSelect({ left, top: 0, width: right - left, height: chart.over.clientHeight }, false);
+    }
+
+    #selected(chart, from, to) {
+        chart.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+        if (from !== to) this.zoom({ min: Math.min(from, to), max: Math.max(from, to) });
+    }
+
+    #wheel(chart, event, time) {
+        event.preventDefault();
+        const { min, max } = chart.scales.x;
+        const scale = event.deltaY < 0 ? WHEEL : 1 / WHEEL;
+        this.zoom({ min: time - (time - min) * scale, max: time + (max - time) * scale });
+    }
+}

@@ -1,0 +1,199 @@
+// Shapes of the bodies: what GRAPHICS statements say, and what stands for a body without them.
+import { DoubleSide } from "three";
+import { GROUND } from "./colours.js";
+import * as geometry from "./geometry.js";
+import { Instances, placed } from "./instances.js";
+import { BodyLines } from "./strokes.js";
+
+const FULL = 2 * Math.PI;
+const NONE = [0, 0, 0];
+const MANY = 200; // copies from which on a shape has fewer facets
+
+const angleOf = (shape) => (shape.angle ? Math.min(Math.abs(shape.angle), FULL) : FULL);
+
+/** Along a negative length a shape ends where it would begin. */
+function alongZ(length) {
+    return { shift: [0, 0, Math.min(length, 0)], size: Math.abs(length) };
+}
+
+function cylinder({ length, radius, angle }) {
+    const { shift, size } = alongZ(length);
+    const sector = angleOf({ angle });
+    return {
+        key: `cylinder ${sector}`,
+        make: (sides) => geometry.frustum(1, 1, sector, sides),
+        shift,
+        scale: [radius, radius, size],
+        edges: true,
+    };
+}
+
+function frustum({ length, bottom, top, angle }) {
+    const { shift, size } = alongZ(length);
+    const [below, above] = length < 0 ? [top, bottom] : [bottom, top];
+    const widest = Math.max(below, above);
+    const sector = angleOf({ angle });
+    return {
+        key: `frustum ${below / widest} ${above / widest} ${sector}`,
+        make: (sides) => geometry.frustum(below / widest, above / widest, sector, sides),
+        shift,
+        scale: [widest, widest, size],
+        edges: true,
+    };
+}
+
+/** A box between opposite corners; its sides may be negative. */
+function boxAt(low, sides) {
+    return {
+        key: "box",
+        make: () => geometry.box(),
+        shift: low.map((from, k) => from + sides[k] / 2),
+        scale: sides.map((side) => Math.abs(side)),
+        edges: true,
+    };
+}
+
+function rod({ to, radius }, look) {
+    const length = Math.hypot(...to) || 1e-9;
+    return {
+        key: "rod",
+        make: (sides) => geometry.frustum(1, 1, FULL, Math.min(sides, 14)),
+        shift: NONE,
+        scale: [radius ?? look.rod, radius ?? look.rod, length],
+        along: to,
+    };
+}
+
+const BALL = { key: "ball", make: (sides) => geometry.ball(sides > 12), shift: NONE };
+const SOLIDS = {
+    cylinder,
+    frustum,
+    rod,
+    box: ({ x, y, z }) => boxAt(NONE, [x, y, z]),
+    inertia_box: ({ x, y, z }) => ({ ...boxAt([-x / 2, -y / 2, -z / 2], [x, y, z]), see_through: true }),
+    ellipsoid: ({ x, y, z }) => ({ ...BALL, scale: [x / 2, y / 2, z / 2].map(Math.abs) }),
+    sphere: ({ radius }) => ({ ...BALL, scale: [radius, radius, radius] }),
+    point: (_, look) => ({ ...BALL, key: "point", scale: [look.point, look.point, look.point] }),
+    torus: ({ major, minor }) => ({
+        key: `torus ${minor / major}`,
+        make: () => geometry.torus(1, minor / major),
+        shift: NONE,
+        scale: [major, major, major],
+    }),
+    wheel: ({ radius, width }) => ({
+        key: "wheel",
+        make: (sides) => geometry.wheel(Math.max(sides, 24)),
+        shift: NONE,
+        scale: [radius, radius, width],
+        edges: true,
+    }),
+    plane: ({ xmin, xmax, ymin, ymax }) => ({
+        key: "plane",
+        make: () => geometry.rectangle(),
+        shift: [Math.min(xmin, xmax), Math.min(ymin, ymax), 0],
+        scale: [Math.abs(xmax - xmin), Math.abs(ymax - ymin), 1],
+        see_through: true,
+        two_sided: true,
+    }),
+};
+
+/** Quaternion that turns z into a direction. */
+function quaternionTo([x, y, z]) {
+    const length = Math.hypot(x, y, z) || 1;
+    const w = 1 + z / length;
+    if (w < 1e-9) return [1, 0, 0, 0];
+    const [qx, qy] = [-y / length, x / length];
+    const norm = Math.hypot(qx, qy, w);
+    return [qx / norm, qy / norm, 0, w / norm];
+}
+
+function turned(frame, along) {
+    const local = placed(frame, NONE, [1, 1, 1]);
+    return local.multiply(placed([0, 0, 0, ...quaternionTo(along)], NONE, [1, 1, 1]));
+}
+
+function localMatrix(frame, solid) {
+    if (!solid.along) return placed(frame, solid.shift, solid.scale);
+    return turned(frame, solid.along).multiply(placed([0, 0, 0, 0, 0, 0, 1], NONE, solid.scale));
+}
+
+/** Points [body, x, y, z] of a circle or an arc in the xy plane of its frame. */
+function arcPoints({ body, frame, radius, angle }) {
+    const sector = angleOf({ angle });
+    const count = Math.max(Math.ceil((64 * sector) / FULL), 4);
+    const matrix = placed(frame, NONE, [1, 1, 1]).elements;
+    return Array.from({ length: count + 1 }, (_, k) => {
+        const x = radius * Math.cos((sector * k) / count);
+        const y = radius * Math.sin((sector * k) / count);
+        return [body, ...[0, 1, 2].map((c) => matrix[c] * x + matrix[c + 4] * y + matrix[c + 12])];
+    });
+}
+
+function closedOutline({ points, closed }) {
+    return closed && points.length > 2 ? [...points, points[0]] : points;
+}
+
+function groupBy(items, keyOf) {
+    const groups = new Map();
+    for (const item of items) {
+        const key = keyOf(item);
+        if (!groups.has(key)) groups.set(key, []);
+        groups.get(key).push(item);
+    }
+    return groups;
+}
+
+export class Shapes {
+    /** `look`: radii of what has no size of its own; `colourOf`: colour of a body. */
+    constructor({ shapes, outlines }, bodies, stage, look, options = {}) {
+        this.bodies = bodies;
+        this.colourOf = options.colourOf ?? ((b) => bodies.colours[b]);
+        const opacity = options.opacity ?? 1;
+        const solids = shapes.filter(({ kind }) => kind in SOLIDS).map((shape) => this.#item(shape, look));
+        const groups = groupBy(solids, ({ solid }) => `${solid.key} ${solid.see_through ?? false}`);
+        this.groups = [...groups.values()].map((items) => this.#group(items, opacity));
+        for (const group of this.groups) stage.add(...group.objects);
+        this.lines = this.#lines(shapes, outlines, stage, opacity);
+    }
+
+    #item(shape, look) {
+        const solid = SOLIDS[shape.kind](shape, look);
+        const colour = this.colourOf(shape.body);
+        return { body: shape.body, solid, local: localMatrix(shape.frame, solid), colour };
+    }
+
+    #group(items, opacity) {
+        const [{ solid }] = items;
+        const sides = items.length > MANY ? 12 : items.length > 20 ? 28 : 48;
+        return new Instances(solid.make(sides), items, this.bodies, {
+            opacity: solid.see_through ? 0.35 * opacity : opacity,
+            side: solid.two_sided || solid.key.includes("cylinder") ? DoubleSide : undefined,
+            edges: Boolean(solid.edges) && items.length <= MANY && opacity === 1,
+        });
+    }
+
+    // One set of lines for each colour.
+    #lines(shapes, outlines, stage, opacity) {
+        const arcs = shapes.filter(({ kind }) => kind === "circle" || kind === "arc").map(arcPoints);
+        const drawn = [...arcs, ...outlines.map(closedOutline)].filter((points) => points.length > 1);
+        const groups = groupBy(drawn, ([[body]]) => this.colourOf(body) ?? GROUND);
+        return [...groups].map(([colour, polylines]) => {
+            const lines = new BodyLines(polylines, this.bodies, { colour, width: 2.5, opacity });
+            stage.addStrokes(lines.strokes);
+            return lines;
+        });
+    }
+
+    update() {
+        for (const group of this.groups) group.update();
+        for (const line of this.lines) line.update();
+    }
+
+    get pickable() {
+        return this.groups.map(({ mesh }) => mesh);
+    }
+
+    paint(b, colour) {
+        for (const group of this.groups) group.paint(b, colour ? () => colour : ({ body }) => this.colourOf(body));
+    }
+}
