@@ -7,8 +7,8 @@ export class Channels {
     constructor({ times, list }, archive) {
         this.archive = archive;
         this.times = archive.track(times)?.data ?? new Float32Array(0);
-        this.list = list;
-        this.byName = new Map(list.map((channel) => [channel.name, channel]));
+        this.list = archive.list(list);
+        this.byName = new Map(this.list.map((channel) => [channel.name, channel]));
         this.values = new Map();
     }
 

@@ -50,6 +50,13 @@ export class Archive {
         return new Track(data, rows, width);
     }
 
+    /** A plain list, or one that is kept as JSON text among the arrays. */
+    list(source) {
+        if (Array.isArray(source)) return source;
+        const text = this.bytes.subarray(source.at, source.at + source.shape[0]);
+        return JSON.parse(new TextDecoder().decode(text));
+    }
+
     // value = low + step k; k is stored as differences from row to row modulo 65536, all low bytes
     // of them before all high bytes.
     #quantised({ at, low, step }, rows, width) {
