@@ -53,6 +53,7 @@ run_flags
 scene
 result_files
 verification
+plots
 manual
 editing
 api

@@ -78,12 +78,18 @@ def describe(name: str, units: dict[str, str], deck: Deck | None = None) -> Chan
     label, _, component = name.rpartition(".")
     if not label or "/" not in label:
         label, component = name, ""
-    keyword, _, id = label.partition("/")
-    found = deck.find(keyword, int(id) if id.isdigit() else id) if deck else None
+    keyword, _, _ = label.partition("/")
+    found = statement_of(label, deck) if deck else None
     quantity, dimension = _quantity(keyword, component, found, deck)
     unit = _own_unit(found, component) or in_units(dimension, units)
     title = found.name or _comment(found) if found else ""
     return Channel(name, label, component, title, quantity, unit)
+
+
+def statement_of(label: str, deck: Deck) -> Any:
+    """The statement that ``PART/2`` means; None where the deck has none."""
+    keyword, _, id = label.partition("/")
+    return deck.find(keyword, int(id) if id.isdigit() else id)
 
 
 def _quantity(keyword: str, component: str, found: Any, deck: Deck | None) -> tuple[str, str]:

@@ -47,13 +47,15 @@ class Tolerance:
 
     def off(self, value: np.ndarray, reference: np.ndarray) -> np.ndarray:
         """Return how far (nt,) `value` is from all numbers that are printed like `reference`."""
-        difference = np.abs(value - reference)
-        if not self.digits:
-            return difference
+        return np.maximum(np.abs(value - reference) - self.hidden(reference), 0.0)
+
+    def hidden(self, reference: np.ndarray) -> np.ndarray:
+        """Return what rounding to `digits` may hide of the (nt,) reference, shape (nt,)."""
         size = np.abs(reference)
+        if not self.digits:
+            return np.zeros_like(size)
         leading = np.floor(np.log10(size, out=np.zeros_like(size), where=size > 0))
-        hidden = np.where(size > 0, 0.5 * 10.0 ** (leading + 1 - self.digits), 0.0)
-        return np.maximum(difference - hidden, 0.0)
+        return np.where(size > 0, 0.5 * 10.0 ** (leading + 1 - self.digits), 0.0)
 
     def __str__(self) -> str:
         parts = (

@@ -115,7 +115,7 @@ class Results:
         if name not in self:
             raise UnknownChannel(self._unknown(name))
         name = self.names[self._column[name.casefold()]]
-        return self.channels.get(name) or describe(name, self.unit_symbols, self._deck)
+        return self.channels.get(name) or describe(name, self.unit_symbols, self.deck)
 
     @cached_property
     def unit_symbols(self) -> dict[str, str]:
@@ -137,7 +137,8 @@ class Results:
         return read(path)
 
     @cached_property
-    def _deck(self) -> "Deck | None":
+    def deck(self) -> "Deck | None":
+        """The statements of the run, where its text is known and can be read here."""
         try:
             return self.source.read()[0] if self.source else None
         except DeckError:

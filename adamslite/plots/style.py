@@ -1,0 +1,187 @@
+"""The look of all figures: colours that colour-blind people can tell apart, markers, fonts, files.
+
+The colours are those of Okabe and Ito (Color Universal Design, 2008). Every colour comes with a
+marker or a dash pattern of its own, so that a figure printed in grey can be read, too. matplotlib,
+an optional extra, is imported when the first figure is made.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from contextlib import AbstractContextManager
+from io import BytesIO
+from itertools import pairwise
+from math import floor, log10
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from adamslite.errors import UsageError
+from adamslite.outputs.whole_files import whole_file
+
+if TYPE_CHECKING:
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
+
+ABSENT = (
+    "plots and charts are drawn by matplotlib, which is not installed: "
+    "python -m pip install matplotlib"
+)
+#: Suffixes of files that figures are written to.
+SUFFIXES = (".png", ".svg", ".pdf")
+
+BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, RED, PURPLE = (
+    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7",
+)  # fmt: skip
+FAINT, MUTED, DARK, BAND = "#dddddd", "#777777", "#333333", "#d5e5dd"
+#: Colour and dash pattern of the curves of one axis, in turns.
+CURVES = (
+    (BLUE, "-"), (RED, (0, (6, 2))), (GREEN, (0, (2, 1.2))), (ORANGE, (0, (6, 2, 1.5, 2))),
+    (PURPLE, (0, (9, 2.5))), (SKY, "-"), (BLACK, (0, (3, 1.5, 1, 1.5, 1, 1.5))),
+)  # fmt: skip
+MARKERS = "os^DvPX*<>hpd8"
+
+#: Text as text keeps an SVG small; without salt and date the same figure is the same file.
+SETTINGS: Any = {
+    "font.size": 9.0,
+    "font.family": ["DejaVu Sans"],
+    "axes.titlesize": 9.0,
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": MUTED,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": FAINT,
+    "grid.linewidth": 0.6,
+    "xtick.color": DARK,
+    "ytick.color": DARK,
+    "legend.frameon": False,
+    "legend.fontsize": 8.0,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "adamslite",
+    "savefig.dpi": 130.0,
+    "text.parse_math": False,
+}
+
+
+class Look(NamedTuple):
+    """How the line of one program is drawn; ``outlined`` puts a dark line under a light one."""
+
+    color: str
+    marker: str
+    width: float = 2.0
+    dashes: Any = "-"
+    outlined: bool = False
+
+
+#: Integrators of the program, by the name in a chart.
+METHODS = {
+    "GSTIFF SI2": Look(BLUE, "o"),
+    "GSTIFF I3": Look(SKY, "s"),
+    "ABAM": Look(RED, "D"),
+    "RADAU": Look(GREEN, "^"),
+    "HHT": Look(PURPLE, "v"),
+    "NEWMARK": Look(ORANGE, "P"),
+    "VERLET": Look(BLACK, "X"),
+    "AUTO": Look(YELLOW, "*", outlined=True),
+}
+#: Muted colours of the libraries that the program is compared with.
+LIBRARIES = {
+    "scipy": "#a08972", "scikit-sundae": "#7ba08c", "CasADi": "#7b93ad", "Exudyn": "#a283a0",
+    "MuJoCo": "#a0a06a",
+}  # fmt: skip
+EXPLICIT = (0, (4, 2))
+LIMIT = (0, (1, 1.5))
+
+
+def looks_of_methods(names: Iterable[str]) -> dict[str, Look]:
+    """A look for each integrator; those without one of their own take what is left, in turns."""
+    names = list(names)
+    found = {name: METHODS[name] for name in names if name in METHODS}
+    free = [(c, d) for c, d in CURVES if c not in {look.color for look in found.values()}] or CURVES
+    used = {look.marker for look in METHODS.values()}
+    markers = [m for m in MARKERS if m not in used]
+    for k, name in enumerate(name for name in names if name not in METHODS):
+        color, dashes = free[k % len(free)]
+        found[name] = Look(color, markers[k % len(markers)], dashes=dashes)
+    return found
+
+
+def looks_of_peers(names: Iterable[str], explicit: Callable[[str], bool]) -> dict[str, Look]:
+    """Muted looks of other programs: a colour for each library, a marker for each of its methods.
+
+    ``explicit`` is whether a program is drawn with dashes.
+    """
+    found: dict[str, Look] = {}
+    for name in names:
+        library = name.partition(" ")[0]
+        before = sum(other.partition(" ")[0] == library for other in found)
+        color = LIBRARIES.get(library, "#999999")
+        dashes = EXPLICIT if explicit(name) else "-"
+        found[name] = Look(color, MARKERS[before % len(MARKERS)], 1.1, dashes)
+    return found
+
+
+def looks_of_limits(names: Iterable[str]) -> dict[str, Look]:
+    """Dotted grey: what no program can be expected to reach."""
+    return {name: Look(DARK, MARKERS[k], 1.2, LIMIT) for k, name in enumerate(names)}
+
+
+def need_matplotlib() -> None:
+    """Raise UsageError with one sentence when nothing can be drawn."""
+    from importlib.util import find_spec
+
+    if find_spec("matplotlib") is None:
+        raise UsageError(ABSENT)
+
+
+def styled() -> AbstractContextManager[None]:
+    """The settings of matplotlib in which figures are made, drawn and written."""
+    need_matplotlib()
+    from matplotlib import rc_context
+
+    return rc_context({"text.usetex": False, **SETTINGS})
+
+
+def need_suffix(path: str | Path) -> None:
+    """Raise UsageError when no figure can be written to a file of this name."""
+    suffix = Path(path).suffix.lower()
+    if suffix not in SUFFIXES:
+        raise UsageError(
+            f"figures cannot be written to {path}: '{suffix}' is none of {', '.join(SUFFIXES)}"
+        )
+
+
+def save(figure: Figure, path: str | Path) -> None:
+    """Write a figure to a file, whole or not at all, in the format of its suffix."""
+    need_suffix(path)
+    kind = Path(path).suffix.lower().lstrip(".")
+    dated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+    content = BytesIO()
+    with styled():
+        figure.savefig(content, format=kind, metadata=dated.get(kind, {}))
+    with whole_file(path, binary=True) as stream:
+        stream.write(content.getvalue())
+
+
+def plain_ticks(axis: Axis) -> None:
+    """Numbers beside an axis with as many digits as tell them apart, and no common factor."""
+    from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+    def text(value: float, position: int | None = None) -> str:
+        places = axis.get_majorticklocs()
+        gap = min((b - a for a, b in pairwise(places)), default=0.0)
+        return tick_text(value, gap)
+
+    axis.set_major_locator(MaxNLocator("auto", steps=[1, 2, 2.5, 5, 10]))
+    axis.set_major_formatter(FuncFormatter(text))
+
+
+def tick_text(value: float, gap: float) -> str:
+    """A number with the digits that a gap to its neighbours asks for: ``0.25``, ``1.5e-7``."""
+    if abs(value) < 1e-9 * gap or value == 0.0:
+        return "0"
+    digits = 6 if gap <= 0.0 else floor(log10(abs(value))) - floor(log10(gap)) + 2
+    text = f"{value:.{min(max(digits, 1), 15)}g}"
+    return re.sub(r"e([+-])0*(\d)", lambda m: "e" + m[1].replace("+", "") + m[2], text)

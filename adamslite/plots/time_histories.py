@@ -1,0 +1,311 @@
+"""Histories of channels over time, or over another channel: one axis for each quantity.
+
+    figure = plot(results, ["PART/2.x", "JOINT/*.f?"], against="reference.csv")
+
+A reference is drawn as a dashed line in the band of its tolerance. Where such a band is too thin to
+be seen the last axis shows it: the difference from the reference as a part of the tolerance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from adamslite.errors import UsageError
+from adamslite.plots import style
+from adamslite.plots.references import Beside, beside, reference_of
+from adamslite.plots.selection import Curve, Panel, curve, panels, select, summary, titled
+from adamslite.results.events import Event, events_of
+from adamslite.results.results import Results
+from adamslite.verification.reference_file import Reference
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Colour and dashes.
+Look: TypeAlias = tuple[Any, Any]
+WIDTH = 9.0
+#: Heights [in]: of an axis by the number of axes, of a line of the title and of small print.
+HEIGHTS, LOWEST, HEAD, PRINT = {1: 3.6, 2: 2.5, 3: 2.1}, 1.8, 0.21, 0.17
+#: Characters in a line of the title and of small print.
+TITLE_WIDTH, PRINT_WIDTH = 84, 118
+#: More curves than this in an axis are told apart by a scale of colours only.
+TELLABLE = 8
+SHOWN_OF_MANY = 5
+#: So many events are marked and explained.
+MARKED = 6
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """What a figure shows."""
+
+    results: Results
+    x: Curve
+    panels: tuple[Panel, ...]
+    beside: Beside | None
+    events: tuple[Event, ...]
+
+    @property
+    def over_time(self) -> bool:
+        """Whether time is the common axis."""
+        return self.x.channel.name == "time"
+
+    @property
+    def curves(self) -> list[Curve]:
+        """Those of all axes."""
+        return [each for panel in self.panels for each in panel.curves]
+
+    @cached_property
+    def looks(self) -> Mapping[str, Look]:
+        """Colour and dashes of every channel, different in all axes if there are few."""
+        names = [[each.channel.name for each in panel.curves] for panel in self.panels]
+        groups = [sum(names, [])] if len(self.curves) <= TELLABLE else names
+        pairs = (zip(group, _looks(len(group)), strict=True) for group in groups)
+        return {name: look for group in pairs for name, look in group}
+
+
+def plot(
+    results: Results,
+    channels: str | Sequence[str],
+    against: Reference | Results | str | Path | None = None,
+    x: str = "time",
+) -> Figure:
+    """Draw channels of results.
+
+    Parameters
+    ----------
+    results : Results
+    channels : str or sequence of str
+        Names or patterns: ``PART/2.x``, ``PART/*.v?``.
+    against : Reference, Results, str or Path, optional
+        A reference, or a file with one.
+    x : str
+        The channel of the horizontal axis.
+
+    Raises
+    ------
+    UnknownChannel
+        When there is no such channel.
+    UsageError
+        Without matplotlib, and when there is nothing to draw.
+    """
+    style.need_matplotlib()
+    drawn = _chosen(results, [channels] if isinstance(channels, str) else channels, against, x)
+    with style.styled():
+        return _figure(drawn)
+
+
+def _chosen(
+    results: Results,
+    channels: Sequence[str],
+    against: Reference | Results | str | Path | None,
+    x: str,
+) -> Drawn:
+    if not len(results.time):
+        raise UsageError("the results hold no output time: there is nothing to draw")
+    if not channels:
+        near = ", ".join(results.names[:3])
+        raise UsageError(f"no channel is named; there are {near}, ...")
+    curves = [curve(results, name) for name in select(results, channels)]
+    across = curve(results, x)
+    if all(np.isnan(each.values + across.values).all() for each in curves):
+        raise UsageError(f"{curves[0].channel.name} is not a number at any output time")
+    found = beside(results, curves, reference_of(against)) if against is not None else None
+    return Drawn(results, across, tuple(panels(curves)), found, tuple(events_of(results)))
+
+
+def _figure(drawn: Drawn) -> Figure:
+    from matplotlib.figure import Figure
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    title, notes = _title(drawn), list(_notes(drawn))
+    count = len(drawn.panels) + _has_difference(drawn)
+    above = HEAD * len(title) + PRINT + 0.12
+    below = PRINT * len(notes) + (0.08 if notes else 0.0)
+    height = count * HEIGHTS.get(count, LOWEST) + above + below + 0.5
+    strip = (0.0, below / height, 1.0, 1.0 - (above + below) / height)
+    layout = ConstrainedLayoutEngine(rect=strip, h_pad=0.05, w_pad=0.08)
+    figure = Figure(figsize=(WIDTH, height), layout=layout)
+    for k, line in enumerate(title):
+        top = 1.0 - (0.08 + HEAD * k) / height
+        figure.text(0.012, top, line, va="top", fontsize=11, fontweight="bold")
+    deck = drawn.results.meta.get("deck", "")
+    top = 1.0 - (0.1 + HEAD * len(title)) / height
+    figure.text(0.012, top, _line(deck), va="top", color=style.MUTED)
+    for k, line in enumerate(reversed(notes)):
+        figure.text(0.012, (0.06 + PRINT * k) / height, line, va="bottom", fontsize=8)
+    axes: list[Axes] = [*figure.subplots(count, 1, sharex=True, squeeze=False)[:, 0]]
+    for panel, axis in zip(drawn.panels, axes, strict=False):
+        _panel(axis, panel, drawn)
+    if _has_difference(drawn):
+        _difference(axes[-1], drawn)
+    _across(axes, drawn)
+    return figure
+
+
+def _has_difference(drawn: Drawn) -> bool:
+    return drawn.beside is not None and drawn.over_time
+
+
+def _title(drawn: Drawn) -> list[str]:
+    over = "time" if drawn.over_time else drawn.x.channel.long_name
+    text = f"{summary(drawn.curves)} over {over}"
+    if drawn.beside:
+        text += f", {drawn.beside.verdict}"
+    return wrap(text[:1].upper() + text[1:], TITLE_WIDTH)
+
+
+def _line(text: str) -> str:
+    return wrap(text, PRINT_WIDTH - 6, max_lines=1, placeholder=" ...")[0] if text.strip() else ""
+
+
+def _notes(drawn: Drawn) -> Iterator[str]:
+    """The lines of small print: events by their numbers, and what else has to be said."""
+    if drawn.over_time:
+        for number, event in enumerate(drawn.events[:MARKED], 1):
+            yield _line(f"({number}) {event.text}")
+        if len(drawn.events) > MARKED:
+            yield f"and {len(drawn.events) - MARKED} more events"
+    if drawn.beside:
+        yield from map(_line, drawn.beside.notes)
+    if gaps := without_numbers(drawn.curves):
+        yield _line(gaps)
+    named = any(each.channel.quantity for each in drawn.curves)
+    if named and not drawn.results.unit_symbols:
+        yield "The deck names no units: lengths, forces and times are in its own."
+
+
+def without_numbers(curves: Sequence[Curve]) -> str:
+    """A sentence about curves with gaps; empty when there are none."""
+    gaps = [each for each in curves if np.isnan(each.values).any()]
+    if not gaps:
+        return ""
+    first = gaps[0]
+    missing, count = int(np.isnan(first.values).sum()), len(first.values)
+    more = f", and {len(gaps) - 1} other channels have gaps" if len(gaps) > 1 else ""
+    return f"{first.channel.name} is no number at {missing} of {count} output times{more}"
+
+
+def _panel(axis: Axes, panel: Panel, drawn: Drawn) -> None:
+    """One axis with its curves, the reference and the marks of events."""
+    axis.set_title(panel.title)
+    marker = "o" if len(drawn.results.time) < 3 else ""
+    many = len(panel.curves) > TELLABLE
+    handles: list[Any] = []
+    for each in panel.curves:
+        color, dashes = drawn.looks[each.channel.name]
+        (line,) = axis.plot(
+            drawn.x.values, each.values, color=color, linestyle=dashes, marker=marker,
+            linewidth=0.9 if many else 1.7, label=each.label,
+        )  # fmt: skip
+        handles.append(line)
+        if not drawn.over_time:
+            _ends(axis, drawn.x.values, each.values, color)
+    if many:
+        picked = np.unique(np.linspace(0, len(handles) - 1, SHOWN_OF_MANY).round().astype(int))
+        handles = [handles[k] for k in picked]
+    handles += _reference(axis, panel, drawn)
+    axis.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1.03), borderaxespad=0.0,
+                title=f"{len(panel.curves)} channels, from" if many else None,
+                alignment="left", title_fontsize=8)  # fmt: skip
+    style.plain_ticks(axis.yaxis)
+
+
+def _looks(count: int) -> Sequence[Look]:
+    """Colour and dashes of so many curves: many are drawn in a scale of colours."""
+    if count <= TELLABLE:
+        return style.CURVES[:count]
+    from matplotlib import colormaps
+
+    scale = colormaps["cividis"]
+    return [(scale(k / (count - 1) * 0.95), "-") for k in range(count)]
+
+
+def _ends(axis: Axes, x: np.ndarray, y: np.ndarray, color: Any) -> None:
+    """Where a path begins (open) and ends (filled)."""
+    known = np.flatnonzero(~np.isnan(x + y))
+    for at, face in ((known[:1], "white"), (known[-1:], color)):
+        axis.plot(x[at], y[at], "o", markersize=5, markerfacecolor=face, markeredgecolor=color)
+
+
+def _reference(axis: Axes, panel: Panel, drawn: Drawn) -> list[Any]:
+    """The reference of the curves of an axis, and its band; what the legend shows of it."""
+    found = drawn.beside.compared if drawn.beside and drawn.over_time else {}
+    handles: list[Any] = []
+    for each in panel.curves:
+        if each.channel.name in found:
+            c = found[each.channel.name]
+            band = axis.fill_between(
+                c.time, c.values - c.allowed, c.values + c.allowed, color=style.BAND, linewidth=0,
+                label="its tolerance", zorder=1,
+            )  # fmt: skip
+            (line,) = axis.plot(
+                c.time, c.values, color=style.BLACK, linewidth=0.9, linestyle=(0, (4, 3)),
+                label=drawn.beside.name if drawn.beside else "", zorder=3,
+                marker="o" if c.time.size < 3 else "", markersize=3,
+            )  # fmt: skip
+            handles = [line, band]
+    return handles
+
+
+def _difference(axis: Axes, drawn: Drawn) -> None:
+    """Difference from the reference as a part of the tolerance, of all curves that have one."""
+    assert drawn.beside is not None
+    axis.set_title(f"difference from {drawn.beside.name}, as a part of the tolerance")
+    axis.axhspan(-1.0, 1.0, color=style.BAND, linewidth=0, zorder=0)
+    largest, handles = 1.0, list[Any]()
+    for each in drawn.curves:
+        if each.channel.name in drawn.beside.compared:
+            c = drawn.beside.compared[each.channel.name]
+            share = np.where(np.isfinite(c.share), c.share, np.nan)
+            color, dashes = drawn.looks[each.channel.name]
+            handles += axis.plot(
+                c.time, share, color=color, linestyle=dashes, linewidth=1.2,
+                marker="o" if c.time.size < 3 else "", label=each.channel.name,
+            )  # fmt: skip
+            largest = max(largest, float(np.nanmax(np.abs(share), initial=0.0)))
+    if largest > 10.0:
+        axis.set_yscale("symlog", linthresh=1.0)
+    else:
+        style.plain_ticks(axis.yaxis)
+    axis.set_ylim(-1.15 * largest, 1.15 * largest)
+    axis.legend(handles=handles[:TELLABLE], loc="upper left", bbox_to_anchor=(1.01, 1.03),
+                borderaxespad=0.0)  # fmt: skip
+
+
+def _across(axes: Sequence[Axes], drawn: Drawn) -> None:
+    """The common horizontal axis, and the marks of events on it."""
+    last = axes[-1]
+    if drawn.over_time:
+        last.set_xlabel(titled("time", drawn.x.channel.unit))
+    else:
+        channel = drawn.x.channel
+        last.set_xlabel(f"{channel.name}: {titled(channel.quantity or 'value', channel.unit)}")
+        if len(axes) == 1 and _is_path(drawn):
+            last.set_aspect("equal", adjustable="datalim")
+    style.plain_ticks(last.xaxis)
+    if not drawn.over_time:
+        return
+    for axis in axes:
+        for event in drawn.events:
+            axis.axvline(event.time, color=style.MUTED, linewidth=0.8, linestyle=(0, (2, 2)))
+    for number, event in enumerate(drawn.events[:MARKED], 1):
+        axes[0].annotate(
+            f"({number})", (event.time, 1.0), (0, 2), xycoords=("data", "axes fraction"),
+            textcoords="offset points", ha="center", va="bottom", fontsize=8, color=style.DARK,
+        )  # fmt: skip
+
+
+def _is_path(drawn: Drawn) -> bool:
+    """Whether both axes are lengths of the same kind."""
+    first = drawn.curves[0].channel
+    across = drawn.x.channel
+    return (first.quantity, first.unit) == (across.quantity, across.unit) != ("", "")
