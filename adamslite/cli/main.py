@@ -3,6 +3,7 @@
     adamslite check  DECK                   what is wrong with a deck, and what it contains
     adamslite solve  DECK [COMMANDS.acf]    run it and write the results
     adamslite view   DECK|RESULT            write a page that shows how it moves, and open it
+    adamslite plot   RESULT CHANNEL ...     draw channels of results
     adamslite diff   A B                    compare two result files
     adamslite verify [DIR|DECK ...]         run reference decks and compare
     adamslite linear DECK [COMMANDS.acf]    eigenvalues and modes of small motions
@@ -38,6 +39,7 @@ from adamslite.cli.commands import (
     help,
     linear,
     lsp,
+    plot,
     solve,
     verify,
     view,
@@ -46,7 +48,7 @@ from adamslite.cli.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, S
 from adamslite.notation import COMMAND_LINE, notation
 
 COMMANDS = (
-    check, solve, view, diff, verify, linear, chart, cable, cache, fmt, lsp, editors, help,
+    check, solve, view, plot, diff, verify, linear, chart, cable, cache, fmt, lsp, editors, help,
 )  # fmt: skip
 EXIT_CODES = """exit codes:
   0 done, or equal        1 outside tolerance, or not in the canonical layout

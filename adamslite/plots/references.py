@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import ceil
 from pathlib import Path
 
 import numpy as np
@@ -49,10 +50,15 @@ class Beside:
         }  # fmt: skip
         name = max(worst, key=lambda each: worst[each])
         if worst[name] <= 1.0:
-            return f"within the tolerance of {self.name}, {worst[name]:.0%} of it used"
+            return f"within {_percent(worst[name])} of the tolerance of {self.name}"
         shares = self.compared[name].share
         first = self.compared[name].time[~(np.abs(shares) <= 1.0)][0]
         return f"outside the tolerance of {self.name}: {name} from t = {first:.4g}"
+
+
+def _percent(share: float) -> str:
+    """A share, rounded up."""
+    return f"{ceil(100.0 * share - 1e-6):d} %" if share > 1e-3 else "0.1 %"
 
 
 def reference_of(given: Reference | Results | str | Path) -> Reference:

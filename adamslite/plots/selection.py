@@ -14,7 +14,8 @@ from adamslite.results.results import Results
 
 #: More axes than this are too many for channels whose quantity is not known to have their own.
 MANY = 8
-DEFINITION = 40
+#: Characters of a name or an expression in a legend.
+LONGEST, DEFINITION = 32, 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,8 +29,8 @@ class Curve:
     @property
     def label(self) -> str:
         """For a legend: the column, with its name or definition in the deck below it."""
-        words = self.definition or self.channel.title
-        return f"{self.channel.name}\n{words}" if words else self.channel.name
+        name, words = clipped(self.channel.name), self.definition or clipped(self.channel.title)
+        return f"{name}\n{words}" if words else name
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Panel:
         if first.quantity:
             return titled(first.quantity, first.unit)
         names = list(dict.fromkeys(curve.channel.statement for curve in self.curves))
-        return titled(names[0] if len(names) == 1 else "values", first.unit)
+        return titled(clipped(names[0], 2 * LONGEST) if len(names) == 1 else "values", first.unit)
 
 
 def titled(words: str, unit: str) -> str:
@@ -56,6 +57,12 @@ def titled(words: str, unit: str) -> str:
 def pretty(unit: str) -> str:
     """``m/s^2`` with a raised two."""
     return unit.replace("^2", "\N{SUPERSCRIPT TWO}")
+
+
+def clipped(text: str, longest: int = LONGEST) -> str:
+    """A text whose middle is left out where it is too long."""
+    half = (longest - 3) // 2
+    return text if len(text) <= longest else f"{text[:half]}...{text[-half:]}"
 
 
 def select(results: Results, patterns: Iterable[str]) -> list[str]:
@@ -112,22 +119,51 @@ def _axis(channel: Channel, own: bool) -> tuple[str, str, str]:
 
 
 def summary(curves: Sequence[Curve]) -> str:
-    """What curves show, in a few words: ``PART/2: position and velocity``."""
+    """What curves show, in a few words: ``PART/2: position x and velocity vx``."""
     channels = [each.channel for each in curves]
     if len(channels) == 1:
-        return channels[0].long_name
-    statements = list(dict.fromkeys(each.statement for each in channels))
+        return clipped(channels[0].long_name, 3 * LONGEST)
+    contents: dict[str, list[Channel]] = {}
+    for each in channels:
+        contents.setdefault(each.statement, []).append(each)
+    texts = {label: _content(mine) for label, mine in contents.items()}
+    if len(set(texts.values())) == 1:
+        what = next(iter(texts.values()))
+        return f"{listed(list(texts))}: {what}" if what else listed(list(texts))
+    if len(texts) <= 2:
+        return ", ".join(f"{label}: {what}" if what else label for label, what in texts.items())
     quantities = list(dict.fromkeys(each.quantity for each in channels if each.quantity))
-    components = list(dict.fromkeys(each.component for each in channels if each.component))
     what = listed(quantities)
-    if len(components) <= 3:
-        what = f"{what} {listed(components)}".strip()
-    return f"{listed(statements)}: {what}" if what else listed(statements)
+    return f"{listed(list(texts))}: {what}" if what else listed(list(texts))
+
+
+def _content(channels: Sequence[Channel]) -> str:
+    """Quantities of one statement, each with its components unless these are all three."""
+    found: dict[str, list[str]] = {}
+    for each in channels:
+        found.setdefault(each.quantity, []).append(each.component)
+    texts = []
+    for quantity, components in found.items():
+        named = "" if quantity and len(components) == 3 else listed(list(filter(None, components)))
+        texts.append(f"{quantity} {named}".strip())
+    return listed(list(filter(None, texts)))
 
 
 def listed(words: Sequence[str]) -> str:
     """``a``, ``a and b``, ``a, b and c``, or of many the first and the last."""
+    words = [clipped(word) for word in words]
     if len(words) > 4:
         return f"{words[0]} ... {words[-1]} ({len(words)})"
     head, last = words[:-1], words[-1:]
     return " and ".join(filter(None, (", ".join(head), *last)))
+
+
+def without_numbers(curves: Sequence[Curve]) -> str:
+    """A sentence about curves with gaps; empty when there are none."""
+    gaps = [each for each in curves if np.isnan(each.values).any()]
+    if not gaps:
+        return ""
+    first = gaps[0]
+    missing, count = int(np.isnan(first.values).sum()), len(first.values)
+    more = f", and {len(gaps) - 1} other channels have gaps" if len(gaps) > 1 else ""
+    return f"{first.channel.name} is no number at {missing} of {count} output times{more}"

@@ -8,13 +8,14 @@ an optional extra, is imported when the first figure is made.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from io import BytesIO
 from itertools import pairwise
 from math import floor, log10
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
+from warnings import catch_warnings, filterwarnings
 
 from adamslite.errors import UsageError
 from adamslite.outputs.whole_files import whole_file
@@ -159,29 +160,38 @@ def save(figure: Figure, path: str | Path) -> None:
     kind = Path(path).suffix.lower().lstrip(".")
     dated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     content = BytesIO()
-    with styled():
+    with styled(), catch_warnings():
+        # A letter that the font lacks is a box in a PNG; an SVG has the letter itself.
+        filterwarnings("ignore", "Glyph .* missing")
         figure.savefig(content, format=kind, metadata=dated.get(kind, {}))
     with whole_file(path, binary=True) as stream:
         stream.write(content.getvalue())
 
 
 def plain_ticks(axis: Axis) -> None:
-    """Numbers beside an axis with as many digits as tell them apart, and no common factor."""
+    """Numbers beside an axis, all with the digits that tell them apart, and no common factor."""
     from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-    def text(value: float, position: int | None = None) -> str:
-        places = axis.get_majorticklocs()
-        gap = min((b - a for a, b in pairwise(places)), default=0.0)
-        return tick_text(value, gap)
-
     axis.set_major_locator(MaxNLocator("auto", steps=[1, 2, 2.5, 5, 10]))
-    axis.set_major_formatter(FuncFormatter(text))
+    axis.set_major_formatter(
+        FuncFormatter(lambda value, _: tick_text(value, [*axis.get_majorticklocs()]))
+    )
 
 
-def tick_text(value: float, gap: float) -> str:
-    """A number with the digits that a gap to its neighbours asks for: ``0.25``, ``1.5e-7``."""
-    if abs(value) < 1e-9 * gap or value == 0.0:
+def tick_text(value: float, places: Sequence[float]) -> str:
+    """A number with as many digits as the numbers ``places`` beside an axis need.
+
+    ``0.25`` where the others are ``0.50``; ``1.5e-7`` where they are that small.
+    """
+    gap = min((b - a for a, b in pairwise(sorted(places))), default=abs(value) or 1.0)
+    largest = max(*map(abs, places), abs(value), gap)
+    if gap <= 0.0 or abs(value) < 1e-6 * gap:
+        value = 0.0
+    decimals = next((n for n in range(16) if abs(round(gap, n) - gap) <= 1e-6 * gap), 16)
+    if largest < 1e6 and decimals <= 5:
+        return f"{value:.{decimals}f}"
+    if value == 0.0:
         return "0"
-    digits = 6 if gap <= 0.0 else floor(log10(abs(value))) - floor(log10(gap)) + 2
+    digits = floor(log10(abs(value))) - floor(log10(gap)) + 2
     text = f"{value:.{min(max(digits, 1), 15)}g}"
     return re.sub(r"e([+-])0*(\d)", lambda m: "e" + m[1].replace("+", "") + m[2], text)

@@ -20,7 +20,17 @@ import numpy as np
 from adamslite.errors import UsageError
 from adamslite.plots import style
 from adamslite.plots.references import Beside, beside, reference_of
-from adamslite.plots.selection import Curve, Panel, curve, panels, select, summary, titled
+from adamslite.plots.selection import (
+    Curve,
+    Panel,
+    clipped,
+    curve,
+    panels,
+    select,
+    summary,
+    titled,
+    without_numbers,
+)
 from adamslite.results.events import Event, events_of
 from adamslite.results.results import Results
 from adamslite.verification.reference_file import Reference
@@ -41,6 +51,8 @@ TELLABLE = 8
 SHOWN_OF_MANY = 5
 #: So many events are marked and explained.
 MARKED = 6
+#: Marks that are closer than this part of the axis are one.
+CLOSE = 0.06
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +171,7 @@ def _title(drawn: Drawn) -> list[str]:
     over = "time" if drawn.over_time else drawn.x.channel.long_name
     text = f"{summary(drawn.curves)} over {over}"
     if drawn.beside:
-        text += f", {drawn.beside.verdict}"
+        text += f": {drawn.beside.verdict}"
     return wrap(text[:1].upper() + text[1:], TITLE_WIDTH)
 
 
@@ -174,6 +186,8 @@ def _notes(drawn: Drawn) -> Iterator[str]:
             yield _line(f"({number}) {event.text}")
         if len(drawn.events) > MARKED:
             yield f"and {len(drawn.events) - MARKED} more events"
+    else:
+        yield "Open circle: begin; filled circle: end."
     if drawn.beside:
         yield from map(_line, drawn.beside.notes)
     if gaps := without_numbers(drawn.curves):
@@ -181,17 +195,6 @@ def _notes(drawn: Drawn) -> Iterator[str]:
     named = any(each.channel.quantity for each in drawn.curves)
     if named and not drawn.results.unit_symbols:
         yield "The deck names no units: lengths, forces and times are in its own."
-
-
-def without_numbers(curves: Sequence[Curve]) -> str:
-    """A sentence about curves with gaps; empty when there are none."""
-    gaps = [each for each in curves if np.isnan(each.values).any()]
-    if not gaps:
-        return ""
-    first = gaps[0]
-    missing, count = int(np.isnan(first.values).sum()), len(first.values)
-    more = f", and {len(gaps) - 1} other channels have gaps" if len(gaps) > 1 else ""
-    return f"{first.channel.name} is no number at {missing} of {count} output times{more}"
 
 
 def _panel(axis: Axes, panel: Panel, drawn: Drawn) -> None:
@@ -202,6 +205,7 @@ def _panel(axis: Axes, panel: Panel, drawn: Drawn) -> None:
     handles: list[Any] = []
     for each in panel.curves:
         color, dashes = drawn.looks[each.channel.name]
+        dashes = dashes if len(panel.curves) > 1 else "-"
         (line,) = axis.plot(
             drawn.x.values, each.values, color=color, linestyle=dashes, marker=marker,
             linewidth=0.9 if many else 1.7, label=each.label,
@@ -288,7 +292,9 @@ def _across(axes: Sequence[Axes], drawn: Drawn) -> None:
         last.set_xlabel(titled("time", drawn.x.channel.unit))
     else:
         channel = drawn.x.channel
-        last.set_xlabel(f"{channel.name}: {titled(channel.quantity or 'value', channel.unit)}")
+        last.set_xlabel(
+            f"{clipped(channel.name)}: {titled(channel.quantity or 'value', channel.unit)}"
+        )
         if len(axes) == 1 and _is_path(drawn):
             last.set_aspect("equal", adjustable="datalim")
     style.plain_ticks(last.xaxis)
@@ -297,11 +303,27 @@ def _across(axes: Sequence[Axes], drawn: Drawn) -> None:
     for axis in axes:
         for event in drawn.events:
             axis.axvline(event.time, color=style.MUTED, linewidth=0.8, linestyle=(0, (2, 2)))
-    for number, event in enumerate(drawn.events[:MARKED], 1):
+    if drawn.events:
+        axes[0].set_title(axes[0].get_title(loc="left"), pad=18)
+    for time, numbers in _numbered(drawn.events[:MARKED], last.get_xlim()):
         axes[0].annotate(
-            f"({number})", (event.time, 1.0), (0, 2), xycoords=("data", "axes fraction"),
+            f"({numbers})", (time, 1.0), (0, 2), xycoords=("data", "axes fraction"),
             textcoords="offset points", ha="center", va="bottom", fontsize=8, color=style.DARK,
         )  # fmt: skip
+
+
+def _numbered(events: Sequence[Event], limits: tuple[float, float]) -> Iterator[tuple[float, str]]:
+    """Times and numbers of events; those that are close to one another share a mark."""
+    close = CLOSE * (limits[1] - limits[0])
+    groups: list[list[int]] = []
+    for k, event in enumerate(events):
+        if groups and event.time - events[groups[-1][-1]].time < close:
+            groups[-1].append(k)
+        else:
+            groups.append([k])
+    for group in groups:
+        middle = sum(events[k].time for k in group) / len(group)
+        yield middle, ", ".join(str(k + 1) for k in group)
 
 
 def _is_path(drawn: Drawn) -> bool:

@@ -10,13 +10,9 @@ OUT (.png, .svg, .pdf); drawing needs matplotlib.
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
 from adamslite.cli.commands.results_given import add_results_arguments, given_results
-
-if TYPE_CHECKING:
-    from adamslite.results.results import Results
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,6 +30,7 @@ def run(args: argparse.Namespace) -> int:
     """Draw and write; return the exit code."""
     from adamslite.errors import UsageError
     from adamslite.outputs.whole_files import need_writable
+    from adamslite.plots.selection import curve, select, without_numbers
     from adamslite.plots.style import need_matplotlib, need_suffix, save
     from adamslite.plots.time_histories import plot
     from adamslite.results.results import UnknownChannel
@@ -46,20 +43,12 @@ def run(args: argparse.Namespace) -> int:
     results, read = given_results(args)
     need_writable(output, [*read, *([args.against] if args.against else [])], bool(args.output))
     try:
-        names = _chosen(results, args.channel)
+        names = select(results, args.channel)
         figure = plot(results, names, reference, args.x)
     except UnknownChannel as unknown:
         raise UsageError(str(unknown)) from None
+    if gaps := without_numbers([curve(results, name) for name in names]):
+        sys.stderr.write(f"adamslite: {gaps}\n")
     save(figure, output)
     sys.stderr.write(f"{output}: {len(names)} of {len(results.names)} channels\n")
     return DONE if results.outcome.is_requested else STOPPED_EARLY
-
-
-def _chosen(results: "Results", channels: list[str]) -> list[str]:
-    """The columns that are meant; gaps in them are reported."""
-    from adamslite.plots.selection import curve, select, without_numbers
-
-    names = select(results, channels)
-    if gaps := without_numbers([curve(results, name) for name in names]):
-        sys.stderr.write(f"adamslite: {gaps}\n")
-    return names

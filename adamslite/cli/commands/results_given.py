@@ -82,6 +82,7 @@ def _solved(args: argparse.Namespace) -> tuple[Results, list[Path]]:
 
 def _loaded(args: argparse.Namespace) -> tuple[Results, list[Path]]:
     import adamslite
+    from adamslite.drawing.run_deck import difference
     from adamslite.errors import FormatError
     from adamslite.results.results import Results
     from adamslite.results.source import source_of
@@ -89,27 +90,18 @@ def _loaded(args: argparse.Namespace) -> tuple[Results, list[Path]]:
     results = Results.load(args.result)
     if not len(results.time):
         raise FormatError(f"{args.result} holds no output time")
-    deck = adamslite.read(args.deck) if args.deck else None
-    if deck is not None and results.meta.get("deck hash", deck.hash) != deck.hash:
-        sys.stderr.write(f"adamslite: {args.result} is the result of another deck than {args.deck}\n")
-    if deck is None and results.source is None:
-        deck = _deck_beside(args.result, results)
-    if deck is None:
+    path = args.deck or (None if results.source else _deck_beside(args.result, results))
+    if path is None:
         return results, [args.result]
-    read = [args.result, *([deck.path] if deck.path else [])]
-    return replace(results, source=source_of(deck, ())), read
+    deck = adamslite.read(path)
+    if warning := difference(deck, results):
+        sys.stderr.write(f"{path}: {warning}\n")
+    return replace(results, source=source_of(deck, ())), [args.result, path]
 
 
-def _deck_beside(path: Path, results: Results):
-    """The deck of results, by its text, beside their file or in the current folder."""
-    import adamslite
-    from adamslite.language.diagnostics import DeckError
+def _deck_beside(path: Path, results: Results) -> Path | None:
+    """The deck that has the very text of these results, beside them or in the current folder."""
+    from adamslite.drawing.run_deck import HASH, beside, hash_of
 
-    for candidate in dict.fromkeys((path.with_suffix(DECK), Path(f"{path.stem}{DECK}"))):
-        try:
-            deck = adamslite.read(candidate)
-        except (OSError, DeckError, ValueError):
-            continue
-        if deck.hash == results.meta.get("deck hash"):
-            return deck
-    return None
+    found = beside(path, results)
+    return found if found and hash_of(found) == results.meta.get(HASH) else None
