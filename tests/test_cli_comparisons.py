@@ -2,9 +2,11 @@
 
 from pathlib import Path
 
+import numpy as np
 from fakes import ERROR, fall
 
 from adamslite.cli.main import main
+from adamslite.results.results import Results
 
 
 def test_diff_of_two_files(pipeline, capsys) -> None:
@@ -74,3 +76,67 @@ def test_verify_reports_a_broken_deck_and_goes_on(pipeline, capsys) -> None:
     assert main(["verify", "."]) == 1
     out = capsys.readouterr().out
     assert "the deck has errors: cable.adm:2:4: there is no MARKER/7" in out
+
+
+def saved(path: str, worse: tuple[int, ...] = (), columns: int = 30) -> None:
+    """Histories t of VARIABLE/0, ...; some are off by their number at the end."""
+    values = np.outer(np.linspace(0, 1, 5), np.ones(columns))
+    values[-1, list(worse)] += worse
+    names = tuple(f"VARIABLE/{n}" for n in range(columns))
+    Results(time=np.linspace(0, 1, 5), names=names, values=values).save(path)
+
+
+def test_diff_lists_what_is_outside_first_and_the_rest_with_all(pipeline, capsys) -> None:
+    saved("a.csv", worse=(3, 12))
+    saved("b.csv")
+    assert main(["diff", "a.csv", "b.csv"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == ["channel", "VARIABLE/12", "VARIABLE/3", "30"]
+    assert lines[-1] == "30 compared, 2 outside their tolerances; --all lists the others"
+    assert main(["diff", "a.csv", "b.csv", "--all"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines[1:4]] == ["VARIABLE/12", "VARIABLE/3", "VARIABLE/0"]
+    assert len(lines) == 32
+    assert main(["diff", "b.csv", "b.csv"]) == 0
+    assert capsys.readouterr().out == "30 compared, all within their tolerances; --all lists them\n"
+
+
+def test_diff_shows_a_short_table_whole(pipeline, capsys) -> None:
+    saved("a.csv", worse=(3,), columns=4)
+    saved("b.csv", columns=4)
+    assert main(["diff", "a.csv", "b.csv"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines[1:5]] == [f"VARIABLE/{n}" for n in (3, 0, 1, 2)]
+
+
+def test_diff_with_nothing_to_compare_is_no_agreement(pipeline, capsys) -> None:
+    fall().save("a.csv")
+    for text, what in (
+        ("", "no channel"), ("time\n0\n", "no channel"), ("time,PART/2.x\n", "no output time"),
+    ):  # fmt: skip
+        Path("b.csv").write_text(text)
+        assert main(["diff", "a.csv", "b.csv"]) == 1
+        assert capsys.readouterr().out == f"different: the reference has {what} at all\n"
+
+
+def test_diff_of_a_column_without_numbers_is_outside(pipeline, capsys) -> None:
+    Path("a.csv").write_text("time,x\n0,nan\n1,nan\n")
+    assert main(["diff", "a.csv", "a.csv"]) == 1
+    assert "1 outside its tolerance" in capsys.readouterr().out
+
+
+def test_diff_names_a_channel_that_may_be_meant(pipeline, capsys) -> None:
+    fall().save("a.csv")
+    Path("c.csv").write_text("time,PART/2.vy\n0,0\n")
+    assert main(["diff", "a.csv", "c.csv"]) == 1
+    assert "no channel 'PART/2.vy'; did you mean PART/2.vx?" in capsys.readouterr().out
+
+
+def test_diff_of_two_decks_says_so(pipeline, capsys) -> None:
+    fall(meta={"deck": "a boom", "deck hash": "1"}).save("a.csv")
+    fall(meta={"deck": "a winch", "deck hash": "2"}).save("b.csv")
+    assert main(["diff", "a.csv", "b.csv"]) == 0
+    said = capsys.readouterr().err
+    assert said == "adamslite: A and B are results of different decks, 'a boom' and 'a winch'\n"
+    assert main(["diff", "a.csv", "a.csv"]) == 0
+    assert capsys.readouterr().err == ""

@@ -25,6 +25,7 @@ from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.marker import Marker
 from adamslite.elements.simulate import Simulate
 from adamslite.elements.units import Units
+from adamslite.equations.result_columns import column_names
 from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
 from adamslite.integrators.linalg.plan import TINY
@@ -36,6 +37,7 @@ from adamslite.outputs.saved_files import SavedFiles
 from adamslite.progress import Progress
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
+from adamslite.results.selection import limited, selected
 from adamslite.results.source import source_of
 
 # Few runs need them, and they take a while to load.
@@ -73,6 +75,7 @@ def simulate(
     audit: bool = False,
     confirm: bool = False,
     files: SavedFiles | None = None,
+    outputs: Iterable[str] = (),
 ) -> Results:
     """Run a deck, a model or its kernels.
 
@@ -97,11 +100,14 @@ def simulate(
         Run again, more tightly and by another method, and say how far the results agree.
     files : SavedFiles
         Where the files of SAVE and RELOAD are; in memory unless given.
+    outputs : iterable of str
+        Patterns of the columns to keep, ``REQUEST/*``, ``PART/2``; all unless given.
 
     Raises
     ------
     UsageError
-        When nothing says how long to run, there is no such rule, or an option is none.
+        When nothing says how long to run, there is no such rule, an option is none, or a pattern of
+        ``outputs`` means no column.
     """
     began, source = clock.process_time(), source_of(deck_of(scene), commands)
     commands = tuple(commands)
@@ -114,14 +120,16 @@ def simulate(
     plan = _plan(deck_of(scene), commands, end, steps)
     files = files or SavedFiles()
     session = Session(scene, progress, flags, left_off(no_reduction), audit, files)
+    wanted = (outputs,) if isinstance(outputs, str) else tuple(outputs)
+    selected(column_names(session.kernels), wanted)
     results = replace(_results(session, _carried_out(session, plan, began)), source=source)
-    if not confirm:
-        return results
-    again = partial(
-        simulate, scene, end, steps, commands=commands, progress=progress,
-        no_reduction=no_reduction, files=files.to_read,
-    )  # fmt: skip
-    return _confirmed(results, session, again)
+    if confirm:
+        again = partial(
+            simulate, scene, end, steps, commands=commands, progress=progress,
+            no_reduction=no_reduction, files=files.to_read,
+        )  # fmt: skip
+        results = _confirmed(results, session, again)
+    return limited(results, wanted) if wanted else results
 
 
 def _carried_out(session: Session, plan: list[Command], began: float) -> tuple[float, float]:

@@ -34,6 +34,7 @@ def simulate(
     audit: bool = False,
     confirm: bool = False,
     files: SavedFiles | str | os.PathLike[str] | None = None,
+    outputs: Iterable[str] = (),
 ) -> Results:
     """Run a deck, as `adamslite solve` does.
 
@@ -62,6 +63,8 @@ def simulate(
         Run again, more tightly and by another method, and say how far the results agree.
     files : str, Path or SavedFiles
         The folder of the files of SAVE and RELOAD; in memory unless given.
+    outputs : iterable of str
+        Patterns of the columns to keep, ``REQUEST/*``, ``PART/2``; all unless given.
 
     Warns
     -----
@@ -81,7 +84,7 @@ def simulate(
     try:
         return simulation.simulate(
             given.subject, end, steps, integrator, formulation, error, hmax, given.commands,
-            shown, no_reduction, audit, confirm, kept,
+            shown, no_reduction, audit, confirm, kept, outputs,
         )  # fmt: skip
     finally:
         shown.close()

@@ -13,7 +13,8 @@ from adamslite.kernels.code.kinematics import (
     POSITION,
     VELOCITY,
 )
-from adamslite.model.model import PART
+from adamslite.kernels.compile import Kernels
+from adamslite.model.model import PART, Body
 
 # Below this sine of theta the first and third angle of the 3-1-3 sequence are one angle.
 ALIGNED = 1e-10
@@ -28,19 +29,28 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
     A body gives position, 3-1-3 angles, velocity, angular velocity, acceleration and angular
     acceleration of its centre-of-mass marker in ground axes; a point mass the translational ones.
     """
-    names: list[str] = []
     parts: list[np.ndarray] = []
     for b, body in enumerate(system.model.bodies):
         w = record[:, system.w_at["BODY", b] :]
-        label = body.statement.label
-        turns = body.statement.keyword == "PART"
-        names += [f"{label}.{c}" for c in (OF_PART if turns else OF_POINT)]
-        parts.append(_part(system, b, w) if turns else _point(body.width, w))
-    for statement, suffixes in system.kernels.outputs:
-        names += [f"{statement.label}.{s}" if s else statement.label for s in suffixes]
+        parts.append(_part(system, b, w) if _turns(body) else _point(body.width, w))
     parts.append(record[:, system.nw :])
     values = np.concatenate(parts, axis=1) if parts else np.zeros((len(record), 0))
-    return tuple(names), values
+    return column_names(system.kernels), values
+
+
+def column_names(kernels: Kernels) -> tuple[str, ...]:
+    """The names of all columns."""
+    names: list[str] = []
+    for body in kernels.model.bodies:
+        label = body.statement.label
+        names += [f"{label}.{c}" for c in (OF_PART if _turns(body) else OF_POINT)]
+    for statement, suffixes in kernels.outputs:
+        names += [f"{statement.label}.{s}" if s else statement.label for s in suffixes]
+    return tuple(names)
+
+
+def _turns(body: Body) -> bool:
+    return body.statement.keyword == "PART"
 
 
 def _point(width: int, w: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ an interpolation is requested.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
 import numpy as np
@@ -153,7 +154,10 @@ def compare(
     missing = [name for name in reference.names if name not in results]
     if missing:
         others = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
-        raise Mismatch(f"the results have no channel '{missing[0]}'{others}")
+        near = get_close_matches(missing[0].casefold(), [n.casefold() for n in results], n=1)
+        exact = next((name for name in results if [name.casefold()] == near), "")
+        hint = f"; did you mean {exact}?" if exact else ""
+        raise Mismatch(f"the results have no channel '{missing[0]}'{others}{hint}")
     sample = sampler(results, reference.time, interpolate)
     return Comparison(
         tuple(

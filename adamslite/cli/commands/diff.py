@@ -3,6 +3,9 @@
 A is the result, B the reference: its columns may be a few of A's, its times must be output times
 of A unless --interpolate is given. Tolerances come from --tol, else from B's '# tolerance:' lines
 (decks/README.md), else they are 1e-6, that is 'abs 1e-6 peak 1e-6'.
+
+What is outside its tolerance comes first, the worst at the top. Of a long comparison the rest is
+shown with --all.
 """
 
 import argparse
@@ -14,6 +17,11 @@ from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
 
 if TYPE_CHECKING:
     from adamslite.results.comparison import Comparison, Difference, Tolerance
+    from adamslite.results.results import Results
+    from adamslite.verification.reference_file import Reference
+
+#: So many channels are a table to look at; of more, those outside are listed.
+FEW = 20
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -29,6 +37,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--interpolate", choices=("linear", "cubic"), help="of A, to the times of B"
     )
+    parser.add_argument(
+        "--all", action="store_true", help=f"list every channel, also where there are over {FEW}"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -43,13 +54,37 @@ def run(args: argparse.Namespace) -> int:
         reference.tolerances = [("*", _tolerance(args.tol))]
     if args.interpolate:
         reference.interpolate = args.interpolate
+    _tell_other_deck(results, reference.table)
     try:
+        _need_content(reference)
         comparison = reference.judge(results, usual=USUAL)
     except Mismatch as fault:
         sys.stdout.write(f"different: {fault}\n")
         return OUTSIDE_TOLERANCE
-    sys.stdout.write(_table(comparison))
+    sys.stdout.write(_table(comparison, args.all))
     return DONE if comparison.inside else OUTSIDE_TOLERANCE
+
+
+def _need_content(reference: "Reference") -> None:
+    """Raise Mismatch for a reference with which nothing could differ."""
+    from adamslite.results.comparison import Mismatch
+
+    if reference.measures:
+        return
+    if not reference.table.names:
+        raise Mismatch("the reference has no channel at all")
+    if not reference.table.time.size:
+        raise Mismatch("the reference has no output time at all")
+
+
+def _tell_other_deck(results: "Results", reference: "Results") -> None:
+    """One sentence where the two are not of one deck."""
+    hashes = [each.meta.get("deck hash") for each in (results, reference)]
+    if all(hashes) and hashes[0] != hashes[1]:
+        titles = [each.meta.get("deck", "") for each in (results, reference)]
+        same = titles[0] == titles[1]
+        what = f"both called '{titles[0]}'" if same else f"'{titles[0]}' and '{titles[1]}'"
+        sys.stderr.write(f"adamslite: A and B are results of different decks, {what}\n")
 
 
 def _tolerance(text: str) -> "Tolerance":
@@ -67,16 +102,25 @@ def _tolerance(text: str) -> "Tolerance":
         raise UsageError(f"--tol: {fault}") from None
 
 
-def _table(comparison: "Comparison") -> str:
-    rows = [("channel", "worst", "allowed", "at t", "outside from"), *map(_row, comparison)]
+def _table(comparison: "Comparison", everything: bool) -> str:
+    """What is outside, then the rest unless there are too many of both."""
+    outside = [each for each in comparison if not each.inside]
+    inside = [each for each in comparison if each.inside]
+    outside.sort(key=lambda each: -each.severity)
+    hidden = len(comparison.differences) > FEW and not everything
+    shown = outside if hidden else [*outside, *inside]
+    rows = [("channel", "worst", "allowed", "at t", "outside from"), *map(_row, shown)]
     width = max(len(row[0]) for row in rows)
     lines = [
         f"{name:{width}}  {worst:>10}  {allowed:>10}  {time:>10}  {leaves}".rstrip()
         for name, worst, allowed, time, leaves in rows
     ]
-    outside = sum(not difference.inside for difference in comparison)
-    verdict = f"{outside} outside its tolerance" if outside else "all within their tolerances"
-    return "\n".join([*lines, f"{len(comparison.differences)} compared, {verdict}", ""])
+    their = "its tolerance" if len(outside) == 1 else "their tolerances"
+    verdict = f"{len(outside)} outside {their}" if outside else "all within their tolerances"
+    rest = "; --all lists the others" if hidden and inside else ""
+    if not shown:
+        lines, rest = [], "; --all lists them"
+    return "\n".join([*lines, f"{len(comparison.differences)} compared, {verdict}{rest}", ""])
 
 
 def _row(difference: "Difference") -> tuple[str, ...]:

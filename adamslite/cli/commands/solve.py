@@ -13,7 +13,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
 from adamslite.run_flags import add_run_flags, add_user_flag, run_options
@@ -59,6 +59,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     add_user_flag(parser)
     parser.add_argument("-o", "--output", metavar="OUT", help="result file, or - for stdout")
+    parser.add_argument(
+        "--outputs", metavar="PATTERN", nargs="+", default=[],
+        help="write these columns alone: 'REQUEST/*', 'PART/2.v?', PART/2; after DECK",
+    )  # fmt: skip
     add_run_flags(parser)
     talk = parser.add_argument_group("talk")
     talk.add_argument(
@@ -95,7 +99,7 @@ def run(args: argparse.Namespace) -> int:
     progress = Progress() if args.quiet else TalkingProgress()
     try:
         folder = None if output == STDOUT else Path(output).parent
-        results = run_scene(scene, run_options(args), progress, folder)
+        results = run_scene(scene, _options(args), progress, folder)
     finally:
         progress.close()
     written = _write(results, output, files)
@@ -104,6 +108,11 @@ def run(args: argparse.Namespace) -> int:
         return STOPPED_EARLY
     found = results.confirmation
     return DONE if found is None or found.confirmed else OUTSIDE_TOLERANCE
+
+
+def _options(args: argparse.Namespace) -> dict[str, Any]:
+    """Keyword arguments of `simulate`."""
+    return {**run_options(args), **({"outputs": args.outputs} if args.outputs else {})}
 
 
 def _write(results: "Results", output: str, files: Sequence[Path]) -> list[Path]:

@@ -1,0 +1,54 @@
+"""Columns of results chosen by patterns: ``REQUEST/*``, ``PART/2.v?``, ``PART/2`` for all of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from difflib import get_close_matches
+
+import numpy as np
+
+from adamslite.errors import UsageError
+from adamslite.results.comparison import fits
+from adamslite.results.results import Results
+
+
+def selected(names: Sequence[str], patterns: Iterable[str]) -> list[int]:
+    """The columns that any of the patterns means, in their order.
+
+    Raises
+    ------
+    UsageError
+        When a pattern means none.
+    """
+    found: set[int] = set()
+    for pattern in patterns:
+        meant = [k for k, name in enumerate(names) if _means(pattern, name)]
+        if not meant:
+            raise UsageError(f"no result is called '{pattern}'{_near(pattern, names)}")
+        found.update(meant)
+    return sorted(found)
+
+
+def limited(results: Results, patterns: Iterable[str]) -> Results:
+    """The results with these columns alone; patterns that mean none are passed over."""
+    wanted = tuple(patterns)
+    kept = [k for k, name in enumerate(results.names) if any(_means(each, name) for each in wanted)]
+    names = tuple(results.names[k] for k in kept)
+    return replace(results, names=names, values=np.ascontiguousarray(results.values[:, kept]))
+
+
+def _means(pattern: str, name: str) -> bool:
+    """Whether a pattern means a column, or the statement that it belongs to."""
+    return fits(pattern, name) or fits(pattern, name.rpartition(".")[0])
+
+
+def _near(pattern: str, names: Sequence[str]) -> str:
+    """What may have been meant: columns, or statements with all of theirs."""
+    known = {name.casefold(): name for name in names}
+    known |= {label.casefold(): f"{label}.*" for label in (n.rpartition(".")[0] for n in names)}
+    known.pop("", None)
+    close = get_close_matches(pattern.casefold(), known, n=2)
+    if close:
+        return f"; did you mean {' or '.join(known[each] for each in close)}?"
+    return f"; there are {', '.join(names[:3])}, ..." if names else ": the deck has no results"
