@@ -32,6 +32,26 @@ def test_links_of_a_page_lead_somewhere(page: Path) -> None:
         assert not anchor or anchor in anchors(target), link
 
 
+NAMED = re.compile(r"(?<![\w/])docs/[\w./-]*\w")
+SOURCES = sorted(
+    file
+    for pattern in ("adamslite/**/*.py", "benchmarks/*.py", "decks/**/*.py", "docs/**/*.py",
+                    "decks/**/*.adm", "tests/test_*.py", "*.md", "docs/**/*.md", ".ci/*")
+    for file in ROOT.glob(pattern)
+)  # fmt: skip
+
+
+def test_pages_that_a_text_names_exist() -> None:
+    """Docstrings, messages and comments name pages as docs/reference/messages.md."""
+    dead = [
+        f"{file.relative_to(ROOT)}: {name}"
+        for file in SOURCES
+        for name in NAMED.findall(file.read_text(encoding="utf-8", errors="replace"))
+        if not (ROOT / name).exists()
+    ]
+    assert dead == []
+
+
 def test_every_stage_is_described_for_contributors() -> None:
     text = (ROOT / "docs" / "contributing.md").read_text(encoding="utf-8")
     _, _, after = text.partition("The folders of `adamslite/`")

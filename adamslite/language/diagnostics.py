@@ -254,8 +254,7 @@ def render(diagnostics: Iterable[Diagnostic]) -> str:
 class DeckError(Exception):
     """A deck (or command file) with mistakes; carries every one of them.
 
-    ``deck`` is what could be read, so that the command file can be checked as well; the class
-    of a deck lies above this room.
+    ``deck`` is what could be read of it, so that the command file can be checked as well.
     """
 
     def __init__(self, diagnostics: Iterable[Diagnostic], deck: Any = None) -> None:

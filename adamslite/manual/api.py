@@ -12,19 +12,20 @@ INTRO = """# Python
 
 The names of `import adamslite as al`; [README.md](../../README.md#python) shows them at work.
 """
-#: Names of the package that are described, in the order of the pipeline.
+#: Names of the package that are described.
 NAMES = tuple(name for name in adamslite.__all__ if not name.startswith("_"))
 
 
 def python_names() -> str:
     """The page of all names, for the site only: docs/reference/api.md."""
-    return "\n".join([HEAD, INTRO, *map(_directive, NAMES)])
+    functions_first = sorted(NAMES, key=lambda name: inspect.isclass(getattr(adamslite, name)))
+    return "\n".join([HEAD, INTRO, *map(_directive, functions_first)])
 
 
 def _directive(name: str) -> str:
     """What makes Sphinx print signature and docstring."""
     if inspect.isclass(getattr(adamslite, name)):
-        kind, options = "class", "   :members:\n   :inherited-members: Exception, Enum\n"
+        kind, options = "class", "   :members:\n   :inherited-members: BaseException, Enum\n"
     else:
         kind, options = "function", ""
     return f"## {name}\n\n```{{eval-rst}}\n.. auto{kind}:: adamslite.{name}\n{options}```\n"
@@ -47,14 +48,16 @@ def _doc(value: Any) -> str:
 
 def _parameters(value: Any) -> str:
     """The parameters by name and default; their types are in the docstring."""
-    bare = [
-        each.replace(annotation=inspect.Parameter.empty)
-        for each in inspect.signature(value).parameters.values()
-    ]
+    try:
+        parameters = inspect.signature(value).parameters.values()
+    except ValueError:  # a class that has those of a class of Python itself
+        return "(...)"
+    bare = [each.replace(annotation=inspect.Parameter.empty) for each in parameters]
     return str(inspect.Signature(bare))
 
 
 def _methods(cls: type) -> list[str]:
     """Public methods and properties that have a docstring."""
     found = inspect.getmembers(cls, lambda each: callable(each) or isinstance(each, property))
-    return [name for name, each in found if not name.startswith("_") and inspect.getdoc(each)]
+    own = (name for name, each in found if not name.startswith("_") and inspect.getdoc(each))
+    return [name for name in own if not hasattr(BaseException, name)]

@@ -34,7 +34,13 @@ def sentence(facts: Iterable[str]) -> str:
 
 
 def markdown(doc: str | None) -> str:
-    lines = cleandoc(doc or "").replace("``", "`").splitlines()
+    """A docstring; what it indents remains indented, as code."""
+    return markdown_of_clean(cleandoc(doc or ""))
+
+
+def markdown_of_clean(text: str) -> str:
+    """The same of a piece of a docstring whose margin is at its left edge already."""
+    lines = text.replace("``", "`").splitlines()
     return "\n".join(line[:-1] if line.endswith("::") else line for line in lines) + "\n"
 
 

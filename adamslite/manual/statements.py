@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from inspect import getattr_static
+from inspect import cleandoc, getattr_static
 
 from adamslite import elements  # noqa: F401  register what there is to describe
 from adamslite.language.expression import Node, to_text
@@ -17,6 +17,7 @@ from adamslite.manual.markdown import (
     heading,
     lower_first,
     markdown,
+    markdown_of_clean,
     not_supported,
     table,
 )
@@ -37,9 +38,9 @@ def statements() -> str:
 
 def statement(cls: type[Statement]) -> str:
     """One statement: equation and sign from its module, its meaning, its arguments."""
-    title, _, equation = title_of(cls).partition("\n\n")
-    parts = [f"## {title}\n", markdown(cls.__doc__)]
-    parts += [markdown(equation)] if equation else []
+    title, _, equation = cleandoc(title_of(cls)).partition("\n\n")
+    parts = [f"## {heading(title)}\n", markdown(cls.__doc__)]
+    parts += [markdown_of_clean(equation)] if equation else []
     if cls.arguments:
         head = ("argument", "value", "unit", "default", "meaning")
         parts.append(table(head, [argument_row(each) for each in cls.arguments.values()]))
