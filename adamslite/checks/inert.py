@@ -26,6 +26,8 @@ CHANGING = {
     "YPR": "DISPLACEMENT", "DSCALE": "DISPLACEMENT", "VSCALE": "VELOCITY",
     "ASCALE": "ACCELERATION", "FSCALE": "FORCE",
 }  # fmt: skip
+NOT_DRAWN = ("EXTERNAL", "FUNCTION")
+"""Shapes of GRAPHICS that `adamslite view` leaves out."""
 WORD = re.compile(r"[A-Za-z]\w*")
 Body = tuple[str, Key]
 C = TypeVar("C", bound=Command)
@@ -111,10 +113,12 @@ def _without_use(deck: Deck) -> Iterator[Statement]:
 
 
 def untouched(deck: Deck, commands: Iterable[C]) -> Iterator[C]:
-    """Statements and commands but those of shapes that touch."""
+    """Statements and commands but those of shapes that are drawn, or touch."""
     touching = {key for each in deck.of(Contact) for key in (*each.igeom, *each.jgeom)}
+    hidden = {each.key for each in deck.of(Graphics) if each.shape in NOT_DRAWN}
     for each in commands:
-        if not (each.keyword == Graphics.keyword and each.key in touching):
+        shape = each.keyword == Graphics.keyword
+        if not shape or (each.key in hidden and each.key not in touching):
             yield each
 
 

@@ -53,7 +53,8 @@ class Drawing:
     @cached_property
     def markers(self) -> list[Marker]:
         """The markers that have a place."""
-        return [each for each in self.deck.of(Marker) if each.owner and not each.floating]
+        rigid = self.frames.has
+        return [each for each in self.deck.of(Marker) if rigid(each.key) and not each.floating]
 
     @cached_property
     def by_body(self) -> dict[int, list[Key]]:

@@ -11,12 +11,14 @@ from typing import TypeAlias
 import numpy as np
 
 from adamslite.drawing.attitudes import from_axes
+from adamslite.elements.marker import Marker
 from adamslite.language.interfaces import Key
 from adamslite.model.geometry import IDENTITY, Place
 from adamslite.model.model import Model
 
 Numbers: TypeAlias = list[float]
 """``[body, x, y, z]``, or with ``qx, qy, qz, qw`` behind."""
+RIGID = ("PART", "POINT_MASS")
 ORIGIN = Place("ground", -1, np.zeros(3), IDENTITY)
 
 
@@ -25,6 +27,13 @@ class Frames:
 
     def __init__(self, model: Model) -> None:
         self.model = model
+
+    def has(self, marker: Key) -> bool:
+        """Whether a marker is on a body that can be drawn, which flexible ones cannot."""
+        if marker == 0:
+            return True
+        owner = self.model.deck.get(Marker, marker).owner
+        return owner is not None and owner[0] in RIGID
 
     def place(self, marker: Key) -> Place:
         """Body, origin and axes; marker 0 is the origin of ground."""

@@ -11,6 +11,7 @@ import numpy as np
 from adamslite.drawing.drawing import Drawing
 from adamslite.elements.curve import Curve
 from adamslite.elements.graphics import Graphics
+from adamslite.language.interfaces import Key
 
 Shape = dict[str, Any]
 # Points of a CURVE without SEG.
@@ -31,7 +32,17 @@ def graphics(drawing: Drawing) -> list[Graphics]:
         if labels:
             more = f" and {len(labels) - 1} more" if len(labels) > 1 else ""
             drawing.notes.append(f"{labels[0]}{more}: not drawn, {why}")
-    return [each for each in complete if each.shape not in ("EXTERNAL", "FUNCTION")]
+    rest = [each for each in complete if each.shape not in ("EXTERNAL", "FUNCTION")]
+    flexible = [each for each in rest if not all(map(drawing.frames.has, _markers(each)))]
+    if flexible:
+        drawing.notes.append(f"{flexible[0].label}: not drawn, it is on a flexible body")
+    return [each for each in rest if each not in flexible]
+
+
+def _markers(each: Graphics) -> list[Key]:
+    """All markers of a shape."""
+    named = (each.marker, each.rm, each.i, each.j, each.emarker, *each.outline)
+    return [key for key in named if key is not None]
 
 
 def shapes(drawing: Drawing, statements: list[Graphics]) -> list[Shape]:
