@@ -2,6 +2,7 @@
 
 from adamslite.cables.estimate import Moves
 from adamslite.cables.geometry import FreeSpan
+from adamslite.cables.graphics import route_line, solids
 from adamslite.cables.lumps import start_speed, write_lumps
 from adamslite.cables.model_choice import CableModel
 from adamslite.cables.requests import write_requests
@@ -52,4 +53,5 @@ def write(spec: Spec, spans: list[FreeSpan], moves: Moves, model: CableModel) ->
         text += write_lumps(spec, spans, model, moves)
     else:
         text += write_pieces(spec, spans, model) + write_requests(spec, spans, model)
+        text += solids(spec) + route_line(spec, spans, model)
     return text + tail(model.integrator, spec.end, spec.steps)

@@ -12,6 +12,7 @@ weights, is MARKER/1000 s + k.
 from dataclasses import dataclass
 from math import atan2, ceil, cos, inf, pi, sin, sqrt
 
+from adamslite.cables import graphics
 from adamslite.cables.brute_force_layout import (
     Arc,
     Layout,
@@ -110,7 +111,7 @@ def write_lumps(spec: Spec, spans: list[FreeSpan], model: CableModel, moves: Mov
         text += _contacts(spec, each, moves, section)
     for i, station in enumerate(spec.route):
         text += drive(spec, i, []) if station.is_wheel else ""
-    return text + _requests(spec, found)
+    return text + _requests(spec, found) + _drawing(spec, found)
 
 
 def start_speed(spec: Spec, moves: Moves) -> float:
@@ -280,6 +281,17 @@ def _tooth(spec: Spec, i: int, k: int, gap: float) -> str:
         f", FX=(P{n}_{k}*{x}-Q{n}_{k}*{y})/DM({k},{n})\\\n"
         f", FY=(P{n}_{k}*{y}+Q{n}_{k}*{x})/DM({k},{n})\n"
     )
+
+
+def _drawing(spec: Spec, found: list[Stretch]) -> str:
+    """The cable through its nodes, which lie on the rims."""
+    text = graphics.solids(spec)
+    for s in found:
+        nodes = range(len(s.laid.nodes))
+        first, last = 1000 * s.number + 1, 1000 * s.number + len(nodes) - 1
+        markers = [s.node(k, spec) for k in nodes]
+        text += graphics.line(s.number, markers, [], [f"-SFORCE/{first}..{last}.f"])
+    return text
 
 
 def _requests(spec: Spec, found: list[Stretch]) -> str:

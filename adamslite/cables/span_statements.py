@@ -97,7 +97,8 @@ def _feed(spec: Spec, piece: Piece, order: int = 0) -> str:
     return f"+{moves}" if piece.sense > 0 else f"-({moves})"
 
 
-def _between(spec: Spec, piece: Piece) -> bool:
+def is_between(spec: Spec, piece: Piece) -> bool:
+    """Whether a piece lies between two wheels."""
     return spec.route[piece.root].is_wheel and spec.route[piece.tip].is_wheel
 
 
@@ -110,7 +111,7 @@ def _span(spec: Spec, model: CableModel, piece: Piece) -> str:
     i, j = spec.pairs[piece.number - 1]
     text = f"\n! ---- span {piece.number}, from station {i + 1} to {j + 1} ----\n"
     root = spec.route[piece.root]
-    if root.is_wheel and (_moves(spec, piece) or not _between(spec, piece)):
+    if root.is_wheel and (_moves(spec, piece) or not is_between(spec, piece)):
         to = _next(spec, model, piece)
         text += _touches(spec, piece, piece.first, to)
     if root.slides and model.level == 1:
@@ -121,14 +122,14 @@ def _span(spec: Spec, model: CableModel, piece: Piece) -> str:
         return text + _rigid(spec, piece)
     if spec.route[piece.tip].kind == "run":
         return text + _run(spec, piece)
-    if _between(spec, piece):
+    if is_between(spec, piece):
         return text + _link(spec, piece)
     return text + _chain(spec, model, piece)
 
 
 def _next(spec: Spec, model: CableModel, piece: Piece) -> int:
     """The marker that the cable goes to from the root."""
-    if _between(spec, piece):
+    if is_between(spec, piece):
         return piece.first + 1
     whole = model.level == 1 or spec.route[piece.tip].kind == "run"
     return marker(piece.tip) if whole else _side(piece, model).node(1)
@@ -154,7 +155,7 @@ def _touches(spec: Spec, piece: Piece, m: int, to: int) -> str:
 def _moves(spec: Spec, piece: Piece) -> bool:
     """Whether the piece lies between two wheels that do not both stay, or carry its pull on."""
     ends = [spec.route[i] for i in (piece.root, piece.tip)]
-    return _between(spec, piece) and any(each.is_mobile or each.leans for each in ends)
+    return is_between(spec, piece) and any(each.is_mobile or each.leans for each in ends)
 
 
 def _way(spec: Spec, piece: Piece, order: int = 0) -> str:
@@ -163,18 +164,21 @@ def _way(spec: Spec, piece: Piece, order: int = 0) -> str:
     return f"{root}-({comes(spec, piece.tip, piece.first + 1, order)})"
 
 
+def is_kept(spec: Spec, piece: Piece) -> bool:
+    """Whether a GCON keeps the length of a rigid piece: something moves at one of its ends."""
+    ends = [spec.route[i] for i in (piece.root, piece.tip)]
+    return ends[0].is_wheel or any(each.is_free for each in ends)
+
+
 def _rigid(spec: Spec, piece: Piece) -> str:
     p = piece.number
-    if _between(spec, piece):
+    if is_between(spec, piece):
         text, apart = _apart(spec, piece)
         way = f"{apart}-{number(piece.span.length)}-({_way(spec, piece)})"
         return text + f"GCON/{p}, FUNCTION={way}\n"
-    ends = [spec.route[i] for i in (piece.root, piece.tip)]
-    feed = ""
-    if ends[0].is_wheel:
-        feed = f"-({_feed(spec, piece)})"
-    elif not any(each.is_free for each in ends):
+    if not is_kept(spec, piece):
         return "! Held at both ends: nothing moves.\n"
+    feed = f"-({_feed(spec, piece)})" if spec.route[piece.root].is_wheel else ""
     i, j = marker(piece.tip), _root_marker(spec, piece)
     return f"GCON/{p}, FUNCTION=DM({i},{j})-{number(piece.span.length)}{feed}\n"
 
@@ -356,7 +360,7 @@ def _turned(spec: Spec, spans: list[FreeSpan], model: CableModel, i: int) -> str
         found = pieces(spec, spans)
         rim = number(spec.cable.density * each.radius * angle)
         for p in spec.beside(i):
-            if found[p].root == i and not _between(spec, found[p]):
+            if found[p].root == i and not is_between(spec, found[p]):
                 if spec.route[found[p].tip].kind != "run":
                     rim += f"+rho*{_half(model, found[p], spec)}"
         text = (

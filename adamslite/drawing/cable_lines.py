@@ -1,43 +1,60 @@
-"""Cables as continuous lines: chains of line forces, and spans that a GCON keeps.
+"""Cables as continuous lines: those that a comment describes, chains of line forces, and spans
+whose length a GCON keeps.
 
-Along a line that pulls, the tension is -f of an SFORCE, SPRINGDAMPER or GCON, positive when it
-pulls its ends together.
+Along a line that pulls, the tension is -f of an SFORCE, SPRINGDAMPER or GCON.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from adamslite.cables.chain_finder import Chain, Link, chains
 from adamslite.cables.posture import Posture
+from adamslite.drawing.cable_comments import CableComment, cable_comment
 from adamslite.drawing.drawing import Drawing
 from adamslite.elements.gcon import Gcon
+from adamslite.elements.graphics import Graphics
 from adamslite.elements.vforce import Vforce
 from adamslite.language.expression import Call, Ref, walk
 from adamslite.language.interfaces import Key
 
 Cable = dict[str, Any]
+Tension = np.ndarray | None
 
 
-def cable_lines(drawing: Drawing) -> tuple[list[Cable], set[str], set[int]]:
-    """All cables; labels of the statements and numbers of the bodies that they are made of."""
-    found, taken, inner = [], set(), set()
+@dataclass
+class Cables:
+    """All cables of a scene.
+
+    ``taken``: labels of the statements that they are made of or drawn by; ``inner``: numbers of
+    the bodies that are their masses; ``wheels``: markers and radii of what they go round.
+    """
+
+    lines: list[Cable] = field(default_factory=list)
+    taken: set[str] = field(default_factory=set)
+    inner: set[int] = field(default_factory=set)
+    wheels: dict[Key, float] = field(default_factory=dict)
+
+
+def cables(drawing: Drawing, statements: list[Graphics]) -> Cables:
+    """Those of comments first; what they are made of is drawn once."""
+    found = Cables()
+    for statement in statements:
+        comment = cable_comment(drawing.deck, statement) if statement.outline else None
+        if comment:
+            _described(drawing, found, statement, comment)
     for chain in chains(drawing.deck, Posture(drawing.deck)):
-        markers = list(_markers(chain))
-        tensions = [_tension(drawing, link) for link in chain.links]
-        name = f"{_name(chain.nodes[0])} to {_name(chain.nodes[-1])}"
-        found.append(line(drawing, name, [_node(drawing, key) for key in markers], tensions))
-        taken |= {link.statement.label for link in chain.links}
-        inner |= {drawing.frames.body(key) for key in _inner(chain, markers)}
-    return [*found, *_rigid(drawing)], taken, inner
+        if not any(link.statement.label in found.taken for link in chain.links):
+            _chained(drawing, found, chain)
+    found.lines += _rigid(drawing, found.taken)
+    return found
 
 
-def line(
-    drawing: Drawing, name: str, nodes: list[dict[str, Any]], tensions: list[np.ndarray | None]
-) -> Cable:
+def _line(drawing: Drawing, name: str, nodes: list[Cable], tensions: Sequence[Tension]) -> Cable:
     """A cable through nodes, with the tension of each span where it is known."""
     known = [each for each in tensions if each is not None and np.isfinite(each).any()]
     blank = np.full(len(drawing.motion.time), np.nan)
@@ -47,8 +64,73 @@ def line(
     return {"name": name, "nodes": nodes, "tension": tension, "range": bounds}
 
 
-def _node(drawing: Drawing, marker: Key) -> dict[str, Any]:
-    return {"point": drawing.frames.point(marker)}
+# ---- of comments -----------------------------------------------------------------------------
+
+
+def _described(drawing: Drawing, found: Cables, statement: Graphics, comment: CableComment) -> None:
+    """The cable of an OUTLINE whose comments say more."""
+    keys = list(statement.outline)
+    nodes = [_node(drawing, key, comment.wheels.get(key)) for key in keys]
+    tensions = [_column(drawing, each) for each in comment.tensions]
+    _tell(drawing, statement, comment, len(keys))
+    tensions = (tensions + [None] * len(keys))[: len(keys) - 1]
+    if keys[0] == keys[-1] and keys[0] in comment.wheels and len(keys) > 2:
+        nodes.append(nodes[1])  # once more along the first span: round the wheel between them
+        tensions.append(tensions[0])
+    found.lines.append(_line(drawing, statement.name or statement.label, nodes, tensions))
+    found.taken |= {statement.label}
+    found.taken |= {name.partition(".")[0] for _, name in comment.tensions if name}
+    found.wheels |= {key: abs(r) for key, r in comment.wheels.items()}
+    ends = () if keys[0] == keys[-1] else (keys[0], keys[-1])
+    drawn = {each.marker for each in drawing.deck.of(Graphics) if not each.outline}
+    found.inner |= {
+        drawing.frames.body(key)
+        for key in keys
+        if key not in (*ends, *comment.wheels) and key not in drawn
+    }
+
+
+def _tell(drawing: Drawing, statement: Graphics, comment: CableComment, nodes: int) -> None:
+    """Notes on what a comment says and nothing means."""
+    where = f"comment of {statement.label}"
+    away = [str(key) for key in comment.wheels if key not in statement.outline]
+    missing = [n for _, n in comment.tensions if n and n not in drawing.results]
+    if comment.unknown:
+        drawing.notes.append(f"{where}: '{comment.unknown[0]}' means nothing")
+    if away:
+        drawing.notes.append(f"{where}: the line does not go through MARKER/{away[0]}")
+    if missing and len(drawing.results.time):
+        more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+        drawing.notes.append(f"{where}: the results have no {missing[0]}{more}")
+    if comment.tensions and len(comment.tensions) != nodes - 1:
+        drawing.notes.append(f"{where}: {len(comment.tensions)} tensions for {nodes - 1} spans")
+
+
+def _column(drawing: Drawing, signed: tuple[float, str]) -> Tension:
+    sign, name = signed
+    values = drawing.motion.column(name) if name else None
+    return None if values is None else sign * values
+
+
+def _node(drawing: Drawing, marker: Key, radius: float | None = None) -> Cable:
+    """A point that the line goes through, or a wheel that it goes round."""
+    if radius is None:
+        return {"point": drawing.frames.point(marker)}
+    sense = 1 if radius > 0 else -1
+    return {"wheel": drawing.frames.frame(marker), "radius": abs(radius), "sense": sense}
+
+
+# ---- chains of line forces -------------------------------------------------------------------
+
+
+def _chained(drawing: Drawing, found: Cables, chain: Chain) -> None:
+    markers = list(_markers(chain))
+    name = f"{_name(chain.nodes[0])} to {_name(chain.nodes[-1])}"
+    nodes = [_node(drawing, key) for key in markers]
+    tensions = [_tension(drawing, link) for link in chain.links]
+    found.lines.append(_line(drawing, name, nodes, tensions))
+    found.taken |= {link.statement.label for link in chain.links}
+    found.inner |= {drawing.frames.body(key) for key in _inner(chain, markers)}
 
 
 def _markers(chain: Chain) -> Iterator[Key]:
@@ -67,28 +149,32 @@ def _name(node: tuple[str, Key]) -> str:
     return f"{node[0]}/{node[1]}"
 
 
-def _tension(drawing: Drawing, link: Link) -> np.ndarray | None:
+def _tension(drawing: Drawing, link: Link) -> Tension:
     """Of one section, (nt,)."""
     label = link.statement.label
     if not isinstance(link.statement, Vforce):
-        found = drawing.motion.column(f"{label}.f")
-        return None if found is None else -found
+        return _column(drawing, (-1.0, f"{label}.f"))
     force = drawing.motion.columns(label, ("fx", "fy", "fz"))
     if force is None:
         return None
     along = drawing.motion.places(link.i) - drawing.motion.places(link.j)
     length = np.linalg.norm(along, axis=1)
-    return -(force * along).sum(axis=1) / np.where(length > 0, length, 1.0)
+    tension: np.ndarray = -(force * along).sum(axis=1) / np.where(length > 0, length, 1.0)
+    return tension
 
 
-def _rigid(drawing: Drawing) -> Iterator[Cable]:
-    """Spans whose length a GCON keeps: the distances that it measures."""
+# ---- spans of constant length ----------------------------------------------------------------
+
+
+def _rigid(drawing: Drawing, taken: set[str]) -> Iterator[Cable]:
+    """The distances that GCONs measure."""
     for gcon in drawing.deck.of(Gcon):
-        pairs = _distances(gcon) if drawing.deck.is_active(gcon) else []
-        force = drawing.motion.column(f"{gcon.label}.f") if pairs else None
-        for i, j in pairs:
+        if gcon.label in taken or not drawing.deck.is_active(gcon):
+            continue
+        tension = _column(drawing, (-1.0, f"{gcon.label}.f"))
+        for i, j in _distances(gcon):
             nodes = [_node(drawing, i), _node(drawing, j)]
-            yield line(drawing, gcon.label, nodes, [None if force is None else -force])
+            yield _line(drawing, gcon.label, nodes, [tension])
 
 
 def _distances(gcon: Gcon) -> list[tuple[Key, Key]]:

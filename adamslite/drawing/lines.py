@@ -47,15 +47,17 @@ def _spring(
     }  # fmt: skip
 
 
-def links(drawing: Drawing, taken: set[str]) -> list[Line]:
-    """Forces along a line, and beams, that are no part of a cable."""
+def links(drawing: Drawing, taken: set[str], inner: set[int]) -> list[Line]:
+    """Forces along a line, and beams, that are no part of a cable (`taken`) and push none of its
+    masses (`inner`).
+    """
     lines = (s for s in drawing.deck.of(Sforce) if s.kind != "ROTATIONAL" and not s.actiononly)
     elements: list[Sforce | Beam | Field] = [
         *lines, *drawing.deck.of(Beam), *drawing.deck.of(Field)
     ]  # fmt: skip
-    point = drawing.frames.point
+    point, body = drawing.frames.point, drawing.frames.body
     return [
         {"statement": each.label, "i": point(each.i), "j": point(each.j)}
         for each in elements
-        if each.label not in taken
+        if each.label not in taken and not {body(each.i), body(each.j)} & inner
     ]

@@ -17,7 +17,7 @@ from adamslite.deck.deck import Deck
 from adamslite.drawing.against import against
 from adamslite.drawing.arrows import arrows
 from adamslite.drawing.bodies import bodies
-from adamslite.drawing.cable_lines import cable_lines
+from adamslite.drawing.cable_lines import cables
 from adamslite.drawing.channels import channels, unit_symbols
 from adamslite.drawing.derived_shapes import derived_shapes
 from adamslite.drawing.drawing import Drawing
@@ -26,6 +26,7 @@ from adamslite.drawing.joints import joints
 from adamslite.drawing.lines import links, springs
 from adamslite.drawing.modes import modes
 from adamslite.drawing.shapes import graphics, outlines, shapes
+from adamslite.drawing.wheels import wheels
 from adamslite.results.results import Results
 
 VERSION = 1
@@ -46,9 +47,11 @@ def scene(deck: Deck, results: Results, other: Results | None = None, name: str 
     """
     drawing = Drawing(deck, results)
     statements = graphics(drawing)
-    cables, taken, inner = cable_lines(drawing)
-    solids = shapes(drawing, statements)
-    drawn = {each["body"] for each in solids} | inner
+    found = cables(drawing, statements)
+    solids = wheels(drawing, statements, found)
+    own = [each for each in statements if each.label not in found.taken]
+    solids += shapes(drawing, own)
+    drawn = {each["body"] for each in solids} | found.inner
     file = deck.path.name if deck.path else ""
     plain = {
         "version": VERSION,
@@ -62,12 +65,12 @@ def scene(deck: Deck, results: Results, other: Results | None = None, name: str 
         "up": up(deck.gravity),
         "bodies": bodies(drawing),
         "shapes": [*solids, *derived_shapes(drawing, drawn)],
-        "outlines": outlines(drawing, statements),
-        "springs": springs(drawing, statements, taken),
+        "outlines": outlines(drawing, own),
+        "springs": springs(drawing, statements, found.taken),
         "joints": joints(drawing),
-        "links": links(drawing, taken),
-        "cables": cables,
-        "arrows": arrows(drawing, statements, taken, inner),
+        "links": links(drawing, found.taken, found.inner),
+        "cables": found.lines,
+        "arrows": arrows(drawing, statements, found.taken, found.inner),
         "channels": channels(deck, results, drawing.block),
         "events": events(results),
         "modes": modes(drawing),
