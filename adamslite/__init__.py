@@ -32,14 +32,21 @@ _HOME = {
     "Outcome": "results.outcomes",
     "Results": "results.results",
     "assemble": "model.model",
-    "check": "checks.rules",
-    "compare": "results.comparison",
+    "cable": "api.tools",
+    "cache": "api.tools",
+    "chart": "api.charts",
+    "check": "api.checks",
+    "compare": "api.tools",
     "compile_model": "kernels.compile",
+    "fmt": "api.tools",
+    "help": "api.tools",
+    "html": "notebooks.html",
     "linearize": "api.runs",
     "read": "reading.read",
     "read_commands": "reading.read",
     "reads": "deck.python_routine",
     "simulate": "api.runs",
+    "verify": "api.tools",
 }
 
 __all__ = ["__version__", *_HOME]

@@ -32,6 +32,8 @@ PHRASES = {
 }  # fmt: skip
 #: Functions of Python whose names are not those of their commands.
 FUNCTIONS = {"solve": "simulate", "linear": "linearize"}
+#: Arguments of Python whose names are not those of their options.
+ARGUMENTS = {"tol": "tolerance"}
 #: Values of `--user` that stand for others.
 FORMS = {"module:function": "function", "number": "number"}
 
@@ -107,7 +109,7 @@ def _literal(value: str) -> str:
 
 
 def _option(found: re.Match[str]) -> str:
-    name, value = found[1].replace("-", "_"), found[2]
+    name, value = ARGUMENTS.get(found[1], found[1].replace("-", "_")), found[2]
     if value is None:
         return f"{name}="
     if name == "user":

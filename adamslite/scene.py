@@ -1,7 +1,7 @@
 """A scene: the files of a run, and its results; shared by `solve` and `verify`."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -116,18 +116,6 @@ def read_together(
     if any(diagnostic.is_error for diagnostic in found):
         raise DeckError(found, deck)
     return deck, commands, tuple(found)
-
-
-def with_missing_run(scene: Scene) -> Scene:
-    """The scene, with a note when nothing in it says how long to run.
-
-    `solve` has options for that, and a linear model needs no run.
-    """
-    from adamslite.checks.runs import without_run
-    from adamslite.language.messages.ignoring import without_ignored
-
-    found = without_ignored(scene.deck.source, without_run(scene.deck, scene.commands))
-    return replace(scene, warnings=(*scene.warnings, *found))
 
 
 def command_file_beside(deck_path: Path) -> Path | None:

@@ -22,7 +22,7 @@ from random import Random
 from tempfile import TemporaryDirectory
 
 import adamslite as al
-from adamslite.cli.commands import check
+from adamslite.api.contents import contents
 from adamslite.errors import RunFailed, UsageError
 from adamslite.language.diagnostics import DeckError
 from adamslite.resources import find
@@ -167,7 +167,7 @@ def outcome(number: int, folder: Path, solve: bool = False) -> str:
         commands.unlink()
     try:
         scene = load_scene(path)
-        check.contents(scene)
+        contents(scene.deck, scene.commands)
     except DeckError as fault:
         assert str(fault) and all(each.span.line >= 1 for each in fault.errors)
         return "errors"

@@ -12,10 +12,10 @@ from decklets import told
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import adamslite
 from adamslite.language.diagnostics import ERROR, DeckError
 from adamslite.language.messages import MESSAGES, START
 from adamslite.reading.read import read, read_commands
-from adamslite.scene import load_scene, with_missing_run
 
 WHOLE = ("no-run",)
 """What is known only when deck and commands have been read."""
@@ -109,14 +109,12 @@ def test_a_broken_scene_yields_its_message_only(code: str, tmp_path: Path) -> No
     path, commands = tmp_path / "deck.adm", tmp_path / "deck.acf"
     for broken in MESSAGES[code].broken:
         path.write_text(whole(code, broken))
-        assert {diagnostic.code for diagnostic in with_missing_run(load_scene(path)).warnings} == {
-            code
-        }
+        assert {diagnostic.code for diagnostic in adamslite.check(path)} == {code}
         path.write_text(whole(code, broken + f" ! adamslite: ignore {code}"))
-        assert with_missing_run(load_scene(path)).warnings == ()
+        assert adamslite.check(path) == []
         path.write_text(whole(code, broken))
         commands.write_text("SIMULATE/DYNAMICS, END=1, STEPS=1\n")
-        assert with_missing_run(load_scene(path)).warnings == ()
+        assert adamslite.check(path) == []
 
 
 @pytest.mark.parametrize("code", MESSAGES)

@@ -57,6 +57,7 @@ plots
 manual
 editing
 api
+notebooks
 cli.commands
 cli
 __main__

@@ -36,6 +36,15 @@ class Inputs(NamedTuple):
     messages: tuple[Diagnostic, ...] = ()
 
 
+class ReadInputs(NamedTuple):
+    """The same as read from files or texts; ``beside``: a command file that nobody has named."""
+
+    deck: Deck
+    commands: Sequence[Command]
+    messages: tuple[Diagnostic, ...] = ()
+    beside: Path | None = None
+
+
 def inputs(
     scene: Subject | str | os.PathLike[str], commands: CommandSource, user: User = None
 ) -> Inputs:
@@ -49,30 +58,30 @@ def inputs(
         When ``user`` is given for a deck that has been read.
     """
     if isinstance(scene, str | os.PathLike):
-        found = read_inputs(scene, commands, user)
+        found = Inputs(*read_inputs(scene, commands, user)[:3])
     else:
         if user is not None:
             raise UsageError(
                 "user= is for reading: give it to adamslite.read, which made this deck"
             )
-        found = _with_commands(scene, commands)
+        found = with_commands(scene, commands)
     _warn(found.messages)
     return found
 
 
-def read_inputs(scene: str | os.PathLike[str], commands: CommandSource, user: User) -> Inputs:
+def read_inputs(scene: str | os.PathLike[str], commands: CommandSource, user: User) -> ReadInputs:
     """Deck and commands as they are read, checked and reported by the command line."""
-    source = Path(scene) if isinstance(scene, os.PathLike) or "\n" not in scene else scene
-    given = _source(commands)
+    source = scene if isinstance(scene, str) and "\n" in scene else Path(scene)
+    given, beside = _source(commands), None
     if given is None and isinstance(source, Path):
-        given = command_file_beside(source)
-    if isinstance(given, str | Path) or given is None:
-        return Inputs(*read_together(source, given, user))
+        given = beside = command_file_beside(source)
+    if given is None or isinstance(given, str | Path):
+        return ReadInputs(*read_together(source, given, user), beside)
     deck, _, messages = read_together(source, None, user)
-    return Inputs(deck, given, messages)
+    return ReadInputs(deck, given, messages)
 
 
-def _with_commands(subject: Subject, commands: CommandSource) -> Inputs:
+def with_commands(subject: Subject, commands: CommandSource) -> Inputs:
     """A deck takes the file beside it, like its path; a model and its kernels have no file."""
     given = _source(commands)
     if given is None and isinstance(subject, Deck) and subject.path:

@@ -14,6 +14,7 @@ from functools import cached_property
 from pathlib import Path, PureWindowsPath
 from typing import Any, overload
 
+import adamslite
 from adamslite.deck.delayed import delayed, watched
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.names import Key, Names
@@ -239,6 +240,10 @@ class Deck:
         from hashlib import sha256
 
         return sha256(self.source.text.encode()).hexdigest()
+
+    def _repr_html_(self) -> str:
+        """Its check, for a notebook."""
+        return adamslite.html(self)
 
 
 def _keyword(kind: type[Statement] | str) -> str:

@@ -16,6 +16,7 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
+import adamslite
 from adamslite.results.results import Results
 
 #: Two times are the same when they differ by less than this part of the reference's time span.
@@ -126,6 +127,10 @@ class Comparison:
 
     def __iter__(self) -> Iterator[Difference]:
         return iter(self.differences)
+
+    def _repr_html_(self) -> str:
+        """Differences as a table, for a notebook."""
+        return adamslite.html(self)
 
 
 def compare(

@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+import adamslite
+
 VARIES = "the linear system varies with time: its eigenvalues are those of this moment only"
 
 
@@ -90,3 +92,7 @@ class Linearization:
         if self.steady:
             return ""
         return f"{VARIES}; it is steady {self.steady_for}" if self.steady_for else VARIES
+
+    def _repr_html_(self) -> str:
+        """The table of modes, for a notebook."""
+        return adamslite.html(self)

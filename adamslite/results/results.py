@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+import adamslite
 from adamslite.language.diagnostics import DeckError
 from adamslite.results.balance import Balance
 from adamslite.results.channels import Channel, describe, unit_symbols
@@ -157,3 +158,7 @@ class Results:
             else f"; there are {', '.join(near)}, ..."
         )
         return f"no result is called '{name}'{hint if near else ' (the results are empty)'}"
+
+    def _repr_html_(self) -> str:
+        """How the run ended, and the page that moves, for a notebook."""
+        return adamslite.html(self)

@@ -13,6 +13,7 @@ from math import floor, inf, log10
 from statistics import median
 from typing import Any, Protocol, TypeVar
 
+import adamslite
 from adamslite.errors import RunFailed, UsageError
 from adamslite.language.method import FIXED, declared, method_of
 from adamslite.progress import Progress, RunState
@@ -138,6 +139,10 @@ class Chart:
                 sure.append(point)
         return min(sure, key=lambda p: p.median, default=None)
 
+    def _repr_html_(self) -> str:
+        """Points and recommendation, for a notebook."""
+        return adamslite.html(self)
+
 
 class OfProgram(Protocol):
     """A result of a program."""
@@ -169,6 +174,23 @@ def variants() -> list[Variant]:
         for form in method.formulations
     ]
     return sorted(found, key=lambda variant: variant.label)
+
+
+def chosen(names: Sequence[str]) -> list[Variant]:
+    """The variants of the integrators of these names; all, if there are none.
+
+    Raises
+    ------
+    UsageError
+        When there is no such integrator.
+    """
+    tried = variants()
+    known = dict.fromkeys(name for each in tried for name in (each.integrator, *each.also))
+    wanted = [name.upper() for name in names]
+    for name in wanted:
+        if name not in known:
+            raise UsageError(f"--integrator {name}: there are {', '.join(known)}")
+    return [each for each in tried if not wanted or {*wanted} & {each.integrator, *each.also}]
 
 
 class Patience(Progress):

@@ -78,28 +78,21 @@ def _runs(args: argparse.Namespace, scene: "Scene") -> tuple[list["Variant"], "R
     from functools import partial
 
     import adamslite
-    from adamslite.errors import UsageError
     from adamslite.language.diagnostics import render
     from adamslite.progress import TalkingProgress
-    from adamslite.verification.work_precision import patient, variants
+    from adamslite.verification.work_precision import chosen, patient
 
     if scene.beside:
         sys.stderr.write(f"{scene.title}\n")
     if scene.warnings:
         sys.stderr.write(render(scene.warnings) + "\n\n")
     model = adamslite.assemble(scene.deck)
-    tried = variants()
-    known = dict.fromkeys(name for v in tried for name in (v.integrator, *v.also))
-    for wanted in args.integrator or ():
-        if wanted not in known:
-            raise UsageError(f"--integrator {wanted}: there are {', '.join(known)}")
+    tried = chosen(args.integrator or ())
     progress = TalkingProgress()
     kernels = adamslite.compile_model(model, progress)
     fixed = {k: v for k in ("end", "steps") if (v := getattr(args, k)) is not None}
     solve = partial(adamslite.simulate, kernels, commands=scene.commands, **fixed)
-    requested = set(args.integrator or known)
-    chosen = [v for v in tried if requested & {v.integrator, *v.also}]
-    return chosen, patient(solve, args.patience, progress)
+    return tried, patient(solve, args.patience, progress)
 
 
 def _write(chart: "Chart", path: Path) -> None:

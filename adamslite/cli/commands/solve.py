@@ -30,25 +30,6 @@ STDOUT = "-"
 #: What becomes of LINEAR commands then.
 UNWRITTEN = "not written: it goes beside the results, and they went to no file"
 
-SUMMARY = """\
-{deck}: {sentence}
-  reached              t = {t_end:g}
-  degrees of freedom   {dof}
-  steps                {steps} and {rejected} rejected
-  Newton iterations    {newton}
-  Jacobians            {jacobians}, factorizations {factorizations}
-  CPU                  {setup_cpu_s:.2f} s to set up, {solve_cpu_s:.2f} s to solve
-  constraints          violated by {max_violation:.1e} at most
-  results              {output}
-"""
-
-#: Comments of the results that the summary repeats: what was done to the model and the method.
-NOTES = (
-    "user",
-    "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "energy", "time",
-    "linear", "no number", "sensor", "out of its law", "info",
-)  # fmt: skip
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite solve`."""
@@ -144,24 +125,21 @@ def _summarize(
     if args.summary == "json":
         sys.stdout.write(_as_json({**results.summary, **_files(scene, output)}) + "\n")
     elif not args.quiet:
-        shown = "standard output" if output == STDOUT else output
-        sentence = (
-            results.outcome.sentence
-            if results.outcome.is_requested
-            else f"stopped early ({results.outcome.name})"
-        )
-        sys.stderr.write(
-            SUMMARY.format(deck=scene.title, sentence=sentence, **results.summary, output=shown)
-        )
-        unwritten = [UNWRITTEN] if results.linearizations and output == STDOUT else []
-        for file in (*files, *unwritten):
-            sys.stderr.write(f"  linearised model     {file}\n")
-        for note in NOTES:
-            if note in results.meta:
-                sys.stderr.write(f"  {note:<20} {results.meta[note]}\n")
+        _tell_summary(scene, results, output, files)
     _tell_trust(scene, args, results)
     if not results.outcome.is_requested:
         sys.stderr.write(f"adamslite: {results.message or results.outcome.sentence}\n")
+
+
+def _tell_summary(scene: "Scene", results: "Results", output: str, files: list[Path]) -> None:
+    from adamslite.results.summary import ending, figures, notes
+
+    shown = "standard output" if output == STDOUT else output
+    unwritten = [UNWRITTEN] if results.linearizations and output == STDOUT else []
+    linear = [("linearised model", str(file)) for file in (*files, *unwritten)]
+    rows = [*figures(results), ("results", shown), *linear, *notes(results)]
+    lines = [f"{scene.title}: {ending(results)}", *(f"  {what:<20} {text}" for what, text in rows)]
+    sys.stderr.write("".join(f"{line}\n" for line in lines))
 
 
 def _tell_trust(scene: "Scene", args: argparse.Namespace, results: "Results") -> None:

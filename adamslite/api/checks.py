@@ -1,0 +1,108 @@
+"""`check` as users of Python call it: every message about a deck, and what the deck contains."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+
+import adamslite
+from adamslite.api.contents import contents, counted
+from adamslite.api.inputs import CommandSource, User, read_inputs, with_commands
+from adamslite.checks import rules
+from adamslite.checks.runs import without_run
+from adamslite.deck.deck import Deck
+from adamslite.deck.redefinition import Command
+from adamslite.language.diagnostics import DeckError, Diagnostic, render
+from adamslite.language.messages.ignoring import without_ignored
+
+
+class Check(list[Diagnostic]):
+    """The messages about a deck, in the order of the deck; as text what `adamslite check` prints.
+
+    Parameters
+    ----------
+    messages : iterable of Diagnostic
+    deck : Deck or None
+        None where it could not be read.
+    commands : sequence of Command
+        The commands of its run.
+    title : str
+        The files, or the title of a text.
+    """
+
+    def __init__(
+        self,
+        messages: Iterable[Diagnostic],
+        deck: Deck | None = None,
+        commands: Sequence[Command] = (),
+        title: str = "",
+    ) -> None:
+        super().__init__(messages)
+        self.deck, self.commands, self.title = deck, commands, title
+
+    @property
+    def errors(self) -> list[Diagnostic]:
+        """Those because of which the deck does not run."""
+        return [each for each in self if each.is_error]
+
+    @property
+    def counts(self) -> str:
+        """How many messages of each kind there are."""
+        return counted(self, ("error", "warning") if self.errors else ()) or "no mistakes found"
+
+    @property
+    def contents(self) -> list[str]:
+        """What a deck without errors consists of: statements, degrees of freedom, cables."""
+        if self.deck is None or self.errors:
+            return []
+        return contents(self.deck, self.commands)
+
+    def __str__(self) -> str:
+        messages = f"{render(self)}\n\n" if self else ""
+        if self.errors or self.deck is None:
+            return f"{messages}{self.counts}\n"
+        lines = [f"{self.title}: {self.counts}", *(f"  {line}" for line in self.contents)]
+        return messages + "".join(f"{line}\n" for line in lines)
+
+    def _repr_html_(self) -> str:
+        return adamslite.html(self)
+
+
+def check(
+    scene: Deck | str | os.PathLike[str], commands: CommandSource = None, user: User = None
+) -> Check:
+    """Everything to say about a deck: of a file or text errors too, of a Deck warnings and notes.
+
+    Parameters
+    ----------
+    scene : str, Path or Deck
+        A file, the text of a deck (more than one line), or a deck that has been read.
+    commands : str, Path, or iterable of str or of statements
+        As for :func:`adamslite.simulate`; of a Deck nothing unless given.
+    user : mapping or iterable of str
+        As for :func:`adamslite.read`.
+    """
+    if not isinstance(scene, Deck):
+        return _of_files(scene, commands, user)
+    found = rules.check(scene)
+    if commands is None:
+        return Check(found, scene, (), _title(scene))
+    given = with_commands(scene, commands)
+    return Check([*found, *given.messages], scene, given.commands, _title(scene))
+
+
+def _of_files(scene: str | os.PathLike[str], commands: CommandSource, user: User = None) -> Check:
+    """Deck and command file as the command line checks them."""
+    title = f"{scene}".partition("\n")[0]
+    try:
+        read = read_inputs(scene, commands, user)
+    except DeckError as fault:
+        return Check(fault.diagnostics, fault.deck, (), title)
+    deck = read.deck
+    missing = without_ignored(deck.source, without_run(deck, read.commands))
+    title = f"{title} with {read.beside} beside it" if read.beside else title
+    return Check([*read.messages, *missing], deck, read.commands, title)
+
+
+def _title(deck: Deck) -> str:
+    return str(deck.path or deck.title)

@@ -1,0 +1,55 @@
+"""What a deck consists of: statements by kind, degrees of freedom, cables."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+from adamslite.deck.deck import Deck
+from adamslite.deck.redefinition import Command
+from adamslite.language.diagnostics import Diagnostic
+
+
+def contents(deck: Deck, commands: Sequence[Command]) -> list[str]:
+    """Lines about a deck; of its cables also how they would be modelled."""
+    from adamslite.cables.report import about_cables
+
+    kinds = Counter(statement.keyword for statement in deck.statements)
+    listed = ", ".join(f"{number} {keyword}" for keyword, number in kinds.items())
+    cables = [line.removeprefix("  ") for line in about_cables(deck, commands)]
+    return [f"{many(kinds.total(), 'statement')}: {listed}", *_freedom(deck), *cables]
+
+
+def counted(diagnostics: Iterable[Diagnostic], always: Sequence[str] = ()) -> str:
+    """How many there are of each severity; those of `always` also where there are none."""
+    found = Counter(each.severity for each in diagnostics)
+    kinds = [each for each in ("error", "warning", "note") if found[each] or each in always]
+    return ", ".join(many(found[each], each) for each in kinds)
+
+
+def many(number: int, one: str, several: str = "") -> str:
+    """``1 part``, ``2 parts``"""
+    return f"{number} {one if number == 1 else several or one + 's'}"
+
+
+def _freedom(deck: Deck) -> list[str]:
+    """Six coordinates for a part and three for a point mass, less one for each independent row."""
+    from adamslite.elements.bases.constraint import Constraint
+    from adamslite.elements.part import Part
+    from adamslite.elements.point_mass import PointMass
+
+    parts = sum(not each.ground for each in deck.of(Part))
+    points = len(deck.of(PointMass))
+    constraints = [each for each in deck.statements if isinstance(each, Constraint)]
+    held = sum(each.n_rows for each in constraints if deck.is_active(each))
+    found: list[str] = []
+    if held:
+        from adamslite.assembly.start import redundant_rows
+
+        found = redundant_rows(deck)
+    free = 6 * parts + 3 * points - held + len(found)
+    freedom = (
+        f"{many(free, 'degree')} of freedom: {many(parts, 'moving part')}, "
+        f"{many(points, 'point mass', 'point masses')}, {many(held, 'constraint row')}"
+    )
+    return [freedom, *([f"redundant, left out: {'; '.join(found)}"] if found else [])]

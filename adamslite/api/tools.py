@@ -1,0 +1,220 @@
+"""The other commands as functions: comparison, verification, descriptions of cables, layout, help,
+and what is kept between runs.
+"""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from adamslite.errors import DeckWarning, FormatError, UsageError
+from adamslite.language.diagnostics import WARNING
+from adamslite.results.comparison import INTERPOLATIONS, USUAL, Comparison, Tolerance
+from adamslite.results.comparison import compare as compare_results
+from adamslite.results.results import Results
+from adamslite.verification.reference_file import (
+    Reference,
+    parse_tolerance,
+    read_reference,
+)
+from adamslite.verification.verification import Verdict, find_cases
+from adamslite.verification.verification import verify as verify_cases
+
+
+def compare(
+    results: Results | str | os.PathLike[str],
+    reference: Results | Reference | str | os.PathLike[str],
+    tolerance: Tolerance | Callable[[str], Tolerance] | float | str | None = None,
+    interpolate: str | None = None,
+) -> Comparison:
+    """Compare results with a reference, channel by channel, as `adamslite diff` does.
+
+    Parameters
+    ----------
+    results, reference : Results, str or Path
+        Results or files of them.  The channels of the reference may be a few of those of the
+        results, its times must be output times unless they are interpolated.
+    tolerance : float, str, Tolerance, or function of a channel name that returns a Tolerance
+        ``X`` for ``"abs X peak X"``, or any of ``"abs A rel R peak P digits N"``.  By default
+        what the reference file says, else 1e-6.
+    interpolate : {None, "linear", "cubic"}
+        How to get values at reference times that are not output times.
+
+    Raises
+    ------
+    Mismatch
+        When the results lack a channel or a time of the reference.
+    UsageError, FormatError
+        When the tolerance is none; when a file is not one of results.
+    """
+    if interpolate is not None and interpolate not in INTERPOLATIONS:
+        raise UsageError(f"--interpolate {interpolate}: there are {', '.join(INTERPOLATIONS)}")
+    found = results if isinstance(results, Results) else Results.load(Path(results))
+    wanted = tolerance_of(tolerance)
+    if isinstance(reference, Results):
+        return compare_results(found, reference, wanted or USUAL, interpolate)
+    judge = reference if isinstance(reference, Reference) else read_reference(Path(reference))
+    if wanted is not None:
+        return compare_results(found, judge.table, wanted, interpolate or judge.interpolate)
+    judge.interpolate = interpolate or judge.interpolate
+    return judge.judge(found, usual=USUAL)
+
+
+def tolerance_of(
+    given: Tolerance | Callable[[str], Tolerance] | float | str | None,
+) -> Tolerance | Callable[[str], Tolerance] | None:
+    """The tolerance that a number or a text means.
+
+    Raises
+    ------
+    UsageError
+        When it means none.
+    """
+    if given is None or isinstance(given, Tolerance) or callable(given):
+        return given
+    try:
+        return Tolerance(abs=float(given), peak=float(given))
+    except ValueError:
+        pass  # not a lone number: a tolerance in words
+    try:
+        return parse_tolerance(str(given))
+    except ValueError as fault:
+        raise UsageError(f"--tol: {fault}") from None
+
+
+def verify(*paths: str | os.PathLike[str], jobs: int = 1) -> list[Verdict]:
+    """Solve reference decks and compare, as `adamslite verify` does.
+
+    Parameters
+    ----------
+    *paths : str or Path
+        Decks, and folders with decks that have a reference; without any, those that come with the
+        program.
+    jobs : int
+        How many processes share the decks.
+
+    Returns
+    -------
+    list of Verdict
+        For each reference whether it is met (``passed``), what part of its tolerance the worst
+        channel uses (``share``), and a sentence (``text``).
+    """
+    from adamslite.resources import find
+
+    cases = find_cases([Path(each) for each in paths] or [find("decks")])
+    if not cases:
+        listed = ", ".join(map(str, paths))
+        raise UsageError(f"there is no deck with a reference.csv in {listed}")
+    return list(verify_cases(cases, jobs=jobs))
+
+
+def cable(description: str | os.PathLike[str]) -> str:
+    """The deck of a cable scene, written from a short description of the cable and its route.
+
+    Parameters
+    ----------
+    description : str or Path
+        A file, or the text of a description (TOML, more than one line), as
+        docs/reference/cable-command.md has it.
+
+    Returns
+    -------
+    str
+        The text of the deck, which :func:`adamslite.simulate` takes.
+
+    Warns
+    -----
+    DeckWarning
+        For every warning about the description.
+
+    Raises
+    ------
+    DeckError
+        With every mistake of the description.
+    """
+    from adamslite.cables.scene import deck
+
+    text, place = description, "<text>"
+    if isinstance(text, os.PathLike) or "\n" not in text:
+        path = Path(text)
+        try:
+            text, place = path.read_text(encoding="utf-8-sig"), str(path)
+        except UnicodeDecodeError as fault:
+            raise FormatError(f"{path} is not UTF-8 text: {fault.reason}") from None
+    written, messages = deck(text, place)
+    for each in messages:
+        if each.severity == WARNING:
+            warnings.warn(each.render(), DeckWarning, stacklevel=2)
+    return written
+
+
+def fmt(source: str | os.PathLike[str], write: bool = False) -> str:
+    """A deck or command file in the canonical layout, as `adamslite fmt` writes it.
+
+    Parameters
+    ----------
+    source : str or Path
+        A file, or a text (more than one line).
+    write : bool
+        Write it back to the file, where it differs.
+    """
+    from adamslite.editing.layout import formatted
+    from adamslite.editing.text_file import read_text
+
+    if isinstance(source, str) and "\n" in source:
+        return formatted(source.replace("\r\n", "\n").replace("\r", "\n"))
+    file = read_text(Path(source))
+    layout = formatted(file.text, file.place)
+    if write and layout != file.text:
+        file.replace(layout)
+    return layout
+
+
+class Page(str):
+    """A page of the manual, in Markdown; a notebook shows it set."""
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def _repr_markdown_(self) -> str:
+        return str(self)
+
+
+def help(name: str = "") -> Page:
+    """What a statement, a function, an integrator or a message means; without a name, all names.
+
+    Raises
+    ------
+    UsageError
+        When nothing is called that; names what comes near.
+    """
+    from adamslite.manual import lookup
+
+    return Page(lookup.pages(name) if name else lookup.contents())
+
+
+class Kept(NamedTuple):
+    """What is kept between runs: its folder, the number of entries, their size [bytes]."""
+
+    folder: Path
+    entries: int
+    size: int
+
+
+def cache(clear: bool = False) -> Kept:
+    """Compiled code and tables that are kept between runs, or those that were removed.
+
+    Parameters
+    ----------
+    clear : bool
+        Remove all of it.
+    """
+    from adamslite.caching import contents
+    from adamslite.caching.folder import cache_folder
+
+    folder = cache_folder()
+    found = contents.clear(folder) if clear else contents.entries(folder)
+    return Kept(folder, len(found), sum(entry.size for entry in found))

@@ -1,0 +1,1 @@
+"""What notebooks show of decks, results, linearised models and charts: HTML."""

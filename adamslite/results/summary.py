@@ -1,0 +1,45 @@
+"""The summary of a run in rows to read: its counters, and what was done to model and method."""
+
+from __future__ import annotations
+
+from adamslite.results.results import Results
+
+#: A row of the counters, and what it shows; left out where a result file has lost a counter.
+FIGURES = (
+    ("reached", "t = {t_end:g}"),
+    ("degrees of freedom", "{dof}"),
+    ("steps", "{steps} and {rejected} rejected"),
+    ("Newton iterations", "{newton}"),
+    ("Jacobians", "{jacobians}, factorizations {factorizations}"),
+    ("CPU", "{setup_cpu_s:.2f} s to set up, {solve_cpu_s:.2f} s to solve"),
+    ("constraints", "violated by {max_violation:.1e} at most"),
+)
+#: Comments of the results that the summary repeats.
+NOTES = (
+    "user",
+    "assembled", "start speeds", "redundant", "equilibrium", "order", "accuracy", "energy", "time",
+    "linear", "no number", "sensor", "out of its law", "info",
+)  # fmt: skip
+
+
+def ending(results: Results) -> str:
+    """How the run ended, in a line."""
+    if results.outcome.is_requested:
+        return results.outcome.sentence
+    return f"stopped early ({results.outcome.name})"
+
+
+def figures(results: Results) -> list[tuple[str, str]]:
+    """Counters of the run: what, and how much."""
+    found = []
+    for label, form in FIGURES:
+        try:
+            found.append((label, form.format(**results.summary)))
+        except KeyError:
+            continue
+    return found
+
+
+def notes(results: Results) -> list[tuple[str, str]]:
+    """What the program did to the model on its own, and what is known of the accuracy."""
+    return [(each, results.meta[each]) for each in NOTES if each in results.meta]
