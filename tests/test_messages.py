@@ -175,7 +175,7 @@ def test_all_mistakes_are_told_at_once_and_in_order() -> None:
         ("UNITS/SYSTEM=MKSA", "did you mean MKS?"),
         ("MARKER/4, PART=3", "there is a POINT_MASS/3"),
         ("VARIABLE/a, FUNCTION=1\nVARIABLE/1, FUNCTION=a(2)", "a is a VARIABLE"),
-        ("CURVE/1, FUNCTION=USER(1)", "bind it, --user CURSUB=module:function or --user CURVE/1="),
+        ("CURVE/1, FUNCTION=USER(1)", "bind it, user={'CURSUB': function} or user={'CURVE/1': "),
         (f"BEAM/1, I=2, J=1, {SECTION}, FORMULATION=NONLINEAR", "a beam that bends far is a row"),
         ("VARIABLE/1, FUNCTION=2^3", "a power is written **"),
         ("VARIABLE/1, FUNCTION=TIME > 1", "IF(x: a, b, c)"),

@@ -44,9 +44,7 @@ def test_constants_stand_in_for_routines() -> None:
 def test_results_say_what_stood_in_for_a_routine(tmp_path: Path) -> None:
     deck = al.read(FALL, user=["VARSUB=1.5", "wind::gust=0"])
     (warning,) = al.check(deck)
-    assert (
-        warning.message == "not as the deck has it, but by --user: VARIABLE/7 = 1.5; VFORCE/1 = 0"
-    )
+    assert warning.message == "not as the deck has it, but by user=: VARIABLE/7 = 1.5; VFORCE/1 = 0"
     assert [place.line for place in warning.places] == [7, 8]
     results = al.simulate(deck)
     results.save(tmp_path / "out.csv")
@@ -109,7 +107,7 @@ def test_commands_call_routines_too() -> None:
     assert deck.user.unused() == ["SFORCE/2"]
     commands = read_commands("SFORCE/2, FUNCTION=USER(1)\nSIM/DYN, END=1, STEPS=1\n", deck)
     (warning,) = commands.warnings
-    assert warning.message == "not as the deck has it, but by --user: SFORCE/2 = 6E2"
+    assert warning.message == "not as the deck has it, but by user=: SFORCE/2 = 6E2"
     assert deck.user.unused() == []
     results = al.simulate(deck, commands=commands)
     assert results["POINT_MASS/2.z"][-1] == pytest.approx(150.0, rel=1e-6)

@@ -47,7 +47,7 @@ class Linearized(NamedTuple):
     energies: tuple[int, int] | None = None
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Results:
     """Time histories of one run.
 
@@ -158,6 +158,12 @@ class Results:
             else f"; there are {', '.join(near)}, ..."
         )
         return f"no result is called '{name}'{hint if near else ' (the results are empty)'}"
+
+    def __repr__(self) -> str:
+        span = f", t = {self.time[0]:g} to {self.time[-1]:g}" if len(self.time) else ""
+        title = f" of {self.meta['deck']!r}" if "deck" in self.meta else ""
+        size = f"{len(self.names)} channels at {len(self.time)} times{span}"
+        return f"<Results{title}: {size}; {self.outcome.name}>"
 
     def _repr_html_(self) -> str:
         """How the run ended, and the page that moves, for a notebook."""
