@@ -100,3 +100,7 @@ def test_help_without_a_name_lists_them(capsys: pytest.CaptureFixture[str]) -> N
     assert main.main(["help"]) == 0
     listed = capsys.readouterr().out
     assert all(name in listed for name in (*STATEMENTS, *FUNCTIONS))
+
+
+def test_help_takes_the_name_of_a_statement_in_a_deck() -> None:
+    assert pages("vforce/2") == pages("VFORCE")

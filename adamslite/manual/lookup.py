@@ -52,7 +52,7 @@ def pages(name: str, commands: Commands | None = None) -> str:
         When there is none.
     """
     known = [(each, chapter) for chapter in chapters(commands or {}) for each in chapter.names]
-    wanted = name.casefold()
+    wanted = name.partition("/")[0].strip().casefold()  # of VFORCE/2, too
     found = [chapter.page(each) for each, chapter in known if each.casefold() == wanted]
     if not found:
         names = [*{each.casefold(): each for each, _ in reversed(known)}.values()]
