@@ -142,3 +142,31 @@ def test_an_axle_may_lie_anywhere(level: int) -> None:
     np.testing.assert_allclose(side["REQUEST/20.F3"], flat["REQUEST/20.F3"], atol=1e-5)
     if level > 1:
         np.testing.assert_allclose(side["REQUEST/1.F2"], flat["REQUEST/1.F2"], atol=0.02)
+
+
+def test_a_block_starts_at_rest_under_the_weight_of_its_wheel_too() -> None:
+    """50 kg and a wheel of J/R^2 = 2 kg on two legs: T = 52 g/2, and it stays where it is."""
+    results = solve(
+        """
+        end = 0.1
+        steps = 20
+        [cable]
+        EA = 2e6
+        rho = 0.05
+        [[route]]
+        kind = "fixed"
+        at = [-0.1, 0, 0]
+        [[route]]
+        kind = "pulley"
+        at = [0, -2, 0]
+        radius = 0.1
+        inertia = 0.02
+        mass = 50
+        slide = [0, 1, 0]
+        [[route]]
+        kind = "fixed"
+        at = [0.1, 0, 0]
+        """
+    )
+    assert results["REQUEST/1.F2"] == pytest.approx(52 * 9.81 / 2, rel=4e-3)
+    assert results["PART/20.y"] == pytest.approx(-2.0, abs=2e-6)

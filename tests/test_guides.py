@@ -43,6 +43,8 @@ def test_what_a_page_does_not_run_has_a_reason(page: Path) -> None:
         ("5.551e-17", "3.1e-08", False),
         ("a ... c", "a b c", True),
         ("a ... c", "a b d", False),
+        ("RADAU ... 205 6.2e-06", "RADAU 0.793 207 6.21e-06", False),
+        ("RADAU ... 205 6.2e-06", "RADAU 0.793 205 6.21e-06", True),
         ("a\n...\nd", "a\nb\nc\nd", True),
         ("a\n...\nd", "a\nb\nc", False),
         ("a", "compiling the equations, once\na", True),

@@ -70,6 +70,8 @@ def _block(spec: Spec, spans: list[FreeSpan], i: int) -> float:
     pull = add(behind.along, before.along, -1)
     size = dot(pull, pull)
     mass = spec.route[i].mass
+    if spec.route[i].is_wheel:  # what `mass` adds to
+        mass += spec.route[i].inertia / spec.route[i].radius ** 2
     if spec.route[i].slides:
         mass += spec.cable.density * (before.length + behind.length) / 2
     if spec.route[i].haul:
