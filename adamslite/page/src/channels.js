@@ -2,6 +2,7 @@
 import { h, icon } from "./dom.js";
 
 const LISTED = 150;
+const ALIKE = 30; // ratio of sizes up to which channels without a unit share a plot
 
 export class Channels {
     constructor({ times, list }, archive) {
@@ -55,17 +56,40 @@ export class Channels {
         });
     }
 
-    /** What is plotted at first: requests, else the coordinate that moves most of each kind. */
-    first() {
-        const requests = this.list.filter(({ name }) => name.startsWith("REQUEST/") && this.#span(name) > 0);
-        const units = [...new Set(requests.map(({ unit }) => unit))].slice(0, 2);
-        if (units.length) {
-            return units.flatMap((unit) => requests.filter((each) => each.unit === unit).slice(0, 3)).map(({ name }) => name);
+    /** Names that share a plot: those of one unit; without a unit, those of like size. */
+    groups(names) {
+        const groups = [];
+        for (const name of names) {
+            const found = groups.find(([first]) => this.unit(first) === this.unit(name) && this.#alike(first, name));
+            if (found) found.push(name);
+            else groups.push([name]);
         }
+        return groups;
+    }
+
+    #alike(one, other) {
+        if (this.unit(one)) return true;
+        const [a, b] = [this.#size(one), this.#size(other)];
+        return Math.max(a, b) <= ALIKE * Math.min(a, b);
+    }
+
+    /** What is plotted at first: requests that change, else the coordinate that moves most. */
+    first() {
+        const requests = this.list.filter(({ name }) => name.startsWith("REQUEST/") && this.#changes(name));
+        const groups = this.groups(requests.slice(0, 40).map(({ name }) => name));
+        if (groups.length) return groups.slice(0, 2).flatMap((group) => group.slice(0, 3));
         const places = this.list.filter(({ name }) => /\.[xyz]$/.test(name));
         const widest = places.map(({ name }) => [this.#span(name), name]).sort((a, b) => b[0] - a[0])[0];
         if (!widest || !(widest[0] > 0)) return this.list.slice(0, 1).map(({ name }) => name);
         return [widest[1]];
+    }
+
+    #changes(name) {
+        return this.#span(name) > 1e-6 * this.#size(name);
+    }
+
+    #size(name) {
+        return this.data(name).reduce((most, value) => Math.max(most, Number.isFinite(value) ? Math.abs(value) : 0), 0);
     }
 
     #span(name) {

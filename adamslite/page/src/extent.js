@@ -27,7 +27,8 @@ const HALVES = {
 };
 
 /** Corners of a shape's box as points [body, x, y, z]. */
-function corners(shape) {
+export function corners(shape) {
+    if (!(shape.kind in HALVES)) return [];
     const [half, centre] = HALVES[shape.kind](shape);
     const [x, y, z, qx, qy, qz, qw] = shape.frame;
     const m = new Matrix4().makeRotationFromQuaternion(new Quaternion(qx, qy, qz, qw)).setPosition(x, y, z).elements;
@@ -45,8 +46,7 @@ function rim([body, x, y, z], radius) {
 
 /** All points [body, x, y, z] that the picture has to hold. */
 function anchors(scene) {
-    const known = scene.shapes.filter(({ kind }) => kind in HALVES);
-    const solid = known.filter(({ kind }) => kind !== "plane");
+    const solid = scene.shapes.filter(({ kind }) => kind !== "plane");
     const ends = (list) => list.flatMap(({ i, j }) => [i.slice(0, 4), j.slice(0, 4)]);
     const cables = scene.cables.flatMap(({ nodes }) =>
         nodes.flatMap((node) => (node.point ? [node.point] : rim(node.wheel, node.radius))));

@@ -43,6 +43,8 @@ export function wheel(sides) {
     return mergeGeometries([painted(flat, 1), painted(spoke, 0.12)]);
 }
 
+const END = 0.06; // of a spring's length
+
 class Helix extends Curve {
     constructor(coils, radius) {
         super();
@@ -50,10 +52,10 @@ class Helix extends Curve {
         this.radius = radius;
     }
 
-    // Straight along the axis in the first and the last tenth, in coils between.
+    // Straight along the axis in the first and the last part, in coils between.
     getPoint(t, target = new Vector3()) {
-        const part = Math.min(Math.max((t - 0.1) / 0.8, 0), 1);
-        const ease = Math.min(1, Math.min(t, 1 - t) / 0.1);
+        const part = Math.min(Math.max((t - END) / (1 - 2 * END), 0), 1);
+        const ease = Math.min(1, Math.min(t, 1 - t) / END);
         const angle = 2 * Math.PI * this.coils * part;
         const radius = this.radius * ease;
         return target.set(radius * Math.cos(angle), radius * Math.sin(angle), t);
@@ -66,6 +68,13 @@ export function coil(coils, radius, wire, length, fine) {
     const around = fine ? 7 : 3;
     const along = Math.ceil(coils * (fine ? 20 : 8)) + 8;
     return new TubeGeometry(curve, along, wire / length, around, false).scale(length, length, 1);
+}
+
+/** A damper from z = 0 to z = 1: cup and piston rod. */
+export function damper(radius) {
+    const cup = frustum(1, 1, 2 * Math.PI, 24).scale(radius, radius, 0.6);
+    const rod = frustum(1, 1, 2 * Math.PI, 12).scale(0.3 * radius, 0.3 * radius, 0.4).translate(0, 0, 0.6);
+    return mergeGeometries([cup, rod]);
 }
 
 const bar = (radius, length, sides = 20) =>

@@ -23,7 +23,7 @@ import { Player } from "./player.js";
 import { Plots } from "./plots.js";
 import { curvesTable, Save } from "./save.js";
 import { Selection } from "./selection.js";
-import { Shapes } from "./shapes.js";
+import { Shapes, stays } from "./shapes.js";
 import { Springs } from "./springs.js";
 import { Stage } from "./stage.js";
 import { BodyLines } from "./strokes.js";
@@ -57,7 +57,7 @@ class App {
         this.box = bounds(cloud);
         const { radius } = this.box;
         const crowd = Math.max(1, Math.sqrt(scene.joints.length / 12));
-        const look = { rod: 0.008 * radius, point: 0.008 * radius, joint: (0.02 * radius) / crowd };
+        const look = { rod: 0.008 * radius, point: 0.008 * radius, joint: (0.022 * radius) / crowd, spring: 0.05 * radius };
         const [stage, vertical] = [this.stage, "xyz".indexOf(scene.up)];
         const sign = scene.gravity[vertical] > 0 ? -1 : 1;
         for (const object of bodies.objects) stage.scene.add(object);
@@ -66,6 +66,8 @@ class App {
         this.joints = new Joints(scene.joints, bodies, stage, look);
         this.springs = new Springs(scene.springs, bodies, stage, look);
         this.cables = new Cables(scene, archive, bodies, stage);
+        this.stays = new BodyLines(stays(scene, this.shapes), bodies, { width: 1.5, colour: stage.palette.joint, round: 0 });
+        stage.addStrokes(this.stays.strokes);
         this.links = new BodyLines(scene.links.map(({ i, j }) => [i, j]), bodies, { width: 2, colour: stage.palette.line });
         stage.addStrokes(this.links.strokes);
         this.arrows = new Arrows(scene.arrows, archive, bodies, stage, radius);
@@ -81,7 +83,7 @@ class App {
         this.selection = new Selection(this);
         this.picker = new Picker(this.stage, bodies, this.shapes.pickable);
         this.save = new Save(this);
-        this.player = new Player(this.clock, scene.units.time, scene.events, (time) => this.#shown(time));
+        this.player = new Player(this.clock, scene.units.time, scene.events, (time) => this.#shown(time), () => this.invalidate());
         this.channels = new Channels(scene.channels, this.archive);
         this.plots = new Plots({
             channels: this.channels, against: this.against, timeUnit: scene.units.time, events: scene.events,
@@ -217,7 +219,7 @@ class App {
     #place() {
         this.stale = false;
         if (!this.modes.active) this.bodies.setTime(this.player.time);
-        for (const part of [this.shapes, this.joints, this.springs, this.cables, this.links, this.arrows]) part.update();
+        for (const part of [this.shapes, this.joints, this.springs, this.cables, this.links, this.stays, this.arrows]) part.update();
         this.against?.setTime(this.player.time);
         this.selection.update();
     }
@@ -262,6 +264,7 @@ class App {
         for (const part of [this.ground, this.joints, this.springs, this.arrows]) part.setTheme(stage.palette);
         this.cables.setTheme(theme, stage.palette);
         this.links.strokes.setColour(stage.palette.line);
+        this.stays.strokes.setColour(stage.palette.joint);
         this.tension?.setTheme(theme);
         this.plots.setTheme();
         this.select(this.selection.body);

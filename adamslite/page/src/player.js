@@ -18,11 +18,12 @@ function decimals(duration) {
 }
 
 export class Player {
-    /** `show(time)` is called for every new time. */
-    constructor(clock, unit, events, show) {
+    /** `show(time)` is called for every new time, `wake()` when playing begins or ends. */
+    constructor(clock, unit, events, show, wake) {
         this.clock = clock;
         this.unit = unit;
         this.show = show;
+        this.wake = wake;
         this.time = clock.first;
         this.playing = false;
         this.loops = true;
@@ -109,7 +110,7 @@ export class Player {
         this.since = null;
         this.button.replaceChildren(icon(playing ? "pause" : "play"));
         this.button.setAttribute("aria-pressed", String(playing));
-        this.show(this.time);
+        this.wake();
     }
 
     stepBy(count) {

@@ -1,4 +1,4 @@
-// Curves over time: one plot for each unit, with a cursor that is the time of the scene.
+// Curves over time: one plot for each quantity, with a cursor that is the time of the scene.
 import uPlot from "uplot";
 import { curveColour } from "./colours.js";
 import { h, iconButton, short } from "./dom.js";
@@ -48,6 +48,11 @@ class Plot {
         return this.names.length === 1 ? this.names[0] : `${this.names.length} channels${this.unit ? ` in ${this.unit}` : ""}`;
     }
 
+    #axisName() {
+        const unit = this.unit ? `(${this.unit})` : "";
+        return this.names.length === 1 && !this.difference ? `${this.names[0]} ${unit}`.trim() : unit;
+    }
+
     #series() {
         const { channels, against } = this.owner;
         const { times } = channels;
@@ -87,10 +92,11 @@ class Plot {
                 legend: { show: false },
                 scales: { x: { time: false }, y: { range: (u, low, high) => spread(low, high) } },
                 cursor: { show: false },
+                pxAlign: 0,
                 padding: [8, 12, 0, 0],
                 axes: [
                     { ...axis, label: unit ? `time (${unit})` : "time", labelSize: 16, size: 30, labelGap: 0 },
-                    { ...axis, label: this.unit ? `(${this.unit})` : "", labelSize: 16, size: 52, labelGap: 0, values: (u, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick, 6))) },
+                    { ...axis, label: this.#axisName(), labelSize: 16, size: 52, labelGap: 0, values: (u, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick, 6))) },
                 ],
                 hooks: { drawClear: [(u) => this.owner.drawEvents(u)], setScale: [() => this.moveCursor(this.owner.time)] },
             },
@@ -175,9 +181,8 @@ export class Plots {
     set(names) {
         this.names = names.filter((name) => this.channels.has(name));
         for (const plot of this.plots) plot.chart?.destroy();
-        const units = [...new Set(this.names.map((name) => this.channels.unit(name)))];
-        this.plots = units.flatMap((unit) => {
-            const together = this.names.filter((name) => this.channels.unit(name) === unit);
+        this.plots = this.channels.groups(this.names).flatMap((together) => {
+            const unit = this.channels.unit(together[0]);
             const shared = together.filter((name) => this.against?.channels.has(name));
             const plots = [new Plot(this, unit, together)];
             return shared.length ? [...plots, new Plot(this, unit, shared, true)] : plots;

@@ -1,6 +1,7 @@
 // Shapes of the bodies: what GRAPHICS statements say, and what stands for a body without them.
 import { DoubleSide } from "three";
 import { GROUND } from "./colours.js";
+import { corners } from "./extent.js";
 import * as geometry from "./geometry.js";
 import { Instances, placed } from "./instances.js";
 import { BodyLines } from "./strokes.js";
@@ -143,9 +144,23 @@ function groupBy(items, keyOf) {
     return groups;
 }
 
+/** Thin lines from a body to its joints that no shape of it reaches. */
+export function stays(scene, shapes) {
+    const lines = [];
+    for (const joint of scene.joints) {
+        for (const [b, x, y, z] of [joint.i, joint.j]) {
+            const reach = scene.bodies[b].kind === "part" ? shapes.reach(b) : Infinity;
+            if (Math.hypot(x, y, z) > reach) lines.push([[b, 0, 0, 0], [b, x, y, z]]);
+        }
+    }
+    return lines;
+}
+
 export class Shapes {
     /** `look`: radii of what has no size of its own; `colourOf`: colour of a body. */
-    constructor({ shapes, outlines }, bodies, stage, look, options = {}) {
+    constructor(scene, bodies, stage, look, options = {}) {
+        const { shapes, outlines } = scene;
+        this.scene = scene;
         this.bodies = bodies;
         this.colourOf = options.colourOf ?? ((b) => bodies.colours[b]);
         const opacity = options.opacity ?? 1;
@@ -187,6 +202,13 @@ export class Shapes {
     update() {
         for (const group of this.groups) group.update();
         for (const line of this.lines) line.update();
+    }
+
+    /** Radius about a body's origin within which its shapes lie; infinite without any. */
+    reach(b) {
+        const own = this.scene.shapes.filter(({ body }) => body === b);
+        const distances = own.flatMap(corners).map(([, x, y, z]) => Math.hypot(x, y, z));
+        return distances.length ? Math.max(...distances) : Infinity;
     }
 
     get pickable() {

@@ -1,6 +1,6 @@
 // Springs: coils that stretch between two moving points.
 import { InstancedMesh, DynamicDrawUsage, MeshLambertMaterial } from "three";
-import { coil } from "./geometry.js";
+import { coil, damper } from "./geometry.js";
 
 const FINE = 40; // springs up to which a coil has its full number of facets
 
@@ -52,15 +52,22 @@ class Coils {
         this.bodies = bodies;
         this.from = [0, 0, 0];
         this.to = [0, 0, 0];
-        const [{ coils, diameter }] = springs;
-        const radius = diameter > 0 ? diameter / 2 : 1.6 * look.joint;
-        this.rest = this.#middleLength() || 4 * radius;
-        const wire = Math.min(0.22 * radius, (0.3 * this.rest) / Math.max(coils || 8, 1));
-        const geometry = coil(coils || 8, radius, wire, this.rest, springs.length <= FINE);
+        this.rest = this.#middleLength() || look.spring;
+        const geometry = this.#geometry(springs[0], look.spring);
         this.mesh = new InstancedMesh(geometry, new MeshLambertMaterial({ color: look.colour }), springs.length);
         this.mesh.instanceMatrix.setUsage(DynamicDrawUsage);
         this.mesh.frustumCulled = false;
         this.mesh.matrixAutoUpdate = false;
+    }
+
+    // What no GRAPHICS statement sizes is as wide as is well seen.
+    #geometry({ statement, coils, diameter }, size) {
+        const derived = !statement.startsWith("GRAPHICS");
+        const radius = derived || !(diameter > 0) ? Math.min(size, 0.2 * this.rest) : diameter / 2;
+        if (coils === 0) return damper(radius);
+        const turns = derived ? Math.min(Math.max(Math.round(this.rest / (1.7 * radius)), 5), 16) : coils;
+        const wire = Math.min(0.2 * radius, (0.3 * this.rest) / turns);
+        return coil(turns, radius, wire, this.rest, this.springs.length <= FINE);
     }
 
     #ends(k) {
@@ -90,7 +97,7 @@ export class Springs {
     constructor(springs, bodies, stage, look) {
         const groups = new Map();
         for (const spring of springs) {
-            const key = `${spring.coils} ${spring.diameter}`;
+            const key = `${spring.statement.startsWith("GRAPHICS")} ${spring.coils} ${spring.diameter}`;
             if (!groups.has(key)) groups.set(key, []);
             groups.get(key).push(spring);
         }
