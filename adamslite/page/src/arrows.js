@@ -41,6 +41,8 @@ class Kind {
         this.from = [0, 0, 0];
         this.neck = [0, 0, 0];
         this.tip = [0, 0, 0];
+        this.front = [0, 0, 0];
+        this.rear = [0, 0, 0];
         this.visible = false;
     }
 
@@ -77,16 +79,35 @@ class Kind {
             neck[c] = from[c] + direction * (long - head);
             tip[c] = from[c] + direction * long;
         }
-        const wide = shown ? 0.0055 * this.size : 0;
-        stretchMatrix(this.shafts.instanceMatrix.array, 16 * k, from, neck, wide);
-        this.#head(k, tip, neck, 0.36 * head * (shown ? 1 : 0));
-        if (this.double) this.#head(k + this.arrows.length, this.#behind(neck, from, head), neck, 0.36 * head * (shown ? 1 : 0));
+        this.#draw(k, head, shown);
     }
 
-    #behind(neck, from, head) {
-        const length = Math.hypot(neck[0] - from[0], neck[1] - from[1], neck[2] - from[2]) || 1;
-        for (let c = 0; c < 3; c += 1) this.tip[c] = neck[c] - ((neck[c] - from[c]) * -0.1 * head) / length;
-        return this.tip;
+    #draw(k, head, shown) {
+        const { from, neck, tip } = this;
+        const wide = shown ? 0.36 * head : 0;
+        stretchMatrix(this.shafts.instanceMatrix.array, 16 * k, from, neck, shown ? 0.0055 * this.size : 0);
+        this.#head(k, tip, neck, wide);
+        if (!this.double) return;
+        for (let c = 0; c < 3; c += 1) {
+            this.rear[c] = neck[c] - 0.8 * (tip[c] - neck[c]);
+            this.front[c] = tip[c] - 0.8 * (tip[c] - neck[c]);
+        }
+        this.#head(k + this.arrows.length, this.front, this.rear, wide);
+    }
+
+    /** Where the tips are over the whole motion, three numbers each. */
+    tips(count) {
+        const { times } = this.bodies.clock;
+        const cloud = [];
+        const frames = Math.max(Math.min(times.length, count), 1);
+        for (let n = 0; n < frames; n += 1) {
+            this.bodies.setTime(times[Math.round((n * (times.length - 1)) / Math.max(frames - 1, 1))] ?? 0);
+            for (let k = 0; k < this.arrows.length; k += 1) {
+                this.#place(k);
+                if (Number.isFinite(this.tip[0] + this.tip[1] + this.tip[2])) cloud.push(...this.tip);
+            }
+        }
+        return cloud;
     }
 
     // The head's geometry lies from its tip at z = 0 to its foot at z = -1.
@@ -121,9 +142,14 @@ export class Arrows {
     }
 
     show(kind, shown) {
-        if (!this.has(kind)) return;
         this.kinds[kind].visible = shown;
-        this.kinds[kind].update();
+    }
+
+    /** Tips of the arrows shown, over the whole motion. */
+    tips() {
+        const shown = Object.values(this.kinds).filter(({ visible, largest: most }) => visible && most > 0);
+        const count = shown.reduce((sum, { arrows }) => sum + arrows.length, 0);
+        return shown.flatMap((kind) => kind.tips(Math.min(60, Math.ceil(20000 / Math.max(count, 1)))));
     }
 
     update() {

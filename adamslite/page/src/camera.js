@@ -23,6 +23,8 @@ export class Camera {
         this.stage = stage;
         this.camera = stage.camera;
         this.cloud = cloud;
+        this.more = [];
+        this.reserved = 0; // pixels at the top that other things lie over
         this.box = box;
         this.changed = changed;
         this.axes = frontAxes(up, sign);
@@ -79,6 +81,12 @@ export class Camera {
         this.changed();
     }
 
+    /** Points that the picture has to hold besides the mechanism. */
+    include(points) {
+        this.more = points;
+        this.refit();
+    }
+
     /** After the picture has changed its size, what was framed is framed again. */
     refit() {
         if (this.fitted && this.followed < 0) this.fit(false);
@@ -99,34 +107,40 @@ export class Camera {
         this.#moved();
     }
 
-    // A point at (x, y) across and z towards the camera is inside the picture of half width
-    // tan(angle) when |x - cx| <= (distance - z) tan(angle): the extremes of z +- x / tan(angle)
-    // give centre and distance, for the width and the height alike.
+    // A point at (x, y) across and z towards the camera is in the picture when x - cx <=
+    // (distance - z) right and cx - x <= (distance - z) left, tangents of half the picture's angle.
+    // The largest z + x / right and z - x / left tell how near the camera may come and, at any
+    // distance, between which limits the centre cx lies; so for the height with y.
     #framing(direction) {
         const across = new Vector3().crossVectors(this.camera.up, direction);
         if (across.lengthSq() < 1e-6) across.copy(this.axes.right);
         across.normalize();
         const over = new Vector3().crossVectors(direction, across);
         const tall = Math.tan((this.camera.fov * Math.PI) / 360) / MARGIN;
-        const [cx, dx] = this.#span(across, direction, tall * this.camera.aspect);
-        const [cy, dy] = this.#span(over, direction, tall);
-        const distance = Math.max(dx, dy);
+        const wide = tall * this.camera.aspect;
+        const width = this.#span(across, direction, wide, wide);
+        const height = this.#span(over, direction, tall * (1 - (2 * this.reserved) / this.stage.height), tall);
         const depth = direction.dot(new Vector3(...this.box.centre));
-        const target = sum([across, cx], [over, cy], [direction, depth]);
-        return { target, position: target.clone().addScaledVector(direction, Math.max(distance - depth, 0.05 * this.box.radius)) };
+        const distance = Math.max(width.distance, height.distance, depth + 0.05 * this.box.radius);
+        const target = sum([across, width.centre(distance)], [over, height.centre(distance)], [direction, depth]);
+        return { target, position: target.clone().addScaledVector(direction, distance - depth) };
     }
 
-    #span(axis, direction, tangent) {
-        const { cloud } = this;
+    #span(axis, direction, plus, minus) {
         let above = -Infinity;
         let below = -Infinity;
-        for (let k = 0; k < cloud.length; k += 3) {
-            const x = (axis.x * cloud[k] + axis.y * cloud[k + 1] + axis.z * cloud[k + 2]) / tangent;
-            const z = direction.x * cloud[k] + direction.y * cloud[k + 1] + direction.z * cloud[k + 2];
-            above = Math.max(above, z + x);
-            below = Math.max(below, z - x);
+        for (const points of [this.cloud, this.more]) {
+            for (let k = 0; k < points.length; k += 3) {
+                const x = axis.x * points[k] + axis.y * points[k + 1] + axis.z * points[k + 2];
+                const z = direction.x * points[k] + direction.y * points[k + 1] + direction.z * points[k + 2];
+                above = Math.max(above, z + x / plus);
+                below = Math.max(below, z - x / minus);
+            }
         }
-        return [(tangent * (above - below)) / 2, (above + below) / 2];
+        return {
+            distance: (above * plus + below * minus) / (plus + minus),
+            centre: (distance) => ((above - distance) * plus + (distance - below) * minus) / 2,
+        };
     }
 
     /** Moves with the body b from now on; -1: with none. */

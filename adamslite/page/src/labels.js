@@ -3,6 +3,8 @@ import { Vector3 } from "three";
 import { h } from "./dom.js";
 
 const MOST = 80;
+const LETTER = 6.3; // pixels of a name
+const LINE = 17;
 
 export class Labels {
     constructor(layer, bodies, stage) {
@@ -12,6 +14,7 @@ export class Labels {
         this.shown = false;
         this.selected = -1;
         this.spans = new Map();
+        this.taken = [];
         this.place = new Vector3();
         this.buffer = [0, 0, 0];
         const named = bodies.list.flatMap(({ kind }, b) => (kind === "ground" || kind === "none" ? [] : [b]));
@@ -40,14 +43,24 @@ export class Labels {
 
     update() {
         const { width, height, camera } = this.stage;
+        this.taken.length = 0;
         for (const [b, span] of this.spans) {
             this.bodies.point([b, 0, 0, 0], this.buffer);
             this.place.fromArray(this.buffer).project(camera);
             const seen = Math.abs(this.place.x) < 1 && Math.abs(this.place.y) < 1 && this.place.z < 1;
-            span.style.display = seen ? "" : "none";
             const x = ((this.place.x + 1) / 2) * width;
             const y = ((1 - this.place.y) / 2) * height;
-            if (seen) span.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+            const shown = seen && (b === this.selected || this.#free(x, y, span.textContent.length));
+            span.style.display = shown ? "" : "none";
+            if (shown) span.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
         }
+    }
+
+    // Whether no other name is there; if so, it is taken from now on.
+    #free(x, y, letters) {
+        const right = x + LETTER * letters + 10;
+        const free = this.taken.every(([left, end, at]) => x > end || right < left || Math.abs(y - at) > LINE);
+        if (free) this.taken.push([x, right, y]);
+        return free;
     }
 }

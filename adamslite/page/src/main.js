@@ -44,6 +44,7 @@ class App {
         this.bodies = new Bodies(scene.bodies, this.archive, this.clock, swinging);
         this.#buildScene();
         this.#buildPage(licenses);
+        this.camera.reserved = this.tension ? 36 : 0;
         this.setTheme(this.theme);
         this.#resize();
         new ResizeObserver(() => this.#resize()).observe(this.viewport);
@@ -60,6 +61,7 @@ class App {
         const look = { rod: 0.008 * radius, point: 0.008 * radius, joint: (0.022 * radius) / crowd, spring: 0.05 * radius };
         const [stage, vertical] = [this.stage, "xyz".indexOf(scene.up)];
         const sign = scene.gravity[vertical] > 0 ? -1 : 1;
+        stage.setUpward(new Vector3().setComponent(vertical, sign));
         for (const object of bodies.objects) stage.scene.add(object);
         this.ground = new Ground(this.box, scene.up, sign, stage);
         this.shapes = new Shapes(scene, bodies, stage, look);
@@ -123,12 +125,18 @@ class App {
         return [
             drawn("labels", "Names of bodies", false, (shown) => this.labels.set({ shown })),
             ...KINDS.filter((kind) => arrows.has(kind)).map((kind) =>
-                drawn(kind, longest(kind), false, (shown) => arrows.show(kind, shown))),
+                drawn(kind, longest(kind), false, (shown) => this.#showArrows(kind, shown))),
             ...(scene.joints.length ? [drawn("joints", "Joints", true, (shown) => { this.joints.visible = shown; })] : []),
             ...(scene.springs.length ? [drawn("springs", "Springs", true, (shown) => { this.springs.visible = shown; })] : []),
             ...(this.against ? [drawn("against", this.against.name, true, (shown) => { this.against.visible = shown; })] : []),
             drawn("ground", "Grid", true, (shown) => { this.ground.visible = shown; }),
         ];
+    }
+
+    #showArrows(kind, shown) {
+        this.arrows.show(kind, shown);
+        this.camera.include(this.arrows.tips());
+        this.stale = true;
     }
 
     #change(act) {

@@ -18,15 +18,8 @@ function svg(tag, attributes, text = "") {
 export class TensionLegend {
     constructor(range, unit) {
         this.bar = h("div", { class: "bar" });
-        const [low, high] = range;
-        const at = (part) => h("span", {}, short(low + part * (high - low), 3));
-        this.element = h(
-            "div",
-            { class: "card tension" },
-            h("span", { class: "title" }, unit ? `tension (${unit})` : "tension"),
-            this.bar,
-            h("div", { class: "scale" }, at(0), at(0.5), at(1)),
-        );
+        const [low, high] = range.map((value) => h("span", { class: "value" }, short(value, 3)));
+        this.element = h("div", { class: "card tension" }, unit ? `tension (${unit})` : "tension", low, this.bar, high);
     }
 
     setTheme(theme) {

@@ -1,5 +1,6 @@
 // Shapes of the bodies: what GRAPHICS statements say, and what stands for a body without them.
 import { DoubleSide } from "three";
+import { Balls } from "./balls.js";
 import { GROUND } from "./colours.js";
 import { corners } from "./extent.js";
 import * as geometry from "./geometry.js";
@@ -10,6 +11,9 @@ const FULL = 2 * Math.PI;
 const NONE = [0, 0, 0];
 const MANY = 200; // copies from which on a shape has fewer facets
 
+const FEW = 40; // balls up to which each is a mesh
+
+const isBall = ({ solid: { key, scale: [x, y, z] } }) => (key === "ball" || key === "point") && x === y && y === z;
 const angleOf = (shape) => (shape.angle ? Math.min(Math.abs(shape.angle), FULL) : FULL);
 
 /** Along a negative length a shape ends where it would begin. */
@@ -166,7 +170,7 @@ export class Shapes {
         const opacity = options.opacity ?? 1;
         const solids = shapes.filter(({ kind }) => kind in SOLIDS).map((shape) => this.#item(shape, look));
         const groups = groupBy(solids, ({ solid }) => `${solid.key} ${solid.see_through ?? false}`);
-        this.groups = [...groups.values()].map((items) => this.#group(items, opacity));
+        this.groups = [...groups.values()].map((items) => this.#group(items, opacity, stage));
         for (const group of this.groups) stage.add(...group.objects);
         this.lines = this.#lines(shapes, outlines, stage, opacity);
     }
@@ -177,8 +181,9 @@ export class Shapes {
         return { body: shape.body, solid, local: localMatrix(shape.frame, solid), colour };
     }
 
-    #group(items, opacity) {
+    #group(items, opacity, stage) {
         const [{ solid }] = items;
+        if (items.length > FEW && items.every(isBall)) return new Balls(items, this.bodies, stage, opacity);
         const sides = items.length > MANY ? 12 : items.length > 20 ? 28 : 48;
         return new Instances(solid.make(sides), items, this.bodies, {
             opacity: solid.see_through ? 0.35 * opacity : opacity,

@@ -28,6 +28,11 @@ export class Stage {
         this.hemisphere.groundColor.set(this.palette.soil);
     }
 
+    /** The sky is where `upward` points to. */
+    setUpward(upward) {
+        this.hemisphere.matrixWorld.setPosition(upward);
+    }
+
     add(...objects) {
         for (const object of objects) {
             object.matrixWorldAutoUpdate = false;

@@ -1,14 +1,15 @@
 // Lines of a width in pixels, shaded like round bars, in one colour or coloured by a value 0..1.
 import {
-    BufferAttribute, Color, DataTexture, DynamicDrawUsage, InstancedBufferGeometry, InstancedInterleavedBuffer,
-    InterleavedBufferAttribute, LinearFilter, Mesh, ShaderMaterial, SRGBColorSpace, Vector2,
+    BufferAttribute, BufferGeometry, Color, DataTexture, DynamicDrawUsage, InterleavedBuffer, InterleavedBufferAttribute,
+    LinearFilter, Mesh, ShaderMaterial, SRGBColorSpace, Vector2,
 } from "three";
+import { corners, rectangles } from "./rectangles.js";
 import { viridis } from "./colours.js";
 
 // A segment is a rectangle on the screen, longer than it by half its width at both ends, which are
 // cut round. What varies over it is multiplied by w so that it is linear on the screen.
 const VERTEX = `
-attribute vec3 corner;
+attribute vec2 corner;
 attribute vec4 from;
 attribute vec4 to;
 uniform float width;
@@ -58,8 +59,6 @@ void main() {
     #include <colorspace_fragment>
 }`;
 
-const CORNERS = new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0]);
-
 function tensionMap(theme) {
     const size = 256;
     const data = new Uint8Array(4 * size);
@@ -77,16 +76,17 @@ export class Strokes {
     constructor(count, { width = 2, colour = "#000", mapped = false, theme = "light", round = 0.8, opacity = 1 } = {}) {
         this.count = count;
         this.width = width;
-        this.buffer = new InstancedInterleavedBuffer(new Float32Array(8 * Math.max(count, 1)), 8);
+        this.array = new Float32Array(8 * count);
+        // Every corner of a segment holds both its ends: instances of a rectangle would hold them
+        // once, but take software renderers twenty times as long.
+        this.buffer = new InterleavedBuffer(new Float32Array(32 * Math.max(count, 1)), 8);
         this.buffer.setUsage(DynamicDrawUsage);
-        this.array = this.buffer.array;
-        this.geometry = new InstancedBufferGeometry();
-        this.geometry.instanceCount = count;
-        this.geometry.setAttribute("corner", new BufferAttribute(CORNERS, 3));
-        this.geometry.setAttribute("position", this.geometry.getAttribute("corner"));
+        this.geometry = new BufferGeometry();
+        this.geometry.setAttribute("corner", new BufferAttribute(corners(count, [0, -1, 1, -1, 1, 1, 0, 1]), 2));
+        this.geometry.setAttribute("position", new InterleavedBufferAttribute(this.buffer, 3, 0));
         this.geometry.setAttribute("from", new InterleavedBufferAttribute(this.buffer, 4, 0));
         this.geometry.setAttribute("to", new InterleavedBufferAttribute(this.buffer, 4, 4));
-        this.geometry.setIndex([0, 1, 2, 0, 2, 3]);
+        this.geometry.setIndex(rectangles(count));
         this.material = new ShaderMaterial({
             vertexShader: VERTEX,
             fragmentShader: FRAGMENT,
@@ -119,8 +119,20 @@ export class Strokes {
         this.material.uniforms.map.value = tensionMap(theme);
     }
 
+    /** After `array` has changed: from and to, each x, y, z and value, for every segment. */
     touched() {
-        this.buffer.needsUpdate = true;
+        const { array, buffer, count } = this;
+        const copies = buffer.array;
+        for (let k = 0; k < count; k += 1) {
+            for (let c = 0; c < 8; c += 1) {
+                const value = array[8 * k + c];
+                copies[32 * k + c] = value;
+                copies[32 * k + c + 8] = value;
+                copies[32 * k + c + 16] = value;
+                copies[32 * k + c + 24] = value;
+            }
+        }
+        buffer.needsUpdate = true;
     }
 
     dispose() {
