@@ -48,20 +48,30 @@ def bodies(block: Block, time: np.ndarray, late: float = 0.0) -> list[dict[str, 
     moving = [
         ("PART/2", "crank arm", "part", crank(time - late), turned(angle), 2.0),
         ("POINT_MASS/3", "", "point_mass", weight(time - late), None, 5.0),
-        ("PART/4", "Rolle <b>\N{LATIN SMALL LETTER O WITH DIAERESIS}</b>", "part", None, turned(3 * angle), 1.0),
-    ]  # fmt: skip
+        (
+            "PART/4",
+            "Rolle <b>\N{LATIN SMALL LETTER O WITH DIAERESIS}</b>",
+            "part",
+            None,
+            turned(3 * angle),
+            1.0,
+        ),
+    ]
     ground = {"name": "PART/1", "label": "ground", "kind": "ground", "position": [0, 0, 0]}
     return [
         {**ground, "attitude": None, "mass": 0.0},
         *(
             {
-                "name": name, "label": label, "kind": kind, "mass": mass,
+                "name": name,
+                "label": label,
+                "kind": kind,
+                "mass": mass,
                 "position": [1.0, 0.5, 0.0] if places is None else block.i16(places),
                 "attitude": None if turns is None else block.i16(turns),
             }
             for name, label, kind, places, turns, mass in moving
         ),
-    ]  # fmt: skip
+    ]
 
 
 def channels(block: Block, time: np.ndarray, late: float = 0.0) -> dict[str, Any]:
@@ -89,52 +99,135 @@ def _everything(block: Block) -> dict[str, Any]:
     pull = (40 + 10 * np.sin(np.pi * time))[:, None] * np.array([[1.0, 0.9]])
     force = np.stack([0 * time, -20 + 0 * time, 0 * time], axis=-1)
     return {
-        "version": VERSION, "title": "A crank, a sheave & a <weight>", "name": "sample", "deck": "sample.adm",
+        "version": VERSION,
+        "title": "A crank, a sheave & a <weight>",
+        "name": "sample",
+        "deck": "sample.adm",
         "outcome": "The run reached its end.",
         "units": {"length": "m", "mass": "kg", "time": "s", "force": "N", "angle": "rad"},
-        "times": block.f32(time), "gravity": [0.0, -9.81, 0.0], "up": "y",
+        "times": block.f32(time),
+        "gravity": [0.0, -9.81, 0.0],
+        "up": "y",
         "bodies": bodies(block, time),
         "shapes": [
-            solid("rod", 1, (-ARM, 0, 0), to=[2 * ARM, 0.0, 0.0]), solid("sphere", 1, radius=0.08),
-            solid("sphere", 2, radius=0.12), solid("wheel", 3, radius=0.25, width=0.1),
+            solid("rod", 1, (-ARM, 0, 0), to=[2 * ARM, 0.0, 0.0]),
+            solid("sphere", 1, radius=0.08),
+            solid("sphere", 2, radius=0.12),
+            solid("wheel", 3, radius=0.25, width=0.1),
             solid("box", 0, (-0.2, -1.6, -0.2), x=0.4, y=0.2, z=0.4),
             solid("cylinder", 0, (1, 0.5, -0.2), length=0.4, radius=0.05, angle=0.0),
             solid("frustum", 0, (-1, -1.5, 0), length=-0.3, bottom=0.2, top=0.1, angle=3.0),
             solid("ellipsoid", 0, (-1, 0, 0), x=0.2, y=0.3, z=0.4),
             solid("torus", 0, (-1, 0.6, 0), major=0.2, minor=0.05),
-            solid("circle", 0, (0, 0, 0), radius=ARM), solid("arc", 0, (0, 0, 0), radius=0.7, angle=1.5),
+            solid("circle", 0, (0, 0, 0), radius=ARM),
+            solid("arc", 0, (0, 0, 0), radius=0.7, angle=1.5),
             solid("plane", 0, (0, -1.6, 0), xmin=-1.0, xmax=1.0, ymin=0.0, ymax=0.5),
-            solid("point", 0, (0, 1, 0)), solid("inertia_box", 0, (-0.6, -1, 0), x=0.2, y=0.1, z=0.3),
+            solid("point", 0, (0, 1, 0)),
+            solid("inertia_box", 0, (-0.6, -1, 0), x=0.2, y=0.1, z=0.3),
         ],
-        "outlines": [{"statement": "GRAPHICS/1", "points": [[0, -1, -1, 0], [1, 0, 0, 0], [0, 1, -1, 0]], "closed": True}],
+        "outlines": [
+            {
+                "statement": "GRAPHICS/1",
+                "points": [[0, -1, -1, 0], [1, 0, 0, 0], [0, 1, -1, 0]],
+                "closed": True,
+            }
+        ],
         "springs": [
-            {"statement": "SPRINGDAMPER/1", "i": [1, 0, 0, 0], "j": [0, 0, -1.4, 0], "coils": 8, "diameter": 0.1, "force": None},
-            {"statement": "GRAPHICS/2", "i": [2, 0, 0, 0], "j": [0, 1.25, -1.6, 0], "coils": 0, "diameter": 0.1, "force": None},
+            {
+                "statement": "SPRINGDAMPER/1",
+                "i": [1, 0, 0, 0],
+                "j": [0, 0, -1.4, 0],
+                "coils": 8,
+                "diameter": 0.1,
+                "force": None,
+            },
+            {
+                "statement": "GRAPHICS/2",
+                "i": [2, 0, 0, 0],
+                "j": [0, 1.25, -1.6, 0],
+                "coils": 0,
+                "diameter": 0.1,
+                "force": None,
+            },
         ],
         "joints": [
-            {"statement": f"JOINT/{k}", "kind": kind, "i": [0, -1.2 + 0.2 * k, 1.0, 0, *UPRIGHT], "j": [0, 0, 0, 0, *UPRIGHT]}
-            for k, kind in enumerate(["REVOLUTE", "TRANSLATIONAL", "CYLINDRICAL", "SPHERICAL", "FIXED", "UNIVERSAL", "HOOKE", "CONVEL", "PLANAR", "SCREW", "RACKPIN"])
+            {
+                "statement": f"JOINT/{k}",
+                "kind": kind,
+                "i": [0, -1.2 + 0.2 * k, 1.0, 0, *UPRIGHT],
+                "j": [0, 0, 0, 0, *UPRIGHT],
+            }
+            for k, kind in enumerate(
+                [
+                    "REVOLUTE",
+                    "TRANSLATIONAL",
+                    "CYLINDRICAL",
+                    "SPHERICAL",
+                    "FIXED",
+                    "UNIVERSAL",
+                    "HOOKE",
+                    "CONVEL",
+                    "PLANAR",
+                    "SCREW",
+                    "RACKPIN",
+                ]
+            )
         ],
         "links": [{"statement": "SFORCE/2", "i": [1, -ARM, 0, 0], "j": [0, -1, 0.6, 0]}],
-        "cables": [{
-            "name": "weight to ground",
-            "nodes": [{"point": [2, 0, 0, 0]}, {"wheel": [3, 0, 0, 0, *UPRIGHT], "radius": 0.25, "sense": 1}, {"point": [0, 0.75, -1.5, 0]}],
-            "tension": block.i16(pull), "range": [27.0, 50.0],
-        }],
+        "cables": [
+            {
+                "name": "weight to ground",
+                "nodes": [
+                    {"point": [2, 0, 0, 0]},
+                    {"wheel": [3, 0, 0, 0, *UPRIGHT], "radius": 0.25, "sense": 1},
+                    {"point": [0, 0.75, -1.5, 0]},
+                ],
+                "tension": block.i16(pull),
+                "range": [27.0, 50.0],
+            }
+        ],
         "arrows": [
-            {"statement": "SFORCE/1", "label": "", "at": [2, 0, 0, 0], "vector": block.i16(force), "kind": "force"},
-            {"statement": "SFORCE/3", "label": "", "at": [3, 0, 0, 0], "vector": block.i16(force), "kind": "torque"},
-            {"statement": "JOINT/1", "label": "", "at": [3, 0, 0, 0], "vector": [0.0, 30.0, 0.0], "kind": "reaction"},
+            {
+                "statement": "SFORCE/1",
+                "label": "",
+                "at": [2, 0, 0, 0],
+                "vector": block.i16(force),
+                "kind": "force",
+            },
+            {
+                "statement": "SFORCE/3",
+                "label": "",
+                "at": [3, 0, 0, 0],
+                "vector": block.i16(force),
+                "kind": "torque",
+            },
+            {
+                "statement": "JOINT/1",
+                "label": "",
+                "at": [3, 0, 0, 0],
+                "vector": [0.0, 30.0, 0.0],
+                "kind": "reaction",
+            },
         ],
         "channels": channels(block, time),
         "events": [{"time": 1.0, "text": "SENSOR/1: the crank is half round"}],
         "notes": ["A note."],
-        "modes": [{"frequency": 1.5, "damping": 0.02, "unit": "Hz", "time": 0.0, "shape": [[2, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]]}],
+        "modes": [
+            {
+                "frequency": 1.5,
+                "damping": 0.02,
+                "unit": "Hz",
+                "time": 0.0,
+                "shape": [[2, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]],
+            }
+        ],
         "against": {
-            "name": "other.csv", "times": block.f32(time),
-            "bodies": [None, *bodies(block, time, late=0.1)[1:3], None], "channels": channels(block, time, late=0.1),
+            "name": "other.csv",
+            "times": block.f32(time),
+            "bodies": [None, *bodies(block, time, late=0.1)[1:3], None],
+            "channels": channels(block, time, late=0.1),
         },
-    }  # fmt: skip
+    }
 
 
 @cache
@@ -171,13 +264,22 @@ def swarm(count: int) -> str:
         mass = {"name": f"POINT_MASS/{k + 2}", "label": "", "kind": "point_mass", "mass": 1.0}
         found.append({**mass, "position": block.i16(places), "attitude": None})
     cable = {
-        "name": "all", "nodes": [{"point": [k + 1, 0, 0, 0]} for k in range(count)],
-        "tension": None, "range": [0.0, 0.0],
-    }  # fmt: skip
+        "name": "all",
+        "nodes": [{"point": [k + 1, 0, 0, 0]} for k in range(count)],
+        "tension": None,
+        "range": [0.0, 0.0],
+    }
     empty = {key: [] for key, value in plain.items() if isinstance(value, list)}
     shapes = [solid("sphere", k + 1, radius=0.06) for k in range(count)]
     content = {
-        **plain, **empty, "gravity": [0, -9.81, 0], "times": block.f32(time), "bodies": found,
-        "shapes": shapes, "cables": [cable], "against": None, "title": f"{count} masses",
-    }  # fmt: skip
+        **plain,
+        **empty,
+        "gravity": [0, -9.81, 0],
+        "times": block.f32(time),
+        "bodies": found,
+        "shapes": shapes,
+        "cables": [cable],
+        "against": None,
+        "title": f"{count} masses",
+    }
     return page_of_scene(Scene(content, block.text()))
