@@ -28,6 +28,11 @@ default_role = "code"
 myst_heading_anchors = 4
 highlight_language = "none"
 
+# Members of classes, but not what they have from classes of Python.
+autodoc_default_options = {
+    "members": True,
+    "inherited-members": "BaseException, Enum, list, tuple",
+}
 autodoc_typehints = "none"  # the docstrings have types, with shapes
 autodoc_preserve_defaults = True
 napoleon_google_docstring = False

@@ -14,21 +14,39 @@ The names of `import adamslite as al`; [README.md](../../README.md#python) shows
 """
 #: Names of the package that are described.
 NAMES = tuple(name for name in adamslite.__all__ if not name.startswith("_"))
+#: Classes of what the functions return.
+RETURNED = (
+    "deck.deck.Deck",
+    "api.checks.Check",
+    "language.diagnostics.Diagnostic",
+    "results.comparison.Comparison",
+    "results.linearization.Linearization",
+    "verification.verification.Verdict",
+    "verification.work_precision.Chart",
+    "api.tools.Kept",
+)
+RETURNED_INTRO = """## Returned objects
+
+What these functions return; the classes are not made by users.
+"""
 
 
 def python_names() -> str:
     """The page of all names, for the site only: docs/reference/api.md."""
     functions_first = sorted(NAMES, key=lambda name: inspect.isclass(getattr(adamslite, name)))
-    return "\n".join([HEAD, INTRO, *map(_directive, functions_first)])
+    named = (_directive(name) for name in functions_first)
+    returned = (_autodoc("class", name) for name in RETURNED)
+    return "\n".join([HEAD, INTRO, *named, RETURNED_INTRO, *returned])
 
 
 def _directive(name: str) -> str:
+    kind = "class" if inspect.isclass(getattr(adamslite, name)) else "function"
+    return f"## {name}\n\n{_autodoc(kind, name)}"
+
+
+def _autodoc(kind: str, name: str) -> str:
     """What makes Sphinx print signature and docstring."""
-    if inspect.isclass(getattr(adamslite, name)):
-        kind, options = "class", "   :members:\n   :inherited-members: BaseException, Enum\n"
-    else:
-        kind, options = "function", ""
-    return f"## {name}\n\n```{{eval-rst}}\n.. auto{kind}:: adamslite.{name}\n{options}```\n"
+    return f"```{{eval-rst}}\n.. auto{kind}:: adamslite.{name}\n```\n"
 
 
 def python_name(name: str) -> str:

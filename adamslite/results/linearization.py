@@ -76,12 +76,12 @@ class Linearization:
 
     @property
     def frequencies(self) -> np.ndarray:
-        """|eigenvalue|/(2 pi) [cycles per time]."""
+        """abs(eigenvalue)/(2 pi) [cycles per time]."""
         return np.abs(self.eigenvalues) / (2 * pi)
 
     @property
     def damping_ratios(self) -> np.ndarray:
-        """-Re/|eigenvalue|; zero where the eigenvalue vanishes."""
+        """-Re/abs(eigenvalue); zero where the eigenvalue vanishes."""
         size = np.abs(self.eigenvalues)
         shares = -self.eigenvalues.real / np.where(size > 0.0, size, 1.0)
         return np.where(np.abs(shares) > 0.0, shares, 0.0)
