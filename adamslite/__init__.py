@@ -42,11 +42,13 @@ _HOME = {
     "help": "api.tools",
     "html": "notebooks.html",
     "linearize": "api.runs",
+    "plot": "api.figures",
     "read": "reading.read",
     "read_commands": "reading.read",
     "reads": "deck.python_routine",
     "simulate": "api.runs",
     "verify": "api.tools",
+    "view": "api.figures",
 }
 
 __all__ = ["__version__", *_HOME]

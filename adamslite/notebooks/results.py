@@ -7,11 +7,11 @@ from html import escape
 from adamslite.errors import FormatError
 from adamslite.language.diagnostics import DeckError
 from adamslite.notebooks.markup import folded, marked, paragraph, rows_table
+from adamslite.page.frame import framed
 from adamslite.page.page import page
 from adamslite.results.results import Results
 from adamslite.results.summary import ending, figures, notes
 
-HEIGHT = 520
 #: Names of channels that are listed.
 LISTED = 400
 
@@ -25,7 +25,7 @@ def results_html(results: Results) -> str:
     parts.append(rows_table([*figures(results), *notes(results)]))
     if results.confirmation is not None:
         parts.append(paragraph(results.confirmation.verdict))
-    parts += [_channels(results), frame(results)]
+    parts += [_channels(results), _frame(results)]
     return f"<div>{''.join(parts)}</div>"
 
 
@@ -38,16 +38,9 @@ def _channels(results: Results) -> str:
     return folded(title, paragraph(", ".join(results.names[:LISTED]) + more))
 
 
-def frame(results: Results) -> str:
-    """The page in a frame of its own, which can reach neither the notebook nor the network's data
-    of its user; a sentence where nothing can be drawn.
-    """
+def _frame(results: Results) -> str:
+    """The page that moves; a sentence where nothing can be drawn."""
     try:
-        text = page(results)
+        return framed(page(results))
     except (FormatError, DeckError) as fault:
         return paragraph(f"Nothing is drawn: {str(fault).splitlines()[0]}")
-    return (
-        f'<iframe srcdoc="{escape(text)}" sandbox="allow-scripts allow-downloads" '
-        f'style="width:100%;height:{HEIGHT}px;border:1px solid #8888" '
-        f'title="the motion"></iframe>'
-    )

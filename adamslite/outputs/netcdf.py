@@ -50,10 +50,11 @@ def write(results: Results, path: str | Path) -> None:
     """Write `results` to the file `path`, whole or not at all."""
     need_rows(results)
     with whole_file(path, binary=True) as stream:
-        stream.write(_content(results))
+        stream.write(content(results))
 
 
-def _content(results: Results) -> bytes:
+def content(results: Results) -> bytes:
+    """What a file of `results` holds."""
     from scipy.io import netcdf_file
 
     memory = BytesIO()

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cached_property
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -20,6 +21,10 @@ from adamslite.results.outcomes import Outcome
 from adamslite.results.source import RunSource
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
+    from xarray import Dataset
+
     from adamslite.deck.deck import Deck
 
 
@@ -136,6 +141,27 @@ class Results:
         read = format_of(path, to_read=True).read
         assert read is not None
         return read(path)
+
+    def plot(self, *channels: str, **options: Any) -> "Figure":
+        """Draw channels (names or patterns); ``against``, ``x`` and ``output`` as for
+        :func:`adamslite.plot`.
+        """
+        return adamslite.plot(self, channels, **options)
+
+    def view(self, output: str | Path | None = None, **options: Any) -> Any:
+        """Show how it moves; ``against``, ``deck`` and ``show`` as for :func:`adamslite.view`."""
+        return adamslite.view(self, output, **options)
+
+    def to_pandas(self) -> "DataFrame":
+        """A table of pandas: the times as index, a column for each channel.
+
+        ``attrs`` of the table has the comments of the results, and ``"channel units"``.
+        """
+        return import_module("adamslite.api.tables").to_pandas(self)
+
+    def to_xarray(self) -> "Dataset":
+        """A Dataset of xarray: what a NetCDF file of the results (.nc) holds, with units."""
+        return import_module("adamslite.api.tables").to_xarray(self)
 
     @cached_property
     def deck(self) -> "Deck | None":

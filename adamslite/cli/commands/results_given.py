@@ -76,7 +76,7 @@ def _solved(args: argparse.Namespace) -> tuple[Results, list[Path]]:
     finally:
         progress.close()
     if not results.outcome.is_requested:
-        sys.stderr.write(f"adamslite: {results.message or results.outcome.value}\n")
+        sys.stderr.write(f"adamslite: {results.message or results.outcome.sentence}\n")
     return results, list(scene.read)
 
 

@@ -133,16 +133,7 @@ def _write(
 
 
 def _open(page: Path) -> None:
-    """In the browser of the desktop, if there is one."""
-    import webbrowser
+    from adamslite.page.browser import open_page
 
-    if not (_has_desktop() and webbrowser.open(page.resolve().as_uri())):
+    if not open_page(page):
         sys.stderr.write(f"adamslite: no browser could be opened; open {page} yourself\n")
-
-
-def _has_desktop() -> bool:
-    """Whether a window can open: elsewhere a browser for text would take the terminal."""
-    import os
-
-    unix = sys.platform not in ("win32", "darwin")
-    return not unix or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")))

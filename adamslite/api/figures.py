@@ -1,0 +1,174 @@
+"""`plot` and `view` as users of Python call them: figures, and the page that moves."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Sequence
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from adamslite.api.runs import simulate
+from adamslite.deck.deck import Deck
+from adamslite.errors import DeckWarning, UsageError
+from adamslite.progress.choice import in_notebook
+from adamslite.reading.read import read
+from adamslite.results.formats import formats
+from adamslite.results.results import Results
+from adamslite.results.source import source_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from adamslite.verification.reference_file import Reference
+
+PAGE = (".html", ".htm")
+
+
+def plot(
+    results: Results | Deck | str | os.PathLike[str],
+    channels: str | Sequence[str],
+    against: Reference | Results | str | os.PathLike[str] | None = None,
+    x: str = "time",
+    output: str | os.PathLike[str] | None = None,
+    deck: Deck | str | os.PathLike[str] | None = None,
+) -> Figure:
+    """Draw channels of results, as `adamslite plot` does; needs matplotlib.
+
+    Parameters
+    ----------
+    results : Results, Deck, str or Path
+        Results, a file of them, or a deck, which is solved first.
+    channels : str or sequence of str
+        Names or patterns: ``PART/2.x``, ``JOINT/*.f?``.
+    against : Reference, Results, str or Path
+        A reference, drawn with the band of its tolerance, or other results.
+    x : str
+        The channel of the horizontal axis.
+    output : str or Path
+        A file for the figure: .png, .svg or .pdf.
+    deck : Deck, str or Path
+        That of results which carry none: statement names and units of requests come from it.
+
+    Raises
+    ------
+    UnknownChannel
+        When there is no such channel; names what comes near.
+    UsageError
+        Without matplotlib, and when there is nothing to draw.
+    """
+    from adamslite.plots.style import need_matplotlib, need_suffix, save
+    from adamslite.plots.time_histories import plot as drawn
+
+    need_matplotlib()
+    if output is not None:
+        need_suffix(Path(output))
+    beside = Path(against) if isinstance(against, os.PathLike) else against
+    figure = drawn(results_of(results, deck), channels, beside, x)
+    if output is not None:
+        save(figure, Path(output))
+    # A figure made without pyplot has no picture of its own for notebooks.
+    setattr(figure, "_repr_png_", lambda: _png(figure))  # noqa: B010
+    return figure
+
+
+def _png(figure: Figure) -> bytes:
+    content = BytesIO()
+    figure.savefig(content, format="png", dpi=110)
+    return content.getvalue()
+
+
+class Frame(str):
+    """The text of a page; a notebook shows it in a frame."""
+
+    def _repr_html_(self) -> str:
+        from adamslite.page.frame import framed
+
+        return framed(self)
+
+    def __repr__(self) -> str:
+        return f"<page of {len(self)} characters>"
+
+
+def view(
+    results: Results | Deck | str | os.PathLike[str],
+    output: str | os.PathLike[str] | None = None,
+    against: Results | str | os.PathLike[str] | None = None,
+    deck: Deck | str | os.PathLike[str] | None = None,
+    show: bool | None = None,
+) -> Frame | Path:
+    """Show how it moves, as `adamslite view` does: in a notebook in a frame, else in the browser.
+
+    Parameters
+    ----------
+    results : Results, Deck, str or Path
+        Results, a file of them, or a deck, which is solved first.
+    output : str or Path
+        The page (.html) to write; by default the name of the deck, in the current folder.  A
+        notebook writes none unless it is named.
+    against : Results, str or Path
+        Other results of the same deck, drawn beside these.
+    deck : Deck, str or Path
+        That of results which carry none.
+    show : bool
+        Whether a browser opens what is written; by default when no ``output`` is named.
+
+    Returns
+    -------
+    Path or Frame
+        The file; in a notebook the page, which it shows.
+
+    Raises
+    ------
+    FormatError
+        When there is no deck, or it has none of the bodies of the results.
+    """
+    from adamslite.drawing.run_deck import deck_of, need_its_bodies
+    from adamslite.page.browser import open_page
+    from adamslite.page.page import page, write_page
+
+    found = results_of(results, deck)
+    need_its_bodies(deck_of(found), found, "these results")
+    other = None if against is None else results_of(against, None)
+    name = other.source.name if other is not None and other.source else "the others"
+    text = page(found, None, other, name)
+    if output is None and show is not True and in_notebook():
+        return Frame(text)
+    path = Path(output or f"{found.source.stem if found.source else 'results'}.html")
+    if path.suffix.lower() not in PAGE:
+        raise UsageError(f"'{path}': the name of a page ends in .html")
+    write_page(text, path)
+    if show or (show is None and output is None):
+        open_page(path)
+    return path
+
+
+def results_of(
+    given: Results | Deck | str | os.PathLike[str], deck: Deck | str | os.PathLike[str] | None
+) -> Results:
+    """Results, with the deck that they carry or that is given or lies beside their file."""
+    if isinstance(given, Deck):
+        return simulate(given)
+    if isinstance(given, Results):
+        return _with_deck(given, deck) if deck is not None else given
+    text = isinstance(given, str) and "\n" in given
+    if text or Path(given).suffix.lower() not in formats():
+        return simulate(given)
+    from adamslite.drawing.run_deck import beside
+
+    results = Results.load(Path(given))
+    found = deck or (None if results.source else beside(Path(given), results))
+    return results if found is None else _with_deck(results, found)
+
+
+def _with_deck(results: Results, deck: Deck | str | os.PathLike[str]) -> Results:
+    """Results with a deck; a warning where it is not the one that they were computed from."""
+    from adamslite.drawing.run_deck import difference
+
+    source = Path(deck) if isinstance(deck, os.PathLike) else deck
+    found = source if isinstance(source, Deck) else read(source)
+    if warning := difference(found, results):
+        warnings.warn(f"{found.path or found.title}: {warning}", DeckWarning, stacklevel=4)
+    return replace(results, source=source_of(found, ()))
