@@ -46,8 +46,9 @@ SECTIONS = {
     ),
     "charts": (
         "Charts",
-        "More accurate to the right, cheaper below. adamslite is bold, the others are grey\n"
-        "(explicit ones dashed).",
+        "More accurate to the right, cheaper below. Each integrator of adamslite has a colour and\n"
+        "a marker; other programs are muted, with a colour for each library, and dashed where\n"
+        "explicit. The pale line is the Pareto front: the least CPU for an error of so much.",
     ),
     "cases": (
         "Hard cases",

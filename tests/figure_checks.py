@@ -36,25 +36,30 @@ def idle_labels(axes: Any) -> set[Any]:
     return found
 
 
-def outside(figure: Any) -> list[str]:
+def outside(figure: Any, texts: list[tuple[str, Any]]) -> list[str]:
     """The texts that reach beyond the canvas."""
     canvas = figure.bbox
     return [
-        text for text, box in boxes(figure)
+        text for text, box in texts
         if box.x0 < canvas.x0 - SLACK or box.x1 > canvas.x1 + SLACK
         or box.y0 < canvas.y0 - SLACK or box.y1 > canvas.y1 + SLACK
     ]  # fmt: skip
 
 
-def overlapping(figure: Any) -> list[tuple[str, str]]:
+def overlapping(texts: list[tuple[str, Any]]) -> list[str]:
     """The pairs of texts that are drawn over one another."""
     return [
-        (a, b) for (a, p), (b, q) in combinations(boxes(figure), 2)
+        f"{a} | {b}" for (a, p), (b, q) in combinations(texts, 2)
         if min(p.x1, q.x1) - max(p.x0, q.x0) > SLACK and min(p.y1, q.y1) - max(p.y0, q.y0) > SLACK
     ]  # fmt: skip
 
 
+def illegible(figure: Any) -> list[str]:
+    """Texts that are clipped, and pairs that overlap."""
+    texts = boxes(figure)
+    return [*outside(figure, texts), *overlapping(texts)]
+
+
 def assert_legible(figure: Any) -> None:
     """Nothing is clipped and nothing overlaps."""
-    assert outside(figure) == []
-    assert overlapping(figure) == []
+    assert illegible(figure) == []

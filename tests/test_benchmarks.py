@@ -1,13 +1,15 @@
 """The scenes of the benchmarks: their decks are decks, and their arrays what the decks say."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from figure_checks import illegible
 
 from adamslite import read
 from adamslite.verification.work_precision import Variant, variants
-from benchmarks import conclusions, figures, hard_cases, matrix, points, report, tables
+from benchmarks import charts, conclusions, figures, hard_cases, matrix, points, report, tables
 from benchmarks.decks import deck
 from benchmarks.figures import Figure
 from benchmarks.growth import worth_measuring
@@ -23,6 +25,7 @@ from benchmarks.scenes import (
     CHAINS,
     FALL,
     FALLING,
+    SCALING,
     STARTING,
     acceleration,
     chain,
@@ -311,6 +314,45 @@ def test_charts_are_the_same_file_for_the_same_points(tmp_path: Path) -> None:
         report.write(folder, folder / "page.md", [".svg"])
         made.append((folder / "s1-10.svg").read_bytes())
     assert made[0] == made[1] and b"Swift" in made[0]
+
+
+CHARTED = sorted(path.stem for path in report.FOLDER.glob("*.svg"))
+
+
+@pytest.mark.parametrize("name", CHARTED)
+def test_no_text_of_a_chart_in_docs_is_clipped_or_overlaps(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The charts of the rows in docs, as they are drawn for the page."""
+    pytest.importorskip("matplotlib")
+    drawn = []
+    monkeypatch.setattr(charts, "save", lambda figure, path: drawn.append(figure))
+    rows = points.read(report.FOLDER)
+    mine = [r for r in rows if r.scene in SCALING] if name == charts.GROWTH else [
+        r for r in rows if charts.file_name(r.scene, r.n) == name
+    ]  # fmt: skip
+    assert charts.draw_all(mine, Path(), [".svg"], few=True) == [name]
+    (figure,) = drawn
+    assert illegible(figure) == []
+
+
+def test_the_page_has_a_chart_of_every_scene() -> None:
+    shown = {
+        charts.file_name(scene, n) for scene, n, _ in tables.by_scene(points.read(report.FOLDER))
+        if n in charts.SIZES_IN_DOCS.get(scene, (n,))
+    }  # fmt: skip
+    assert set(CHARTED) == shown | {charts.GROWTH}
+
+
+def test_a_chart_says_who_was_tried() -> None:
+    slow = replace(ROWS[0], program="Exudyn X", kind="implicit", error=1.0)
+    own = replace(ROWS[0], kind="ours", error=1e-6)
+    assert "Exudyn, the only other program that was tried" in charts.result("S1", [own, slow])
+    other = replace(slow, program="scipy X")
+    assert "no other program gets there" in charts.result("S1", [own, slow, other])
+    best = replace(other, error=1e-6, cpu_median=own.cpu_median * 4)
+    assert "scipy X, takes 4 times that" in charts.result("S1", [own, slow, best])
+    assert charts.result("S1", [slow]) == "No program reaches 0.001 m"
 
 
 def test_every_watched_deck_has_its_channels_in_the_reference() -> None:

@@ -11,13 +11,16 @@ from typing import Any
 import numpy as np
 import pytest
 from fakes import SUMMARY
+from figure_checks import assert_legible
 
 from adamslite.cli.main import main
 from adamslite.elements.integrator import Integrator
 from adamslite.errors import RunFailed, UsageError
 from adamslite.language.method import AUTO
-from adamslite.outputs import chart as drawing
-from adamslite.outputs.chart import spread
+from adamslite.plots import style
+from adamslite.plots.accuracy_chart import accuracy_chart, limited
+from adamslite.plots.cost_charts import IMPLICIT, LIMIT, OURS, Line, front
+from adamslite.plots.style import looks_of_methods, looks_of_peers
 from adamslite.progress import RunState
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
@@ -28,6 +31,8 @@ from adamslite.verification.work_precision import (
     Point,
     Truth,
     Variant,
+    alike,
+    by_steps,
     measure,
     patient,
     variants,
@@ -190,16 +195,98 @@ def test_runs_given_up_do_not_spoil_looser_ones() -> None:
     assert made.recommended(4).setting == "loose"
 
 
-@pytest.mark.parametrize(
-    "heights, least",
-    [([0.5, 0.5, 0.5], 0.1), ([0.0, 1.0], 0.1), ([0.3, 0.31, 0.29, 0.9, 0.305], 0.05)],
-)
-def test_names_keep_their_order_and_do_not_touch(heights: list[float], least: float) -> None:
-    places = spread(heights, least)
-    order = np.argsort(heights, kind="stable")
-    gaps = np.diff(np.array(places)[order])
-    assert (gaps >= least - 1e-12).all()
-    assert np.mean(places) == pytest.approx(np.mean(heights))
+def points(program: str, *rows: tuple[float, float, int]) -> list[Point]:
+    """(error, CPU [s], steps) from loose to tight."""
+    return [
+        Point(program=program, setting=f"ERROR=1e-{k}", error=error, cpu=[cpu], steps=steps)
+        for k, (error, cpu, steps) in enumerate(rows, 1)
+    ]
+
+
+def made_of(*groups: list[Point]) -> Chart:
+    return Chart([p for group in groups for p in group], Truth(body(), 1e-12, "a tight run"))
+
+
+def test_what_timing_cannot_tell_apart_is_chosen_by_its_digits() -> None:
+    """1.00 ms for 3 digits, 1.03 ms for 9: the same time."""
+    quick = points("HHT", (1e-3, 1.00e-3, 100))
+    exact = points("ABAM", (1e-9, 1.03e-3, 90))
+    slower = points("RADAU", (1e-12, 1.5e-3, 90))
+    assert made_of(quick, exact, slower).recommended(3).program == "ABAM"
+    exact[0].cpu = [1.04e-3, 1.5e-3, 1.6e-3]  # its quickest run is as quick
+    assert made_of(quick, exact).recommended(3).program == "ABAM"
+    exact[0].cpu = [1.2e-3, 1.2e-3, 1.3e-3]
+    assert made_of(quick, exact).recommended(3).program == "HHT"
+
+
+def test_runs_with_the_same_steps_and_error_are_one() -> None:
+    mine = points("HHT", (1e-3, 1.0, 402), (1e-3, 1.0, 402), (1e-3, 1.0, 402), (2e-4, 1.0, 402),
+                  (1e-5, 1.0, 900))  # fmt: skip
+    assert [len(group) for group in by_steps(mine)] == [4, 1]
+    assert [len(group) for group in alike(mine)] == [3, 1, 1]
+    assert limited(made_of(mine)) == ["HHT (4 ERROR, 402 steps)"]
+    assert limited(made_of(mine[3:])) == []
+
+
+def test_the_pareto_front_has_the_cheapest_for_every_error() -> None:
+    ours = Line("HHT", OURS, [1e-1, 1e-3, 1e-5], [1.0, 3.0, 9.0])
+    peer = Line("scipy BDF", IMPLICIT, [1e-2, 1e-6], [2.0, 8.0])
+    bound = Line("C RK4", LIMIT, [1e-9], [0.1])
+    assert front([ours, peer, bound]) == [(1e-6, 8.0), (1e-3, 3.0), (1e-2, 2.0), (1e-1, 1.0)]
+
+
+def test_every_method_has_a_colour_and_a_marker_of_its_own() -> None:
+    names = [variant.label for variant in variants()]
+    found = looks_of_methods([*names, "AUTO", "EULER", "LEAPFROG"])
+    assert len({look.marker for look in found.values()}) == len(found)
+    assert len({look.color for name, look in found.items() if name in names}) == len(names)
+
+
+def test_other_programs_differ_in_colour_or_marker() -> None:
+    names = ["scipy BDF", "scipy LSODA", "Exudyn RK44", "MuJoCo RK4", "unheard of"]
+    found = looks_of_peers(names, lambda name: "RK" in name)
+    assert len({(look.color, look.marker) for look in found.values()}) == len(names)
+    assert found["Exudyn RK44"].dashes != found["scipy BDF"].dashes == "-"
+
+
+def drawn(chart: Chart, **options: Any) -> Any:
+    pytest.importorskip("matplotlib")
+    figure = accuracy_chart(chart, "spring.adm", **options)
+    assert_legible(figure)
+    return figure
+
+
+def heading(figure: Any) -> str:
+    return " ".join(text.get_text() for text in figure.texts)
+
+
+def test_the_chart_says_what_is_recommended_and_what_limits_the_steps() -> None:
+    slow = points("HHT", (1e-2, 2e-3, 402), (1e-4, 2e-3, 402), (1e-6, 2e-3, 402))
+    quick = points("ABAM", (1e-2, 1e-4, 20), (1e-5, 2e-4, 40), (1e-9, 4e-4, 80))
+    figure = drawn(made_of(slow, quick), digits=3)
+    words = heading(figure)
+    assert "ABAM at ERROR=1e-2 is the cheapest with 3 digits: 0.2 ms for 5" in words
+    assert "Reference: a tight run." in words
+    assert "whatever ERROR, of HHT (3 ERROR, 402 steps)" in words
+    (axis,) = figure.axes
+    assert "part of the longest travel" in axis.get_xlabel()
+    assert {"better", "ERROR=1e-2"} <= {text.get_text() for text in axis.texts}
+    named = drawn(made_of(slow, quick), channels=["PART/2.x"])
+    assert named.axes[0].get_xlabel().startswith("largest error of PART/2.x, part of the largest")
+
+
+@pytest.mark.parametrize("across", [1e-14, 1e-9, 1e-4, 1e-1, 1.0])
+def test_a_single_point_is_legible_wherever_it_is(across: float) -> None:
+    others = points("HHT", (1.0, 1.0, 10), (1e-14, 2.0, 20))
+    drawn(made_of(points("ABAM", (across, 1e-3, 5))), digits=1)
+    drawn(made_of(points("ABAM", (across, 1e-3, 5)), others), digits=1)
+
+
+def test_a_chart_without_a_recommendation_says_so() -> None:
+    coarse = made_of(points("HHT", (1e-1, 1.0, 5)))
+    assert "No setting has 3 digits" in heading(drawn(coarse))
+    assert "do not agree" in heading(drawn(Chart(coarse.points, Truth(body(), 0.3, "x"))))
+    assert accuracy_chart(made_of(), "spring.adm") is None
 
 
 @pytest.fixture
@@ -226,9 +313,9 @@ def test_without_matplotlib_all_but_the_drawing_is_done(
     deck: str, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def absent() -> None:
-        raise UsageError(drawing.ABSENT)
+        raise UsageError(style.ABSENT)
 
-    monkeypatch.setattr(drawing, "need_matplotlib", absent)
+    monkeypatch.setattr(style, "need_matplotlib", absent)
     assert main(["chart", deck, "--error", "1e-3", "--repeats", "1", "-o", "mine"]) == 0
     out, err = capsys.readouterr()
     assert "recommended" in out or "no run has" in out

@@ -45,7 +45,9 @@ MARKERS = "os^DvPX*<>hpd8"
 #: Text as text keeps an SVG small; without salt and date the same figure is the same file.
 SETTINGS: Any = {
     "font.size": 9.0,
-    "font.family": ["DejaVu Sans"],
+    "font.family": ["sans-serif"],
+    # Of equal width: what fits with one fits with the other, where an SVG is shown without the first.
+    "font.sans-serif": ["DejaVu Sans", "Verdana"],
     "axes.titlesize": 9.0,
     "axes.titlelocation": "left",
     "axes.spines.top": False,
@@ -64,6 +66,10 @@ SETTINGS: Any = {
     "savefig.dpi": 130.0,
     "text.parse_math": False,
 }
+
+
+#: Minus and digits as exponents.
+RAISED = "\u207b\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"
 
 
 class Look(NamedTuple):
@@ -195,3 +201,25 @@ def tick_text(value: float, places: Sequence[float]) -> str:
     digits = floor(log10(abs(value))) - floor(log10(gap)) + 2
     text = f"{value:.{min(max(digits, 1), 15)}g}"
     return re.sub(r"e([+-])0*(\d)", lambda m: "e" + m[1].replace("+", "") + m[2], text)
+
+
+def power_ticks(axis: Axis) -> None:
+    """Powers of ten beside a logarithmic axis, the multiples of few between them."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    low, high = sorted(axis.get_view_interval())
+    decades = log10(high / low)
+    subs = (1.0, 2.0, 5.0) if decades < 2.5 else (1.0,)
+    axis.set_major_locator(LogLocator(subs=subs, numticks=20))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: power_text(value)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def power_text(value: float) -> str:
+    """``0.5``, ``20``, or a power of ten: ``10⁻⁵``."""
+    if 1e-3 < value < 1e5:
+        return f"{value:g}"
+    power = floor(log10(value) + 1e-9)
+    factor = round(value / 10.0**power)
+    raised = str(power).translate(str.maketrans("-0123456789", RAISED))
+    return f"10{raised}" if factor == 1 else f"{factor}·10{raised}"

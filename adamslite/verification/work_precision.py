@@ -36,6 +36,12 @@ USELESS = 1e-2
 #: Long runs are repeated less often: (CPU [s] from, at most this often).
 SHORTER = ((2.0, 1), (0.5, 2))
 
+#: A run whose quickest repetition takes less than this many times the usual CPU of another one may
+#: be as quick.
+NOISE = 1.05
+#: Numbers of steps, and errors, that differ by less than this part are equal.
+EQUAL_STEPS, EQUAL_ERRORS = 0.01, 0.1
+
 Run = Callable[..., Results]
 
 
@@ -129,7 +135,8 @@ class Chart:
     def recommended(self, digits: int) -> Point | None:
         """The cheapest point with so many digits, if tighter ones of its integrator have them too.
 
-        A single hit at a loose ERROR is luck.
+        A single hit at a loose ERROR is luck. Among those that timing cannot tell from the cheapest
+        it is the one with most digits.
         """
         sure = []
         for mine in by_program(self.points).values():
@@ -137,7 +144,9 @@ class Chart:
                 if point.digits < digits:
                     break
                 sure.append(point)
-        return min(sure, key=lambda p: p.median, default=None)
+        cheapest = min((p.median for p in sure), default=inf)
+        ties = [p for p in sure if p.least <= NOISE * cheapest]
+        return max(ties, key=lambda p: (p.digits, -p.median), default=None)
 
     def _repr_html_(self) -> str:
         """Points and recommendation, for a notebook."""
@@ -160,6 +169,51 @@ def by_program(points: Iterable[P]) -> dict[str, list[P]]:
     for point in points:
         found.setdefault(point.program, []).append(point)
     return found
+
+
+class WithSteps(Protocol):
+    """A result that took a number of steps and has an error, if that is known."""
+
+    @property
+    def steps(self) -> int: ...
+    @property
+    def error(self) -> float | None: ...
+
+
+S = TypeVar("S", bound=WithSteps)
+
+
+def by_steps(points: Iterable[S]) -> list[list[S]]:
+    """Neighbours with equally many steps together: their ERROR has no effect on the steps."""
+    groups: list[list[S]] = []
+    for point in points:
+        if groups and abs(point.steps - groups[-1][0].steps) <= EQUAL_STEPS * point.steps:
+            groups[-1].append(point)
+        else:
+            groups.append([point])
+    return groups
+
+
+def alike(points: Iterable[S]) -> list[list[S]]:
+    """Neighbours with equally many steps and equal errors together: one run, measured again."""
+    groups: list[list[S]] = []
+    for same in by_steps(points):
+        for k, point in enumerate(same):
+            if k and _close(point.error, groups[-1][0].error):
+                groups[-1].append(point)
+            else:
+                groups.append([point])
+    return groups
+
+
+def _close(a: float | None, b: float | None) -> bool:
+    return a == b or (a is not None and b is not None and abs(a - b) <= EQUAL_ERRORS * max(a, b))
+
+
+def largest_group(points: Iterable[S], least: int = 3) -> list[S]:
+    """The most neighbours with equally many steps, if these are ``least`` at least, else none."""
+    found = max(by_steps(points), key=len, default=[])
+    return found if len(found) >= least else []
 
 
 def variants() -> list[Variant]:

@@ -40,6 +40,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--end", type=positive, metavar="T", help="end time")
     parser.add_argument("--steps", type=count, metavar="N", help="number of output steps")
     parser.add_argument(
+        "--hmax", type=positive, metavar="H", help="largest step (as the deck has it)"
+    )
+    parser.add_argument(
         "--integrator", type=str.upper, nargs="+", metavar="NAME", help="only these methods"
     )
     parser.add_argument("--error", type=positive, nargs="+", metavar="TOL", help="only these ERROR")
@@ -68,7 +71,7 @@ def run(args: argparse.Namespace) -> int:
     chart = measure(runs, tried, errors, args.repeats, args.channel)
     _write(chart, Path(f"{name}.csv"))
     sys.stdout.write(_table(chart))
-    _draw(chart, name, args.deck.stem)
+    _draw(chart, name, args)
     sys.stdout.write(_verdict(chart, args.digits))
     return OUTSIDE_TOLERANCE if chart.useless else DONE
 
@@ -90,7 +93,7 @@ def _runs(args: argparse.Namespace, scene: "Scene") -> tuple[list["Variant"], "R
     tried = chosen(args.integrator or ())
     progress = TalkingProgress()
     kernels = adamslite.compile_model(model, progress)
-    fixed = {k: v for k in ("end", "steps") if (v := getattr(args, k)) is not None}
+    fixed = {k: v for k in ("end", "steps", "hmax") if (v := getattr(args, k)) is not None}
     solve = partial(adamslite.simulate, kernels, commands=scene.commands, **fixed)
     return tried, patient(solve, args.patience, progress)
 
@@ -110,22 +113,20 @@ def _write(chart: "Chart", path: Path) -> None:
             )  # fmt: skip
 
 
-def _draw(chart: "Chart", name: str, title: str) -> None:
+def _draw(chart: "Chart", name: str, args: argparse.Namespace) -> None:
     """The chart; without matplotlib a sentence instead."""
     from adamslite.errors import UsageError
-    from adamslite.outputs.chart import Axes, Line, draw
-    from adamslite.verification.work_precision import by_program
+    from adamslite.plots.accuracy_chart import accuracy_chart
+    from adamslite.plots.style import save
 
-    known = by_program(p for p in chart.points if p.ok and p.error)
-    lines = [
-        Line(program, "ours", [p.error or 0.0 for p in mine], [1e3 * p.median for p in mine])
-        for program, mine in known.items()
-    ]
-    axes = Axes(f"{title}: what accuracy costs", "error", "CPU [ms]", towards_less=True)
     try:
-        draw(lines, axes, [Path(f"{name}.{kind}") for kind in PICTURES])
+        figure = accuracy_chart(chart, args.deck.name, args.digits, args.channel)
     except UsageError as absent:
         sys.stderr.write(f"adamslite: {absent}\n")
+        return
+    if figure is not None:
+        for kind in PICTURES:
+            save(figure, f"{name}.{kind}")
 
 
 def _table(chart: "Chart") -> str:
@@ -145,8 +146,12 @@ def _table(chart: "Chart") -> str:
 
 
 def _verdict(chart: "Chart", digits: int) -> str:
+    from adamslite.plots.accuracy_chart import LIMITED, limited
+
     truth = chart.truth
     header = f"reference: {truth.origin}; known to {truth.doubt:.1e}\n"
+    if names := limited(chart):
+        header += f"note: {LIMITED.format(names=', '.join(names))}\n"
     if chart.useless:
         return (
             header + "no recommendation: even tight runs do not agree, so no error above can be "
