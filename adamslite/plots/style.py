@@ -46,7 +46,7 @@ MARKERS = "os^DvPX*<>hpd8"
 SETTINGS: Any = {
     "font.size": 9.0,
     "font.family": ["sans-serif"],
-    # Of equal width: what fits with one fits with the other, where an SVG is shown without the first.
+    # Of equal width: an SVG fits where the first is not installed, too.
     "font.sans-serif": ["DejaVu Sans", "Verdana"],
     "axes.titlesize": 9.0,
     "axes.titlelocation": "left",
