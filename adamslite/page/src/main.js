@@ -44,7 +44,7 @@ class App {
         this.bodies = new Bodies(scene.bodies, this.archive, this.clock, swinging);
         this.#buildScene();
         this.#buildPage(licenses);
-        this.camera.reserved = this.tension ? 36 : 0;
+        this.camera.reserved = (this.tension ? 36 : 0) + (this.wish.bare ? 32 : 0);
         this.setTheme(this.theme);
         this.#resize();
         new ResizeObserver(() => this.#resize()).observe(this.viewport);
@@ -106,8 +106,10 @@ class App {
         this.scaleText = h("span", { class: "grid-scale" }, `grid ${short(this.ground.step)} ${scene.units.length}`);
         const overlays = [layer, this.tension?.element, this.triad.element, this.scaleText, this.#ghostNote(), this.selection.element, this.showing.menu, this.help.element];
         this.viewport = h("main", { class: "viewport" }, this.canvas, ...overlays);
-        document.getElementById("app").append(this.#header(), this.viewport, this.panel.element, this.player.element);
-        document.getElementById("app").classList.toggle("bare", Boolean(this.wish.bare));
+        const root = document.getElementById("app");
+        root.append(this.#header(), this.viewport, this.panel.element, this.player.element);
+        root.classList.toggle("bare", this.wish.bare);
+        if (this.wish.size) [root.style.width, root.style.height] = this.wish.size.map((side) => `${side}px`);
         this.plots.set(this.wish.plot ?? scene.channels.shown ?? this.channels.first());
         this.#listen();
     }

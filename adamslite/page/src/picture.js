@@ -21,20 +21,62 @@ function legend(pen, app, scale) {
     const { range } = app.cables;
     if (!range) return;
     const { palette, theme } = app.stage;
-    const [left, top, width, height] = [16, 44, 180, 10].map((size) => size * scale);
+    const [gap, width, height, base] = [8, 130, 10, 54].map((size) => size * scale);
+    let x = 16 * scale;
+    const write = (text, colour) => {
+        pen.fillStyle = colour;
+        pen.fillText(text, x, base);
+        x += pen.measureText(text).width + gap;
+    };
     pen.font = `${12 * scale}px ${FONT}`;
-    pen.fillStyle = palette.muted;
-    pen.fillText(app.scene.units.force ? `tension (${app.scene.units.force})` : "tension", left, top + 8 * scale);
-    for (let x = 0; x < width; x += 1) {
-        pen.fillStyle = `rgb(${viridis(x / width, theme).join(" ")})`;
-        pen.fillRect(left + x, top + 14 * scale, 1, height);
+    write(app.scene.units.force ? `tension (${app.scene.units.force})` : "tension", palette.muted);
+    write(short(range[0], 3), palette.ink);
+    for (let step = 0; step < width; step += 1) {
+        pen.fillStyle = `rgb(${viridis(step / width, theme).join(" ")})`;
+        pen.fillRect(Math.round(x) + step, base - height, 1, height);
     }
-    pen.fillStyle = palette.muted;
-    [0, 0.5, 1].forEach((part) => {
-        const text = short(range[0] + part * (range[1] - range[0]), 3);
-        const shift = part * pen.measureText(text).width;
-        pen.fillText(text, left + part * width - shift, top + 38 * scale);
+    x += width + gap;
+    write(short(range[1], 3), palette.ink);
+}
+
+/** The three axes and gravity, as beside the scene. */
+function triad(pen, app, scale, height) {
+    const { lines, names, arrow, letter, down } = app.triad;
+    pen.save();
+    pen.translate(50 * scale, height - 50 * scale);
+    pen.scale(scale, scale);
+    pen.font = `italic 600 12px ${FONT}`;
+    pen.textAlign = "center";
+    pen.textBaseline = "middle";
+    pen.lineCap = "round";
+    const write = (text) => {
+        pen.globalAlpha = Number(text.getAttribute("opacity") ?? 1);
+        pen.fillText(text.textContent, Number(text.getAttribute("x")), Number(text.getAttribute("y")));
+        pen.globalAlpha = 1;
+    };
+    lines.forEach((line, k) => {
+        pen.strokeStyle = line.getAttribute("stroke");
+        pen.fillStyle = pen.strokeStyle;
+        pen.lineWidth = 2.5;
+        pen.stroke(new Path2D(`M0,0L${line.getAttribute("x2")},${line.getAttribute("y2")}`));
+        write(names[k]);
     });
+    pen.strokeStyle = app.stage.palette.ink;
+    pen.fillStyle = app.stage.palette.ink;
+    pen.lineWidth = 1.6;
+    if (down && arrow.getAttribute("opacity") !== "0") pen.stroke(new Path2D(arrow.getAttribute("d")));
+    if (down) write(letter);
+    pen.restore();
+}
+
+/** Names of bodies where they are shown. */
+function names(pen, app, scale) {
+    pen.font = `${11 * scale}px ${FONT}`;
+    pen.fillStyle = app.stage.palette.ink;
+    for (const [b, span] of app.labels.spans) {
+        const [x, y] = app.screen(b);
+        if (span.style.display !== "none") pen.fillText(span.textContent, (x + 12) * scale, (y - 8) * scale);
+    }
 }
 
 /** A canvas with what is shown now. */
@@ -49,6 +91,8 @@ export function picture(app) {
     pen.drawImage(source, 0, 0);
     const scale = source.width / stage.width;
     legend(pen, app, scale);
+    names(pen, app, scale);
+    triad(pen, app, scale, source.height);
     caption(pen, app, scale, source.width, source.height);
     return canvas;
 }
