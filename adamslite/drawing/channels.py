@@ -29,7 +29,7 @@ SYMBOLS = {
 
 EXACT = 150_000
 """Numbers of all channels up to which each has seven digits."""
-LEVELS = 16383
+LEVELS = 8191
 """Steps of the range of a channel, where there are more: no screen shows them."""
 LISTED = 300
 """Channels that are listed in plain text; more are compressed."""
