@@ -45,7 +45,7 @@ equations
 results
 outputs
 drawing
-page
+drawing.gltf page
 analyses.clock analyses.initial
 analyses.linearization
 analyses

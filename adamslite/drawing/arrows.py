@@ -95,7 +95,7 @@ def _vectors(
             return
         about = getattr(element, "kind", "") == "ROTATIONAL"
         fixed = about or getattr(element, "actiononly", False)
-        along = motion.in_ground(j, np.tile(Z, (len(value), 1))) if fixed else _line(drawing, i, j)
+        along = motion.in_ground(j, Z) if fixed else _line(drawing, i, j)
         yield "torque" if about else "force", value[:, None] * along
         return
     for kind, suffixes in (("force", FORCES), ("torque", TORQUES)):

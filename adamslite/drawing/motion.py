@@ -82,17 +82,23 @@ class Motion:
     def places(self, marker: Key) -> np.ndarray:
         """Origin of a marker in ground, (nt, 3)."""
         place = self.frames.place(marker)
-        track = self.tracks[place.body + 1]
-        if not track.has_turned:
-            return track.position + place.p
-        return track.position + rotated(track.attitude, place.p)
+        return self.of_point(place.body + 1, place.p)
 
     def in_ground(self, marker: Key, vectors: np.ndarray) -> np.ndarray:
-        """Vectors (nt, 3) given along the axes of a marker, along those of ground."""
+        """Vectors (3,) or (nt, 3) along the axes of a marker as (nt, 3) along those of ground."""
         place = self.frames.place(marker)
-        along_body = vectors @ place.axes.T
-        track = self.tracks[place.body + 1]
-        return rotated(track.attitude, along_body) if track.has_turned else along_body
+        return self.of_vector(place.body + 1, vectors @ place.axes.T)
+
+    def of_point(self, body: int, point: np.ndarray) -> np.ndarray:
+        """A point of a body (3,) in ground, (nt, 3)."""
+        return self.tracks[body].position + self.of_vector(body, point)
+
+    def of_vector(self, body: int, vectors: np.ndarray) -> np.ndarray:
+        """Vectors (3,) or (nt, 3) in the axes of a body, in those of ground, (nt, 3)."""
+        track = self.tracks[body]
+        if track.has_turned:
+            return rotated(track.attitude, vectors)
+        return np.broadcast_to(vectors, track.position.shape)
 
     def _track(self, model: Model, body: Body) -> Track:
         label = body.statement.label

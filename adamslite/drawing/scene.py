@@ -17,7 +17,7 @@ from adamslite.deck.deck import Deck
 from adamslite.drawing.against import against
 from adamslite.drawing.arrows import arrows
 from adamslite.drawing.bodies import bodies
-from adamslite.drawing.cable_lines import cables
+from adamslite.drawing.cable_lines import Cables, cables
 from adamslite.drawing.channels import channels, unit_symbols
 from adamslite.drawing.derived_shapes import derived_shapes
 from adamslite.drawing.drawing import Drawing
@@ -27,6 +27,7 @@ from adamslite.drawing.lines import links, springs
 from adamslite.drawing.modes import modes
 from adamslite.drawing.shapes import graphics, outlines, shapes
 from adamslite.drawing.wheels import wheels
+from adamslite.elements.graphics import Graphics
 from adamslite.results.results import Results
 
 VERSION = 1
@@ -40,37 +41,57 @@ class Scene:
     block: str
 
 
+@dataclass(frozen=True)
+class Contents:
+    """What is drawn: GRAPHICS statements, cables, solids, and lines that are neither."""
+
+    statements: list[Graphics]
+    cables: Cables
+    shapes: list[dict[str, Any]]
+    springs: list[dict[str, Any]]
+    links: list[dict[str, Any]]
+
+
+def contents(drawing: Drawing) -> Contents:
+    """Each statement is drawn once: by a cable or a wheel, else as what it is."""
+    statements = graphics(drawing)
+    found = cables(drawing, statements)
+    solids = wheels(drawing, statements, found)
+    own = [each for each in statements if each.label not in found.taken]
+    solids += shapes(drawing, own)
+    solids += derived_shapes(drawing, {each["body"] for each in solids} | found.inner)
+    return Contents(
+        own, found, solids,
+        springs(drawing, own, found.taken), links(drawing, found.taken, found.inner),
+    )  # fmt: skip
+
+
 def scene(deck: Deck, results: Results, other: Results | None = None, name: str = "") -> Scene:
     """The scene of a deck and its results, and of other results beside them.
 
     `name` is what the other results are called.
     """
     drawing = Drawing(deck, results)
-    statements = graphics(drawing)
-    found = cables(drawing, statements)
-    solids = wheels(drawing, statements, found)
-    own = [each for each in statements if each.label not in found.taken]
-    solids += shapes(drawing, own)
-    drawn = {each["body"] for each in solids} | found.inner
+    found = contents(drawing)
     file = deck.path.name if deck.path else ""
     plain = {
         "version": VERSION,
         "title": deck.title,
         "name": Path(file).stem or "scene",
         "deck": file,
-        "outcome": results.message or results.outcome.sentence,
+        "outcome": results.message or results.outcome.value,
         "units": unit_symbols(deck),
         "times": drawing.block.f32(drawing.motion.time),
         "gravity": [float(g) for g in deck.gravity],
         "up": up(deck.gravity),
         "bodies": bodies(drawing),
-        "shapes": [*solids, *derived_shapes(drawing, drawn)],
-        "outlines": outlines(drawing, own),
-        "springs": springs(drawing, statements, found.taken),
+        "shapes": found.shapes,
+        "outlines": outlines(drawing, found.statements),
+        "springs": found.springs,
         "joints": joints(drawing),
-        "links": links(drawing, found.taken, found.inner),
-        "cables": found.lines,
-        "arrows": arrows(drawing, statements, found.taken, found.inner),
+        "links": found.links,
+        "cables": found.cables.lines,
+        "arrows": arrows(drawing, found.statements, found.cables.taken, found.cables.inner),
         "channels": channels(deck, results, drawing.block),
         "events": events(results),
         "modes": modes(drawing),

@@ -103,9 +103,7 @@ def radius(drawing: Drawing, each: Graphics) -> float:
     if each.radius is not None or each.rm is None or each.cm is None:
         return each.radius or 0.0
     apart = drawing.motion.places(each.rm)[:1] - drawing.motion.places(each.cm)[:1]
-    x = drawing.motion.in_ground(each.cm, np.array([1.0, 0.0, 0.0]))
-    y = drawing.motion.in_ground(each.cm, np.array([0.0, 1.0, 0.0]))
-    x, y = np.atleast_2d(x)[0], np.atleast_2d(y)[0]
+    x, y, _ = (drawing.motion.in_ground(each.cm, axis)[0] for axis in np.eye(3))
     return hypot(float(apart[0] @ x), float(apart[0] @ y))
 
 

@@ -127,6 +127,14 @@ def _write(
     results: "Results",
     other: "Results | None",
 ) -> None:
+    if _is_model(args):
+        from adamslite.drawing.gltf.model import model
+        from adamslite.outputs.whole_files import whole_file
+
+        content = model(deck, results)
+        with whole_file(output, binary=True) as stream:
+            stream.write(content)
+        return
     from adamslite.page.page import page, write_page
 
     write_page(page(results, deck, other, args.against.name if args.against else ""), output)
