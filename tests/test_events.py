@@ -152,6 +152,16 @@ def test_an_elastic_contact():
     assert energy[-1] == approx(G * 0.1, rel=1e-4)
 
 
+@pytest.mark.parametrize("error", [1e-3, 1e-5])
+@pytest.mark.parametrize("stiffness", [1e6, 1e8, 1e10])
+@pytest.mark.parametrize("formula", ["GSTIFF", "RADAU", "RKF45", "VERLET"])
+def test_a_hard_wall_that_is_met_at_an_output_time(formula, stiffness, error):
+    """2 m/s there at t = 0.15, within round-off, and back after 4 ms to 40 us: pi sqrt(m/k)."""
+    wall = moved_by(f"IMPACT(DX(2),VX(2),0,{stiffness},1,0,1E-4)", mass=1.5, x=0.3, v=-2)
+    last = done(wall, 0.3, 2, **options(formula, error))
+    assert last["POINT_MASS/2.vx"][-1] == approx(2.0, rel=0.03)
+
+
 @pytest.mark.parametrize(
     ("formula", "error"), [("GSTIFF", 1e-7), ("HHT", 1e-8), ("RADAU", 1e-6), ("RKF45", 1e-5)]
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.event_rows import BEFORE, END, INSIDE, LOW_ROW, NONE
 from adamslite.integrators.events.guards import (
@@ -18,7 +19,7 @@ from adamslite.integrators.events.search import ends_beyond
 from adamslite.integrators.events.sensors import meets_sensor
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import HUGE, Plan
-from adamslite.integrators.motion_equations import PART, residual
+from adamslite.integrators.motion_equations import PART, residual, vector_rates
 from adamslite.native.translate import Reals, native
 
 # So many groups of changes are tried one after another.
@@ -174,3 +175,54 @@ def forget(P: Problem) -> None:
     P.search.crawl, P.search.freed = crawl, freed
     P.search.taken, P.search.high = True, NONE
     margins(P, END)
+
+
+@native
+def force_ahead(P: Problem, L: Plan, t: float, time: float) -> float:
+    """What the branches that were turned over in the last step add to accelerations and rates of
+    states at ``t + time``, against max(1, |u|) and max(1, |s|).
+
+    The state, accelerations, algebraic unknowns and rates of states at ``t`` are the accepted ones
+    (q, u, ra, rz, rd), and are so afterwards; not so the workspace.
+    """
+    n, ns, count, first = P.sizes.n, P.sizes.ns, P.sizes.watched, P.sizes.nw + P.sizes.clocks
+    states = P.sizes.m + P.sizes.nv
+    new, rates, top = P.trial[2 * n :], P.trial[3 * n + ns :], 0.0
+    for k in range(ns):
+        rates[k] = P.rd[k]
+    known = accelerations_ahead(P, L, t, time, rates)
+    for i in range(n):
+        new[i] = P.a[i]
+    for k in range(ns):
+        new[n + k] = P.rd[k]
+    for k in range(count):
+        P.margin[LOW_ROW * count + k] = P.W[first + k]
+    turn_back(P)
+    known = accelerations_ahead(P, L, t, time, rates) and known
+    for k in range(count):
+        P.W[first + k] = P.margin[LOW_ROW * count + k]
+    for i in range(n):
+        top = max(top, abs(new[i] - P.a[i]) / max(1.0, abs(P.u[i])))
+        P.a[i] = P.ra[i]
+    for k in range(ns):
+        size = max(1.0, abs(P.rz[states + k]))
+        top = max(top, abs(new[n + k] - P.rd[k]) / size)
+        P.rd[k] = rates[k]
+    for k in range(P.z.size):
+        P.z[k] = P.rz[k]
+    return top if known else 0.0
+
+
+@native
+def accelerations_ahead(P: Problem, L: Plan, t: float, time: float, rates: Reals) -> bool:
+    """Accelerations of the present branches at ``t + time``, to first order; False without any."""
+    n, first = P.sizes.n, P.sizes.m + P.sizes.nv
+    y = P.trial[0:]
+    vector_rates(P, P.q, P.u, y)
+    for i in range(n):
+        y[i], y[n + i] = P.q[i] + time * y[i], P.u[i] + time * P.ra[i]
+        P.a[i] = P.ra[i]
+    for k in range(P.sizes.ns):
+        P.z[first + k] = P.rz[first + k] + time * rates[k]
+        P.rd[k] = rates[k]
+    return accelerations(P, L, t + time, y, y[n:], P.a, P.z, P.rd)

@@ -13,10 +13,11 @@ from adamslite.language.method import (
 
 
 def prepare(system: Equations, settings: Settings) -> None:
-    """Room for the numbers of the method and for inverse inertias."""
+    """Room for the numbers of the method, inverse inertias and two states."""
     from adamslite.integrators.verlet.control import Control
 
-    system.make_room(control=Control.slots, history=9 * len(system.model.bodies))
+    bodies = len(system.model.bodies)
+    system.make_room(control=Control.slots, history=(9 + 2 * 6) * bodies)
 
 
 NO_CORRECTOR = "-an explicit formula has no corrector"

@@ -15,11 +15,12 @@ Reference: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6 (discontin
 
 from __future__ import annotations
 
+from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import NEWTON_FAILED, Problem
 from adamslite.integrators.event_rows import END, INSIDE, NONE
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.guards import look
-from adamslite.integrators.events.harmless import take_harmless
+from adamslite.integrators.events.harmless import force_ahead, take_harmless
 from adamslite.integrators.events.search import (
     CLOSE,
     ends_there,
@@ -47,6 +48,9 @@ from adamslite.native.translate import native
 # A step to a crossing that ends before it by less than this share is taken again, longer, but not
 # more often than MOST_LENGTHENED.
 BEYOND, MOST_LENGTHENED = 1e-4, 3.0
+# Behind branches that changed without an event, the share of their speeds by which a step may
+# change velocities, judged by accelerations this share of a step ahead.
+GENTLE, AHEAD = 0.05, 0.1
 
 
 @native
@@ -147,3 +151,17 @@ def restart(P: Problem, L: Plan, C: Control) -> None:
     C.h_last, C.last_size, C.known, C.cautious = 0.0, 0.0, False, True
     C.h = first_step(P)
     note_signature(P, L, C, P.x)
+
+
+@native
+def touch_gently(P: Problem, L: Plan, C: Control) -> None:
+    """A shorter step where branches changed at the end of the last one and made no difference
+    there, but will: a body that just touches a hard wall.  The step before says nothing about it,
+    and stiffly damped stages of a long one would take all of its speed without a large error.
+    """
+    ahead = AHEAD * C.h
+    rate = force_ahead(P, L, C.t, ahead) / ahead
+    C.known = False
+    if rate * C.h * C.h > 2.0 * GENTLE:
+        C.h, C.cautious = (2.0 * GENTLE / rate) ** 0.5, True
+    put_state(P, C.t, P.q, P.u, P.ra, P.z, P.rd)

@@ -35,6 +35,7 @@ from adamslite.integrators.radau.events import (
     falls_short,
     pass_on,
     passes_crossing,
+    touch_gently,
 )
 from adamslite.integrators.radau.history import ORIGIN
 from adamslite.integrators.radau.prediction import predict
@@ -166,4 +167,6 @@ def accept(P: Problem, L: Plan, C: Control, error: float) -> int:
     if happened(P, t):
         return pass_on(P, L, C)
     keep_margins(P)
+    if P.search.taken:
+        touch_gently(P, L, C)
     return RUNNING

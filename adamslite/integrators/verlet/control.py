@@ -9,16 +9,21 @@ class Control(Record):
     """The numbers of VERLET.
 
     limit                the longest step that is stable, with a margin
+    longest              the longest stable step of any look
     wanted               the step to try in the next interval
     since                steps since the look at the eigenvalues
     spent                sum of the errors of the present try, against ERROR
+    top, mean            the largest local error of the present try, and the mean of all
     row                  the next row of the record
     fixed                whether the step is given by HINIT
     """
 
     limit: float
+    longest: float
     wanted: float
     since: int
     spent: float
+    top: float
+    mean: float
     row: int
     fixed: bool
