@@ -102,5 +102,11 @@ def test_help_without_a_name_lists_them(capsys: pytest.CaptureFixture[str]) -> N
     assert all(name in listed for name in (*STATEMENTS, *FUNCTIONS))
 
 
+def test_equations_are_blocks() -> None:
+    """The module of ACCGRAV indents its equation, which Markdown takes as code."""
+    page = pages("accgrav")
+    assert "\n    force on each body at its centre of mass = mass *" in page
+
+
 def test_help_takes_the_name_of_a_statement_in_a_deck() -> None:
     assert pages("vforce/2") == pages("VFORCE")

@@ -35,6 +35,8 @@ PARTS = (
     "docs",
     "tests",
     "benchmarks",
+    ".ci",
+    "LICENSE",
     "README.md",
     "pyproject.toml",
 )
