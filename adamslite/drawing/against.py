@@ -11,6 +11,7 @@ from adamslite.drawing.bodies import moved
 from adamslite.drawing.channels import channels
 from adamslite.drawing.drawing import Drawing
 from adamslite.drawing.motion import ANGLES, PLACE, Motion
+from adamslite.errors import FormatError
 from adamslite.results.results import Results
 
 
@@ -18,7 +19,15 @@ def against(drawing: Drawing, other: Results, name: str) -> dict[str, Any]:
     """Bodies in the order of the scene, null where the other results have none, and channels.
 
     Coordinates that the other results lack are those of the first.
+
+    Raises
+    ------
+    FormatError
+        When both have no channel in common.
     """
+    if not any(each in drawing.results for each in other.names) or not len(other.time):
+        what = "no channel of these results" if len(other.time) else "no output time"
+        raise FormatError(f"{name or 'the other result'} has {what}: nothing can be compared")
     labels = [body.statement.label for body in drawing.model.bodies]
     known = [_has(other, label) for label in labels]
     full = _completed(drawing.results, other, labels)

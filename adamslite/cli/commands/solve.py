@@ -5,8 +5,8 @@ the deck, else in the deck itself. The results go to DECK's name with .csv in th
 or to the output prefix that COMMANDS.acf names, or to OUT, in the format of its suffix (`adamslite
 help formats` lists them); `-o -` writes a table to standard output. Beside it LINEAR/EIGENSOL
 writes OUT.modes.csv, with COORDS and KENERGY OUT.shapes.csv and OUT.kinetic.csv, LINEAR/STATEMAT
-its FILE or OUT.states.json (matrices A, B, C, D), SAVE its FILE. All the command says goes to
-standard error.
+its FILE or OUT.states.json (matrices A, B, C, D), SAVE its FILE; --page an HTML file that shows how
+it moves. All the command says goes to standard error.
 """
 
 import argparse
@@ -44,6 +44,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--outputs", metavar="PATTERN", nargs="+", default=[],
         help="write these columns alone: 'REQUEST/*', 'PART/2.v?', PART/2; after DECK",
     )  # fmt: skip
+    parser.add_argument(
+        "--page", metavar="FILE", nargs="?", const="",
+        help="write a page that shows how it moves, too: FILE.html, or that of OUT",
+    )  # fmt: skip
     add_run_flags(parser)
     talk = parser.add_argument_group("talk")
     talk.add_argument(
@@ -75,6 +79,7 @@ def run(args: argparse.Namespace) -> int:
     if output != STDOUT:
         files = plan(scene, output, bool(args.output))
         format_of(output).require_library()
+    page = _page(args, scene, output)
     if not args.quiet:
         _tell_warnings(scene)
     progress = Progress() if args.quiet else TalkingProgress()
@@ -84,11 +89,37 @@ def run(args: argparse.Namespace) -> int:
     finally:
         progress.close()
     written = _write(results, output, files)
-    _summarize(scene, args, results, output, written)
+    if page:
+        _write_page(scene, results, page)
+    _summarize(scene, args, results, output, written, page)
     if not results.outcome.is_requested:
         return STOPPED_EARLY
     found = results.confirmation
     return DONE if found is None or found.confirmed else OUTSIDE_TOLERANCE
+
+
+def _page(args: argparse.Namespace, scene: "Scene", output: str) -> Path | None:
+    """The page to be written, if one is."""
+    from adamslite.errors import UsageError
+    from adamslite.outputs.whole_files import need_writable, same_file
+
+    if args.page is None:
+        return None
+    beside = Path(f"{scene.stem}.html" if output == STDOUT else output).with_suffix(".html")
+    page = Path(args.page) if args.page else beside
+    if page.suffix.lower() not in (".html", ".htm"):
+        raise UsageError(f"--page {page}: the name of a page ends in .html")
+    need_writable(page, scene.read, bool(args.page))
+    if output != STDOUT and same_file(page, output):
+        raise UsageError(f"--page {page}: the results are written there")
+    return page
+
+
+def _write_page(scene: "Scene", results: "Results", path: Path) -> None:
+    from adamslite.drawing.run_deck import at_start
+    from adamslite.page.page import page, write_page
+
+    write_page(page(results, at_start(scene.deck, scene.commands)), path)
 
 
 def _options(args: argparse.Namespace) -> dict[str, Any]:
@@ -120,24 +151,29 @@ def _tell_warnings(scene: "Scene") -> None:
 
 
 def _summarize(
-    scene: "Scene", args: argparse.Namespace, results: "Results", output: str, files: list[Path]
-) -> None:
+    scene: "Scene", args: argparse.Namespace, results: "Results", output: str, files: list[Path],
+    page: Path | None,
+) -> None:  # fmt: skip
     if args.summary == "json":
-        sys.stdout.write(_as_json({**results.summary, **_files(scene, output)}) + "\n")
+        drawn = {"page": str(page)} if page else {}
+        sys.stdout.write(_as_json({**results.summary, **_files(scene, output), **drawn}) + "\n")
     elif not args.quiet:
-        _tell_summary(scene, results, output, files)
+        _tell_summary(scene, results, output, files, page)
     _tell_trust(scene, args, results)
     if not results.outcome.is_requested:
         sys.stderr.write(f"adamslite: {results.message or results.outcome.sentence}\n")
 
 
-def _tell_summary(scene: "Scene", results: "Results", output: str, files: list[Path]) -> None:
+def _tell_summary(
+    scene: "Scene", results: "Results", output: str, files: list[Path], page: Path | None
+) -> None:
     from adamslite.results.summary import ending, figures, notes
 
     shown = "standard output" if output == STDOUT else output
     unwritten = [UNWRITTEN] if results.linearizations and output == STDOUT else []
     linear = [("linearised model", str(file)) for file in (*files, *unwritten)]
-    rows = [*figures(results), ("results", shown), *linear, *notes(results)]
+    drawn = [("page", str(page))] if page else []
+    rows = [*figures(results), ("results", shown), *drawn, *linear, *notes(results)]
     lines = [f"{scene.title}: {ending(results)}", *(f"  {what:<20} {text}" for what, text in rows)]
     sys.stderr.write("".join(f"{line}\n" for line in lines))
 
