@@ -49,7 +49,7 @@ LINK = re.compile(r"\]\(([^)\s#]+\.(?:adm|acf|toml|csv|res|req|py))\)")
 #: A folder of the repository with a file that a command or a program names.
 USED = re.compile(r"[ \"]((?:decks|docs)/[\w/-]+)/[\w.-]+")
 NUMBER = r"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?(?!\w)"
-COUNTED = re.compile(r"^ *(steps|Newton iterations|Jacobians|evaluations|iterations)\b")
+COUNTED = re.compile(r"^ *(steps|Newton iterations|Jacobians|evaluations|iterations)\b|\d steps$")
 TIMED = re.compile(r"^ *CPU\b|\d s$")
 #: Smaller differences of numbers are rounding.
 ROUNDING = 1e-9
