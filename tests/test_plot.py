@@ -80,6 +80,25 @@ def test_curves_differ_in_more_than_their_colour() -> None:
     assert len({color for color, _ in looks}) == len(looks) == 7
 
 
+@pytest.mark.parametrize("count", [1, 3, 7, 8, 9, 14])
+def test_any_number_of_curves_is_legible(count: int) -> None:
+    """As many forces as there are, each with its definition, on the third of three axes."""
+    forces = "\\".join(f"F{k}=FX(2,1,1)" for k in range(2, 9))
+    requests = f"REQUEST/1, {forces}\nREQUEST/2, {forces}"
+    names = [f"REQUEST/{r}.F{k}" for r in (1, 2) for k in range(2, 9)][:count]
+    columns = ("POINT_MASS/2.x", "POINT_MASS/2.vx", *names)
+    results = Results(
+        time=TIME, names=columns, values=np.outer(TIME, np.arange(len(columns))), meta=UNITS,
+        source=RunSource(deck=SPRING.replace("REQUEST/1, F2=DM(2,1)\\F3=2*DM(2,1)", requests)),
+    )  # fmt: skip
+    figure = plot(results, "*", against=results)
+    assert figure.axes[2].get_title(loc="left") == "force [N]"
+    curves = figure.axes[2].get_lines()[:count]
+    assert len({str(line.get_color()) for line in curves}) == count
+    assert "= FX(2,1,1)" in figure.axes[2].get_legend().get_texts()[0].get_text()
+    assert_legible(figure)
+
+
 def test_a_hundred_bodies_have_a_scale_of_colours_and_a_short_legend() -> None:
     results = table(**{f"PART__{k}_x": k * TIME for k in range(2, 102)})
     figure = plot(results, "PART/*.x")

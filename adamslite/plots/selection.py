@@ -133,7 +133,7 @@ def summary(curves: Sequence[Curve]) -> str:
     if len(texts) <= 2:
         return ", ".join(f"{label}: {what}" if what else label for label, what in texts.items())
     quantities = list(dict.fromkeys(each.quantity for each in channels if each.quantity))
-    what = listed(quantities)
+    what = listed(quantities) if len(quantities) <= 4 else f"{len(quantities)} quantities"
     return f"{listed(list(texts))}: {what}" if what else listed(list(texts))
 
 

@@ -39,6 +39,7 @@ FAINT, MUTED, DARK, BAND = "#dddddd", "#777777", "#333333", "#d5e5dd"
 CURVES = (
     (BLUE, "-"), (RED, (0, (6, 2))), (GREEN, (0, (2, 1.2))), (ORANGE, (0, (6, 2, 1.5, 2))),
     (PURPLE, (0, (9, 2.5))), (SKY, "-"), (BLACK, (0, (3, 1.5, 1, 1.5, 1, 1.5))),
+    (MUTED, (0, (1, 1.5))),
 )  # fmt: skip
 MARKERS = "os^DvPX*<>hpd8"
 

@@ -42,12 +42,12 @@ if TYPE_CHECKING:
 #: Colour and dashes.
 Look: TypeAlias = tuple[Any, Any]
 WIDTH = 9.0
-#: Heights [in]: of an axis by the number of axes, of a line of the title and of small print.
-HEIGHTS, LOWEST, HEAD, PRINT = {1: 3.6, 2: 2.5, 3: 2.1}, 1.8, 0.21, 0.17
+#: Heights [in]: of an axis by the number of axes; of a line of the title, small print, a legend.
+HEIGHTS, LOWEST, HEAD, PRINT, ENTRY = {1: 3.6, 2: 2.5, 3: 2.1}, 1.8, 0.21, 0.17, 0.16
 #: Characters in a line of the title and of small print.
 TITLE_WIDTH, PRINT_WIDTH = 84, 118
 #: More curves than this in an axis are told apart by a scale of colours only.
-TELLABLE = 8
+TELLABLE = len(style.CURVES)
 SHOWN_OF_MANY = 5
 #: So many events are marked and explained.
 MARKED = 6
@@ -139,10 +139,10 @@ def _figure(drawn: Drawn) -> Figure:
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
     title, notes = _title(drawn), list(_notes(drawn))
-    count = len(drawn.panels) + _has_difference(drawn)
+    heights = list(_heights(drawn))
     above = HEAD * len(title) + PRINT + 0.12
     below = PRINT * len(notes) + (0.08 if notes else 0.0)
-    height = count * HEIGHTS.get(count, LOWEST) + above + below + 0.5
+    height = sum(heights) + above + below + 0.5
     strip = (0.0, below / height, 1.0, 1.0 - (above + below) / height)
     layout = ConstrainedLayoutEngine(rect=strip, h_pad=0.05, w_pad=0.08)
     figure = Figure(figsize=(WIDTH, height), layout=layout)
@@ -154,13 +154,28 @@ def _figure(drawn: Drawn) -> Figure:
     figure.text(0.012, top, _line(deck), va="top", color=style.MUTED)
     for k, line in enumerate(reversed(notes)):
         figure.text(0.012, (0.06 + PRINT * k) / height, line, va="bottom", fontsize=8)
-    axes: list[Axes] = [*figure.subplots(count, 1, sharex=True, squeeze=False)[:, 0]]
+    axes: list[Axes] = [
+        *figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
+    ]
     for panel, axis in zip(drawn.panels, axes, strict=False):
         _panel(axis, panel, drawn)
     if _has_difference(drawn):
         _difference(axes[-1], drawn)
     _across(axes, drawn)
     return figure
+
+
+def _heights(drawn: Drawn) -> Iterator[float]:
+    """Of every axis [in]: enough for its legend, too."""
+    count = len(drawn.panels) + _has_difference(drawn)
+    usual = HEIGHTS.get(count, LOWEST)
+    for panel in drawn.panels:
+        labels = [each.label for each in panel.curves]
+        shown = labels if len(labels) <= TELLABLE else labels[:SHOWN_OF_MANY]
+        entries = sum(1 + label.count("\n") for label in shown) + (2 if drawn.beside else 0)
+        yield max(usual, ENTRY * (entries + 2))
+    if _has_difference(drawn):
+        yield max(usual, ENTRY * (min(len(drawn.curves), TELLABLE) + 2))
 
 
 def _has_difference(drawn: Drawn) -> bool:
