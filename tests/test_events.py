@@ -162,6 +162,24 @@ def test_a_hard_wall_that_is_met_at_an_output_time(formula, stiffness, error):
     assert last["POINT_MASS/2.vx"][-1] == approx(2.0, rel=0.03)
 
 
+@pytest.mark.parametrize("steps", [1, 7])
+@pytest.mark.parametrize("formula", ["GSTIFF", "RADAU", "RKF45"])
+def test_a_step_far_into_a_cubic_wall_is_none(formula, steps):
+    """1.61 kg at 5.55 m/s: stages of a long first step would be beyond all numbers."""
+    wall = moved_by("IMPACT(DX(2),VX(2),0,7.53E11,3,0,1E-4)", mass=1.61, x=1.3, v=-5.55)
+    last = done(wall, 0.468, steps, **options(formula, 1e-3))
+    assert last["POINT_MASS/2.vx"][-1] == approx(5.55, rel=0.02)
+
+
+@pytest.mark.parametrize(("stiffness", "mass"), [(2.1e9, 0.322), (6.2e8, 0.297)])
+def test_equal_steps_that_leave_a_wall_have_felt_it(stiffness, mass):
+    """18 m/s there and back: contacts of 40 to 70 us, where ERROR allows steps of 200 us."""
+    wall = moved_by(f"{stiffness}*DIM(0,DX(2))", mass=mass, x=1.5, v=-18)
+    for steps in (1, 4, 9):
+        last = done(wall, 3 / 18, steps, **options("VERLET", 1e-3))
+        assert last["POINT_MASS/2.vx"][-1] == approx(18, rel=0.03)
+
+
 @pytest.mark.parametrize(
     ("formula", "error"), [("GSTIFF", 1e-7), ("HHT", 1e-8), ("RADAU", 1e-6), ("RKF45", 1e-5)]
 )

@@ -99,6 +99,8 @@ def local_error(P: Problem, C: Control, h: float) -> float:
     scales = P.history[SCALES * w :]
     for i in range(w):
         zero[i] = 0.0
+        if not abs(y[i]) < LARGE:  # no error is large against it
+            return HUGE
     combine(P, C, ERROR3, w, h, zero, e)
     third = distance(P, e, y, scales, w)
     combine(P, C, ERROR5, w, h, zero, e)

@@ -56,10 +56,11 @@ FIXED_SAMPLE = 32
 # Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
 WORTH = 200
 SHRINK, GROW = 0.25, 2.0
-# Where the local error comes to this many times its mean, a law may have changed.  Where the scene
-# is then stiffer than it was (stable steps are below STIFFER times the longest so far), steps are
-# at most the last share of a stable one: w h < 0.6 returns the speed to a wall within 3 %.
-SPIKE, STIFFER, IN_CONTACT = 4.0, 0.9, 0.3
+# A law may have changed where the local error comes to this many times its mean, and where the
+# change of an acceleration moves a velocity by this share of the largest within a step.  Where the
+# scene is then stiffer than it was (stable steps are below STIFFER times the longest so far), steps
+# are at most the last share of a stable one: w h < 0.6 returns the speed to a wall within 3 %.
+SPIKE, JOLT, STIFFER, IN_CONTACT = 4.0, 0.1, 0.9, 0.3
 # Of the step that the error allows, after a rejected run and after an accepted one; an error below
 # LEAST_ERROR counts as that.
 SAFETY_DOWN, SAFETY, LEAST_ERROR = 0.8, 0.9, 1e-3
@@ -158,16 +159,24 @@ def stable_step(P: Problem) -> float:
 
 
 @native
-def stable_in_contact(P: Problem, C: Control, t: float) -> float:
-    """The longest stable step where the local error was largest in the interval from ``t``, if a
-    force that changes with the state has made the scene stiffer there.
+def stable_in_contact(P: Problem, C: Control, t: float, h: float) -> float:
+    """The longest stable step at both ends of the step with the largest local error in the interval
+    from ``t``, if a force that changes with the state has made the scene stiffer there.
     """
-    n, nb = P.sizes.n, P.sizes.nb
+    n, speed = P.sizes.n, 1.0
     if P.sizes.watched == 0 or not C.top > SPIKE * C.mean:
         return HUGE
-    hard = P.history[9 * nb + 2 * n :]
+    hard = P.history[9 * P.sizes.nb + 2 * n :]
+    for i in range(n):
+        speed = max(speed, abs(hard[n + i]))
+    if 6.0 * P.settings.error * C.top < JOLT * speed * h:
+        return HUGE
     put_free(P, t, hard, hard[n:])
     stable = stable_step(P)
+    for i in range(n):  # velocities are those of the middle of the step
+        hard[i] -= h * hard[n + i]
+    put_free(P, t, hard, hard[n:])
+    stable = min(stable, stable_step(P))
     return stable if stable < STIFFER * C.longest else HUGE
 
 
@@ -191,7 +200,7 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
             return UNSTABLE
         error = take_steps(P, L, C, t, h, int((end - t) / h + 0.5))
         P.report.error = error
-        stable = stable_in_contact(P, C, t) if error <= 1.0 else HUGE
+        stable = stable_in_contact(P, C, t, h) if error <= 1.0 else HUGE
         P.report.stable_step = min(P.report.stable_step, stable)
         if error <= 1.0 and h <= (stable if fixed else IN_CONTACT * stable):
             P.report.spent += C.spent
@@ -252,7 +261,7 @@ def take_steps(P: Problem, L: Plan, C: Control, t: float, h: float, count: int) 
         kick = 0.5 * h if s == 0 or s == count else h
         drift = h if s < count else 0.0
         kick_and_drift(P, kick, drift)
-    C.top, C.mean = top, C.spent / count
+    C.top, C.mean = top, C.spent / count if count > 2.0 * SPIKE else 0.0
     if not accept(P):
         return HUGE
     P.count.steps += count
