@@ -32,7 +32,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 #: Modules of tests in which no number is computed that a processor could round otherwise.
 TEXTUAL = {
-    "test_accuracy_notes", "test_cable_messages", "test_chart", "test_commands", "test_compare",
+    "test_accuracy_notes", "test_browser", "test_bundle", "test_cable_messages", "test_chart",
+    "test_commands", "test_compare",
     "test_deck", "test_lexical", "test_manual", "test_messages", "test_pages", "test_reference",
     "test_results", "test_statement", "test_style", "test_sympy_to_llvm",
 }  # fmt: skip

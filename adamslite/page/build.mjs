@@ -1,10 +1,16 @@
 // Builds bundle.js and licenses.txt: node build.mjs (npm run build).
 import { build } from "esbuild";
-import { readFileSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
+
+// So that a test without a build tool finds a bundle that is older than its sources.
+const made = [...readdirSync(join(here, "src")).sort().map((name) => join("src", name)), "package-lock.json", "build.mjs"];
+const sum = createHash("sha256");
+for (const name of made) sum.update(readFileSync(join(here, name), "utf8").replaceAll("\r\n", "\n"));
 
 await build({
     entryPoints: [join(here, "src", "main.js")],
@@ -14,6 +20,7 @@ await build({
     format: "iife",
     target: ["chrome90", "firefox90", "safari15"],
     charset: "ascii",
+    banner: { js: `/* adamslite; SHA-256 of the sources: ${sum.digest("hex")} */` },
     legalComments: "none", // whole licences are in licenses.txt and in every page
     logLevel: "warning",
 });

@@ -1,0 +1,360 @@
+"""A page in a browser: it loads, plays, is scrubbed, picked at, plotted and saved.
+
+What is read back are the matrices of the three.js objects, pixels and texts of the document.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from browsing import PHONE, Opened, opened, started
+from sample_page import ARM, END, FRAMES, bare, crank, sample, swarm, weight
+
+pytestmark = pytest.mark.browser
+
+STEP = END / (FRAMES - 1)
+# Positions are drawn on straight lines between output times: the height of an arc of a step, and
+# one of 65535 parts of the travel.
+CHORD = ARM * (2 * np.pi * STEP / END) ** 2 / 8 + 2 * ARM / 65535
+CURSOR = 0.01  # time of a pixel of a plot, which is 290 wide
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with started() as found:
+        yield found
+
+
+@pytest.fixture
+def show(browser: Any, tmp_path: Path) -> Any:
+    return partial(opened, browser, folder=tmp_path)
+
+
+def click(tab: Opened, place: list[float]) -> None:
+    """Click at pixels of the picture."""
+    box = tab.page.locator("canvas.scene").bounding_box()
+    tab.page.mouse.click(box["x"] + place[0], box["y"] + place[1])
+
+
+def pixels(tab: Opened, selector: str = "canvas.scene") -> np.ndarray:
+    """Red, green and blue of what an element shows, (height, width, 3)."""
+    image = pytest.importorskip("PIL.Image")
+    shot = io.BytesIO(tab.page.locator(selector).screenshot())
+    return np.asarray(image.open(shot).convert("RGB"), dtype=int)
+
+
+def near(picture: np.ndarray, colour: str, apart: int = 40) -> int:
+    """How many pixels are close to a colour."""
+    wanted = [int(colour[k : k + 2], 16) for k in (1, 3, 5)]
+    return int((np.abs(picture - wanted).max(axis=-1) < apart).sum())
+
+
+def test_a_page_loads_without_a_word_and_asks_for_nothing(show: Any) -> None:
+    with show(sample()) as tab:
+        tab.do("it.ready")
+        assert tab.seen("h1") == "A crank, a sheave & a <weight>"
+        assert tab.page.title() == "A crank, a sheave & a <weight>"
+
+
+def test_the_picture_shows_bodies_cable_and_ground_in_their_colours(show: Any) -> None:
+    with show(sample(), address="t=0.5") as tab:
+        picture = pixels(tab)
+        assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 500
+        for colour in ("#0072b2", "#e69f00", "#009e73"):  # crank, weight, sheave
+            assert near(picture, colour) > 300
+
+
+def test_playing_moves_bodies_as_the_results_say(show: Any) -> None:
+    with show(sample()) as tab:
+        assert tab.do("it.bodyPosition('PART/2')") == pytest.approx(crank(0), abs=CHORD)
+        tab.page.locator("button.play").click()
+        tab.wait("it.time > 0.4")
+        tab.page.locator("button.play").click()
+        places = "[it.time, it.bodyPosition('PART/2'), it.bodyPosition('POINT_MASS/3')]"
+        time, place, height = tab.do(f"(it.renderFrame(), {places})")
+        assert not tab.do("it.playing")
+        assert place == pytest.approx(crank(time), abs=CHORD)
+        assert height == pytest.approx(weight(time), abs=CHORD)
+
+
+@pytest.mark.parametrize("time", [0.0, 0.123, 1.0, 1.999, 2.0])
+def test_at_any_time_a_body_has_its_place_and_attitude(show: Any, time: float) -> None:
+    with show(sample()) as tab:
+        tab.do(f"(it.seek({time}), it.renderFrame())")
+        assert tab.do("it.bodyPosition('crank arm')") == pytest.approx(crank(time), abs=CHORD)
+        angle = 2 * np.pi * time / END
+        turned = np.array([0, 0, np.sin(angle / 2), np.cos(angle / 2)])
+        assert tab.do("it.bodyAttitude('PART/2')") == pytest.approx(turned, abs=1e-3)
+
+
+def test_playing_begins_again_at_the_end_and_stops_there_when_not_repeated(show: Any) -> None:
+    with show(sample()) as tab:
+        tab.do("(it.seek(1.9), it.play())")
+        tab.wait("it.time < 1.5")
+        tab.page.get_by_label("Repeat").click()
+        tab.do("it.seek(1.9)")
+        tab.wait("!it.playing")
+        assert tab.do("it.time") == END
+
+
+def test_the_time_slider_moves_the_cursor_of_the_plots(show: Any) -> None:
+    with show(sample()) as tab:
+        box = tab.page.locator("input.time").bounding_box()
+        tab.page.mouse.click(box["x"] + 0.75 * box["width"], box["y"] + box["height"] / 2)
+        assert tab.do("it.time") == pytest.approx(1.5, abs=0.05)
+        assert tab.do("it.plotCursor") == pytest.approx(tab.do("it.time"), abs=CURSOR)
+
+
+def test_dragging_over_a_plot_moves_the_time_and_the_slider(show: Any) -> None:
+    with show(sample()) as tab:
+        box = tab.page.locator(".u-over").first.bounding_box()
+        middle = box["y"] + box["height"] / 2
+        tab.page.mouse.move(box["x"] + 0.2 * box["width"], middle)
+        tab.page.mouse.down()
+        tab.page.mouse.move(box["x"] + 0.5 * box["width"], middle, steps=3)
+        tab.page.mouse.up()
+        assert tab.do("it.time") == pytest.approx(1.0, abs=CURSOR)
+        assert float(tab.page.locator("input.time").input_value()) == pytest.approx(5000, abs=50)
+        assert "1.0" in tab.seen(".readout")
+
+
+def test_picking_names_the_part_and_says_where_it_is_and_how_fast(show: Any) -> None:
+    with show(sample(), address="t=0.5") as tab:
+        click(tab, tab.do("it.screenPosition('POINT_MASS/3')"))
+        assert tab.do("it.selected") == "POINT_MASS/3"
+        card = tab.seen(".selection")
+        assert "POINT_MASS/3" in card and "5 kg" in card
+        assert "1.25, -0.7, 0 m" in card
+        tab.do("(it.seek(0), it.renderFrame())")
+        speed = float(tab.seen(".selection dd >> nth=2").split()[0])
+        assert speed == pytest.approx(0.3 * np.pi, rel=1e-3)
+        tab.page.keyboard.press("Escape")
+        assert tab.do("it.selected") is None
+
+
+def test_a_body_is_picked_anywhere_on_it_and_none_beside_it(show: Any) -> None:
+    with show(sample(), address="t=0.5") as tab:
+        x, y = tab.do("it.screenPosition('POINT_MASS/3')")
+        assert tab.do(f"it.pick({x + 18}, {y})") == "POINT_MASS/3"
+        assert tab.do("it.pick(2, 300)") is None
+
+
+def test_names_of_bodies_are_text(show: Any) -> None:
+    with show(sample(), address="t=0.5&show=labels") as tab:
+        assert "Rolle <b>ö</b>" in tab.page.locator(".label").all_inner_texts()
+
+
+def test_the_camera_frames_the_whole_motion(show: Any) -> None:
+    with show(sample()) as tab:
+        for view in ("iso", "x", "y", "z", "start"):
+            tab.do(f"it.view('{view}')")
+            for time in np.linspace(0, END, 9):
+                tab.do(f"(it.seek({time}), it.renderFrame())")
+                for name in ("PART/2", "POINT_MASS/3", "PART/4"):
+                    x, y = tab.do(f"it.screenPosition('{name}')")
+                    assert 0 < x < 880 and 0 < y < 620, (view, time, name)
+
+
+def test_views_look_along_their_axes(show: Any) -> None:
+    with show(sample()) as tab:
+        for k, name in enumerate("xyz"):
+            tab.do(f"it.view('{name}')")
+            frame = tab.do("it.cameraFrame()")
+            towards = np.subtract(frame["position"], frame["target"])
+            assert towards[k] / np.linalg.norm(towards) == pytest.approx(1, abs=1e-5)
+
+
+def test_a_followed_body_stays_where_it_is_in_the_picture(show: Any) -> None:
+    with show(sample()) as tab:
+        tab.do("it.select('PART/2')")
+        before = tab.do("it.screenPosition('PART/2')")
+        tab.page.get_by_label("Follow this body").click()
+        tab.do("(it.seek(0.8), it.renderFrame())")
+        assert tab.do("it.screenPosition('PART/2')") == pytest.approx(before, abs=0.5)
+
+
+def test_keys_play_step_and_switch(show: Any) -> None:
+    with show(sample(), address="theme=light") as tab:
+        press = tab.page.keyboard.press
+        press("ArrowRight")
+        assert tab.do("it.time") == pytest.approx(STEP, abs=1e-6)
+        press("ArrowLeft")
+        assert tab.do("it.time") == 0
+        press("End")
+        assert tab.do("it.time") == END
+        press("Home")
+        press(" ")
+        tab.wait("it.playing && it.time > 0")
+        press("t")
+        assert tab.do("it.theme") == "dark"
+        press("?")
+        assert "frame the whole motion" in tab.seen(".help")
+
+
+def test_a_cable_runs_along_tangents_and_around_the_rim(show: Any) -> None:
+    """The weight hangs below the right of the sheave, the other end is below its left."""
+    with show(sample()) as tab:
+        drawn = tab.do("Array.from(it.app.cables.list[0].strokes.array)")
+        pieces = np.array(drawn).reshape(-1, 2, 4)
+        assert pieces[0, :, :3] == pytest.approx(
+            np.array([[1.25, -1, 0], [1.25, 0.5, 0]]), abs=1e-4
+        )
+        arc = pieces[1:-1, 1, :3] - [1.0, 0.5, 0.0]
+        assert np.linalg.norm(arc, axis=1) == pytest.approx(0.25, abs=1e-6)
+        assert arc[:, 1].min() >= -1e-6  # over the top
+        assert pieces[-1, :, :3] == pytest.approx(
+            np.array([[0.75, 0.5, 0], [0.75, -1.5, 0]]), abs=1e-4
+        )
+        # 40 N and 36 N at the start, of a range from 27 N to 50 N
+        ends = [(40 - 27) / 23, (36 - 27) / 23]
+        assert [pieces[0, 0, 3], pieces[-1, 1, 3]] == pytest.approx(ends, abs=1e-4)
+        assert tab.seen(".tension").split() == ["tension", "(N)", "27", "50"]
+
+
+def test_a_spring_reaches_from_end_to_end(show: Any) -> None:
+    with show(sample()) as tab:
+        tab.do("(it.seek(0.5), it.renderFrame())")
+        matrix = tab.do("Array.from(it.app.springs.groups[0].mesh.instanceMatrix.array)")
+        start, along = np.array(matrix[12:15]), np.array(matrix[8:11])
+        assert start == pytest.approx(crank(0.5), abs=CHORD)
+        assert start + along == pytest.approx([0, -1.4, 0], abs=1e-5)
+
+
+def test_channels_are_found_by_words_and_plotted_with_units(show: Any) -> None:
+    with show(sample()) as tab:
+        field = tab.page.get_by_label("search channels")
+        field.fill("crank y")
+        tab.page.locator(".channel").click()
+        assert tab.do("it.plotted") == ["REQUEST/1.F2", "REQUEST/2.F2", "PART/2.y"]
+        labels = tab.do("it.app.plots.plots.map(p => p.chart.axes.map(a => a.label))")
+        assert ["time (s)", "PART/2.y (m)"] in labels
+        assert all(time == "time (s)" for time, _ in labels)
+        field.fill("no such channel")
+        assert tab.seen(".channels") == "no channel has these words"
+
+
+def test_the_wheel_zooms_all_plots_and_a_double_click_shows_all(show: Any) -> None:
+    with show(sample()) as tab:
+        plot = tab.page.locator(".u-over").first
+        plot.hover()
+        tab.page.mouse.wheel(0, -200)
+        windows = "it.app.plots.plots.map(p => [p.chart.scales.x.min, p.chart.scales.x.max])"
+        tab.wait(f"{windows}[0][0] > 0")
+        found = tab.do(windows)
+        assert all(window == found[0] for window in found)
+        assert found[0][1] - found[0][0] == pytest.approx(0.85 * END, rel=0.01)
+        plot.dblclick()
+        tab.wait(f"{windows}[0][0] === 0 && {windows}[0][1] === {END}")
+
+
+def test_curves_are_saved_as_csv_with_their_units_and_the_second_result(show: Any) -> None:
+    with show(sample()) as tab:
+        tab.do("it.plot(['PART/2.x', 'REQUEST/2.F2'])")
+        with tab.page.expect_download() as saved:
+            tab.page.get_by_label("Save the curves shown as CSV").first.click()
+        assert saved.value.suggested_filename == "sample-curves.csv"
+        head, *rows = csv.reader(Path(saved.value.path()).read_text().splitlines())
+        other = ["other.csv: PART/2.x [m]", "other.csv: REQUEST/2.F2"]
+        assert head == ["time [s]", "PART/2.x [m]", "REQUEST/2.F2", *other]
+        assert len(rows) == FRAMES
+        time, x, empty, late, _ = rows[150]
+        assert float(time) == pytest.approx(1.5)
+        assert float(x) == pytest.approx(crank(1.5)[0], abs=1e-6)
+        assert float(late) == pytest.approx(crank(1.4)[0], abs=1e-6)
+        assert empty == ""  # no number from t = 1 on
+
+
+@pytest.mark.parametrize("button", ["Save the picture as PNG", "Save this plot as PNG"])
+def test_pictures_are_saved_as_png(show: Any, button: str) -> None:
+    with show(sample()) as tab:
+        with tab.page.expect_download() as saved:
+            tab.page.get_by_label(button).first.click()
+        assert Path(saved.value.path()).read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_second_result_is_a_ghost_and_its_difference_is_plotted(show: Any) -> None:
+    with show(sample(), address="t=0.5") as tab:
+        tab.do("(it.plot(['PART/2.x']), it.select('PART/2'))")
+        difference = tab.do("it.app.plots.plots[1].chart.data[1][50]")
+        assert difference == pytest.approx(crank(0.5)[0] - crank(0.4)[0], abs=1e-6)
+        apart = np.linalg.norm(crank(0.5) - crank(0.4))
+        assert f"{apart:.3g} m from other.csv" in tab.seen(".selection")
+
+
+def test_a_mode_swings_the_bodies_that_take_part(show: Any) -> None:
+    with show(sample()) as tab:
+        rest = np.array(tab.do("it.bodyPosition('POINT_MASS/3')"))
+        most = 0.12 * tab.do("it.app.box.radius")
+        tab.do("it.mode(0)")
+        for phase, part in ((0, 1), (np.pi / 2, 0), (np.pi, -1)):
+            place = f"(it.app.modes.setPhase({phase}), it.bodyPosition('POINT_MASS/3'))"
+            swung = np.array(tab.do(place))
+            assert swung - rest == pytest.approx([0, part * most, 0], abs=1e-5)
+        tab.do("(it.seek(0), it.renderFrame())")
+        assert tab.do("it.bodyPosition('POINT_MASS/3')") == pytest.approx(rest, abs=1e-6)
+
+
+def test_on_a_phone_everything_is_within_the_width(show: Any) -> None:
+    with show(sample(), size=PHONE, device_scale_factor=2, has_touch=True) as tab:
+        assert tab.do("document.documentElement.scrollWidth") == PHONE[0]
+        outside = tab.do(
+            "[...document.querySelectorAll('button, input, select, canvas')]"
+            ".filter(e => e.getClientRects().length)"
+            ".filter(e => e.getBoundingClientRect().right > innerWidth + 1)"
+            ".map(e => e.outerHTML)"
+        )
+        assert outside == []
+        for selector in ("canvas.scene", ".player", ".plots"):
+            assert tab.page.locator(selector).is_visible()
+
+
+def test_a_page_is_dark_where_the_system_is_and_where_it_is_switched(show: Any) -> None:
+    dark, light = "rgb(23, 28, 35)", "rgb(255, 255, 255)"
+    background = "getComputedStyle(document.querySelector('.panel')).backgroundColor"
+    with show(sample(), color_scheme="dark") as tab:
+        assert tab.do(background) == dark
+        assert pixels(tab)[2, -2].max() < 40
+        tab.page.get_by_label("Dark or light (T)").click()
+        assert tab.do(background) == light
+        assert pixels(tab)[2, -2].min() > 200
+
+
+NOTHING = bare()
+ONE_TIME = {"times": {"at": 0, "shape": [1], "coding": "f32"}}
+
+
+@pytest.mark.parametrize("text", [NOTHING, bare(**ONE_TIME)], ids=["no time", "one time"])
+def test_a_page_with_nothing_to_see_is_shown_all_the_same(show: Any, text: str) -> None:
+    with show(text) as tab:
+        assert tab.page.locator("button.play").is_disabled()
+        assert tab.do("it.bodyPosition('PART/1')") == [0, 0, 0]
+        tab.page.keyboard.press(" ")
+        assert not tab.do("it.playing")
+
+
+def test_without_graphics_the_page_says_so(show: Any) -> None:
+    refuse = "HTMLCanvasElement.prototype.getContext = () => null;"
+    with show(sample(), before=refuse, quiet=False) as tab:
+        assert "shows no 3-D graphics" in tab.seen(".failure")
+
+
+def test_a_thousand_masses_are_drawn_by_few_calls_of_few_triangles(show: Any) -> None:
+    """What takes software renderers time is counted: time itself depends on who measures."""
+    with show(swarm(1000)) as tab:
+        tab.do("(it.seek(1), it.renderFrame())")
+        drawn = tab.do("({ ...it.app.stage.renderer.info.render })")
+        assert drawn["calls"] <= 5
+        assert drawn["triangles"] == 2 * 1000 + 2 * 999
+        x, z = divmod(499, 32)
+        place = [0.2 * x + 0.05 * np.cos(1), 0.4 * np.sin(2 * np.pi * (0.5 + x / 32)), 0.2 * z]
+        assert tab.do("it.bodyPosition('POINT_MASS/501')") == pytest.approx(place, abs=1e-3)
+        tab.do("it.view('y')")
+        click(tab, tab.do("it.screenPosition('POINT_MASS/501')"))
+        assert tab.do("it.selected") == "POINT_MASS/501"
