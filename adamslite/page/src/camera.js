@@ -50,6 +50,7 @@ export class Camera {
         this.camera.near = Math.max(distance - 4 * radius, distance * 0.003, radius * 1e-4);
         this.camera.far = distance + 8 * radius;
         this.camera.updateProjectionMatrix();
+        this.camera.updateMatrixWorld();
         this.changed();
     }
 
