@@ -35,7 +35,7 @@ from adamslite.language.method import AUTO
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.run_error import error_of
-from adamslite.verification.work_precision import Variant, patient, variants
+from adamslite.verification.variants import Variant, patient, variants
 from benchmarks.random_decks import RandomDeck, deck
 from benchmarks.tables import table
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from adamslite.language.method import AUTO
 from adamslite.outputs.whole_files import whole_file
-from adamslite.verification.work_precision import Variant, variants
+from adamslite.verification.variants import Variant, variants
 from benchmarks.tables import table
 from benchmarks.torture import CASES
 

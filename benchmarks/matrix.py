@@ -30,7 +30,7 @@ from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.scene import load_scene
 from adamslite.verification.reference_file import Reference, read_reference
-from adamslite.verification.work_precision import Variant, patient
+from adamslite.verification.variants import Variant, patient
 from benchmarks import report
 from benchmarks.hard_cases import (
     CONSTANT,

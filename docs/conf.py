@@ -22,11 +22,16 @@ project = "adamslite"
 author = copyright = "the adamslite authors"
 release = version = __version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 smartquotes = False  # -- is the beginning of a flag
 default_role = "code"
 myst_heading_anchors = 4
 highlight_language = "none"
+# Notebooks have no outputs in the repository: the site runs them.
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+nb_execution_in_temp = True
 
 # Members of classes, but not what they have from classes of Python.
 autodoc_default_options = {

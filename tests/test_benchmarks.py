@@ -8,7 +8,7 @@ import pytest
 from figure_checks import illegible
 
 from adamslite import read
-from adamslite.verification.work_precision import Variant, variants
+from adamslite.verification.variants import Variant, variants
 from benchmarks import charts, conclusions, figures, hard_cases, matrix, points, report, tables
 from benchmarks.decks import deck
 from benchmarks.figures import Figure

@@ -25,17 +25,15 @@ from adamslite.progress import RunState
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.run_error import error_of
+from adamslite.verification.variants import Variant, patient, variants
 from adamslite.verification.work_precision import (
     TIGHT,
     Chart,
     Point,
     Truth,
-    Variant,
     alike,
     by_steps,
     measure,
-    patient,
-    variants,
 )
 
 SPRING = """\

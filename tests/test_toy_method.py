@@ -47,7 +47,7 @@ from adamslite.language.method import (
 )
 from adamslite.native.translate import native
 from adamslite.results.outcomes import Outcome
-from adamslite.verification.work_precision import variants
+from adamslite.verification.variants import variants
 
 # ---- the method ----------------------------------------------------------------------------------
 

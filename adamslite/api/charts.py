@@ -14,13 +14,15 @@ from adamslite.deck.deck import Deck
 from adamslite.kernels.compile import compile_model
 from adamslite.model.model import Model, assemble
 from adamslite.progress import Progress, progress_of
-from adamslite.verification.work_precision import ERRORS, Chart, chosen, measure, patient
+from adamslite.verification.variants import chosen, patient
+from adamslite.verification.work_precision import ERRORS, Chart, measure
 
 
 def chart(
     scene: Subject | str | os.PathLike[str],
     end: float | None = None,
     steps: int | None = None,
+    hmax: float | None = None,
     integrator: str | Sequence[str] = (),
     error: float | Sequence[float] = (),
     channel: str | Sequence[str] = (),
@@ -35,7 +37,7 @@ def chart(
 
     Parameters
     ----------
-    scene, end, steps, commands, user, progress
+    scene, end, steps, hmax, commands, user, progress
         As for :func:`adamslite.simulate`.
     integrator, error : str, float, or sequences of them
         Only these; by default all, and 1e-2 to 1e-8.
@@ -60,7 +62,7 @@ def chart(
         subject = given.subject
         model = assemble(subject) if isinstance(subject, Deck) else subject
         kernels = compile_model(model, shown) if isinstance(model, Model) else model
-        solve = partial(simulate, kernels, end, steps, commands=given.commands)
+        solve = partial(simulate, kernels, end, steps, hmax=hmax, commands=given.commands)
         run = patient(solve, patience, shown)
         return measure(run, tried, sorted(errors, reverse=True), repeats, channels)
     finally:

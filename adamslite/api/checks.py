@@ -64,6 +64,9 @@ class Check(list[Diagnostic]):
         lines = [f"{self.title}: {self.counts}", *(f"  {line}" for line in self.contents)]
         return messages + "".join(f"{line}\n" for line in lines)
 
+    def __repr__(self) -> str:
+        return str(self).rstrip()
+
     def _repr_html_(self) -> str:
         return adamslite.html(self)
 

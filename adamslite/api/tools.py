@@ -7,18 +7,26 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 from adamslite.errors import DeckWarning, FormatError, UsageError
 from adamslite.language.diagnostics import WARNING
-from adamslite.results.comparison import INTERPOLATIONS, USUAL, Comparison, Tolerance
+from adamslite.results.comparison import (
+    INTERPOLATIONS,
+    USUAL,
+    Comparison,
+    Tolerance,
+    need_content,
+    of_different_decks,
+)
 from adamslite.results.comparison import compare as compare_results
 from adamslite.results.results import Results
 from adamslite.verification.reference_file import (
     Reference,
-    parse_tolerance,
     read_reference,
+    tolerance_of,
 )
 from adamslite.verification.verification import Verdict, find_cases
 from adamslite.verification.verification import verify as verify_cases
@@ -43,46 +51,41 @@ def compare(
     interpolate : {None, "linear", "cubic"}
         How to get values at reference times that are not output times.
 
+    Warns
+    -----
+    DeckWarning
+        When the two are results of different decks.
+
     Raises
     ------
     Mismatch
-        When the results lack a channel or a time of the reference.
+        When the results lack a channel or a time of the reference, or the reference is empty.
     UsageError, FormatError
         When the tolerance is none; when a file is not one of results.
     """
     if interpolate is not None and interpolate not in INTERPOLATIONS:
         raise UsageError(f"--interpolate {interpolate}: there are {', '.join(INTERPOLATIONS)}")
     found = results if isinstance(results, Results) else Results.load(Path(results))
-    wanted = tolerance_of(tolerance)
-    if isinstance(reference, Results):
-        return compare_results(found, reference, wanted or USUAL, interpolate)
-    judge = reference if isinstance(reference, Reference) else read_reference(Path(reference))
-    if wanted is not None:
-        return compare_results(found, judge.table, wanted, interpolate or judge.interpolate)
-    judge.interpolate = interpolate or judge.interpolate
-    return judge.judge(found, usual=USUAL)
+    judge = _reference(reference)
+    if sentence := of_different_decks(found, judge.table):
+        warnings.warn(sentence, DeckWarning, stacklevel=2)
+    if not judge.measures:
+        need_content(judge.table)
+    interpolate = interpolate or judge.interpolate
+    if callable(tolerance):
+        return compare_results(found, judge.table, tolerance, interpolate)
+    if tolerance is not None:
+        given = tolerance if isinstance(tolerance, Tolerance) else tolerance_of(tolerance)
+        judge = replace(judge, tolerances=[("*", given)])
+    return replace(judge, interpolate=interpolate).judge(found, usual=USUAL)
 
 
-def tolerance_of(
-    given: Tolerance | Callable[[str], Tolerance] | float | str | None,
-) -> Tolerance | Callable[[str], Tolerance] | None:
-    """The tolerance that a number or a text means.
-
-    Raises
-    ------
-    UsageError
-        When it means none.
-    """
-    if given is None or isinstance(given, Tolerance) or callable(given):
+def _reference(given: Results | Reference | str | os.PathLike[str]) -> Reference:
+    if isinstance(given, Reference):
         return given
-    try:
-        return Tolerance(abs=float(given), peak=float(given))
-    except ValueError:
-        pass  # not a lone number: a tolerance in words
-    try:
-        return parse_tolerance(str(given))
-    except ValueError as fault:
-        raise UsageError(f"--tol: {fault}") from None
+    if isinstance(given, Results):
+        return Reference(path=Path(), table=given)
+    return read_reference(Path(given))
 
 
 def verify(*paths: str | os.PathLike[str], jobs: int = 1) -> list[Verdict]:

@@ -16,8 +16,5 @@ def linearization_html(found: Linearization) -> str:
         )
         for row in mode_rows(found)
     ]  # fmt: skip
-    size = (
-        f"{len(found.eigenvalues)} states, {len(found.inputs)} inputs, {len(found.outputs)} outputs"
-    )
     note = paragraph(found.note) if found.note else ""
-    return f"<div>{paragraph(size)}{number_table(HEAD, rows)}{note}</div>"
+    return f"<div>{paragraph(found.sizes)}{number_table(HEAD, rows)}{note}</div>"

@@ -5,14 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from adamslite.notation import shown
 from adamslite.plots.cost_charts import OURS, Line, Mark, Words, cost_chart
-from adamslite.verification.work_precision import (
-    Chart,
-    Point,
-    alike,
-    by_program,
-    largest_group,
-)
+from adamslite.verification.work_precision import Chart, Point, alike, by_program, largest_group
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -93,5 +88,5 @@ def _notes(chart: Chart) -> Iterator[str]:
             f"The reference is known to {chart.truth.doubt:.1e}: errors shown there may be smaller."
         )
     if names := limited(chart):
-        text = LIMITED.format(names=", ".join(names))
+        text = shown(LIMITED.format(names=", ".join(names)))
         yield f"{text[:1].upper()}{text[1:]}. Runs that are alike are one point."

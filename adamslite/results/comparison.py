@@ -9,7 +9,7 @@ The reference may hold any few of the channels. Its times must be output times o
 an interpolation is requested.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
@@ -101,6 +101,15 @@ class Difference:
     inside: bool
 
     @property
+    def cells(self) -> tuple[str, ...]:
+        """Its row under ``HEAD``."""
+        time = "" if self.time is None else f"{self.time:.6g}"
+        leaves = "" if self.leaves is None else f"{self.leaves:.6g}"
+        if not self.inside and self.leaves is None:
+            leaves = "outside"
+        return self.name, f"{self.worst:.3e}", f"{self.allowed:.3e}", time, leaves
+
+    @property
     def severity(self) -> float:
         """Part of the tolerance that is used up: above 1 (or not a number) is outside."""
         if self.inside and self.worst == 0:
@@ -109,11 +118,43 @@ class Difference:
         return float(ratio) if np.isfinite(ratio) else float("inf")
 
 
-@dataclass(frozen=True)
+#: Titles of the columns of a comparison.
+HEAD = ("channel", "worst", "allowed", "at t", "outside from")
+
+
+@dataclass(frozen=True, repr=False)
 class Comparison:
-    """All differences between results and a reference, in the order of the reference's columns."""
+    """All differences between results and a reference, in the order of the reference's columns.
+
+    As text it is the table that `adamslite diff --all` prints.
+    """
 
     differences: tuple[Difference, ...]
+
+    @property
+    def outside(self) -> list[Difference]:
+        """The differences that are too large, the worst first."""
+        found = [each for each in self.differences if not each.inside]
+        return sorted(found, key=lambda each: -each.severity)
+
+    @property
+    def outside_first(self) -> list[Difference]:
+        """All differences, those that are too large before the others."""
+        return [*self.outside, *(each for each in self.differences if each.inside)]
+
+    @property
+    def verdict(self) -> str:
+        """How many channels were compared, and how many are outside."""
+        outside, count = len(self.outside), len(self.differences)
+        their = "its tolerance" if outside == 1 else "their tolerances"
+        found = f"{outside} outside {their}" if outside else "all within their tolerances"
+        return f"{count} compared, {found}"
+
+    def __str__(self) -> str:
+        return "\n".join([*table_lines(self.outside_first), self.verdict])
+
+    def __repr__(self) -> str:
+        return f"<Comparison: {self.verdict}>"
 
     @property
     def inside(self) -> bool:
@@ -172,6 +213,41 @@ def compare(
             for name in reference.names
         )
     )
+
+
+def table_lines(differences: Iterable[Difference]) -> list[str]:
+    """A head, and a line for each channel."""
+    rows = [HEAD, *(each.cells for each in differences)]
+    width = max(len(row[0]) for row in rows)
+    return [
+        f"{name:{width}}  {worst:>10}  {allowed:>10}  {time:>10}  {leaves}".rstrip()
+        for name, worst, allowed, time, leaves in rows
+    ]
+
+
+def need_content(reference: Results) -> None:
+    """Reject a reference with which nothing could differ.
+
+    Raises
+    ------
+    Mismatch
+        In one sentence.
+    """
+    if not reference.names:
+        raise Mismatch("the reference has no channel at all")
+    if not reference.time.size:
+        raise Mismatch("the reference has no output time at all")
+
+
+def of_different_decks(results: Results, reference: Results) -> str:
+    """A sentence where the two are not of one deck; else empty."""
+    hashes = [each.meta.get("deck hash") for each in (results, reference)]
+    if not all(hashes) or hashes[0] == hashes[1]:
+        return ""
+    titles = [each.meta.get("deck", "") for each in (results, reference)]
+    same = titles[0] == titles[1]
+    what = f"both called '{titles[0]}'" if same else f"'{titles[0]}' and '{titles[1]}'"
+    return f"A and B are results of different decks, {what}"
 
 
 def fits(pattern: str, name: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib import import_module
 from math import pi
 from typing import NamedTuple
 
@@ -25,9 +26,9 @@ class SecondOrder(NamedTuple):
     basis: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Linearization:
-    """The model about one state.
+    """The model about one state; as text the table of modes that `adamslite linear` prints.
 
     Parameters
     ----------
@@ -92,6 +93,18 @@ class Linearization:
         if self.steady:
             return ""
         return f"{VARIES}; it is steady {self.steady_for}" if self.steady_for else VARIES
+
+    def __str__(self) -> str:
+        return import_module("adamslite.outputs.modes").mode_table(self).rstrip()
+
+    def __repr__(self) -> str:
+        return f"<Linearization: {self.sizes}>"
+
+    @property
+    def sizes(self) -> str:
+        """How many states, inputs and outputs there are."""
+        states, inputs, outputs = len(self.eigenvalues), len(self.inputs), len(self.outputs)
+        return f"{states} states, {inputs} inputs, {outputs} outputs"
 
     def _repr_html_(self) -> str:
         """The table of modes, for a notebook."""

@@ -134,6 +134,24 @@ def parse_tolerance(text: str) -> Tolerance:
     return Tolerance(**{name: _TOLERANCES[name](value) for name, value in given})
 
 
+def tolerance_of(given: float | str) -> Tolerance:
+    """What a user means by a tolerance: ``X`` is ``abs X peak X``.
+
+    Raises
+    ------
+    UsageError
+        When it is none.
+    """
+    try:
+        return Tolerance(abs=float(given), peak=float(given))
+    except ValueError:
+        pass  # not a lone number: a tolerance in words
+    try:
+        return parse_tolerance(str(given))
+    except ValueError as fault:
+        raise UsageError(f"--tol: {fault}") from None
+
+
 def _follow(reference: Reference, comment: str) -> None:
     """Enter the instruction in `comment` into `reference`, if there is one."""
     match = re.fullmatch(r"(\w+)(?:\s+(\S+))?\s*:(?:\s+(.*))?", comment)

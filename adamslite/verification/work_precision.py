@@ -6,21 +6,21 @@ much the tight run still changes with its own ERROR is not known any better.
 
 from __future__ import annotations
 
-import time as clock
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
 from math import floor, inf, log10
 from statistics import median
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 import adamslite
 from adamslite.errors import RunFailed, UsageError
-from adamslite.language.method import FIXED, declared, method_of
-from adamslite.progress import Progress, RunState
+from adamslite.language.method import method_of
 from adamslite.results.comparison import fits
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results, UnknownChannel
 from adamslite.results.run_error import error_of
+from adamslite.verification.variants import Run, Variant
 
 # Errors below it are not told apart; what an error of 10^-k misses of k digits by its logarithm.
 LEAST_ERROR, ROUND_OFF = 1e-16, 1e-9
@@ -31,6 +31,8 @@ TIGHT, LESS_TIGHT = 1e-10, 1e-8
 TOO_LOW = 2
 #: A hundred times smaller ERROR leaves this much more than the change at most.
 EXPLAINED, ROUNDING = 3.0, 1e-12
+#: Digits to recommend for.
+DIGITS = 3
 #: A reference that is not known better than this is none.
 USELESS = 1e-2
 #: Long runs are repeated less often: (CPU [s] from, at most this often).
@@ -41,31 +43,6 @@ SHORTER = ((2.0, 1), (0.5, 2))
 NOISE = 1.05
 #: Numbers of steps, and errors, that differ by less than this part are equal.
 EQUAL_STEPS, EQUAL_ERRORS = 0.01, 0.1
-
-Run = Callable[..., Results]
-
-
-@dataclass(frozen=True)
-class Variant:
-    """An integrator as a user requests it.
-
-    formulation : empty where it makes no difference;  also : other names of the same
-    """
-
-    integrator: str
-    formulation: str = ""
-    also: tuple[str, ...] = ()
-
-    @property
-    def label(self) -> str:
-        """As in the INTEGRATOR statement."""
-        return " ".join(filter(None, (self.integrator, self.formulation)))
-
-    @property
-    def options(self) -> dict[str, str]:
-        """Keyword arguments of `simulate`."""
-        named = {"integrator": self.integrator, "formulation": self.formulation}
-        return {key: value for key, value in named.items() if value}
 
 
 @dataclass(kw_only=True)
@@ -120,12 +97,17 @@ class Truth:
     origin: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Chart:
-    """All points of a scene, integrator after integrator from loose to tight, and their truth."""
+    """All points of a scene, integrator after integrator from loose to tight, and their truth.
+
+    As text it is what `adamslite chart` prints.
+    """
 
     points: list[Point]
     truth: Truth
+    channels: tuple[str, ...] = ()
+    """What the error is that of; the motion of everything when empty."""
 
     @property
     def useless(self) -> bool:
@@ -147,6 +129,13 @@ class Chart:
         cheapest = min((p.median for p in sure), default=inf)
         ties = [p for p in sure if p.least <= NOISE * cheapest]
         return max(ties, key=lambda p: (p.digits, -p.median), default=None)
+
+    def __str__(self) -> str:
+        text = import_module("adamslite.plots.accuracy_text")
+        return text.table(self) + text.verdict(self, DIGITS).rstrip()
+
+    def __repr__(self) -> str:
+        return f"<Chart: {len(self.points)} runs against {self.truth.origin}>"
 
     def _repr_html_(self) -> str:
         """Points and recommendation, for a notebook."""
@@ -214,69 +203,6 @@ def largest_group(points: Iterable[S], least: int = 3) -> list[S]:
     """The most neighbours with equally many steps, if these are ``least`` at least, else none."""
     found = max(by_steps(points), key=len, default=[])
     return found if len(found) >= least else []
-
-
-def variants() -> list[Variant]:
-    """Every integrator of the INTEGRATOR statement that ERROR steers, those that do the same once.
-
-    Formulations differ without constraints, too: I3 does not test the error of velocities.
-    """
-    found = [
-        Variant(method.name, form if len(method.formulations) > 1 else "", method.names[1:])
-        for method in declared()
-        if method.steps != FIXED
-        for form in method.formulations
-    ]
-    return sorted(found, key=lambda variant: variant.label)
-
-
-def chosen(names: Sequence[str]) -> list[Variant]:
-    """The variants of the integrators of these names; all, if there are none.
-
-    Raises
-    ------
-    UsageError
-        When there is no such integrator.
-    """
-    tried = variants()
-    known = dict.fromkeys(name for each in tried for name in (each.integrator, *each.also))
-    wanted = [name.upper() for name in names]
-    for name in wanted:
-        if name not in known:
-            raise UsageError(f"--integrator {name}: there are {', '.join(known)}")
-    return [each for each in tried if not wanted or {*wanted} & {each.integrator, *each.also}]
-
-
-class Patience(Progress):
-    """Ends a run that takes more than ``seconds`` of CPU."""
-
-    def __init__(self, seconds: float, progress: Progress | None = None) -> None:
-        self.seconds, self.progress, self.over = seconds, progress or Progress(), False
-        self._start = clock.process_time()
-
-    def watch(self, state: RunState) -> None:
-        self.progress.watch(state)
-        if clock.process_time() - self._start > self.seconds:
-            self.over = True
-            raise KeyboardInterrupt
-
-    def say(self, sentence: str) -> None:
-        self.progress.say(sentence)
-
-
-def patient(run: Run, seconds: float, progress: Progress | None = None) -> Run:
-    """``run`` that gives up after ``seconds`` of CPU; a user's own interruption is passed on."""
-
-    def runs(**options: Any) -> Results:
-        patience = Patience(seconds, progress)
-        results = run(progress=patience, **options)
-        if results.outcome is not Outcome.INTERRUPTED:
-            return results
-        if not patience.over:
-            raise KeyboardInterrupt
-        return replace(results, message=f"it took more than {seconds:g} s and was given up")
-
-    return runs
 
 
 @dataclass(frozen=True)
@@ -422,4 +348,4 @@ def measure(
         for options, point in made:
             if point.ok and turn < repeats_of(point.cpu[0], repeats):
                 point.cpu.append(run(**options).summary["solve_cpu_s"])
-    return Chart([point for _, point in made], truth)
+    return Chart([point for _, point in made], truth, tuple(channels))

@@ -89,7 +89,7 @@ def programs() -> list[Program]:
     if not installed():
         return []
     from adamslite.language.method import AUTO
-    from adamslite.verification.work_precision import Variant, variants
+    from adamslite.verification.variants import Variant, variants
 
     return [
         Program(

@@ -17,7 +17,8 @@ from adamslite.run_flags import add_user_flag, count, positive
 
 if TYPE_CHECKING:
     from adamslite.scene import Scene
-    from adamslite.verification.work_precision import Chart, Point, Run, Variant
+    from adamslite.verification.variants import Run, Variant
+    from adamslite.verification.work_precision import Chart
 
 PICTURES = ("png", "svg")
 COLUMNS = (
@@ -59,6 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Measure, write, print; return the exit code."""
     from adamslite.outputs.whole_files import need_writable
+    from adamslite.plots.accuracy_text import table, verdict
     from adamslite.scene import load_scene
     from adamslite.verification.work_precision import ERRORS, measure
 
@@ -70,9 +72,9 @@ def run(args: argparse.Namespace) -> int:
     errors = sorted(args.error or ERRORS, reverse=True)
     chart = measure(runs, tried, errors, args.repeats, args.channel)
     _write(chart, Path(f"{name}.csv"))
-    sys.stdout.write(_table(chart))
+    sys.stdout.write(table(chart))
     _draw(chart, name, args)
-    sys.stdout.write(_verdict(chart, args.digits))
+    sys.stdout.write(verdict(chart, args.digits))
     return OUTSIDE_TOLERANCE if chart.useless else DONE
 
 
@@ -83,7 +85,7 @@ def _runs(args: argparse.Namespace, scene: "Scene") -> tuple[list["Variant"], "R
     import adamslite
     from adamslite.language.diagnostics import render
     from adamslite.progress import TalkingProgress
-    from adamslite.verification.work_precision import chosen, patient
+    from adamslite.verification.variants import chosen, patient
 
     if scene.beside:
         sys.stderr.write(f"{scene.title}\n")
@@ -127,46 +129,3 @@ def _draw(chart: "Chart", name: str, args: argparse.Namespace) -> None:
     if figure is not None:
         for kind in PICTURES:
             save(figure, f"{name}.{kind}")
-
-
-def _table(chart: "Chart") -> str:
-    lines = [
-        f"{'integrator':<14} {'setting':<12} {'CPU [ms]':>10} {'steps':>8} {'error':>9} digits"
-    ]
-    for p in chart.points:
-        start = f"{p.program:<14} {p.setting:<12}"
-        if p.ok:
-            digits = "-" if chart.useless else p.digits
-            lines.append(
-                f"{start} {1e3 * p.median:>10.3g} {p.steps:>8} {p.error:>9.1e} {digits:>6}"
-            )
-        else:
-            lines.append(f"{start} {' '.join(p.reason.split())}")
-    return "\n".join(lines) + "\n"
-
-
-def _verdict(chart: "Chart", digits: int) -> str:
-    from adamslite.plots.accuracy_chart import LIMITED, limited
-
-    truth = chart.truth
-    header = f"reference: {truth.origin}; known to {truth.doubt:.1e}\n"
-    if names := limited(chart):
-        header += f"note: {LIMITED.format(names=', '.join(names))}\n"
-    if chart.useless:
-        return (
-            header + "no recommendation: even tight runs do not agree, so no error above can be "
-            "trusted. The scene may amplify every error (a shorter --end shows), or jump.\n"
-        )
-    best = chart.recommended(digits)
-    if best:
-        return f"{header}recommended: {_named(best)}\n"
-    good = [p for p in chart.points if p.ok]
-    nearest = min(good, key=lambda p: (p.error, p.median), default=None)
-    return header + (
-        f"no run has {digits} digits; nearest: {_named(nearest)}\n" if nearest
-        else "no run reached its end\n"
-    )  # fmt: skip
-
-
-def _named(p: "Point") -> str:
-    return f"{p.program} {p.setting}: {1e3 * p.median:.3g} ms, {p.digits} digits"

@@ -16,9 +16,7 @@ from typing import TYPE_CHECKING
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
 
 if TYPE_CHECKING:
-    from adamslite.results.comparison import Comparison, Difference, Tolerance
-    from adamslite.results.results import Results
-    from adamslite.verification.reference_file import Reference
+    from adamslite.results.comparison import Comparison
 
 #: So many channels are a table to look at; of more, those outside are listed.
 FEW = 20
@@ -44,19 +42,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print one line per channel; return the exit code."""
-    from adamslite.results.comparison import USUAL, Mismatch
+    from adamslite.results.comparison import USUAL, Mismatch, need_content, of_different_decks
     from adamslite.results.results import Results
-    from adamslite.verification.reference_file import read_reference
+    from adamslite.verification.reference_file import read_reference, tolerance_of
 
     results = Results.load(args.a)
     reference = read_reference(args.b)
     if args.tol:
-        reference.tolerances = [("*", _tolerance(args.tol))]
+        reference.tolerances = [("*", tolerance_of(args.tol))]
     if args.interpolate:
         reference.interpolate = args.interpolate
-    _tell_other_deck(results, reference.table)
+    if sentence := of_different_decks(results, reference.table):
+        sys.stderr.write(f"adamslite: {sentence}\n")
     try:
-        _need_content(reference)
+        if not reference.measures:
+            need_content(reference.table)
         comparison = reference.judge(results, usual=USUAL)
     except Mismatch as fault:
         sys.stdout.write(f"different: {fault}\n")
@@ -65,68 +65,14 @@ def run(args: argparse.Namespace) -> int:
     return DONE if comparison.inside else OUTSIDE_TOLERANCE
 
 
-def _need_content(reference: "Reference") -> None:
-    """Raise Mismatch for a reference with which nothing could differ."""
-    from adamslite.results.comparison import Mismatch
-
-    if reference.measures:
-        return
-    if not reference.table.names:
-        raise Mismatch("the reference has no channel at all")
-    if not reference.table.time.size:
-        raise Mismatch("the reference has no output time at all")
-
-
-def _tell_other_deck(results: "Results", reference: "Results") -> None:
-    """One sentence where the two are not of one deck."""
-    hashes = [each.meta.get("deck hash") for each in (results, reference)]
-    if all(hashes) and hashes[0] != hashes[1]:
-        titles = [each.meta.get("deck", "") for each in (results, reference)]
-        same = titles[0] == titles[1]
-        what = f"both called '{titles[0]}'" if same else f"'{titles[0]}' and '{titles[1]}'"
-        sys.stderr.write(f"adamslite: A and B are results of different decks, {what}\n")
-
-
-def _tolerance(text: str) -> "Tolerance":
-    from adamslite.errors import UsageError
-    from adamslite.results.comparison import Tolerance
-    from adamslite.verification.reference_file import parse_tolerance
-
-    try:
-        return Tolerance(abs=float(text), peak=float(text))
-    except ValueError:
-        pass  # not a lone number: a tolerance in words
-    try:
-        return parse_tolerance(text)
-    except ValueError as fault:
-        raise UsageError(f"--tol: {fault}") from None
-
-
 def _table(comparison: "Comparison", everything: bool) -> str:
     """What is outside, then the rest unless there are too many of both."""
-    outside = [each for each in comparison if not each.inside]
-    inside = [each for each in comparison if each.inside]
-    outside.sort(key=lambda each: -each.severity)
-    hidden = len(comparison.differences) > FEW and not everything
-    shown = outside if hidden else [*outside, *inside]
-    rows = [("channel", "worst", "allowed", "at t", "outside from"), *map(_row, shown)]
-    width = max(len(row[0]) for row in rows)
-    lines = [
-        f"{name:{width}}  {worst:>10}  {allowed:>10}  {time:>10}  {leaves}".rstrip()
-        for name, worst, allowed, time, leaves in rows
-    ]
-    their = "its tolerance" if len(outside) == 1 else "their tolerances"
-    verdict = f"{len(outside)} outside {their}" if outside else "all within their tolerances"
-    rest = "; --all lists the others" if hidden and inside else ""
-    if not shown:
+    from adamslite.results.comparison import table_lines
+
+    outside, count = comparison.outside, len(comparison.differences)
+    hidden = count > FEW and not everything
+    lines = table_lines(outside if hidden else comparison.outside_first)
+    rest = "; --all lists the others" if hidden and len(outside) < count else ""
+    if hidden and not outside:
         lines, rest = [], "; --all lists them"
-    return "\n".join([*lines, f"{len(comparison.differences)} compared, {verdict}{rest}", ""])
-
-
-def _row(difference: "Difference") -> tuple[str, ...]:
-    time = "" if difference.time is None else f"{difference.time:.6g}"
-    leaves = "" if difference.leaves is None else f"{difference.leaves:.6g}"
-    if not difference.inside and difference.leaves is None:
-        leaves = "outside"
-    worst, allowed = f"{difference.worst:.3e}", f"{difference.allowed:.3e}"
-    return difference.name, worst, allowed, time, leaves
+    return "\n".join([*lines, f"{comparison.verdict}{rest}", ""])
