@@ -178,7 +178,9 @@ def test_a_chart_shows_all_points_and_a_recommendation() -> None:
     chart = al.chart(SPRING + RUN + "END\n", integrator="gstiff", error=[1e-4, 1e-6], repeats=1)
     document = shown(chart)
     assert [row[1] for row in document.rows[1:]] == [point.setting for point in chart.points]
-    assert re.search(r"recommended for 3 digits: GSTIFF|no run has 3 digits", document.text)
+    assert re.search(r"recommended: GSTIFF|no run has 3 digits", document.text)
+    (picture,) = document.of("img")
+    assert (picture["src"] or "").startswith("data:image/png;base64,iVBOR")
     errors = [float(row[4]) for row in document.rows[1:]]
     np.testing.assert_allclose(errors, [point.error for point in chart.points], rtol=0.05)
 

@@ -205,7 +205,7 @@ def test_arguments_that_it_does_not_use_are_reported() -> None:
 def test_messages_and_manual_know_it(capsys) -> None:
     with pytest.raises(al.DeckError, match="TOY"):
         al.read(GROUND + "INTEGRATOR/TOI\nEND\n")
-    with pytest.raises(UsageError, match="There is no integrator TOI. Known are .*TOY, TOY_EULER"):
+    with pytest.raises(UsageError, match="integrator='TOI': there are .*TOY, TOY_EULER"):
         al.simulate(al.read(spring("AUTO")), integrator="TOI")
     for name in ("integrators", "toy", "INTEGRATOR"):
         assert main(["help", name]) == 0

@@ -185,7 +185,8 @@ def _solve(reference: Reference, subject: str | None, text: str) -> None:
     try:
         reference.options = parse_flags(shlex.split(text))
     except UsageError as fault:
-        raise ValueError(f"in 'solve: {text}': {fault}") from None
+        # The line holds flags, whoever reads it.
+        raise ValueError(f"in 'solve: {text}': {fault.args[0]}") from None
 
 
 def _expect(reference: Reference, subject: str | None, text: str) -> None:
