@@ -14,9 +14,13 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from urllib.parse import urlencode
 
+from adamslite.deck.deck import Deck
+from adamslite.elements.units import Units
 from adamslite.errors import FormatError, UsageError
+from adamslite.language import units
 from adamslite.outputs.whole_files import whole_file
 from adamslite.page.browsers import VARIABLE, find_browser, flags
+from adamslite.results.results import Results
 
 Size = tuple[int, int]
 SIZE: Size = (1280, 720)
@@ -36,6 +40,37 @@ ENCODING = {
     ".gif": ["-filter_complex", PALETTE],
     ".mp4": ["-c:v", "libx264", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart"],
 }
+
+
+def draw(
+    page: str,
+    path: Path,
+    deck: Deck,
+    results: Results,
+    time: float | None = None,
+    size: Size = SIZE,
+    asked: dict[str, str] | None = None,
+) -> None:
+    """Write a picture of a page at a time, or a film, by the suffix of the file.
+
+    Raises
+    ------
+    UsageError
+        When there is no such time, or no program that draws.
+    """
+    times, wish = results.time, asked or {}
+    if not len(times):
+        raise UsageError("the results hold no time of which a picture could be drawn")
+    if time is not None:
+        if not times[0] <= time <= times[-1]:
+            raise UsageError(f"--png {time:g}: the results are from {times[0]:g} to {times[-1]:g}")
+        return write_picture(page, time, path, size, **wish)
+    names = deck.single(Units).names
+    second = units.TIME[names[3]] if names else 1.0
+    rate = RATES[path.suffix.lower()]
+    write_film(
+        page, film_times(float(times[0]), float(times[-1]), second, rate), path, size, **wish
+    )
 
 
 def write_picture(

@@ -3,7 +3,9 @@
 SCENE is a deck, which is solved first as `adamslite solve` does, or a result file. A result file
 that carries no deck (.csv) is drawn with the deck of --deck, else with the one beside it. The page
 is one HTML file that needs nothing else: it goes to SCENE's name with .html in the current
-directory and is opened, or to OUT. --glb writes an animated model in binary glTF instead.
+directory and is opened, or to OUT. --glb writes an animated model in binary glTF instead; --png
+one picture, --gif and --mp4 a film, which an installed Chromium, Chrome or Edge draws (and FFmpeg
+joins). So does a name of OUT that ends in .glb, .gif or .mp4.
 """
 
 import argparse
@@ -18,7 +20,8 @@ if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
     from adamslite.results.results import Results
 
-GLB = ".glb"
+PAGES = (".html", ".htm")
+OTHERS = (".glb", ".png", ".gif", ".mp4")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,11 +29,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", type=Path, help="deck (.adm) or result file")
     parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
     parser.add_argument("--deck", metavar="DECK", type=Path, help="deck of the result file")
-    parser.add_argument("-o", "--output", metavar="OUT", type=Path, help="page (.html) to write")
+    parser.add_argument("-o", "--output", metavar="OUT", type=Path, help="file to write")
     parser.add_argument(
         "--against", metavar="RESULT", type=Path, help="other results, drawn beside these"
     )
-    parser.add_argument("--glb", action="store_true", help="write an animated glTF (.glb) instead")
+    kinds = parser.add_mutually_exclusive_group()
+    kinds.add_argument("--glb", action="store_true", help="write an animated glTF (.glb) instead")
+    kinds.add_argument(
+        "--png", metavar="T", type=float, help="write a picture of this time instead"
+    )
+    kinds.add_argument("--gif", action="store_true", help="write a film of pictures instead")
+    kinds.add_argument("--mp4", action="store_true", help="write a film in MPEG-4 instead")
+    parser.add_argument(
+        "--size", metavar="WxH", type=_size, help="of pictures, in pixels (default: 1280x720)"
+    )
+    parser.add_argument(
+        "--along", choices=("x", "y", "z", "iso"), help="where pictures look from (default: front)"
+    )
+    parser.add_argument("--dark", action="store_true", help="pictures on a dark ground")
     parser.add_argument("--no-open", action="store_true", help="write the page only")
     add_user_flag(parser)
     add_run_flags(parser)
@@ -41,30 +57,63 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.outputs.whole_files import need_writable
     from adamslite.results.results import Results
 
+    kind = _kind(args)
+    output = _output(args, kind)
+    _need_programs(args, kind)
     deck, results, read = _solved(args) if _is_deck(args) else _loaded(args)
     other = Results.load(args.against) if args.against else None
-    output = _output(args)
     need_writable(output, [*read, *([args.against] if args.against else [])])
-    _write(args, output, deck, results, other)
+    _write(args, kind, output, deck, results, other)
     sys.stderr.write(f"{output}\n")
-    if not (args.output or args.no_open or _is_model(args)):
+    if kind in PAGES and not (args.output or args.no_open):
         _open(output)
     return DONE if results.outcome.is_requested else STOPPED_EARLY
 
 
-def _is_model(args: argparse.Namespace) -> bool:
-    """Whether a model is to be written, no page."""
-    return args.glb or (args.output is not None and args.output.suffix.lower() == GLB)
+def _size(text: str) -> tuple[int, int]:
+    """Width and height, both even: a film in MPEG-4 has no others."""
+    width, _, height = text.partition("x")
+    try:
+        sides = int(width), int(height)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is not like 1280x720") from None
+    if not all(100 <= side <= 8000 and side % 2 == 0 for side in sides):
+        raise argparse.ArgumentTypeError(f"{text}: sides are even and from 100 to 8000")
+    return sides
 
 
-def _output(args: argparse.Namespace) -> Path:
+def _kind(args: argparse.Namespace) -> str:
+    """The suffix of what is to be written: by a flag, by the name of OUT, or a page."""
     from adamslite.errors import UsageError
 
-    suffix = GLB if _is_model(args) else ".html"
-    output: Path = args.output or Path(args.scene.stem + suffix)
-    if output.suffix.lower() not in (suffix, *([".htm"] if suffix == ".html" else [])):
-        raise UsageError(f"-o {output}: the name must end in {suffix}")
+    flags = {".glb": args.glb, ".png": args.png is not None, ".gif": args.gif, ".mp4": args.mp4}
+    suffix: str = args.output.suffix.lower() if args.output else ""
+    kind = next((each for each, given in flags.items() if given), "")
+    if suffix == ".png" and not kind:
+        raise UsageError(f"-o {args.output}: a picture is of one time; give it with --png T")
+    return kind or (suffix if suffix in OTHERS else ".html")
+
+
+def _output(args: argparse.Namespace, kind: str) -> Path:
+    from adamslite.errors import UsageError
+
+    output: Path = args.output or Path(args.scene.stem + kind)
+    if output.suffix.lower() not in (PAGES if kind in PAGES else (kind,)):
+        raise UsageError(f"-o {output}: the name must end in {kind}")
     return output
+
+
+def _need_programs(args: argparse.Namespace, kind: str) -> None:
+    """Fail before solving when nothing can draw a picture."""
+    from adamslite.errors import UsageError
+    from adamslite.page.pictures import FILMS, need_browser, need_encoder
+
+    if kind in (*FILMS, ".png"):
+        need_browser()
+    elif args.size or args.along or args.dark:
+        raise UsageError("--size, --along and --dark belong to --png, --gif and --mp4")
+    if kind in FILMS:
+        need_encoder()
 
 
 def _is_deck(args: argparse.Namespace) -> bool:
@@ -122,12 +171,13 @@ def _loaded(args: argparse.Namespace) -> tuple["Deck", "Results", list[Path]]:
 
 def _write(
     args: argparse.Namespace,
+    kind: str,
     output: Path,
     deck: "Deck",
     results: "Results",
     other: "Results | None",
 ) -> None:
-    if _is_model(args):
+    if kind == ".glb":
         from adamslite.drawing.gltf.model import model
         from adamslite.outputs.whole_files import whole_file
 
@@ -137,7 +187,23 @@ def _write(
         return
     from adamslite.page.page import page, write_page
 
-    write_page(page(results, deck, other, args.against.name if args.against else ""), output)
+    text = page(results, deck, other, args.against.name if args.against else "")
+    if kind in PAGES:
+        write_page(text, output)
+    else:
+        _draw(args, text, output, deck, results)
+
+
+def _draw(
+    args: argparse.Namespace, text: str, output: Path, deck: "Deck", results: "Results"
+) -> None:
+    """Write a picture of a page, or a film."""
+    from adamslite.page.pictures import SIZE, draw
+
+    asked = {"theme": "dark" if args.dark else "light"}
+    if args.along:
+        asked["view"] = args.along
+    draw(text, output, deck, results, args.png, args.size or SIZE, asked)
 
 
 def _open(page: Path) -> None:
