@@ -144,7 +144,7 @@ def test_a_part_that_the_results_lack_stays_and_is_named() -> None:
     body = named(drawn.plain["bodies"], "PART/2")
     down = Rotation.from_euler("ZXZ", [30, 90, 70], degrees=True).apply([0, -250, 0])
     assert decoded(drawn, body["position"]) == pytest.approx([10, 0, 500] + down)
-    assert drawn.plain["notes"] == ["PART/2: is not in the results and stays where the deck has it"]
+    assert drawn.plain["notes"] == ["not in the results, drawn where the deck has it: PART/2"]
 
 
 def test_a_position_without_a_value_waits_at_the_last_one() -> None:
@@ -155,7 +155,7 @@ def test_a_position_without_a_value_waits_at_the_last_one() -> None:
     position = decoded(drawn, named(drawn.plain["bodies"], "PART/2")["position"])
     assert np.isfinite(position).all()
     assert (position[50:] == position[49]).all() and np.ptp(position[:, 2]) > 1
-    assert drawn.plain["notes"] == ["PART/2: has no position at some times and waits there"]
+    assert drawn.plain["notes"] == ["no position at some times, drawn at the last one: PART/2"]
 
 
 # ---- shapes ----------------------------------------------------------------------------------

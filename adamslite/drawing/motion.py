@@ -63,8 +63,8 @@ class Motion:
         self._missing: list[str] = []
         self._without_value: list[str] = []
         self.tracks += [self._track(model, body) for body in model.bodies]
-        self._tell("is not in the results and stays where the deck has it", self._missing)
-        self._tell("has no position at some times and waits there", self._without_value)
+        self._tell("not in the results, drawn where the deck has it", self._missing)
+        self._tell("no position at some times, drawn at the last one", self._without_value)
 
     def column(self, name: str) -> np.ndarray | None:
         """A column at the frames, (nt,); None when there is none."""
@@ -132,4 +132,4 @@ class Motion:
         labels = list(dict.fromkeys(labels))
         if labels:
             more = f" and {len(labels) - MOST_NAMED} more" if len(labels) > MOST_NAMED else ""
-            self.notes.append(f"{', '.join(labels[:MOST_NAMED])}{more}: {what}")
+            self.notes.append(f"{what}: {', '.join(labels[:MOST_NAMED])}{more}")
