@@ -17,6 +17,8 @@ from adamslite.results.results import Results
 
 DESCRIBED = find("decks") / "cables" / "described"
 
+NOTHING = Results(time=np.zeros(0), names=(), values=np.zeros((0, 0)))
+
 CHAIN = """Three masses on four springs between two hooks
 PART/1, GROUND
 MARKER/1, PART=1
@@ -158,13 +160,70 @@ def test_a_span_that_a_gcon_keeps_is_a_cable_of_two_points() -> None:
     assert decoded(found, first["tension"]) == pytest.approx(np.array([[9.0]]))
 
 
+# ---- ropes that turrets guide ----------------------------------------------------------------
+
+
+def test_the_ropes_of_a_tackle_go_round_its_pulleys() -> None:
+    """Three stages and a head sheave: two ropes over one pulley each, and one over the last pulley
+    and the head.  From the becket on the left a rope goes down and round below the block, which
+    is positive about z (counterclockwise); over the head it comes back down, negatively.
+    """
+    plain = scene(al.read(find("decks") / "tackle" / "hoisting.adm"), NOTHING).plain
+    labels = [body["name"] for body in plain["bodies"]]
+    routes = [[_stop(labels, node) for node in cable["nodes"]] for cable in plain["cables"]]
+    assert routes == [
+        ["PART/140", ("PART/110", 1), "PART/170"],
+        ["PART/240", ("PART/210", 1), "PART/270"],
+        ["PART/340", ("PART/310", 1), ("PART/410", -1), "PART/470"],
+    ]
+    assert {cable["nodes"][1]["radius"] for cable in plain["cables"]} == {0.1}
+
+
+def _stop(labels: list[str], node: dict) -> str | tuple[str, int]:
+    """The body of a point; the body of a wheel and the sense of the line round it."""
+    if "point" in node:
+        return labels[node["point"][0]]
+    return labels[node["wheel"][0]], node["sense"]
+
+
+def test_the_tension_of_a_rope_is_half_the_load_of_its_block() -> None:
+    """800 N hang at rest on a weightless block with two strands: 400 N in both."""
+    deck = al.read(find("decks") / "tackle" / "one-stage.adm")
+    found = scene(deck, al.simulate(deck))
+    (cable,) = found.plain["cables"]
+    tension = decoded(found, cable["tension"])
+    assert tension[-1] == pytest.approx([400, 400], abs=0.1)
+
+
+def test_a_rack_on_guides_of_the_ground_is_no_rope() -> None:
+    """A pinion that drives a rack: a wheel, and no line."""
+    text = """Rack and pinion
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/2, PART=1, QP=0,-0.1,0, REULER=90D,90D,0
+PART/10, MASS=1, CM=10, IP=1,1,1
+MARKER/10, PART=10
+PART/20, MASS=1, CM=20, IP=1,1,1, QG=0,-0.1,0
+MARKER/20, PART=20
+MARKER/21, PART=20, REULER=90D,90D,0
+JOINT/1, REVOLUTE, I=10, J=1
+JOINT/2, TRANSLATIONAL, I=21, J=2
+JOINT/3, RACKPIN, I=10, J=21, PD=0.2
+SIMULATE/DYNAMIC, END=1
+END
+"""
+    plain = drawn_of(text).plain
+    assert plain["cables"] == []
+    assert named(plain["shapes"], "wheel", "kind")["radius"] == 0.1
+
+
 # ---- decks of `adamslite cable` --------------------------------------------------------------
 
 
 def test_every_described_deck_has_its_cable_in_one_piece() -> None:
     """Its comments have a tension for each span and name wheels that the line goes round."""
     for path in sorted(DESCRIBED.glob("*.adm")):
-        found = scene(al.read(path), Results(time=np.zeros(0), names=(), values=np.zeros((0, 0))))
+        found = scene(al.read(path), NOTHING)
         assert len(found.plain["cables"]) == 1, path.name
         assert len(found.plain["cables"][0]["nodes"]) >= 2
         assert not [note for note in found.plain["notes"] if "comment" in note], path.name
@@ -173,8 +232,7 @@ def test_every_described_deck_has_its_cable_in_one_piece() -> None:
 def lengths(path: Path) -> np.ndarray:
     """Of the spans between points, at the start."""
     deck = al.read(path)
-    none = Results(time=np.zeros(0), names=(), values=np.zeros((0, 0)))
-    found = scene(deck, none)
+    found = scene(deck, NOTHING)
     bodies = [np.array(each["position"]) for each in found.plain["bodies"]]
     nodes = [each["point"] for each in found.plain["cables"][0]["nodes"] if "point" in each]
     places = np.array([bodies[int(b)] + offset for b, *offset in nodes])

@@ -16,6 +16,7 @@ from adamslite.cables.chain_finder import Chain, Link, chains
 from adamslite.cables.posture import Posture
 from adamslite.drawing.cable_comments import CableComment, cable_comment
 from adamslite.drawing.drawing import Drawing
+from adamslite.drawing.pulley_ropes import Pulleys, Rope
 from adamslite.elements.gcon import Gcon
 from adamslite.elements.graphics import Graphics
 from adamslite.elements.vforce import Vforce
@@ -31,12 +32,14 @@ class Cables:
     """All cables of a scene.
 
     ``taken``: labels of the statements that they are made of or drawn by; ``inner``: numbers of
-    the bodies that are their masses; ``wheels``: markers and radii of what they go round.
+    the bodies that are their masses; ``ropes``: of those that are pieces of them; ``wheels``:
+    markers and radii of what they go round.
     """
 
     lines: list[Cable] = field(default_factory=list)
     taken: set[str] = field(default_factory=set)
     inner: set[int] = field(default_factory=set)
+    ropes: set[int] = field(default_factory=set)
     wheels: dict[Key, float] = field(default_factory=dict)
 
 
@@ -50,6 +53,9 @@ def cables(drawing: Drawing, statements: list[Graphics]) -> Cables:
     for chain in chains(drawing.deck, Posture(drawing.deck)):
         if not any(link.statement.label in found.taken for link in chain.links):
             _chained(drawing, found, chain)
+    pulleys = Pulleys(drawing)
+    for rope in pulleys.ropes():
+        _over_pulleys(drawing, found, pulleys, rope)
     found.lines += _rigid(drawing, found.taken)
     return found
 
@@ -161,6 +167,30 @@ def _tension(drawing: Drawing, link: Link) -> Tension:
     length = np.linalg.norm(along, axis=1)
     tension: np.ndarray = -(force * along).sum(axis=1) / np.where(length > 0, length, 1.0)
     return tension
+
+
+# ---- guided ropes of pulleys -----------------------------------------------------------------
+
+
+def _over_pulleys(drawing: Drawing, found: Cables, pulleys: Pulleys, rope: Rope) -> None:
+    """From an end, or the first wheel, round each wheel to the other end.
+
+    A rope between two wheels is one span: two sides, of which the first has its tension.
+    """
+    first, last = rope.sides[0][0], rope.sides[-1]
+    nodes = [_node(drawing, pulleys.end(first.rope, first.joint.i))]
+    tensions: list[Tension] = []
+    for k, (side, leaves) in enumerate(rope.sides):
+        if not leaves:
+            sense = -side.leaving if last[0] is side else rope.sides[k + 1][0].leaving
+            nodes.append(_node(drawing, side.joint.i, sense * side.radius))
+        if not leaves and k == 0 or leaves:
+            tensions.append(side.tension)
+    if last[1]:
+        nodes.append(_node(drawing, pulleys.end(last[0].rope, last[0].joint.i)))
+    found.lines.append(_line(drawing, f"rope over {first.joint.label}", nodes, tensions))
+    found.ropes |= {side.rope for side, _ in rope.sides}
+    found.wheels |= {side.joint.i: side.radius for side, _ in rope.sides}
 
 
 # ---- spans of constant length ----------------------------------------------------------------

@@ -26,17 +26,21 @@ STEEL = 7850.0
 BALLS = (0.006, 0.03)
 """Least and largest radius of a ball, as shares of the size of the scene."""
 BOXES = (0.01, 0.3)
-"""Least and largest side of a box, likewise."""
+"""Least and largest side of a box, likewise; larger ones have an inertia of no real body."""
 # Points that are nearer than this share of the size of the scene are one.
 TOGETHER = 1e-6
 
 
-def derived_shapes(drawing: Drawing, drawn: set[int]) -> list[Shape]:
-    """Shapes of the moving bodies that are not among those drawn already."""
+def derived_shapes(drawing: Drawing, drawn: set[int], ropes: set[int]) -> list[Shape]:
+    """Shapes of the moving bodies that are not among those drawn already; only balls for those that
+    are pieces of ropes.
+    """
     heaviest = max((body.mass for body in drawing.model.bodies), default=0.0)
     found: list[Shape] = []
     for b, body in enumerate(drawing.model.bodies):
-        if b + 1 not in drawn:
+        if b + 1 in ropes and b + 1 not in drawn:
+            found.append(_ball(drawing, b, body, heaviest))
+        elif b + 1 not in drawn:
             found += _shapes(drawing, b, body, heaviest)
     return found
 
@@ -44,10 +48,11 @@ def derived_shapes(drawing: Drawing, drawn: set[int]) -> list[Shape]:
 def _shapes(drawing: Drawing, b: int, body: Body, heaviest: float) -> list[Shape]:
     points = distinct(_points(drawing, b + 1), TOGETHER * drawing.size)
     rods = [_rod(b + 1, points[i], points[j]) for i, j in tree(points)]
-    if rods or not body.inertia.any() or not body.mass:
-        ball = _ball(drawing, b, body, heaviest)
-        return [*rods, ball] if body.mass or not rods else rods
-    return [_box(drawing, b, body)]
+    box = _box(drawing, b, body) if not rods and body.inertia.any() and body.mass else None
+    if box:
+        return [box]
+    ball = _ball(drawing, b, body, heaviest)
+    return [*rods, ball] if body.mass or not rods else rods
 
 
 def _points(drawing: Drawing, number: int) -> np.ndarray:
@@ -107,13 +112,15 @@ def _ball(drawing: Drawing, b: int, body: Body, heaviest: float) -> Shape:
     return {"kind": "sphere", "body": b + 1, "frame": frame, "statement": "", "radius": radius}
 
 
-def _box(drawing: Drawing, b: int, body: Body) -> Shape:
-    """A box with the same mass and inertia, within limits."""
+def _box(drawing: Drawing, b: int, body: Body) -> Shape | None:
+    """A box with the same mass and inertia; None where that is too large for the scene."""
     moments, axes = np.linalg.eigh(body.inertia)
     axes = axes * np.sign(np.linalg.det(axes))
     squares = 6 * (moments.sum() - 2 * moments) / body.mass
     least, most = (share * drawing.size for share in BOXES)
-    sides = np.clip(np.sqrt(np.maximum(squares, 0.0)), least, most)
+    sides = np.maximum(np.sqrt(np.maximum(squares, 0.0)), least)
+    if not sides.max() <= most:
+        return None
     frame = [0.0, 0.0, 0.0, *from_axes(axes).tolist()]
     sizes = dict(zip("xyz", sides.tolist(), strict=True))
     return {"kind": "inertia_box", "body": b + 1, "frame": frame, "statement": "", **sizes}

@@ -59,7 +59,8 @@ def contents(drawing: Drawing) -> Contents:
     solids = wheels(drawing, statements, found)
     own = [each for each in statements if each.label not in found.taken]
     solids += shapes(drawing, own)
-    solids += derived_shapes(drawing, {each["body"] for each in solids} | found.inner)
+    drawn = {each["body"] for each in solids} | found.inner
+    solids += derived_shapes(drawing, drawn, found.ropes)
     return Contents(
         own, found, solids,
         springs(drawing, own, found.taken), links(drawing, found.taken, found.inner),
