@@ -9,7 +9,7 @@ from adamslite.results.results import Results
 
 # Comments of results that name moments.
 WITH_TIMES = ("sensor", "sensor passed", "out of its law", "no number", "linear")
-AT = re.compile(r"(?:\bat |\bsince |\bfrom )?t = ([-+0-9.eE]*[0-9])")
+AT = re.compile(r"\bt = ([-+0-9.eE]*[0-9])")
 
 
 def events(results: Results) -> list[dict[str, Any]]:
