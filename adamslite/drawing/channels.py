@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from adamslite.deck.deck import Deck
 from adamslite.drawing.arrays import Block
 from adamslite.drawing.decimation import points
@@ -33,19 +31,13 @@ def channels(deck: Deck, results: Results, block: Block) -> dict[str, Any]:
     """All columns over times of their own."""
     symbols = unit_symbols(deck)
     time, values = points(results.time, results.values)
-    fits = values.size <= EXACT
+    exact = values.size <= EXACT
+    references = [block.f32(own) for own in values.T] if exact else block.columns(values, LEVELS)
     named = []
-    for name, own in zip(results.names, values.T, strict=True):
+    for name, reference in zip(results.names, references, strict=True):
         channel = describe(name, symbols, deck)
         named.append({
-            "name": name,
-            "unit": channel.unit,
-            "label": channel.title,
-            "values": block.f32(own) if fits or not _is_finite(own) else block.i16(own, LEVELS),
+            "name": name, "unit": channel.unit, "label": channel.title, "values": reference,
         })  # fmt: skip
     listed = block.json(named) if len(named) > LISTED else named
     return {"times": block.f32(time), "list": listed}
-
-
-def _is_finite(values: np.ndarray) -> bool:
-    return bool(len(values)) and bool(np.isfinite(values).all())

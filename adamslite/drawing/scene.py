@@ -93,7 +93,7 @@ def scene(deck: Deck, results: Results, other: Results | None = None, name: str 
         "links": found.links,
         "cables": found.cables.lines,
         "arrows": arrows(drawing, found.statements, found.cables.taken, found.cables.inner),
-        "channels": channels(deck, results, drawing.block),
+        "channels": channels(deck, drawing.results, drawing.block),
         "events": [each._asdict() for each in events_of(results)],
         "modes": modes(drawing),
         "against": against(drawing, other, name) if other else None,
