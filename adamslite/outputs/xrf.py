@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
     from adamslite.reading.read import Commands
     from adamslite.results.adams_options import AdamsOptions
+    from adamslite.results.adams_terms import Groups
 
 
 class Entity(NamedTuple):
@@ -70,13 +71,19 @@ def write(results: Results, path: str | Path) -> None:
         When the deck of the results is not known, or columns are missing that parts take.
     """
     from adamslite.results.adams_options import adams_options
+    from adamslite.results.adams_terms import to_adams
 
     need_rows(results)
     deck, commands = source_of(results)
     options = adams_options(deck, commands)
-    entities = list(_entities(results, deck, options))
+    groups, left_out = to_adams(results, deck)
+    entities = list(_entities(results, groups, deck, options))
+    remarks = [options.comment] if options.comment else []
+    if left_out:
+        listed = ", ".join(left_out)
+        remarks.append(f"left out, as the results are limited to a few columns: {listed}")
     with whole_file(path) as stream:
-        stream.writelines(_document(results, deck, entities, options))
+        stream.writelines(_document(results, deck, entities, remarks, options.decimals))
 
 
 def source_of(results: Results) -> tuple[Deck, Commands]:
@@ -92,12 +99,12 @@ def source_of(results: Results) -> tuple[Deck, Commands]:
 # ---- entities --------------------------------------------------------------------------------
 
 
-def _entities(results: Results, deck: Deck, options: AdamsOptions) -> Iterator[Entity]:
-    from adamslite.results.adams_terms import to_adams
-
+def _entities(
+    results: Results, groups: Groups, deck: Deck, options: AdamsOptions
+) -> Iterator[Entity]:
     out = {word for name in options.without for word in LEFT_OUT.get(name, ())}
     dropped = {word for name in options.without for word in COMPONENTS_LEFT_OUT.get(name, ())}
-    for label, columns in to_adams(results, deck).items():
+    for label, columns in groups.items():
         keyword, _, id = label.partition("/")
         if keyword in out:
             continue
@@ -173,11 +180,15 @@ def _unit_words(results: Results) -> dict[str, str]:
 
 
 def _document(
-    results: Results, deck: Deck, entities: Sequence[Entity], options: AdamsOptions
+    results: Results,
+    deck: Deck,
+    entities: Sequence[Entity],
+    remarks: Iterable[str],
+    decimals: int,
 ) -> Iterator[str]:
     words = _unit_words(results)
     title = quoteattr(deck.title)
-    remark = f"\n{escape(options.comment)}" if options.comment else ""
+    remark = "".join(f"\n{escape(each)}" for each in remarks)
     yield f"""<?xml version="1.0" encoding="UTF-8"?>
 <Results xmlns="{NAMESPACE}">
 <Bibliography>
@@ -209,7 +220,7 @@ time="{words.get("time", "")}" />
         yield "</Entity>\n"
     yield "</StepMap>\n"
     table = [results.time, *(values for each in entities for *_, values in each.components)]
-    yield from _data(np.column_stack(table), options.decimals)
+    yield from _data(np.column_stack(table), decimals)
     ended = "Successful" if results.outcome.is_requested else "Failed"
     yield f'<TerminationStatus runTermObject="" runStatus="{ended}" />\n</Analysis>\n</Results>\n'
     texts = {**attributes(results), "channels": json.dumps(results.names)}

@@ -25,11 +25,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.errors import UsageError
 from adamslite.model.attitude_angles import rotations_313
 from adamslite.results.part_frames import (
+    ACCELERATION,
     ANGLES,
     OF_POINT,
+    PLACE,
+    SPEED,
     MarkerInPart,
     markers_in_parts,
     of_centre,
@@ -80,6 +82,8 @@ class Directions:
     ----------
     groups : Groups
     deck : Deck
+
+    Its methods raise KeyError where the groups lack a component.
     """
 
     def __init__(self, groups: Groups, deck: Deck) -> None:
@@ -107,58 +111,50 @@ class Directions:
             return place.p, place.axes
         body = self.model.bodies[place.body].statement
         columns = self.groups.get(body.label, {})
-        centre = np.column_stack([_need(columns, body.label, name) for name in ("x", "y", "z")])
+        centre = np.column_stack([columns[name] for name in ("x", "y", "z")])
         if place.kind == "point":
             return centre + place.p, place.axes
-        angles = np.column_stack([_need(columns, body.label, name) for name in ANGLES])
+        angles = np.column_stack([columns[name] for name in ANGLES])
         axes = np.eye(3) if body.cm is None else self.model.marker(body.cm).axes
         attitude = rotations_313(angles) @ axes.T
         return centre + attitude @ place.p, attitude @ place.axes
 
 
-def _need(columns: Mapping[str, np.ndarray], label: str, component: str) -> np.ndarray:
-    if component not in columns:
-        raise UsageError(f"the results lack {label}.{component}, by which ADAMS's are computed")
-    return columns[component]
-
-
-def to_adams(results: Results, deck: Deck) -> Groups:
-    """Groups with parts by their origin (``bcs_x``) and single-component forces as vectors.
-
-    Raises
-    ------
-    UsageError
-        When columns are missing that this takes.
+def to_adams(results: Results, deck: Deck) -> tuple[Groups, list[str]]:
+    """Groups with parts by their origin (``bcs_x``) and single-component forces as vectors; and the
+    statements that are left out, as the results lack columns by which these are computed.
     """
     groups = grouped(results)
-    found = dict(groups)
-    for label, marker in markers_in_parts(deck).items():
-        if label in groups:
-            found[label] = _with_origin(label, groups[label], marker)
-    directions: Directions | None = None
+    markers = markers_in_parts(deck)
+    directions = Directions(groups, deck)
+    found: Groups = {}
+    left_out = []
     for label, columns in groups.items():
         force = _directed(deck, label)
-        if force is not None and "f" in columns:
-            directions = directions or Directions(groups, deck)
-            along, start = directions.of(force)
-            vector = np.zeros((len(results.time), 6))
-            vector[:, start : start + 3] = columns["f"][:, None] * along
-            found[label] = dict(zip(VECTOR, vector.T, strict=True))
-    return found
+        try:
+            if label in markers:
+                found[label] = _with_origin(label, columns, markers[label])
+            elif force is not None and "f" in columns:
+                found[label] = _as_vector(columns["f"], *directions.of(force))
+            else:
+                found[label] = columns
+        except KeyError:
+            left_out.append(label)
+    return found, left_out
+
+
+def _as_vector(force: np.ndarray, along: np.ndarray, start: int) -> dict[str, np.ndarray]:
+    vector = np.zeros((len(force), 6))
+    vector[:, start : start + 3] = force[:, None] * along
+    return dict(zip(VECTOR, vector.T, strict=True))
 
 
 def _with_origin(
     label: str, columns: Mapping[str, np.ndarray], marker: MarkerInPart
 ) -> dict[str, np.ndarray]:
-    try:
-        moved = of_origin(columns, marker)
-    except KeyError as missing:
-        name = missing.args[0]
-        raise UsageError(
-            f"the results lack {label}.{name}, by which ADAMS's are computed"
-        ) from None
-    if marker.shifted and "x" in columns and "psi" not in columns and label.startswith("PART/"):
-        raise UsageError(f"the results lack {label}.psi, by which ADAMS's are computed")
+    if marker.shifted and label.startswith("PART/") and "psi" not in columns:
+        raise KeyError("psi")
+    moved = of_origin(columns, marker)
     return {(BCS + name if name in OF_POINT else name): each for name, each in moved.items()}
 
 
@@ -194,12 +190,24 @@ def from_adams(results: Results, deck: Deck) -> Results:
 def _with_centre(
     label: str, columns: Mapping[str, np.ndarray], marker: MarkerInPart
 ) -> dict[str, np.ndarray]:
+    """Columns of the centre of mass, as far as the file has what they take."""
     plain = {name.removeprefix(BCS): each for name, each in columns.items()}
     if not any(name.startswith(BCS) for name in columns):
         return plain
-    if marker.shifted and "psi" not in plain and label.startswith("PART/"):
-        return dict(columns)
-    return of_centre(plain, marker)
+    needed = {
+        **dict.fromkeys(PLACE, ("psi",)), **dict.fromkeys(SPEED, ("psi", "wx")),
+        **dict.fromkeys(ACCELERATION, ("psi", "wx", "alx")),
+    }  # fmt: skip
+    shifted = marker.shifted and label.startswith("PART/")
+    kept = {
+        name for name in plain
+        if shifted and any(each not in plain for each in needed.get(name, ()))
+    }  # fmt: skip
+    moved = of_centre({name: plain[name] for name in plain if name not in kept}, marker)
+    return {
+        (BCS + name if name in kept else name): plain[name] if name in kept else moved[name]
+        for name in plain
+    }
 
 
 def _along(
@@ -207,7 +215,7 @@ def _along(
 ) -> dict[str, np.ndarray]:
     try:
         along, start = directions.of(force)
-    except UsageError:
+    except KeyError:
         return columns
     vector = np.column_stack([columns[name] for name in VECTOR[start : start + 3]])
     return {"f": (vector * along).sum(axis=1)}

@@ -121,7 +121,8 @@ class Results:
     def channel(self, name: str) -> Channel:
         """Statement, quantity and unit of the column called `name`, or of "time"."""
         if name.casefold() == "time":
-            return Channel("time", "", "", "", "time", self.unit_symbols.get("time", ""))
+            own = Channel("time", "", "", "", "time", self.unit_symbols.get("time", ""))
+            return self.channels.get("time", own)
         if name not in self:
             raise UnknownChannel(self._unknown(name))
         name = self.names[self._column[name.casefold()]]
