@@ -227,6 +227,9 @@ OF_ADAMS = """\
 <Entity name="time">
 <Component name="TIME" unitsValue="sec" id="1" />
 </Entity>
+<Entity name="LOAD" entity="LOAD" entType="ADAMS_Variable" objectId="7">
+<Component name="Q" id="56" />
+</Entity>
 <Entity name="stone_XFORM" entity="stone" entType="Part" objectId="2">
 <Component name="X" unitsValue="mm" id="2" />
 <Component name="Y" unitsValue="mm" id="3" />
@@ -240,9 +243,6 @@ OF_ADAMS = """\
 <Component name="WX" unitsValue="deg/sec" id="17" />
 <Component name="WY" unitsValue="deg/sec" id="18" />
 <Component name="WZ" unitsValue="deg/sec" id="19" />
-</Entity>
-<Entity name="LOAD" entity="LOAD" entType="ADAMS_Variable" objectId="7">
-<Component name="Q" id="56" />
 </Entity>
 <Entity name="ctrl_poutput" entity="ctrl" entType="Plant_Output" objectId="1">
 <Component name="OUT1" id="57" />
@@ -324,10 +324,12 @@ def folder(tmp_path: Path, monkeypatch) -> Path:
 
 
 def test_a_file_of_adams_is_read(folder: Path) -> None:
-    """Ids that skip, degrees, the raw input and the first of two initial steps left aside."""
+    """Ids that skip and are in no order in the map, degrees, the raw input and the first of two
+    initial steps left aside.
+    """
     found = Results.load("adams.res")
     assert found.time.tolist() == [0.0, 0.25, 0.5]
-    assert found.names[:6] == tuple(
+    assert found.names[0] == "VARIABLE/7" and found.names[1:7] == tuple(
         f"PART/2.bcs_{name}" for name in ("x", "y", "z", "psi", "theta", "phi")
     )
     assert found["PART/2.bcs_psi"][0] == pytest.approx(np.pi / 2)
