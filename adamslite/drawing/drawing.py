@@ -101,8 +101,6 @@ def forward(results: Results) -> Results:
     return replace(results, time=results.time[kept], values=results.values[kept])
 
 
-REPEATED = (
-    "the times of the results go back or are missing: rows that later ones repeat are left out"
-)
+REPEATED = "rows without a time, or that later rows repeat (the times go back), are left out"
 # Changes that are round-off: as a share of the values.
 STILL, TINY = 1e-12, 1e-300
