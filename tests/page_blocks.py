@@ -13,10 +13,10 @@ What a block is follows from its language and from a comment of HTML on the line
     <!-- exit code: N -->         of the last command, else 0
     <!-- not run: REASON -->
 
-Commands are `adamslite` and `python`. They run in an empty folder that holds the files of the page:
-those of its blocks and those to which it links (decks, command files, descriptions, tables and
-programs). Folders of `decks/` and `docs/` whose files a command
-names are there too.
+Commands are `adamslite` and `python`; no browser is opened. They run in an empty folder that holds
+the files of the page: those of its blocks and those to which it links (decks, command files,
+descriptions, tables and programs). Folders of `decks/` and `docs/` whose files a command or a
+program names are there too.
 
 Printed text agrees when it is the same but for these differences: "..." stands for any text in a
 line, alone on a line for any lines; blanks may be more or fewer; seconds of CPU are any; counts of
@@ -38,6 +38,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from unittest.mock import patch
 
 from adamslite.cli import main
 
@@ -219,7 +220,8 @@ def run(command: str, folder: Path) -> tuple[int, str]:
     """Exit code and all that a command prints, errors among it."""
     program, *arguments = shlex.split(command)
     printed = io.StringIO()
-    with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+    shown = patch("adamslite.page.browser.open_page", return_value=True)
+    with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), shown:
         if program == "adamslite":
             sys.path.insert(0, str(folder))  # as `python -m` and routines of users have it
             try:

@@ -156,8 +156,7 @@ def _inert(command: Command) -> Iterator[tuple[str, str]]:
     """What of a statement is passed over: itself, or arguments of it, with their fields."""
     cls = type(command) if isinstance(command, Statement) else command.of
     if cls.inert:
-        for name in getattr(command, "passed_over", (command.keyword,)):
-            yield "", name
+        yield "", command.keyword
     for field in cls.inert_fields:
         if field in command.spans:
             yield field, f"{command.keyword} {_written(command, cls.arguments[field])}"

@@ -72,8 +72,7 @@ def outlines(drawing: Drawing, statements: list[Graphics]) -> list[dict[str, Any
             closed, points = _curve(drawing, each)
         else:
             continue
-        if len(points) > 1:
-            found.append({"statement": each.label, "points": points, "closed": closed})
+        found.append({"statement": each.label, "points": points, "closed": closed})
     return found
 
 

@@ -44,11 +44,8 @@ class Plot {
         );
     }
 
-    // One name, the statement that all belong to, or the first of the names.
     #quantity() {
-        if (this.names.length === 1) return this.names[0];
-        const statements = new Set(this.names.map((name) => name.slice(0, name.lastIndexOf("."))));
-        return statements.size === 1 && !statements.has("") ? [...statements][0] : this.names.join(", ");
+        return this.names.length === 1 ? this.names[0] : `${this.names.length} channels${this.unit ? ` in ${this.unit}` : ""}`;
     }
 
     #axisName() {
@@ -164,7 +161,6 @@ export class Plots {
     constructor({ channels, against, timeUnit, events, seek, save }) {
         Object.assign(this, { channels, against, timeUnit, events, seek, save });
         this.time = 0;
-        this.theme = "light";
         this.window = null;
         this.names = [];
         this.plots = [];
@@ -174,7 +170,7 @@ export class Plots {
     }
 
     colour(name) {
-        return curveColour(this.names.indexOf(name), this.theme);
+        return curveColour(this.names.indexOf(name));
     }
 
     toggle(name) {
@@ -207,8 +203,7 @@ export class Plots {
         for (const plot of this.plots) plot.build(width, plot.difference ? 130 : this.plots.length > 2 ? 170 : 210);
     }
 
-    setTheme(theme) {
-        this.theme = theme;
+    setTheme() {
         this.built = null;
         this.layout();
     }
