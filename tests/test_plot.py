@@ -300,6 +300,16 @@ def test_the_same_figure_is_the_same_file(tmp_path: Path) -> None:
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
 
 
+def test_settings_of_the_user_do_not_change_a_figure(tmp_path: Path) -> None:
+    import matplotlib
+
+    style.save(plot(BODY, "PART/2.*"), tmp_path / "a.svg")
+    with matplotlib.rc_context({"lines.linewidth": 9, "axes.facecolor": "black", "font.size": 30}):
+        style.save(plot(BODY, "PART/2.*"), tmp_path / "b.svg")
+        assert matplotlib.rcParams["font.size"] == 30
+    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+
+
 @pytest.fixture
 def spring(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
@@ -349,6 +359,7 @@ EMPTY = Results(time=np.empty(0), names=("PART/2.x",), values=np.empty((0, 1)))
         (["run.csv", "PART/2.x", "--x", "PART/2.q"], 2, "did you mean"),
         (["run.csv"], 2, "no channel is named; there are PART/2.x"),
         (["run.csv", "JOINT/3.fx"], 2, "JOINT/3.fx is not a number at any output time"),
+        (["run.csv", "PART/2.x", "--x", "JOINT/3.fx"], 2, "JOINT/3.fx is not a number at any"),
         (["run.csv", "PART/2.x", "-o", "fig.jpg"], 2, "none of .png, .svg, .pdf"),
         (["run.csv", "PART/2.x", "-o", "fig"], 2, "none of .png, .svg, .pdf"),
         (["run.csv", "PART/2.x", "--end", "2"], 2, "there is nothing to solve"),

@@ -147,9 +147,9 @@ def need_matplotlib() -> None:
 def styled() -> AbstractContextManager[None]:
     """The settings of matplotlib in which figures are made, drawn and written."""
     need_matplotlib()
-    from matplotlib import rc_context
+    from matplotlib import style
 
-    return rc_context({"text.usetex": False, **SETTINGS})
+    return style.context(["default", SETTINGS])  # whatever the user's own file of settings says
 
 
 def need_suffix(path: str | Path) -> None:

@@ -129,7 +129,8 @@ def _chosen(
     curves = [curve(results, name) for name in select(results, channels)]
     across = curve(results, x)
     if all(np.isnan(each.values + across.values).all() for each in curves):
-        raise UsageError(f"{curves[0].channel.name} is not a number at any output time")
+        empty = across if np.isnan(across.values).all() else curves[0]
+        raise UsageError(f"{empty.channel.name} is not a number at any output time")
     found = beside(results, curves, reference_of(against)) if against is not None else None
     return Drawn(results, across, tuple(panels(curves)), found, tuple(events_of(results)))
 
