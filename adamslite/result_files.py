@@ -19,6 +19,7 @@ from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.outputs.modes import files_beside
 from adamslite.outputs.saved_files import missing
 from adamslite.outputs.whole_files import need_writable, same_file
+from adamslite.results.adams_options import adams_options
 
 if TYPE_CHECKING:
     from adamslite.scene import Scene
@@ -58,15 +59,31 @@ def plan(scene: Scene, output: str | Path, named: bool) -> list[Path]:
     kept = [each for each in scene.commands if isinstance(each, Save | Reload) and each.file]
     saved = [Path(output).with_name(each.file or "") for each in kept]
     made = list(_all_files(commands, paths))
-    wrong = list(_taken([each for each, _ in made], [path for _, path in made], output, scene.read))
+    beside = adams_files(scene, output)
+    results = (output, *beside)
+    named_by = [each for each, _ in made], [path for _, path in made]
+    wrong = list(_taken(*named_by, results, scene.read))
     wrong += _written_twice(made)
-    wrong += _taken(kept, saved, output, scene.read)
+    wrong += _taken(kept, saved, results, scene.read)
     wrong += _written_over(kept, saved)
     if wrong:
         raise DeckError(wrong)
-    for path in (*(path for _, path in made), *saved):
+    for path in (*(path for _, path in made), *saved, *beside):
         need_writable(path, scene.read, named=False)
     return paths
+
+
+def adams_files(scene: Scene, output: str | Path) -> list[Path]:
+    """The files .req and .res that OUTPUT/REQSAVE and RESULTS/XRF request, beside the results.
+
+    None beside what is no file (`/dev/null`), and none that the results themselves are.
+    """
+    options, place = adams_options(scene.deck, scene.commands), Path(output)
+    if place.exists() and not place.is_file():
+        return []
+    wanted = ((".req", options.requests), (".res", options.results))
+    paths = [place.with_suffix(suffix) for suffix, given in wanted if given]
+    return [path for path in paths if not same_file(path, place)]
 
 
 def _file(command: Linear | Save | Reload) -> str:
@@ -121,12 +138,12 @@ def _places(commands: Sequence[Linear], output: Path) -> Iterator[Path]:
 def _taken(
     commands: Sequence[Linear | Save | Reload],
     paths: Sequence[Path],
-    output: str | Path,
+    results: Iterable[str | Path],
     read: Iterable[Path],
 ) -> Iterator[Diagnostic]:
     for command, path in zip(commands, paths, strict=True):
         word = _file(command)
-        if word and same_file(path, output):
+        if word and any(same_file(path, each) for each in results):
             yield diagnose(command, "file-taken", "file", word=word, what="that of the results")
         elif word and any(same_file(path, each) for each in read):
             yield diagnose(command, "file-taken", "file", word=word, what=READ)

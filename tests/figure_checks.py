@@ -1,4 +1,4 @@
-"""What no figure may do: text outside of the canvas, and text over other text."""
+"""What no figure may do: text outside of the canvas or over other text, axes without room."""
 
 from __future__ import annotations
 
@@ -54,12 +54,22 @@ def overlapping(texts: list[tuple[str, Any]]) -> list[str]:
     ]  # fmt: skip
 
 
+def cramped(figure: Any) -> list[str]:
+    """Axes that what is around them has left less than 4.4 by 1.15 in."""
+    width, height = figure.get_size_inches()
+    found = [axes.get_position() for axes in figure.axes]
+    return [
+        f"axes of {width * box.width:.2f} by {height * box.height:.2f} in" for box in found
+        if width * box.width < 4.4 or height * box.height < 1.15
+    ]  # fmt: skip
+
+
 def illegible(figure: Any) -> list[str]:
-    """Texts that are clipped, and pairs that overlap."""
+    """Texts that are clipped, pairs that overlap, and axes without room."""
     texts = boxes(figure)
-    return [*outside(figure, texts), *overlapping(texts)]
+    return [*outside(figure, texts), *overlapping(texts), *cramped(figure)]
 
 
 def assert_legible(figure: Any) -> None:
-    """Nothing is clipped and nothing overlaps."""
+    """Nothing is clipped, nothing overlaps, and there is room for the curves."""
     assert illegible(figure) == []

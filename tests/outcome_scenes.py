@@ -25,13 +25,13 @@ def ended_early(
     """A run that ends early: its message ends with the sentence of the outcome."""
     results = run(deck, end, steps, **options)
     assert results.outcome is not Outcome.DONE
-    assert results.message.endswith(f". {results.outcome.value}")
+    assert results.message.endswith(f". {results.outcome.sentence}")
     return results
 
 
 def reason(results: al.Results) -> str:
     """The message without the sentence of the outcome."""
-    return results.message.removesuffix(f" {results.outcome.value}")
+    return results.message.removesuffix(f" {results.outcome.sentence}")
 
 
 def with_integrator(deck: str, arguments: str) -> str:

@@ -29,6 +29,17 @@ def decoded(drawn: Scene, reference: Any) -> np.ndarray:
     return np.array(reference["low"]) + np.array(reference["step"]) * k
 
 
+def plain_list(drawn: Scene, source: Any) -> list[dict[str, Any]]:
+    """A list that may be kept among the arrays."""
+    if isinstance(source, list):
+        return source
+    block = zlib.decompress(b64decode(drawn.block))
+    found: list[dict[str, Any]] = json.loads(
+        block[source["at"] : source["at"] + source["shape"][0]]
+    )
+    return found
+
+
 def scene_of(page: str) -> Scene:
     """The scene inside the text of a page."""
     plain = re.search(r'<script type="application/json" id="scene">(.*?)</script>', page, re.S)

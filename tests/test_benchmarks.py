@@ -1,5 +1,7 @@
 """The scenes of the benchmarks: their decks are decks, and their arrays what the decks say."""
 
+import csv
+import runpy
 from dataclasses import replace
 from pathlib import Path
 
@@ -334,6 +336,22 @@ def test_no_text_of_a_chart_in_docs_is_clipped_or_overlaps(
     assert charts.draw_all(mine, Path(), [".svg"], few=True) == [name]
     (figure,) = drawn
     assert illegible(figure) == []
+
+
+def test_the_figure_of_the_kink_is_legible_and_that_of_its_table() -> None:
+    pytest.importorskip("matplotlib")
+    script = report.PAGE.with_name("kink_load.py")
+    program = runpy.run_path(str(script), run_name="kink_load")
+    with script.with_name("kink-load.csv").open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    figure = program["draw"](rows)
+    assert illegible(figure) == []
+    mean = next(line for line in figure.axes[0].get_lines() if line.get_label() == "ale: mean load")
+    assert mean.get_ydata() == pytest.approx([1.0 + float(row["ale T2"]) for row in rows])
+    page = script.with_name("cables.md").read_text(encoding="utf-8")
+    for row in rows:
+        cells = (f"{100 * float(text):+.3g} %" for name, text in row.items() if name != "N")
+        assert f"| {row['N']} | {' | '.join(cells)} |" in page
 
 
 def test_the_page_has_a_chart_of_every_scene() -> None:

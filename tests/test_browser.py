@@ -358,3 +358,4 @@ def test_a_thousand_masses_are_drawn_by_few_calls_of_few_triangles(show: Any) ->
         tab.do("it.view('y')")
         click(tab, tab.do("it.screenPosition('POINT_MASS/501')"))
         assert tab.do("it.selected") == "POINT_MASS/501"
+        tab.do("it.renderFrame()")

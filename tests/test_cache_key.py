@@ -91,7 +91,8 @@ def imports(file: Path) -> set[str]:
             assert node.level == 0, f"{file}: imports name the package"
             parts = (node.module, *(f"{node.module}.{name.name}" for name in node.names))
         else:
-            parts = tuple(name.name for name in getattr(node, "names", ()))
+            names = node.names if isinstance(node, ast.Import) else ()
+            parts = tuple(name.name for name in names)
         found |= {part for part in map(str, parts) if part.startswith("adamslite.")}
     return {part for part in found if source(part)}
 

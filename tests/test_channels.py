@@ -72,3 +72,19 @@ def test_a_table_alone_knows_bodies_but_not_the_kind_of_a_force() -> None:
     assert describe("PART/2.x", {}).unit == ""
     assert describe("PART/2.psi", {}).unit == "rad"
     assert describe("PART/2.wx", {}).unit == ""
+
+
+def test_components_of_a_request_have_the_names_that_the_deck_gives() -> None:
+    deck = adamslite.read(
+        DECK.replace(
+            "SIMULATE",
+            'REQUEST/3, F2=TIME\\F3=TIME\\F4=TIME, CNAMES="","tension", TITLE=a:b:c:depth\n'
+            "REQUEST/4, F2=TIME, COMMENT=rope, TITLE=a:pull\nSIMULATE",
+        )
+    )
+    names = ("REQUEST/3.F2", "REQUEST/3.F3", "REQUEST/3.F4", "REQUEST/4.F2", "REQUEST/4.F8")
+    found = {name: describe(name, {}, deck).title for name in names}
+    assert found == {
+        "REQUEST/3.F2": "tension", "REQUEST/3.F3": "c", "REQUEST/3.F4": "depth",
+        "REQUEST/4.F2": "rope, pull", "REQUEST/4.F8": "rope",
+    }  # fmt: skip

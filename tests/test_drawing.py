@@ -6,7 +6,7 @@ from math import cos, pi, sin
 
 import numpy as np
 import pytest
-from page_scenes import decoded, named
+from page_scenes import decoded, named, plain_list
 from scipy.spatial.transform import Rotation
 
 import adamslite as al
@@ -156,6 +156,45 @@ def test_a_position_without_a_value_waits_at_the_last_one() -> None:
     assert np.isfinite(position).all()
     assert (position[50:] == position[49]).all() and np.ptp(position[:, 2]) > 1
     assert drawn.plain["notes"] == ["no position at some times, drawn at the last one: PART/2"]
+
+
+def test_a_run_that_goes_back_in_time_is_drawn_once() -> None:
+    """A RELOAD from t = 3 back to t = 1: the later rows count, and one without a time does not."""
+    deck = al.read(PENDULUM)
+    time = np.array([0.0, 1.0, 2.0, 3.0, 1.0, 2.0, np.nan, 4.0])
+    names = ("PART/2.x", "PART/2.y", "PART/2.z")
+    values = np.arange(8.0)[:, None] * [1.0, 0.0, 0.0]
+    drawn = scene(deck, Results(time=time, names=names, values=values))
+    assert decoded(drawn, drawn.plain["times"]).tolist() == [0, 1, 1, 2, 4]
+    position = decoded(drawn, named(drawn.plain["bodies"], "PART/2")["position"])
+    assert position[:, 0] == pytest.approx([0, 1, 4, 5, 7], abs=1e-3)
+    assert "the times go back" in drawn.plain["notes"][0]
+
+
+def test_places_beyond_all_numbers_are_none() -> None:
+    """Of a run that blew up: the part waits at its last place."""
+    deck = al.read(PENDULUM)
+    values = np.array([[1.0, 2.0, 3.0], [1e300, 2.0, 3.0], [np.inf, 2.0, 3.0]])
+    names = ("PART/2.x", "PART/2.y", "PART/2.z")
+    drawn = scene(deck, Results(time=np.arange(3.0), names=names, values=values))
+    assert named(drawn.plain["bodies"], "PART/2")["position"] == [1, 2, 3]
+
+
+def test_many_channels_are_kept_to_a_share_of_their_range() -> None:
+    """300 000 numbers: to half of 1/8191 of the range each, beside one that has gaps."""
+    deck = al.read(PENDULUM)
+    rng = np.random.default_rng(4)
+    values = np.cumsum(rng.normal(size=(1000, 301)), axis=0) * 10.0 ** rng.integers(-9, 9, 301)
+    values[3, 300] = np.nan
+    names = tuple(f"VARIABLE/{k}" for k in range(301))
+    drawn = scene(deck, Results(time=np.arange(1000.0), names=names, values=values))
+    listed = plain_list(drawn, drawn.plain["channels"]["list"])
+    assert [each["name"] for each in listed] == list(names)
+    for k, each in enumerate(listed):
+        found = decoded(drawn, each["values"])
+        allowed = np.nanmax(values[:, k]) - np.nanmin(values[:, k])
+        assert np.nanmax(np.abs(found - values[:, k])) <= allowed / 8191 * 0.51
+    assert np.isnan(found[3]) and np.isfinite(found[4:]).all()
 
 
 # ---- shapes ----------------------------------------------------------------------------------

@@ -27,3 +27,13 @@ def test_a_fault_finds_its_text_and_its_tests(fault: object) -> None:
 def test_the_table_is_large_and_its_names_differ() -> None:
     names = [fault.name for fault in FAULTS]
     assert len(names) == len(set(names)) >= 120
+
+
+def test_a_copy_has_every_module_of_the_program(tmp_path: Path) -> None:
+    """A fault in a copy that cannot be imported would be noticed by any test."""
+    root = PROGRAM["copy"](tmp_path)
+    package = FOLDER.parent.parent / "adamslite"
+    wanted = {
+        p.relative_to(package) for p in package.rglob("*.py") if "node_modules" not in p.parts
+    }
+    assert wanted == {p.relative_to(root / "adamslite") for p in (root / "adamslite").rglob("*.py")}

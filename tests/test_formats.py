@@ -57,9 +57,12 @@ def write_read(format: formats.Format, written: Results, path: Path) -> None:
         assert again.values.shape == written.values.shape
 
 
+EXACT = sorted(suffix for suffix, each in formats.formats().items() if each.exact)
+
+
 @pytest.mark.parametrize("sample", SAMPLES)
-@pytest.mark.parametrize("suffix", sorted(formats.formats()))
-def test_every_format_keeps_what_it_writes(suffix: str, sample: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("suffix", EXACT)
+def test_every_exact_format_keeps_what_it_writes(suffix: str, sample: str, tmp_path: Path) -> None:
     write_read(formats.formats()[suffix], SAMPLES[sample], tmp_path / f"a{suffix}")
 
 

@@ -19,9 +19,12 @@ WORDS = [
     ("preferences/solver=fortran", "PREFERENCES"),
     ("DEBUG/EPRINT, DUMP", "DEBUG"),
     ("LSOLVER/UMF, STABILITY=0.01", "LSOLVER"),
-    ("OUTPUT/REQSAVE, GRSAVE\n, NOSUCHWORD=1:2", "OUTPUT"),
+    ("OUTPUT/GRSAVE\n, NOSUCHWORD=1:2", "OUTPUT"),
     ("output/nosep", "OUTPUT"),
-    ("RESULTS/XRF, NOTIRES\nRESULTS/COMMENT=a.b%", "RESULTS (2)"),
+    ("RESULTS/FORMATTED, NOTIRES\nRESULTS/COMMENT=a.b%", "RESULTS (2)"),
+    ("OUTPUT/REQSAVE, GRSAVE\n, NOSUCHWORD=1:2", "OUTPUT GRSAVE, OUTPUT NOSUCHWORD"),
+    ("OUTPUT/reqs, nosep, RESULT=1", "OUTPUT NOSEPARATOR, OUTPUT RESULT"),
+    ("RESULTS/XRF, NOSUCHWORD", "RESULTS NOSUCHWORD"),
     ("KINEMATICS/HMAX=0.1, MAXIT=7", "KINEMATICS MAXIT, KINEMATICS HMAX"),
     ("KINEMATICS/APATTERN=T:F, AMAXIT=9", "KINEMATICS APATTERN, KINEMATICS AMAXIT"),
     ("GRAPHICS/0101\n, EXTERNAL\n, RM = 02\n, FILE = a.xmt_txt", "GRAPHICS"),
@@ -67,8 +70,13 @@ def test_the_same_in_command_files(words: str, listed: str) -> None:
     assert note.message.endswith(f": {listed}")
 
 
+@pytest.mark.parametrize("words", ["OUTPUT/REQSAVE", "RESULTS/XRF, FORM, DEC=8, NOVEL, COMMENT=a"])
+def test_words_that_decide_about_files_are_not_passed_over(words: str) -> None:
+    assert not told(f"{START}{words}\n")
+
+
 def test_everything_is_in_one_note() -> None:
-    (note,) = told(START + "".join(f"{words}\n" for words, _ in WORDS[3:11]))
+    (note,) = told(START + "".join(f"{words}\n" for words, _ in (*WORDS[3:10], WORDS[13])))
     assert note.message.endswith(
         ": PREFERENCES (2), DEBUG, LSOLVER, OUTPUT (2), RESULTS (2), KINEMATICS MAXIT, "
         "KINEMATICS HMAX"

@@ -269,7 +269,7 @@ def test_a_routine_that_is_missing_is_named() -> None:
         al.read(GROUND + GSE.format(u=0, method="") + "END\n")
     (found,) = failed.value.diagnostics
     assert found.code == "missing-routine" and "GSESUB" in found.message
-    assert "GSE/1=number" in found.hint
+    assert "'GSE/1': number" in found.hint
 
 
 @pytest.mark.parametrize("method", sorted(set(methods()) - {"VERLET"}))

@@ -190,6 +190,31 @@ def test_mistakes_are_one_sentence(
     assert told in sentence(capsys)
 
 
+@pytest.mark.parametrize("words", [["-o", "fall.adm.txt"], ["-o", "away/x.html"],
+                                   ["--against", "none.csv"]])  # fmt: skip
+def test_nothing_is_solved_when_it_could_not_be_shown(
+    words: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solved: list[object] = []
+    monkeypatch.setattr(al, "simulate", lambda *args, **options: solved.append(args))
+    assert main(["view", "fall.adm", *words]) in (2, 5)
+    assert solved == []
+
+
+def test_a_stored_run_that_stopped_early_says_so() -> None:
+    """The view itself has succeeded: 0."""
+    text = (
+        Path("fall.csv")
+        .read_text()
+        .replace("time,", "# outcome: STEP_TOO_SMALL JOINT/1 came apart\ntime,", 1)
+    )
+    Path("fall.csv").write_text(text)
+    assert main(["view", "fall.csv"]) == 0
+    plain = scene_of(Path("fall.html").read_text(encoding="utf-8")).plain
+    assert plain["outcome"] == "JOINT/1 came apart"
+    assert plain["events"][-1]["time"] == 1.0
+
+
 def test_a_page_does_not_overwrite_what_was_read(capsys: pytest.CaptureFixture[str]) -> None:
     Path("fall.adm").rename("deck.html")
     assert main(["view", "fall.csv", "--deck", "deck.html", "-o", "deck.html"]) == 2

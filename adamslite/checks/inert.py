@@ -156,7 +156,8 @@ def _inert(command: Command) -> Iterator[tuple[str, str]]:
     """What of a statement is passed over: itself, or arguments of it, with their fields."""
     cls = type(command) if isinstance(command, Statement) else command.of
     if cls.inert:
-        yield "", command.keyword
+        for name in getattr(command, "passed_over", (command.keyword,)):
+            yield "", name
     for field in cls.inert_fields:
         if field in command.spans:
             yield field, f"{command.keyword} {_written(command, cls.arguments[field])}"

@@ -9,7 +9,7 @@ import numpy as np
 
 from adamslite.drawing.bodies import moved
 from adamslite.drawing.channels import channels
-from adamslite.drawing.drawing import Drawing
+from adamslite.drawing.drawing import Drawing, forward
 from adamslite.drawing.motion import ANGLES, PLACE, Motion
 from adamslite.errors import FormatError
 from adamslite.results.results import Results
@@ -28,6 +28,7 @@ def against(drawing: Drawing, other: Results, name: str) -> dict[str, Any]:
     if not any(each in drawing.results for each in other.names) or not len(other.time):
         what = "no channel of these results" if len(other.time) else "no output time"
         raise FormatError(f"{name or 'the other result'} has {what}: nothing can be compared")
+    other = forward(other)
     labels = [body.statement.label for body in drawing.model.bodies]
     known = [_has(other, label) for label in labels]
     full = _completed(drawing.results, other, labels)

@@ -44,15 +44,22 @@ class Block:
     def i16(self, values: np.ndarray, levels: int = LEVELS) -> Reference:
         """Numbers in so many steps of the range of their component; all must be finite."""
         values = np.asarray(values, dtype=float)
-        rows = values.reshape(-1, values.shape[-1] if values.ndim > 1 else 1)
-        low = short(rows.min(axis=0))
-        step = short((rows.max(axis=0) - low) / levels)
-        k = np.clip(np.rint((rows - low) / np.where(step > 0, step, 1.0)), 0, levels)
-        k = k.astype(np.uint16).reshape(values.shape)
-        stored = np.diff(k, axis=0, prepend=np.zeros_like(k[:1])).astype("<u2")
-        planes = stored.reshape(-1).view(np.uint8).reshape(-1, 2).T
-        made = self._reference(planes.tobytes(), values.shape, "i16")
+        low, step, k = _steps(values.reshape(-1, values.shape[-1]), levels)
+        made = self._reference(_planes(k), values.shape, "i16")
         return {**made, "low": low.tolist(), "step": step.tolist()}
+
+    def columns(self, values: np.ndarray, levels: int = LEVELS) -> list[Reference]:
+        """The same for each column (n,) of values (n, nc); one that is not finite in 32 bits."""
+        finite = np.isfinite(values).all(axis=0)
+        low, step, k = _steps(np.where(finite, values, 0.0), levels)
+        found = []
+        for c, (own, start, size) in enumerate(zip(k.T, low.tolist(), step.tolist(), strict=True)):
+            if finite[c]:
+                made = self._reference(_planes(own[:, None]), (len(values),), "i16")
+                found.append({**made, "low": [start], "step": [size]})
+            else:
+                found.append(self.f32(values[:, c]))
+        return found
 
     def json(self, plain: object) -> Reference:
         """A list of plain data."""
@@ -70,6 +77,20 @@ class Block:
     def text(self) -> str:
         """The block, compressed (RFC 1950), in base 64."""
         return b64encode(zlib.compress(b"".join(self._pieces), COMPRESSION)).decode("ascii")
+
+
+def _steps(rows: np.ndarray, levels: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """low and step of each column of rows (n, c), and k (n, c)."""
+    low = short(rows.min(axis=0, initial=np.inf if len(rows) else 0.0))
+    step = short((rows.max(axis=0, initial=-np.inf if len(rows) else 0.0) - low) / levels)
+    k = np.clip(np.rint((rows - low) / np.where(step > 0, step, 1.0)), 0, levels)
+    return low, step, k.astype(np.uint16)
+
+
+def _planes(k: np.ndarray) -> bytes:
+    """Differences along the rows, low bytes before high ones."""
+    stored = np.diff(k, axis=0, prepend=np.zeros_like(k[:1])).astype("<u2")
+    return stored.reshape(-1).view(np.uint8).reshape(-1, 2).T.tobytes()
 
 
 def short(values: np.ndarray) -> np.ndarray:

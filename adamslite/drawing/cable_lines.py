@@ -47,7 +47,8 @@ def cables(drawing: Drawing, statements: list[Graphics]) -> Cables:
     """Those of comments first; what they are made of is drawn once."""
     found = Cables()
     for statement in statements:
-        comment = cable_comment(drawing.deck, statement) if statement.outline else None
+        enough = len(statement.outline) > 1
+        comment = cable_comment(drawing.deck, statement) if enough else None
         if comment:
             _described(drawing, found, statement, comment)
     for chain in chains(drawing.deck, Posture(drawing.deck)):

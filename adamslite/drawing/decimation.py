@@ -8,7 +8,7 @@ FRAMES = (200, 900)
 """Least and most frames of a motion."""
 BUDGET = 400_000
 """Numbers of all bodies in all frames."""
-POINTS = (300, 2000)
+POINTS = (150, 2000)
 """Least and most points of a channel."""
 CHANNEL_BUDGET = 800_000
 """Numbers of all channels."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -38,12 +39,13 @@ class Drawing:
     """
 
     def __init__(self, deck: Deck, results: Results) -> None:
+        given, results = len(results.time), forward(results)
         self.deck, self.results = deck, results
         self.model = Model(deck)
         numbers = sum(OF_PART if b.width == PART else OF_POINT for b in self.model.bodies)
         self.motion = Motion(self.model, results, frames(results.time, numbers))
         self.block = Block()
-        self.notes = list(self.motion.notes)
+        self.notes = [*([REPEATED] if len(results.time) < given else []), *self.motion.notes]
 
     @property
     def frames(self) -> Frames:
@@ -68,7 +70,7 @@ class Drawing:
     def size(self) -> float:
         """The diagonal of the box around all bodies and markers at the first frame; 1 if none."""
         places = np.array([*self._places()])
-        diagonal = float(np.linalg.norm(np.ptp(places, axis=0))) if len(places) else 0.0
+        diagonal = float(np.hypot.reduce(np.ptp(places, axis=0))) if len(places) else 0.0
         return diagonal if 0 < diagonal < np.inf else 1.0
 
     def _places(self) -> Iterator[np.ndarray]:
@@ -90,5 +92,15 @@ class Drawing:
         return self.block.i16(values) if np.isfinite(values).all() else self.block.f32(values)
 
 
+def forward(results: Results) -> Results:
+    """The results without the rows that have no time, or one that a later row goes back behind."""
+    time = np.where(np.isfinite(results.time), results.time, np.inf)
+    kept = (time <= np.minimum.accumulate(time[::-1])[::-1]) & (time < np.inf)
+    if kept.all():
+        return results
+    return replace(results, time=results.time[kept], values=results.values[kept])
+
+
+REPEATED = "rows without a time, or that later rows repeat (the times go back), are left out"
 # Changes that are round-off: as a share of the values.
 STILL, TINY = 1e-12, 1e-300

@@ -28,6 +28,8 @@ from adamslite.results.results import Results
 PLACE = ("x", "y", "z")
 ANGLES = ("psi", "theta", "phi")
 MOST_NAMED = 3
+FAR = 1e30
+"""Places beyond it are none: their squares are beyond all numbers of 32 bits."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +123,7 @@ class Motion:
         if values is None:
             self._missing.append(label)
             return np.tile(start(), (len(self.time), 1))
-        good = np.isfinite(values).all(axis=1)
+        good = (np.abs(values) < FAR).all(axis=1)  # nor is a number what is none
         if good.all():
             return values
         self._without_value.append(label)

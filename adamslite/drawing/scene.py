@@ -21,13 +21,13 @@ from adamslite.drawing.cable_lines import Cables, cables
 from adamslite.drawing.channels import channels, unit_symbols
 from adamslite.drawing.derived_shapes import derived_shapes
 from adamslite.drawing.drawing import Drawing
-from adamslite.drawing.events import events
 from adamslite.drawing.joints import joints
 from adamslite.drawing.lines import links, springs
 from adamslite.drawing.modes import modes
 from adamslite.drawing.shapes import graphics, outlines, shapes
 from adamslite.drawing.wheels import wheels
 from adamslite.elements.graphics import Graphics
+from adamslite.results.events import events_of
 from adamslite.results.results import Results
 
 VERSION = 1
@@ -80,7 +80,7 @@ def scene(deck: Deck, results: Results, other: Results | None = None, name: str 
         "title": deck.title,
         "name": Path(file).stem or "scene",
         "deck": file,
-        "outcome": results.message or results.outcome.value,
+        "outcome": outcome(results),
         "units": unit_symbols(deck),
         "times": drawing.block.f32(drawing.motion.time),
         "gravity": [float(g) for g in deck.gravity],
@@ -93,12 +93,18 @@ def scene(deck: Deck, results: Results, other: Results | None = None, name: str 
         "links": found.links,
         "cables": found.cables.lines,
         "arrows": arrows(drawing, found.statements, found.cables.taken, found.cables.inner),
-        "channels": channels(deck, results, drawing.block),
-        "events": events(results),
+        "channels": channels(deck, drawing.results, drawing.block),
+        "events": [each._asdict() for each in events_of(results)],
         "modes": modes(drawing),
         "against": against(drawing, other, name) if other else None,
     }
     return Scene({**plain, "notes": drawing.notes}, drawing.block.text())
+
+
+def outcome(results: Results) -> str:
+    """How the run ended, in a sentence; files keep that of an early end in a comment."""
+    stored = str(results.meta.get("outcome", "")).partition(" ")[2]
+    return results.message or stored or results.outcome.sentence
 
 
 def up(gravity: tuple[float, float, float]) -> str:

@@ -72,7 +72,8 @@ def outlines(drawing: Drawing, statements: list[Graphics]) -> list[dict[str, Any
             closed, points = _curve(drawing, each)
         else:
             continue
-        found.append({"statement": each.label, "points": points, "closed": closed})
+        if len(points) > 1:
+            found.append({"statement": each.label, "points": points, "closed": closed})
     return found
 
 

@@ -1,13 +1,16 @@
-"""Statements without influence on the motion: they are read, kept and passed over with a note.
+"""Statements without influence on the motion: they are read and kept; a note names those, or their
+words, that are passed over.
 
 Equation: none.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
+from adamslite.language.abbreviations import match
 from adamslite.language.statement import Statement, statement
 
 
@@ -24,19 +27,55 @@ class InertStatement(Statement):
     heading: ClassVar[str] = ""
     known: ClassVar[tuple[tuple[str, str], ...]] = ()
     """Arguments of ADAMS and what they mean."""
+    acting: ClassVar[tuple[str, ...]] = ()
+    """Words that decide about files; without the first of them the others are passed over too."""
 
     written: str = ""
 
+    @property
+    def words(self) -> dict[str, str]:
+        """The arguments by their full names, with their values as written."""
+        names = [name for listed, _ in self.known for name in listed.split(", ")]
+        table = {name: name for name in names}
+        found = {}
+        for word, value in ARGUMENT.findall(COMMENT.sub("", self.written)):
+            meant = match(word.upper(), table)
+            found[meant if isinstance(meant, str) else word.upper()] = value.strip()
+        return found
+
+    @property
+    def passed_over(self) -> tuple[str, ...]:
+        """What of it has no effect at all: words, or the statement."""
+        words = self.words
+        if not self.acting or self.acting[0] not in words:
+            return (self.keyword,)
+        return tuple(f"{self.keyword} {word}" for word in words if word not in self.acting)
+
+
+ARGUMENT = re.compile(r"(?:^|,)\s*([A-Za-z]\w*)\s*(?:=([^,\n]*))?")
+COMMENT = re.compile(r"!.*")
+
 
 class Entry(NamedTuple):
-    """What a statement is, its arguments (in each line names and what they mean), its place."""
+    """What a statement is, its arguments (in each line names and what they mean), its place.
+
+    ``acting``: words that decide about files, and ``doc``, what they do.
+    """
 
     what: str
     arguments: str
     has_id: bool = False
     place: str = "both"
     body: bool = False
+    acting: tuple[str, ...] = ()
+    doc: str = ""
 
+
+RESULTS_WORDS = (
+    "XRF", "FORMATTED", "DECIMALPLACES", "COMMENT", "NODISPLACEMENTS", "NOVELOCITIES",
+    "NOACCELERATIONS", "NOAPPLIEDFORCES", "NOREACTIONFORCES", "NODATASTRUCTURES",
+    "NOSYSTEMELEMENTS", "NOLINEAR", "NOFLOATINGMARKERS", "NOREQUESTS", "NOTIRES", "NOCONTACTS",
+)  # fmt: skip
 
 TABLE = {
     "DEBUG": Entry(
@@ -119,7 +158,7 @@ TABLE = {
     ),
     "MENU": Entry("prints the commands of ADAMS", "", place="command"),
     "OUTPUT": Entry(
-        "the output files of ADAMS; this program writes all results",
+        "files of REQUESTs",
         """
         REQSAVE, GRSAVE, GR521SAV, ICSAVE   files of requests, graphics and initial conditions
         DACSAVE, RPCSAVE, MATSAVE           files of other programs
@@ -130,6 +169,9 @@ TABLE = {
         DSCALE, VSCALE, ASCALE, FSCALE      factors of tables
         DZERO, VZERO, AZERO, FZERO          what is printed as zero
         """,
+        acting=("REQSAVE",),
+        doc="`solve` writes the file `.req` of `REQSAVE` beside the results; other words are "
+        "passed over.",
     ),
     "PREFERENCES": Entry(
         "preferences of the user",
@@ -156,6 +198,9 @@ TABLE = {
         NOREACTIONFORCES, NODATASTRUCTURES, NOSYSTEMELEMENTS, NOLINEAR   are left out
         NOFLOATINGMARKERS, NOREQUESTS, NOTIRES, NOCONTACTS               are left out
         """,
+        acting=RESULTS_WORDS,
+        doc="`solve` writes the file `.res` of `XRF` beside the results; the text and binary forms "
+        "of ADAMS, without `XRF`, are passed over.",
     ),
     "SECTION": Entry(
         "the cross section of an FE_PART",
@@ -180,7 +225,8 @@ def _register(keyword: str, entry: Entry) -> None:
     condition = " as long as nothing refers to its markers; rejected otherwise" * entry.body
     content: dict[str, object] = {
         "__module__": __name__,
-        "__doc__": f"Passed over{condition}; any argument is accepted.",
+        "__doc__": entry.doc or f"Passed over{condition}; any argument is accepted.",
+        "acting": entry.acting,
         "heading": f"{keyword}: {entry.what}",
         "known": _meanings(entry.arguments),
     }

@@ -14,6 +14,7 @@ from adamslite.kernels.code.kinematics import (
     VELOCITY,
 )
 from adamslite.kernels.compile import Kernels
+from adamslite.model.attitude_angles import angles_313
 from adamslite.model.model import PART, Body
 
 # Below this sine of theta the first and third angle of the 3-1-3 sequence are one angle.
@@ -65,15 +66,10 @@ def _part(system: System, b: int, w: np.ndarray) -> np.ndarray:
     cm = system.model.bodies[b].statement.cm
     if cm is not None:
         attitude = attitude @ system.model.marker(cm).axes
-    columns = [w[:, POSITION : POSITION + 3], angles_313(attitude), w[:, VELOCITY : VELOCITY + 3]]
+    columns = [
+        w[:, POSITION : POSITION + 3],
+        angles_313(attitude, ALIGNED),
+        w[:, VELOCITY : VELOCITY + 3],
+    ]
     columns += [w[:, OMEGA : OMEGA + 3], w[:, ACCELERATION : ACCELERATION + 3]]
     return np.concatenate([*columns, w[:, ALPHA : ALPHA + 3]], axis=1)
-
-
-def angles_313(r: np.ndarray) -> np.ndarray:
-    """psi, theta, phi (nt, 3) of attitudes (nt, 3, 3); phi = 0 where the two turns are one."""
-    sine = np.hypot(r[:, 0, 2], r[:, 1, 2])
-    regular = sine > ALIGNED
-    psi = np.where(regular, np.arctan2(r[:, 0, 2], -r[:, 1, 2]), np.arctan2(r[:, 1, 0], r[:, 0, 0]))
-    phi = np.where(regular, np.arctan2(r[:, 2, 0], r[:, 2, 1]), 0.0)
-    return np.column_stack([psi, np.arctan2(sine, r[:, 2, 2]), phi])

@@ -107,7 +107,7 @@ class Model:
     def _body(self, statement: Part | PointMass) -> Body:
         origin = np.asarray(statement.qg, dtype=float)
         attitude = frame_axes(statement, origin)
-        cm = self._marker_in_body(statement.cm)
+        cm = self.marker_in_body(statement.cm)
         x = origin + attitude @ cm[0]
         mass = (statement.mass or 0.0) / self.deck.ucf
         v = np.array([statement.vx, statement.vy, statement.vz], dtype=float)
@@ -122,7 +122,7 @@ class Model:
         w = axes @ np.array([statement.wx, statement.wy, statement.wz], dtype=float)
         return Body(statement, PART, mass, self._inertia(statement, cm[0], mass), x, attitude, v, w)
 
-    def _marker_in_body(self, marker_id: Key | None) -> tuple[np.ndarray, np.ndarray]:
+    def marker_in_body(self, marker_id: Key | None) -> tuple[np.ndarray, np.ndarray]:
         """Origin and axes of a marker in its body frame."""
         if marker_id is None:
             return np.zeros(3), IDENTITY
@@ -131,7 +131,7 @@ class Model:
         axes = frame_axes(marker, origin)
         if marker.rm is None:
             return origin, axes
-        start, base = self._marker_in_body(marker.rm)
+        start, base = self.marker_in_body(marker.rm)
         return start + rotated(base, origin), rotated(base, axes)
 
     def _drawn_axes(self, marker_id: Key) -> np.ndarray:
@@ -140,13 +140,13 @@ class Model:
         assert owner is not None  # a rule requires it
         body = self.deck.find(*owner)
         base = frame_axes(body, np.asarray(body.qg, dtype=float))
-        return rotated(base, self._marker_in_body(marker_id)[1])
+        return rotated(base, self.marker_in_body(marker_id)[1])
 
     def _inertia(self, part: Part, cm: np.ndarray, mass: float) -> np.ndarray:
         """Inertia about the mass centre in body axes (parallel axes from IM)."""
         xx, yy, zz, xy, xz, yz = (*(part.ip or ()), *[0.0] * 6)[:6]
         given = np.array([[xx, -xy, -xz], [-xy, yy, -yz], [-xz, -yz, zz]]) / self.deck.ucf
-        origin, axes = self._marker_in_body(part.im if part.im is not None else part.cm)
+        origin, axes = self.marker_in_body(part.im if part.im is not None else part.cm)
         d = cm - origin
         return axes @ given @ axes.T - mass * (d @ d * IDENTITY - np.outer(d, d))
 
@@ -167,12 +167,12 @@ class Model:
         owner = self.deck.get(Marker, marker_id).owner
         assert owner is not None  # a rule asks for it
         body = self.body_index.get(owner)
-        origin, axes = self._marker_in_body(marker_id)
+        origin, axes = self.marker_in_body(marker_id)
         if body is None:
             part = self.deck.find(*owner)
             shift, base = np.asarray(part.qg, dtype=float), frame_axes(part, np.asarray(part.qg))
             return Place("ground", -1, shift + rotated(base, origin), rotated(base, axes))
-        cm = self._marker_in_body(self.bodies[body].statement.cm)[0]
+        cm = self.marker_in_body(self.bodies[body].statement.cm)[0]
         if self.bodies[body].width == POINT:
             base = self.bodies[body].attitude
             return Place("point", body, rotated(base, origin - cm), rotated(base, axes))

@@ -9,8 +9,8 @@ from textwrap import shorten
 import numpy as np
 
 from adamslite.results.channels import Channel, statement_of
-from adamslite.results.comparison import fits
-from adamslite.results.results import Results
+from adamslite.results.results import Results, UnknownChannel
+from adamslite.results.selection import means, near
 
 #: More axes than this are too many for channels whose quantity is not known to have their own.
 MANY = 8
@@ -28,9 +28,9 @@ class Curve:
 
     @property
     def label(self) -> str:
-        """For a legend: the column, with its name or definition in the deck below it."""
-        name, words = clipped(self.channel.name), self.definition or clipped(self.channel.title)
-        return f"{name}\n{words}" if words else name
+        """For a legend: the column, below it its name and its definition in the deck."""
+        lines = (clipped(self.channel.name), clipped(self.channel.title), self.definition)
+        return "\n".join(filter(None, lines))
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def clipped(text: str, longest: int = LONGEST) -> str:
 
 
 def select(results: Results, patterns: Iterable[str]) -> list[str]:
-    """The columns that names or patterns (``PART/2.*``) mean, each once, in the order of these.
+    """The columns that names, patterns (``PART/2.v?``) or statements mean, once, in their order.
 
     Raises
     ------
@@ -75,9 +75,9 @@ def select(results: Results, patterns: Iterable[str]) -> list[str]:
     """
     found: dict[str, None] = {}
     for pattern in patterns:
-        mine = [name for name in results.names if fits(pattern, name)]
+        mine = [name for name in results.names if means(pattern, name)]
         if not mine:
-            mine = [results.channel(pattern).name]
+            raise UnknownChannel(f"no result is called '{pattern}'{near(pattern, results.names)}")
         found |= dict.fromkeys(mine)
     return list(found)
 

@@ -82,7 +82,8 @@ def describe(name: str, units: dict[str, str], deck: Deck | None = None) -> Chan
     found = statement_of(label, deck) if deck else None
     quantity, dimension = _quantity(keyword, component, found, deck)
     unit = _own_unit(found, component) or in_units(dimension, units)
-    title = found.name or _comment(found) if found else ""
+    own = found.name or _comment(found) if found else ""
+    title = ", ".join(filter(None, (own, _heading(found, component))))
     return Channel(name, label, component, title, quantity, unit)
 
 
@@ -129,6 +130,17 @@ def _own_unit(found: Any, component: str) -> str:
     named = found.cunits if _is_request(found) else ()
     number = int(component[1:]) if component[1:].isdigit() else 0
     return named[number - 1] if 0 < number <= len(named) else ""
+
+
+def _heading(found: Any, component: str) -> str:
+    """What CLABELS, CNAMES or TITLE (eight headings with colons between) of a REQUEST name it."""
+    if not _is_request(found) or not component[1:].isdigit():
+        return ""
+    at = int(component[1:]) - 1
+    for named in (found.clabels, found.cnames, (found.title or "").split(":")):
+        if at < len(named) and named[at].strip():
+            return str(named[at]).strip()
+    return ""
 
 
 def _comment(found: Any) -> str:

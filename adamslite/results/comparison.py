@@ -4,7 +4,8 @@ Channel c is inside its tolerance when at every reference time t
 
     |value_c(t) - reference_c(t)| - H_c(t) <= A + R |reference_c(t)| + P max_t |reference_c|
 
-where H is half a unit of the last digit of a reference printed with few digits, else 0.
+where H is half a unit of the last digit of a reference printed with few digits, or of a file that
+rounds, else 0. The angles psi and phi of a PART are compared without whole turns.
 The reference may hold any few of the channels. Its times must be output times of the results unless
 an interpolation is requested.
 """
@@ -21,6 +22,9 @@ from adamslite.results.results import Results
 
 #: Two times are the same when they differ by less than this part of the reference's time span.
 SAME_TIME = 1e-9
+
+#: Angles that may have whole turns more or less.
+TURNING, TURN = (".psi", ".phi"), 2 * np.pi
 
 INTERPOLATIONS = ("linear", "cubic")
 
@@ -204,15 +208,18 @@ def compare(
         exact = next((name for name in results if [name.casefold()] == near), "")
         hint = f"; did you mean {exact}?" if exact else ""
         raise Mismatch(f"the results have no channel '{missing[0]}'{others}{hint}")
-    sample = sampler(results, reference.time, interpolate)
-    return Comparison(
-        tuple(
-            _difference(
-                name, sample(results[name]), reference[name], reference.time, tolerance_of(name)
-            )
-            for name in reference.names
-        )
-    )
+    hidden = [each.printed.hidden(each.time) for each in (results, reference)]
+    rounded = sum(float(each.max(initial=0.0)) for each in hidden)
+    sample = sampler(results, reference.time, interpolate, rounded)
+
+    def difference(name: str) -> Difference:
+        value, expected = sample(results[name]), reference[name]
+        if name.casefold().endswith(TURNING):
+            value = value - TURN * np.round((value - expected) / TURN)
+        slack = results.printed.hidden(value) + reference.printed.hidden(expected)
+        return _difference(name, value, expected, reference.time, tolerance_of(name), slack)
+
+    return Comparison(tuple(map(difference, reference.names)))
 
 
 def table_lines(differences: Iterable[Difference]) -> list[str]:
@@ -256,14 +263,17 @@ def fits(pattern: str, name: str) -> bool:
 
 
 def sampler(
-    results: Results, times: np.ndarray, interpolate: str | None
+    results: Results, times: np.ndarray, interpolate: str | None, rounded: float = 0.0
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """Return the function from a history of `results`, shape (nt,), to its values at `times`."""
+    """Return the function from a history of `results`, shape (nt,), to its values at `times`.
+
+    Output times that differ by no more than ``rounded`` are the same.
+    """
     if times.size == 0:
         return lambda history: history[:0]
     if results.time.size == 0:
         raise Mismatch("the results hold no output time at all")
-    slack = SAME_TIME * max(float(np.ptp(times)), abs(float(times[-1])))
+    slack = max(SAME_TIME * max(float(np.ptp(times)), abs(float(times[-1]))), rounded)
     _need_within(times, results.time, slack)
     if interpolate == "linear":
         return lambda history: np.interp(times, results.time, history)
@@ -305,9 +315,16 @@ def _cubic(covered: np.ndarray, history: np.ndarray, times: np.ndarray) -> np.nd
 
 
 def _difference(
-    name: str, value: np.ndarray, reference: np.ndarray, times: np.ndarray, tolerance: Tolerance
+    name: str,
+    value: np.ndarray,
+    reference: np.ndarray,
+    times: np.ndarray,
+    tolerance: Tolerance,
+    hidden: np.ndarray,
 ) -> Difference:
+    """The worst of a channel; all arrays (nt,), ``hidden`` what rounding of files hides."""
     off = tolerance.off(value, reference)
+    off = np.where(hidden > 0, np.maximum(off - hidden, 0.0), off)
     allowed = tolerance.allowed(reference)
     # A value that is not a number is never inside, even where the reference is not one either.
     outside = ~(off <= allowed)

@@ -18,6 +18,7 @@ from adamslite.results.confirmation import Confirmation
 from adamslite.results.formats import format_of
 from adamslite.results.linearization import Linearization
 from adamslite.results.outcomes import Outcome
+from adamslite.results.printed import Printed
 from adamslite.results.source import RunSource
 
 if TYPE_CHECKING:
@@ -84,6 +85,8 @@ class Results:
         The texts of deck and command file; None where they are not known.
     channels : mapping of str to Channel
         Units and titles of columns, where a file has named them; see :meth:`channel`.
+    printed : Printed
+        How far the file that they are from has rounded them.
     """
 
     time: np.ndarray
@@ -98,6 +101,7 @@ class Results:
     confirmation: Confirmation | None = None
     source: RunSource | None = None
     channels: Mapping[str, Channel] = field(default_factory=dict, repr=False)
+    printed: Printed = Printed()
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return the (nt,) history called `name` (upper or lower case), or the times for "time"."""
@@ -117,7 +121,8 @@ class Results:
     def channel(self, name: str) -> Channel:
         """Statement, quantity and unit of the column called `name`, or of "time"."""
         if name.casefold() == "time":
-            return Channel("time", "", "", "", "time", self.unit_symbols.get("time", ""))
+            own = Channel("time", "", "", "", "time", self.unit_symbols.get("time", ""))
+            return self.channels.get("time", own)
         if name not in self:
             raise UnknownChannel(self._unknown(name))
         name = self.names[self._column[name.casefold()]]

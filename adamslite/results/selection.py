@@ -23,9 +23,9 @@ def selected(names: Sequence[str], patterns: Iterable[str]) -> list[int]:
     """
     found: set[int] = set()
     for pattern in patterns:
-        meant = [k for k, name in enumerate(names) if _means(pattern, name)]
+        meant = [k for k, name in enumerate(names) if means(pattern, name)]
         if not meant:
-            raise UsageError(f"no result is called '{pattern}'{_near(pattern, names)}")
+            raise UsageError(f"no result is called '{pattern}'{near(pattern, names)}")
         found.update(meant)
     return sorted(found)
 
@@ -33,17 +33,17 @@ def selected(names: Sequence[str], patterns: Iterable[str]) -> list[int]:
 def limited(results: Results, patterns: Iterable[str]) -> Results:
     """The results with these columns alone; patterns that mean none are passed over."""
     wanted = tuple(patterns)
-    kept = [k for k, name in enumerate(results.names) if any(_means(each, name) for each in wanted)]
+    kept = [k for k, name in enumerate(results.names) if any(means(each, name) for each in wanted)]
     names = tuple(results.names[k] for k in kept)
     return replace(results, names=names, values=np.ascontiguousarray(results.values[:, kept]))
 
 
-def _means(pattern: str, name: str) -> bool:
+def means(pattern: str, name: str) -> bool:
     """Whether a pattern means a column, or the statement that it belongs to."""
     return fits(pattern, name) or fits(pattern, name.rpartition(".")[0])
 
 
-def _near(pattern: str, names: Sequence[str]) -> str:
+def near(pattern: str, names: Sequence[str]) -> str:
     """What may have been meant: columns, or statements with all of theirs."""
     known = {name.casefold(): name for name in names}
     known |= {label.casefold(): f"{label}.*" for label in (n.rpartition(".")[0] for n in names)}

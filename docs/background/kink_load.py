@@ -6,9 +6,11 @@ The decks are those of decks/cables/kink-free-running at other numbers of elemen
 tables of cables.md are printed as they are measured.
 """
 
+import csv
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +20,7 @@ sys.path[:0] = [str(ROOT / "decks" / "cables"), str(ROOT)]
 
 from kinks import REFERENCE, brute_force, growing, windows  # noqa: E402  (beside the decks)
 
+from adamslite.plots import style  # noqa: E402
 from adamslite.results.results import Results  # noqa: E402
 from adamslite.verification.signals import moving_average, plateau  # noqa: E402
 from adamslite.verification.verification import solve_quietly  # noqa: E402
@@ -30,13 +33,15 @@ FORMS = {
     "ale": lambda n: growing("ale", REFERENCE, n),
     "paper": lambda n: growing("paper", REFERENCE, n),
 }
-LOOKS = {"brute force": "#8a8a8a", "ale": "#0b3c8c", "paper": "#c2410c"}
-FRAME = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 640 400" font-family="sans-serif" \
-font-size="12">
-<rect width="640" height="400" fill="white"/>
-<text x="60" y="22" font-size="14">Load at a free-running sheave when a kink arrives, over T2</text>
-"""
-LEFT, RIGHT, TOP, BOTTOM, LOW, HIGH = 60, 480, 40, 350, 0.75, 1.75
+TITLE = (
+    "With {n} elements ale meets the closed form to {ale:.1%}, the paper's is {paper:.0%} below;"
+    "\nthe raw peak of a chain of lumps stays {peak:.0%} above it at least"
+)
+#: Column, its name, dashes and whether markers are full.
+CURVES = (("T2", "mean load", "-", True), ("peak", "raw peak", (0, (5, 3)), False))
+TABLE = HERE / "kink-load.csv"
+#: Of each form the columns of a row of the table.
+COLUMNS = ("T1", "T2", "peak")
 
 
 def solve(deck: str) -> Results:
@@ -69,60 +74,73 @@ def heavy(inertia: float, sections: int = 120) -> float:
     return float(np.abs(smooth[0] - smooth[1]).max() / smooth[1].max())
 
 
-def place(n: float, load: float) -> tuple[float, float]:
-    """Where a point is drawn: N on a logarithmic axis."""
-    share = np.log2(n / SIZES[0]) / np.log2(SIZES[-1] / SIZES[0])
-    return LEFT + share * (RIGHT - LEFT), BOTTOM - (load - LOW) / (HIGH - LOW) * (BOTTOM - TOP)
+def title(rows: list[dict[str, str]]) -> str:
+    """What the figure shows."""
+    last = rows[-1]
+    return TITLE.format(
+        n=last["N"], ale=abs(float(last["ale T2"])), paper=-float(last["paper T2"]),
+        peak=min(float(row[f"{form} peak"]) for row in rows for form in FORMS),
+    )  # fmt: skip
 
 
-def chart(measured: dict[str, list[tuple[float, float, float]]]) -> str:
-    """The figure: means are drawn through, raw peaks dashed."""
-    out = [FRAME]
-    for load in np.arange(0.8, 1.71, 0.1):
-        y = place(15, load)[1]
-        out.append(f'<path d="M{LEFT} {y:.1f}H{RIGHT}" stroke="#e2e2e2"/>\n')
-        out.append(f'<text x="{LEFT - 8}" y="{y + 4:.1f}" text-anchor="end">{load:.1f}</text>\n')
-    for n in SIZES:
-        x = place(n, 1)[0]
-        out.append(f'<text x="{x:.1f}" y="{BOTTOM + 18}" text-anchor="middle">{n}</text>\n')
-    out.append(f'<text x="{(LEFT + RIGHT) / 2}" y="{BOTTOM + 38}" text-anchor="middle">')
-    out.append("elements on the deck span, N</text>\n")
-    for load, what in (
-        (1.0, "closed form T2"),
-        (REFERENCE.raw_peak / REFERENCE.free_running, "T1 + 1.274 (T2 - T1)"),
-    ):
-        y = place(15, load)[1]
-        out.append(f'<path d="M{LEFT} {y:.1f}H{RIGHT}" stroke="black" stroke-width="0.8"/>\n')
-        out.append(f'<text x="{LEFT + 250}" y="{y - 4:.1f}" font-size="11">{what}</text>\n')
-    for form, rows in measured.items():
-        for column, name, dash in ((1, "mean", ""), (2, "raw peak", "5 3")):
-            points = [place(n, row[column]) for n, row in zip(SIZES, rows, strict=True)]
-            line = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-            look = f'fill="none" stroke="{LOOKS[form]}" stroke-width="2"'
-            out.append(f'<polyline points="{line}" {look} stroke-dasharray="{dash}"/>\n')
-            x, y = points[-1]
-            # Brute force and ale end in one point: the names stand above and below it.
-            y += {"brute force": -8, "ale": 8}.get(form, 0) + 4
-            out.append(f'<text x="{x + 8:.1f}" y="{y:.1f}" fill="{LOOKS[form]}">{form}, {name}')
-            out.append("</text>\n")
-    return "".join(out) + "</svg>\n"
+def draw(rows: list[dict[str, str]]) -> Any:
+    """The figure: the load after the kink as a full line, the raw peak dashed, over T2."""
+    from matplotlib.figure import Figure
+
+    looks = dict(zip(FORMS, ((style.MUTED, "o"), (style.BLUE, "s"), (style.RED, "^")), strict=True))
+    sizes = [int(row["N"]) for row in rows]
+    with style.styled():
+        figure = Figure(figsize=(9.0, 5.2), layout="constrained")
+        axes = figure.subplots()
+        for form, (color, marker) in looks.items():
+            for column, what, dashes, full in CURVES:
+                values = [1.0 + float(row[f"{form} {column}"]) for row in rows]
+                axes.plot(
+                    sizes, values, color=color, marker=marker, linestyle=dashes, linewidth=1.8,
+                    markerfacecolor=color if full else "white", label=f"{form}: {what}",
+                )  # fmt: skip
+        overshoot = REFERENCE.raw_peak / REFERENCE.free_running
+        for load, text in ((1.0, "closed form T2"), (overshoot, "T1 + 1.274 (T2 - T1)")):
+            axes.axhline(load, color=style.BLACK, linewidth=0.8, zorder=1)
+            axes.annotate(
+                text, (1.0, load), (8, 0), xycoords=("axes fraction", "data"),
+                textcoords="offset points", va="center", fontsize=8,
+            )  # fmt: skip
+        axes.set_title(title(rows), fontsize=11, fontweight="bold", pad=12)
+        axes.set_xscale("log")
+        axes.set_xticks(sizes, [str(n) for n in sizes], minor=False)
+        axes.set_xticks([], minor=True)
+        axes.set_xlabel("number of elements N on the span that the hook catches")
+        axes.set_ylabel("load at the free-running sheave, over its closed form T2 = 371.3 kN")
+        style.plain_ticks(axes.yaxis)
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)
+    return figure
 
 
-def main() -> None:
-    """Print the rows, write the figure."""
-    measured = {form: [] for form in FORMS}
-    for n in SIZES:
-        for form, deck in FORMS.items():
-            measured[form].append(loads(deck(n)))
-        cells = (f"{100 * (value - 1):+.3g} %" for form in FORMS for value in measured[form][-1])
-        sys.stdout.write(f"| {n} | " + " | ".join(cells) + " |\n")
-        sys.stdout.flush()
+def measure() -> None:
+    """Print the rows of the table of cables.md, and write them to the table beside this file."""
+    names = [f"{form} {column}" for form in FORMS for column in COLUMNS]
+    with TABLE.open("w", encoding="utf-8", newline="") as stream:
+        stream.write(",".join(["N", *names]) + "\n")
+        for n in SIZES:
+            errors = [value - 1.0 for deck in FORMS.values() for value in loads(deck(n))]
+            stream.write(",".join([str(n), *(f"{e:.3g}" for e in errors)]) + "\n")
+            cells = (f"{100 * e:+.3g} %" for e in errors)
+            sys.stdout.write(f"| {n} | " + " | ".join(cells) + " |\n")
+            sys.stdout.flush()
     for inertia in INERTIAS:
         tau = inertia / REFERENCE.cable.impedance
         sys.stdout.write(
             f"| {inertia:g} kg | {1e3 * tau:.0f} ms | {100 * heavy(inertia):.2g} % |\n"
         )
-    (HERE / "kink-load.svg").write_text(chart(measured))
+
+
+def main() -> None:
+    """Measure unless only the figure is wanted; draw."""
+    if "--draw" not in sys.argv[1:]:
+        measure()
+    with TABLE.open(encoding="utf-8", newline="") as stream:
+        style.save(draw(list(csv.DictReader(stream))), HERE / "kink-load.svg")
 
 
 if __name__ == "__main__":

@@ -78,11 +78,16 @@ def copy(folder: Path) -> Path:
     for name in PARTS:
         source = ROOT / name
         if source.is_dir():
-            ignored = shutil.ignore_patterns("__pycache__", "results")
-            shutil.copytree(source, folder / name, ignore=ignored)
+            shutil.copytree(source, folder / name, ignore=_left_out)
         else:
             shutil.copy(source, folder / name)
     return folder
+
+
+def _left_out(folder: str, names: list[str]) -> list[str]:
+    """What is compiled, and what benchmarks have measured; the room `results` belongs to it all."""
+    measured = ["results"] if Path(folder).name == "benchmarks" else []
+    return [name for name in names if name in ("__pycache__", "node_modules", *measured)]
 
 
 def passes(root: Path, tests: Sequence[str], cache: Path) -> bool:

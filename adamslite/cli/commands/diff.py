@@ -4,6 +4,9 @@ A is the result, B the reference: its columns may be a few of A's, its times mus
 of A unless --interpolate is given. Tolerances come from --tol, else from B's '# tolerance:' lines
 (decks/README.md), else they are 1e-6, that is 'abs 1e-6 peak 1e-6'.
 
+Files of ADAMS are compared as well (.res in XML, .req): positions of their parts, which are those
+of origins, are taken to the centres of mass by the deck. Numbers in other units are converted.
+
 What is outside its tolerance comes first, the worst at the top. Of a long comparison the rest is
 shown with --all.
 """
@@ -17,6 +20,8 @@ from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
 
 if TYPE_CHECKING:
     from adamslite.results.comparison import Comparison
+    from adamslite.results.results import Results
+    from adamslite.verification.reference_file import Reference
 
 #: So many channels are a table to look at; of more, those outside are listed.
 FEW = 20
@@ -35,6 +40,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--interpolate", choices=("linear", "cubic"), help="of A, to the times of B"
     )
+    parser.add_argument(
+        "--deck", metavar="DECK", type=Path,
+        help="where the centres of mass are, to compare with a .res of ADAMS; without it the deck "
+        "that A or B knows",
+    )  # fmt: skip
     parser.add_argument(
         "--all", action="store_true", help=f"list every channel, also where there are over {FEW}"
     )
@@ -57,12 +67,29 @@ def run(args: argparse.Namespace) -> int:
     try:
         if not reference.measures:
             need_content(reference.table)
+        results = _brought_together(results, reference, args.deck)
         comparison = reference.judge(results, usual=USUAL)
     except Mismatch as fault:
         sys.stdout.write(f"different: {fault}\n")
         return OUTSIDE_TOLERANCE
     sys.stdout.write(_table(comparison, args.all))
     return DONE if comparison.inside else OUTSIDE_TOLERANCE
+
+
+def _brought_together(results: "Results", reference: "Reference", deck: Path | None) -> "Results":
+    """The results in the terms and units of the reference, whose table may change too."""
+    from adamslite.results.common_terms import in_common_terms
+
+    read = None
+    if deck is not None:
+        import adamslite
+
+        read = adamslite.read(deck)
+    common = in_common_terms(results, reference.table, read)
+    reference.table = common.reference
+    for note in common.notes:
+        sys.stderr.write(f"adamslite: {note}\n")
+    return common.results
 
 
 def _table(comparison: "Comparison", everything: bool) -> str:

@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from adamslite.results.results import Results
     from adamslite.scene import Scene
 
+#: What a file beside the results is, and its path.
+Written = tuple[str, Path]
+LINEARISED, PAGE = "linearised model", "page"
+
 #: OUT that means standard output.
 STDOUT = "-"
 
@@ -65,7 +69,7 @@ def run(args: argparse.Namespace) -> int:
     """Solve and write; return the exit code."""
     from adamslite.errors import UsageError
     from adamslite.progress import Progress, TalkingProgress
-    from adamslite.result_files import plan
+    from adamslite.result_files import adams_files, plan
     from adamslite.results.formats import format_of
     from adamslite.scene import load_scene, run_scene
 
@@ -89,9 +93,12 @@ def run(args: argparse.Namespace) -> int:
     finally:
         progress.close()
     written = _write(results, output, files)
+    if output != STDOUT:
+        written += _write_adams(results, adams_files(scene, output))
     if page:
         _write_page(scene, results, page)
-    _summarize(scene, args, results, output, written, page)
+        written.insert(0, (PAGE, page))
+    _summarize(scene, args, results, output, written)
     if not results.outcome.is_requested:
         return STOPPED_EARLY
     found = results.confirmation
@@ -127,7 +134,14 @@ def _options(args: argparse.Namespace) -> dict[str, Any]:
     return {**run_options(args), **({"outputs": args.outputs} if args.outputs else {})}
 
 
-def _write(results: "Results", output: str, files: Sequence[Path]) -> list[Path]:
+def _write_adams(results: "Results", paths: Sequence[Path]) -> list[Written]:
+    """The files .req and .res that the deck requests."""
+    for path in paths:
+        results.save(path)
+    return [(path.suffix.removeprefix(".") + " of ADAMS", path) for path in paths]
+
+
+def _write(results: "Results", output: str, files: Sequence[Path]) -> list[Written]:
     """Write the time histories, and the files of LINEAR commands, whose names are returned."""
     if output == STDOUT:
         from adamslite.outputs.csv import write_to
@@ -140,7 +154,8 @@ def _write(results: "Results", output: str, files: Sequence[Path]) -> list[Path]
     from adamslite.outputs.modes import save_command
 
     found = zip(results.linearizations, files, strict=False)  # a run may stop before all
-    return [written for each, path in found for written in save_command(each, path)]
+    written = (path for each, place in found for path in save_command(each, place))
+    return [(LINEARISED, path) for path in written]
 
 
 def _tell_warnings(scene: "Scene") -> None:
@@ -151,29 +166,29 @@ def _tell_warnings(scene: "Scene") -> None:
 
 
 def _summarize(
-    scene: "Scene", args: argparse.Namespace, results: "Results", output: str, files: list[Path],
-    page: Path | None,
-) -> None:  # fmt: skip
+    scene: "Scene",
+    args: argparse.Namespace,
+    results: "Results",
+    output: str,
+    files: list[Written],
+) -> None:
     if args.summary == "json":
-        drawn = {"page": str(page)} if page else {}
+        drawn = {what: str(path) for what, path in files if what == PAGE}
         sys.stdout.write(_as_json({**results.summary, **_files(scene, output), **drawn}) + "\n")
     elif not args.quiet:
-        _tell_summary(scene, results, output, files, page)
+        _tell_summary(scene, results, output, files)
     _tell_trust(scene, args, results)
     if not results.outcome.is_requested:
         sys.stderr.write(f"adamslite: {results.message or results.outcome.sentence}\n")
 
 
-def _tell_summary(
-    scene: "Scene", results: "Results", output: str, files: list[Path], page: Path | None
-) -> None:
+def _tell_summary(scene: "Scene", results: "Results", output: str, files: list[Written]) -> None:
     from adamslite.results.summary import ending, figures, notes
 
     shown = "standard output" if output == STDOUT else output
-    unwritten = [UNWRITTEN] if results.linearizations and output == STDOUT else []
-    linear = [("linearised model", str(file)) for file in (*files, *unwritten)]
-    drawn = [("page", str(page))] if page else []
-    rows = [*figures(results), ("results", shown), *drawn, *linear, *notes(results)]
+    unwritten = [(LINEARISED, UNWRITTEN)] if results.linearizations and output == STDOUT else []
+    beside = [*((what, str(path)) for what, path in files), *unwritten]
+    rows = [*figures(results), ("results", shown), *beside, *notes(results)]
     lines = [f"{scene.title}: {ending(results)}", *(f"  {what:<20} {text}" for what, text in rows)]
     sys.stderr.write("".join(f"{line}\n" for line in lines))
 

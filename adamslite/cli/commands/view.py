@@ -60,14 +60,14 @@ def run(args: argparse.Namespace) -> int:
     kind = _kind(args)
     output = _output(args, kind)
     _need_programs(args, kind)
-    deck, results, read = _solved(args) if _is_deck(args) else _loaded(args)
     other = Results.load(args.against) if args.against else None
-    need_writable(output, [*read, *([args.against] if args.against else [])])
+    need_writable(output, [each for each in (args.scene, args.against, args.deck) if each])
+    deck, results, code = _solved(args, output) if _is_deck(args) else _loaded(args, output)
     _write(args, kind, output, deck, results, other)
     sys.stderr.write(f"{output}\n")
     if kind in PAGES and not (args.output or args.no_open):
         _open(output)
-    return DONE if results.outcome.is_requested else STOPPED_EARLY
+    return code
 
 
 def _size(text: str) -> tuple[int, int]:
@@ -131,14 +131,16 @@ def _is_deck(args: argparse.Namespace) -> bool:
     return False
 
 
-def _solved(args: argparse.Namespace) -> tuple["Deck", "Results", list[Path]]:
-    """A deck, its results, and the files that were read."""
+def _solved(args: argparse.Namespace, output: Path) -> tuple["Deck", "Results", int]:
+    """A deck, its results, and the exit code."""
     from adamslite.drawing.run_deck import at_start
     from adamslite.language.diagnostics import render
+    from adamslite.outputs.whole_files import need_writable
     from adamslite.progress import TalkingProgress
     from adamslite.scene import load_scene, run_scene
 
     scene = load_scene(args.scene, args.commands, args.user)
+    need_writable(output, scene.read)
     if scene.warnings:
         sys.stderr.write(render(scene.warnings) + "\n\n")
     progress = TalkingProgress()
@@ -146,27 +148,31 @@ def _solved(args: argparse.Namespace) -> tuple["Deck", "Results", list[Path]]:
         results = run_scene(scene, run_options(args), progress)
     finally:
         progress.close()
-    if not results.outcome.is_requested:
-        sys.stderr.write(f"adamslite: {results.message or results.outcome.sentence}\n")
-    return at_start(scene.deck, scene.commands), results, list(scene.read)
+    deck = at_start(scene.deck, scene.commands)
+    if results.outcome.is_requested:
+        return deck, results, DONE
+    sys.stderr.write(f"adamslite: {results.message or results.outcome.sentence}\n")
+    return deck, results, STOPPED_EARLY
 
 
-def _loaded(args: argparse.Namespace) -> tuple["Deck", "Results", list[Path]]:
+def _loaded(args: argparse.Namespace, output: Path) -> tuple["Deck", "Results", int]:
     """The same of a result file."""
     import adamslite
     from adamslite.drawing.run_deck import beside, deck_of, difference, need_its_bodies
     from adamslite.errors import UsageError
+    from adamslite.outputs.whole_files import need_writable
     from adamslite.results.results import Results
 
     results = Results.load(args.scene)
     path = args.deck or (None if results.source else beside(args.scene, results))
     if path is None and results.source is None:
         raise UsageError(f"{args.scene} carries no deck, and none lies beside it; give --deck")
+    need_writable(output, [path] if path else [])
     deck = deck_of(results) if path is None else adamslite.read(path, args.user)
     need_its_bodies(deck, results, str(args.scene))
     if path and (warning := difference(deck, results)):
         sys.stderr.write(f"{path}: {warning}\n")
-    return deck, results, [args.scene, *([path] if path else [])]
+    return deck, results, DONE
 
 
 def _write(

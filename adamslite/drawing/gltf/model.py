@@ -15,6 +15,7 @@ from adamslite.deck.deck import Deck
 from adamslite.drawing.drawing import Drawing
 from adamslite.drawing.gltf.container import Container
 from adamslite.drawing.gltf.meshes import frustum, mesh_of
+from adamslite.drawing.motion import FAR
 from adamslite.drawing.scene import Contents, contents, up
 from adamslite.drawing.tangents import spans
 from adamslite.elements.units import Units
@@ -82,8 +83,9 @@ def _bodies(file: Container, root: int, times: int, drawing: Drawing, found: Con
 
 
 def _solid(file: Container, node: int, shape: dict[str, Any], material: int, thin: float) -> None:
-    mesh = mesh_of(shape, thin)
-    if mesh is not None and np.isfinite(mesh[0]).all():
+    with np.errstate(all="ignore"):
+        mesh = mesh_of(shape, thin)
+    if mesh is not None and len(mesh[2]) and (np.abs(mesh[0]) < FAR).all():
         number = file.mesh(*mesh, material)
         at, turn = shape["frame"][:3], shape["frame"][3:]
         file.node(node, mesh=number, translation=at, rotation=turn)

@@ -12,7 +12,9 @@ export function tensionRange(cables) {
     if (!known.length) return null;
     const low = Math.min(...known.map(([from]) => from));
     const high = Math.max(...known.map(([, to]) => to));
-    return [low, high];
+    // What is nothing beside the other end is nothing.
+    const least = 1e-6 * (high - low);
+    return [low, high].map((value) => (Math.abs(value) < least ? 0 : value));
 }
 
 class Node {

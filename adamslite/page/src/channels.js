@@ -78,10 +78,17 @@ export class Channels {
         const requests = this.list.filter(({ name }) => name.startsWith("REQUEST/") && this.#changes(name));
         const groups = this.groups(requests.slice(0, 40).map(({ name }) => name));
         if (groups.length) return groups.slice(0, 2).flatMap((group) => group.slice(0, 3));
-        const places = this.list.filter(({ name }) => /\.[xyz]$/.test(name));
-        const widest = places.map(({ name }) => [this.#span(name), name]).sort((a, b) => b[0] - a[0])[0];
-        if (!widest || !(widest[0] > 0)) return this.list.slice(0, 1).map(({ name }) => name);
-        return [widest[1]];
+        for (const kind of [/\.[xyz]$/, /\.(psi|theta|phi)$/, /\.w[xyz]$/, /./]) {
+            const found = this.#widest(this.list.filter(({ name }) => kind.test(name)));
+            if (found) return [found];
+        }
+        return this.list.slice(0, 1).map(({ name }) => name);
+    }
+
+    #widest(list) {
+        const changing = list.filter(({ name }) => this.#changes(name));
+        const spans = changing.map(({ name }) => [this.#span(name), name]);
+        return spans.sort((a, b) => b[0] - a[0])[0]?.[1];
     }
 
     #changes(name) {

@@ -8,9 +8,13 @@ export function bodyColour(index) {
     return OKABE_ITO[index % 6];
 }
 
-/** Colour of the n-th curve of a plot; yellow is not seen on white. */
-export function curveColour(index) {
-    return OKABE_ITO[index % 6];
+// Which of them stand out on the background of a theme, best first.
+const CURVES = { light: [0, 5, 2, 1, 3, 4], dark: [4, 1, 2, 3, 6, 5] };
+
+/** Colour of the n-th curve of a plot. */
+export function curveColour(index, theme) {
+    const order = CURVES[theme];
+    return OKABE_ITO[order[index % order.length]];
 }
 
 // Viridis (Smith and van der Walt, 2015) at 17 equal places.
@@ -53,6 +57,8 @@ export const THEMES = {
         force: "#d1242f",
         torque: "#8250df",
         reaction: "#0550ae",
+        edge: "#10161d",
+        edgeOpacity: 0.55,
         ghost: "#8c959f",
         path: "#bf3989",
         sky: "#ffffff",
@@ -70,6 +76,8 @@ export const THEMES = {
         force: "#ff7b72",
         torque: "#d2a8ff",
         reaction: "#79c0ff",
+        edge: "#dfe7f0",
+        edgeOpacity: 0.45,
         ghost: "#848d97",
         path: "#ff9bce",
         sky: "#ffffff",

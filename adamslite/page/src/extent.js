@@ -46,11 +46,13 @@ function rim([body, x, y, z], radius) {
 
 /** All points [body, x, y, z] that the picture has to hold. */
 function anchors(scene) {
-    const solid = scene.shapes.filter(({ kind }) => kind !== "plane");
+    // A point without mass stands for a contact and may run to where nothing is.
+    const helper = ({ kind, mass }) => kind === "point_mass" && !mass;
+    const solid = scene.shapes.filter(({ kind, body }) => kind !== "plane" && !helper(scene.bodies[body]));
     const ends = (list) => list.flatMap(({ i, j }) => [i.slice(0, 4), j.slice(0, 4)]);
     const cables = scene.cables.flatMap(({ nodes }) =>
         nodes.flatMap((node) => (node.point ? [node.point] : rim(node.wheel, node.radius))));
-    const origins = scene.bodies.flatMap(({ kind }, b) => (kind === "ground" ? [] : [[b, 0, 0, 0]]));
+    const origins = scene.bodies.flatMap((body, b) => (body.kind === "ground" || helper(body) ? [] : [[b, 0, 0, 0]]));
     return [
         ...solid.flatMap(corners),
         ...scene.outlines.flatMap(({ points }) => points),

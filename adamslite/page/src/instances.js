@@ -87,6 +87,12 @@ export class Instances {
         this.mesh.instanceMatrix.needsUpdate = true;
     }
 
+    setTheme({ edge, edgeOpacity }) {
+        const uniforms = this.edges?.material.uniforms;
+        uniforms?.ink.value.set(edge);
+        if (uniforms) uniforms.opacity.value = edgeOpacity;
+    }
+
     /** Colours the instances of the body `b` (or of all bodies when it is null). */
     paint(b, colourOf) {
         this.items.forEach((item, k) => {

@@ -271,12 +271,12 @@ class App {
         document.documentElement.dataset.theme = theme;
         const { stage } = this;
         stage.setTheme(theme);
-        for (const part of [this.ground, this.joints, this.springs, this.arrows]) part.setTheme(stage.palette);
+        for (const part of [this.ground, this.shapes, this.joints, this.springs, this.arrows]) part.setTheme(stage.palette);
         this.cables.setTheme(theme, stage.palette);
         this.links.strokes.setColour(stage.palette.line);
         this.stays.strokes.setColour(stage.palette.joint);
         this.tension?.setTheme(theme);
-        this.plots.setTheme();
+        this.plots.setTheme(theme);
         this.select(this.selection.body);
     }
 

@@ -15,7 +15,9 @@ export class Picker {
     at(x, y) {
         const { width, height, camera } = this.stage;
         this.ray.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), camera);
-        for (const mesh of this.meshes) mesh.boundingSphere = null; // its instances have moved
+        for (const mesh of this.meshes) {
+            if (mesh.isInstancedMesh) mesh.boundingSphere = null; // its instances have moved
+        }
         const hits = this.ray.intersectObjects(this.meshes.filter(({ visible }) => visible), false);
         const bodies = hits.map(({ object, instanceId }) => object.userData.bodyOf(instanceId));
         const moving = bodies.find((b) => this.bodies.list[b].kind !== "ground");

@@ -44,8 +44,11 @@ class Plot {
         );
     }
 
+    // One name, the statement that all belong to, or the first of the names.
     #quantity() {
-        return this.names.length === 1 ? this.names[0] : `${this.names.length} channels${this.unit ? ` in ${this.unit}` : ""}`;
+        if (this.names.length === 1) return this.names[0];
+        const statements = new Set(this.names.map((name) => name.slice(0, name.lastIndexOf("."))));
+        return statements.size === 1 && !statements.has("") ? [...statements][0] : this.names.join(", ");
     }
 
     #axisName() {
@@ -161,6 +164,7 @@ export class Plots {
     constructor({ channels, against, timeUnit, events, seek, save }) {
         Object.assign(this, { channels, against, timeUnit, events, seek, save });
         this.time = 0;
+        this.theme = "light";
         this.window = null;
         this.names = [];
         this.plots = [];
@@ -170,7 +174,7 @@ export class Plots {
     }
 
     colour(name) {
-        return curveColour(this.names.indexOf(name));
+        return curveColour(this.names.indexOf(name), this.theme);
     }
 
     toggle(name) {
@@ -203,7 +207,8 @@ export class Plots {
         for (const plot of this.plots) plot.build(width, plot.difference ? 130 : this.plots.length > 2 ? 170 : 210);
     }
 
-    setTheme() {
+    setTheme(theme) {
+        this.theme = theme;
         this.built = null;
         this.layout();
     }

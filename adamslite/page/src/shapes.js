@@ -148,10 +148,13 @@ function groupBy(items, keyOf) {
     return groups;
 }
 
+// Joints that hold a point of a body; others may lie anywhere on a line or a plane.
+const HOLDING = new Set(["REVOLUTE", "SPHERICAL", "UNIVERSAL", "HOOKE", "CONVEL", "FIXED", "ATPOINT"]);
+
 /** Thin lines from a body to its joints that no shape of it reaches. */
 export function stays(scene, shapes) {
     const lines = [];
-    for (const joint of scene.joints) {
+    for (const joint of scene.joints.filter(({ kind }) => HOLDING.has(kind))) {
         for (const [b, x, y, z] of [joint.i, joint.j]) {
             const reach = scene.bodies[b].kind === "part" ? shapes.reach(b) : Infinity;
             if (Math.hypot(x, y, z) > reach) lines.push([[b, 0, 0, 0], [b, x, y, z]]);
@@ -218,6 +221,10 @@ export class Shapes {
 
     get pickable() {
         return this.groups.map(({ mesh }) => mesh);
+    }
+
+    setTheme(palette) {
+        for (const group of this.groups) group.setTheme?.(palette);
     }
 
     paint(b, colour) {

@@ -1,0 +1,180 @@
+"""Request files of ADAMS (`.req`), as OUTPUT/REQSAVE asks for: REQUESTs with six digits.
+
+    line 1      the form A.R3 and a date, which is the same in all files of this program
+    line 2      title of the deck, 80 places
+    line 3      number of REQUESTs, units (length, mass, time, force), UCF
+    then        a line for each REQUEST: id, kind, I, J, RM
+    each time   a line with the time, then one for each REQUEST with F2 F3 F4 F6 F7 F8
+
+Kinds are 1 DISPLACEMENT, 2 VELOCITY, 3 ACCELERATION, 4 FORCE and 5 expressions. F1 and F5, the
+magnitudes, are not in such a file, and what a REQUEST does not have is 0. REQUESTs that have a name
+instead of an id get the numbers after the largest one.
+
+Lines 1 to 3 and the time are as in files of ADAMS, which were at hand only without any REQUEST. The
+lines of REQUESTs follow what RecurDyn and MotionSolve publish of files in this form;
+widths are chosen (8 places an integer, 14 a number). Reading goes by blanks, not by places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from adamslite.errors import FormatError
+from adamslite.outputs.attributes import need_rows
+from adamslite.outputs.whole_files import whole_file
+from adamslite.outputs.xrf import source_of
+from adamslite.results.formats import register_format
+from adamslite.results.printed import Printed
+from adamslite.results.results import Results
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+
+FORM = "A.R3"
+# A date of its own would make two runs of one deck differ.
+DATE = "2000-01-01 00:00:00"
+KINDS = {"DISPLACEMENT": 1, "VELOCITY": 2, "ACCELERATION": 3, "FORCE": 4}
+EXPRESSIONS = 5
+WRITTEN = ("F2", "F3", "F4", "F6", "F7", "F8")
+DIGITS = 6
+#: Numbers in the line of a REQUEST, and how many have to be there.
+ENTRY, LEAST = 5, 4
+
+
+def write(results: Results, path: str | Path) -> None:
+    """Write the REQUESTs of `results` to the file `path`, whole or not at all.
+
+    Raises
+    ------
+    UsageError
+        When the deck of the results is not known.
+    """
+    need_rows(results)
+    deck, _ = source_of(results)
+    requests = [each for each in deck.of("REQUEST") if _is_whole(each, results)]
+    with whole_file(path) as stream:
+        stream.write(_head(results, deck, len(requests)))
+        stream.writelines(_entries(requests))
+        stream.writelines(_steps(results, requests))
+
+
+def _is_whole(request: Any, results: Results) -> bool:
+    """Whether the results have all of it."""
+    return all(f"{request.label}.{name}" in results for name in request.result_names)
+
+
+def _head(results: Results, deck: Deck, count: int) -> str:
+    symbols = results.unit_symbols
+    kinds = ("length", "mass", "time", "force")
+    code = "".join(f"{symbols.get(kind, '').upper():_<2.2}" for kind in kinds)
+    return (
+        f" {FORM}    {DATE}               0         0  3D\n"
+        f"{deck.title:80.80}\n"
+        f"{count:5d}     {code}RACA {deck.ucf:.15E}\n"
+    )
+
+
+def _entries(requests: list[Any]) -> Iterator[str]:
+    last = max((each.id for each in requests if isinstance(each.id, int)), default=0)
+    for each in requests:
+        number = each.id
+        if not isinstance(number, int):
+            last, number = last + 1, last + 1
+        kind = KINDS.get(each.kind, EXPRESSIONS)
+        markers = (each.i, each.j, each.rm) if each.kind else (0, 0, 0)
+        numbers = (number, kind, *(m if isinstance(m, int) else 0 for m in markers))
+        yield "".join(f"{each:8d}" for each in numbers) + "\n"
+
+
+def _steps(results: Results, requests: list[Any]) -> Iterator[str]:
+    zero = np.zeros(len(results.time))
+    columns = [
+        results[f"{each.label}.{name}"] if name in each.result_names else zero
+        for each in requests
+        for name in WRITTEN
+    ]
+    line = "{:14.5E}" * len(WRITTEN) + "\n"
+    rows = np.column_stack(columns).tolist() if columns else [[]] * len(results.time)
+    for time, row in zip(results.time.tolist(), rows, strict=True):
+        yield f"{time:14.5E}\n"
+        for k in range(0, len(row), len(WRITTEN)):
+            yield line.format(*row[k : k + len(WRITTEN)])
+
+
+def read(path: str | Path) -> Results:
+    """Read a request file; the REQUESTs have the numbers that it gives them.
+
+    Raises
+    ------
+    FormatError
+        When it is damaged, cut off or no such file.
+    """
+    data = Path(path).read_bytes()
+    if b"\0" in data[:4096]:
+        raise FormatError(f"{path} is not a request file in text")
+    lines = data.decode("latin-1").splitlines()
+    if len(lines) < 3 or not lines[0].split()[:1] == [FORM]:
+        raise FormatError(f"{path} is no request file of ADAMS: it does not begin with {FORM}")
+    try:
+        return _results(lines)
+    except (ValueError, IndexError) as fault:
+        raise FormatError(f"{path} is damaged or cut off: {fault}") from None
+
+
+def _results(lines: list[str]) -> Results:
+    count = int(lines[2].split()[0])
+    ids, start = _directory(lines, count)
+    numbers = np.array(" ".join(lines[start:]).split(), dtype=float)
+    size = 1 + count * len(WRITTEN)
+    if numbers.size % size:
+        raise ValueError(f"{numbers.size} numbers are no multiple of the {size} of an output time")
+    table = numbers.reshape(-1, size)
+    last = np.append(table[1:, 0] != table[:-1, 0], True)[: len(table)]
+    names = tuple(f"REQUEST/{id}.{name}" for id in ids for name in WRITTEN)
+    return Results(
+        time=table[last, 0], names=names, values=table[last, 1:],
+        meta={"deck": lines[1].strip(), "written by": "ADAMS, request file"},
+        printed=Printed(digits=DIGITS),
+    )  # fmt: skip
+
+
+def _directory(lines: list[str], count: int) -> tuple[list[int], int]:
+    """The ids of the REQUESTs and the line of the first time; a name may follow an entry."""
+    ids, at = [], 3
+    for number in range(count):
+        if not _is_entry(lines[at]):
+            raise ValueError(f"line {at + 1} is not that of a REQUEST")
+        ids.append(int(lines[at].split()[0]))
+        at += 1
+        last = number == count - 1
+        if at < len(lines) and not _is_entry(lines[at]) and not (last and _is_time(lines[at])):
+            at += 1
+    if len(set(ids)) < count:
+        raise ValueError("two REQUESTs have one number")
+    return ids, at
+
+
+def _is_entry(line: str) -> bool:
+    words = line.split()
+    plain = all(word.removeprefix("-").isdigit() for word in words)
+    return LEAST <= len(words) <= ENTRY and plain
+
+
+def _is_time(line: str) -> bool:
+    try:
+        return len(line.split()) == 1 and float(line) is not None
+    except ValueError:
+        return False
+
+
+register_format(
+    ".req",
+    "request file of ADAMS: REQUESTs without their magnitudes, with six digits",
+    write,
+    read,
+    exact=False,
+)

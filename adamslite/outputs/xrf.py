@@ -1,0 +1,277 @@
+"""Results files of ADAMS (`.res`) in XML, its XRF 2.0, as RESULTS/XRF asks for.
+
+Written are, of each moving PART, position, 3-1-3 angles, velocities and accelerations of its origin
+and axes (QG, REULER; not of its centre of mass), of each force or joint the vector on I in ground
+axes, of a REQUEST its components by CNAMES, and VARIABLEs. The first output time is the step of the
+initial conditions, the others are those of the dynamic analysis. RESULTS decides which groups are
+left out (NOVELOCITIES, ...) and DECIMALPLACES how many digits follow the point; without it numbers
+have all their digits. A comment after the last element keeps the texts of the run, by which
+this program reads back what it wrote; other programs pass over it.
+
+Read are the files of ADAMS as well, of which those in XML (RESULTS/XRF) and those in the older text
+form (RESULTS/FORMATTED; parts alone) are known, the binary form is not. Positions of parts are
+``PART/2.bcs_x``, of the origin (BCS), until the deck tells where the centre of mass is:
+`adamslite diff` takes it from the other side or from --deck.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy as np
+
+import adamslite
+from adamslite.errors import UsageError
+from adamslite.outputs.attributes import attributes, need_rows
+from adamslite.outputs.number_text import lines
+from adamslite.outputs.whole_files import whole_file
+from adamslite.outputs.xrf_layout import (
+    ALL_DIGITS,
+    COMPONENTS_LEFT_OUT,
+    KINDS,
+    LEFT_OUT,
+    MOTION_WORDS,
+    NAMESPACE,
+    NUMBERS_PER_LINE,
+    REQUEST_NAMES,
+    UNITS,
+    packed,
+)
+from adamslite.outputs.xrf_reader import read
+from adamslite.results.formats import register_format
+from adamslite.results.results import Results
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.reading.read import Commands
+    from adamslite.results.adams_options import AdamsOptions
+    from adamslite.results.adams_terms import Groups
+
+
+class Entity(NamedTuple):
+    """An element with the histories of its components: (name, unit, values (nt,))."""
+
+    name: str
+    entity: str
+    kind: str
+    id: str
+    components: list[tuple[str, str, np.ndarray]]
+
+
+def write(results: Results, path: str | Path) -> None:
+    """Write `results` to the file `path`, whole or not at all.
+
+    Raises
+    ------
+    UsageError
+        When the deck of the results is not known, or columns are missing that parts take.
+    """
+    from adamslite.results.adams_options import adams_options
+    from adamslite.results.adams_terms import to_adams
+
+    need_rows(results)
+    deck, commands = source_of(results)
+    options = adams_options(deck, commands)
+    groups, left_out = to_adams(results, deck)
+    entities = list(_entities(results, groups, deck, options))
+    remarks = [options.comment] if options.comment else []
+    if left_out:
+        listed = ", ".join(left_out)
+        remarks.append(f"left out, as the results are limited to a few columns: {listed}")
+    with whole_file(path) as stream:
+        stream.writelines(_document(results, deck, entities, remarks, options.decimals))
+
+
+def source_of(results: Results) -> tuple[Deck, Commands]:
+    """Deck and commands that results come from."""
+    if results.source is None:
+        raise UsageError(
+            "a file of ADAMS is written of results that know their deck: those of a run, or of a "
+            ".nc, .mat or .parquet"
+        )
+    return results.source.read()
+
+
+# ---- entities --------------------------------------------------------------------------------
+
+
+def _entities(
+    results: Results, groups: Groups, deck: Deck, options: AdamsOptions
+) -> Iterator[Entity]:
+    out = {word for name in options.without for word in LEFT_OUT.get(name, ())}
+    dropped = {word for name in options.without for word in COMPONENTS_LEFT_OUT.get(name, ())}
+    for label, columns in groups.items():
+        keyword, _, id = label.partition("/")
+        if keyword in out:
+            continue
+        statement = deck.find(keyword, int(id) if id.isdigit() else id) if id else None
+        name = getattr(statement, "name", None) or f"{keyword}_{id}"
+        body = keyword in ("PART", "POINT_MASS")
+        if keyword == "REQUEST":
+            name = statement.results_name or statement.name or f"REQUST_{id}" if statement else name
+        components = [
+            (word, unit, values)
+            for (word, unit), values in zip(
+                _words(results, keyword, label, columns, statement), columns.values(), strict=True
+            )
+            if word and not (body and word in dropped)
+        ]
+        if components:
+            shown = f"{name}_XFORM" if body else name
+            yield Entity(shown, name, KINDS.get(keyword, keyword), id, components)
+
+
+def _words(
+    results: Results, keyword: str, label: str, names: Iterable[str], statement: Any
+) -> Iterator[tuple[str, str]]:
+    """What ADAMS calls the components, and their units; no name for one that is left out."""
+    for name in names:
+        unit = _unit(results, label, name)
+        if keyword in ("PART", "POINT_MASS"):
+            yield MOTION_WORDS.get(name, name.upper()), unit
+        elif keyword == "REQUEST":
+            yield _request_word(name, statement), unit
+        else:
+            yield name.upper() or "Q", unit
+
+
+def _request_word(component: str, request: Any) -> str:
+    """The name of F1 ... F8; CNAMES of the deck leaves out those without one."""
+    number = int(component[1:]) - 1 if component[1:].isdigit() else len(REQUEST_NAMES)
+    named = request.cnames if request else ()
+    if named:
+        return named[number] if number < len(named) else ""
+    return REQUEST_NAMES[number] if number < len(REQUEST_NAMES) else component
+
+
+def _unit(results: Results, label: str, component: str) -> str:
+    """The unit of a component in the words of ADAMS; empty where it is not known."""
+    from adamslite.results.channels import QUANTITIES, in_units
+
+    name = f"{label}.{component}" if component else label
+    if name in results:
+        return _respelled(results, results.channel(name).unit)
+    dimension = QUANTITIES.get(component.removeprefix("bcs_"), ("", ""))[1]
+    return _respelled(results, in_units(dimension, results.unit_symbols))
+
+
+def _respelled(results: Results, unit: str) -> str:
+    """``N m`` as ``newton-meter``, ``m/s^2`` as ``meter/sec**2``."""
+    words = _unit_words(results)
+    spelled = {symbol: words[kind] for kind, symbol in results.unit_symbols.items()}
+    top, _, bottom = unit.partition("/")
+    base, power, exponent = bottom.partition("^")
+    above = "-".join(spelled.get(each, each) for each in top.split(" "))
+    below = f"/{spelled.get(base, base)}" if bottom else ""
+    return f"{above}{below}{power and '**'}{exponent}"
+
+
+def _unit_words(results: Results) -> dict[str, str]:
+    names = results.meta.get("units", "").split()
+    kinds = ("force", "mass", "length", "time")
+    return dict(zip(kinds, (UNITS.get(name, name.lower()) for name in names), strict=False))
+
+
+# ---- the document ------------------------------------------------------------------------------
+
+
+def _document(
+    results: Results,
+    deck: Deck,
+    entities: Sequence[Entity],
+    remarks: Iterable[str],
+    decimals: int,
+) -> Iterator[str]:
+    words = _unit_words(results)
+    title = quoteattr(deck.title)
+    remark = "".join(f"\n{escape(each)}" for each in remarks)
+    yield f"""<?xml version="1.0" encoding="UTF-8"?>
+<Results xmlns="{NAMESPACE}">
+<Bibliography>
+<File URI="-unknown-" schema="xrf" version="2.0.0.0" publicationDate="-unknown-" />
+<Revision version="1" derivedFrom="-unknown-">
+<Comment>{remark}
+</Comment>
+</Revision>
+</Bibliography>
+<Analysis name="run" executionDate="-unknown-" Solver="adamslite {adamslite.__version__}" \
+script="-unknown-">
+<Bibliography>
+<Application name="adamslite" version="{adamslite.__version__}" />
+</Bibliography>
+<ModelInfo title={title} creationDate="-unknown-" checksum="-unknown-" />
+<Units angle="rad" length="{words.get("length", "")}" mass="{words.get("mass", "")}" \
+time="{words.get("time", "")}" />
+<StepMap name="map_001">
+<Entity name="time">
+{_component("TIME", words.get("time", ""), 1)}
+</Entity>
+"""
+    number = 2
+    for each in entities:
+        yield _heading(each)
+        for word, unit, _ in each.components:
+            yield f"{_component(word, unit, number)}\n"
+            number += 1
+        yield "</Entity>\n"
+    yield "</StepMap>\n"
+    table = [results.time, *(values for each in entities for *_, values in each.components)]
+    yield from _data(np.column_stack(table), decimals)
+    ended = "Successful" if results.outcome.is_requested else "Failed"
+    yield f'<TerminationStatus runTermObject="" runStatus="{ended}" />\n</Analysis>\n</Results>\n'
+    texts = {**attributes(results), "channels": json.dumps(results.names)}
+    yield f"<!-- {packed(texts)} -->\n"
+
+
+def _heading(each: Entity) -> str:
+    attributes = {"name": each.name, "entity": each.entity, "entType": each.kind,
+                  "objectId": each.id}  # fmt: skip
+    return f"<Entity {' '.join(f'{key}={quoteattr(text)}' for key, text in attributes.items())}>\n"
+
+
+def _component(word: str, unit: str, number: int) -> str:
+    shown = f" unitsValue={quoteattr(unit)}" if unit else ""
+    return f'<Component name={quoteattr(word)}{shown} id="{number}" />'
+
+
+def _data(table: np.ndarray, decimals: int) -> Iterator[str]:
+    """The steps of a table (nt, 1 + n): those of the first time are the initial conditions."""
+    first = int((table[:, 0] == table[:1, 0]).sum()) if len(table) else 0
+    blocks = (("initialConditions", table[:first]), ("dynamic", table[first:]))
+    for number, (kind, rows) in enumerate(blocks, start=1):
+        if len(rows):
+            yield f'<Data name="{kind}_001" id="{number}">\n'
+            for text in lines(rounded(rows, decimals)):
+                for line in text.splitlines():
+                    yield f'<Step type="{kind}">\n{_broken(line.split(","))}</Step>\n'
+            yield "</Data>\n"
+
+
+def _broken(cells: list[str]) -> str:
+    """The time on a line of its own, then six numbers on each."""
+    starts = range(1, len(cells), NUMBERS_PER_LINE)
+    rows = [cells[:1], *(cells[k : k + NUMBERS_PER_LINE] for k in starts)]
+    return "".join(" ".join(row) + "\n" for row in rows)
+
+
+def rounded(values: np.ndarray, decimals: int) -> np.ndarray:
+    """Numbers with so many digits after the point, small ones after that of their mantissa."""
+    if decimals >= ALL_DIGITS:
+        return values
+    found = np.round(values, decimals)
+    small = (np.abs(values) < 1e-4) & (values != 0.0)
+    found[small] = [float(f"{each:.{decimals}e}") for each in values[small].tolist()]
+    return found
+
+
+register_format(
+    ".res",
+    "results file of ADAMS in XML: parts by their origin and axes, forces, requests",
+    write,
+    read,
+    exact=False,
+)

@@ -1,0 +1,213 @@
+"""Reading results files of ADAMS in XML, and telling them from the other forms of `.res`."""
+
+from __future__ import annotations
+
+import json
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from io import BytesIO
+from math import radians
+from pathlib import Path
+from xml.etree.ElementTree import Element, ParseError, iterparse
+
+import numpy as np
+
+from adamslite.errors import FormatError
+from adamslite.language.diagnostics import DeckError
+from adamslite.outputs.attributes import restored
+from adamslite.outputs.res_text import START, read_text
+from adamslite.outputs.xrf_layout import KINDS, MOTION_WORDS, NAMESPACE, SYMBOL_OF, unpacked
+from adamslite.results.adams_terms import REQUEST_WORDS, from_adams
+from adamslite.results.channels import Channel, describe
+from adamslite.results.printed import Printed
+from adamslite.results.results import Results
+
+KEYWORDS = {kind: keyword for keyword, kind in KINDS.items()} | {
+    "Plant_Input": "PINPUT", "Plant_Output": "POUTPUT",
+}  # fmt: skip
+BODY_COMPONENTS = {word: name for name, word in MOTION_WORDS.items()}
+#: The raw state of a model: it has other numbers than the map names.
+INPUT = "input"
+HEAD = 4096
+
+
+@dataclass
+class _File:
+    """What has been read of a document."""
+
+    names: list[str] = field(default_factory=list)
+    ids: list[int] = field(default_factory=list)
+    units: list[str] = field(default_factory=list)
+    rows: list[np.ndarray] = field(default_factory=list)
+    title: str = ""
+    program: str = ""
+    texts: dict[str, str] = field(default_factory=dict)
+    decimals: int = 0
+
+
+def read(path: str | Path) -> Results:
+    """Read a results file of ADAMS, or what this program wrote.
+
+    Raises
+    ------
+    FormatError
+        When it is damaged, cut off, of a form that cannot be read, or no such file.
+    """
+    data = Path(path).read_bytes()
+    head = data[:HEAD]
+    if head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
+        return _read_xml(path, data)
+    if head.startswith(START):
+        return read_text(path, data.decode("latin-1"))
+    if b"\0" in head:
+        raise FormatError(
+            f"{path} is a results file in the binary form of ADAMS, which is not published; "
+            "with RESULTS/FORMATTED, XRF in the deck ADAMS writes XML"
+        )
+    raise FormatError(f"{path} is no results file of ADAMS")
+
+
+def _read_xml(path: str | Path, data: bytes) -> Results:
+    if b"<!DOCTYPE" in data[:HEAD]:
+        raise FormatError(f"{path} declares a document type, which results files of ADAMS do not")
+    found = _File()
+    try:
+        for element in _elements(data):
+            _take(found, element)
+        return _results(found)
+    except ParseError as fault:
+        raise FormatError(f"{path} is damaged or cut off: {fault}") from None
+    except FormatError as fault:
+        raise FormatError(f"{path}: {fault}") from None
+    except (ValueError, zlib.error) as fault:
+        raise FormatError(f"{path} is damaged: {fault}") from None
+
+
+def _elements(data: bytes) -> Iterator[Element]:
+    """Complete elements in their order, and comments."""
+    for _, element in iterparse(BytesIO(data), events=("end", "comment")):
+        yield element
+
+
+def _take(found: _File, element: Element) -> None:
+    if not isinstance(element.tag, str):  # a comment
+        found.texts |= unpacked(element.text or "")
+        return
+    tag = element.tag.removeprefix(f"{{{NAMESPACE}}}")
+    if tag == "StepMap":  # of several analyses the last one counts
+        found.names, found.ids, found.units, found.rows = [], [], [], []
+        for entity in element:
+            _take_entity(found, entity)
+    elif tag == "Step":
+        _take_step(found, element)
+    elif tag == "ModelInfo":
+        found.title = element.get("title", "")
+    elif tag == "Analysis":
+        found.program = " ".join(element.get("Solver", "").split())
+    elif tag == "Results":
+        if element.tag == tag:
+            raise FormatError("it is not in the namespace of results files of ADAMS")
+        return
+    if tag == "Step":
+        element.clear()
+
+
+def _take_entity(found: _File, entity: Element) -> None:
+    for component in entity:
+        number = component.get("id", "")
+        if not number.isdigit():
+            raise FormatError(f"a component of '{entity.get('name')}' has no number")
+        found.names.append(_name(entity, component.get("name", "")))
+        found.ids.append(int(number))
+        found.units.append(component.get("unitsValue", ""))
+
+
+def _name(entity: Element, component: str) -> str:
+    """What this program calls a component: ``PART/2.bcs_x``, ``VARIABLE/7``."""
+    kind = entity.get("entType", "")
+    if not kind or component == "TIME":
+        return component.lower() if component == "TIME" else f"{entity.get('name')}.{component}"
+    keyword = KEYWORDS.get(kind, kind.upper())
+    label = f"{keyword}/{entity.get('objectId') or entity.get('entity') or entity.get('name')}"
+    if keyword in ("PART", "POINT_MASS"):
+        return f"{label}.{BODY_COMPONENTS.get(component, component.lower())}"
+    if keyword == "REQUEST":
+        return f"{label}.{REQUEST_WORDS.get(component.lower(), component)}"
+    return label if component == "Q" else f"{label}.{component.lower()}"
+
+
+def _take_step(found: _File, step: Element) -> None:
+    if step.get("type") == INPUT or not found.names:
+        return
+    words = (step.text or "").split()
+    if len(words) != len(found.names):
+        raise FormatError(
+            f"a step of it has {len(words)} numbers where {len(found.names)} are named"
+        )
+    if len(found.rows) < 2:
+        found.decimals = max(found.decimals, *map(_decimals, words))
+    found.rows.append(np.array(words, dtype=float))
+
+
+def _decimals(word: str) -> int:
+    """Digits after the point."""
+    mantissa = word.upper().partition("E")[0]
+    return len(mantissa.partition(".")[2])
+
+
+def _results(found: _File) -> Results:
+    if "time" not in found.names:
+        raise FormatError("it names no TIME")
+    repeated = {name for name in found.names if found.names.count(name) > 1}
+    if repeated:
+        raise FormatError(f"'{min(repeated)}' is there twice")
+    order = np.argsort(np.argsort(found.ids, kind="stable"))  # numbers are in the order of the ids
+    table = np.array(found.rows).reshape(len(found.rows), len(found.names))[:, order]
+    table = _without_repeated_times(table, found.names.index("time"))
+    channels = {}
+    for column, (name, unit) in enumerate(zip(found.names, found.units, strict=True)):
+        symbol, factor = _symbol(unit)
+        table[:, column] *= factor
+        channels[name] = describe(name, {})._replace(unit=symbol)
+    return _with_run(found, table, channels)
+
+
+def _with_run(found: _File, table: np.ndarray, channels: dict[str, Channel]) -> Results:
+    """Results of this program in its own terms; those of ADAMS as they are."""
+    at = found.names.index("time")
+    names = tuple(name for name in found.names if name != "time")
+    values = np.delete(table, at, axis=1)
+    run = restored(found.texts)
+    plain = Results(time=table[:, at].copy(), names=names, values=values, **run)
+    if plain.source is None:
+        meta = {"deck": found.title, "written by": found.program}
+        printed = Printed(decimals=found.decimals)
+        return replace(plain, meta=meta, channels=channels, printed=printed)
+    try:
+        deck = plain.source.read()[0]
+    except DeckError:  # a table that it names is not here
+        return replace(plain, channels=channels)
+    own = from_adams(plain, deck)
+    listed = json.loads(found.texts.get("channels", "[]"))
+    kept = [name for name in listed if name in own]
+    ordered = np.column_stack([own[name] for name in kept]) if kept else own.values[:, :0]
+    return replace(own, names=tuple(kept), values=ordered, printed=Printed(found.decimals))
+
+
+def _without_repeated_times(table: np.ndarray, at: int) -> np.ndarray:
+    """Of steps at one time that follow each other the last: it is what the next analysis has."""
+    time = table[:, at]
+    last = np.append(time[1:] != time[:-1], True)[: len(time)]
+    return table[last]
+
+
+def _symbol(unit: str) -> tuple[str, float]:
+    """``meter/sec**2`` as ``m/s^2``; degrees become radians, by the factor."""
+    top, _, bottom = unit.strip().partition("/")
+    base, power, exponent = bottom.replace("**", "^").partition("^")
+    words = [SYMBOL_OF.get(each.lower(), each) for each in top.replace("*", "-").split("-")]
+    below = f"/{SYMBOL_OF.get(base.lower(), base)}{power}{exponent}" if bottom else ""
+    if words == ["deg"]:
+        return f"rad{below}", radians(1.0)
+    return f"{' '.join(words)}{below}", 1.0

@@ -1,0 +1,67 @@
+"""Factors between units that are written in symbols: ``mm/s^2`` to ``m/s^2``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import pi
+
+from adamslite.language.units import FORCE, LENGTH, MASS, SYMBOLS, TIME
+
+KINDS = {"force": FORCE, "mass": MASS, "length": LENGTH, "time": TIME}
+SIZES = {
+    SYMBOLS[name]: (kind, size) for kind, units in KINDS.items() for name, size in units.items()
+} | {"rad": ("angle", 1.0), "deg": ("angle", pi / 180)}
+"""Kind and size in units of the SI, by symbol."""
+Size = tuple[dict[str, int], float]
+
+
+def unit_factor(unit: str, other: str) -> float | None:
+    """What a number in ``unit`` is multiplied with to be in ``other``.
+
+    None where one of them is not known, or they are units of different quantities.
+    """
+    if unit == other:
+        return 1.0
+    size, other_size = _size(unit), _size(other)
+    if size is None or other_size is None or size[0] != other_size[0]:
+        return None
+    return size[1] / other_size[1]
+
+
+def in_symbols(unit: str, symbols: Mapping[str, str]) -> tuple[str, float]:
+    """A unit in the symbols of a deck, and the factor for numbers in it.
+
+    Parameters
+    ----------
+    symbols : mapping
+        By ``force``, ``mass``, ``length``, ``time``.  What it lacks stays as it is.
+    """
+    parts = unit.split("/")
+    words = [[_in_symbol(word, symbols) for word in part.split()] for part in parts]
+    found = "/".join(" ".join(part) for part in words)
+    factor = unit_factor(unit, found)
+    return (unit, 1.0) if factor is None else (found, factor)
+
+
+def _in_symbol(word: str, symbols: Mapping[str, str]) -> str:
+    """``mm^2`` as ``m^2``."""
+    symbol, power, exponent = word.partition("^")
+    kind = SIZES[symbol][0] if symbol in SIZES else ""
+    return symbols.get(kind, symbol) + power + exponent
+
+
+def _size(unit: str) -> Size | None:
+    """Powers by kind, and the size in units of the SI."""
+    top, _, bottom = unit.partition("/")
+    powers: dict[str, int] = {}
+    size = 1.0
+    for text, sign in ((top, 1), (bottom, -1)):
+        for word in text.split():
+            symbol, _, exponent = word.partition("^")
+            if symbol not in SIZES or (exponent and not exponent.isdigit()):
+                return None
+            kind, each = SIZES[symbol]
+            power = sign * int(exponent or 1)
+            powers[kind] = powers.get(kind, 0) + power
+            size *= each**power
+    return powers, size
