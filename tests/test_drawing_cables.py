@@ -160,6 +160,37 @@ def test_a_span_that_a_gcon_keeps_is_a_cable_of_two_points() -> None:
     assert decoded(found, first["tension"]) == pytest.approx(np.array([[9.0]]))
 
 
+@pytest.mark.parametrize(
+    ("law", "route"),
+    [
+        ("DM(20,100)-2-0.3*AZ(10,11)", [3, ("wheel", 1, 1)]),
+        ("DM(100,20)-2+paid", [("wheel", 1, -1), 3]),
+        ("DM(20,100)-2", [3, 0]),
+    ],
+)
+def test_a_wheel_that_winds_up_is_found_in_the_length_of_the_cable(law: str, route: list) -> None:
+    """The span hangs down from (0.3, 0, 0), on the rim of a wheel about z of the radius 0.3: from
+    there down it turns negatively, and so up to there positively.
+    """
+    lines = f"GCON/1, FUNCTION={law}\nVARIABLE/paid, FUNCTION=AZ(10,11)*(-0.3)"
+    plain = drawn_of(HOIST.format(drawn=lines)).plain
+    (cable,) = plain["cables"]
+    found = [
+        ("wheel", node["wheel"][0], node["sense"]) if "wheel" in node else node["point"][0]
+        for node in cable["nodes"]
+    ]
+    assert found == route
+    discs = [(each["body"], each["radius"]) for each in plain["shapes"] if each["kind"] == "wheel"]
+    assert discs == ([(1, 0.3)] if ("paid" in law or "AZ" in law) else [])
+
+
+def test_a_torsional_spring_winds_up_nothing() -> None:
+    """12 N m/rad between the markers of a revolute joint is no radius of 12 m."""
+    lines = "SFORCE/7, ROTATIONAL, I=10, J=11, FUNCTION=-12*AZ(10,11)\nGCON/1, FUNCTION=2*AZ(10,11)"
+    plain = drawn_of(HOIST.format(drawn=lines)).plain
+    assert not [each for each in plain["shapes"] if each["kind"] == "wheel"]
+
+
 # ---- ropes that turrets guide ----------------------------------------------------------------
 
 

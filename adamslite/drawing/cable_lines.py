@@ -17,6 +17,7 @@ from adamslite.cables.posture import Posture
 from adamslite.drawing.cable_comments import CableComment, cable_comment
 from adamslite.drawing.drawing import Drawing
 from adamslite.drawing.pulley_ropes import Pulleys, Rope
+from adamslite.drawing.winding import rim, wound
 from adamslite.elements.gcon import Gcon
 from adamslite.elements.graphics import Graphics
 from adamslite.elements.vforce import Vforce
@@ -45,7 +46,7 @@ class Cables:
 
 def cables(drawing: Drawing, statements: list[Graphics]) -> Cables:
     """Those of comments first; what they are made of is drawn once."""
-    found = Cables()
+    found = Cables(wheels=wound(drawing))
     for statement in statements:
         enough = len(statement.outline) > 1
         comment = cable_comment(drawing.deck, statement) if enough else None
@@ -57,7 +58,7 @@ def cables(drawing: Drawing, statements: list[Graphics]) -> Cables:
     pulleys = Pulleys(drawing)
     for rope in pulleys.ropes():
         _over_pulleys(drawing, found, pulleys, rope)
-    found.lines += _rigid(drawing, found.taken)
+    found.lines += _rigid(drawing, found)
     return found
 
 
@@ -127,14 +128,27 @@ def _node(drawing: Drawing, marker: Key, radius: float | None = None) -> Cable:
     return {"wheel": drawing.frames.frame(marker), "radius": abs(radius), "sense": sense}
 
 
+def _between_rims(
+    drawing: Drawing, found: Cables, markers: list[Key], is_ring: bool = False
+) -> list[Cable]:
+    """Nodes of a line whose ends may be where it leaves a wheel."""
+    nodes = [_node(drawing, key) for key in markers]
+    for end, after in () if is_ring else ((0, 1), (-1, -2)):
+        touched = rim(drawing, found.wheels, markers[end], markers[after])
+        if touched:
+            marker, radius = touched
+            nodes[end] = _node(drawing, marker, radius if end == 0 else -radius)
+    return nodes
+
+
 # ---- chains of line forces -------------------------------------------------------------------
 
 
 def _chained(drawing: Drawing, found: Cables, chain: Chain) -> None:
     markers = list(_markers(chain))
     name = f"{_name(chain.nodes[0])} to {_name(chain.nodes[-1])}"
-    nodes = [_node(drawing, key) for key in markers]
     tensions = [_tension(drawing, link) for link in chain.links]
+    nodes = _between_rims(drawing, found, markers, chain.is_ring)
     found.lines.append(_line(drawing, name, nodes, tensions))
     found.taken |= {link.statement.label for link in chain.links}
     found.inner |= {drawing.frames.body(key) for key in _inner(chain, markers)}
@@ -197,14 +211,14 @@ def _over_pulleys(drawing: Drawing, found: Cables, pulleys: Pulleys, rope: Rope)
 # ---- spans of constant length ----------------------------------------------------------------
 
 
-def _rigid(drawing: Drawing, taken: set[str]) -> Iterator[Cable]:
+def _rigid(drawing: Drawing, found: Cables) -> Iterator[Cable]:
     """The distances that GCONs measure."""
     for gcon in drawing.deck.of(Gcon):
-        if gcon.label in taken or not drawing.deck.is_active(gcon):
+        if gcon.label in found.taken or not drawing.deck.is_active(gcon):
             continue
         tension = _column(drawing, (-1.0, f"{gcon.label}.f"))
         for i, j in _distances(gcon):
-            nodes = [_node(drawing, i), _node(drawing, j)]
+            nodes = _between_rims(drawing, found, [i, j])
             yield _line(drawing, gcon.label, nodes, [tension])
 
 
