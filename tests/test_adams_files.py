@@ -663,3 +663,34 @@ def test_a_file_that_a_command_names_is_not_theirs(asking: Path, capsys) -> None
     )
     assert main(["solve", "a.adm"]) == 3
     assert "a.res" in capsys.readouterr().err and files(asking) == []
+
+
+# ---- plots, pages, Python ------------------------------------------------------------------------
+
+
+def test_python_compares_like_the_command(folder: Path) -> None:
+    """Units that are converted and channels that cannot be compared are warnings."""
+    run = adamslite.simulate("stone.adm")
+    with pytest.warns(adamslite.DeckWarning) as said:
+        assert adamslite.compare(run, "adams.res").inside
+    assert any("mm to m" in str(each.message) for each in said)
+    run.save("a.csv")
+    with pytest.warns(adamslite.DeckWarning):
+        found = adamslite.compare("a.csv", "adams.res", deck="stone.adm")
+    assert found.inside and "PART/2.x" in {each.name for each in found}
+    with pytest.warns(adamslite.DeckWarning, match="give the deck"):
+        found = adamslite.compare("a.csv", "adams.res")
+    assert "PART/2.x" not in {each.name for each in found}
+
+
+def test_what_adams_wrote_is_plotted(folder: Path, capsys) -> None:
+    """In the terms of the deck that is named: the centre of mass, in metres."""
+    assert main(["plot", "adams.res", "PART/2.y", "--deck", "stone.adm", "-o", "a.svg"]) == 0
+    assert "mm to m" in capsys.readouterr().err and Path("a.svg").stat().st_size > 1000
+    assert main(["plot", "stone.adm", "PART/2.y", "--against", "adams.res", "-o", "b.svg"]) == 0
+
+
+def test_a_page_of_what_adams_wrote(folder: Path, capsys) -> None:
+    assert main(["view", "adams.res", "--deck", "stone.adm", "-o", "a.html", "--no-open"]) == 0
+    page = Path("a.html").read_text(encoding="utf-8")
+    assert "PART/2" in page

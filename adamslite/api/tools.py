@@ -11,8 +11,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
+from adamslite.deck.deck import Deck
 from adamslite.errors import DeckWarning, FormatError, UsageError
 from adamslite.language.diagnostics import WARNING
+from adamslite.results.common_terms import in_common_terms
 from adamslite.results.comparison import (
     INTERPOLATIONS,
     USUAL,
@@ -37,6 +39,7 @@ def compare(
     reference: Results | Reference | str | os.PathLike[str],
     tolerance: Tolerance | Callable[[str], Tolerance] | float | str | None = None,
     interpolate: str | None = None,
+    deck: Deck | str | os.PathLike[str] | None = None,
 ) -> Comparison:
     """Compare results with a reference, channel by channel, as `adamslite diff` does.
 
@@ -50,11 +53,15 @@ def compare(
         what the reference file says, else 1e-6.
     interpolate : {None, "linear", "cubic"}
         How to get values at reference times that are not output times.
+    deck : Deck, str or Path
+        Where the centres of mass are, to compare with a ``.res`` of ADAMS; by default that of
+        either side.
 
     Warns
     -----
     DeckWarning
-        When the two are results of different decks.
+        When the two are results of different decks, when units are converted, and of channels of
+        ADAMS that cannot be compared.
 
     Raises
     ------
@@ -71,6 +78,10 @@ def compare(
         warnings.warn(sentence, DeckWarning, stacklevel=2)
     if not judge.measures:
         need_content(judge.table)
+    common = in_common_terms(found, judge.table, _deck(deck))
+    for note in common.notes:
+        warnings.warn(note, DeckWarning, stacklevel=2)
+    found, judge = common.results, replace(judge, table=common.reference)
     interpolate = interpolate or judge.interpolate
     if callable(tolerance):
         return compare_results(found, judge.table, tolerance, interpolate)
@@ -78,6 +89,14 @@ def compare(
         given = tolerance if isinstance(tolerance, Tolerance) else tolerance_of(tolerance)
         judge = replace(judge, tolerances=[("*", given)])
     return replace(judge, interpolate=interpolate).judge(found, usual=USUAL)
+
+
+def _deck(given: Deck | str | os.PathLike[str] | None) -> Deck | None:
+    from adamslite.reading.read import read
+
+    if given is None or isinstance(given, Deck):
+        return given
+    return read(given if isinstance(given, str) else Path(given))
 
 
 def _reference(given: Results | Reference | str | os.PathLike[str]) -> Reference:

@@ -12,6 +12,7 @@ from adamslite.drawing.channels import channels
 from adamslite.drawing.drawing import Drawing, forward
 from adamslite.drawing.motion import ANGLES, PLACE, Motion
 from adamslite.errors import FormatError
+from adamslite.results.common_terms import of_deck
 from adamslite.results.results import Results
 
 
@@ -25,6 +26,7 @@ def against(drawing: Drawing, other: Results, name: str) -> dict[str, Any]:
     FormatError
         When both have no channel in common.
     """
+    other, _ = of_deck(other, drawing.deck)
     if not any(each in drawing.results for each in other.names) or not len(other.time):
         what = "no channel of these results" if len(other.time) else "no output time"
         raise FormatError(f"{name or 'the other result'} has {what}: nothing can be compared")

@@ -11,6 +11,7 @@ import numpy as np
 
 from adamslite.errors import UsageError
 from adamslite.plots.selection import Curve
+from adamslite.results.common_terms import deck_of, of_deck
 from adamslite.results.comparison import USUAL, Mismatch, Tolerance, sampler
 from adamslite.results.results import Results
 from adamslite.verification.reference_file import Reference, read_reference
@@ -76,7 +77,7 @@ def beside(results: Results, curves: Sequence[Curve], reference: Reference) -> B
     UsageError
         When it has none of the channels, or none of the times.
     """
-    table, name = reference.table, reference.path.name
+    (table, notes), name = of_deck(reference.table, deck_of(results)), reference.path.name
     shared = [each.channel.name for each in curves if each.channel.name in table]
     if not shared:
         listed = ", ".join(table.names[:3]) + (", ..." if len(table.names) > 3 else "")
@@ -84,7 +85,6 @@ def beside(results: Results, curves: Sequence[Curve], reference: Reference) -> B
     inside = _within(results.time, table.time)
     if not inside.any():
         raise UsageError(f"{name} and the results have no time in common")
-    notes = []
     hashes = [each.meta.get("deck hash", "") for each in (results, table)]
     if all(hashes) and hashes[0] != hashes[1]:
         notes.append(OTHER_DECK.format(name=name))

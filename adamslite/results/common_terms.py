@@ -50,17 +50,28 @@ def in_common_terms(results: Results, reference: Results, deck: Deck | None = No
     """
     notes: list[str] = []
     if _is_foreign(results) or _is_foreign(reference):
-        known = deck or _deck_of(results) or _deck_of(reference)
+        known = deck or deck_of(results) or deck_of(reference)
         results, reference = (_as_ours(each, known, notes) for each in (results, reference))
         reference = _shared(results, reference, notes)
     return Common(_in_units(results, reference, notes), reference, notes)
+
+
+def of_deck(results: Results, deck: Deck | None) -> tuple[Results, list[str]]:
+    """Results of a file of ADAMS in the terms and units of their deck, and what there is to say
+    about it; other results as they are.
+    """
+    notes: list[str] = []
+    if _is_foreign(results):
+        results = _as_ours(results, deck, notes)
+    return results, notes
 
 
 def _is_foreign(results: Results) -> bool:
     return WRITTEN_BY in results.meta
 
 
-def _deck_of(results: Results) -> Deck | None:
+def deck_of(results: Results) -> Deck | None:
+    """The deck that results come from, where it is known."""
     try:
         return results.source.read()[0] if results.source else None
     except DeckError:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from adamslite.run_flags import add_run_flags, add_user_flag, run_options
 
 if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
     from adamslite.results.results import Results
 
 DECK = ".adm"
@@ -92,11 +93,22 @@ def _loaded(args: argparse.Namespace) -> tuple[Results, list[Path]]:
         raise FormatError(f"{args.result} holds no output time")
     path = args.deck or (None if results.source else _deck_beside(args.result, results))
     if path is None:
-        return results, [args.result]
+        return in_own_terms(results, None), [args.result]
     deck = adamslite.read(path)
+    results = in_own_terms(results, deck)
     if warning := difference(deck, results):
         sys.stderr.write(f"{path}: {warning}\n")
     return replace(results, source=source_of(deck, ())), [args.result, path]
+
+
+def in_own_terms(results: Results, deck: Deck | None) -> Results:
+    """Those of ADAMS in the terms of this program."""
+    from adamslite.results.common_terms import of_deck
+
+    results, notes = of_deck(results, deck)
+    for note in notes:
+        sys.stderr.write(f"adamslite: {note}\n")
+    return results
 
 
 def _deck_beside(path: Path, results: Results) -> Path | None:

@@ -158,6 +158,7 @@ def _solved(args: argparse.Namespace, output: Path) -> tuple["Deck", "Results", 
 def _loaded(args: argparse.Namespace, output: Path) -> tuple["Deck", "Results", int]:
     """The same of a result file."""
     import adamslite
+    from adamslite.cli.commands.results_given import in_own_terms
     from adamslite.drawing.run_deck import beside, deck_of, difference, need_its_bodies
     from adamslite.errors import UsageError
     from adamslite.outputs.whole_files import need_writable
@@ -169,6 +170,7 @@ def _loaded(args: argparse.Namespace, output: Path) -> tuple["Deck", "Results", 
         raise UsageError(f"{args.scene} carries no deck, and none lies beside it; give --deck")
     need_writable(output, [path] if path else [])
     deck = deck_of(results) if path is None else adamslite.read(path, args.user)
+    results = in_own_terms(results, deck)
     need_its_bodies(deck, results, str(args.scene))
     if path and (warning := difference(deck, results)):
         sys.stderr.write(f"{path}: {warning}\n")
