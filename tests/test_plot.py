@@ -47,7 +47,13 @@ def table(**columns: np.ndarray | float) -> Results:
     return Results(time=TIME, names=names, values=values, meta=UNITS)
 
 
-BODY = table(PART__2_x=np.sin(TIME), PART__2_vx=np.cos(TIME), PART__2_psi=TIME, JOINT__3_fx=5.0)
+BODY = table(
+    PART__2_x=np.sin(TIME),
+    PART__2_y=0.0,
+    PART__2_vx=np.cos(TIME),
+    PART__2_psi=TIME,
+    JOINT__3_fx=5.0,
+)
 
 
 def titles(figure: Any) -> list[str]:
@@ -92,6 +98,8 @@ def test_any_number_of_curves_is_legible(count: int) -> None:
         source=RunSource(deck=SPRING.replace("REQUEST/1, F2=DM(2,1)\\F3=2*DM(2,1)", requests)),
     )  # fmt: skip
     figure = plot(results, "*", against=results)
+    differences = figure.axes[3].get_lines()
+    assert len({str(line.get_color()) for line in differences}) == len(differences) == count + 2
     assert figure.axes[2].get_title(loc="left") == "force [N]"
     curves = figure.axes[2].get_lines()[:count]
     assert len({str(line.get_color()) for line in curves}) == count
@@ -142,6 +150,7 @@ def test_patterns_mean_columns_once_in_their_order_in_any_case() -> None:
         (["PART/2.x"], "position x of PART/2"),
         (["PART/2.x", "PART/2.vx"], "PART/2: position x and velocity vx"),
         (["PART/2.x", "JOINT/3.fx"], "PART/2: position x, JOINT/3: force fx"),
+        (["PART/2.x", "PART/2.y", "PART/2.vx"], "PART/2: position x and y, velocity vx"),
     ],
 )
 def test_the_title_says_what_is_seen(names: list[str], words: str) -> None:

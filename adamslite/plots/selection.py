@@ -146,7 +146,8 @@ def _content(channels: Sequence[Channel]) -> str:
     for quantity, components in found.items():
         named = "" if quantity and len(components) == 3 else listed(list(filter(None, components)))
         texts.append(f"{quantity} {named}".strip())
-    return listed(list(filter(None, texts)))
+    nested = any(" and " in text for text in texts)
+    return ", ".join(filter(None, texts)) if nested else listed(list(filter(None, texts)))
 
 
 def listed(words: Sequence[str]) -> str:

@@ -229,14 +229,18 @@ def _panel(axis: Axes, panel: Panel, drawn: Drawn) -> None:
         handles.append(line)
         if not drawn.over_time:
             _ends(axis, drawn.x.values, each.values, color)
-    if many:
-        picked = np.unique(np.linspace(0, len(handles) - 1, SHOWN_OF_MANY).round().astype(int))
-        handles = [handles[k] for k in picked]
-    handles += _reference(axis, panel, drawn)
-    axis.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1.03), borderaxespad=0.0,
-                title=f"{len(panel.curves)} channels, from" if many else None,
-                alignment="left", title_fontsize=8)  # fmt: skip
+    _legend(axis, handles, _reference(axis, panel, drawn))
     style.plain_ticks(axis.yaxis)
+
+
+def _legend(axis: Axes, handles: Sequence[Any], others: Sequence[Any] = ()) -> None:
+    """The legend beside an axis; of many curves it has a few, from the first to the last."""
+    title, count = None, len(handles)
+    if count > TELLABLE:
+        picked = np.unique(np.linspace(0, count - 1, SHOWN_OF_MANY).round().astype(int))
+        handles, title = [handles[k] for k in picked], f"{count} channels, from"
+    axis.legend(handles=[*handles, *others], loc="upper left", bbox_to_anchor=(1.01, 1.03),
+                borderaxespad=0.0, title=title, alignment="left", title_fontsize=8)  # fmt: skip
 
 
 def _looks(count: int) -> Sequence[Look]:
@@ -279,26 +283,27 @@ def _reference(axis: Axes, panel: Panel, drawn: Drawn) -> list[Any]:
 def _difference(axis: Axes, drawn: Drawn) -> None:
     """Difference from the reference as a part of the tolerance, of all curves that have one."""
     assert drawn.beside is not None
+    compared = drawn.beside.compared
     axis.set_title(f"difference from {drawn.beside.name}, as a part of the tolerance")
     axis.axhspan(-1.0, 1.0, color=style.BAND, linewidth=0, zorder=0)
+    names = [each.channel.name for each in drawn.curves if each.channel.name in compared]
+    few = len(drawn.curves) <= TELLABLE
+    looks = [drawn.looks[name] for name in names] if few else _looks(len(names))
     largest, handles = 1.0, list[Any]()
-    for each in drawn.curves:
-        if each.channel.name in drawn.beside.compared:
-            c = drawn.beside.compared[each.channel.name]
-            share = np.where(np.isfinite(c.share), c.share, np.nan)
-            color, dashes = drawn.looks[each.channel.name]
-            handles += axis.plot(
-                c.time, share, color=color, linestyle=dashes, linewidth=1.2,
-                marker="o" if c.time.size < 3 else "", label=each.channel.name,
-            )  # fmt: skip
-            largest = max(largest, float(np.nanmax(np.abs(share), initial=0.0)))
+    for name, (color, dashes) in zip(names, looks, strict=True):
+        c = compared[name]
+        share = np.where(np.isfinite(c.share), c.share, np.nan)
+        handles += axis.plot(
+            c.time, share, color=color, linestyle=dashes, linewidth=1.2,
+            marker="o" if c.time.size < 3 else "", label=clipped(name),
+        )  # fmt: skip
+        largest = max(largest, float(np.nanmax(np.abs(share), initial=0.0)))
     if largest > 10.0:
         axis.set_yscale("symlog", linthresh=1.0)
     else:
         style.plain_ticks(axis.yaxis)
     axis.set_ylim(-1.15 * largest, 1.15 * largest)
-    axis.legend(handles=handles[:TELLABLE], loc="upper left", bbox_to_anchor=(1.01, 1.03),
-                borderaxespad=0.0)  # fmt: skip
+    _legend(axis, handles)
 
 
 def _across(axes: Sequence[Axes], drawn: Drawn) -> None:
