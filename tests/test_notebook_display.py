@@ -94,6 +94,19 @@ def test_a_check_with_errors_shows_them_all() -> None:
     assert "there is no MARKER/7" in document.text
 
 
+def test_a_long_deck_is_shown_in_part() -> None:
+    comments = "! nothing\n" * 5000
+    text = shown(al.read(SPRING + comments + "END\n")).text
+    assert "... " in text and " more lines" in text and text.count("! nothing") < 1000
+
+
+def test_mistakes_are_all_that_a_notebook_prints_of_them() -> None:
+    with pytest.raises(al.DeckError) as caught:
+        al.read(SPRING.replace("J=1,", "J=7,") + "END\n")
+    lines = caught.value._render_traceback_()
+    assert lines[0] == "DeckError: 1 mistake" and "there is no MARKER/7" in lines[-1]
+
+
 def test_results_show_outcome_table_and_page() -> None:
     results = al.simulate(SPRING + RUN + "END\n")
     document = shown(results)

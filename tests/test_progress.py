@@ -11,7 +11,14 @@ import pytest
 
 import adamslite as al
 from adamslite.cli.main import main
-from adamslite.progress import Progress, RunState, TalkingProgress, progress_of
+from adamslite.errors import UsageError
+from adamslite.progress import (
+    Progress,
+    RunState,
+    SentenceProgress,
+    TalkingProgress,
+    progress_of,
+)
 from adamslite.progress.meter import Meter
 
 MASS = """A mass in a field of force
@@ -182,8 +189,15 @@ def test_a_file_hears_of_a_run_that_hardly_advances() -> None:
     assert all(line.startswith("3 %") and "the error of PART/2" in line for line in lines)
 
 
+def test_several_processes_report_sentences_only(capsys: Any) -> None:
+    """`verify` solves decks side by side."""
+    progress = SentenceProgress()
+    progress.watch(state(0.5, 50))
+    progress.say("compiling once")
+    assert capsys.readouterr().err == "compiling once\n"
+
+
 def test_rich_draws_a_bar(monkeypatch: Any) -> None:
-    pytest.importorskip("rich")
     monkeypatch.setenv("COLUMNS", "120")
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.delenv("NO_COLOR", raising=False)
@@ -211,6 +225,8 @@ def test_python_chooses() -> None:
     assert type(progress_of(None)) is type(progress_of(False)) is Progress
     assert type(progress_of(True)) is TalkingProgress
     assert progress_of(own) is own
+    with pytest.raises(UsageError, match="progress='yes': it is True, False or a function"):
+        progress_of("yes")  # type: ignore[arg-type]
     told: list[tuple[float, float]] = []
     progress_of(lambda time, end: told.append((time, end))).watch(state(0.5))
     assert told == [(0.5, 2.0)]

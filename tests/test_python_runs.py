@@ -87,7 +87,8 @@ def test_routines_are_bound_by_a_mapping(tmp_path: Path) -> None:
     """A VARIABLE that is 3 pushes 2 kg without gravity: x = 3/2 t^2/2 = 3 at t = 2."""
     push = "VARIABLE/1, FUNCTION=USER(1)\nVFORCE/1, I=2, J_PART=1, FX=VARVAL(1)\\FY=0\\FZ=0\n"
     text = FALL.replace("JGRAV=-9.81", "JGRAV=0") + f"{push}{RUN}\nEND\n"
-    results = al.simulate(text, user={"VARIABLE/1": 3.0})
+    with pytest.warns(al.DeckWarning, match="by user=: VARIABLE/1 = 3"):
+        results = al.simulate(text, user={"VARIABLE/1": 3.0})
     np.testing.assert_allclose(results["POINT_MASS/2.x"][-1], 3.0, atol=1e-4)
     with pytest.raises(UsageError, match=r"give it to adamslite\.read"):
         al.simulate(al.read(text, user={"VARIABLE/1": 3.0}), user={"VARIABLE/1": 1.0})
@@ -150,6 +151,36 @@ def test_linearize_takes_the_file_beside(fall: Path) -> None:
 def test_a_wrong_argument_is_named(wrong: dict[str, object]) -> None:
     with pytest.raises(UsageError, match=next(iter(wrong)).split("_")[-1]):
         al.simulate(FALL + "END\n", **{"end": 1.0, **wrong})
+
+
+def test_what_is_no_deck_is_refused_in_a_sentence(tmp_path: Path) -> None:
+    for wrong in (None, 3, [FALL]):
+        for function in (al.simulate, al.linearize, al.check, al.chart):
+            with pytest.raises(UsageError, match="a deck is a path, a text, or what"):
+                function(wrong)
+    with pytest.raises(UsageError, match="this is empty"):
+        al.simulate("")
+    with pytest.raises(IsADirectoryError):
+        al.simulate(tmp_path)
+
+
+@pytest.mark.parametrize("wrong", [3, [3], [RUN, 3]], ids=str)
+def test_what_is_no_command_is_refused_in_a_sentence(wrong: object) -> None:
+    with pytest.raises(UsageError, match="commands= takes a file, a text, lines"):
+        al.simulate(FALL + "END\n", commands=wrong)
+
+
+@pytest.mark.parametrize("time", [-1.0, float("nan"), float("inf"), "1"])
+def test_a_time_of_linearisation_is_a_time(time: object) -> None:
+    with pytest.raises(UsageError, match=f"time={time}: it must be a time, zero or above"):
+        al.linearize(SWING + "END\n", time=time)
+
+
+def test_single_texts_stand_for_lists_of_one() -> None:
+    text = FALL + f"VARIABLE/1, FUNCTION=USER(1)\nREQUEST/1, F2=VARVAL(1)\n{RUN}\nEND\n"
+    with pytest.warns(al.DeckWarning, match="VARIABLE/1 = 3"):
+        results = al.simulate(text, user="VARSUB=3", no_reduction="variables")
+    np.testing.assert_array_equal(results["REQUEST/1.F2"], 3.0)
 
 
 def test_names_of_methods_are_read_in_any_case() -> None:

@@ -198,6 +198,11 @@ def test_charts_take_what_the_command_takes() -> None:
     assert repr(chart).startswith("<Chart: 2 runs against ")
     with pytest.raises(UsageError, match="integrator='EULER': there are"):
         al.chart(deck, integrator=["EULER"])
+    with pytest.raises(UsageError, match="error=-1: it must be a positive number"):
+        al.chart(deck, error=[1e-3, -1])
+    for wrong in ({"repeats": 0}, {"patience": 0.0}):
+        with pytest.raises(UsageError, match="repeats= is at least 1, patience= a positive"):
+            al.chart(deck, **wrong)
 
 
 def test_modes_are_a_table_in_a_terminal(capsys: Any) -> None:

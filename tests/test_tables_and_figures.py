@@ -45,7 +45,6 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_pandas_has_a_column_for_each_channel(thrown: al.Results) -> None:
-    pytest.importorskip("pandas")
     frame = thrown.to_pandas()
     assert list(frame.columns) == list(thrown.names)
     assert frame.index.name == "time"
@@ -58,7 +57,8 @@ def test_pandas_has_a_column_for_each_channel(thrown: al.Results) -> None:
 
 
 def test_xarray_has_what_the_file_has(thrown: al.Results) -> None:
-    xarray = pytest.importorskip("xarray")
+    import xarray
+
     thrown.save("stone.nc")
     data = thrown.to_xarray()
     with xarray.open_dataset("stone.nc") as read:
@@ -78,15 +78,12 @@ def test_a_missing_library_is_named_in_a_sentence(
 
 
 def test_empty_results_are_empty_tables() -> None:
-    pytest.importorskip("pandas")
-    pytest.importorskip("xarray")
     empty = al.Results(time=np.zeros(0), names=("PART/2.x",), values=np.zeros((0, 1)))
     assert empty.to_pandas().shape == (0, 1)
     assert empty.to_xarray().sizes["time"] == 0
 
 
 def test_a_figure_is_drawn_and_written(thrown: al.Results) -> None:
-    pytest.importorskip("matplotlib")
     figure = thrown.plot("POINT_MASS/2.x", "POINT_MASS/2.v?", output="stone.svg")
     assert Path("stone.svg").read_text().startswith("<?xml")
     lines = [
@@ -99,7 +96,6 @@ def test_a_figure_is_drawn_and_written(thrown: al.Results) -> None:
 
 @pytest.mark.parametrize("given", ["deck", "text", "file"])
 def test_figures_of_decks_and_files(thrown: al.Results, given: str) -> None:
-    pytest.importorskip("matplotlib")
     Path("stone.adm").write_text(THROW)
     thrown.save("stone.csv")
     named = {"deck": al.read("stone.adm"), "text": THROW, "file": "stone.csv"}[given]
@@ -107,14 +103,12 @@ def test_figures_of_decks_and_files(thrown: al.Results, given: str) -> None:
 
 
 def test_a_figure_beside_a_reference(thrown: al.Results) -> None:
-    pytest.importorskip("matplotlib")
     thrown.save("stone.csv")
     assert al.plot(thrown, ["POINT_MASS/2.x"], against=Path("stone.csv")).axes
     assert thrown.plot("POINT_MASS/2.x", against=thrown, x="POINT_MASS/2.y").axes
 
 
 def test_wrong_channels_and_files_of_figures(thrown: al.Results) -> None:
-    pytest.importorskip("matplotlib")
     with pytest.raises(UnknownChannel, match=r"did you mean POINT_MASS/2\.x"):
         thrown.plot("POINTMASS/2.x")
     with pytest.raises(UsageError, match="png"):
@@ -180,5 +174,4 @@ def test_results_with_gaps_are_drawn(thrown: al.Results) -> None:
     values[2:4] = np.nan
     gaps = replace(thrown, values=values)
     assert gaps.view("gaps.html").stat().st_size > 0
-    pytest.importorskip("matplotlib")
     assert gaps.plot("POINT_MASS/2.x").axes

@@ -8,6 +8,8 @@ from math import cos, exp, pi, sin, sqrt
 from pathlib import Path
 from typing import Any
 
+import nbclient
+import nbformat
 import pytest
 
 ROOT = Path(__file__).parent.parent
@@ -22,15 +24,12 @@ OMEGA = sqrt(K / M - DECAY**2)
 
 
 def notebook() -> Any:
-    nbformat = pytest.importorskip("nbformat")
     return nbformat.read(NOTEBOOK, as_version=4)
 
 
 @pytest.fixture(scope="module")
 def cells(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, str]]:
     """For the first line of each cell what it shows: MIME type to content, and `printed`."""
-    nbclient = pytest.importorskip("nbclient")
-    pytest.importorskip("ipykernel")
     run = notebook()
     folder = tmp_path_factory.mktemp("notebook")
     before = os.environ.get("PYTHONPATH")

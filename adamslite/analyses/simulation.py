@@ -6,6 +6,8 @@ import time as clock
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import partial
+from math import inf
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -178,6 +180,7 @@ def linearize(
     """
     from adamslite.analyses.linearization.linearization import linear
 
+    _need_time(time)
     deck = deck_of(scene)
     marker = None if rm is None else _marker(deck, str(rm))
     session = Session(scene, None, {})
@@ -188,6 +191,11 @@ def linearize(
         raise RunFailed(explain(system, session.outcome, session.unclosed))
     made = session.linearizations
     return made[-1].model if made and rm is None else linear(system, relative_to=marker)
+
+
+def _need_time(time: object) -> None:
+    if time is not None and not (isinstance(time, Real) and 0.0 <= float(time) < inf):
+        raise UsageError(f"--time {time}: it must be a time, zero or above")
 
 
 def _marker(deck: Deck, word: str) -> Key:

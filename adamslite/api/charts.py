@@ -7,10 +7,12 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
+from adamslite.analyses.run_options import checked
 from adamslite.analyses.simulation import simulate
 from adamslite.analyses.subject import Subject
 from adamslite.api.inputs import CommandSource, User, inputs
 from adamslite.deck.deck import Deck
+from adamslite.errors import UsageError
 from adamslite.kernels.compile import compile_model
 from adamslite.model.model import Model, assemble
 from adamslite.progress import Progress, progress_of
@@ -53,16 +55,21 @@ def chart(
     Chart
         Its points; ``recommended(digits)`` is the cheapest one with so many digits.
     """
+    numbers = checked({"end": end, "steps": steps, "hmax": hmax})
+    errors = [error] if isinstance(error, int | float) else list(error) or ERRORS
+    for each in errors:
+        checked({"error": each})
+    if repeats < 1 or not patience > 0.0:
+        raise UsageError("repeats= is at least 1, patience= a positive time in seconds")
     given = inputs(scene, commands, user)
     tried = chosen([integrator] if isinstance(integrator, str) else integrator)
-    errors = [error] if isinstance(error, int | float) else list(error) or ERRORS
     channels = [channel] if isinstance(channel, str) else channel
     shown = progress_of(progress)
     try:
         subject = given.subject
         model = assemble(subject) if isinstance(subject, Deck) else subject
         kernels = compile_model(model, shown) if isinstance(model, Model) else model
-        solve = partial(simulate, kernels, end, steps, hmax=hmax, commands=given.commands)
+        solve = partial(simulate, kernels, commands=given.commands, **numbers)
         run = patient(solve, patience, shown)
         return measure(run, tried, sorted(errors, reverse=True), repeats, channels)
     finally:

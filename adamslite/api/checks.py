@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import adamslite
 from adamslite.api.contents import contents, counted
-from adamslite.api.inputs import CommandSource, User, read_inputs, with_commands
+from adamslite.api.inputs import CommandSource, User, need_subject, read_inputs, with_commands
 from adamslite.checks import rules
 from adamslite.checks.runs import without_run
 from adamslite.deck.deck import Deck
@@ -85,8 +85,9 @@ def check(
     user : mapping or iterable of str
         As for :func:`adamslite.read`.
     """
-    if not isinstance(scene, Deck):
+    if isinstance(scene, str | os.PathLike):
         return _of_files(scene, commands, user)
+    need_subject(scene)
     found = rules.check(scene)
     if commands is None:
         return Check(found, scene, (), _title(scene))

@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from adamslite.deck.deck import Deck
-from adamslite.deck.redefinition import Command
+from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.user_bindings import Given
 from adamslite.errors import DeckWarning, UsageError
 from adamslite.language.abbreviations import match
 from adamslite.language.diagnostics import WARNING, Diagnostic
-from adamslite.language.statement import STATEMENTS
+from adamslite.language.statement import STATEMENTS, Statement
 from adamslite.reading.read import Commands, read_commands
 from adamslite.scene import command_file_beside, read_together
 
@@ -60,6 +60,7 @@ def inputs(
     if isinstance(scene, str | os.PathLike):
         found = Inputs(*read_inputs(scene, commands, user)[:3])
     else:
+        need_subject(scene)
         if user is not None:
             raise UsageError(
                 "user= is for reading: give it to adamslite.read, which made this deck"
@@ -69,8 +70,26 @@ def inputs(
     return found
 
 
+def need_subject(scene: object) -> None:
+    """Reject what no stage before a run returns.
+
+    Raises
+    ------
+    UsageError
+        In one sentence.
+    """
+    if not isinstance(scene, Deck):
+        from adamslite.analyses.subject import Kernels, Model
+
+        if not isinstance(scene, Model | Kernels):
+            kind = type(scene).__name__
+            raise UsageError(f"a deck is a path, a text, or what adamslite.read returns, no {kind}")
+
+
 def read_inputs(scene: str | os.PathLike[str], commands: CommandSource, user: User) -> ReadInputs:
     """Deck and commands as they are read, checked and reported by the command line."""
+    if not str(scene).strip():
+        raise UsageError("a deck is a path or a text, and this is empty")
     source = scene if isinstance(scene, str) and "\n" in scene else Path(scene)
     given, beside = _source(commands), None
     if given is None and isinstance(source, Path):
@@ -104,11 +123,13 @@ def _source(commands: CommandSource) -> str | Path | Sequence[Command] | None:
         return f"{commands}\n" if "\n" in commands or _is_statement(commands) else Path(commands)
     if isinstance(commands, os.PathLike):
         return Path(commands)
-    listed = tuple(commands)
-    texts = [each for each in listed if isinstance(each, str)]
-    if texts and len(texts) == len(listed):
-        return "".join(f"{each}\n" for each in texts)
-    return Commands(each for each in listed if not isinstance(each, str))
+    listed = tuple(commands) if isinstance(commands, Iterable) else (commands,)
+    if listed and all(isinstance(each, str) for each in listed):
+        return "".join(f"{each}\n" for each in listed)
+    statements = [each for each in listed if isinstance(each, Statement | Redefinition)]
+    if len(statements) < len(listed):
+        raise UsageError("commands= takes a file, a text, lines, or statements of read_commands")
+    return Commands(statements)
 
 
 def _is_statement(text: str) -> bool:

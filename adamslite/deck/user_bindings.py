@@ -137,7 +137,8 @@ def bindings(given: Mapping[str, Given] | Iterable[str] | None) -> Bindings:
         When one of them cannot be understood.
     """
     found = Bindings()
-    pairs = given.items() if isinstance(given, Mapping) else map(_pair, given or ())
+    texts = [given] if isinstance(given, str) else given or ()
+    pairs = given.items() if isinstance(given, Mapping) else map(_pair, texts)
     for name, value in pairs:
         _enter(found, name.strip(), _binding(name, value))
     return found

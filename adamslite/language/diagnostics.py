@@ -268,3 +268,8 @@ class DeckError(Exception):
 
     def __str__(self) -> str:
         return render(self.diagnostics)
+
+    def _render_traceback_(self) -> list[str]:
+        """What a notebook prints: the messages, without the way through this package."""
+        count = len(self.errors)
+        return [f"{type(self).__name__}: {count} mistake{'s' * (count > 1)}", "", str(self)]

@@ -27,7 +27,7 @@ def left_off(names: Iterable[str]) -> frozenset[str]:
     UsageError
         When there is no such rule.
     """
-    found = frozenset(names)
+    found = frozenset([names] if isinstance(names, str) else names)
     for name in found.difference(RULES):
         raise UsageError(f"There is no reduction {name}. There are {', '.join(RULES)}.")
     return found

@@ -5,11 +5,14 @@ from __future__ import annotations
 from html import escape
 
 from adamslite.api.checks import Check
+from adamslite.deck.deck import Deck
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.notebooks.markup import folded, marked
 
 #: More messages than this are counted only.
 MOST = 20
+#: Lines of a deck that are shown.
+MOST_LINES = 1000
 
 
 def check_html(found: Check) -> str:
@@ -23,9 +26,14 @@ def check_html(found: Check) -> str:
         listed = "".join(f"<li>{escape(line)}</li>" for line in contents)
         parts.append(f"<ul>{listed}</ul>")
     if found.deck is not None:
-        text = f"<pre>{escape(found.deck.source.text)}</pre>"
-        parts.append(folded("the text of the deck", text))
+        parts.append(folded("the text of the deck", f"<pre>{escape(_text(found.deck))}</pre>"))
     return f"<div>{''.join(parts)}</div>"
+
+
+def _text(deck: Deck) -> str:
+    """As far as anybody reads it in a notebook."""
+    text, more = deck.source.text, len(deck.lines) - MOST_LINES
+    return "\n".join([*deck.lines[:MOST_LINES], f"... {more} more lines"]) if more > 0 else text
 
 
 def _message(each: Diagnostic) -> str:

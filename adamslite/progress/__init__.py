@@ -7,6 +7,6 @@ the first time.
 
 from adamslite.progress.base import Progress, RunState
 from adamslite.progress.choice import progress_of
-from adamslite.progress.terminal import TalkingProgress
+from adamslite.progress.terminal import SentenceProgress, TalkingProgress
 
-__all__ = ["Progress", "RunState", "TalkingProgress", "progress_of"]
+__all__ = ["Progress", "RunState", "SentenceProgress", "TalkingProgress", "progress_of"]

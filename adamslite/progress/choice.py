@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+from adamslite.errors import UsageError
 from adamslite.progress.base import CalledProgress, Progress
 from adamslite.progress.terminal import TalkingProgress
 
@@ -16,6 +17,8 @@ def progress_of(given: Progress | Callable[[float, float], Any] | bool | None) -
         return given
     if callable(given):
         return CalledProgress(given)
+    if not isinstance(given, bool | None):
+        raise UsageError(f"progress={given!r}: it is True, False or a function of time and end")
     if given is False or (given is None and not in_notebook()):
         return Progress()
     if in_notebook():

@@ -106,6 +106,14 @@ class TalkingProgress(Progress):
         self._width = len(line)
 
 
+class SentenceProgress(Progress):
+    """Reports sentences to standard error, and nothing of runs that go on: several may at once."""
+
+    def say(self, sentence: str) -> None:
+        sys.stderr.write(sentence + "\n")
+        sys.stderr.flush()
+
+
 def _has_rich() -> bool:
     from importlib.util import find_spec
 

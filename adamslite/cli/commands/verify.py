@@ -61,14 +61,10 @@ def run(args: argparse.Namespace) -> int:
 
 def solve_tellingly(deck: Path, options: Mapping[str, Any]) -> Results:
     """Solve a deck as `verify` does, and report what takes long."""
-    from adamslite.progress import TalkingProgress
+    from adamslite.progress import SentenceProgress
     from adamslite.verification.verification import solve_quietly
 
-    progress = TalkingProgress()
-    try:
-        return solve_quietly(deck, options, progress)
-    finally:
-        progress.close()
+    return solve_quietly(deck, options, SentenceProgress())
 
 
 def _meets(verdict: Verdict, share: float) -> bool:
