@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 from scenes import GROUND, done
 
+import adamslite as al
+from adamslite.deck.python_routine import reads
+
 METHODS = ("GSTIFF", "HHT", "NEWMARK", "RADAU", "ABAM", "VERLET", "AUTO")
 
 
@@ -146,3 +149,42 @@ def test_a_state_that_is_small_against_error_is_told(size: float, told: bool):
     )
     results = done(filtered, 2.0, 40, integrator="GSTIFF", error=1e-5)
     assert ("largest DIFF/1" in results.meta.get("accuracy", "")) is told
+
+
+def at_a_wall(force: str) -> str:
+    """1.5 kg that flies at 2 m/s against a wall at x = 0, 0.31 m away."""
+    return (
+        GROUND + "POINT_MASS/2, MASS=1.5, CM=2, QG=0.31,0,0, VX=-2\nMARKER/2, POINT_MASS=2\n"
+        f"VARIABLE/1, FUNCTION={force}\nVFORCE/1, I=2, J_PART=1, FX=VARVAL(1)\nEND\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("method", "stiffness", "error", "told"),
+    [
+        ("HHT", 1e10, 1e-3, True),
+        ("HHT", 1e10, 1e-7, False),
+        ("HHT", 1e4, 1e-3, False),
+        ("RADAU", 1e8, 1e-3, False),
+    ],
+)
+def test_an_impact_that_was_damped_is_told(method: str, stiffness: float, error: float, told: bool):
+    """The wall gives the speed back: what is off by more than 3 % says so, nothing else does."""
+    deck = at_a_wall(f"{stiffness}*MAX(0,-DX(2))")
+    results = done(deck, 0.35, 11, integrator=method, error=error)
+    assert ("a velocity changed" in results.meta.get("accuracy", "")) == told
+    assert (abs(results["POINT_MASS/2.vx"][-1] - 2) > 0.06) == told
+
+
+@pytest.mark.parametrize(("error", "told"), [(1e-3, True), (1e-7, False)])
+def test_a_wall_that_a_routine_hides_is_told(error: float, told: bool):
+    """The same from Python, which says nothing about edges: RADAU damps it in long steps."""
+
+    @reads("DX(2, 1)")
+    def wall(given: tuple[float, ...], time: float, x: float) -> float:
+        return given[0] * max(0.0, -x)
+
+    deck = al.read(at_a_wall("USER(1E8)"), user={"VARIABLE/1": wall})
+    results = al.simulate(deck, end=0.35, steps=5, integrator="RADAU", error=error)
+    assert ("a velocity changed" in results.meta.get("accuracy", "")) == told
+    assert (abs(results["POINT_MASS/2.vx"][-1] - 2) > 0.06) == told

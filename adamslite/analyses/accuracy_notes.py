@@ -17,6 +17,7 @@ import numpy as np
 from adamslite.analyses.dynamic import Settings
 from adamslite.equations.system import System
 from adamslite.integrators import contract
+from adamslite.integrators.jolts import JOLT
 from adamslite.language.method import FIXED, FIXED_BY_HINIT
 
 # ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do
@@ -96,6 +97,12 @@ def _of_method(
         yield (
             f"accelerations changed by more than half in {rough} of {steps} steps: vibrations "
             "faster than the steps were damped, not followed; GSTIFF or RADAU follow them"
+        )
+    if report.jolts > 0 or report.jolt > JOLT * report.speed > 0.0:
+        yield (
+            f"a velocity changed by about {report.jolt:.2g} within a step in a way that its ends "
+            "do not show: impacts shorter than the steps were not followed; a smaller ERROR or "
+            "HMAX follows them"
         )
     if method.damping and divided:
         yield (

@@ -184,7 +184,9 @@ class Report(Record):
     open_by``: of a corrector that failed (:mod:`adamslite.integrators.failure_notes`); ``torn``: a
     redundant row that opened; ``spent``: sum of the estimated errors over ERROR; ``divided``: fixed
     steps that were; ``stable_step``: the longest stable step anywhere, for equal steps; ``moved``:
-    by a projection; ``stiffness damping``: spectral radii of M^-1 K and M^-1 C.
+    by a projection; ``stiffness damping``: spectral radii of M^-1 K and M^-1 C; ``jolt speed
+    jolts``: the largest change of a velocity within a step that accelerations at its ends leave
+    open, the largest velocity, and how many were large (:mod:`adamslite.integrators.jolts`).
     """
 
     t: float
@@ -209,6 +211,9 @@ class Report(Record):
     moved: float
     stiffness: float
     damping: float
+    jolt: float
+    speed: float
+    jolts: int
 
 
 class Counts(Record):

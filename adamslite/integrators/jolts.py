@@ -1,0 +1,44 @@
+"""Jolts: what happens to velocities within a step unseen from its ends, as in a short impact.
+
+Methods that damp vibrations faster than their steps do so with the velocity of a body that meets a
+hard wall, too, or lead so far into the wall that it is thrown back faster than it came; no estimate
+of an error is large.  What is left open is
+
+    |u+ - u - h (a + a+)/2|      where stages in between have accelerations of their own
+    |h (a+ - a)/2|               where u+ follows from those at the ends alone
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import Problem
+from adamslite.native.translate import Reals, native
+
+# Share of the largest velocity from which a jolt is large: a fast vibration with 8 steps (HHT) or 3
+# steps (RADAU) a period, or an impact in as few.  Jolts below so many ERRORs are none.
+JOLT, UNFELT = 0.25, 100.0
+
+
+@native
+def start_jolts(P: Problem) -> None:
+    """None have been seen yet."""
+    P.report.jolt, P.report.speed, P.report.jolts = 0.0, 0.0, 0
+
+
+@native
+def note_jolt(P: Problem, u: Reals, h: float, stages: bool) -> None:
+    """Note what the step from velocities ``u`` and accelerations ``P.ra`` to those in place leaves
+    open, and the largest velocity.
+
+    With ``stages`` the jolt is large or not against velocities until the step.  Without, a start
+    from rest is one: there the largest of the run tells.
+    """
+    R, jolt, speed = P.report, 0.0, max(UNFELT * P.settings.error, P.report.speed)
+    for i in range(P.sizes.n):
+        left_open = 0.5 * h * (P.a[i] - P.ra[i])
+        if stages:
+            left_open += P.u[i] - u[i] - h * P.a[i]
+        jolt, speed = max(jolt, abs(left_open)), max(speed, abs(u[i]))
+        R.speed = max(R.speed, abs(P.u[i]))
+    R.jolt = max(R.jolt, jolt)
+    if stages and jolt > JOLT * speed:
+        R.jolts += 1
