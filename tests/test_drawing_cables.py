@@ -87,6 +87,59 @@ def test_a_chain_is_drawn_once() -> None:
     assert plain["shapes"] == plain["links"] == plain["arrows"] == []
 
 
+def test_a_weight_on_a_row_of_forces_is_drawn_on_its_line() -> None:
+    """Forces whose law depends on states make a row as well; the mass of 100 kg in it is no piece
+    of the cable.
+    """
+    text = CHAIN.replace("-0.9)", "-DIF(1))").replace(
+        "POINT_MASS/3, MASS=1", "POINT_MASS/3, MASS=100"
+    )
+    plain = drawn_of(text.replace("SIMULATE", "DIFF/1, IC=0.9, FUNCTION=0.1\nSIMULATE")).plain
+    (cable,) = plain["cables"]
+    assert len(cable["nodes"]) == 5 and cable["tension"] is None
+    assert [(each["kind"], each["body"]) for each in plain["shapes"]] == [("sphere", 2)]
+
+
+@pytest.mark.parametrize(
+    ("text", "radius"),
+    [
+        ("GEAR/1, JOINTS=1,2, CV=4", {1: 0.1, 2: 0.2}),
+        ("COUPLER/1, JOINTS=1,3, TYPE=R:T, SCALES=150,-1000", {1: 0.15}),
+        ("COUPLER/1, JOINTS=1,2, TYPE=R:R, SCALES=150,-1000", {}),
+        (
+            "SFORCE/1, I=30, J=10, FUNCTION=IMPACT(DM(30,10),VR(30,10),0.25,1E5,1.5,1,1E-4)",
+            {1: 0.25},
+        ),
+    ],
+)
+def test_gears_drums_and_rims_are_wheels(text: str, radius: dict[int, float]) -> None:
+    """The pitch point of the gears is 0.1 from the first axle and 0.2 from the second, its velocity
+    across the line between them.
+    """
+    deck = f"""Gears
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/2, PART=1, QP=0.3,0,0
+MARKER/3, PART=1, QP=0,1,0
+MARKER/4, PART=1, QP=0.1,0,0, ZP=0.1,1,0
+PART/10, MASS=1, CM=10, IP=1,1,1
+MARKER/10, PART=10
+PART/20, MASS=1, CM=20, IP=1,1,1, QG=0.3,0,0
+MARKER/20, PART=20
+PART/30, MASS=1, CM=30, IP=1,1,1, QG=0,1,0
+MARKER/30, PART=30
+JOINT/1, REVOLUTE, I=10, J=1
+JOINT/2, REVOLUTE, I=20, J=2
+JOINT/3, TRANSLATIONAL, I=30, J=3
+{text}
+SIMULATE/DYNAMIC, END=1
+END
+"""
+    shapes = drawn_of(deck).plain["shapes"]
+    found = {each["body"]: each["radius"] for each in shapes if each["kind"] == "wheel"}
+    assert found == pytest.approx(radius)
+
+
 def test_two_springs_in_a_row_are_links() -> None:
     found = drawn_of(HOIST.format(drawn=""), SFORCE_101=[-1], SFORCE_102=[-1])
     assert found.plain["cables"] == []

@@ -6,7 +6,7 @@ it; EA = k H. A row ends at the ground, at a body that is joined to one or to mo
 and at a body much heavier or lighter than the masses in between.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from statistics import median
 
@@ -69,8 +69,15 @@ class Chain:
 
 def chains(deck: Deck, posture: Posture) -> list[Chain]:
     """All cables of a deck, in the order of their first springs."""
+    return [chain for chain in rows(deck, _links(deck, posture)) if _is_cable(chain)]
+
+
+def rows(deck: Deck, links: Iterable[Link], alike: float = ALIKE) -> list[Chain]:
+    """Links in rows: each as long as it goes through masses that nothing else joins and that
+    differ from the median of all by less than a factor.
+    """
     joined: dict[Body, dict[Body, Link]] = {}
-    for link in _links(deck, posture):
+    for link in links:
         a, b = link.ends
         joined.setdefault(a, {})[b] = link
         joined.setdefault(b, {})[a] = link
@@ -80,13 +87,13 @@ def chains(deck: Deck, posture: Posture) -> list[Chain]:
 
     def inside(node: Body) -> bool:
         m = masses[node]
-        return bool(m) and len(joined[node]) == 2 and middle / ALIKE < m < middle * ALIKE
+        return bool(m) and len(joined[node]) == 2 and middle / alike < m < middle * alike
 
-    return [chain for chain in _rows(joined, inside) if _is_cable(chain)]
+    return list(_rows(joined, inside))
 
 
 def _links(deck: Deck, posture: Posture) -> Iterator[Link]:
-    for drawn in _candidates(deck, posture):
+    for drawn in along_lines(deck, posture):
         try:
             found = _sprung(drawn, posture)
         except Unknown:
@@ -95,8 +102,8 @@ def _links(deck: Deck, posture: Posture) -> Iterator[Link]:
             yield found
 
 
-def _candidates(deck: Deck, posture: Posture) -> Iterator[Link]:
-    """Forces along a line between two bodies."""
+def along_lines(deck: Deck, posture: Posture) -> Iterator[Link]:
+    """Forces along a line between two bodies, whatever their law."""
     for force in deck.of(Sforce):
         if force.kind == "TRANSLATIONAL" and not force.actiononly and deck.is_active(force):
             yield from _between(posture, force, force.j, (force.function,))

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from math import inf
+from statistics import median
 from typing import Any
 
 import numpy as np
 
-from adamslite.cables.chain_finder import Chain, Link, chains
+from adamslite.cables.chain_finder import ALIKE, FEWEST, Chain, Link, along_lines, chains, rows
 from adamslite.cables.posture import Posture
 from adamslite.drawing.cable_comments import CableComment, cable_comment
 from adamslite.drawing.drawing import Drawing
@@ -52,7 +54,7 @@ def cables(drawing: Drawing, statements: list[Graphics]) -> Cables:
         comment = cable_comment(drawing.deck, statement) if enough else None
         if comment:
             _described(drawing, found, statement, comment)
-    for chain in chains(drawing.deck, Posture(drawing.deck)):
+    for chain in _chains(drawing):
         if not any(link.statement.label in found.taken for link in chain.links):
             _chained(drawing, found, chain)
     pulleys = Pulleys(drawing)
@@ -151,7 +153,17 @@ def _chained(drawing: Drawing, found: Cables, chain: Chain) -> None:
     nodes = _between_rims(drawing, found, markers, chain.is_ring)
     found.lines.append(_line(drawing, name, nodes, tensions))
     found.taken |= {link.statement.label for link in chain.links}
-    found.inner |= {drawing.frames.body(key) for key in _inner(chain, markers)}
+    masses = {key: _mass(drawing, key) for key in _inner(chain, markers)}
+    light = ALIKE * median(masses.values()) if masses else 0.0
+    found.inner |= {drawing.frames.body(key) for key, mass in masses.items() if mass < light}
+
+
+def _chains(drawing: Drawing) -> list[Chain]:
+    """Those that `check` finds, and rows of line forces whatever their law; the longest first."""
+    posture = Posture(drawing.deck)
+    found = rows(drawing.deck, along_lines(drawing.deck, posture), alike=inf)
+    found = [*chains(drawing.deck, posture), *(row for row in found if len(row.links) >= FEWEST)]
+    return sorted(found, key=lambda chain: -len(chain.links))
 
 
 def _markers(chain: Chain) -> Iterator[Key]:
@@ -164,6 +176,10 @@ def _markers(chain: Chain) -> Iterator[Key]:
 
 def _inner(chain: Chain, markers: list[Key]) -> Iterable[Key]:
     return markers if chain.is_ring else markers[1:-1]
+
+
+def _mass(drawing: Drawing, marker: Key) -> float:
+    return drawing.model.bodies[drawing.frames.body(marker) - 1].mass
 
 
 def _name(node: tuple[str, Key]) -> str:

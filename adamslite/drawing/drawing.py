@@ -20,6 +20,8 @@ from adamslite.results.results import Results
 
 # Numbers that a frame of a part and of a point mass takes.
 OF_PART, OF_POINT = 7, 3
+FURTHER = 4.0
+"""By how much the way of the bodies may make a scene larger."""
 
 
 class Drawing:
@@ -68,10 +70,12 @@ class Drawing:
 
     @cached_property
     def size(self) -> float:
-        """The diagonal of the box around all bodies and markers at the first frame; 1 if none."""
-        places = np.array([*self._places()])
-        diagonal = float(np.hypot.reduce(np.ptp(places, axis=0))) if len(places) else 0.0
-        return diagonal if 0 < diagonal < np.inf else 1.0
+        """The diagonal of the box around all bodies and markers at the first frame, or that around
+        the way of the bodies, up to a few times as much; 1 where all is in one place.
+        """
+        drawn = _diagonal(np.array([*self._places()]))
+        way = _diagonal(np.concatenate([track.position for track in self.motion.tracks]))
+        return min(max(drawn, way), FURTHER * drawn) if drawn else way or 1.0
 
     def _places(self) -> Iterator[np.ndarray]:
         yield from (track.position[0] for track in self.motion.tracks[1:])
@@ -90,6 +94,10 @@ class Drawing:
         if values is None:
             return None
         return self.block.i16(values) if np.isfinite(values).all() else self.block.f32(values)
+
+
+def _diagonal(places: np.ndarray) -> float:
+    return float(np.hypot.reduce(np.ptp(places, axis=0))) if len(places) else 0.0
 
 
 def forward(results: Results) -> Results:

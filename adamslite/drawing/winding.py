@@ -1,7 +1,9 @@
-"""Wheels that wind up a cable, found in its expressions: a length that grows by R AZ(i, j).
+"""Wheels of a cable, found in its expressions.
 
-The product belongs to a wheel of the radius R where i and j are the markers of a revolute joint and
-the expression measures the distance of two markers as well, itself or through variables.
+R AZ(i, j)                 a length that a wheel winds up, where i and j are the markers of a
+                           revolute joint and the expression measures the distance of two
+                           markers as well, itself or through variables
+IMPACT(DM(k, j), v, R, ..  a rim that pushes a mass of the cable away from its axle at j
 """
 
 from __future__ import annotations
@@ -27,7 +29,7 @@ def wound(drawing: Drawing) -> dict[Key, float]:
     """Markers on the axles of such wheels, and radii."""
     deck = drawing.deck
     axles = {frozenset((j.i, j.j)) for j in deck.of(Joint) if j.kind == "REVOLUTE"}
-    found: dict[Key, float] = {}
+    found = _rims(drawing, {key for axle in axles for key in axle})
     for function in _lengths(drawing):
         parts = list(_parts(drawing, function))
         if not any(isinstance(each, Call) and each.name == "DM" for each in parts):
@@ -35,6 +37,24 @@ def wound(drawing: Drawing) -> dict[Key, float]:
         for marker, other, radius in filter(None, map(_winds, parts)):
             if frozenset((marker, other)) in axles:
                 found[marker if drawing.frames.body(marker) else other] = radius
+    return found
+
+
+def _rims(drawing: Drawing, axles: set[Key]) -> dict[Key, float]:
+    """Of contacts: the markers on revolute joints that push something away from them."""
+    found: dict[Key, float] = {}
+    pending = [each.function for each in drawing.deck.of(Variable)]
+    for function in (*pending, *_lengths(drawing)):
+        for call in walk(function):
+            if not (isinstance(call, Call) and call.name == "IMPACT"):
+                continue
+            depth, radius = call.args[0], call.args[2]
+            if isinstance(radius, Op) and radius.op == "+":
+                radius = radius.args[0]  # teeth on a rim
+            if isinstance(depth, Call) and depth.name == "DM" and isinstance(radius, Num):
+                axle = depth.args[1]
+                if isinstance(axle, Ref) and axle.id in axles and radius.value > 0:
+                    found[axle.id] = radius.value
     return found
 
 
