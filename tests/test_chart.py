@@ -280,6 +280,15 @@ def test_a_single_point_is_legible_wherever_it_is(across: float) -> None:
     drawn(made_of(points("ABAM", (across, 1e-3, 5)), others), digits=1)
 
 
+def test_infinite_errors_and_times_below_the_clock_are_drawn_as_far_as_they_can_be() -> None:
+    coarse = points("HHT", (np.inf, 1e-3, 5), (1e-2, 0.0, 10), (1e-4, 0.0, 20))
+    figure = drawn(made_of(coarse, points("ABAM", (np.inf, 1e-3, 5))))
+    (line,) = [each for each in figure.axes[0].get_lines() if len(each.get_xdata()) == 2
+               and each.get_marker() == "v"]  # fmt: skip
+    assert list(line.get_xdata()) == [1e-2, 1e-4]
+    assert accuracy_chart(made_of(coarse[:1]), "spring.adm") is None
+
+
 def test_a_chart_without_a_recommendation_says_so() -> None:
     coarse = made_of(points("HHT", (1e-1, 1.0, 5)))
     assert "No setting has 3 digits" in heading(drawn(coarse))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from adamslite.notation import shown
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOTION = "largest error of the motion: of positions, part of the longest travel; of attitudes, rad"
+#: The shortest time that is drawn [ms].
+LEAST = 1e-3
 CHANNELS = "largest error of {names}, part of the largest value of each"
 
 
@@ -31,9 +34,9 @@ def accuracy_chart(
     channels : sequence of str
         What the error is that of; the motion of everything when empty.
     """
-    known = by_program(p for p in chart.points if p.ok and p.error)
+    known = by_program(p for p in chart.points if p.ok and p.error and isfinite(p.error))
     lines = [
-        Line(program, OURS, [p.error or 0.0 for p in mine], [1e3 * p.median for p in mine])
+        Line(program, OURS, [p.error or 0.0 for p in mine], [_milliseconds(p) for p in mine])
         for program, mine in ((key, _merged(points)) for key, points in known.items())
     ]
     if not lines:
@@ -46,8 +49,13 @@ def accuracy_chart(
         y="CPU of the solution, median [ms]",
         notes=(f"Reference: {chart.truth.origin}.", *_notes(chart)),
     )
-    mark = Mark(best.error or 0.0, 1e3 * best.median, best.setting) if best else None
+    mark = Mark(best.error or 0.0, _milliseconds(best), best.setting) if best else None
     return cost_chart(lines, words, mark=mark)
+
+
+def _milliseconds(point: Point) -> float:
+    """CPU of a run, which coarse clocks measure as 0, on a logarithmic axis."""
+    return max(1e3 * point.median, LEAST)
 
 
 def limited(chart: Chart) -> list[str]:
@@ -82,7 +90,7 @@ def _title(chart: Chart, best: Point | None, digits: int) -> str:
 
 
 def _notes(chart: Chart) -> Iterator[str]:
-    errors = [p.error for p in chart.points if p.ok and p.error]
+    errors = [p.error for p in chart.points if p.ok]
     if errors.count(chart.truth.doubt) > 1:
         yield (
             f"The reference is known to {chart.truth.doubt:.1e}: errors shown there may be smaller."
