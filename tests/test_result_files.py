@@ -58,6 +58,43 @@ def test_a_file_knows_its_run(run: Results, suffix: str, tmp_path: Path) -> None
     assert repeated.values.tobytes() == run.values.tobytes()
 
 
+LINEAR = """\
+a mass on a spring, linearised twice
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=2, IP=1,2,3, QG=0,-1,0
+MARKER/2, PART=2
+SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=1, K=200, C=2, LENGTH=1
+VARIABLE/1, FUNCTION=0
+PINPUT/1, VARIABLES=1
+POUTPUT/1, VARIABLES=1
+END
+"""
+
+
+@pytest.mark.parametrize("suffix", [*BINARY, ".res"])
+def test_what_linear_found_is_kept(suffix: str, tmp_path: Path) -> None:
+    """Modes can be drawn from a file; every number is the same to the bit."""
+    deck = adamslite.read(LINEAR)
+    commands = "SIMULATE/DYNAMIC, END=0.1, STEPS=1\nLINEAR/EIGENSOL, COORDS=1,2\n"
+    commands += "LINEAR/STATEMAT, PINPUT=1, POUTPUT=1, FILE=a\nLINEAR/MKB, FILE=b\n"
+    run = adamslite.simulate(deck, commands=commands)
+    run.save(tmp_path / f"a{suffix}")
+    again = Results.load(tmp_path / f"a{suffix}").linearizations
+    assert len(again) == len(run.linearizations) == 3
+    for one, other in zip(again, run.linearizations, strict=True):
+        assert one._replace(model=other.model) == other
+        for name, value in vars(other.model).items():
+            kept = getattr(one.model, name)
+            if isinstance(value, np.ndarray):
+                assert kept.tobytes() == value.tobytes() and kept.shape == value.shape
+                assert kept.dtype == value.dtype
+            elif name == "second_order" and value:
+                assert all(map(np.array_equal, kept, value))
+            else:
+                assert kept == value
+
+
 @pytest.mark.parametrize("suffix", BINARY)
 def test_an_early_end_is_kept(suffix: str, tmp_path: Path) -> None:
     names, values = ("a",), np.zeros((1, 1))

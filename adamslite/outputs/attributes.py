@@ -12,6 +12,7 @@
     outcome, message    how the run ended, and why it ended early
     summary             counters of the run (JSON)
     comments            the comment lines of a .csv (JSON)
+    linear              what LINEAR commands found (JSON, arrays in base64)
 
 What is not known is left out.
 """
@@ -19,6 +20,7 @@ What is not known is left out.
 from __future__ import annotations
 
 import json
+import zlib
 from collections.abc import Mapping
 from typing import Any
 
@@ -26,6 +28,7 @@ import numpy as np
 
 import adamslite
 from adamslite.errors import FormatError
+from adamslite.outputs.linear_texts import from_text, to_text
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.source import NO_FILE, RunSource
@@ -49,6 +52,7 @@ def attributes(results: Results) -> dict[str, str]:
         "message": results.message,
         "summary": json.dumps(dict(results.summary), default=_plain) if results.summary else "",
         "comments": json.dumps(dict(meta)) if meta else "",
+        "linear": to_text(results.linearizations) if results.linearizations else "",
     }
     return {name: text for name, text in found.items() if text}
 
@@ -73,7 +77,8 @@ def restored(found: Mapping[str, str]) -> dict[str, Any]:
         }
         summary = dict(json.loads(found.get("summary", "{}")))
         user = tuple(map(str, json.loads(found.get("user", "[]"))))
-    except (ValueError, KeyError, TypeError, AttributeError):
+        linear = from_text(found.get("linear", "[]"))
+    except (ValueError, KeyError, TypeError, AttributeError, zlib.error):
         raise FormatError("its attributes are not those of adamslite") from None
     source = None
     if found.get("deck"):
@@ -83,7 +88,7 @@ def restored(found: Mapping[str, str]) -> dict[str, Any]:
         )  # fmt: skip
     return {
         "meta": meta, "summary": summary, "outcome": outcome, "source": source,
-        "message": found.get("message", ""),
+        "message": found.get("message", ""), "linearizations": linear,
     }  # fmt: skip
 
 
