@@ -123,6 +123,27 @@ def test_what_is_written_is_read_back_in_terms_of_the_results(tmp_path: Path) ->
     assert again.channel("PART/2.vx").unit == "m/s"
 
 
+def test_control_characters_of_a_title_harm_no_file(tmp_path: Path) -> None:
+    deck = adamslite.read(MACHINE.replace("ä & <b>", "\x0c\x01 Größe\x85 ]]>"))
+    run = adamslite.simulate(deck)
+    for suffix in (".res", ".req"):
+        run.save(tmp_path / f"a{suffix}")
+        assert Results.load(tmp_path / f"a{suffix}").time.size == 5
+    assert "Größe" in Results.load(tmp_path / "a.req").meta["deck"]
+    assert Results.load(tmp_path / "a.res").source == run.source
+
+
+def test_a_part_that_is_almost_aligned_comes_back(tmp_path: Path) -> None:
+    """A thousand lengths from the origin to the centre of mass show a turn of 1e-8."""
+    deck = FREE.replace("REULER=0.3,0.8,-0.4", "REULER=0.3,1E-8,-0.4").replace(", WM=1, WZ=2", "")
+    deck = deck.replace("QP=0.5,-0.2,0.1, REULER=0.4,0.5,0.6", "QP=1000,0,0")
+    run = adamslite.simulate(adamslite.read(deck))
+    run.save(tmp_path / "a.res")
+    again = Results.load(tmp_path / "a.res")
+    for name in ("PART/2.x", "PART/2.y", "PART/2.z"):
+        assert again[name] == pytest.approx(run[name], abs=1e-11)
+
+
 def test_entities_have_the_names_and_words_of_adams(tmp_path: Path) -> None:
     adamslite.simulate(adamslite.read(MACHINE)).save(tmp_path / "a.res")
     root = ElementTree.parse(tmp_path / "a.res").getroot()
@@ -587,7 +608,8 @@ def test_a_run_is_compared_with_a_request_file(tmp_path, monkeypatch, capsys) ->
     [
         ("", "does not begin with A.R3"),
         ("x\ny\nz\n", "does not begin with A.R3"),
-        (" A.R3\ntitle\n", "does not begin with A.R3"),
+        (" A.R3\ntitle", "does not begin with A.R3"),
+        (" A.R3\ntitle\n", "cut off"),
         (" A.R3\ntitle\n 1 M\n", "cut off"),
         (" A.R3\ntitle\n 1 M\n 5 1 2 3 0\n 0.0\n 1 2 3\n", "no multiple of the 7"),
         (" A.R3\ntitle\n 1 M\n 5 1 2 3 0\n 0.0\n 1 2 3 4 5 x\n", "cut off"),

@@ -99,3 +99,8 @@ def need_rows(results: Results) -> None:
             f"{len(results.time)} times and {len(results.names)} names do not belong to values of "
             f"shape {results.values.shape}"
         )
+
+
+def printable(text: str) -> str:
+    """A text without control characters, which XML and lines of a table do not take."""
+    return "".join(each if each.isprintable() else " " for each in text)

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from adamslite.errors import FormatError
-from adamslite.outputs.attributes import need_rows
+from adamslite.outputs.attributes import need_rows, printable
 from adamslite.outputs.whole_files import whole_file
 from adamslite.outputs.xrf import source_of
 from adamslite.results.formats import register_format
@@ -73,7 +73,7 @@ def _head(results: Results, deck: Deck, count: int) -> str:
     code = "".join(f"{symbols.get(kind, '').upper():_<2.2}" for kind in kinds)
     return (
         f" {FORM}    {DATE}               0         0  3D\n"
-        f"{deck.title:80.80}\n"
+        f"{printable(deck.title):80.80}\n"
         f"{count:5d}     {code}RACA {deck.ucf:.15E}\n"
     )
 
@@ -113,10 +113,12 @@ def read(path: str | Path) -> Results:
     FormatError
         When it is damaged, cut off or no such file.
     """
+    from adamslite.reading.read import decoded
+
     data = Path(path).read_bytes()
     if b"\0" in data[:4096]:
         raise FormatError(f"{path} is not a request file in text")
-    lines = data.decode("latin-1").splitlines()
+    lines = decoded(data).replace("\r\n", "\n").split("\n")
     if len(lines) < 3 or not lines[0].split()[:1] == [FORM]:
         raise FormatError(f"{path} is no request file of ADAMS: it does not begin with {FORM}")
     try:

@@ -20,13 +20,12 @@ import json
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
-from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
 import adamslite
 from adamslite.errors import UsageError
-from adamslite.outputs.attributes import attributes, need_rows
+from adamslite.outputs.attributes import attributes, need_rows, printable
 from adamslite.outputs.number_text import lines
 from adamslite.outputs.whole_files import whole_file
 from adamslite.outputs.xrf_layout import (
@@ -41,7 +40,6 @@ from adamslite.outputs.xrf_layout import (
     UNITS,
     packed,
 )
-from adamslite.outputs.xrf_reader import read
 from adamslite.results.formats import register_format
 from adamslite.results.results import Results
 
@@ -50,6 +48,9 @@ if TYPE_CHECKING:
     from adamslite.reading.read import Commands
     from adamslite.results.adams_options import AdamsOptions
     from adamslite.results.adams_terms import Groups
+
+
+ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
 
 
 class Entity(NamedTuple):
@@ -84,6 +85,19 @@ def write(results: Results, path: str | Path) -> None:
         remarks.append(f"left out, as the results are limited to a few columns: {listed}")
     with whole_file(path) as stream:
         stream.writelines(_document(results, deck, entities, remarks, options.decimals))
+
+
+def read(path: str | Path) -> Results:
+    """Read a results file of ADAMS, or what :func:`write` wrote.
+
+    Raises
+    ------
+    FormatError
+        When it is damaged, cut off, of a form that cannot be read, or no such file.
+    """
+    from adamslite.outputs.xrf_reader import read_file
+
+    return read_file(path)
 
 
 def source_of(results: Results) -> tuple[Deck, Commands]:
@@ -187,8 +201,8 @@ def _document(
     decimals: int,
 ) -> Iterator[str]:
     words = _unit_words(results)
-    title = quoteattr(deck.title)
-    remark = "".join(f"\n{escape(each)}" for each in remarks)
+    title = quoted(deck.title)
+    remark = "".join(f"\n{escaped(each)}" for each in remarks)
     yield f"""<?xml version="1.0" encoding="UTF-8"?>
 <Results xmlns="{NAMESPACE}">
 <Bibliography>
@@ -228,14 +242,23 @@ time="{words.get("time", "")}" />
 
 
 def _heading(each: Entity) -> str:
-    attributes = {"name": each.name, "entity": each.entity, "entType": each.kind,
-                  "objectId": each.id}  # fmt: skip
-    return f"<Entity {' '.join(f'{key}={quoteattr(text)}' for key, text in attributes.items())}>\n"
+    facts = {"name": each.name, "entity": each.entity, "entType": each.kind, "objectId": each.id}
+    return f"<Entity {' '.join(f'{key}={quoted(text)}' for key, text in facts.items())}>\n"
+
+
+def escaped(text: str) -> str:
+    """A text as content of an element.  (The module of the library loads the network as well.)"""
+    return printable(text).translate(ENTITIES)
+
+
+def quoted(text: str) -> str:
+    """A text as an attribute."""
+    return f'"{escaped(text)}"'
 
 
 def _component(word: str, unit: str, number: int) -> str:
-    shown = f" unitsValue={quoteattr(unit)}" if unit else ""
-    return f'<Component name={quoteattr(word)}{shown} id="{number}" />'
+    shown = f" unitsValue={quoted(unit)}" if unit else ""
+    return f'<Component name={quoted(word)}{shown} id="{number}" />'
 
 
 def _data(table: np.ndarray, decimals: int) -> Iterator[str]:

@@ -46,14 +46,8 @@ class _File:
     decimals: int = 0
 
 
-def read(path: str | Path) -> Results:
-    """Read a results file of ADAMS, or what this program wrote.
-
-    Raises
-    ------
-    FormatError
-        When it is damaged, cut off, of a form that cannot be read, or no such file.
-    """
+def read_file(path: str | Path) -> Results:
+    """Read a results file of ADAMS; see :func:`adamslite.outputs.xrf.read`."""
     data = Path(path).read_bytes()
     head = data[:HEAD]
     if head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):

@@ -27,8 +27,9 @@ SPEED, ACCELERATION = ("vx", "vy", "vz"), ("ax", "ay", "az")
 OMEGA, ALPHA = ("wx", "wy", "wz"), ("alx", "aly", "alz")
 #: What belongs to a point of the part, by which it is written; the rest belongs to all points.
 OF_POINT = (*PLACE, *ANGLES, *SPEED, *ACCELERATION)
-#: Below this sine of theta psi and phi are one angle, whose split between the two means nothing.
-ALIGNED = 1e-6
+#: Sines of theta below which psi and phi are one angle: to write them, and to compare them. Of the
+#: angles of a planar motion round-off decides how it is split between the two.
+ALIGNED, ALIKE = 1e-10, 1e-6
 
 Columns = Mapping[str, np.ndarray]
 """Histories (nt,) of one part by component: ``x``, ``psi``, ``vx``, ..."""
@@ -117,4 +118,4 @@ def _named(names: tuple[str, ...], vectors: np.ndarray) -> dict[str, np.ndarray]
 
 def with_one_split(angles: np.ndarray) -> np.ndarray:
     """The same attitudes (nt, 3), with phi = 0 where it is one angle with psi."""
-    return angles_313(rotations_313(angles), ALIGNED)
+    return angles_313(rotations_313(angles), ALIKE)
