@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from math import floor, inf, log10
+from math import floor, inf, isfinite, log10
 from statistics import median
 from typing import Protocol, TypeVar
 
@@ -78,8 +78,8 @@ class Point:
 
     @property
     def digits(self) -> int:
-        """Digits that are right; 0 where that is not known."""
-        if not self.ok or self.error is None:
+        """Digits that are right; 0 where that is not known, and of an infinite error."""
+        if not self.ok or self.error is None or not isfinite(self.error):
             return 0
         return max(0, floor(ROUND_OFF - log10(max(self.error, LEAST_ERROR))))
 
