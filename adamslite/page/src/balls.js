@@ -1,36 +1,54 @@
-// Many balls, each fixed to a body: discs that face the viewer and are shaded as balls.
+// Balls, each fixed to a body: rectangles that face the viewer and are shaded as balls. A ball of
+// facets needs hundreds of triangles, which software renderers take long for.
 import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Mesh, ShaderMaterial, Sphere, Vector3 } from "three";
 import { corners, rectangles } from "./rectangles.js";
 
-// A disc is drawn nearer by the radius, on the same rays: a line through the middle of its ball is
-// then behind it.
+// A rectangle lies across the ray to the middle of its ball, as large as the ball is seen; with d to
+// the middle, a ball of radius r covers there the radius r d / sqrt(d^2 - r^2). Depth is that of the
+// ball, so that what runs through it comes out of it.
 const VERTEX = `
 attribute vec2 corner;
 attribute float radius;
 attribute vec3 tone;
 varying vec2 place;
 varying vec3 colour;
+varying vec3 middle;
+varying vec3 right;
+varying vec3 up;
+varying float size;
 void main() {
-    vec4 middle = modelViewMatrix * vec4(position, 1.0);
-    vec3 v = middle.xyz + vec3(corner * radius, 0.0);
-    gl_Position = projectionMatrix * vec4(v * (1.0 - radius / length(middle.xyz)), 1.0);
+    middle = (modelViewMatrix * vec4(position, 1.0)).xyz;
+    float distance = max(length(middle), 1.001 * radius);
+    vec3 toward = -middle / distance;
+    right = normalize(cross(vec3(0.0, 1.0, 0.0), toward));
+    up = cross(toward, right);
+    float seen = radius * distance / sqrt(distance * distance - radius * radius);
+    gl_Position = projectionMatrix * vec4(middle + seen * (corner.x * right + corner.y * up), 1.0);
     place = corner;
     colour = tone;
+    size = radius;
 }`;
 const FRAGMENT = `
+uniform mat4 projectionMatrix;
 uniform vec3 upward;
-uniform vec3 lamp;
+uniform float lamp;
 uniform vec3 sky;
 uniform vec3 soil;
 uniform float opacity;
 varying vec2 place;
 varying vec3 colour;
+varying vec3 middle;
+varying vec3 right;
+varying vec3 up;
+varying float size;
 void main() {
     float square = dot(place, place);
     if (square > 1.0) discard;
-    vec3 n = vec3(place, sqrt(1.0 - square));
-    vec3 light = mix(soil, sky, 0.5 + 0.5 * dot(n, upward)) + lamp.x * max(dot(n, vec3(-0.345, 0.537, 0.767)), 0.0);
+    vec3 n = place.x * right + place.y * up + sqrt(1.0 - square) * cross(right, up);
+    vec3 light = mix(soil, sky, 0.5 + 0.5 * dot(n, upward)) + lamp * max(dot(n, vec3(-0.345, 0.537, 0.767)), 0.0);
     gl_FragColor = vec4(colour * light, opacity);
+    vec4 clip = projectionMatrix * vec4(middle + size * n, 1.0);
+    gl_FragDepth = 0.5 + 0.5 * clip.z / clip.w;
     #include <colorspace_fragment>
 }`;
 
@@ -79,7 +97,7 @@ export class Balls {
             transparent: opacity < 1,
             uniforms: {
                 upward: { value: new Vector3() },
-                lamp: { value: new Vector3() },
+                lamp: { value: 0 },
                 sky: { value: new Color() },
                 soil: { value: new Color() },
                 opacity: { value: opacity },
@@ -92,7 +110,7 @@ export class Balls {
         const { hemisphere, lamp } = this.stage;
         const { uniforms } = this.mesh.material;
         uniforms.upward.value.setFromMatrixPosition(hemisphere.matrixWorld).transformDirection(camera.matrixWorldInverse);
-        uniforms.lamp.value.setScalar(lamp.intensity / Math.PI);
+        uniforms.lamp.value = lamp.intensity / Math.PI;
         uniforms.sky.value.copy(hemisphere.color).multiplyScalar(hemisphere.intensity / Math.PI);
         uniforms.soil.value.copy(hemisphere.groundColor).multiplyScalar(hemisphere.intensity / Math.PI);
         this.mesh.material.uniformsNeedUpdate = true;

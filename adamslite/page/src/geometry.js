@@ -1,6 +1,6 @@
 // Unit geometries that shapes and symbols are scaled from. Axes of symmetry lie along z.
 import {
-    BoxGeometry, BufferAttribute, CylinderGeometry, IcosahedronGeometry, LatheGeometry, OctahedronGeometry,
+    BoxGeometry, BufferAttribute, CylinderGeometry, LatheGeometry, OctahedronGeometry,
     PlaneGeometry, SphereGeometry, TorusGeometry, TubeGeometry, Vector2, Vector3, Curve,
 } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
@@ -14,7 +14,7 @@ export function frustum(bottom, top, angle, sides) {
 }
 
 export const box = () => new BoxGeometry(1, 1, 1);
-export const ball = (fine) => (fine ? new SphereGeometry(1, 28, 18) : new IcosahedronGeometry(1, 1));
+export const ball = (sides) => new SphereGeometry(1, Math.min(sides, 28), Math.min(sides, 28) >> 1);
 export const torus = (major, minor) => new TorusGeometry(major, minor, 14, 56);
 
 /** A rectangle from (0, 0) to (1, 1). */
@@ -77,23 +77,23 @@ export function damper(radius) {
     return mergeGeometries([cup, rod]);
 }
 
-const bar = (radius, length, sides = 20) =>
-    new CylinderGeometry(radius, radius, length, sides).rotateX(Math.PI / 2);
-const merged = (...parts) => mergeGeometries(parts.map((part) => (part.index ? part.toNonIndexed() : part)));
+const bar = (radius, length) => new CylinderGeometry(radius, radius, length, 12).rotateX(Math.PI / 2);
+const ring = (radius, wire) => new TorusGeometry(radius, wire, 6, 18);
+const merged = (...parts) => mergeGeometries(parts);
 
 function screw() {
-    const threads = [-0.8, -0.4, 0, 0.4, 0.8].map((z) => new TorusGeometry(0.45, 0.12, 6, 18).translate(0, 0, z));
+    const threads = [-0.8, -0.4, 0, 0.4, 0.8].map((z) => ring(0.45, 0.12).translate(0, 0, z));
     return merged(bar(0.35, 2.4), ...threads);
 }
 
 // Symbols of joints, of size 1, along the z axis of the joint's I marker.
 const SYMBOLS = {
-    REVOLUTE: () => merged(bar(0.3, 2), new TorusGeometry(0.62, 0.17, 10, 28)),
+    REVOLUTE: () => merged(bar(0.3, 2), ring(0.62, 0.17)),
     CYLINDRICAL: () => merged(bar(0.3, 3), bar(0.6, 1.2)),
     TRANSLATIONAL: () => merged(new BoxGeometry(1.1, 1.1, 1.4), new BoxGeometry(0.4, 0.4, 3.2)),
-    SPHERICAL: () => new SphereGeometry(0.65, 20, 14),
+    SPHERICAL: () => new SphereGeometry(0.65, 14, 9),
     FIXED: () => merged(new BoxGeometry(1.1, 1.1, 0.3), new BoxGeometry(0.3, 1.1, 1.1), new BoxGeometry(1.1, 0.3, 1.1)),
-    UNIVERSAL: () => merged(bar(0.22, 2), bar(0.22, 2).rotateX(Math.PI / 2), new SphereGeometry(0.42, 14, 10)),
+    UNIVERSAL: () => merged(bar(0.22, 2), bar(0.22, 2).rotateX(Math.PI / 2), new SphereGeometry(0.42, 10, 7)),
     PLANAR: () => merged(new BoxGeometry(2.4, 2.4, 0.12), bar(0.15, 1.4)),
     SCREW: screw,
     OTHER: () => new OctahedronGeometry(0.6),

@@ -29,6 +29,7 @@ import { Stage } from "./stage.js";
 import { BodyLines } from "./strokes.js";
 import { wishes } from "./wishes.js";
 
+const CROWD = 400; // bodies
 const CLICK = 5; // pixels that a pointer may move in a click
 
 class App {
@@ -53,7 +54,7 @@ class App {
 
     #buildScene() {
         const { scene, archive, bodies } = this;
-        this.stage = new Stage(this.canvas, this.theme);
+        this.stage = new Stage(this.canvas, this.theme, bodies.count > CROWD && !this.wish.film);
         const cloud = sweep(scene, bodies);
         this.box = bounds(cloud);
         const { radius } = this.box;

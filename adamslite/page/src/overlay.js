@@ -1,4 +1,5 @@
 // What lies over the picture: legend of tensions, axes with gravity, scale of the grid.
+import { Quaternion } from "three";
 import { viridisGradient } from "./colours.js";
 import { h, short } from "./dom.js";
 
@@ -39,9 +40,13 @@ export class Triad {
         this.letter = svg("text", { class: "gravity", "text-anchor": "middle", "dy": "0.35em" }, "g");
         this.root.append(...(this.down ? [this.arrow, this.letter] : []), ...this.lines, ...this.names);
         this.element = this.root;
+        this.seen = new Quaternion(0, 0, 0, 0);
     }
 
+    /** After the camera has turned. */
     update(camera) {
+        if (camera.quaternion.equals(this.seen)) return;
+        this.seen.copy(camera.quaternion);
         const e = camera.matrixWorldInverse.elements;
         AXES.forEach((_, k) => this.#axis(k, e[4 * k], -e[4 * k + 1]));
         if (!this.down) return;

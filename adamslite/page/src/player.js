@@ -41,6 +41,9 @@ export class Player {
             type: "range", min: 0, max: 10000, step: "any", value: 0, class: "time", "aria-label": "time", disabled: still,
             oninput: () => this.seek(clock.first + (this.slider.value / 10000) * clock.duration),
         });
+        // What is seen of the slider is moved, not painted again.
+        this.fill = h("i", { class: "fill" });
+        this.knob = h("i", { class: "knob" });
         this.output = h("output", { class: "readout" });
         this.loopButton = iconButton("loop", "Repeat", () => this.#setLoop(!this.loops), { "aria-pressed": "true" });
         return h(
@@ -50,7 +53,7 @@ export class Player {
             iconButton("back", "One output step back (left arrow)", () => this.stepBy(-1), { disabled: still }),
             this.button,
             iconButton("forward", "One output step on (right arrow)", () => this.stepBy(1), { disabled: still }),
-            h("div", { class: "track" }, this.slider, h("div", { class: "ticks" }, ...events.map((event) => this.#tick(event)))),
+            h("div", { class: "track" }, this.fill, h("div", { class: "rail" }, this.knob), this.slider, h("div", { class: "ticks" }, ...events.map((event) => this.#tick(event)))),
             this.output,
             this.#rates(),
             this.loopButton,
@@ -110,6 +113,7 @@ export class Player {
         this.since = null;
         this.button.replaceChildren(icon(playing ? "pause" : "play"));
         this.button.setAttribute("aria-pressed", String(playing));
+        this.#readout();
         this.wake();
     }
 
@@ -145,8 +149,10 @@ export class Player {
 
     #readout() {
         const { clock, time } = this;
-        this.slider.value = clock.duration > 0 ? String((10000 * (time - clock.first)) / clock.duration) : "0";
-        this.slider.style.setProperty("--part", `${clock.duration > 0 ? (100 * (time - clock.first)) / clock.duration : 0}%`);
+        const part = clock.duration > 0 ? (time - clock.first) / clock.duration : 0;
+        this.fill.style.transform = `scaleX(${part.toFixed(5)})`;
+        this.knob.style.transform = `translateX(${(100 * part).toFixed(3)}%)`;
         this.output.textContent = `${time.toFixed(this.digits)} / ${clock.last.toFixed(this.digits)} ${this.unit}`;
+        if (!this.playing || part === 0) this.slider.value = String(10000 * part);
     }
 }

@@ -11,9 +11,7 @@ const FULL = 2 * Math.PI;
 const NONE = [0, 0, 0];
 const MANY = 200; // copies from which on a shape has fewer facets
 
-const FEW = 40; // balls up to which each is a mesh
-
-const isBall = ({ solid: { key, scale: [x, y, z] } }) => (key === "ball" || key === "point") && x === y && y === z;
+const isBall = ({ solid: { key } }) => key === "ball";
 const angleOf = (shape) => (shape.angle ? Math.min(Math.abs(shape.angle), FULL) : FULL);
 
 /** Along a negative length a shape ends where it would begin. */
@@ -69,16 +67,22 @@ function rod({ to, radius }, look) {
     };
 }
 
-const BALL = { key: "ball", make: (sides) => geometry.ball(sides > 12), shift: NONE };
+function ellipsoid({ x, y, z }) {
+    const scale = [x / 2, y / 2, z / 2].map(Math.abs);
+    const round = scale.every((axis) => Math.abs(axis - scale[0]) <= 1e-6 * scale[0]);
+    return { ...BALL, key: round ? "ball" : "ellipsoid", make: (sides) => geometry.ball(sides), scale };
+}
+
+const BALL = { key: "ball", shift: NONE };
 const SOLIDS = {
     cylinder,
     frustum,
     rod,
     box: ({ x, y, z }) => boxAt(NONE, [x, y, z]),
     inertia_box: ({ x, y, z }) => ({ ...boxAt([-x / 2, -y / 2, -z / 2], [x, y, z]), see_through: true }),
-    ellipsoid: ({ x, y, z }) => ({ ...BALL, scale: [x / 2, y / 2, z / 2].map(Math.abs) }),
+    ellipsoid,
     sphere: ({ radius }) => ({ ...BALL, scale: [radius, radius, radius] }),
-    point: (_, look) => ({ ...BALL, key: "point", scale: [look.point, look.point, look.point] }),
+    point: (_, look) => ({ ...BALL, scale: [look.point, look.point, look.point] }),
     torus: ({ major, minor }) => ({
         key: `torus ${minor / major}`,
         make: () => geometry.torus(1, minor / major),
@@ -87,7 +91,7 @@ const SOLIDS = {
     }),
     wheel: ({ radius, width }) => ({
         key: "wheel",
-        make: (sides) => geometry.wheel(Math.max(sides, 24)),
+        make: (sides) => geometry.wheel(sides > 28 ? 48 : 24),
         shift: NONE,
         scale: [radius, radius, width],
         edges: true,
@@ -186,8 +190,8 @@ export class Shapes {
 
     #group(items, opacity, stage) {
         const [{ solid }] = items;
-        if (items.length > FEW && items.every(isBall)) return new Balls(items, this.bodies, stage, opacity);
-        const sides = items.length > MANY ? 12 : items.length > 20 ? 28 : 48;
+        if (items.every(isBall)) return new Balls(items, this.bodies, stage, opacity);
+        const sides = items.length > MANY ? 12 : items.length > 8 ? 24 : 48;
         return new Instances(solid.make(sides), items, this.bodies, {
             opacity: solid.see_through ? 0.35 * opacity : opacity,
             side: solid.two_sided || solid.key.includes("cylinder") ? DoubleSide : undefined,

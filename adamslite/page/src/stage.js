@@ -2,10 +2,21 @@
 import { Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { THEMES } from "./colours.js";
 
+/** Whether this computer draws without a graphics card. */
+function isSoftware() {
+    const context = document.createElement("canvas").getContext("webgl");
+    const named = context?.getExtension("WEBGL_debug_renderer_info");
+    const name = named ? context.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
+    context?.getExtension("WEBGL_lose_context")?.loseContext();
+    return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 export class Stage {
-    constructor(canvas, theme) {
+    /** `crowded`: so much is drawn that smooth edges cost too much without a graphics card. */
+    constructor(canvas, theme, crowded) {
         this.canvas = canvas;
-        this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+        const antialias = !(crowded && isSoftware());
+        this.renderer = new WebGLRenderer({ canvas, antialias, powerPreference: "high-performance" });
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
         this.scene = new Scene();
         // Matrices are written where bodies are placed, not searched for in every frame.
