@@ -337,6 +337,13 @@ def test_a_deck_is_solved_and_plotted(spring: Path, capsys: pytest.CaptureFixtur
     assert "spring-plot.png: 1 of 12 channels" in capsys.readouterr().err
 
 
+def test_what_a_run_knows_of_itself_is_said(spring: Path, capsys: pytest.CaptureFixture) -> None:
+    words = ["plot", "spring.adm", "POINT_MASS/2.x", "--audit", "--confirm", "--error", "1e-7"]
+    assert main(words) == 0
+    told = capsys.readouterr().err
+    assert "\nenergy: " in f"\n{told}" and "confirmed" in told
+
+
 def test_results_find_their_deck_beside_them(spring: Path, capsys: pytest.CaptureFixture) -> None:
     assert main(["solve", "spring.adm", "-o", "run.csv", "--quiet"]) == 0
     assert main(["plot", "run.csv", "REQUEST/1.F2", "-o", "a.svg"]) == 0
