@@ -43,6 +43,7 @@ integrators.bdf integrators.radau integrators.hht integrators.explicit integrato
 integrators.methods
 equations
 results
+outputs.adams
 outputs
 drawing
 drawing.gltf page

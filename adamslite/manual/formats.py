@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from adamslite.manual.markdown import HEAD, markdown, table
-from adamslite.outputs import attributes
+from adamslite.results import run_texts
 from adamslite.results.formats import Format, formats
 
 INTRO = """# Formats of result files
@@ -22,7 +22,7 @@ def result_formats() -> str:
         for suffix, each in sorted(formats().items())
     ]
     parts = [HEAD, INTRO, table(("suffix", "content", "can be"), rows)]
-    parts.append(f"## Texts of a run\n\n{markdown(attributes.__doc__)}")
+    parts.append(f"## Texts of a run\n\n{markdown(run_texts.__doc__)}")
     return "\n".join([*parts, *(_layout(*each) for each in sorted(formats().items()))])
 
 

@@ -20,14 +20,6 @@ ROWS = 64
 # Numbers whose spelling differs between programs.
 PROBES = np.array([[1e-05, -2.5e-05, 9.99e-05, 1e-4, 1e15, 1e16, -1.5e16, 1e21, 1e22, 1e100, 0.1,
                     -0.0, 5e-324, 1.7976931348623157e308, 1e-7, -1.25e-10, 123456.0]])  # fmt: skip
-# Each begins with fixed letters, which makes the search fast.
-SPELLINGS = (
-    *((re.compile(rb"%b0\.0000([1-9])(\d*)" % before), rb"%b\1.\2e-05" % before)
-      for before in (b"\n", b",", b"-")),
-    (re.compile(rb"\.e-05"), b"e-05"),
-    (re.compile(rb"e-(\d)\b"), rb"e-0\1"),
-    (re.compile(rb"e(?=\d)"), b"e+"),
-)  # fmt: skip
 
 
 def lines(table: np.ndarray) -> Iterator[str]:
@@ -50,9 +42,20 @@ def _by_orjson(orjson: ModuleType, block: np.ndarray) -> str:
     plain = np.ascontiguousarray(block, dtype=np.float64)
     text = orjson.dumps(plain, option=orjson.OPT_SERIALIZE_NUMPY)
     text = b"\n" + text[2:-2].replace(b"],[", b"\n") + b"\n"
-    for pattern, spelling in SPELLINGS:
+    for pattern, spelling in _spellings():
         text = pattern.sub(spelling, text)
     return text[1:].decode("ascii")
+
+
+@cache
+def _spellings() -> list[tuple[re.Pattern[bytes], bytes]]:
+    """What orjson writes and what Python does.  Each begins with fixed letters, which makes the
+    search fast.
+    """
+    tiny = [(rb"%b0\.0000([1-9])(\d*)" % before, rb"%b\1.\2e-05" % before)
+            for before in (b"\n", b",", b"-")]  # fmt: skip
+    rest = [(rb"\.e-05", b"e-05"), (rb"e-(\d)\b", rb"e-0\1"), (rb"e(?=\d)", b"e+")]
+    return [(re.compile(pattern), spelling) for pattern, spelling in (*tiny, *rest)]
 
 
 @cache

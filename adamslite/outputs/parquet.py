@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 
 from adamslite.errors import FormatError, UsageError
-from adamslite.outputs.attributes import attributes, need_rows, restored
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.channels import with_units
 from adamslite.results.formats import register_format
 from adamslite.results.results import Results
+from adamslite.results.run_texts import attributes, need_rows, restored
 
 MISSING = "files .parquet need pyarrow: pip install 'adamslite[parquet]'"
 

@@ -24,12 +24,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from adamslite.errors import FormatError
-from adamslite.outputs.attributes import need_rows, printable
 from adamslite.outputs.whole_files import whole_file
 from adamslite.outputs.xrf import source_of
 from adamslite.results.formats import register_format
 from adamslite.results.printed import Printed
 from adamslite.results.results import Results
+from adamslite.results.run_texts import need_rows, printable
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck

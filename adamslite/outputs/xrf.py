@@ -25,10 +25,7 @@ import numpy as np
 
 import adamslite
 from adamslite.errors import UsageError
-from adamslite.outputs.attributes import attributes, need_rows, printable
-from adamslite.outputs.number_text import lines
-from adamslite.outputs.whole_files import whole_file
-from adamslite.outputs.xrf_layout import (
+from adamslite.outputs.adams.xrf_layout import (
     ALL_DIGITS,
     COMPONENTS_LEFT_OUT,
     KINDS,
@@ -40,8 +37,11 @@ from adamslite.outputs.xrf_layout import (
     UNITS,
     packed,
 )
+from adamslite.outputs.number_text import lines
+from adamslite.outputs.whole_files import whole_file
 from adamslite.results.formats import register_format
 from adamslite.results.results import Results
+from adamslite.results.run_texts import attributes, need_rows, printable
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -95,7 +95,7 @@ def read(path: str | Path) -> Results:
     FormatError
         When it is damaged, cut off, of a form that cannot be read, or no such file.
     """
-    from adamslite.outputs.xrf_reader import read_file
+    from adamslite.outputs.adams.xrf_reader import read_file
 
     return read_file(path)
 

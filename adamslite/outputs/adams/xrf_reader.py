@@ -15,13 +15,13 @@ import numpy as np
 
 from adamslite.errors import FormatError
 from adamslite.language.diagnostics import DeckError
-from adamslite.outputs.attributes import restored
-from adamslite.outputs.res_text import START, read_text
-from adamslite.outputs.xrf_layout import KINDS, MOTION_WORDS, NAMESPACE, SYMBOL_OF, unpacked
+from adamslite.outputs.adams.res_text import START, read_text
+from adamslite.outputs.adams.xrf_layout import KINDS, MOTION_WORDS, NAMESPACE, SYMBOL_OF, unpacked
 from adamslite.results.adams_terms import REQUEST_WORDS, from_adams
 from adamslite.results.channels import Channel, describe
 from adamslite.results.printed import Printed
 from adamslite.results.results import Results
+from adamslite.results.run_texts import restored
 
 KEYWORDS = {kind: keyword for keyword, kind in KINDS.items()} | {
     "Plant_Input": "PINPUT", "Plant_Output": "POUTPUT",

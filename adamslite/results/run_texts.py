@@ -28,7 +28,6 @@ import numpy as np
 
 import adamslite
 from adamslite.errors import FormatError
-from adamslite.outputs.linear_texts import from_text, to_text
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.source import NO_FILE, RunSource
@@ -52,9 +51,17 @@ def attributes(results: Results) -> dict[str, str]:
         "message": results.message,
         "summary": json.dumps(dict(results.summary), default=_plain) if results.summary else "",
         "comments": json.dumps(dict(meta)) if meta else "",
-        "linear": to_text(results.linearizations) if results.linearizations else "",
+        "linear": _linear(results),
     }
     return {name: text for name, text in found.items() if text}
+
+
+def _linear(results: Results) -> str:
+    if not results.linearizations:
+        return ""
+    from adamslite.results.linear_texts import to_text
+
+    return to_text(results.linearizations)
 
 
 def _plain(value: Any) -> Any:
@@ -70,6 +77,8 @@ def restored(found: Mapping[str, str]) -> dict[str, Any]:
     FormatError
         When they are not of this program.
     """
+    from adamslite.results.linear_texts import from_text
+
     try:
         outcome = Outcome[found.get("outcome", "DONE")]
         meta = {

@@ -1,0 +1,1 @@
+"""Reading results files of ADAMS, and the words they have."""
