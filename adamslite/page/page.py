@@ -66,5 +66,4 @@ def write_page(text: str, path: str | Path) -> None:
 
 
 def _file(name: str) -> str:
-    path = FOLDER / name
-    return path.read_text(encoding="utf-8") if path.is_file() else ""
+    return (FOLDER / name).read_text(encoding="utf-8")
