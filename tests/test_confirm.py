@@ -11,6 +11,7 @@ from scenes import GROUND, PENDULUM, SPRING, run
 from adamslite.analyses.confirmation import confirmation
 from adamslite.cli.main import main
 from adamslite.resources import find
+from adamslite.results.confirmation import Channel, Confirmation
 from adamslite.scene import load_scene, run_scene
 from benchmarks.bounds import judge, known
 from benchmarks.closed_forms import FAMILIES
@@ -114,3 +115,13 @@ def test_round_off_and_angles_that_mean_nothing_are_no_objections(name):
     deck = find("decks") / name.split("/")[0] / f"{name.split('/')[-1]}.adm"
     found = run_scene(load_scene(deck), {"error": 1e-8, "confirm": True}).confirmation
     assert found.confirmed, found.verdict
+
+
+def test_the_verdict_leaves_out_what_is_zero_but_for_rounding() -> None:
+    """2.5 digits of a position; a velocity of 1e-32 that is off by as much has none, and may."""
+    channels = (
+        Channel("PART/2.x", bound=10**-2.5, size=1.0, loose=1e-9),
+        Channel("PART/2.vy", bound=1e-32, size=1e-32, loose=1e-9),
+    )
+    found = Confirmation(channels, ("RADAU SI2 ERROR=1e-08",), ())
+    assert found.verdict == "confirmed by RADAU SI2 ERROR=1e-08: 2.5 digits or more agree"

@@ -68,7 +68,9 @@ class Confirmation:
     def verdict(self) -> str:
         """The verdict as one line."""
         if self.confirmed:
-            worst = min((c.digits for c in self.channels), default=MOST_DIGITS)
+            # Digits of what is zero but for rounding say nothing.
+            known = (c.digits for c in self.channels if c.bound > c.loose)
+            worst = min(known, default=MOST_DIGITS)
             return f"confirmed by {' and '.join(self.witnesses)}: {worst:.1f} digits or more agree"
         apart = sorted((c for c in self.channels if not c.agrees), key=lambda c: c.digits)
         texts = [
