@@ -145,6 +145,29 @@ def test_bodies_that_the_other_results_lack_are_none() -> None:
     assert decoded(drawn, second["position"])[:, 1] == pytest.approx([0, 1], abs=1e-4)
 
 
+def test_columns_that_were_not_selected_are_those_of_the_deck() -> None:
+    """y alone: the mass falls from x = 0, z = 0, and a note says so."""
+    words = ["solve", "fall.adm", "-o", "y.nc", "--quiet", "--outputs", "POINT_MASS/2.y"]
+    assert main(words) == 0
+    assert main(["view", "y.nc"]) == 0
+    drawn = scene_of(Path("y.html").read_text(encoding="utf-8"))
+    position = decoded(drawn, drawn.plain["bodies"][1]["position"])
+    assert position[-1] == pytest.approx([0, -5, 0], rel=1e-4)
+    assert (
+        "not all coordinates are in the results, drawn with the deck's: POINT_MASS/2"
+        in (drawn.plain["notes"])
+    )
+
+
+def test_nothing_that_moves_is_selected(capsys: pytest.CaptureFixture[str]) -> None:
+    """Results of this very deck, without its only body."""
+    fall(names=("VARIABLE/1", "VARIABLE/2", "VARIABLE/3")).save("fall.csv")
+    assert main(["view", "fall.csv"]) == 5
+    assert sentence(capsys) == (
+        "adamslite: fall.csv has no position of a body, and nothing would move"
+    )
+
+
 # ---- mistakes --------------------------------------------------------------------------------
 
 

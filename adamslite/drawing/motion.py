@@ -63,9 +63,13 @@ class Motion:
         still = np.zeros((len(self.time), 3))
         self.tracks = [Track(still, np.tile(UPRIGHT, (len(still), 1)), False)]
         self._missing: list[str] = []
+        self._incomplete: list[str] = []
         self._without_value: list[str] = []
         self.tracks += [self._track(model, body) for body in model.bodies]
         self._tell("not in the results, drawn where the deck has it", self._missing)
+        self._tell(
+            "not all coordinates are in the results, drawn with the deck's", self._incomplete
+        )
         self._tell("no position at some times, drawn at the last one", self._without_value)
 
     def column(self, name: str) -> np.ndarray | None:
@@ -105,7 +109,7 @@ class Motion:
     def _track(self, model: Model, body: Body) -> Track:
         label = body.statement.label
         start = from_axes(body.attitude)
-        position = self._held(label, self.columns(label, PLACE), lambda: body.x)
+        position = self._held(label, self._position(label, body), lambda: body.x)
         if body.statement.keyword != "PART":
             return Track(position, np.tile(UPRIGHT, (len(position), 1)), False)
         cm = body.statement.cm
@@ -115,6 +119,17 @@ class Motion:
         attitude = np.where(np.isfinite(turned), turned, start)
         moves = bool((np.abs(np.abs(attitude @ UPRIGHT) - 1) > 0).any())
         return Track(position, continuous(attitude), moves)
+
+    def _position(self, label: str, body: Body) -> np.ndarray | None:
+        """Coordinates (nt, 3), those that are lacking as at the start; None where all are."""
+        found = [self.column(f"{label}.{word}") for word in PLACE]
+        if all(each is None for each in found):
+            return None
+        if any(each is None for each in found):
+            self._incomplete.append(label)
+        start = np.tile(body.x, (len(self.time), 1)).T
+        given = zip(found, start, strict=True)
+        return np.stack([x if each is None else each for each, x in given], axis=1)
 
     def _held(
         self, label: str, values: np.ndarray | None, start: Callable[[], np.ndarray]

@@ -56,12 +56,14 @@ def need_its_bodies(deck: Deck, results: Results, file: str) -> None:
         In one sentence.
     """
     labels = [each.label for each in moving(deck)]
-    if labels and not any(f"{label}.{word}" in results for label in labels for word in "xyz"):
-        what = "no output time" if not len(results.time) else f"no column like {labels[0]}.x"
-        raise FormatError(
-            f"{file} is no result of {deck.path or deck.title}: it has {what}, "
-            "and nothing would move"
-        )
+    if not labels or any(f"{label}.{word}" in results for label in labels for word in "xyz"):
+        return
+    if results.meta.get(HASH) == deck.hash and len(results.time):
+        raise FormatError(f"{file} has no position of a body, and nothing would move")
+    what = "no output time" if not len(results.time) else f"no column like {labels[0]}.x"
+    raise FormatError(
+        f"{file} is no result of {deck.path or deck.title}: it has {what}, and nothing would move"
+    )
 
 
 def moving(deck: Deck) -> Iterator[Part | PointMass]:
