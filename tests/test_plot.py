@@ -12,6 +12,7 @@ from figure_checks import assert_legible, illegible
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.plots import style
+from adamslite.plots.frame import balanced
 from adamslite.plots.selection import curve as curve_of
 from adamslite.plots.selection import panels, select, summary
 from adamslite.plots.time_histories import plot
@@ -241,6 +242,18 @@ def test_one_channel_over_another_is_a_path_with_a_begin_and_an_end() -> None:
     assert_legible(figure)
 
 
+def test_the_reference_of_a_path_is_a_path() -> None:
+    results = table(PART__2_x=np.cos(TIME), PART__2_y=np.sin(TIME))
+    figure = plot(results, "PART/2.y", x="PART/2.x", against=results)
+    (axis,) = figure.axes
+    dashed = axis.get_lines()[-1]
+    np.testing.assert_array_equal(dashed.get_xdata(), np.cos(TIME))
+    np.testing.assert_array_equal(dashed.get_ydata(), np.sin(TIME))
+    without = plot(results, "PART/2.y", x="PART/2.x", against=table(PART__2_y=0.0))
+    assert len(without.axes[0].get_lines()) == 3 and not without.axes[0].collections
+    assert "outside the tolerance" in heading(without)
+
+
 def test_gaps_are_left_open_and_said() -> None:
     values = np.where(TIME > 1.0, np.inf, TIME)
     figure = plot(table(PART__2_x=values), "PART/2.x")
@@ -293,6 +306,14 @@ def test_odd_names_are_drawn_as_they_are(name: str, tmp_path: Path) -> None:
 )
 def test_numbers_beside_an_axis(value: float, places: list[float], text: str) -> None:
     assert style.tick_text(value, places) == text
+
+
+def test_a_title_of_two_lines_has_no_single_word_in_the_second() -> None:
+    text = "the best other program takes thirteen times that"
+    assert balanced(text, 44) == ["the best other program", "takes thirteen times that"]
+    assert balanced(text, 90) == [text]
+    assert balanced("", 10) == []
+    assert balanced("x" * 30, 10) == ["x" * 10] * 3
 
 
 def test_the_check_finds_text_that_is_cut_off_and_text_over_text() -> None:

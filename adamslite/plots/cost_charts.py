@@ -9,19 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from adamslite.plots import style
+from adamslite.plots.frame import framed
 from adamslite.plots.style import Look
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Size of a chart, heights of a line of the title and of small print [in].
-SIZE, HEAD, PRINT = (9.6, 5.9), 0.22, 0.165
-TITLE_WIDTH, PRINT_WIDTH = 98, 140
+#: Width of a chart, height of its axes with their numbers [in].
+SIZE = (9.6, 5.4)
 #: Part of the height below the lowest point, where the arrow has room.
 FREE = 0.17
 OURS, IMPLICIT, EXPLICIT, LIMIT = "ours", "implicit", "explicit", "limit"
@@ -91,7 +90,8 @@ def cost_chart(
     style.need_matplotlib()
     shown = [line for line in lines if len(line.x)]
     with style.styled():
-        figure, axes = _framed(words)
+        figure = framed(words.title, words.subtitle, words.notes, *SIZE)
+        axes = figure.subplots()
         _axes(axes, words, shown, towards_less)
         handles: dict[str, Any] = {}
         if towards_less:
@@ -128,30 +128,6 @@ def front(lines: Iterable[Line]) -> list[tuple[float, float]]:
         if not found or cost < found[-1][1]:
             found.append((error, cost))
     return found
-
-
-def _framed(words: Words) -> tuple[Figure, Axes]:
-    """A figure with its title, subtitle and notes, and the axes between them."""
-    from matplotlib.figure import Figure
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-    title = wrap(words.title, TITLE_WIDTH)
-    notes = [line for note in words.notes for line in wrap(note, PRINT_WIDTH)]
-    width, height = SIZE
-    above = HEAD * len(title) + PRINT + 0.16
-    below = PRINT * len(notes) + (0.1 if notes else 0.0)
-    height += above + below - 0.5
-    strip = (0.0, below / height, 1.0, 1.0 - (above + below) / height)
-    layout = ConstrainedLayoutEngine(rect=strip, h_pad=0.06, w_pad=0.08)
-    figure = Figure(figsize=(width, height), layout=layout)
-    for k, line in enumerate(title):
-        top = 1.0 - (0.09 + HEAD * k) / height
-        figure.text(0.012, top, line, va="top", fontsize=11, fontweight="bold")
-    top = 1.0 - (0.11 + HEAD * len(title)) / height
-    figure.text(0.012, top, words.subtitle, va="top", color=style.MUTED)
-    for k, line in enumerate(reversed(notes)):
-        figure.text(0.012, (0.06 + PRINT * k) / height, line, va="bottom", fontsize=8)
-    return figure, figure.subplots()
 
 
 def _axes(axes: Axes, words: Words, lines: Sequence[Line], towards_less: bool) -> None:

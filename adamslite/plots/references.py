@@ -26,12 +26,14 @@ class Compared:
     time, values : (nt,), of the reference
     allowed : (nt,), half the height of the band of its tolerance
     share : (nt,), difference of the results as a part of what is allowed
+    across : (nt,), the channel of the horizontal axis, None where the reference has none
     """
 
     time: np.ndarray
     values: np.ndarray
     allowed: np.ndarray
     share: np.ndarray
+    across: np.ndarray | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,8 +71,8 @@ def reference_of(given: Reference | Results | str | Path) -> Reference:
     return given if isinstance(given, Reference) else read_reference(given)
 
 
-def beside(results: Results, curves: Sequence[Curve], reference: Reference) -> Beside:
-    """What a reference has to say about curves.
+def beside(results: Results, curves: Sequence[Curve], reference: Reference, x: str) -> Beside:
+    """What a reference has to say about curves over the channel ``x``.
 
     Raises
     ------
@@ -97,13 +99,14 @@ def beside(results: Results, curves: Sequence[Curve], reference: Reference) -> B
     except Mismatch:
         how = "linear"
         notes.append(f"interpolated linearly to the times of {name}")
-    sample = sampler(results, times, how)
+    sample, across = sampler(results, times, how), table[x][inside] if x in table else None
     found = {
         each: _compared(
-            times, sample(results[each]), table[each][inside], reference.tolerance_of(each) or USUAL
+            times, sample(results[each]), table[each][inside],
+            reference.tolerance_of(each) or USUAL, across,
         )
         for each in shared
-    }
+    }  # fmt: skip
     return Beside(name, found, tuple(notes))
 
 
@@ -113,10 +116,15 @@ def _within(covered: np.ndarray, times: np.ndarray) -> np.ndarray:
 
 
 def _compared(
-    times: np.ndarray, values: np.ndarray, reference: np.ndarray, tolerance: Tolerance
+    times: np.ndarray,
+    values: np.ndarray,
+    reference: np.ndarray,
+    tolerance: Tolerance,
+    across: np.ndarray | None,
 ) -> Compared:
     allowed = tolerance.allowed(reference)
     off = tolerance.off(values, reference)  # beyond what rounding of the reference hides
     with np.errstate(divide="ignore", invalid="ignore"):
         share = np.sign(values - reference) * np.where(off == 0.0, 0.0, off / allowed)
-    return Compared(times, reference, allowed + tolerance.hidden(reference), share)
+    band = allowed + tolerance.hidden(reference)
+    return Compared(times, reference, band, share, across)

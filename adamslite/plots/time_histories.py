@@ -12,13 +12,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from textwrap import wrap
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from adamslite.errors import UsageError
 from adamslite.plots import style
+from adamslite.plots.frame import framed
 from adamslite.plots.references import Beside, beside, reference_of
 from adamslite.plots.selection import (
     Curve,
@@ -42,10 +43,10 @@ if TYPE_CHECKING:
 #: Colour and dashes.
 Look: TypeAlias = tuple[Any, Any]
 WIDTH = 9.0
-#: Heights [in]: of an axis by the number of axes; of a line of the title, small print, a legend.
-HEIGHTS, LOWEST, HEAD, PRINT, ENTRY = {1: 3.6, 2: 2.5, 3: 2.1}, 1.8, 0.21, 0.17, 0.16
-#: Characters in a line of the title and of small print.
-TITLE_WIDTH, PRINT_WIDTH = 84, 118
+#: Heights [in]: of an axis by the number of axes, of a line of a legend.
+HEIGHTS, LOWEST, ENTRY = {1: 3.6, 2: 2.5, 3: 2.1}, 1.8, 0.16
+#: Characters of an event in the small print.
+NOTE = 220
 #: More curves than this in an axis are told apart by a scale of colours only.
 TELLABLE = len(style.CURVES)
 SHOWN_OF_MANY = 5
@@ -131,30 +132,16 @@ def _chosen(
     if all(np.isnan(each.values + across.values).all() for each in curves):
         empty = across if np.isnan(across.values).all() else curves[0]
         raise UsageError(f"{empty.channel.name} is not a number at any output time")
-    found = beside(results, curves, reference_of(against)) if against is not None else None
+    found = None
+    if against is not None:
+        found = beside(results, curves, reference_of(against), across.channel.name)
     return Drawn(results, across, tuple(panels(curves)), found, tuple(events_of(results)))
 
 
 def _figure(drawn: Drawn) -> Figure:
-    from matplotlib.figure import Figure
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-    title, notes = _title(drawn), list(_notes(drawn))
     heights = list(_heights(drawn))
-    above = HEAD * len(title) + PRINT + 0.12
-    below = PRINT * len(notes) + (0.08 if notes else 0.0)
-    height = sum(heights) + above + below + 0.5
-    strip = (0.0, below / height, 1.0, 1.0 - (above + below) / height)
-    layout = ConstrainedLayoutEngine(rect=strip, h_pad=0.05, w_pad=0.08)
-    figure = Figure(figsize=(WIDTH, height), layout=layout)
-    for k, line in enumerate(title):
-        top = 1.0 - (0.08 + HEAD * k) / height
-        figure.text(0.012, top, line, va="top", fontsize=11, fontweight="bold")
-    deck = drawn.results.meta.get("deck", "")
-    top = 1.0 - (0.1 + HEAD * len(title)) / height
-    figure.text(0.012, top, _line(deck), va="top", color=style.MUTED)
-    for k, line in enumerate(reversed(notes)):
-        figure.text(0.012, (0.06 + PRINT * k) / height, line, va="bottom", fontsize=8)
+    subtitle = drawn.results.meta.get("deck", "")
+    figure = framed(_title(drawn), subtitle, list(_notes(drawn)), WIDTH, sum(heights) + 0.5)
     axes: list[Axes] = [
         *figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
     ]
@@ -183,31 +170,27 @@ def _has_difference(drawn: Drawn) -> bool:
     return drawn.beside is not None and drawn.over_time
 
 
-def _title(drawn: Drawn) -> list[str]:
+def _title(drawn: Drawn) -> str:
     over = "time" if drawn.over_time else drawn.x.channel.long_name
     text = f"{summary(drawn.curves)} over {over}"
     if drawn.beside:
         text += f": {drawn.beside.verdict}"
-    return wrap(text[:1].upper() + text[1:], TITLE_WIDTH)
-
-
-def _line(text: str) -> str:
-    return wrap(text, PRINT_WIDTH - 6, max_lines=1, placeholder=" ...")[0] if text.strip() else ""
+    return text[:1].upper() + text[1:]
 
 
 def _notes(drawn: Drawn) -> Iterator[str]:
     """The lines of small print: events by their numbers, and what else has to be said."""
     if drawn.over_time:
         for number, event in enumerate(drawn.events[:MARKED], 1):
-            yield _line(f"({number}) {event.text}")
+            yield shorten(f"({number}) {event.text}", NOTE, placeholder=" ...")
         if len(drawn.events) > MARKED:
             yield f"and {len(drawn.events) - MARKED} more events"
     else:
         yield "Open circle: begin; filled circle: end."
     if drawn.beside:
-        yield from map(_line, drawn.beside.notes)
+        yield from drawn.beside.notes
     if gaps := without_numbers(drawn.curves):
-        yield _line(gaps)
+        yield gaps
     named = any(each.channel.quantity for each in drawn.curves)
     if named and not drawn.results.unit_symbols:
         yield "The deck names no units: lengths, forces and times are in its own."
@@ -261,23 +244,24 @@ def _ends(axis: Axes, x: np.ndarray, y: np.ndarray, color: Any) -> None:
 
 
 def _reference(axis: Axes, panel: Panel, drawn: Drawn) -> list[Any]:
-    """The reference of the curves of an axis, and its band; what the legend shows of it."""
-    found = drawn.beside.compared if drawn.beside and drawn.over_time else {}
-    handles: list[Any] = []
+    """The reference of the curves of an axis, and over time its band; these for the legend."""
+    if drawn.beside is None:
+        return []
+    handles: dict[str, Any] = {}
     for each in panel.curves:
-        if each.channel.name in found:
-            c = found[each.channel.name]
-            band = axis.fill_between(
+        c = drawn.beside.compared.get(each.channel.name)
+        if c is None or c.across is None:
+            continue
+        (handles["line"],) = axis.plot(
+            c.across, c.values, color=style.BLACK, linewidth=0.9, linestyle=(0, (4, 3)),
+            label=drawn.beside.name, zorder=3, marker="o" if c.time.size < 3 else "", markersize=3,
+        )  # fmt: skip
+        if drawn.over_time:
+            handles["band"] = axis.fill_between(
                 c.time, c.values - c.allowed, c.values + c.allowed, color=style.BAND, linewidth=0,
                 label="its tolerance", zorder=1,
             )  # fmt: skip
-            (line,) = axis.plot(
-                c.time, c.values, color=style.BLACK, linewidth=0.9, linestyle=(0, (4, 3)),
-                label=drawn.beside.name if drawn.beside else "", zorder=3,
-                marker="o" if c.time.size < 3 else "", markersize=3,
-            )  # fmt: skip
-            handles = [line, band]
-    return handles
+    return list(handles.values())
 
 
 def _difference(axis: Axes, drawn: Drawn) -> None:
