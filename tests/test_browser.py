@@ -80,6 +80,8 @@ def test_playing_moves_bodies_as_the_results_say(show: Any) -> None:
         places = "[it.time, it.bodyPosition('PART/2'), it.bodyPosition('POINT_MASS/3')]"
         time, place, height = tab.do(f"(it.renderFrame(), {places})")
         assert not tab.do("it.playing")
+        pull = 40 + 10 * np.sin(np.pi * time)
+        assert float(tab.seen(".legend .value >> nth=0").split()[0]) == pytest.approx(pull, 1e-3)
         assert place == pytest.approx(crank(time), abs=CHORD)
         assert height == pytest.approx(weight(time), abs=CHORD)
 

@@ -62,3 +62,18 @@ export function niceStep(value) {
     const part = value / power;
     return power * (part >= 5 ? 5 : part >= 2 ? 2 : 1);
 }
+
+const PACE = 100; // milliseconds between numbers that a reader can follow
+
+/** Whether numbers are due that change while playing: painting text takes longer than the scene. */
+export class Pace {
+    constructor() {
+        this.last = -Infinity;
+    }
+
+    due(playing, now = performance.now()) {
+        if (playing && now - this.last < PACE) return false;
+        this.last = now;
+        return true;
+    }
+}

@@ -86,7 +86,7 @@ class App {
         this.selection = new Selection(this);
         this.picker = new Picker(this.stage, bodies, this.shapes.pickable);
         this.save = new Save(this);
-        this.player = new Player(this.clock, scene.units.time, scene.events, (time) => this.#shown(time), () => this.invalidate());
+        this.player = new Player(this.clock, scene.units.time, scene.events, (time) => this.#shown(time), () => this.#woken());
         this.channels = new Channels(scene.channels, this.archive);
         this.plots = new Plots({
             channels: this.channels, against: this.against, timeUnit: scene.units.time, events: scene.events,
@@ -194,7 +194,14 @@ class App {
 
     #shown(time) {
         if (this.modes?.active) this.modes.choose(this.modes.chosen);
-        this.plots?.setTime(time);
+        this.plots?.setTime(time, this.player?.playing);
+        this.stale = true;
+        this.invalidate();
+    }
+
+    /** Playing has begun or ended: numbers are brought up to date. */
+    #woken() {
+        this.plots?.setTime(this.player.time);
         this.stale = true;
         this.invalidate();
     }

@@ -1,5 +1,5 @@
 // Playing: the time shown, how fast it runs, and the bar with its controls.
-import { h, icon, iconButton, niceStep, short } from "./dom.js";
+import { h, icon, iconButton, niceStep, Pace, short } from "./dom.js";
 
 const RATES = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
 const PLEASANT = 8; // seconds within which a whole result plays when nothing else is said
@@ -29,6 +29,7 @@ export class Player {
         this.loops = true;
         this.rate = pleasantRate(clock.duration);
         this.digits = decimals(clock.duration);
+        this.pace = new Pace();
         this.element = this.#bar(events);
         this.#readout();
     }
@@ -152,6 +153,7 @@ export class Player {
         const part = clock.duration > 0 ? (time - clock.first) / clock.duration : 0;
         this.fill.style.transform = `scaleX(${part.toFixed(5)})`;
         this.knob.style.transform = `translateX(${(100 * part).toFixed(3)}%)`;
+        if (!this.pace.due(this.playing)) return;
         this.output.textContent = `${time.toFixed(this.digits)} / ${clock.last.toFixed(this.digits)} ${this.unit}`;
         if (!this.playing || part === 0) this.slider.value = String(10000 * part);
     }

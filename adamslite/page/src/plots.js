@@ -1,7 +1,7 @@
 // Curves over time: one plot for each quantity, with a cursor that is the time of the scene.
 import uPlot from "uplot";
 import { curveColour } from "./colours.js";
-import { h, iconButton, short } from "./dom.js";
+import { h, iconButton, Pace, short } from "./dom.js";
 
 const WHEEL = 0.85; // of the window that one click of the wheel keeps
 
@@ -111,6 +111,7 @@ class Plot {
         if (this.owner.window) this.chart.setScale("x", this.owner.window);
         this.#legend();
         this.moveCursor(this.owner.time);
+        this.read(this.owner.time);
     }
 
     #legend() {
@@ -137,6 +138,9 @@ class Plot {
         const inside = time >= min && time <= max;
         this.cursor.style.display = inside ? "" : "none";
         if (inside) this.cursor.style.transform = `translateX(${this.chart.valToPos(time, "x").toFixed(2)}px)`;
+    }
+
+    read(time) {
         this.names.forEach((name, k) => {
             if (this.values[k]) this.values[k].textContent = this.#reading(name, time);
         });
@@ -165,6 +169,7 @@ export class Plots {
         Object.assign(this, { channels, against, timeUnit, events, seek, save });
         this.time = 0;
         this.theme = "light";
+        this.pace = new Pace();
         this.window = null;
         this.names = [];
         this.plots = [];
@@ -213,9 +218,11 @@ export class Plots {
         this.layout();
     }
 
-    setTime(time) {
+    setTime(time, playing = false) {
         this.time = time;
         for (const plot of this.plots) plot.moveCursor(time);
+        if (!this.pace.due(playing)) return;
+        for (const plot of this.plots) plot.read(time);
     }
 
     /** Time at which the cursor of the first plot stands, as it is drawn. */

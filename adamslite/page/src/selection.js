@@ -1,5 +1,5 @@
 // The body that was picked: its name, position and speed, following it, its path.
-import { h, iconButton, short } from "./dom.js";
+import { h, iconButton, Pace, short } from "./dom.js";
 import { Strokes } from "./strokes.js";
 
 const PIECES = 600; // of a path
@@ -10,6 +10,7 @@ export class Selection {
         this.body = -1;
         this.path = null;
         this.velocity = [0, 0, 0];
+        this.pace = new Pace();
         this.title = h("strong", {});
         this.sub = h("span", { class: "sub" });
         this.facts = h("dl", {});
@@ -51,7 +52,7 @@ export class Selection {
     }
 
     update() {
-        if (this.body < 0) return;
+        if (this.body < 0 || !this.pace.due(this.app.player.playing)) return;
         const { bodies, scene, against } = this.app;
         const { length, time } = scene.units;
         const [x, y, z] = bodies.poses.subarray(7 * this.body, 7 * this.body + 3);
