@@ -376,6 +376,18 @@ def test_a_run_is_compared_with_what_adams_wrote(folder: Path, suffix: str, caps
     assert "converted to the units of the deck: mm to m, mm/s to m/s" in said.err
 
 
+@pytest.mark.parametrize("name", ["stone", ".hill.stone"])
+def test_parts_without_ids_are_found_by_their_names(folder: Path, name: str, capsys) -> None:
+    text = Path("adams.res").read_text()
+    text = text.replace(' entType="Part" objectId="2"', ' entType="Part"')
+    Path("adams.res").write_text(text.replace('entity="stone"', f'entity="{name}"'))
+    deck = STONE.replace("PART/2, MASS", "! adams_view_name='stone'\nPART/2, MASS")
+    Path("stone.adm").write_text(deck)
+    assert main(["solve", "stone.adm", "--quiet", "-o", "a.nc"]) == 0
+    assert main(["diff", "a.nc", "adams.res", "--all"]) == 0
+    assert "PART/2.x" in capsys.readouterr().out
+
+
 def test_a_wrong_run_differs_from_what_adams_wrote(folder: Path, capsys) -> None:
     """A centre of mass that is a millimetre elsewhere."""
     Path("stone.adm").write_text(STONE.replace("QP=0.3", "QP=0.301"))

@@ -172,7 +172,7 @@ def from_adams(results: Results, deck: Deck) -> Results:
     A force whose direction is not known, as its markers are on parts that the results lack, stays
     a vector.
     """
-    groups = grouped(results)
+    groups = {_own_label(label, deck): each for label, each in grouped(results).items()}
     for label, marker in markers_in_parts(deck).items():
         if label in groups:
             groups[label] = _with_centre(label, groups[label], marker)
@@ -185,6 +185,15 @@ def from_adams(results: Results, deck: Deck) -> Results:
         elif label.startswith("REQUEST/"):
             groups[label] = _by_number(columns, deck, label)
     return _joined(results, groups)
+
+
+def _own_label(label: str, deck: Deck) -> str:
+    """``PART/2`` for ``PART/.crane.boom`` or ``PART/boom``, where the deck has a name for it."""
+    keyword, slash, name = label.partition("/")
+    if not slash or name.isdigit():
+        return label
+    found = deck.find(keyword, name) or deck.find(keyword, name.rpartition(".")[2])
+    return found.label if found else label
 
 
 def _with_centre(
