@@ -66,5 +66,5 @@ def test_several_of_a_comment_are_in_the_order_of_time() -> None:
 
 
 def test_empty_results_have_no_events() -> None:
-    empty = Results(time=np.empty(0), names=(), values=np.empty((0, 0)), meta={"outcome": "TORN x"})
+    empty = Results(time=np.empty(0), names=(), values=np.empty((0, 0)), outcome=Outcome.TORN)
     assert events_of(empty) == []

@@ -102,9 +102,8 @@ def scene(deck: Deck, results: Results, other: Results | None = None, name: str 
 
 
 def outcome(results: Results) -> str:
-    """How the run ended, in a sentence; files keep that of an early end in a comment."""
-    stored = str(results.meta.get("outcome", "")).partition(" ")[2]
-    return results.message or stored or results.outcome.sentence
+    """How the run ended, in a sentence."""
+    return results.message or results.outcome.sentence
 
 
 def up(gravity: tuple[float, float, float]) -> str:

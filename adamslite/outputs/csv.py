@@ -14,7 +14,7 @@ import csv
 import io
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
 import numpy as np
 
@@ -72,13 +72,24 @@ def read_table(path: str | Path) -> Table:
         raise FormatError(f"{path} is not a table in UTF-8: {fault.reason}") from None
     comments, start = _leading_comments(lines)
     meta = dict(_key_and_value(text) for _, text in comments if ": " in text)
+    outcome, message = _ending(meta)
+    run: dict[str, Any] = {"meta": meta, "outcome": outcome, "message": message}
     if start == len(lines):
-        empty = Results(time=np.empty(0), names=(), values=np.empty((0, 0)), meta=meta)
+        empty = Results(time=np.empty(0), names=(), values=np.empty((0, 0)), **run)
         return Table(empty, comments)
     names = _header(lines[start], f"{path}:{start + 1}")
     numbers = _numbers(lines, start + 1, len(names), path)
-    results = Results(time=numbers[:, 0], names=names[1:], values=numbers[:, 1:], meta=meta)
+    results = Results(time=numbers[:, 0], names=names[1:], values=numbers[:, 1:], **run)
     return Table(results, comments)
+
+
+def _ending(meta: dict[str, str]) -> tuple[Outcome, str]:
+    """How the run ended, which a comment of an early end says; taken out of the comments."""
+    name, _, message = meta.get("outcome", "").partition(" ")
+    if name not in Outcome.__members__:
+        return Outcome.DONE, ""
+    del meta["outcome"]
+    return Outcome[name], message
 
 
 def _one_line(text: str) -> str:

@@ -55,10 +55,7 @@ def _contacts(results: Results) -> Iterator[Event]:
 
 
 def _early_end(results: Results) -> Iterator[Event]:
-    """Of a run that stopped, with its outcome; a file names it in a comment."""
-    name = str(results.meta.get("outcome", "")).partition(" ")[0]
-    if not results.outcome.is_requested:
-        name = results.outcome.name
-    if name and name != "HALTED" and len(results.time):
+    """Of a run that stopped, with its outcome."""
+    if not results.outcome.is_requested and len(results.time):
         time = float(results.time[-1])
-        yield Event(time, f"stopped early at t = {time:.6g}: {name}")
+        yield Event(time, f"stopped early at t = {time:.6g}: {results.outcome.name}")
