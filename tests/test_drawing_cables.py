@@ -205,12 +205,28 @@ def test_a_loop_over_wheels_goes_round_the_first_one_too() -> None:
     assert [("wheel" in node) for node in cable["nodes"]] == [True, False, True, False]
 
 
-def test_a_span_that_a_gcon_keeps_is_a_cable_of_two_points() -> None:
-    text = HOIST.format(drawn="GCON/1, FUNCTION=DM(20,100)+DM(101,100)-3")
+@pytest.mark.parametrize(
+    ("function", "tensions"),
+    [
+        ("DM(20,100)+DM(101,100)-3", [9, 9]),
+        ("3-DM(20,100)-2*DM(101,100)", [-9, -18]),
+        ("(DM(20,100)-1)/3-DM(101,100)*half", [3, -4.5]),
+        ("DM(20,100)**2+DM(101,100)-DM(101,100)*0.25-4", [None, 6.75]),
+    ],
+)
+def test_spans_that_a_gcon_keeps_are_cables_of_two_points(
+    function: str, tensions: list[float | None]
+) -> None:
+    """With the strength f = -9 the span with the factor c in FUNCTION pulls with 9 c."""
+    text = HOIST.format(drawn=f"GCON/1, FUNCTION={function}\nVARIABLE/half, FUNCTION=0.5")
     found = drawn_of(text, GCON_1=[-9.0])
-    assert [each["name"] for each in found.plain["cables"]] == ["GCON/1", "GCON/1"]
-    first = found.plain["cables"][0]
-    assert decoded(found, first["tension"]) == pytest.approx(np.array([[9.0]]))
+    cables = found.plain["cables"]
+    assert [each["name"] for each in cables] == ["GCON/1", "GCON/1"]
+    for cable, tension in zip(cables, tensions, strict=True):
+        if tension is None:
+            assert cable["tension"] is None
+        else:
+            assert decoded(found, cable["tension"]) == pytest.approx(np.array([[tension]]))
 
 
 @pytest.mark.parametrize(

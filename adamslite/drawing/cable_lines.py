@@ -18,12 +18,12 @@ from adamslite.cables.chain_finder import ALIKE, FEWEST, Chain, Link, along_line
 from adamslite.cables.posture import Posture
 from adamslite.drawing.cable_comments import CableComment, cable_comment
 from adamslite.drawing.drawing import Drawing
+from adamslite.drawing.kept_lengths import kept_spans
 from adamslite.drawing.pulley_ropes import Pulleys, Rope
 from adamslite.drawing.winding import rim, wound
 from adamslite.elements.gcon import Gcon
 from adamslite.elements.graphics import Graphics
 from adamslite.elements.vforce import Vforce
-from adamslite.language.expression import Call, Ref, walk
 from adamslite.language.interfaces import Key
 
 Cable = dict[str, Any]
@@ -232,14 +232,6 @@ def _rigid(drawing: Drawing, found: Cables) -> Iterator[Cable]:
     for gcon in drawing.deck.of(Gcon):
         if gcon.label in found.taken or not drawing.deck.is_active(gcon):
             continue
-        tension = _column(drawing, (-1.0, f"{gcon.label}.f"))
-        for i, j in _distances(gcon):
-            nodes = _between_rims(drawing, found, [i, j])
-            yield _line(drawing, gcon.label, nodes, [tension])
-
-
-def _distances(gcon: Gcon) -> list[tuple[Key, Key]]:
-    """Pairs of markers whose distance is measured."""
-    calls = (each for each in walk(gcon.function) if isinstance(each, Call) and each.name == "DM")
-    found = (tuple(arg.id if isinstance(arg, Ref) else 0 for arg in call.args) for call in calls)
-    return list(dict.fromkeys((ends[0], ends[1]) for ends in found if len(ends) == 2))
+        for i, j, factor in kept_spans(drawing, gcon):
+            tension = _column(drawing, (-factor, f"{gcon.label}.f")) if factor else None
+            yield _line(drawing, gcon.label, _between_rims(drawing, found, [i, j]), [tension])
