@@ -57,7 +57,8 @@ class Stream:
 
 
 def state(time: float, steps: int = 0, step: float = 0.01, **more: Any) -> RunState:
-    return RunState(**{"time": time, "end": 2.0, "step": step, "order": 3, "steps": steps, **more})
+    facts = {"time": time, "end": 2.0, "step": step, "order": 3, "steps": steps, "longest": 0.1}
+    return RunState(**{**facts, **more})
 
 
 @pytest.fixture
@@ -121,6 +122,17 @@ def test_short_steps_are_explained_once_they_last() -> None:
     assert "short steps" not in texts[8]
     assert texts[-1].endswith("short steps: the error of PART/2")
     assert meter.look(state(1.1, 120, 0.01, limit=limit)).limit == ""
+
+
+def test_steps_that_were_always_short_are_explained() -> None:
+    """Already at the first look: a hundred thousand steps for each that HMAX allows."""
+    clock = Clock()
+    meter = Meter(clock)
+    limits = []
+    for k in range(15):
+        limits.append(meter.look(state(1e-3 * k, 1000 * k, 5e-7, limit=lambda: "events")).limit)
+        clock.now += 0.1
+    assert limits[:9] == [""] * 9 and limits[-3:] == ["events"] * 3
 
 
 def test_a_second_analysis_begins_anew() -> None:
@@ -279,7 +291,7 @@ class Watcher(Progress):
     def watch(self, state: RunState) -> None:
         self.seen.append(state)
         self.limits.append(state.limit())
-        if len(self.seen) >= self.most:
+        if len(self.seen) >= self.most and state.steps > self.seen[0].steps:
             raise KeyboardInterrupt
 
 
@@ -342,7 +354,7 @@ def test_a_run_in_a_process_reports_lines(monkeypatch: Any) -> None:
     al.simulate(spring, end=1e6, steps=10, error=1e-8, progress=progress)
     first = stream.text.splitlines()[0]
     assert re.fullmatch(
-        r"\d+ %  t = \S+ of 1e\+06  h = \S+  order \d  [\d ]+ steps/s  .* left", first
+        r"\d+ %  t = \S+ of 1e\+06  h = \S+  order \d  [\d ]+ steps/s  .* left.*", first
     )
 
 

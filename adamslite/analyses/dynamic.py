@@ -237,5 +237,5 @@ def _state(system: System, limits: StepLimits, start: float, end: float) -> RunS
     limits.look()
     return RunState(
         time=float(report.t), start=start, end=end, step=float(report.h), order=int(report.order),
-        steps=int(system.count.steps), limit=limits.reason,
+        steps=int(system.count.steps), longest=float(system.settings.h_max), limit=limits.reason,
     )  # fmt: skip

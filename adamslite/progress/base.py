@@ -25,6 +25,8 @@ class RunState:
         Its order; 0 for a method of one order.
     steps : int
         Steps taken so far.
+    longest : float
+        The longest step that is allowed [time]; 0 where it is not known.
     limit : function that returns a str
         Names what keeps steps short at present.
     """
@@ -35,6 +37,7 @@ class RunState:
     step: float = 0.0
     order: int = 0
     steps: int = 0
+    longest: float = 0.0
     limit: Callable[[], str] = _nothing
 
     @property

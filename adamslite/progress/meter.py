@@ -11,8 +11,8 @@ from adamslite.progress.base import RunState
 
 #: Speeds are those of the last seconds [s].
 WINDOW = 5.0
-#: Steps have collapsed below this share of their mean so far, or of the whole analysis,
-COLLAPSED, HOPELESS = 1e-2, 1e-9
+#: Steps have collapsed below this share of the mean step of better times, or of the longest one,
+COLLAPSED, TINY = 1e-2, 1e-5
 #: when they stay there for so long [s].
 LASTING = 1.0
 MINUTE, HOUR = 60, 3600
@@ -54,14 +54,18 @@ class Meter:
     def __init__(self, now: Callable[[], float] = clock.monotonic) -> None:
         self._now = now
         self._seen: deque[tuple[float, float, int]] = deque()
+        self._begin()
+
+    def _begin(self) -> None:
+        self._seen.clear()
         self._collapsed_at: float | None = None
+        self._best = 0.0
 
     def look(self, state: RunState) -> Look:
         """A look at the present state."""
         at, seen = self._now(), self._seen
         if seen and (state.time < seen[-1][1] or state.steps < seen[-1][2]):  # another analysis
-            seen.clear()
-            self._collapsed_at = None
+            self._begin()
         seen.append((at, state.time, state.steps))
         while len(seen) > 2 and at - seen[1][0] >= WINDOW:
             seen.popleft()
@@ -70,13 +74,14 @@ class Meter:
         speed = (state.steps - steps) / spent if spent > 0.0 else 0.0
         advanced = state.time - time
         left = (state.end - state.time) * spent / advanced if advanced > 0.0 else None
+        if state.steps > steps:
+            self._best = max(self._best, advanced / (state.steps - steps))
         limit = state.limit() if self._have_collapsed(state, at) else ""
         return Look(state, at, speed, left, limit)
 
     def _have_collapsed(self, state: RunState, at: float) -> bool:
-        """Whether steps are far shorter than they were, or than a run can end with, for long."""
-        done, whole = state.time - state.start, state.end - state.start
-        short = max(COLLAPSED * done / max(state.steps, 1), HOPELESS * whole)
+        """Whether steps are far shorter than they were, or than they may be, for long."""
+        short = max(COLLAPSED * self._best, TINY * state.longest)
         if not 0.0 < state.step < short:
             self._collapsed_at = None
             return False
