@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -87,6 +86,8 @@ def _solved(args: argparse.Namespace) -> tuple[Results, list[Path]]:
 
 
 def _loaded(args: argparse.Namespace) -> tuple[Results, list[Path]]:
+    from dataclasses import replace
+
     import adamslite
     from adamslite.drawing.run_deck import difference
     from adamslite.errors import FormatError
