@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browsing import PHONE, Opened, opened, started
-from sample_page import ARM, END, FRAMES, bare, crank, sample, swarm, weight
+from sample_page import ARM, END, FRAMES, UPRIGHT, bare, crank, sample, swarm, weight
 
 pytestmark = pytest.mark.browser
 
@@ -361,3 +361,36 @@ def test_a_thousand_masses_are_drawn_by_few_calls_of_few_triangles(show: Any) ->
         click(tab, tab.do("it.screenPosition('POINT_MASS/501')"))
         assert tab.do("it.selected") == "POINT_MASS/501"
         tab.do("it.renderFrame()")
+
+
+def test_lines_are_tangents_of_wheels_that_turn_either_way(show: Any) -> None:
+    """From a point around two wheels crosswise to a point, and a belt around both: every straight
+    piece is perpendicular to the radii at which it begins and ends, and runs as the wheels turn.
+    """
+    first, second = [0, 0, 0, 0, *UPRIGHT], [0, 2, 1, 0, *UPRIGHT]
+    crossed = [
+        {"point": [0, -3, 1, 0]},
+        {"wheel": first, "radius": 0.5, "sense": 1},
+        {"wheel": second, "radius": 0.8, "sense": -1},
+        {"point": [0, 5, -2, 0]},
+    ]
+    belt = [{"wheel": at, "radius": r, "sense": 1} for at, r in ((first, 0.5), (second, 0.8))]
+    cable = {"name": "", "tension": None, "range": [0, 0]}
+    text = bare(cables=[{**cable, "nodes": crossed}, {**cable, "nodes": [*belt, belt[0]]}])
+    with show(text) as tab:
+        lines = [
+            np.array(drawn).reshape(-1, 2, 4)[..., :3]
+            for drawn in tab.do("it.app.cables.list.map(c => Array.from(c.strokes.array))")
+        ]
+    # straight pieces of the first, then wheel, radius and sense at their ends
+    centres = np.array([[0, 0, 0], [2, 1, 0]])
+    rims = [(centres[0], 0.5, 1), (centres[1], 0.8, -1)]
+    into, between, out = lines[0][0], lines[0][25], lines[0][50]
+    ends = [(into, 1, rims[0]), (between, 0, rims[0]), (between, 1, rims[1]), (out, 0, rims[1])]
+    loop = [(lines[1][24], 0, (centres[0], 0.5, 1)), (lines[1][24], 1, (centres[1], 0.8, 1))]
+    for (start, end), which, (centre, radius, sense) in (*ends, *loop):
+        arm = (start, end)[which] - centre
+        along = (end - start) / np.linalg.norm(end - start)
+        assert np.linalg.norm(arm) == pytest.approx(radius, abs=1e-5)
+        assert np.cross([0, 0, sense], arm / radius) == pytest.approx(along, abs=1e-5)
+    assert lines[1][-1, 1] == pytest.approx(lines[1][24, 0], abs=1e-5)  # the belt closes

@@ -84,6 +84,7 @@ export function sweep(scene, bodies) {
         bodies.setTime(times[Math.round((k * (times.length - 1)) / (frames - 1))]);
         moving.forEach(put);
     }
+    bodies.setTime(bodies.clock.first);
     if (!cloud.length) cloud.push(0, 0, 0);
     return Float32Array.from(cloud);
 }

@@ -5,6 +5,8 @@ import { h, iconButton, Pace, short } from "./dom.js";
 
 const WHEEL = 0.85; // of the window that one click of the wheel keeps
 
+const EVENTS = 30; // up to which each has a line in the plots
+
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 /** Other values at these times, on straight lines between theirs; none outside. */
@@ -91,9 +93,9 @@ class Plot {
             {
                 width,
                 height,
-                series: [{}, ...series.map((each) => ({ ...each, points: { show: false } }))],
+                series: [{}, ...series.map((each) => ({ ...each, points: { show: data[0].length < 3 } }))],
                 legend: { show: false },
-                scales: { x: { time: false }, y: { range: (u, low, high) => spread(low, high) } },
+                scales: { x: { time: false, range: (u, low, high) => (high > low ? [low, high] : spread(low, high)) }, y: { range: (u, low, high) => spread(low, high) } },
                 cursor: { show: false },
                 pxAlign: 0,
                 padding: [8, 12, 0, 0],
@@ -242,6 +244,7 @@ export class Plots {
     }
 
     drawEvents(u) {
+        if (this.events.length > EVENTS) return;
         const { ctx, bbox } = u;
         ctx.save();
         ctx.strokeStyle = css("--muted");
