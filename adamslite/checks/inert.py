@@ -66,7 +66,7 @@ def _of_shapes(deck: Deck, statement: Statement) -> Iterator[tuple[str, Key]]:
 
 
 def joint_friction(deck: Deck) -> Iterator[Diagnostic]:
-    """Friction that JOINT itself has acts unless its coefficients are zero."""
+    """Friction that JOINT itself has acts unless it is off or its coefficients are zero."""
     for joint in deck.of(Joint):
         field = _acting(joint)
         if field:
@@ -75,9 +75,10 @@ def joint_friction(deck: Deck) -> Iterator[Diagnostic]:
 
 def _acting(joint: Joint) -> str:
     """The field by which a joint has friction of its own; empty where it has none."""
+    if joint.friction is not None and joint.friction.upper() == "OFF":
+        return ""
     given = [field for field in COEFFICIENTS if joint.given(field)]
-    switched_on = joint.friction is not None and joint.friction.upper() != "OFF"
-    alone = "friction" if switched_on and not given else ""
+    alone = "friction" if joint.friction is not None and not given else ""
     return next((field for field in given if getattr(joint, field)), alone)
 
 
