@@ -160,7 +160,8 @@ TABLE = {
     "OUTPUT": Entry(
         "files of REQUESTs",
         """
-        REQSAVE, GRSAVE, GR521SAV, ICSAVE   files of requests, graphics and initial conditions
+        REQSAVE                             the file .req of REQUESTs
+        GRSAVE, GR521SAV, ICSAVE            files of graphics and initial conditions
         DACSAVE, RPCSAVE, MATSAVE           files of other programs
         CHART, DPLOT                        charts
         NOPRINT, NOSEPARATOR                what is left out of tables
@@ -192,11 +193,16 @@ TABLE = {
     "RESULTS": Entry(
         "the .res file of ADAMS",
         """
-        FORMATTED, XRF, DECIMALPLACES   text, XML and its digits
-        COMMENT                         a remark
-        NODISPLACEMENTS, NOVELOCITIES, NOACCELERATIONS, NOAPPLIEDFORCES  are left out
-        NOREACTIONFORCES, NODATASTRUCTURES, NOSYSTEMELEMENTS, NOLINEAR   are left out
-        NOFLOATINGMARKERS, NOREQUESTS, NOTIRES, NOCONTACTS               are left out
+        XRF                             XML
+        FORMATTED                       text; with XRF it is XML
+        DECIMALPLACES                   digits after the point, all of them from 17 on (the default)
+        COMMENT                         a remark in the file
+        NODISPLACEMENTS, NOVELOCITIES, NOACCELERATIONS  components of parts that are left out
+        NOAPPLIEDFORCES                 leaves SFORCE, GFORCE, BUSHING and other forces out
+        NOREACTIONFORCES                leaves JOINT, JPRIM, MOTION and other constraints out
+        NOSYSTEMELEMENTS                leaves VARIABLE and DIFF out
+        NOREQUESTS, NOCONTACTS          leave REQUEST and CONTACT out
+        NODATASTRUCTURES, NOLINEAR, NOFLOATINGMARKERS, NOTIRES  of what is not written in any case
         """,
         acting=RESULTS_WORDS,
         doc="`solve` writes the file `.res` of `XRF` beside the results; the text and binary forms "
