@@ -9,8 +9,8 @@ Values (components F1 ... F8; I relative to J, along the axes of RM, ground when
     F1=e\\ ...     the expressions
     VARIABLES      VARVAL of each, as F1, F2, ...
 
-The file .req (OUTPUT/REQSAVE) has all but F1 and F5, with six digits; in the file .res (RESULTS/XRF)
-CNAMES names the components, and one without a name is left out.
+The file .req (OUTPUT/REQSAVE) has all but F1 and F5, with six digits; in the file .res
+(RESULTS/XRF) CNAMES names the components, and one without a name is left out.
 """
 
 from __future__ import annotations
