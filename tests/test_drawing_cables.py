@@ -81,6 +81,13 @@ def test_a_chain_of_springs_is_one_line_in_order() -> None:
     assert cable["range"] == [-2, 8]
 
 
+def test_tensions_without_bounds_leave_the_range_finite() -> None:
+    """One column is infinite at a time, another one no number at all."""
+    found = drawn_of(CHAIN, SFORCE_1=[-7, -np.inf], SFORCE_2=[np.nan, np.nan], SFORCE_3=[2, 2])
+    (cable,) = found.plain["cables"]
+    assert cable["range"] == [-2, 7]
+
+
 def test_a_chain_is_drawn_once() -> None:
     """No beads on its masses, no link and no arrow for its sections."""
     plain = drawn_of(CHAIN, SFORCE_1=[-7], SFORCE_2=[-1], SFORCE_3=[2], SFORCE_4=[-5]).plain

@@ -146,7 +146,7 @@ def test_bodies_that_the_other_results_lack_are_none() -> None:
 
 
 def test_columns_that_were_not_selected_are_those_of_the_deck() -> None:
-    """y alone: the mass falls from x = 0, z = 0, and a note says so."""
+    """y alone: the mass falls from x = 0, z = 0, with a note."""
     words = ["solve", "fall.adm", "-o", "y.nc", "--quiet", "--outputs", "POINT_MASS/2.y"]
     assert main(words) == 0
     assert main(["view", "y.nc"]) == 0
@@ -179,7 +179,7 @@ def sentence(capsys: pytest.CaptureFixture[str]) -> str:
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "told"),
+    ("words", "code", "expected"),
     [
         (["fall.csv", "--deck", "other.adm"], 5, "fall.csv is no result of other.adm"),
         (["alone/alone.csv"], 2, "alone/alone.csv carries no deck"),
@@ -200,7 +200,7 @@ def sentence(capsys: pytest.CaptureFixture[str]) -> str:
     ],
 )
 def test_mistakes_are_one_sentence(
-    words: list[str], code: int, told: str, capsys: pytest.CaptureFixture[str]
+    words: list[str], code: int, expected: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     Path("other.adm").write_text(OTHER)
     Path("alone").mkdir()
@@ -210,7 +210,7 @@ def test_mistakes_are_one_sentence(
     Path("words.csv").write_text("The quick brown fox\n")
     Path("strange.csv").write_text("time,PART/9.x\n0,1\n")
     assert main(["view", *words]) == code
-    assert told in sentence(capsys)
+    assert expected in sentence(capsys)
 
 
 @pytest.mark.parametrize("words", [["-o", "fall.adm.txt"], ["-o", "away/x.html"],
@@ -275,8 +275,8 @@ def test_without_a_browser_the_page_is_written_and_a_sentence_says_so(
         monkeypatch.setenv("BROWSER", "none")
     monkeypatch.setattr(webbrowser, "open", lambda url: False)
     assert main(["view", "fall.csv"]) == 0
-    told = capsys.readouterr().err.splitlines()
-    assert told == ["fall.html", "adamslite: no browser could be opened; open fall.html yourself"]
+    lines = capsys.readouterr().err.splitlines()
+    assert lines == ["fall.html", "adamslite: no browser could be opened; open fall.html yourself"]
     assert last_y("fall.html") == pytest.approx(-5)
 
 

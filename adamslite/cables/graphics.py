@@ -1,6 +1,6 @@
 """GRAPHICS of a cable scene: wheels, weights, and the cable as one line through its markers.
 
-A comment after the OUTLINE of a cable tells `adamslite view` what the statement has no words for::
+A comment after the OUTLINE of a cable gives `adamslite view` what the statement has no words for::
 
     GRAPHICS/1, OUTLINE=20,1002,1001,10
     ! adamslite: cable, wheel 10 -0.3

@@ -6,7 +6,7 @@ A reference is ``{"at": offset in bytes, "shape": [...], "coding": "f32" | "i16"
     i16   [n] or [..., C]: value = low[c] + step[c] k, k from 0 to 65535; stored are the differences
           of k along the first axis modulo 65536 (the first row as it is), all low bytes, then all
           high bytes, which compresses better than the numbers
-    json  text in UTF-8, as many bytes as the shape says: long lists of names compress well
+    json  text in UTF-8, of as many bytes as the shape: long lists of names compress well
 """
 
 from __future__ import annotations

@@ -29,7 +29,7 @@ def arrows(
     """Those of GRAPHICS/FORCE first, then of all elements that are no part of a cable: no section
     (`taken`), and on none of its masses (`inner`).
     """
-    found = [each for graphics in statements for each in _asked(drawing, graphics)]
+    found = [each for graphics in statements for each in _requested(drawing, graphics)]
     have = {each["statement"] for each in found} | taken
     for keyword in (*ALONG_LINE, *WITH_COMPONENTS):
         for element in drawing.deck.of(keyword):
@@ -41,7 +41,7 @@ def arrows(
     return found[:MOST]
 
 
-def _asked(drawing: Drawing, graphics: Graphics) -> Iterator[Arrow]:
+def _requested(drawing: Drawing, graphics: Graphics) -> Iterator[Arrow]:
     if graphics.shape != "FORCE" or graphics.emarker is None:
         return
     for key in graphics.eid:

@@ -67,7 +67,7 @@ def _read(deck: Deck, found: CableComment, item: str) -> None:
 
 
 def _columns(text: str) -> Iterator[tuple[float, str]]:
-    """Sign and name of every column that a text stands for; no name for `none`."""
+    """Sign and name of every column that a text means; no name for `none`."""
     spread = RANGE.fullmatch(text)
     if spread:
         sign, label, start, end, suffix = spread.groups()

@@ -69,7 +69,8 @@ def _line(drawing: Drawing, name: str, nodes: list[Cable], tensions: Sequence[Te
     known = [each for each in tensions if each is not None and np.isfinite(each).any()]
     blank = np.full(len(drawing.motion.time), np.nan)
     values = np.stack([blank if each is None else each for each in tensions], axis=1)
-    bounds = [float(np.nanmin(known)), float(np.nanmax(known))] if known else [0.0, 0.0]
+    numbers = values[np.isfinite(values)]
+    bounds = [float(numbers.min()), float(numbers.max())] if known else [0.0, 0.0]
     tension = drawing.history(values) if known else None
     return {"name": name, "nodes": nodes, "tension": tension, "range": bounds}
 
@@ -82,7 +83,7 @@ def _described(drawing: Drawing, found: Cables, statement: Graphics, comment: Ca
     keys = list(statement.outline)
     nodes = [_node(drawing, key, comment.wheels.get(key)) for key in keys]
     tensions = [_column(drawing, each) for each in comment.tensions]
-    _tell(drawing, statement, comment, len(keys))
+    _note(drawing, statement, comment, len(keys))
     tensions = (tensions + [None] * len(keys))[: len(keys) - 1]
     if keys[0] == keys[-1] and keys[0] in comment.wheels and len(keys) > 2:
         nodes.append(nodes[1])  # once more along the first span: round the wheel between them
@@ -93,15 +94,12 @@ def _described(drawing: Drawing, found: Cables, statement: Graphics, comment: Ca
     found.wheels |= {key: abs(r) for key, r in comment.wheels.items()}
     ends = () if keys[0] == keys[-1] else (keys[0], keys[-1])
     drawn = {each.marker for each in drawing.deck.of(Graphics) if not each.outline}
-    found.inner |= {
-        drawing.frames.body(key)
-        for key in keys
-        if key not in (*ends, *comment.wheels) and key not in drawn
-    }
+    between = [key for key in keys if key not in (*ends, *comment.wheels, *drawn)]
+    found.inner |= _light(drawing, between)
 
 
-def _tell(drawing: Drawing, statement: Graphics, comment: CableComment, nodes: int) -> None:
-    """Notes on what a comment says and nothing means."""
+def _note(drawing: Drawing, statement: Graphics, comment: CableComment, nodes: int) -> None:
+    """Notes on words of a comment that have no meaning here."""
     where = f"comment of {statement.label}"
     away = [str(key) for key in comment.wheels if key not in statement.outline]
     missing = [n for _, n in comment.tensions if n and n not in drawing.results]
@@ -153,9 +151,7 @@ def _chained(drawing: Drawing, found: Cables, chain: Chain) -> None:
     nodes = _between_rims(drawing, found, markers, chain.is_ring)
     found.lines.append(_line(drawing, name, nodes, tensions))
     found.taken |= {link.statement.label for link in chain.links}
-    masses = {key: _mass(drawing, key) for key in _inner(chain, markers)}
-    light = ALIKE * median(masses.values()) if masses else 0.0
-    found.inner |= {drawing.frames.body(key) for key, mass in masses.items() if mass < light}
+    found.inner |= _light(drawing, list(_inner(chain, markers)))
 
 
 def _chains(drawing: Drawing) -> list[Chain]:
@@ -167,7 +163,7 @@ def _chains(drawing: Drawing) -> list[Chain]:
 
 
 def _markers(chain: Chain) -> Iterator[Key]:
-    """The marker of each node, on the link that comes to it."""
+    """The marker of each node, on the link before it."""
     first = chain.links[0]
     yield first.i if first.ends[0] == chain.nodes[0] else first.j
     for link, node in zip(chain.links, chain.nodes[1:], strict=True):
@@ -178,8 +174,12 @@ def _inner(chain: Chain, markers: list[Key]) -> Iterable[Key]:
     return markers if chain.is_ring else markers[1:-1]
 
 
-def _mass(drawing: Drawing, marker: Key) -> float:
-    return drawing.model.bodies[drawing.frames.body(marker) - 1].mass
+def _light(drawing: Drawing, markers: list[Key]) -> set[int]:
+    """Of the moving bodies of markers those that are pieces of a cable: no weights on it."""
+    numbers = {drawing.frames.body(key) for key in markers} - {0}
+    masses = {number: drawing.model.bodies[number - 1].mass for number in numbers}
+    most = ALIKE * median(masses.values()) if masses else 0.0
+    return {number for number, mass in masses.items() if mass < most}
 
 
 def _name(node: tuple[str, Key]) -> str:

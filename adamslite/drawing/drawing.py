@@ -21,7 +21,7 @@ from adamslite.results.results import Results
 # Numbers that a frame of a part and of a point mass takes.
 OF_PART, OF_POINT = 7, 3
 FURTHER = 4.0
-"""By how much the way of the bodies may make a scene larger."""
+"""By how much the travel of the bodies may enlarge a scene."""
 
 
 class Drawing:
@@ -71,11 +71,11 @@ class Drawing:
     @cached_property
     def size(self) -> float:
         """The diagonal of the box around all bodies and markers at the first frame, or that around
-        the way of the bodies, up to a few times as much; 1 where all is in one place.
+        the travel of the bodies, up to a few times as much; 1 where all is in one place.
         """
         drawn = _diagonal(np.array([*self._places()]))
-        way = _diagonal(np.concatenate([track.position for track in self.motion.tracks]))
-        return min(max(drawn, way), FURTHER * drawn) if drawn else way or 1.0
+        travel = _diagonal(np.concatenate([track.position for track in self.motion.tracks]))
+        return min(max(drawn, travel), FURTHER * drawn) if drawn else travel or 1.0
 
     def _places(self) -> Iterator[np.ndarray]:
         yield from (track.position[0] for track in self.motion.tracks[1:])
@@ -101,7 +101,7 @@ def _diagonal(places: np.ndarray) -> float:
 
 
 def forward(results: Results) -> Results:
-    """The results without the rows that have no time, or one that a later row goes back behind."""
+    """The results without rows that have no time, or whose time a later row precedes."""
     time = np.where(np.isfinite(results.time), results.time, np.inf)
     kept = (time <= np.minimum.accumulate(time[::-1])[::-1]) & (time < np.inf)
     if kept.all():

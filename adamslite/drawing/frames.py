@@ -17,7 +17,7 @@ from adamslite.model.geometry import IDENTITY, Place
 from adamslite.model.model import Model
 
 Numbers: TypeAlias = list[float]
-"""``[body, x, y, z]``, or with ``qx, qy, qz, qw`` behind."""
+"""``[body, x, y, z]``, or with ``qx, qy, qz, qw`` after it."""
 RIGID = ("PART", "POINT_MASS")
 ORIGIN = Place("ground", -1, np.zeros(3), IDENTITY)
 

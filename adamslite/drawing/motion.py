@@ -66,11 +66,11 @@ class Motion:
         self._incomplete: list[str] = []
         self._without_value: list[str] = []
         self.tracks += [self._track(model, body) for body in model.bodies]
-        self._tell("not in the results, drawn where the deck has it", self._missing)
-        self._tell(
+        self._note("not in the results, drawn where the deck has it", self._missing)
+        self._note(
             "not all coordinates are in the results, drawn with the deck's", self._incomplete
         )
-        self._tell("no position at some times, drawn at the last one", self._without_value)
+        self._note("no position at some times, drawn at the last one", self._without_value)
 
     def column(self, name: str) -> np.ndarray | None:
         """A column at the frames, (nt,); None when there is none."""
@@ -145,7 +145,7 @@ class Motion:
         last = np.maximum.accumulate(np.where(good, np.arange(len(good)), -1))
         return np.where(last[:, None] < 0, start(), values[np.maximum(last, 0)])
 
-    def _tell(self, what: str, labels: list[str]) -> None:
+    def _note(self, what: str, labels: list[str]) -> None:
         labels = list(dict.fromkeys(labels))
         if labels:
             more = f" and {len(labels) - MOST_NAMED} more" if len(labels) > MOST_NAMED else ""

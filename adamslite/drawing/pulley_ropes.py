@@ -20,7 +20,7 @@ from adamslite.language.interfaces import Key
 
 SLIDES = ("TRANSLATIONAL", "CYLINDRICAL")
 STEPS = 2
-"""Revolute joints from a turret to its pulley, by way of a link."""
+"""Revolute joints from a turret to its pulley, with a link between them."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Rope:
 
 
 class Pulleys:
-    """All ropes of a deck that run over wheels in this way."""
+    """All ropes of a deck that turrets guide."""
 
     def __init__(self, drawing: Drawing) -> None:
         self.drawing = drawing

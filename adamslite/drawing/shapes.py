@@ -79,7 +79,7 @@ def outlines(drawing: Drawing, statements: list[Graphics]) -> list[dict[str, Any
 
 def _curve(drawing: Drawing, each: Graphics) -> tuple[bool, list[list[float]]]:
     """Points of a CURVE in the frame of CRM."""
-    assert each.cid is not None and each.crm is not None  # needs says so
+    assert each.cid is not None and each.crm is not None  # required by `needs`
     curve = drawing.deck.get(Curve, each.cid).spline(drawing.model)
     count = max(int(each.seg or SEGMENTS), 2)
     along = np.linspace(0.0, 1.0, count + 1)[: count if curve.closed else None]

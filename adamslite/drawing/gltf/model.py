@@ -22,7 +22,7 @@ from adamslite.elements.units import Units
 from adamslite.language import units
 from adamslite.results.results import Results
 
-# Of Okabe and Ito, which everyone can tell apart.
+# Of Okabe and Ito, which colour-blind people distinguish.
 COLOURS = (
     (0.0, 0.45, 0.70), (0.90, 0.62, 0.0), (0.0, 0.62, 0.45), (0.80, 0.47, 0.65),
     (0.34, 0.71, 0.91), (0.84, 0.37, 0.0), (0.94, 0.89, 0.26),
