@@ -65,7 +65,6 @@ def _is_deck(args: argparse.Namespace) -> bool:
 def _solved(args: argparse.Namespace) -> tuple[Results, list[Path]]:
     from adamslite.language.diagnostics import render
     from adamslite.progress import TalkingProgress
-    from adamslite.results.summary import notes
     from adamslite.scene import load_scene, run_scene
 
     scene = load_scene(args.result, args.commands, args.user)
@@ -76,8 +75,6 @@ def _solved(args: argparse.Namespace) -> tuple[Results, list[Path]]:
         results = run_scene(scene, run_options(args), progress)
     finally:
         progress.close()
-    for label, note in notes(results):
-        sys.stderr.write(f"{label}: {note}\n")
     if results.confirmation:
         sys.stderr.write(f"{results.confirmation.verdict}\n")
     if not results.outcome.is_requested:
