@@ -119,7 +119,7 @@ def test_wrong_channels_and_files_of_figures(thrown: al.Results) -> None:
 def opened(monkeypatch: Any) -> list[Path]:
     """What a browser would open."""
     pages: list[Path] = []
-    monkeypatch.setattr("adamslite.page.browser.open_page", lambda page: pages.append(page) or True)
+    monkeypatch.setattr("adamslite.page.desktop.open_page", lambda page: pages.append(page) or True)
     return pages
 
 

@@ -126,7 +126,7 @@ def view(
         When there is no deck, or it has none of the bodies of the results.
     """
     from adamslite.drawing.run_deck import deck_of, need_its_bodies
-    from adamslite.page.browser import open_page
+    from adamslite.page.desktop import open_page
     from adamslite.page.page import page, write_page
 
     found = results_of(results, deck)

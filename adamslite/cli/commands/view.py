@@ -215,7 +215,7 @@ def _draw(
 
 
 def _open(page: Path) -> None:
-    from adamslite.page.browser import open_page
+    from adamslite.page.desktop import open_page
 
     if not open_page(page):
         sys.stderr.write(f"adamslite: no browser could be opened; open {page} yourself\n")
