@@ -40,9 +40,8 @@ def test_the_page_in_the_frame_shows_the_motion(browser: Any, tmp_path: Path) ->
     with opened(browser, text, tmp_path) as tab:
         (frame,) = (each for each in tab.page.frames if each.parent_frame)
         frame.wait_for_function("() => window.adamslite && window.adamslite.ready", timeout=20000)
-        frame.evaluate(
-            "async () => { const it = window.adamslite; await it.ready; it.seek(1.0); it.renderFrame() }"
-        )
+        frame.evaluate("() => window.adamslite.ready.then(() => null)")
+        frame.evaluate("() => { adamslite.seek(1.0); adamslite.renderFrame() }")
         place = frame.evaluate("() => Array.from(window.adamslite.bodyPosition('POINT_MASS/2'))")
         np.testing.assert_allclose(place, [3.0, -5.0, 0.0], atol=1e-3)
         assert tab.said == []
