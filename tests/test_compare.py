@@ -118,3 +118,13 @@ def test_a_reference_that_goes_further_than_the_results_is_refused() -> None:
 def test_patterns() -> None:
     assert fits("PART/*.x", "part/12.X") and not fits("PART/*.x", "PART/12.vx")
     assert fits("*", "anything")
+
+
+def test_angles_of_a_part_are_compared_without_whole_turns() -> None:
+    """Half a turn is pi or -pi; of other columns a number of that size is a difference."""
+    names = ("PART/2.psi", "PART/2.phi", "PART/2.x", "VARIABLE/psi")
+    one = Results(time=np.zeros(1), names=names, values=np.array([[np.pi - 1e-9, -3.0, 0.0, 0.0]]))
+    turned = one.values + 2 * np.pi * np.array([[-1.0, 2.0, 1.0, 1.0]])
+    other = Results(time=np.zeros(1), names=names, values=turned)
+    found = compare(one, other, Tolerance(abs=1e-6))
+    assert [each.inside for each in found] == [True, True, False, False]
