@@ -10,7 +10,10 @@ import pytest
 from page_scenes import decoded, named, scene_of
 
 import adamslite as al
+from adamslite.cables.scene import deck as cable_deck
 from adamslite.cli.main import main
+from adamslite.page.page import page
+from adamslite.resources import find
 from adamslite.results.results import Results
 
 DECK = """A falling mass </script><!-- {{data}}
@@ -112,6 +115,20 @@ def test_solve_writes_a_page_beside_its_results(capsys: pytest.CaptureFixture[st
     assert "  page                 a.html\n" in capsys.readouterr().err
     assert main(["solve", "fall.adm", "--page", "b.html", "--quiet"]) == 0
     assert last_y("a.html") == last_y("b.html") == pytest.approx(-5, rel=1e-4)
+
+
+def test_a_crane_of_143_bodies_is_less_than_a_megabyte_and_a_half() -> None:
+    """A rope of 140 sections at 401 times, with all of its 1886 channels."""
+    spec = (find("decks") / "cables" / "described" / "crane.toml").read_text(encoding="utf-8")
+    fine = spec.replace("level = 1", "level = 3\nelements = 140").replace(
+        "steps = 120", "steps = 400"
+    )
+    text, _ = cable_deck(fine.replace("error = 1e-7", "error = 1e-4"))
+    results = al.simulate(al.read(text))
+    drawn = page(results)
+    plain = scene_of(drawn).plain
+    assert len(plain["bodies"]) == 143 and results.values.shape == (401, 1886)
+    assert len(drawn.encode()) < 1_500_000
 
 
 # ---- two results -----------------------------------------------------------------------------
