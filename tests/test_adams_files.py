@@ -376,6 +376,14 @@ def test_a_run_is_compared_with_what_adams_wrote(folder: Path, suffix: str, caps
     assert "converted to the units of the deck: mm to m, mm/s to m/s" in said.err
 
 
+def test_steps_of_another_kind_are_left_aside(folder: Path) -> None:
+    """Eigenvalues have a map of their own; a step of the motion has to have what the map names."""
+    text = Path("adams.res").read_text()
+    eigen = '<Data name="eigen_001"><Step type="eigen">1 2 3</Step></Data><TerminationStatus'
+    Path("adams.res").write_text(text.replace("<TerminationStatus", eigen))
+    assert Results.load("adams.res").time.tolist() == [0.0, 0.25, 0.5]
+
+
 @pytest.mark.parametrize("name", ["stone", ".hill.stone"])
 def test_parts_without_ids_are_found_by_their_names(folder: Path, name: str, capsys) -> None:
     text = Path("adams.res").read_text()

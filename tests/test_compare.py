@@ -128,3 +128,14 @@ def test_angles_of_a_part_are_compared_without_whole_turns() -> None:
     other = Results(time=np.zeros(1), names=names, values=turned)
     found = compare(one, other, Tolerance(abs=1e-6))
     assert [each.inside for each in found] == [True, True, False, False]
+
+
+@pytest.mark.parametrize("how", ["linear", "cubic"])
+def test_an_angle_that_passes_half_a_turn_is_interpolated(how: str) -> None:
+    """psi = 3 + t goes on below pi as 3 + t - 2 pi."""
+    time = np.linspace(0.0, 1.0, 21)
+    psi = (3.0 + time + np.pi) % (2 * np.pi) - np.pi
+    run = Results(time=time, names=("PART/2.psi",), values=psi[:, None])
+    at = np.array([0.13, 0.1416, 0.16, 0.9])
+    reference = Results(time=at, names=("PART/2.psi",), values=3.0 + at[:, None])
+    assert compare(run, reference, Tolerance(abs=1e-9), interpolate=how).inside

@@ -213,8 +213,10 @@ def compare(
     sample = sampler(results, reference.time, interpolate, rounded)
 
     def difference(name: str) -> Difference:
-        value, expected = sample(results[name]), reference[name]
-        if name.casefold().endswith(TURNING):
+        turning = name.casefold().endswith(TURNING)
+        history, expected = results[name], reference[name]
+        value = sample(np.unwrap(history) if turning and interpolate else history)
+        if turning:
             value = value - TURN * np.round((value - expected) / TURN)
         slack = results.printed.hidden(value) + reference.printed.hidden(expected)
         return _difference(name, value, expected, reference.time, tolerance_of(name), slack)
