@@ -14,9 +14,10 @@ import resource
 import sys
 import time
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -32,8 +33,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 #: Modules of tests in which no number is computed that a processor could round otherwise.
 TEXTUAL = {
-    "test_accuracy_notes", "test_browser", "test_bundle", "test_cable_messages", "test_chart",
-    "test_commands", "test_compare",
+    "test_accuracy_notes", "test_browser", "test_browser_plots", "test_bundle",
+    "test_cable_messages", "test_chart", "test_commands", "test_compare",
     "test_deck", "test_lexical", "test_manual", "test_messages", "test_pages", "test_reference",
     "test_results", "test_statement", "test_style", "test_sympy_to_llvm",
 }  # fmt: skip
@@ -157,6 +158,23 @@ def _own_folder(config: pytest.Config, tmp_path_factory: pytest.TempPathFactory)
         folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "compiled"
         folder.mkdir(mode=0o700, exist_ok=True)
     return folder
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """An installed browser. Not for longer: it has a loop of asyncio, which others start too."""
+    from browsing import started
+
+    with started() as found:
+        yield found
+
+
+@pytest.fixture
+def show(browser: Any, tmp_path: Path) -> Any:
+    """Opens a page in it."""
+    from browsing import opened
+
+    return partial(opened, browser, folder=tmp_path)
 
 
 @pytest.fixture

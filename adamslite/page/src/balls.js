@@ -48,7 +48,7 @@ void main() {
     vec3 light = mix(soil, sky, 0.5 + 0.5 * dot(n, upward)) + lamp * max(dot(n, vec3(-0.345, 0.537, 0.767)), 0.0);
     gl_FragColor = vec4(colour * light, opacity);
     vec4 clip = projectionMatrix * vec4(middle + size * n, 1.0);
-    gl_FragDepth = 0.5 + 0.5 * clip.z / clip.w;
+    gl_FragDepth = 0.5 + 0.5 * clip.z / clip.w + (opacity < 1.0 ? 1e-4 : 0.0);
     #include <colorspace_fragment>
 }`;
 

@@ -4,6 +4,29 @@ import { h, icon } from "./dom.js";
 const LISTED = 150;
 const ALIKE = 30; // ratio of sizes up to which channels without a unit share a plot
 
+/** Value at a time on the straight line between those of a table; none outside it. */
+export function between(times, values, time) {
+    let low = 0;
+    let high = times.length - 1;
+    if (high < 0 || !(time >= times[0] && time <= times[high])) return NaN;
+    while (high - low > 1) {
+        const middle = (low + high) >> 1;
+        if (times[middle] <= time) low = middle;
+        else high = middle;
+    }
+    const f = high > low ? (time - times[low]) / (times[high] - times[low]) : 0;
+    if (f === 0) return values[low];
+    return f === 1 ? values[high] : values[low] + f * (values[high] - values[low]);
+}
+
+/** One result less another, at the times of the one with fewer of them: there the lines between
+ *  the other's output times are shorter, and times of both are exact. */
+export function difference(one, other, name) {
+    const fewer = one.times.length <= other.times.length ? one : other;
+    const times = fewer.times;
+    return { times, values: Float64Array.from(times, (time) => one.at(name, time) - other.at(name, time)) };
+}
+
 export class Channels {
     constructor({ times, list }, archive) {
         this.archive = archive;
@@ -32,19 +55,7 @@ export class Channels {
 
     /** Value at a time, on the straight line between output times. */
     at(name, time) {
-        const { times } = this;
-        const values = this.data(name);
-        if (!times.length || time < times[0] || time > times[times.length - 1]) return NaN;
-        let low = 0;
-        let high = times.length - 1;
-        while (high - low > 1) {
-            const middle = (low + high) >> 1;
-            if (times[middle] <= time) low = middle;
-            else high = middle;
-        }
-        if (time === times[high] || low === high) return values[high];
-        const f = (time - times[low]) / (times[high] - times[low]);
-        return f === 0 ? values[low] : values[low] + f * (values[high] - values[low]);
+        return between(this.times, this.data(name), time);
     }
 
     /** Channels whose name, label or unit hold all words, in the order of the result. */

@@ -43,7 +43,7 @@ function edgesOf(geometry, mesh) {
 
 export class Instances {
     /** `items`: {body, local (Matrix4 in the body), colour}. */
-    constructor(geometry, items, bodies, { opacity = 1, side, edges = false, flat = false } = {}) {
+    constructor(geometry, items, bodies, { opacity = 1, side, edges = false, behind = false } = {}) {
         this.bodies = bodies;
         this.items = items;
         this.locals = new Float32Array(16 * items.length);
@@ -52,10 +52,10 @@ export class Instances {
             transparent: opacity < 1,
             opacity,
             depthWrite: opacity === 1,
-            flatShading: flat,
-            polygonOffset: edges,
-            polygonOffsetFactor: 1,
-            polygonOffsetUnits: 1,
+            // Edges are seen on faces, and a ghost is not seen where it coincides with its body.
+            polygonOffset: edges || behind,
+            polygonOffsetFactor: behind ? 4 : 1,
+            polygonOffsetUnits: behind ? 16 : 1,
             ...(side === undefined ? {} : { side }),
         });
         this.mesh = new InstancedMesh(geometry, material, items.length);

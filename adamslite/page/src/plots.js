@@ -1,5 +1,6 @@
 // Curves over time: one plot for each quantity, with a cursor that is the time of the scene.
 import uPlot from "uplot";
+import { between, difference } from "./channels.js";
 import { curveColour } from "./colours.js";
 import { h, iconButton, Pace, short } from "./dom.js";
 
@@ -8,14 +9,6 @@ const WHEEL = 0.85; // of the window that one click of the wheel keeps
 const EVENTS = 30; // up to which each has a line in the plots
 
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-
-/** Other values at these times, on straight lines between theirs; none outside. */
-function resampled(channels, name, times) {
-    return Array.from(times, (time) => {
-        const value = channels.at(name, time);
-        return Number.isNaN(value) ? null : value;
-    });
-}
 
 const gaps = (values) => Array.from(values, (value) => (Number.isFinite(value) ? value : null));
 
@@ -58,28 +51,25 @@ class Plot {
         return this.names.length === 1 && !this.difference ? `${this.names[0]} ${unit}`.trim() : unit;
     }
 
+    /** Times and values of the curves, gaps where there is no number, and how they are drawn. */
     #series() {
+        const tables = this.difference ? this.#differences() : this.#curves();
+        const series = tables.flatMap(({ names, look }) => names.map((name) => ({ stroke: this.owner.colour(name), ...look })));
+        return { data: uPlot.join(tables.map(({ times, values }) => [Array.from(times), ...values.map(gaps)])), series };
+    }
+
+    #curves() {
         const { channels, against } = this.owner;
-        const { times } = channels;
-        const data = [];
-        const series = [];
-        this.names.forEach((name) => {
-            const stroke = this.owner.colour(name);
-            const other = against?.channels.has(name) ? resampled(against.channels, name, times) : null;
-            const own = gaps(channels.data(name));
-            if (this.difference) {
-                data.push(own.map((value, k) => (value === null || !other || other[k] === null ? null : value - other[k])));
-                series.push({ stroke, width: 1.75 });
-                return;
-            }
-            data.push(own);
-            series.push({ stroke, width: 2 });
-            if (other) {
-                data.push(other);
-                series.push({ stroke, width: 1.5, dash: [6, 4] });
-            }
-        });
-        return { data: [Array.from(times), ...data], series };
+        const table = (from, names, look) => ({ times: from.times, names, values: names.map((name) => from.data(name)), look });
+        const own = table(channels, this.names, { width: 2 });
+        const shared = this.names.filter((name) => against?.channels.has(name));
+        return shared.length ? [own, table(against.channels, shared, { width: 1.5, dash: [6, 4] })] : [own];
+    }
+
+    #differences() {
+        const { channels, against } = this.owner;
+        this.differences = new Map(this.names.map((name) => [name, difference(channels, against.channels, name)]));
+        return [...this.differences].map(([name, { times, values }]) => ({ times, names: [name], values: [values], look: { width: 1.75 } }));
     }
 
     build(width, height) {
@@ -150,11 +140,14 @@ class Plot {
 
     #reading(name, time) {
         const { channels, against } = this.owner;
-        const own = channels.at(name, time);
         const unit = this.unit ? ` ${this.unit}` : "";
-        if (!against?.channels.has(name)) return short(own, 5) + unit;
-        const other = against.channels.at(name, time);
-        return this.difference ? short(own - other, 3) + unit : `${short(own, 5)} | ${short(other, 5)}${unit}`;
+        if (this.difference) {
+            const { times, values } = this.differences.get(name);
+            return short(between(times, values, time), 3) + unit;
+        }
+        const own = short(channels.at(name, time), 5);
+        if (!against?.channels.has(name)) return own + unit;
+        return `${own} | ${short(against.channels.at(name, time), 5)}${unit}`;
     }
 }
 

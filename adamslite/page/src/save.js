@@ -1,4 +1,5 @@
 // Files that a reader takes along: pictures and tables of what is shown.
+import uPlot from "uplot";
 import { h } from "./dom.js";
 
 function download(name, url) {
@@ -53,20 +54,23 @@ export class Save {
 
 const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
-/** CSV of some channels: time first, units in square brackets; with those of a second result. */
+/** CSV of some channels: time first, units in square brackets; with those of a second result. At
+ *  a time that only one of the two has, the other's cells are empty. */
 export function curvesTable(plots) {
     const { channels, against, names, window, timeUnit } = plots;
     const headed = (name, unit) => quoted(unit ? `${name} [${unit}]` : name);
-    const columns = names.map((name) => ({ title: headed(name, channels.unit(name)), at: (k) => channels.data(name)[k] }));
-    for (const name of names.filter((each) => against?.channels.has(each))) {
-        const title = headed(`${against.name}: ${name}`, channels.unit(name));
-        columns.push({ title, at: (k) => against.channels.at(name, channels.times[k]) });
-    }
-    const rows = [[headed("time", timeUnit), ...columns.map(({ title }) => title)].join(",")];
-    channels.times.forEach((time, k) => {
-        if (window && (time < window.min || time > window.max)) return;
-        const cells = columns.map(({ at }) => at(k)).map((value) => (Number.isFinite(value) ? Number(value.toPrecision(7)) : ""));
-        rows.push([Number(time.toPrecision(7)), ...cells].join(","));
+    const shared = names.filter((each) => against?.channels.has(each));
+    const heads = [
+        ...names.map((name) => headed(name, channels.unit(name))),
+        ...shared.map((name) => headed(`${against.name}: ${name}`, channels.unit(name))),
+    ];
+    const tables = [[Array.from(channels.times), ...names.map((name) => Array.from(channels.data(name)))]];
+    if (shared.length) tables.push([Array.from(against.channels.times), ...shared.map((name) => Array.from(against.channels.data(name)))]);
+    const [times, ...columns] = uPlot.join(tables);
+    const cell = (value) => (Number.isFinite(value) ? Number(value.toPrecision(7)) : "");
+    const rows = times.flatMap((time, k) => {
+        if (window && (time < window.min || time > window.max)) return [];
+        return [[cell(time), ...columns.map((values) => cell(values[k]))].join(",")];
     });
-    return `${rows.join("\n")}\n`;
+    return `${[[headed("time", timeUnit), ...heads].join(","), ...rows].join("\n")}\n`;
 }

@@ -195,6 +195,7 @@ export class Shapes {
         return new Instances(solid.make(sides), items, this.bodies, {
             opacity: solid.see_through ? 0.35 * opacity : opacity,
             side: solid.two_sided || solid.key.includes("cylinder") ? DoubleSide : undefined,
+            behind: opacity < 1,
             edges: Boolean(solid.edges) && items.length <= MANY && opacity === 1,
         });
     }
