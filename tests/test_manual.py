@@ -102,6 +102,11 @@ def test_help_without_a_name_lists_them(capsys: pytest.CaptureFixture[str]) -> N
     assert all(name in listed for name in (*STATEMENTS, *FUNCTIONS))
 
 
+def test_help_in_python_takes_the_names_of_commands() -> None:
+    assert pages("solve").startswith("## adamslite.simulate\n")
+    assert "## adamslite.linearize" in pages("linear") and "## LINEAR: " in pages("linear")
+
+
 def test_equations_are_blocks() -> None:
     """The module of ACCGRAV indents its equation, which Markdown takes as code."""
     page = pages("accgrav")

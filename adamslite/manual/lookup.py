@@ -25,6 +25,7 @@ from adamslite.manual.integrators import integrator_page, integrators
 from adamslite.manual.markdown import HEAD, heading
 from adamslite.manual.messages import message
 from adamslite.manual.statements import statement, title_of
+from adamslite.notation import FUNCTIONS as IN_PYTHON
 from adamslite.results.outcomes import Outcome
 
 LISTED = "`adamslite help` lists them"
@@ -44,7 +45,8 @@ class Chapter(NamedTuple):
 def pages(name: str, commands: Commands | None = None) -> str:
     """Everything of this name, in capitals or not: a statement, a function, a command, ...
 
-    Of a name that is not supported it is what to write instead.
+    Of a name that is not supported it is what to write instead; of a command, where there are none,
+    the function of Python that does the same.
 
     Raises
     ------
@@ -71,6 +73,7 @@ def chapters(commands: Commands) -> tuple[Chapter, ...]:
         Chapter(methods(), lambda name: integrator_page(methods()[name])),
         Chapter(commands, lambda name: command(commands[name])),
         Chapter(NAMES, python_name),
+        Chapter({} if commands else IN_PYTHON, lambda name: python_name(IN_PYTHON[name])),
         Chapter(MESSAGES, lambda name: message(name, MESSAGES[name])),
         Chapter(Outcome.__members__, lambda name: f"## {name}\n\n{Outcome[name].value}\n"),
         Chapter(TOPICS, lambda name: TOPICS[name]().removeprefix(HEAD).lstrip()),
