@@ -46,7 +46,8 @@ results
 outputs.adams
 outputs
 drawing
-drawing.gltf page
+drawing.gltf
+page
 analyses.clock analyses.initial
 analyses.linearization
 analyses

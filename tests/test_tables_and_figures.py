@@ -135,8 +135,26 @@ def test_a_page_that_is_named_is_written_only(thrown: al.Results, opened: list[P
     assert not opened
     thrown.view("a stone.html", show=True)
     assert opened == [Path("a stone.html")]
-    with pytest.raises(UsageError, match=r"ends in \.html"):
+    with pytest.raises(UsageError, match=r"ends in none of \.html, \.htm, \.glb"):
         thrown.view("stone.pdf")
+
+
+def test_a_model_and_a_picture_take_the_suffix_of_their_name(
+    thrown: al.Results, opened: list[Path], monkeypatch: Any
+) -> None:
+    """A picture is of one time of the results; a model has one result."""
+    assert thrown.view("stone.glb").read_bytes()[:4] == b"glTF" and not opened
+    with pytest.raises(UsageError, match="a model .* shows one result"):
+        thrown.view("stone.glb", against=thrown)
+    with pytest.raises(UsageError, match="a picture is of one time"):
+        thrown.view("stone.png")
+    drawn: list[tuple[float, Path]] = []
+    monkeypatch.setattr(
+        "adamslite.page.pictures.write_picture",
+        lambda page, time, path, size, **wish: drawn.append((time, path)),
+    )
+    thrown.view("stone.png", time=0.5)
+    assert drawn == [(0.5, Path("stone.png"))]
 
 
 def test_a_page_of_a_file_that_carries_no_deck(thrown: al.Results, opened: list[Path]) -> None:

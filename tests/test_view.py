@@ -208,6 +208,7 @@ def sentence(capsys: pytest.CaptureFixture[str]) -> str:
         (["fall.csv", "--against", "strange.csv"], 5, "strange.csv has no channel of these"),
         (["fall.csv", "--against", "empty.csv"], 5, "empty.csv has no output time"),
         (["fall.csv", "--against", "none.csv"], 5, "none.csv"),
+        (["fall.csv", "--glb", "--against", "fall.csv"], 2, "a model shows one result"),
         (["fall.csv", "-o", "fall.csv"], 2, "-o fall.csv"),
         (["fall.csv", "-o", "x.pdf"], 2, "x.pdf"),
         (["fall.csv", "-o", "away/x.html"], 5, "no such folder"),

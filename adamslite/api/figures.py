@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from adamslite.api.runs import simulate
 from adamslite.deck.deck import Deck
-from adamslite.errors import DeckWarning, UsageError
+from adamslite.errors import DeckWarning
 from adamslite.progress.choice import in_notebook
 from adamslite.reading.read import read
 from adamslite.results.formats import formats
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from adamslite.verification.reference_file import Reference
-
-PAGE = (".html", ".htm")
 
 
 def plot(
@@ -98,6 +96,7 @@ def view(
     against: Results | str | os.PathLike[str] | None = None,
     deck: Deck | str | os.PathLike[str] | None = None,
     show: bool | None = None,
+    time: float | None = None,
 ) -> Frame | Path:
     """Show how it moves, as `adamslite view` does: in a notebook in a frame, else in the browser.
 
@@ -107,13 +106,16 @@ def view(
         Results, a file of them, or a deck, which is solved first.
     output : str or Path
         The page (.html) to write; by default the name of the deck, in the current folder.  A
-        notebook writes none unless it is named.
+        notebook writes none unless it is named.  Other suffixes: an animated model (.glb), a
+        picture (.png) of `time`, a film (.gif, .mp4).
     against : Results, str or Path
         Other results of the same deck, drawn beside these.
     deck : Deck, str or Path
         That of results which carry none.
     show : bool
         Whether a browser opens what is written; by default when no ``output`` is named.
+    time : float
+        The time of a picture.
 
     Returns
     -------
@@ -127,19 +129,17 @@ def view(
     """
     from adamslite.drawing.run_deck import deck_of, need_its_bodies
     from adamslite.page.desktop import open_page
-    from adamslite.page.page import page, write_page
+    from adamslite.page.page import page
+    from adamslite.page.showing import Look, write_motion
 
     found = results_of(results, deck)
     need_its_bodies(deck_of(found), found, "these results")
     other = None if against is None else results_of(against, None)
     name = other.source.name if other is not None and other.source else "the others"
-    text = page(found, None, other, name)
     if output is None and show is not True and in_notebook():
-        return Frame(text)
+        return Frame(page(found, None, other, name))
     path = Path(output or f"{found.source.stem if found.source else 'results'}.html")
-    if path.suffix.lower() not in PAGE:
-        raise UsageError(f"'{path}': the name of a page ends in .html")
-    write_page(text, path)
+    write_motion(path, deck_of(found), found, other, name, Look(time))
     if show or (show is None and output is None):
         open_page(path)
     return path

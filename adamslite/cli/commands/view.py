@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     other = Results.load(args.against) if args.against else None
     need_writable(output, [each for each in (args.scene, args.against, args.deck) if each])
     deck, results, code = _solved(args, output) if _is_deck(args) else _loaded(args, output)
-    _write(args, kind, output, deck, results, other)
+    _write(args, output, deck, results, other)
     sys.stderr.write(f"{output}\n")
     if kind in PAGES and not (args.output or args.no_open):
         _open(output)
@@ -114,6 +114,8 @@ def _need_programs(args: argparse.Namespace, kind: str) -> None:
         raise UsageError("--size, --along and --dark belong to --png, --gif and --mp4")
     if kind in FILMS:
         need_encoder()
+    if kind == ".glb" and args.against:
+        raise UsageError("--against belongs to pages and pictures: a model shows one result")
 
 
 def _is_deck(args: argparse.Namespace) -> bool:
@@ -179,39 +181,23 @@ def _loaded(args: argparse.Namespace, output: Path) -> tuple["Deck", "Results", 
 
 def _write(
     args: argparse.Namespace,
-    kind: str,
     output: Path,
     deck: "Deck",
     results: "Results",
     other: "Results | None",
 ) -> None:
-    if kind == ".glb":
-        from adamslite.drawing.gltf.model import model
-        from adamslite.outputs.whole_files import whole_file
+    from adamslite.cli.commands.results_given import in_own_terms
+    from adamslite.page.pictures import SIZE
+    from adamslite.page.showing import Look, write_motion
 
-        content = model(deck, results)
-        with whole_file(output, binary=True) as stream:
-            stream.write(content)
-        return
-    from adamslite.page.page import page, write_page
-
-    text = page(results, deck, other, args.against.name if args.against else "")
-    if kind in PAGES:
-        write_page(text, output)
-    else:
-        _draw(args, text, output, deck, results)
-
-
-def _draw(
-    args: argparse.Namespace, text: str, output: Path, deck: "Deck", results: "Results"
-) -> None:
-    """Write a picture of a page, or a film."""
-    from adamslite.page.pictures import SIZE, draw
-
-    asked = {"theme": "dark" if args.dark else "light"}
-    if args.along:
-        asked["view"] = args.along
-    draw(text, output, deck, results, args.png, args.size or SIZE, asked)
+    if other is not None:
+        other = in_own_terms(other, deck)
+    asked = {
+        "theme": "dark" if args.dark else "light",
+        **({"view": args.along} if args.along else {}),
+    }
+    look = Look(args.png, args.size or SIZE, asked)
+    write_motion(output, deck, results, other, args.against.name if args.against else "", look)
 
 
 def _open(page: Path) -> None:
