@@ -88,3 +88,11 @@ def test_components_of_a_request_have_the_names_that_the_deck_gives() -> None:
         "REQUEST/3.F2": "tension", "REQUEST/3.F3": "c", "REQUEST/3.F4": "depth",
         "REQUEST/4.F2": "rope, pull", "REQUEST/4.F8": "rope",
     }  # fmt: skip
+
+
+def test_what_has_the_unit_of_a_force_is_a_force() -> None:
+    deck = adamslite.read(DECK.replace('CUNITS="","hPa"', 'CUNITS="N","hPa"'))
+    units = {"force": "N", "length": "m"}
+    assert describe("REQUEST/2.F1", units, deck)[4:] == ("force", "N")
+    assert describe("REQUEST/2.F2", units, deck)[4:] == ("", "hPa")
+    assert describe("REQUEST/2.F1", {}, deck)[4:] == ("", "N")

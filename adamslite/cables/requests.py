@@ -15,7 +15,8 @@ def write_requests(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
     text = "\n! ---- results ----\n"
     if model.level > 1:
         text += "".join(
-            f"REQUEST/{p.number}, F2=T{p.number}             ! tension of span {p.number}\n"
+            f"REQUEST/{p.number}, F2=T{p.number}\\, COMMENT=tension of span {p.number}, "
+            'CUNITS="","N"\n'
             for p in found
         )
     for i, each in enumerate(spec.route):

@@ -82,6 +82,8 @@ def describe(name: str, units: dict[str, str], deck: Deck | None = None) -> Chan
     found = statement_of(label, deck) if deck else None
     quantity, dimension = _quantity(keyword, component, found, deck)
     unit = _own_unit(found, component) or in_units(dimension, units)
+    if not quantity and unit and unit == units.get(FORCE):
+        quantity = "force"
     own = found.name or _comment(found) if found else ""
     title = ", ".join(filter(None, (own, _heading(found, component))))
     return Channel(name, label, component, title, quantity, unit)
