@@ -122,6 +122,8 @@ def pages() -> dict[str, str]:
 
 def draw(scene: Scene) -> None:
     """Solve the deck; write its picture and its plot."""
+    from pictures import save_small  # beside this program
+
     from adamslite.page.page import page as page_of
     from adamslite.page.pictures import write_picture
     from adamslite.plots.style import save as save_figure
@@ -133,18 +135,9 @@ def draw(scene: Scene) -> None:
         raw = Path(folder) / "raw.png"
         time = first + scene.at * (last - first)
         write_picture(page_of(results), float(time), raw, SIZE, view=scene.view)
-        save(raw, FOLDER / f"{scene.name}.png", COLOURS)
+        save_small(raw, FOLDER / f"{scene.name}.png", COLOURS)
         save_figure(plot(results, scene.plot, x=scene.x), raw)
-        save(raw, FOLDER / f"{scene.name}-plot.png", LINES)
-
-
-def save(raw: Path, path: Path, colours: int) -> None:
-    """Write a picture with few colours."""
-    from PIL import Image
-
-    picture = Image.open(raw).convert("RGB")
-    few = picture.quantize(colours, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-    few.save(path, optimize=True)
+        save_small(raw, FOLDER / f"{scene.name}-plot.png", LINES)
 
 
 def main(arguments: list[str]) -> None:

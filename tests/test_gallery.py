@@ -12,8 +12,8 @@ GALLERY = DOCS / "gallery"
 WRITER = runpy.run_path(str(DOCS / "gallery.py"))
 PAGES = WRITER["pages"]()
 SCENES = [scene for group in WRITER["scenes"]().values() for scene in group]
-#: Bytes of one picture, and of all.
-MOST_OF_ONE, MOST_OF_ALL = 60_000, 3_000_000
+#: Bytes of one picture, of all, and of a film.
+MOST_OF_ONE, MOST_OF_ALL, MOST_OF_FILM = 60_000, 3_000_000, 200_000
 scene_by_name = pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.name)
 
 
@@ -30,6 +30,14 @@ def test_pictures_are_those_of_the_list_and_small() -> None:
     assert set(pictures) == wanted, "run: python docs/gallery.py --pictures NAME ..."
     assert max(pictures.values()) < MOST_OF_ONE
     assert sum(pictures.values()) < MOST_OF_ALL
+
+
+def test_pictures_of_other_pages_are_used_and_small() -> None:
+    pages = [DOCS.parent / "README.md", *DOCS.glob("**/*.md")]
+    texts = "\n".join(page.read_text(encoding="utf-8") for page in pages)
+    for picture in [*(DOCS / "pictures").iterdir(), *DOCS.glob("how-to/*.png")]:
+        assert picture.name in texts, f"nothing shows {picture.name}"
+        assert picture.stat().st_size < (MOST_OF_ONE if picture.suffix == ".png" else MOST_OF_FILM)
 
 
 @scene_by_name
