@@ -97,6 +97,17 @@ def test_no_text_of_the_package_shows_flags_to_python() -> None:
         assert not FLAG.search(in_python(text)), f"{place}: {in_python(text)}"
 
 
+def test_no_fault_of_a_file_speaks_of_flags() -> None:
+    """What a file holds is quoted as it is; so only these messages are shown untranslated."""
+    for file in sorted(PACKAGE.rglob("*.py")):
+        if "cli" in file.relative_to(PACKAGE).parts:
+            continue
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            raised = getattr(getattr(node, "exc", None), "func", None)
+            if getattr(raised, "id", "") in ("FormatError", "Mismatch"):
+                assert not FLAG.search(ast.unparse(node)), f"{file}:{node.lineno}"
+
+
 def test_every_outcome_speaks_both() -> None:
     for outcome in al.Outcome:
         assert not FLAG.search(outcome.sentence)

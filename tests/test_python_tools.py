@@ -99,6 +99,15 @@ def test_tolerances_are_numbers_texts_or_objects(tolerance: Any, inside: bool) -
     assert al.compare(table([1.0, 1.1]), table([1.0, 1.0]), tolerance).inside is inside
 
 
+def test_a_tolerance_may_depend_on_the_name() -> None:
+    """Names with characters that mean something in patterns, too."""
+    both = [al.Results(time=np.zeros(1), names=("VARIABLE/[x]", "b*"), values=np.array([row]))
+            for row in ([1.0, 1.0], [1.1, 1.1])]  # fmt: skip
+    wide = {"VARIABLE/[x]": Tolerance(abs=0.2), "b*": Tolerance(abs=0.01)}
+    found = al.compare(*both, wide.__getitem__)
+    assert [each.name for each in found.outside] == ["b*"]
+
+
 def test_references_may_be_interpolated() -> None:
     """y = t at whole times, and at the halves between."""
     coarse, fine = table([0.0, 1.0, 2.0]), table([0.0, 0.5, 1.0])
@@ -115,7 +124,7 @@ def test_what_cannot_be_compared_is_told() -> None:
         al.compare(table([1.0]), table([1.0], "b"))
     with pytest.raises(Mismatch, match="no output time at all"):
         al.compare(table([1.0]), table([]))
-    with pytest.raises(UsageError, match="tolerance=: 'abs' is not a tolerance"):
+    with pytest.raises(UsageError, match="^'abs' is not a tolerance; write 'abs A'"):
         al.compare(table([1.0]), table([1.0]), "abs")
     with pytest.warns(al.DeckWarning, match="different decks, 'one' and 'two'"):
         al.compare(table([1.0]), table([1.0], title="two"))

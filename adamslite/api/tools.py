@@ -14,17 +14,10 @@ from typing import NamedTuple
 from adamslite.deck.deck import Deck
 from adamslite.errors import DeckWarning, FormatError, UsageError
 from adamslite.language.diagnostics import WARNING
-from adamslite.results.common_terms import in_common_terms
-from adamslite.results.comparison import (
-    INTERPOLATIONS,
-    USUAL,
-    Comparison,
-    Tolerance,
-    need_content,
-    of_different_decks,
-)
-from adamslite.results.comparison import compare as compare_results
+from adamslite.reading.read import read
+from adamslite.results.comparison import INTERPOLATIONS, Comparison, Tolerance
 from adamslite.results.results import Results
+from adamslite.verification.common_comparison import compared
 from adamslite.verification.reference_file import (
     Reference,
     read_reference,
@@ -74,29 +67,17 @@ def compare(
         raise UsageError(f"--interpolate {interpolate}: there are {', '.join(INTERPOLATIONS)}")
     found = results if isinstance(results, Results) else Results.load(Path(results))
     judge = _reference(reference)
-    if sentence := of_different_decks(found, judge.table):
-        warnings.warn(sentence, DeckWarning, stacklevel=2)
-    if not judge.measures:
-        need_content(judge.table)
-    common = in_common_terms(found, judge.table, _deck(deck))
-    for note in common.notes:
-        warnings.warn(note, DeckWarning, stacklevel=2)
-    found, judge = common.results, replace(judge, table=common.reference)
-    interpolate = interpolate or judge.interpolate
-    if callable(tolerance):
-        return compare_results(found, judge.table, tolerance, interpolate)
-    if tolerance is not None:
+    judge = replace(judge, interpolate=interpolate or judge.interpolate)
+    allowed = tolerance if callable(tolerance) else None
+    if tolerance is not None and not callable(tolerance):
         given = tolerance if isinstance(tolerance, Tolerance) else tolerance_of(tolerance)
         judge = replace(judge, tolerances=[("*", given)])
-    return replace(judge, interpolate=interpolate).judge(found, usual=USUAL)
-
-
-def _deck(given: Deck | str | os.PathLike[str] | None) -> Deck | None:
-    from adamslite.reading.read import read
-
-    if given is None or isinstance(given, Deck):
-        return given
-    return read(given if isinstance(given, str) else Path(given))
+    source = Path(deck) if isinstance(deck, os.PathLike) else deck
+    read_deck = source if isinstance(source, Deck) or source is None else read(source)
+    comparison, notes = compared(found, judge, read_deck, allowed)
+    for note in notes:
+        warnings.warn(note, DeckWarning, stacklevel=2)
+    return comparison
 
 
 def _reference(given: Results | Reference | str | os.PathLike[str]) -> Reference:

@@ -149,7 +149,7 @@ def tolerance_of(given: float | str) -> Tolerance:
     try:
         return parse_tolerance(str(given))
     except ValueError as fault:
-        raise UsageError(f"--tol: {fault}") from None
+        raise UsageError(str(fault)) from None
 
 
 def _follow(reference: Reference, comment: str) -> None:

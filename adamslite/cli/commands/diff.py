@@ -20,8 +20,6 @@ from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
 
 if TYPE_CHECKING:
     from adamslite.results.comparison import Comparison
-    from adamslite.results.results import Results
-    from adamslite.verification.reference_file import Reference
 
 #: So many channels are a table to look at; of more, those outside are listed.
 FEW = 20
@@ -52,8 +50,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print one line per channel; return the exit code."""
-    from adamslite.results.comparison import USUAL, Mismatch, need_content, of_different_decks
+    import adamslite
+    from adamslite.results.comparison import Mismatch
     from adamslite.results.results import Results
+    from adamslite.verification.common_comparison import compared
     from adamslite.verification.reference_file import read_reference, tolerance_of
 
     results = Results.load(args.a)
@@ -62,34 +62,16 @@ def run(args: argparse.Namespace) -> int:
         reference.tolerances = [("*", tolerance_of(args.tol))]
     if args.interpolate:
         reference.interpolate = args.interpolate
-    if sentence := of_different_decks(results, reference.table):
-        sys.stderr.write(f"adamslite: {sentence}\n")
+    deck = adamslite.read(args.deck) if args.deck else None
     try:
-        if not reference.measures:
-            need_content(reference.table)
-        results = _brought_together(results, reference, args.deck)
-        comparison = reference.judge(results, usual=USUAL)
+        comparison, notes = compared(results, reference, deck)
     except Mismatch as fault:
         sys.stdout.write(f"different: {fault}\n")
         return OUTSIDE_TOLERANCE
+    for note in notes:
+        sys.stderr.write(f"adamslite: {note}\n")
     sys.stdout.write(_table(comparison, args.all))
     return DONE if comparison.inside else OUTSIDE_TOLERANCE
-
-
-def _brought_together(results: "Results", reference: "Reference", deck: Path | None) -> "Results":
-    """The results in the terms and units of the reference, whose table may change too."""
-    from adamslite.results.common_terms import in_common_terms
-
-    read = None
-    if deck is not None:
-        import adamslite
-
-        read = adamslite.read(deck)
-    common = in_common_terms(results, reference.table, read)
-    reference.table = common.reference
-    for note in common.notes:
-        sys.stderr.write(f"adamslite: {note}\n")
-    return common.results
 
 
 def _table(comparison: "Comparison", everything: bool) -> str:

@@ -1,0 +1,53 @@
+"""Results against a reference that may be a file of ADAMS: terms, units and channels in common."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from glob import escape
+
+from adamslite.deck.deck import Deck
+from adamslite.notation import shown
+from adamslite.results.common_terms import in_common_terms
+from adamslite.results.comparison import (
+    USUAL,
+    Comparison,
+    Tolerance,
+    need_content,
+    of_different_decks,
+)
+from adamslite.results.results import Results
+from adamslite.verification.reference_file import Reference
+
+
+def compared(
+    results: Results,
+    reference: Reference,
+    deck: Deck | None = None,
+    allowed: Callable[[str], Tolerance] | None = None,
+) -> tuple[Comparison, list[str]]:
+    """The comparison, and sentences about what could not be compared as it is.
+
+    Parameters
+    ----------
+    results : Results
+    reference : Reference
+        Its table is brought into the terms and units that the two have in common.
+    deck : Deck, optional
+        Where the centres of mass are, where neither carries a deck.
+    allowed : function, optional
+        The tolerance of a channel by its name, instead of those of the reference.
+
+    Raises
+    ------
+    Mismatch
+        When the results lack a channel or a time of the reference, or the reference is empty.
+    """
+    different = of_different_decks(results, reference.table)
+    if not reference.measures:
+        need_content(reference.table)
+    common = in_common_terms(results, reference.table, deck)
+    reference.table = common.reference
+    if allowed is not None:
+        reference.tolerances = [(escape(name), allowed(name)) for name in common.reference.names]
+    notes = [*([different] if different else []), *map(shown, common.notes)]
+    return reference.judge(common.results, usual=USUAL), notes
