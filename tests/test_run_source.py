@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -67,6 +68,38 @@ def test_a_deck_that_was_given_as_text_has_no_name() -> None:
     assert (source.commands, source.commands_name, source.user) == ("", "", ())
     read, commands = source.read()
     assert (read.title, tuple(commands)) == ("a title", ())
+
+
+@pytest.mark.parametrize("suffix", [".nc", ".mat", ".parquet", ".res"])
+def test_a_file_is_solved_again_where_nothing_else_is(folder: Path, suffix: str) -> None:
+    """The table of the deck is in the file, too."""
+    results = solved(folder)
+    results.save(folder / f"a{suffix}")
+    for name in ("fall.adm", "fall.acf", "road.csv"):
+        (folder / name).unlink()
+    found = Results.load(folder / f"a{suffix}")
+    assert found.source is not None and found.source.folder == ""
+    deck, commands = found.source.read()
+    again = adamslite.simulate(deck, commands=commands)
+    assert np.array_equal(again.values, results.values)
+    found.save(folder / f"b{suffix}")
+    assert Results.load(folder / f"b{suffix}").source.read()[0].of("SPLINE")
+
+
+def test_a_file_names_no_file_elsewhere_and_no_function(folder: Path) -> None:
+    """What others have sent neither writes beside its folder nor loads a module."""
+    results = solved(folder)
+    elsewhere = folder / "elsewhere.csv"
+    evil = replace(
+        results.source, user=("VARIABLE/1=os:getcwd",), folder="", made=None,
+        tables=(("../../elsewhere.csv", "x"), (str(elsewhere), "x"), ("road.csv", TABLE)),
+    )  # fmt: skip
+    replace(results, source=evil).save(folder / "a.nc")
+    found = Results.load(folder / "a.nc").source
+    assert found is not None and found.user == ()
+    with pytest.raises(adamslite.DeckError, match="missing-routine"):
+        found.read()
+    assert not elsewhere.exists()
 
 
 def test_commands_of_a_text_are_kept(folder: Path) -> None:

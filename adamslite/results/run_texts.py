@@ -6,7 +6,8 @@
     deck_sha256         hash of the text
     commands            text of the command file
     commands_name       its file name
-    user                what was bound to routines of the user (JSON, a list)
+    user                numbers that were bound to routines of the user (JSON, a list)
+    tables              texts of the tables that the deck names (JSON, by name)
     units               of force, mass, length and time
     integrator          method, formulation, ERROR
     outcome, message    how the run ended, and why it ended early
@@ -20,6 +21,7 @@ What is not known is left out.
 from __future__ import annotations
 
 import json
+import re
 import zlib
 from collections.abc import Mapping
 from typing import Any
@@ -31,6 +33,10 @@ from adamslite.errors import FormatError
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.source import NO_FILE, RunSource
+
+#: A binding of numbers. One of a function is not taken from a file, which may come from others: it
+#: would have a module loaded.
+NUMBERS = re.compile(r"[^=]+=[-+0-9.,eEdD\s]+")
 
 
 def attributes(results: Results) -> dict[str, str]:
@@ -45,6 +51,7 @@ def attributes(results: Results) -> dict[str, str]:
         "commands": source.commands if source else "",
         "commands_name": source.commands_name if source else "",
         "user": json.dumps(source.user) if source and source.user else "",
+        "tables": _tables(source),
         "units": meta.get("units", ""),
         "integrator": meta.get("integrator", ""),
         "outcome": results.outcome.name,
@@ -54,6 +61,11 @@ def attributes(results: Results) -> dict[str, str]:
         "linear": _linear(results),
     }
     return {name: text for name, text in found.items() if text}
+
+
+def _tables(source: RunSource | None) -> str:
+    found = source.table_texts() if source else {}
+    return json.dumps(found) if found else ""
 
 
 def _linear(results: Results) -> str:
@@ -85,7 +97,9 @@ def restored(found: Mapping[str, str]) -> dict[str, Any]:
             str(key): str(text) for key, text in json.loads(found.get("comments", "{}")).items()
         }
         summary = dict(json.loads(found.get("summary", "{}")))
-        user = tuple(map(str, json.loads(found.get("user", "[]"))))
+        user = tuple(filter(NUMBERS.fullmatch, map(str, json.loads(found.get("user", "[]")))))
+        tables = json.loads(found.get("tables", "{}"))
+        kept = tuple((str(name), str(text)) for name, text in tables.items())
         linear = from_text(found.get("linear", "[]"))
     except (ValueError, KeyError, TypeError, AttributeError, zlib.error):
         raise FormatError("its attributes are not those of adamslite") from None
@@ -94,6 +108,7 @@ def restored(found: Mapping[str, str]) -> dict[str, Any]:
         source = RunSource(
             deck=found["deck"], name=found.get("deck_name", NO_FILE), user=user,
             commands=found.get("commands", ""), commands_name=found.get("commands_name", ""),
+            tables=kept,
         )  # fmt: skip
     return {
         "meta": meta, "summary": summary, "outcome": outcome, "source": source,

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from tempfile import TemporaryDirectory
+
     from adamslite.deck.deck import Deck
     from adamslite.deck.redefinition import Command
     from adamslite.reading.read import Commands
@@ -15,6 +19,8 @@ if TYPE_CHECKING:
 
 NO_FILE = "<text>"
 """The name of a deck that came from no file."""
+TABLE = ".csv"
+"""The suffix of tables that a deck may name."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +42,8 @@ class RunSource:
     folder : str
         Where the deck was, with the tables that it names; empty in results that were read from a
         file, which may be of another machine.
+    tables : tuple of pairs
+        Names and texts of these tables, in results that were read from a file.
     made : tuple or None
         Deck and commands as they were read for the run, where this process has run it.
     """
@@ -46,6 +54,7 @@ class RunSource:
     commands_name: str = ""
     user: tuple[str, ...] = ()
     folder: str = ""
+    tables: tuple[tuple[str, str], ...] = field(default=(), compare=False, repr=False)
     made: tuple[Deck, Commands] | None = field(default=None, compare=False, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -63,7 +72,8 @@ class RunSource:
         Raises
         ------
         DeckError
-            With every mistake; tables that the deck names are looked for in ``folder``.
+            With every mistake; tables that the deck names are those kept, or looked for in
+            ``folder``.
         """
         from adamslite.deck.names import Names
         from adamslite.deck.user_bindings import bindings
@@ -73,12 +83,47 @@ class RunSource:
 
         if self.made:
             return self.made
-        path = None if self.name == NO_FILE else Path(self.folder, self.name)
+        folder = unpacked(self.tables) if self.tables else self.folder
+        path = None if self.name == NO_FILE and not self.tables else Path(folder, self.name)
         reading = Reading(Source(self.deck, self.name), Names(), "deck")
         deck = read_by(reading, path, bindings(list(self.user)))
         if not self.commands:
             return deck, Commands()
         return deck, commands_of(Source(self.commands, self.commands_name), deck)
+
+    def table_texts(self) -> dict[str, str]:
+        """The tables that SPLINE and MATRIX take from files, by name, as far as they are there."""
+        if self.tables or not (self.made or self.folder):
+            return dict(self.tables)
+        deck, commands = self.read()
+        changes = (getattr(command, "changes", {}).get("file") for command in commands)
+        named = {*(getattr(each, "file", None) for each in deck.statements), *changes}
+        found = {}
+        for name in sorted(each for each in named if each and each.lower().endswith(TABLE)):
+            with suppress(OSError, UnicodeDecodeError):
+                found[name] = (deck.folder / name).read_text(encoding="utf-8-sig")
+        return found
+
+
+def unpacked(tables: Iterable[tuple[str, str]]) -> Path:
+    """A folder of this process with these files; a name that leads out of it is left aside."""
+    from hashlib import sha256
+
+    folder = Path(_scratch().name, sha256(repr(tuple(tables)).encode()).hexdigest()[:16])
+    for name, text in tables:
+        path = (folder / name).resolve()
+        if path.is_relative_to(folder.resolve()) and path.suffix.lower() == TABLE:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+    return folder
+
+
+@cache
+def _scratch() -> TemporaryDirectory[str]:
+    """Removed when the process ends."""
+    from tempfile import TemporaryDirectory
+
+    return TemporaryDirectory(prefix="adamslite-")
 
 
 def source_of(deck: Deck, commands: Iterable[Command]) -> RunSource:
