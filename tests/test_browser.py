@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browsing import PHONE, Opened
-from sample_page import ARM, END, FRAMES, UPRIGHT, bare, crank, sample, swarm, weight
+from sample_page import ARM, END, FRAMES, TURNS, UPRIGHT, bare, crank, sample, swarm, weight
 
 pytestmark = pytest.mark.browser
 
@@ -100,6 +100,9 @@ def test_picking_names_the_part_and_says_where_it_is_and_how_fast(show: Any) -> 
         tab.do("(it.seek(0), it.renderFrame())")
         speed = float(tab.seen(".selection dd >> nth=2").split()[0])
         assert speed == pytest.approx(0.3 * np.pi, rel=1e-3)
+        tab.do("it.select('PART/4')")
+        turning = float(tab.seen(".selection dd >> nth=3").split()[0])
+        assert turning == pytest.approx(3 * TURNS / END, rel=1e-3)
         tab.page.keyboard.press("Escape")
         assert tab.do("it.selected") is None
 

@@ -135,14 +135,28 @@ export class Bodies {
         return out;
     }
 
-    /** Velocity of a body's origin now: slope of its positions. */
-    velocity(b, out) {
+    /** Speed of a body's origin now: slope of its positions. */
+    speed(b) {
         const track = this.positions[b];
+        const [i, step] = this.#step();
+        if (!track.moves || !step) return 0;
+        return Math.hypot(...[0, 1, 2].map((c) => track.at(i + 1, 0, c) - track.at(i, 0, c))) / step;
+    }
+
+    /** Angular speed of a body now: the turn from one attitude to the next. */
+    angularSpeed(b) {
+        const track = this.attitudes[b];
+        const [i, step] = this.#step();
+        if (!track.moves || !step) return 0;
+        // Unit quaternions of a turn by an angle are 2 sin(angle / 4) apart.
+        const apart = Math.hypot(...[0, 1, 2, 3].map((c) => track.at(i + 1, 0, c) - track.at(i, 0, c)));
+        return (4 * Math.asin(Math.min(apart / 2, 1))) / step;
+    }
+
+    /** The output step of the time shown: its first row and its length. */
+    #step() {
         const { times, index } = this.clock;
         const i = Math.min(index, times.length - 2);
-        for (let c = 0; c < 3; c += 1) {
-            out[c] = track.moves ? (track.at(i + 1, 0, c) - track.at(i, 0, c)) / (times[i + 1] - times[i]) : 0;
-        }
-        return out;
+        return [i, i >= 0 ? times[i + 1] - times[i] : 0];
     }
 }

@@ -3,13 +3,13 @@ import { h, iconButton, Pace, short } from "./dom.js";
 import { Strokes } from "./strokes.js";
 
 const PIECES = 600; // of a path
+const NOTHING = 1e-7; // of the size of the scene: what is smaller is zero
 
 export class Selection {
     constructor(app) {
         this.app = app;
         this.body = -1;
         this.path = null;
-        this.velocity = [0, 0, 0];
         this.pace = new Pace();
         this.title = h("strong", {});
         this.sub = h("span", { class: "sub" });
@@ -40,7 +40,8 @@ export class Selection {
         this.rows = {};
         const unit = app.scene.units;
         this.#fact("mass", "mass").textContent = mass ? `${short(mass, 5)} ${unit.mass}` : "–";
-        for (const key of ["position", "speed", ...(app.against ? ["apart"] : [])]) this.#fact(key, key);
+        const turns = app.bodies.attitudes[b].moves ? ["turning"] : [];
+        for (const key of ["position", "speed", ...turns, ...(app.against ? ["apart"] : [])]) this.#fact(key, key);
         this.update();
     }
 
@@ -53,12 +54,15 @@ export class Selection {
 
     update() {
         if (this.body < 0 || !this.pace.due(this.app.player.playing)) return;
-        const { bodies, scene, against } = this.app;
+        const { bodies, scene, against, box, clock } = this.app;
         const { length, time } = scene.units;
-        const [x, y, z] = bodies.poses.subarray(7 * this.body, 7 * this.body + 3);
-        this.rows.position.textContent = `${[x, y, z].map((c) => short(c, 4)).join(", ")} ${length}`;
-        const speed = Math.hypot(...bodies.velocity(this.body, this.velocity));
-        this.rows.speed.textContent = `${short(speed, 4)} ${length && time ? `${length}/${time}` : ""}`;
+        const per = time ? `/${time}` : "";
+        const known = (value, scale) => short(Math.abs(value) < NOTHING * scale ? 0 : value, 4);
+        const place = bodies.poses.subarray(7 * this.body, 7 * this.body + 3);
+        this.rows.position.textContent = `${Array.from(place, (c) => known(c, box.radius)).join(", ")} ${length}`;
+        const pace = clock.duration > 0 ? 1 / clock.duration : 0;
+        this.rows.speed.textContent = `${known(bodies.speed(this.body), box.radius * pace)} ${length && per ? length + per : ""}`;
+        if (this.rows.turning) this.rows.turning.textContent = `${known(bodies.angularSpeed(this.body), pace)} ${per ? `rad${per}` : ""}`;
         if (against) this.rows.apart.textContent = `${short(against.distance(bodies, this.body), 3)} ${length} from ${against.name}`;
     }
 
