@@ -171,6 +171,11 @@ def test_a_page_of_a_file_that_carries_no_deck(thrown: al.Results, opened: list[
         al.view("stone.csv", deck=OTHER)
 
 
+def test_directions_of_pictures_are_known(thrown: al.Results) -> None:
+    with pytest.raises(UsageError, match="along='up': there are x, y, z, iso"):
+        thrown.view("stone.png", time=1.0, along="up")
+
+
 def test_two_results_in_a_page(thrown: al.Results) -> None:
     faster = al.simulate(THROW.replace("VX=3", "VX=4"))
     page = thrown.view("both.html", against=faster).read_text("utf-8")

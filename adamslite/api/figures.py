@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 from adamslite.api.runs import simulate
 from adamslite.deck.deck import Deck
-from adamslite.errors import DeckWarning
+from adamslite.errors import DeckWarning, UsageError
+from adamslite.notation import shown
 from adamslite.progress.choice import in_notebook
 from adamslite.reading.read import read
 from adamslite.results.formats import formats
@@ -78,6 +79,9 @@ def _png(figure: Figure) -> bytes:
     return content.getvalue()
 
 
+DIRECTIONS = ("x", "y", "z", "iso")
+
+
 class Frame(str):
     """The text of a page; a notebook shows it in a frame."""
 
@@ -97,6 +101,9 @@ def view(
     deck: Deck | str | os.PathLike[str] | None = None,
     show: bool | None = None,
     time: float | None = None,
+    size: tuple[int, int] = (1280, 720),
+    along: str | None = None,
+    dark: bool = False,
 ) -> Frame | Path:
     """Show how it moves, as `adamslite view` does: in a notebook in a frame, else in the browser.
 
@@ -116,6 +123,9 @@ def view(
         Whether a browser opens what is written; by default when no ``output`` is named.
     time : float
         The time of a picture.
+    size, along, dark
+        Of pictures and films: width and height in pixels, from where they look ("x", "y", "z",
+        "iso"; by default the front), and whether the ground is dark.
 
     Returns
     -------
@@ -136,10 +146,13 @@ def view(
     need_its_bodies(deck_of(found), found, "these results")
     other = None if against is None else results_of(against, None)
     name = other.source.name if other is not None and other.source else "the others"
+    if along not in (None, *DIRECTIONS):
+        raise UsageError(f"--along {along}: there are {', '.join(DIRECTIONS)}")
     if output is None and show is not True and in_notebook():
         return Frame(page(found, None, other, name))
     path = Path(output or f"{found.source.stem if found.source else 'results'}.html")
-    write_motion(path, deck_of(found), found, other, name, Look(time))
+    asked = {"theme": "dark" if dark else "light", **({"view": along} if along else {})}
+    write_motion(path, deck_of(found), found, other, name, Look(time, size, asked))
     if show or (show is None and output is None):
         open_page(path)
     return path
@@ -160,7 +173,7 @@ def results_of(
 
     results = Results.load(Path(given))
     found = deck or (None if results.source else beside(Path(given), results))
-    return results if found is None else _with_deck(results, found)
+    return _in_own_terms(results, None) if found is None else _with_deck(results, found)
 
 
 def _with_deck(results: Results, deck: Deck | str | os.PathLike[str]) -> Results:
@@ -171,4 +184,14 @@ def _with_deck(results: Results, deck: Deck | str | os.PathLike[str]) -> Results
     found = source if isinstance(source, Deck) else read(source)
     if warning := difference(found, results):
         warnings.warn(f"{found.path or found.title}: {warning}", DeckWarning, stacklevel=4)
-    return replace(results, source=source_of(found, ()))
+    return replace(_in_own_terms(results, found), source=source_of(found, ()))
+
+
+def _in_own_terms(results: Results, deck: Deck | None) -> Results:
+    """Results that ADAMS has written in the terms of this program; warnings of what is lost."""
+    from adamslite.results.common_terms import of_deck
+
+    results, notes = of_deck(results, deck)
+    for note in notes:
+        warnings.warn(shown(note), DeckWarning, stacklevel=5)
+    return results
