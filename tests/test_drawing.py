@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from math import cos, pi, sin
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -311,3 +313,12 @@ def test_channels_are_all_columns_with_units() -> None:
     assert units["JOINT/1.fx"] == "N" and units["JOINT/1.tz"] == "N mm"
     found = decoded(drawn, named(listed, "PART/2.vz")["values"])
     assert found == pytest.approx(results["PART/2.vz"], rel=1e-6, abs=1e-6)
+
+
+def test_the_reference_names_all_fields_of_a_scene() -> None:
+    """docs/reference/scenes.md, for those who read a page with a program of their own."""
+    page = Path(__file__).parent.parent / "docs" / "reference" / "scenes.md"
+    _, _, inside = page.read_text(encoding="utf-8").partition("## Inside a page")
+    rows = [line.split("|")[1] for line in inside.splitlines() if line.startswith("| `")]
+    listed = {word for row in rows for word in re.findall(r"`(\w+)`", row)}
+    assert listed - {"f32", "i16", "json"} == set(still(PENDULUM).plain)
