@@ -219,4 +219,9 @@ def test_modes_are_a_table_in_a_terminal(capsys: Any) -> None:
     assert main(["linear", str(deck), "--time", "0.1"]) == 0
     modes = al.linearize(deck, time=0.1)
     assert f"{modes}\n" == capsys.readouterr().out
+    modes.save("modes.json")
+    assert main(["linear", str(deck), "--time", "0.1", "-o", "same.json"]) == 0
+    assert Path("modes.json").read_text() == Path("same.json").read_text()
+    with pytest.raises(UsageError, match=r"must end with \.csv \(modes\) or \.json"):
+        modes.save("modes.txt")
     assert repr(modes) == "<Linearization: 6 states, 0 inputs, 0 outputs>"

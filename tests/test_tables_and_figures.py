@@ -68,6 +68,20 @@ def test_xarray_has_what_the_file_has(thrown: al.Results) -> None:
     assert x.units == "m"
 
 
+def test_columns_are_selected(thrown: al.Results) -> None:
+    chosen = thrown.select("REQUEST/*", "POINT_MASS/2.v?")
+    assert chosen.names == tuple(f"POINT_MASS/2.v{axis}" for axis in "xyz") + ("REQUEST/1.F2",)
+    np.testing.assert_array_equal(chosen["REQUEST/1.F2"], thrown["REQUEST/1.F2"])
+    assert chosen.outcome is thrown.outcome
+    assert thrown.select("POINT_MASS/2.x").view("few.html").is_file()
+    with pytest.raises(FormatError, match="the given table has no position of a body"):
+        chosen.view("few.html")
+    assert "Nothing is drawn: the table has no position of a body" in al.html(chosen)
+    assert len(thrown.select("POINT_MASS/2").names) == len(thrown.names) - 1
+    with pytest.raises(UsageError, match=r"no result is called 'PART/9'; did you mean|there are"):
+        thrown.select("REQUEST/1", "PART/9")
+
+
 @pytest.mark.parametrize("library", ["pandas", "xarray"])
 def test_a_missing_library_is_named_in_a_sentence(
     thrown: al.Results, library: str, monkeypatch: Any

@@ -143,7 +143,7 @@ def view(
     from adamslite.page.showing import Look, write_motion
 
     found = results_of(results, deck)
-    need_its_bodies(deck_of(found), found, "these results")
+    need_its_bodies(deck_of(found), found, "the given table")
     other = None if against is None else results_of(against, None)
     name = other.source.name if other is not None and other.source else "the others"
     if along not in (None, *DIRECTIONS):

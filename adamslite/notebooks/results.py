@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from html import escape
 
+from adamslite.drawing.run_deck import deck_of, need_its_bodies
 from adamslite.errors import FormatError
 from adamslite.language.diagnostics import DeckError
 from adamslite.notebooks.markup import folded, marked, paragraph, rows_table
@@ -41,6 +42,8 @@ def _channels(results: Results) -> str:
 def _frame(results: Results) -> str:
     """The page that moves; a sentence where nothing can be drawn."""
     try:
-        return framed(page(results))
+        deck = deck_of(results)
+        need_its_bodies(deck, results, "the table")
+        return framed(page(results, deck))
     except (FormatError, DeckError) as fault:
         return paragraph(f"Nothing is drawn: {str(fault).splitlines()[0]}")

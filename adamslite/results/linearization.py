@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from importlib import import_module
 from math import pi
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -93,6 +94,18 @@ class Linearization:
         if self.steady:
             return ""
         return f"{VARIES}; it is steady {self.steady_for}" if self.steady_for else VARIES
+
+    def save(self, path: str | Path) -> None:
+        """Write the table of modes (.csv), or everything with shapes and matrices (.json).
+
+        Raises
+        ------
+        UsageError
+            When the name ends in neither.
+        """
+        modes = import_module("adamslite.outputs.modes")
+        modes.need_suffix(str(path))
+        modes.save(self, path)
 
     def __str__(self) -> str:
         return import_module("adamslite.outputs.modes").mode_table(self).rstrip()

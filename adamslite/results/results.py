@@ -147,6 +147,20 @@ class Results:
         assert read is not None
         return read(path)
 
+    def select(self, *patterns: str) -> "Results":
+        """The results with some columns alone: ``REQUEST/*``, ``PART/2.v?``, ``PART/2`` for all
+        of it.
+
+        Raises
+        ------
+        UsageError
+            When a pattern means none; names what comes near.
+        """
+        selection = import_module("adamslite.results.selection")
+        selection.selected(self.names, patterns)
+        chosen: Results = selection.limited(self, patterns)
+        return chosen
+
     def plot(self, *channels: str, **options: Any) -> "Figure":
         """Draw channels (names or patterns); ``against``, ``x`` and ``output`` as for
         :func:`adamslite.plot`.
