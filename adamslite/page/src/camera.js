@@ -122,7 +122,7 @@ export class Camera {
         const width = this.#span(across, direction, wide, wide);
         const height = this.#span(over, direction, tall * (1 - (2 * this.reserved) / this.stage.height), tall);
         const depth = direction.dot(new Vector3(...this.box.centre));
-        const distance = Math.max(width.distance, height.distance, depth + 0.05 * this.box.radius);
+        const distance = Math.max(width.distance, height.distance, depth + 0.35 * this.box.radius);
         const target = sum([across, width.centre(distance)], [over, height.centre(distance)], [direction, depth]);
         return { target, position: target.clone().addScaledVector(direction, distance - depth) };
     }

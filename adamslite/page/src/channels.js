@@ -89,7 +89,7 @@ export class Channels {
         const requests = this.list.filter(({ name }) => name.startsWith("REQUEST/") && this.#changes(name));
         const groups = this.groups(requests.slice(0, 40).map(({ name }) => name));
         if (groups.length) return groups.slice(0, 2).flatMap((group) => group.slice(0, 3));
-        for (const kind of [/\.[xyz]$/, /\.(psi|theta|phi)$/, /\.w[xyz]$/, /./]) {
+        for (const kind of [/\.[xyz]$/, /\.w[xyz]$/, /./]) {
             const found = this.#widest(this.list.filter(({ name }) => kind.test(name)));
             if (found) return [found];
         }
