@@ -37,7 +37,7 @@ def page(
     Raises
     ------
     FormatError
-        When they carry no deck, or the deck has none of their bodies.
+        When they carry no deck, or have nothing in common with those beside them.
     """
     return page_of_scene(scene(deck_of(results) if deck is None else deck, results, against, name))
 

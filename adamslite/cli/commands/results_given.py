@@ -12,6 +12,7 @@ from adamslite.run_flags import add_run_flags, add_user_flag, run_options
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
     from adamslite.results.results import Results
+    from adamslite.scene import Scene
 
 DECK = ".adm"
 
@@ -63,11 +64,18 @@ def _is_deck(args: argparse.Namespace) -> bool:
 
 
 def _solved(args: argparse.Namespace) -> tuple[Results, list[Path]]:
-    from adamslite.language.diagnostics import render
-    from adamslite.progress import TalkingProgress
-    from adamslite.scene import load_scene, run_scene
+    from adamslite.scene import load_scene
 
     scene = load_scene(args.result, args.commands, args.user)
+    return run_and_report(scene, args), list(scene.read)
+
+
+def run_and_report(scene: Scene, args: argparse.Namespace) -> Results:
+    """Solve a scene, by the flags of a run; what there is to say goes to standard error."""
+    from adamslite.language.diagnostics import render
+    from adamslite.progress import TalkingProgress
+    from adamslite.scene import run_scene
+
     if scene.warnings:
         sys.stderr.write(render(scene.warnings) + "\n\n")
     progress = TalkingProgress()
@@ -79,7 +87,7 @@ def _solved(args: argparse.Namespace) -> tuple[Results, list[Path]]:
         sys.stderr.write(f"{results.confirmation.verdict}\n")
     if not results.outcome.is_requested:
         sys.stderr.write(f"adamslite: {results.message or results.outcome.sentence}\n")
-    return results, list(scene.read)
+    return results
 
 
 def _loaded(args: argparse.Namespace) -> tuple[Results, list[Path]]:

@@ -135,26 +135,16 @@ def _is_deck(args: argparse.Namespace) -> bool:
 
 def _solved(args: argparse.Namespace, output: Path) -> tuple["Deck", "Results", int]:
     """A deck, its results, and the exit code."""
+    from adamslite.cli.commands.results_given import run_and_report
     from adamslite.drawing.run_deck import at_start
-    from adamslite.language.diagnostics import render
     from adamslite.outputs.whole_files import need_writable
-    from adamslite.progress import TalkingProgress
-    from adamslite.scene import load_scene, run_scene
+    from adamslite.scene import load_scene
 
     scene = load_scene(args.scene, args.commands, args.user)
     need_writable(output, scene.read)
-    if scene.warnings:
-        sys.stderr.write(render(scene.warnings) + "\n\n")
-    progress = TalkingProgress()
-    try:
-        results = run_scene(scene, run_options(args), progress)
-    finally:
-        progress.close()
-    deck = at_start(scene.deck, scene.commands)
-    if results.outcome.is_requested:
-        return deck, results, DONE
-    sys.stderr.write(f"adamslite: {results.message or results.outcome.sentence}\n")
-    return deck, results, STOPPED_EARLY
+    results = run_and_report(scene, args)
+    code = DONE if results.outcome.is_requested else STOPPED_EARLY
+    return at_start(scene.deck, scene.commands), results, code
 
 
 def _loaded(args: argparse.Namespace, output: Path) -> tuple["Deck", "Results", int]:
