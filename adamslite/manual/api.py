@@ -10,7 +10,9 @@ from adamslite.manual.markdown import HEAD, heading
 
 INTRO = """# Python
 
-The names of `import adamslite as al`; [README.md](../../README.md#python) shows them at work.
+The names of `import adamslite as al`; [README.md](../../README.md#python) shows them at work, and
+[a notebook](../tutorials/notebook.ipynb) goes through them. `simulate` is the command `solve`,
+`compare` is `diff`, `linearize` is `linear`; the functions of other commands have their names.
 """
 #: Names of the package that are described.
 NAMES = tuple(name for name in adamslite.__all__ if not name.startswith("_"))
