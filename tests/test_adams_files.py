@@ -236,6 +236,13 @@ def test_limited_columns_leave_a_part_out_and_say_so(tmp_path: Path) -> None:
     ).read_text(encoding="utf-8")
 
 
+def test_a_res_without_anything_in_it_is_not_written(tmp_path: Path) -> None:
+    some = adamslite.simulate(MACHINE, outputs=["PART/2.x"])
+    with pytest.raises(UsageError, match="would be empty: PART/2 need more columns"):
+        some.save(tmp_path / "a.res")
+    assert not (tmp_path / "a.res").exists()
+
+
 # ---- what ADAMS writes ---------------------------------------------------------------------------
 
 OF_ADAMS = """\
@@ -415,6 +422,14 @@ def test_the_deck_of_a_table_is_named(folder: Path, capsys) -> None:
     said = capsys.readouterr()
     assert "PART/2.x" in said.out and "bcs" not in said.err
     assert main(["diff", "adams.res", "stone.csv", "--deck", "stone.adm"]) == 0
+
+
+def test_another_deck_than_that_of_the_file_is_named(folder: Path, capsys) -> None:
+    Path("other.adm").write_text(MACHINE.replace("PART/2", "PART/22").replace("PART=2", "PART=22"))
+    assert main(["solve", "stone.adm", "--quiet"]) == 0
+    assert main(["diff", "stone.csv", "adams.res", "--deck", "other.adm"]) == 0
+    said = capsys.readouterr()
+    assert "the deck has no such part" in said.err and "PART/2.x" not in said.out
 
 
 def test_two_files_of_adams_are_compared_as_they_are(folder: Path, capsys) -> None:

@@ -140,3 +140,6 @@ def test_diff_of_two_decks_says_so(pipeline, capsys) -> None:
     assert said == "adamslite: A and B are results of different decks, 'a boom' and 'a winch'\n"
     assert main(["diff", "a.csv", "a.csv"]) == 0
     assert capsys.readouterr().err == ""
+    Path("c.csv").write_text("# deck: a winch\n# deck hash: 2\ntime,SFORCE/1.f\n0,0\n")
+    assert main(["diff", "a.csv", "c.csv"]) == 1
+    assert "different decks, 'a boom' and 'a winch'" in capsys.readouterr().out

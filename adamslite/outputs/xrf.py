@@ -82,6 +82,10 @@ def write(results: Results, path: str | Path) -> None:
     remarks = [options.comment] if options.comment else []
     if left_out:
         listed = ", ".join(left_out)
+        if not entities:
+            raise UsageError(
+                f"{path} would be empty: {listed} need more columns; write all of a statement"
+            )
         remarks.append(f"left out, as the results are limited to a few columns: {listed}")
     with whole_file(path) as stream:
         stream.writelines(_document(results, deck, entities, remarks, options.decimals))

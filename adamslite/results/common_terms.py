@@ -84,10 +84,11 @@ def _as_ours(results: Results, deck: Deck | None, notes: list[str]) -> Results:
         results = from_adams(_in_units_of(deck, results, notes), deck)
     of_origin = [name for name in results.names if f".{BCS}" in name]
     if of_origin:
-        why = "results lack what it takes" if deck else "give the deck by --deck"
+        lacks = "the deck has no such part, or the file lacks what it takes"
+        why = lacks if deck else "give the deck by --deck"
         notes.append(
-            f"{_listed(of_origin)}: of the origin of a part and not of its centre of mass, not "
-            f"compared: {why}"
+            f"{_listed(of_origin)}: of the origin of a part and not of its centre of mass, left "
+            f"out: {why}"
         )
         results = _only(results, [name for name in results.names if f".{BCS}" not in name])
     return with_split_angles(results)

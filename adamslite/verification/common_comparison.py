@@ -11,6 +11,7 @@ from adamslite.results.common_terms import in_common_terms
 from adamslite.results.comparison import (
     USUAL,
     Comparison,
+    Mismatch,
     Tolerance,
     need_content,
     of_different_decks,
@@ -43,11 +44,23 @@ def compared(
         When the results lack a channel or a time of the reference, or the reference is empty.
     """
     different = of_different_decks(results, reference.table)
+    try:
+        comparison, notes = _compared(results, reference, deck, allowed)
+    except Mismatch as fault:
+        raise Mismatch(f"{fault} ({different})" if different else str(fault)) from None
+    return comparison, [*([different] if different else []), *map(shown, notes)]
+
+
+def _compared(
+    results: Results,
+    reference: Reference,
+    deck: Deck | None,
+    allowed: Callable[[str], Tolerance] | None,
+) -> tuple[Comparison, list[str]]:
     if not reference.measures:
         need_content(reference.table)
     common = in_common_terms(results, reference.table, deck)
     reference.table = common.reference
     if allowed is not None:
         reference.tolerances = [(escape(name), allowed(name)) for name in common.reference.names]
-    notes = [*([different] if different else []), *map(shown, common.notes)]
-    return reference.judge(common.results, usual=USUAL), notes
+    return reference.judge(common.results, usual=USUAL), common.notes
