@@ -695,6 +695,12 @@ def test_they_have_the_name_of_the_results(asking: Path) -> None:
     assert {"x.nc", "x.req", "x.res", "y.req", "y.res"} <= set(files(asking))
 
 
+def test_limited_columns_leave_a_file_out_with_a_word(asking: Path, capsys) -> None:
+    assert main(["solve", "a.adm", "--quiet", "--outputs", "PART/2.x"]) == 0
+    assert files(asking) == ["a.csv", "a.req"]
+    assert "a.res would be empty" in capsys.readouterr().err
+
+
 def test_commands_request_them_too(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("a.adm").write_text(MACHINE)

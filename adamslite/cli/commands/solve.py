@@ -136,9 +136,16 @@ def _options(args: argparse.Namespace) -> dict[str, Any]:
 
 def _write_adams(results: "Results", paths: Sequence[Path]) -> list[Written]:
     """The files .req and .res that the deck requests."""
+    from adamslite.errors import UsageError
+
+    written = []
     for path in paths:
-        results.save(path)
-    return [(path.suffix.removeprefix(".") + " of ADAMS", path) for path in paths]
+        try:
+            results.save(path)
+            written.append((f"{path.suffix.removeprefix('.')} of ADAMS", path))
+        except UsageError as fault:  # --outputs has left out what it takes
+            sys.stderr.write(f"adamslite: {fault}\n")
+    return written
 
 
 def _write(results: "Results", output: str, files: Sequence[Path]) -> list[Written]:
