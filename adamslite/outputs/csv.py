@@ -7,7 +7,8 @@
     0.0,0.01,0.0
 
 Numbers are written with the fewest digits (17 at most) that read back to the same bits,
-so the same run gives the same bytes and nothing is lost.
+so the same run gives the same bytes and nothing is lost. With orjson (extra ``fast``) a long table
+is written about three times faster, in the same bytes.
 """
 
 import csv
