@@ -14,9 +14,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import urlencode
 
+import adamslite as al
 from adamslite.page.browsers import flags
 from adamslite.page.page import page
 from adamslite.page.pictures import RATES, need_browser, write_film
+from adamslite.plots.style import save as save_figure
 from adamslite.results.results import Results
 from adamslite.scene import load_scene, run_scene
 
@@ -24,7 +26,8 @@ ROOT = Path(__file__).parent.parent
 FOLDER = Path(__file__).parent / "pictures"
 WIDE, FILMED, LASTING = (1280, 720), (640, 360), 4
 """Sizes of a page and of a film in pixels; how long a film is [s]."""
-COLOURS = 96
+COLOURS, LINES = 96, 24
+"""Colours of a scene, of a plot."""
 
 
 @dataclass(frozen=True)
@@ -38,18 +41,22 @@ class Picture:
 
 PAGES = {"page": Picture("decks/tackle/hoisting.adm", 0.5, {"theme": "light"})}
 """Of the whole page, with its controls and plots."""
+PLOTS = {"hoist": ("docs/tutorials/hoist.toml", ("REQUEST/1.F2", "POINT_MASS/20.y"))}
+"""Of a described cable scene: channels."""
 FILMS = {"tackle": Picture("decks/tackle/hoisting.adm")}
 """Of the scene, as GIF."""
 
 
 def main() -> None:
     """Draw what the command names, or everything."""
-    names = sorted({*PAGES, *FILMS})
+    names = sorted({*PAGES, *PLOTS, *FILMS})
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", choices=[*names, []], metavar="NAME", help=str(names))
     chosen = parser.parse_args().names or names
     FOLDER.mkdir(exist_ok=True)
-    for table, suffix, draw in ((PAGES, ".png", draw_page), (FILMS, ".gif", draw_film)):
+    for table, suffix, draw in (
+        (PAGES, ".png", draw_page), (PLOTS, ".png", draw_plot), (FILMS, ".gif", draw_film),
+    ):  # fmt: skip
         for name in table.keys() & chosen:
             path = FOLDER / f"{name}{suffix}"
             draw(table[name], path)
@@ -84,6 +91,16 @@ def draw_page(picture: Picture, path: Path) -> None:
         command = [need_browser(), *flags(), window, profile, f"--screenshot={raw}", address]
         subprocess.run(command, check=True, capture_output=True)
         save_small(raw, path, COLOURS)
+
+
+def draw_plot(plot: tuple[str, tuple[str, ...]], path: Path) -> None:
+    """Of channels over the time."""
+    description, channels = plot
+    figure = al.simulate(al.cable(ROOT / description)).plot(*channels)
+    with tempfile.TemporaryDirectory() as folder:
+        raw = Path(folder) / "raw.png"
+        save_figure(figure, raw)
+        save_small(raw, path, LINES)
 
 
 def save_small(raw: Path, path: Path, colours: int) -> None:

@@ -9,6 +9,7 @@ import pytest
 from scenes import GROUND, done
 
 import adamslite as al
+from adamslite.analyses.accuracy_notes import longest_way
 from adamslite.deck.python_routine import reads
 
 METHODS = ("GSTIFF", "HHT", "NEWMARK", "RADAU", "ABAM", "VERLET", "AUTO")
@@ -188,3 +189,10 @@ def test_a_wall_that_a_routine_hides_is_told(error: float, told: bool):
     results = al.simulate(deck, end=0.35, steps=5, integrator="RADAU", error=error)
     assert ("a velocity changed" in results.meta.get("accuracy", "")) == told
     assert (abs(results["POINT_MASS/2.vx"][-1] - 2) > 0.06) == told
+
+
+@pytest.mark.parametrize(("way", "moves"), [(1e-13, False), (1e-9, True)])
+def test_rounding_of_a_place_is_no_way(way: float, moves: bool) -> None:
+    """A body 100 m from the origin, whose place has 14 digits."""
+    found, _ = longest_way(("PART/2.x",), np.array([[100.0], [100.0 + way]]))
+    assert found == pytest.approx(way if moves else 0.0, abs=2e-14)

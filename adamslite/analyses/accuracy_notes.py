@@ -36,6 +36,8 @@ FIRST_ORDER = 1e-9
 SHIFTED = 30.0
 # Coordinates that go less than this share of the longest way say nothing about its weight.
 MOVING = 0.1
+# A way below this share of a coordinate is its rounding: the body is at rest.
+ROUNDING = 1e-12
 
 
 def accuracy_notes(
@@ -71,15 +73,19 @@ def accuracy_notes(
 
 
 def longest_way(names: tuple[str, ...], values: np.ndarray) -> tuple[float, float]:
-    """The longest way of a body along an axis, and the largest coordinate of those that move."""
+    """The longest way of a body along an axis, and the largest coordinate of those that move.
+
+    The way is 0 where nothing moves.
+    """
     places = [k for k, name in enumerate(names) if name.endswith((".x", ".y", ".z"))
               and name.startswith(("PART/", "POINT_MASS/"))]  # fmt: skip
     found = values[:, places]
     if not found.size or not np.isfinite(found).all():
         return 0.0, 0.0
     ways = np.ptp(found, axis=0)
-    moving = ways >= MOVING * ways.max()
-    return float(ways.max()), float(np.abs(found[:, moving]).max())
+    way, moving = float(ways.max()), ways >= MOVING * ways.max()
+    reach = float(np.abs(found[:, moving]).max())
+    return (way if way > ROUNDING * reach else 0.0), reach
 
 
 def _of_method(
