@@ -77,32 +77,35 @@ export function damper(radius) {
     return mergeGeometries([cup, rod]);
 }
 
-const bar = (radius, length) => new CylinderGeometry(radius, radius, length, 12).rotateX(Math.PI / 2);
-const ring = (radius, wire) => new TorusGeometry(radius, wire, 6, 18);
 const merged = (...parts) => mergeGeometries(parts);
 
-function screw() {
-    const threads = [-0.8, -0.4, 0, 0.4, 0.8].map((z) => ring(0.45, 0.12).translate(0, 0, z));
-    return merged(bar(0.35, 2.4), ...threads);
+/** Bars, rings and balls of symbols: with fewer facets where there are many symbols. */
+function parts(fine) {
+    const [around, across] = fine ? [14, 7] : [7, 4];
+    return {
+        bar: (radius, length) => new CylinderGeometry(radius, radius, length, around).rotateX(Math.PI / 2),
+        ring: (radius, wire) => new TorusGeometry(radius, wire, across, fine ? 20 : 8),
+        sphere: (radius) => new SphereGeometry(radius, around, across),
+    };
 }
 
 // Symbols of joints, of size 1, along the z axis of the joint's I marker.
 const SYMBOLS = {
-    REVOLUTE: () => merged(bar(0.3, 2), ring(0.62, 0.17)),
-    CYLINDRICAL: () => merged(bar(0.3, 3), bar(0.6, 1.2)),
+    REVOLUTE: ({ bar, ring }) => merged(bar(0.3, 2), ring(0.62, 0.17)),
+    CYLINDRICAL: ({ bar }) => merged(bar(0.3, 3), bar(0.6, 1.2)),
     TRANSLATIONAL: () => merged(new BoxGeometry(1.1, 1.1, 1.4), new BoxGeometry(0.4, 0.4, 3.2)),
-    SPHERICAL: () => new SphereGeometry(0.65, 14, 9),
+    SPHERICAL: ({ sphere }) => sphere(0.65),
     FIXED: () => merged(new BoxGeometry(1.1, 1.1, 0.3), new BoxGeometry(0.3, 1.1, 1.1), new BoxGeometry(1.1, 0.3, 1.1)),
-    UNIVERSAL: () => merged(bar(0.22, 2), bar(0.22, 2).rotateX(Math.PI / 2), new SphereGeometry(0.42, 10, 7)),
-    PLANAR: () => merged(new BoxGeometry(2.4, 2.4, 0.12), bar(0.15, 1.4)),
-    SCREW: screw,
+    UNIVERSAL: ({ bar, sphere }) => merged(bar(0.22, 2), bar(0.22, 2).rotateX(Math.PI / 2), sphere(0.42)),
+    PLANAR: ({ bar }) => merged(new BoxGeometry(2.4, 2.4, 0.12), bar(0.15, 1.4)),
+    SCREW: ({ bar, ring }) => merged(bar(0.35, 2.4), ...[-0.8, -0.4, 0, 0.4, 0.8].map((z) => ring(0.45, 0.12).translate(0, 0, z))),
     OTHER: () => new OctahedronGeometry(0.6),
 };
 SYMBOLS.HOOKE = SYMBOLS.UNIVERSAL;
 SYMBOLS.CONVEL = SYMBOLS.UNIVERSAL;
 
 export const symbolKind = (kind) => (kind in SYMBOLS ? kind : "OTHER");
-export const symbol = (kind) => SYMBOLS[kind]();
+export const symbol = (kind, fine) => SYMBOLS[kind](parts(fine));
 
 /** An arrow of length 1 along z: its shaft (drawn shorter by the head) and its head. */
 export const arrowShaft = () => new CylinderGeometry(1, 1, 1, 12).rotateX(Math.PI / 2).translate(0, 0, 0.5);

@@ -2,6 +2,8 @@
 import { symbol, symbolKind } from "./geometry.js";
 import { Instances, placed } from "./instances.js";
 
+const FEW = 24; // joints of a kind up to which their symbols have all their facets
+
 export class Joints {
     constructor(joints, bodies, stage, look) {
         const kinds = new Map();
@@ -15,7 +17,7 @@ export class Joints {
                 colour: stage.palette.joint,
             });
         }
-        this.groups = [...kinds].map(([kind, items]) => new Instances(symbol(kind), items, bodies));
+        this.groups = [...kinds].map(([kind, items]) => new Instances(symbol(kind, items.length <= FEW), items, bodies));
         for (const group of this.groups) stage.add(...group.objects);
     }
 

@@ -9,7 +9,8 @@ import { BodyLines } from "./strokes.js";
 
 const FULL = 2 * Math.PI;
 const NONE = [0, 0, 0];
-const MANY = 200; // copies from which on a shape has fewer facets
+const MANY = 200; // copies up to which edges are drawn
+const CROWD = 60; // copies from which on a shape has few facets
 
 const isBall = ({ solid: { key } }) => key === "ball";
 const angleOf = (shape) => (shape.angle ? Math.min(Math.abs(shape.angle), FULL) : FULL);
@@ -191,7 +192,7 @@ export class Shapes {
     #group(items, opacity, stage) {
         const [{ solid }] = items;
         if (items.every(isBall)) return new Balls(items, this.bodies, stage, opacity);
-        const sides = items.length > MANY ? 12 : items.length > 8 ? 24 : 48;
+        const sides = items.length > CROWD ? 8 : items.length > 8 ? 24 : 48;
         return new Instances(solid.make(sides), items, this.bodies, {
             opacity: solid.see_through ? 0.35 * opacity : opacity,
             side: solid.two_sided || solid.key.includes("cylinder") ? DoubleSide : undefined,
