@@ -281,3 +281,20 @@ def test_lines_are_tangents_of_wheels_that_turn_either_way(show: Any) -> None:
         assert np.linalg.norm(arm) == pytest.approx(radius, abs=1e-5)
         assert np.cross([0, 0, sense], arm / radius) == pytest.approx(along, abs=1e-5)
     assert lines[1][-1, 1] == pytest.approx(lines[1][24, 0], abs=1e-5)  # the belt closes
+
+
+@pytest.mark.parametrize("count, pieces", [(40, 0), (41, 11), (150, 11), (151, 1)])
+def test_many_springs_are_lines_between_their_ends(show: Any, count: int, pieces: int) -> None:
+    ends = [([0, k, 0, 0], [0, k, 2 + k, 1]) for k in range(count)]
+    springs = [
+        {"statement": f"SPRINGDAMPER/{k}", "i": i, "j": j, "coils": 8, "diameter": 0.1}
+        for k, (i, j) in enumerate(ends)
+    ]
+    with show(bare(springs=springs)) as tab:
+        assert tab.do("Boolean(it.app.springs.groups[0].strokes)") == (pieces > 0)
+        if pieces:
+            drawn = tab.do("Array.from(it.app.springs.groups[0].strokes.array)")
+            lines = np.array(drawn).reshape(count, pieces, 2, 4)[..., :3]
+            assert lines[:, 0, 0] == pytest.approx(np.array([i[1:] for i, _ in ends]), abs=1e-5)
+            assert lines[:, -1, 1] == pytest.approx(np.array([j[1:] for _, j in ends]), abs=1e-4)
+            assert lines[:, 1:, 0] == pytest.approx(lines[:, :-1, 1])  # one line without gaps

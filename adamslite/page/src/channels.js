@@ -1,6 +1,7 @@
 // Channels of a result: their values, and the searchable list from which curves are chosen.
 import { h, icon } from "./dom.js";
 
+const NOISE = 1e-6; // of the values of a channel: a smaller change is none
 const LISTED = 150;
 const ALIKE = 30; // ratio of sizes up to which channels without a unit share a plot
 
@@ -97,13 +98,13 @@ export class Channels {
     }
 
     #widest(list) {
-        const changing = list.filter(({ name }) => this.#changes(name));
-        const spans = changing.map(({ name }) => [this.#span(name), name]);
-        return spans.sort((a, b) => b[0] - a[0])[0]?.[1];
+        const spans = list.map(({ name }) => [this.#span(name), name]).sort((a, b) => b[0] - a[0]);
+        const largest = list.reduce((most, { name }) => Math.max(most, this.#size(name)), 0);
+        return spans.length && spans[0][0] > NOISE * largest ? spans[0][1] : undefined;
     }
 
     #changes(name) {
-        return this.#span(name) > 1e-6 * this.#size(name);
+        return this.#span(name) > NOISE * this.#size(name);
     }
 
     #size(name) {

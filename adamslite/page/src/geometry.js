@@ -63,11 +63,10 @@ class Helix extends Curve {
 }
 
 /** A coil spring from z = 0 to z = 1 whose wire is round at the length `length`. */
-export function coil(coils, radius, wire, length, fine) {
+export function coil(coils, radius, wire, length) {
     const curve = new Helix(coils, radius / length);
-    const around = fine ? 7 : 3;
-    const along = Math.ceil(coils * (fine ? 20 : 8)) + 8;
-    return new TubeGeometry(curve, along, wire / length, around, false).scale(length, length, 1);
+    const along = Math.ceil(coils * 16) + 8;
+    return new TubeGeometry(curve, along, wire / length, 6, false).scale(length, length, 1);
 }
 
 /** A damper from z = 0 to z = 1: cup and piston rod. */

@@ -1,8 +1,11 @@
 // Springs: coils that stretch between two moving points.
 import { InstancedMesh, DynamicDrawUsage, MeshLambertMaterial } from "three";
 import { coil, damper } from "./geometry.js";
+import { Strokes } from "./strokes.js";
 
-const FINE = 40; // springs up to which a coil has its full number of facets
+const COILED = 40; // springs up to which they are drawn as coils,
+const BENT = 150; // and up to which as bent lines; beyond, they are straight ones
+const BENDS = 10; // of a bent line
 
 function length(a, b) {
     return Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
@@ -67,7 +70,11 @@ class Coils {
         if (coils === 0) return damper(radius);
         const turns = derived ? Math.min(Math.max(Math.round(this.rest / (1.7 * radius)), 5), 16) : coils;
         const wire = Math.min(0.2 * radius, (0.3 * this.rest) / turns);
-        return coil(turns, radius, wire, this.rest, this.springs.length <= FINE);
+        return coil(turns, radius, wire, this.rest);
+    }
+
+    setTheme({ spring }) {
+        this.mesh.material.color.set(spring);
     }
 
     #ends(k) {
@@ -93,8 +100,56 @@ class Coils {
     }
 }
 
+/** Springs as lines across the picture's plane of their first two axes, bent or straight. */
+class SpringLines {
+    constructor(springs, bodies, stage, look) {
+        this.springs = springs;
+        this.bodies = bodies;
+        this.bends = springs.length <= BENT ? BENDS : 0;
+        this.width = 0.5 * look.spring;
+        this.frame = new Float32Array(16);
+        this.from = [0, 0, 0];
+        this.to = [0, 0, 0];
+        this.strokes = new Strokes(springs.length * (this.bends + 1), { width: 2, colour: stage.palette.spring });
+        stage.addStrokes(this.strokes);
+        this.mesh = this.strokes.mesh;
+    }
+
+    setTheme({ spring }) {
+        this.strokes.setColour(spring);
+    }
+
+    update() {
+        for (let k = 0; k < this.springs.length; k += 1) {
+            this.bodies.point(this.springs[k].i, this.from);
+            this.bodies.point(this.springs[k].j, this.to);
+            const long = length(this.from, this.to);
+            stretchMatrix(this.frame, 0, this.from, this.to, Math.min(this.width, 0.15 * long), long);
+            for (let n = 0; n <= this.bends; n += 1) this.#piece(8 * (k * (this.bends + 1) + n), n);
+        }
+        this.strokes.touched();
+    }
+
+    #piece(o, n) {
+        this.#corner(o, n);
+        this.#corner(o + 4, n + 1);
+    }
+
+    // Corner n of a line: on alternate sides of it, and on it at its ends.
+    #corner(o, n) {
+        const { array } = this.strokes;
+        const along = n / (this.bends + 1);
+        const aside = n === 0 || n === this.bends + 1 ? 0 : n % 2 ? 1 : -1;
+        for (let c = 0; c < 3; c += 1) array[o + c] = this.frame[12 + c] + along * this.frame[8 + c] + aside * this.frame[c];
+    }
+}
+
 export class Springs {
     constructor(springs, bodies, stage, look) {
+        if (springs.length > COILED) {
+            this.groups = [new SpringLines(springs, bodies, stage, look)];
+            return;
+        }
         const groups = new Map();
         for (const spring of springs) {
             const key = `${spring.statement.startsWith("GRAPHICS")} ${spring.coils} ${spring.diameter}`;
@@ -112,7 +167,7 @@ export class Springs {
     }
 
     setTheme(palette) {
-        for (const { mesh } of this.groups) mesh.material.color.set(palette.spring);
+        for (const group of this.groups) group.setTheme(palette);
     }
 
     set visible(shown) {
