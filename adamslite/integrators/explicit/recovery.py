@@ -36,7 +36,10 @@ EPSILON = 2.220446049250313e-16
 
 @native
 def after_failure(P: Problem, C: Control) -> int:
-    """A stage had no accelerations: without held branches, else a shorter step."""
+    """A stage had no accelerations: without held branches, else a shorter step.  Newton starts from
+    the accepted ones again: what failed may be no numbers.
+    """
+    restore_state(P, C)
     return RUNNING if let_go(P) else shorten(P, C, CLOSER)
 
 
@@ -72,8 +75,10 @@ def shorten(P: Problem, C: Control, factor: float) -> int:
 def after_rejection(P: Problem, C: Control, error: float) -> int:
     """The error was too large: a smaller step."""
     P.count.rejected += 1
-    if not error < LARGE and let_go(P):
-        return RUNNING
+    if not error < LARGE:
+        restore_state(P, C)
+        if let_go(P):
+            return RUNNING
     P.undoing.trouble += 1.0
     C.tries += 1
     if P.sizes.m > 0 and P.undoing.trouble >= FEW_REJECTIONS and start_elsewhere(P, C):
