@@ -267,6 +267,13 @@ def test_what_cannot_be_drawn_is_named() -> None:
     assert "GRAPHICS/1: not drawn, its shape is in a Parasolid file, which is not read" in notes
 
 
+def test_a_shape_beyond_all_numbers_of_a_screen_is_named() -> None:
+    line = "GRAPHICS/1, CYLINDER, CM=20, LENGTH=1, RADIUS=1E300\nSIMULATE"
+    plain = still(PENDULUM.replace("SIMULATE", line)).plain
+    assert "GRAPHICS/1: not drawn, it is beyond all pictures" in plain["notes"]
+    assert not [each for each in plain["shapes"] if each["statement"]]
+
+
 def test_a_deck_without_graphics_has_rods_and_a_ball() -> None:
     """From the mass centre to the pin, 250 mm along y of the part; the ball is of 2 kg of steel,
     39 mm, or the largest share of the scene if that is less.

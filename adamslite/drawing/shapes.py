@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from adamslite.drawing.drawing import Drawing
+from adamslite.drawing.motion import FAR
 from adamslite.elements.curve import Curve
 from adamslite.elements.graphics import Graphics
 from adamslite.language.interfaces import Key
@@ -50,13 +51,20 @@ def shapes(drawing: Drawing, statements: list[Graphics]) -> list[Shape]:
     found = []
     for each in statements:
         sizes = SIZES.get(each.shape or "")
-        if sizes and each.marker is not None:
-            body, *frame = drawing.frames.frame(each.marker)
-            kind = (each.shape or "").lower()
-            found.append({
-                "kind": kind, "body": int(body), "frame": frame, "statement": each.label,
-                **sizes(drawing, each),
-            })  # fmt: skip
+        if not sizes or each.marker is None:
+            continue
+        body, *frame = drawing.frames.frame(each.marker)
+        own = sizes(drawing, each)
+        if not all(abs(number) < FAR for number in (*frame, *own.values())):
+            drawing.notes.append(f"{each.label}: not drawn, it is beyond all pictures")
+            continue
+        kind = (each.shape or "").lower()
+        if kind == "frustum" and not (own["bottom"] or own["top"]):
+            drawing.notes.append(f"{each.label}: not drawn, both its radii are zero")
+            continue
+        found.append({
+            "kind": kind, "body": int(body), "frame": frame, "statement": each.label, **own,
+        })  # fmt: skip
     return found
 
 
