@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browsing import PHONE, Opened
-from sample_page import ARM, END, FRAMES, TURNS, UPRIGHT, bare, crank, sample, swarm, weight
+from sample_page import ARM, END, FRAMES, TURNS, UPRIGHT, bare, crank, sample, solid, swarm, weight
 
 pytestmark = pytest.mark.browser
 
@@ -298,3 +298,12 @@ def test_many_springs_are_lines_between_their_ends(show: Any, count: int, pieces
             assert lines[:, 0, 0] == pytest.approx(np.array([i[1:] for i, _ in ends]), abs=1e-5)
             assert lines[:, -1, 1] == pytest.approx(np.array([j[1:] for _, j in ends]), abs=1e-4)
             assert lines[:, 1:, 0] == pytest.approx(lines[:, :-1, 1])  # one line without gaps
+
+
+def test_many_rods_are_lines_from_end_to_end(show: Any) -> None:
+    rods = [solid("rod", 0, (k, 0, 0), to=[0.0, 3.0, 4.0]) for k in range(61)]
+    with show(bare(shapes=rods)) as tab:
+        drawn = tab.do("Array.from(it.app.shapes.lines[0].strokes.array)")
+        ends = np.array(drawn).reshape(61, 2, 4)[..., :3]
+        assert ends[:, 0] == pytest.approx(np.array([[k, 0, 0] for k in range(61)]), abs=1e-5)
+        assert ends[:, 1] == pytest.approx(np.array([[k, 3, 4] for k in range(61)]), abs=1e-5)

@@ -1,8 +1,10 @@
 // Joints as symbols at their I markers.
+import { Balls } from "./balls.js";
 import { symbol, symbolKind } from "./geometry.js";
 import { Instances, placed } from "./instances.js";
 
 const FEW = 24; // joints of a kind up to which their symbols have all their facets
+const MANY = 60; // and from which on they are balls, too small to tell more
 
 export class Joints {
     constructor(joints, bodies, stage, look) {
@@ -17,7 +19,10 @@ export class Joints {
                 colour: stage.palette.joint,
             });
         }
-        this.groups = [...kinds].map(([kind, items]) => new Instances(symbol(kind, items.length <= FEW), items, bodies));
+        this.groups = [...kinds].map(([kind, items]) =>
+            items.length > MANY
+                ? new Balls(items, bodies, stage, 1)
+                : new Instances(symbol(kind, items.length <= FEW), items, bodies));
         for (const group of this.groups) stage.add(...group.objects);
     }
 

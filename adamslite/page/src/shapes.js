@@ -177,10 +177,13 @@ export class Shapes {
         this.colourOf = options.colourOf ?? ((b) => bodies.colours[b]);
         const opacity = options.opacity ?? 1;
         const solids = shapes.filter(({ kind }) => kind in SOLIDS).map((shape) => this.#item(shape, look));
-        const groups = groupBy(solids, ({ solid }) => `${solid.key} ${solid.see_through ?? false}`);
+        const rods = solids.filter(({ solid }) => solid.along);
+        const crowd = rods.length > CROWD ? new Set(rods) : new Set();
+        const meshes = solids.filter((item) => !crowd.has(item));
+        const groups = groupBy(meshes, ({ solid }) => `${solid.key} ${solid.see_through ?? false}`);
         this.groups = [...groups.values()].map((items) => this.#group(items, opacity, stage));
         for (const group of this.groups) stage.add(...group.objects);
-        this.lines = this.#lines(shapes, outlines, stage, opacity);
+        this.lines = [...this.#lines(shapes, outlines, stage, opacity), ...this.#bars([...crowd], stage, opacity)];
     }
 
     #item(shape, look) {
@@ -210,6 +213,20 @@ export class Shapes {
             const lines = new BodyLines(polylines, this.bodies, { colour, width: 2.5, opacity });
             stage.addStrokes(lines.strokes);
             return lines;
+        });
+    }
+
+    // Rods in a crowd are lines from end to end.
+    #bars(rods, stage, opacity) {
+        return [...groupBy(rods, ({ colour }) => colour)].map(([colour, items]) => {
+            // Along the z axis of a rod's matrix lies its whole length.
+            const ends = items.map(({ body, local: { elements: m } }) => [
+                [body, m[12], m[13], m[14]],
+                [body, m[12] + m[8], m[13] + m[9], m[14] + m[10]],
+            ]);
+            const bars = new BodyLines(ends, this.bodies, { colour, width: 4, opacity });
+            stage.addStrokes(bars.strokes);
+            return bars;
         });
     }
 
