@@ -131,10 +131,20 @@ def summary(curves: Sequence[Curve]) -> str:
         what = next(iter(texts.values()))
         return f"{listed(list(texts))}: {what}" if what else listed(list(texts))
     if len(texts) <= 2:
-        return ", ".join(f"{label}: {what}" if what else label for label, what in texts.items())
+        named = {label: _with_title(label, contents[label]) for label in texts}
+        return ", ".join(
+            f"{named[label]}: {what}" if what else named[label] for label, what in texts.items()
+        )
     quantities = list(dict.fromkeys(each.quantity for each in channels if each.quantity))
     what = listed(quantities) if len(quantities) <= 4 else f"{len(quantities)} quantities"
     return f"{listed(list(texts))}: {what}" if what else listed(list(texts))
+
+
+def _with_title(label: str, channels: Sequence[Channel]) -> str:
+    """A statement with the name that the deck gives to all of its channels."""
+    titles = {each.title for each in channels}
+    title = titles.pop() if len(titles) == 1 else ""
+    return f"{label} ({clipped(title)})" if title else label
 
 
 def _content(channels: Sequence[Channel]) -> str:
