@@ -47,8 +47,6 @@ WIDTH = 9.0
 HEIGHTS, LOWEST, ENTRY = {1: 3.6, 2: 2.5, 3: 2.1}, 1.8, 0.16
 #: Characters of an event in the small print.
 NOTE = 220
-#: Comments of results on how far they can be trusted.
-DOUBTS = ("accuracy", "energy", "out of its law")
 #: More curves than this in an axis are told apart by a scale of colours only.
 TELLABLE = len(style.CURVES)
 SHOWN_OF_MANY = 5
@@ -193,9 +191,6 @@ def _notes(drawn: Drawn) -> Iterator[str]:
         yield from drawn.beside.notes
     if gaps := without_numbers(drawn.curves):
         yield gaps
-    for key in DOUBTS:
-        if key in drawn.results.meta:
-            yield shorten(f"{key}: {drawn.results.meta[key]}", NOTE, placeholder=" ...")
     named = any(each.channel.quantity for each in drawn.curves)
     if named and not drawn.results.unit_symbols:
         yield "The deck names no units: lengths, forces and times are in its own."

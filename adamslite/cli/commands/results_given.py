@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from adamslite.scene import Scene
 
 DECK = ".adm"
+#: Comments of results on how far they can be trusted.
+DOUBTS = ("accuracy", "energy", "out of its law")
 
 
 def add_results_arguments(parser: argparse.ArgumentParser) -> None:
@@ -83,6 +85,9 @@ def run_and_report(scene: Scene, args: argparse.Namespace) -> Results:
         results = run_scene(scene, run_options(args), progress)
     finally:
         progress.close()
+    for key in DOUBTS:
+        if key in results.meta:
+            sys.stderr.write(f"{key}: {results.meta[key]}\n")
     if results.confirmation:
         sys.stderr.write(f"{results.confirmation.verdict}\n")
     if not results.outcome.is_requested:
