@@ -175,6 +175,20 @@ def test_a_step_far_into_a_cubic_wall_is_none(formula, steps, beside):
     assert last["POINT_MASS/2.vx"][-1] == approx(5.55, rel=0.02)
 
 
+@pytest.mark.parametrize("law", ["{k}*MAX(0,-{x})**1.5", "IMPACT({x},WZ(2,1),0,{k},2.2,0,1E-4)"])
+@pytest.mark.parametrize("formula", ["GSTIFF", "RADAU", "RKF45"])
+def test_a_part_that_turns_against_a_stop(formula, law):
+    """7.8 rad/s against a stop of 1e9 N m at 67 degrees, met at an output time, and back."""
+    scene = GROUND + (
+        "PART/2, MASS=3.6, CM=20, IP=0.01,0.02,0.03, WZ=-7.8, VY=-10.92\nMARKER/2, PART=2\n"
+        "MARKER/20, PART=2, QP=1.4,0,0\nJOINT/1, REVOLUTE, I=2, J=1\n"
+        f"SFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION={law.format(k='1.069E9', x='(AZ(2,1)+1.17)')}\n"
+        "END\n"
+    )
+    last = done(scene, 1.0, 20, **options(formula, 1e-3))
+    assert last["PART/2.wz"][-1] == approx(7.8, rel=0.03)
+
+
 @pytest.mark.parametrize(("stiffness", "mass"), [(2.1e9, 0.322), (6.2e8, 0.297)])
 def test_equal_steps_that_leave_a_wall_have_felt_it(stiffness, mass):
     """18 m/s there and back: contacts of 40 to 70 us, where ERROR allows steps of 200 us."""

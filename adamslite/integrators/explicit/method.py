@@ -144,11 +144,11 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
         return stuck(P, L, C)
     note_try(P, C, ORDER)
     if not stages(P, L, C, C.h):
-        return after_failure(P, C)
+        return after_failure(P, L, C)
     error = local_error(P, C, C.h)
     P.report.error = error
     if not error <= 1.0:
-        return after_rejection(P, C, error)
+        return after_rejection(P, L, C, error)
     t, n = end_of_step(C, step_limit(P, C.row)), P.sizes.n
     y, k = P.history[NEXT_STATE * C.size :], P.history[K_NEW * C.width :]
     if P.sizes.implicit_mass:

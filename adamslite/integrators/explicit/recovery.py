@@ -10,8 +10,10 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import SINGULAR_MASS, Problem
 from adamslite.integrators.events.guards import let_go
-from adamslite.integrators.explicit.control import Control
+from adamslite.integrators.explicit.control import TIED, Control
 from adamslite.integrators.explicit.error import LARGE, NOW_POWER, SAFETY, SHRINK, cut_step
+from adamslite.integrators.explicit.history import OLD
+from adamslite.integrators.explicit.stages import exact_rates
 from adamslite.integrators.explicit.state import restore_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.projection import sensitivity
@@ -35,12 +37,20 @@ EPSILON = 2.220446049250313e-16
 
 
 @native
-def after_failure(P: Problem, C: Control) -> int:
-    """A stage had no accelerations: without held branches, else a shorter step.  Newton starts from
-    the accepted ones again: what failed may be no numbers.
+def after_failure(P: Problem, L: Plan, C: Control) -> int:
+    """A stage had no accelerations: without held branches, else a shorter step."""
+    start_afresh(P, L, C)
+    return RUNNING if let_go(P) else shorten(P, C, CLOSER)
+
+
+@native
+def start_afresh(P: Problem, L: Plan, C: Control) -> None:
+    """Accelerations and the matrix of the accepted state again: those of a try that failed may be
+    no numbers, and what starts from them has none either.
     """
     restore_state(P, C)
-    return RUNNING if let_go(P) else shorten(P, C, CLOSER)
+    if C.kind == TIED:
+        exact_rates(P, L, C, C.t, P.history[OLD * C.size :], P.history[0:])
 
 
 @native
@@ -72,11 +82,11 @@ def shorten(P: Problem, C: Control, factor: float) -> int:
 
 
 @native
-def after_rejection(P: Problem, C: Control, error: float) -> int:
+def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
     """The error was too large: a smaller step."""
     P.count.rejected += 1
     if not error < LARGE:
-        restore_state(P, C)
+        start_afresh(P, L, C)
         if let_go(P):
             return RUNNING
     P.undoing.trouble += 1.0
