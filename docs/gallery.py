@@ -20,7 +20,7 @@ import adamslite as al
 FOLDER = Path(__file__).with_name("gallery")
 DECKS = Path(__file__).parent.parent / "decks"
 #: Size of pictures in pixels; colours of pictures and of plots.
-SIZE, COLOURS, LINES = (640, 400), 96, 24
+SIZE, COLOURS, LINES = (640, 400), 96, 48
 HEAD = "<!-- Written by docs/gallery.py: do not edit. -->\n"
 INTRODUCTION = """# Gallery
 
