@@ -68,7 +68,7 @@ def opened(
     browser: Any,
     text: str,
     folder: Path,
-    address: str = "",
+    address: str = "t=0",
     size: tuple[int, int] = SIZE,
     quiet: bool = True,
     before: str = "",

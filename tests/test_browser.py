@@ -47,6 +47,44 @@ def test_a_page_loads_without_a_word_and_asks_for_nothing(show: Any) -> None:
         assert tab.page.title() == "A crank, a sheave & a <weight>"
 
 
+def test_a_page_plays_when_it_is_opened(show: Any) -> None:
+    with show(sample(), address="") as tab:
+        tab.wait("it.playing && it.time > 0")
+    with show(sample(), address="", reduced_motion="reduce") as tab:
+        assert not tab.do("it.playing")
+
+
+def test_the_pointer_turns_moves_and_zooms_the_view_and_picks_nothing(show: Any) -> None:
+    with show(sample()) as tab:
+        box = tab.page.locator("canvas.scene").bounding_box()
+        middle = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+        def drag(button: str) -> tuple[np.ndarray, np.ndarray]:
+            """Change of the camera's place and of what it looks at."""
+            before = tab.do("it.cameraFrame()")
+            tab.page.mouse.move(*middle)
+            tab.page.mouse.down(button=button)
+            tab.page.mouse.move(middle[0] + 80, middle[1] + 40, steps=4)
+            tab.page.mouse.up(button=button)
+            after = tab.do("it.cameraFrame()")
+            moved = [np.subtract(after[key], before[key]) for key in ("position", "target")]
+            return moved[0], moved[1]
+
+        turned, aim = drag("left")
+        assert np.linalg.norm(turned) > 0.5 and np.linalg.norm(aim) < 1e-9
+        moved, aim = drag("right")
+        assert moved == pytest.approx(aim, abs=1e-6) and np.linalg.norm(moved) > 0.1
+        before = tab.do("(window.before = it.cameraFrame())")
+        tab.page.mouse.wheel(0, -300)
+        tab.wait("it.cameraFrame().position.join() !== window.before.position.join()")
+        after = tab.do("it.cameraFrame()")
+        distances = [
+            np.linalg.norm(np.subtract(f["position"], f["target"])) for f in (before, after)
+        ]
+        assert distances[1] < distances[0]
+        assert tab.do("it.selected") is None
+
+
 def test_the_picture_shows_bodies_cable_and_ground_in_their_colours(show: Any) -> None:
     with show(sample(), address="t=0.5") as tab:
         picture = pixels(tab)

@@ -38,7 +38,7 @@ def test_dragging_over_a_plot_moves_the_time_and_the_slider(show: Any) -> None:
 
 
 def test_keys_play_step_and_switch(show: Any) -> None:
-    with show(sample(), address="theme=light") as tab:
+    with show(sample(), address="t=0&theme=light") as tab:
         press = tab.page.keyboard.press
         press("ArrowRight")
         assert tab.do("it.time") == pytest.approx(STEP, abs=1e-6)

@@ -351,6 +351,7 @@ function start() {
         wish.apply(app);
         if (wish.film) filmStrip(app, wish.film);
         else app.renderFrame();
+        if (wish.plays) app.player.play();
     } catch (error) {
         const why = /WebGL/i.test(error.message) ? "This browser shows no 3-D graphics (WebGL), which the page needs." : `The page cannot be shown: ${error.message}`;
         root.replaceChildren(h("p", { class: "failure" }, icon("help"), why));
