@@ -254,6 +254,12 @@ def test_the_reference_of_a_path_is_a_path() -> None:
     assert "outside the tolerance" in heading(without)
 
 
+def test_a_pattern_does_not_mean_the_channel_of_the_horizontal_axis() -> None:
+    results = table(PART__2_x=np.cos(TIME), PART__2_y=np.sin(TIME))
+    figure = plot(results, "PART/2.?", x="PART/2.x")
+    assert heading(figure).startswith("Position y of PART/2 over position x of PART/2")
+
+
 def test_gaps_are_left_open_and_said() -> None:
     values = np.where(TIME > 1.0, np.inf, TIME)
     figure = plot(table(PART__2_x=values), "PART/2.x")

@@ -127,8 +127,9 @@ def _chosen(
     if not channels:
         near = ", ".join(results.names[:3])
         raise UsageError(f"no channel is named; there are {near}, ...")
-    curves = [curve(results, name) for name in select(results, channels)]
-    across = curve(results, x)
+    across, names = curve(results, x), select(results, channels)
+    others = [name for name in names if name != across.channel.name]  # it over itself is a line
+    curves = [curve(results, name) for name in others or names]
     if all(np.isnan(each.values + across.values).all() for each in curves):
         empty = across if np.isnan(across.values).all() else curves[0]
         raise UsageError(f"{empty.channel.name} is not a number at any output time")
