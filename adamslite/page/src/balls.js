@@ -18,11 +18,11 @@ varying vec3 up;
 varying float size;
 void main() {
     middle = (modelViewMatrix * vec4(position, 1.0)).xyz;
-    float distance = max(length(middle), 1.001 * radius);
-    vec3 toward = -middle / distance;
+    float apart = max(length(middle), 1.001 * radius);
+    vec3 toward = -middle / apart;
     right = normalize(cross(vec3(0.0, 1.0, 0.0), toward));
     up = cross(toward, right);
-    float seen = radius * distance / sqrt(distance * distance - radius * radius);
+    float seen = radius * apart / sqrt(apart * apart - radius * radius);
     gl_Position = projectionMatrix * vec4(middle + seen * (corner.x * right + corner.y * up), 1.0);
     place = corner;
     colour = tone;

@@ -69,7 +69,7 @@ class App {
         this.joints = new Joints(scene.joints, bodies, stage, look);
         this.springs = new Springs(scene.springs, bodies, stage, look);
         this.cables = new Cables(scene, archive, bodies, stage);
-        this.stays = new BodyLines(stays(scene, this.shapes), bodies, { width: 1.5, colour: stage.palette.joint, round: 0 });
+        this.stays = new BodyLines(stays(scene, this.shapes), bodies, { width: 1.5, colour: stage.palette.joint, shading: 0 });
         stage.addStrokes(this.stays.strokes);
         this.links = new BodyLines(scene.links.map(({ i, j }) => [i, j]), bodies, { width: 2, colour: stage.palette.line });
         stage.addStrokes(this.links.strokes);

@@ -84,7 +84,7 @@ export class Selection {
         const track = app.bodies.positions[this.body];
         if (on && track?.moves) {
             const count = Math.min(track.rows - 1, PIECES);
-            this.path = new Strokes(count, { width: 2, colour: app.stage.palette.path, round: 0 });
+            this.path = new Strokes(count, { width: 2, colour: app.stage.palette.path, shading: 0 });
             const put = (row, o) => {
                 for (let c = 0; c < 3; c += 1) this.path.array[o + c] = track.at(row, 0, c);
             };

@@ -41,7 +41,7 @@ void main() {
 
 const FRAGMENT = `
 uniform float width;
-uniform float round;
+uniform float shading;
 uniform float opacity;
 uniform bool mapped;
 uniform vec3 ink;
@@ -55,7 +55,7 @@ void main() {
     if (beyond * beyond + p.y * p.y > reach * reach) discard;
     float height = sqrt(max(1.0 - p.y * p.y / (reach * reach), 0.0));
     vec3 colour = mapped && p.z > -0.5 ? texture2D(map, vec2(clamp(p.z, 0.002, 0.998), 0.5)).rgb : ink;
-    gl_FragColor = vec4(colour * mix(1.0, 0.5 + 0.55 * height, round), opacity);
+    gl_FragColor = vec4(colour * mix(1.0, 0.5 + 0.55 * height, shading), opacity);
     #include <colorspace_fragment>
 }`;
 
@@ -73,7 +73,7 @@ function tensionMap(theme) {
 
 export class Strokes {
     /** `count` segments; `width` in pixels; `mapped`: coloured by value instead of `colour`. */
-    constructor(count, { width = 2, colour = "#000", mapped = false, theme = "light", round = 0.8, opacity = 1 } = {}) {
+    constructor(count, { width = 2, colour = "#000", mapped = false, theme = "light", shading = 0.8, opacity = 1 } = {}) {
         this.count = count;
         this.width = width;
         this.array = new Float32Array(8 * count);
@@ -93,7 +93,7 @@ export class Strokes {
             transparent: opacity < 1,
             uniforms: {
                 width: { value: width },
-                round: { value: round },
+                shading: { value: shading },
                 opacity: { value: opacity },
                 mapped: { value: mapped },
                 ink: { value: new Color(colour) },
