@@ -367,8 +367,8 @@ def test_mistakes_of_commands_do_not_hide_warnings_of_the_deck(tmp_path: Path) -
 
 def test_one_note_for_deck_and_commands(tmp_path: Path) -> None:
     """Each place is in the data; the text tells everything where it first stands."""
-    (tmp_path / "rig.adm").write_text(RIG + "OUTPUT/REQSAVE\nDEBUG/EPRINT\n")
-    (tmp_path / "rig.acf").write_text("output/nosep\nRESULTS/XRF\nSIM/DYN, END=1, STEPS=2\n")
+    (tmp_path / "rig.adm").write_text(RIG + "OUTPUT/NOSEPARATOR\nDEBUG/EPRINT\n")
+    (tmp_path / "rig.acf").write_text("output/nosep\nRESULTS/NOLINEAR\nSIM/DYN, END=1, STEPS=2\n")
     found = load_scene(tmp_path / "rig.adm").warnings
     (note,) = (each for each in found if each.code == "passed-over")
     assert note.message.endswith(": OUTPUT (2), DEBUG, RESULTS")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from tiers import slow
 
 from adamslite.cli.main import main
 from adamslite.resources import find
@@ -23,7 +24,7 @@ FOLDERS = (
     "conical-pendulum",
     "contact/bouncing-ball",
     "contact/cradle",
-    "contact/incline",
+    slow("contact/incline"),  # two contacts, whose expressions take seconds to compile
     "contact/resting",
     "contact/rolling-sphere",
     "contact/top",
