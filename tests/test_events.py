@@ -189,6 +189,17 @@ def test_a_part_that_turns_against_a_stop(formula, law):
     assert last["PART/2.wz"][-1] == approx(7.8, rel=0.03)
 
 
+@pytest.mark.parametrize("beside", ["", "DIFF/1, FUNCTION=DX(2)\n"])
+@pytest.mark.parametrize("law", ["1E6*MAX(0,-DX(2))**1.5", "IF(DX(2): 1E6*ABS(DX(2))**2.2, 0, 0)"])
+@pytest.mark.parametrize("formula", ["GSTIFF", "HHT", "RADAU", "RKF45"])
+def test_a_power_that_has_no_value_before_the_change(formula, law, beside):
+    """Met at an output time, within round-off, on the side where a root is that of less than 0."""
+    scene = moved_by(law, x=0.2, v=-2).replace("END", f"{beside}END")
+    for steps in (2, 4):
+        last = done(scene, 0.2, steps, **options(formula, 1e-4))
+        assert last["POINT_MASS/2.vx"][-1] == approx(2, rel=0.07)
+
+
 @pytest.mark.parametrize(("stiffness", "mass"), [(2.1e9, 0.322), (6.2e8, 0.297)])
 def test_equal_steps_that_leave_a_wall_have_felt_it(stiffness, mass):
     """18 m/s there and back: contacts of 40 to 70 us, where ERROR allows steps of 200 us."""

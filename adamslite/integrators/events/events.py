@@ -58,6 +58,7 @@ from adamslite.integrators.events.guards import (
     note_changes,
     release_watch,
     remember_branches,
+    turn_back,
     turn_over,
 )
 from adamslite.integrators.events.sensors import sense, start_sensors
@@ -102,7 +103,8 @@ def met(P: Problem) -> bool:
 @native
 def change_here(P: Problem, L: Plan, t: float) -> bool:
     """Change the branches that break at the start of the step; q, u and states are where they
-    were, a and z those of the new branches.  False when the equations have no solution.
+    were, a and z those of the new branches.  False when the equations have no solution, as where a
+    root of the new branch has no value until the step has crossed: branches are the old ones then.
     """
     remember_branches(P)
     turn_over(P, HIGH_ROW, 1.0)
@@ -110,6 +112,7 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
     P.count.events += 1
     P.search.hunt = False
     if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
+        turn_back(P)
         return False
     look_at_start(P)
     sense(P)

@@ -89,10 +89,13 @@ def put_cubic(P: Problem, t: float, h: float, x: float, width: int, old: int, la
 
 @native
 def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
-    """A branch changes just after the start of the step: change it there and restart."""
+    """A branch changes just after the start of the step: change it there and restart, or end a
+    step just behind where it changes.
+    """
     restore_state(P, C)
     if not change_here(P, L, C.t):
-        return NEWTON_FAILED
+        C.h = shorter(P)
+        return restart_rates(P, L, C, False)
     return restart_rates(P, L, C, True)
 
 

@@ -72,11 +72,15 @@ def least_to_crossing(P: Problem) -> float:
 
 @native
 def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
-    """A branch changes just after the start of the step: change it there and restart."""
+    """A branch changes just after the start of the step: change it there and restart, or end a
+    step just behind where it changes.
+    """
     restore_state(P, C)
-    if not change_here(P, L, C.t):
-        return NEWTON_FAILED
-    restart(P, L, C)
+    if change_here(P, L, C.t):
+        restart(P, L, C)
+    else:
+        restore_state(P, C)
+        C.h, C.equal = shorter(P), 0
     return RUNNING
 
 

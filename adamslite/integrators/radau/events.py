@@ -121,12 +121,16 @@ def is_at_crossing(P: Problem, C: Control, error: float) -> bool:
 
 @native
 def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
-    """A branch changes just after the start of the step: change it there and restart."""
+    """A branch changes just after the start of the step: change it there and restart, or end a
+    step just behind where it changes.
+    """
     C.passed, C.lengthened = 0.0, 0
     restore_state(P, C)
-    if not change_here(P, L, C.t):
-        return NEWTON_FAILED
-    restart(P, L, C)
+    if change_here(P, L, C.t):
+        restart(P, L, C)
+    else:
+        restore_state(P, C)
+        C.h, C.known = shorter(P), False
     return RUNNING
 
 
