@@ -13,6 +13,7 @@ import adamslite as al
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.progress import (
+    AnalysisProgress,
     Progress,
     RunState,
     SentenceProgress,
@@ -310,6 +311,28 @@ def test_a_run_reports_time_step_order_and_steps() -> None:
     assert all(each.end == 1e6 and each.start == 0.0 for each in seen)
     assert all(0.0 < each.step < 1.0 and 1 <= each.order <= 5 for each in seen)
     assert seen[0].time < seen[-1].time and seen[0].steps < seen[-1].steps
+
+
+def test_an_analysis_of_many_runs_is_reported_as_one() -> None:
+    """s' = -s(t - 0.01): a run for each two delays, each of which is over long before a look."""
+    decay = "DIFF/1, IC=1, FUNCTION=-DELAY(DIF(1),0.01,1)\n"
+    seen = watched(MASS + decay).seen
+    assert all((each.start, each.end) == (0.0, 1e6) for each in seen)
+    assert [each.time for each in seen] == sorted(each.time for each in seen)
+    assert [each.steps for each in seen] == sorted(each.steps for each in seen)
+    assert seen[-1].steps > 100
+
+
+def test_looks_at_short_runs_are_not_too_many() -> None:
+    """A run each 10 ms for a second: about ten looks, none at the end."""
+    clock, watcher = Clock(), Watcher(10**6)
+    whole = AnalysisProgress(watcher, 0.0, 1.0, lambda: 7, clock)
+    for k in range(1, 101):
+        clock.now += 0.01
+        whole.watch(RunState(time=0.01 * k, start=0.01 * (k - 1), end=0.01 * k, steps=3))
+    assert 9 <= len(watcher.seen) <= 11
+    assert all((each.start, each.end, each.steps) == (0.0, 1.0, 10) for each in watcher.seen)
+    assert watcher.seen[0].time >= 0.085 and watcher.seen[-1].time < 1.0
 
 
 def test_the_statement_with_the_largest_error_is_named() -> None:

@@ -228,7 +228,13 @@ def _watched(
                     progress.watch(_state(system, limits, start, end))
             except KeyboardInterrupt:
                 system.settings.stop = True
-        return running.result()
+        code = running.result()
+    try:
+        if progress and not system.settings.stop:
+            progress.watch(_state(system, limits, start, end))  # it may be one of many short runs
+    except KeyboardInterrupt:
+        return contract.INTERRUPTED
+    return code
 
 
 def _state(system: System, limits: StepLimits, start: float, end: float) -> RunState:

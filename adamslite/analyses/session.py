@@ -45,6 +45,7 @@ from adamslite.equations.engine import engine
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD, RECORD_AT_REST
+from adamslite.progress import AnalysisProgress
 from adamslite.results.outcomes import Outcome
 
 # Outcomes after which the rank of the constraints is computed again.
@@ -125,12 +126,19 @@ class Session(SessionState):
         began = clock.process_time()
         engine(self.chosen.settings.formula.entry, self.progress)
         self.late_setup += clock.process_time() - began
+        if self.progress:
+            start, end = float(times[0]), float(times[-1])
+            self.whole = AnalysisProgress(self.progress, start, end, self._steps_before)
         self._run_over(times, np.ones(len(times), dtype=bool))
         while self.sensors.continuing and self.time < times[-1]:
             require_no_delay(self.kernels, "A SENSOR from which the analysis continues", NO_PAST)
             times = self.sensors.rest(times, self.time)
             self._after_sensors()
             self._run_over(times, np.arange(len(times)) > 0)
+
+    def _steps_before(self) -> int:
+        """Steps of the runs that are over."""
+        return int(self.counts.steps)
 
     def _run_over(self, times: np.ndarray, wanted: np.ndarray) -> None:
         """Integrate over output times (nt,), of which those ``wanted`` were requested."""
@@ -139,6 +147,8 @@ class Session(SessionState):
             self.sensors.arm(system)
             self.outcome = self._integrated(system, span, apart)
             self.keep(system, *self._sensed(system, span, kept, apart))
+            if self.outcome is Outcome.INTERRUPTED:
+                return
             if self.outcome in STALLED and self._rank_changed(system):
                 self._continue(system, span, kept, apart)
 
@@ -159,7 +169,7 @@ class Session(SessionState):
         settings = self.chosen.settings
 
         def run() -> Outcome:
-            return run_dynamic(system, times, apart, settings, self.progress, self.audited)
+            return run_dynamic(system, times, apart, settings, self.whole, self.audited)
 
         outcome = run() if "plane" in self.without else in_its_plane(system, run)
         self._note_balance(system)
@@ -187,7 +197,7 @@ class Session(SessionState):
         later = times > self.time
         self.outcome = Outcome.DONE
         rest, settings = np.append(self.time, times[later]), self.chosen.settings
-        self.outcome = run_dynamic(system, rest, apart, settings, self.progress, self.audited)
+        self.outcome = run_dynamic(system, rest, apart, settings, self.whole, self.audited)
         self._note_balance(system)
         self.keep(system, *self._sensed(system, rest, np.append(False, wanted[later]), apart))
 

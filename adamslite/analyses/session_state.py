@@ -39,7 +39,7 @@ from adamslite.integrators.contract import ACCELERATIONS
 from adamslite.kernels.compile import compile_model
 from adamslite.model.model import assemble
 from adamslite.outputs.saved_files import SavedFiles
-from adamslite.progress import Progress
+from adamslite.progress import AnalysisProgress, Progress
 from adamslite.results.balance import Balance
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Linearized
@@ -96,6 +96,7 @@ class SessionState:
         self.linearizations: list[Linearized] = []
         self.balances: list[Balance] = []
         self.counts = contract.Counts.zeros()
+        self.whole: AnalysisProgress | None = None
         self.ways_to_fall = 0
         self.sensors = SensorLog()
         self.delays = Delays()

@@ -5,8 +5,16 @@ integrates, and ``say(sentence)`` before something that takes long, such as comp
 the first time.
 """
 
+from adamslite.progress.analysis import AnalysisProgress
 from adamslite.progress.base import Progress, RunState
 from adamslite.progress.choice import progress_of
 from adamslite.progress.terminal import SentenceProgress, TalkingProgress
 
-__all__ = ["Progress", "RunState", "SentenceProgress", "TalkingProgress", "progress_of"]
+__all__ = [
+    "AnalysisProgress",
+    "Progress",
+    "RunState",
+    "SentenceProgress",
+    "TalkingProgress",
+    "progress_of",
+]

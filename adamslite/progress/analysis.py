@@ -1,0 +1,46 @@
+"""The progress of one analysis, which may be integrated in many runs: DELAY, sensors."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable
+from dataclasses import replace
+
+from adamslite.progress.base import Progress, RunState
+
+#: Least time between two looks, and before the first one [s].
+INTERVAL = 0.09
+
+
+class AnalysisProgress(Progress):
+    """Passes looks at its runs on, as looks at the whole: not too many, and none at its end.
+
+    Parameters
+    ----------
+    progress : Progress
+    start, end : float
+        Of the analysis [time].
+    steps : function that returns an int
+        Steps of the runs that are over.
+    now : function
+        The clock [s].
+    """
+
+    def __init__(
+        self,
+        progress: Progress,
+        start: float,
+        end: float,
+        steps: Callable[[], int],
+        now: Callable[[], float] = clock.monotonic,
+    ) -> None:
+        self._progress, self._start, self._end, self._steps = progress, start, end, steps
+        self._now, self._seen = now, now()
+
+    def watch(self, state: RunState) -> None:
+        at = self._now()
+        if at < self._seen + INTERVAL or state.time >= self._end:
+            return
+        self._seen = at
+        steps = self._steps() + state.steps
+        self._progress.watch(replace(state, start=self._start, end=self._end, steps=steps))
