@@ -323,6 +323,23 @@ def test_an_analysis_of_many_runs_is_reported_as_one() -> None:
     assert seen[-1].steps > 100
 
 
+def test_an_interrupt_between_runs_ends_the_analysis() -> None:
+    """It may come when a run of DELAY is just over."""
+
+    class Impatient(Progress):
+        looks = 0
+
+        def watch(self, state: RunState) -> None:
+            self.looks += 1
+            raise KeyboardInterrupt
+
+    decay = "DIFF/1, IC=1, FUNCTION=-DELAY(DIF(1),0.01,1)\n"
+    impatient = Impatient()
+    results = al.simulate(MASS + decay + "END\n", end=1e6, steps=10, progress=impatient)
+    assert results.outcome is al.Outcome.INTERRUPTED
+    assert impatient.looks == 1
+
+
 def test_looks_at_short_runs_are_not_too_many() -> None:
     """A run each 10 ms for a second: about ten looks, none at the end."""
     clock, watcher = Clock(), Watcher(10**6)
