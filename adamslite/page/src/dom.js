@@ -63,17 +63,20 @@ export function niceStep(value) {
     return power * (part >= 5 ? 5 : part >= 2 ? 2 : 1);
 }
 
-const PACE = 100; // milliseconds between numbers that a reader can follow
-
-/** Whether numbers are due that change while playing: painting text takes longer than the scene. */
+/** Whether something is due again that changes while playing: painting it in every frame would take
+ *  longer than the scene. `period`: milliseconds from one time to the next. */
 export class Pace {
-    constructor() {
+    constructor(period) {
+        this.period = period;
         this.last = -Infinity;
     }
 
     due(playing, now = performance.now()) {
-        if (playing && now - this.last < PACE) return false;
+        if (playing && now - this.last < this.period) return false;
         this.last = now;
         return true;
     }
 }
+
+export const READABLE = 100; // milliseconds between numbers that a reader can follow
+export const SMOOTH = 30; // and between places of a line that moves

@@ -29,7 +29,7 @@ import { Stage } from "./stage.js";
 import { BodyLines } from "./strokes.js";
 import { wishes } from "./wishes.js";
 
-const CROWD = 400; // bodies
+const CROWD = 100; // bodies
 const CLICK = 5; // pixels that a pointer may move in a click
 
 class App {

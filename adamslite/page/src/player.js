@@ -1,5 +1,5 @@
 // Playing: the time shown, how fast it runs, and the bar with its controls.
-import { h, icon, iconButton, niceStep, Pace, short } from "./dom.js";
+import { h, icon, iconButton, niceStep, Pace, READABLE, short } from "./dom.js";
 
 const RATES = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
 const PLEASANT = 8; // seconds within which a whole result plays when nothing else is said
@@ -29,7 +29,7 @@ export class Player {
         this.loops = true;
         this.rate = pleasantRate(clock.duration);
         this.digits = decimals(clock.duration);
-        this.pace = new Pace();
+        this.pace = new Pace(READABLE);
         this.element = this.#bar(events);
         this.#readout();
     }

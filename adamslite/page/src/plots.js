@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import { between, difference } from "./channels.js";
 import { curveColour } from "./colours.js";
-import { h, iconButton, Pace, short } from "./dom.js";
+import { h, iconButton, Pace, READABLE, short, SMOOTH } from "./dom.js";
 
 const WHEEL = 0.85; // of the window that one click of the wheel keeps
 
@@ -164,7 +164,8 @@ export class Plots {
         Object.assign(this, { channels, against, timeUnit, events, seek, save });
         this.time = 0;
         this.theme = "light";
-        this.pace = new Pace();
+        this.pace = new Pace(READABLE);
+        this.motion = new Pace(SMOOTH);
         this.window = null;
         this.names = [];
         this.plots = [];
@@ -215,6 +216,7 @@ export class Plots {
 
     setTime(time, playing = false) {
         this.time = time;
+        if (!this.motion.due(playing)) return;
         for (const plot of this.plots) plot.moveCursor(time);
         if (!this.pace.due(playing)) return;
         for (const plot of this.plots) plot.read(time);

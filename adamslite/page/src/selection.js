@@ -1,5 +1,5 @@
 // The body that was picked: its name, position and speed, following it, its path.
-import { h, iconButton, Pace, short } from "./dom.js";
+import { h, iconButton, Pace, READABLE, short } from "./dom.js";
 import { Strokes } from "./strokes.js";
 
 const PIECES = 600; // of a path
@@ -10,7 +10,7 @@ export class Selection {
         this.app = app;
         this.body = -1;
         this.path = null;
-        this.pace = new Pace();
+        this.pace = new Pace(READABLE);
         this.title = h("strong", {});
         this.sub = h("span", { class: "sub" });
         this.facts = h("dl", {});
