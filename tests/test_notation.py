@@ -181,7 +181,8 @@ def test_a_function_that_fails_during_the_run(deck: Path, capsys, monkeypatch) -
     command = ["solve", "fall.adm", "--end", "1", "--user", "VARSUB=broken_routine:fails"]
     assert main(command) == 4
     assert "that --user binds to a routine of the deck" in capsys.readouterr().err
-    results = al.simulate("fall.adm", end=1.0, user={"VARSUB": lambda parameters, time: 1 / 0})
+    with pytest.warns(al.DeckWarning, match="by user=: VARIABLE/1 = "):
+        results = al.simulate("fall.adm", end=1.0, user={"VARSUB": lambda parameters, time: 1 / 0})
     assert "that user= binds to a routine of the deck" in results.message
     assert "that user= binds" in results.outcome.sentence
 

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import adamslite as al
+from adamslite.errors import UsageError
 from adamslite.resources import find
 
 SPRING = """A mass on a spring, <b>20 N/m</b> & a damper
@@ -196,6 +197,22 @@ def test_a_chart_shows_all_points_and_a_recommendation() -> None:
     assert (picture["src"] or "").startswith("data:image/png;base64,iVBOR")
     errors = [float(row[4]) for row in document.rows[1:]]
     np.testing.assert_allclose(errors, [point.error for point in chart.points], rtol=0.05)
+
+
+def test_a_chart_without_matplotlib_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    from adamslite.notebooks import chart as display
+
+    def absent(*given: Any) -> None:
+        raise UsageError("matplotlib is not installed")
+
+    monkeypatch.setattr(display, "accuracy_chart", absent)
+    chart = al.chart(SPRING + RUN + "END\n", integrator="gstiff", error=1e-4, repeats=1)
+    document = shown(chart)
+    assert "matplotlib is not installed" in document.text and not document.of("img")
+
+
+def test_a_deck_is_short_in_a_terminal() -> None:
+    assert repr(al.read("A deck\nPART/1, GROUND\nEND\n")) == "<Deck 'A deck': 2 statements>"
 
 
 def test_what_is_not_of_this_package_is_not_shown() -> None:

@@ -241,6 +241,9 @@ class Deck:
 
         return sha256(self.source.text.encode()).hexdigest()
 
+    def __repr__(self) -> str:
+        return f"<Deck {self.title!r}: {len(self.own)} statements>"
+
     def _repr_html_(self) -> str:
         """Its check, for a notebook."""
         return adamslite.html(self)
