@@ -56,6 +56,12 @@ export function short(value, digits = 4) {
     return String(Number(value.toPrecision(digits)));
 }
 
+/** The ends of a range with as many digits as tell them apart. */
+export function ends([low, high]) {
+    const digits = [3, 4, 5, 6].find((count) => short(low, count) !== short(high, count)) ?? 3;
+    return [short(low, digits), short(high, digits)];
+}
+
 /** Largest of 1, 2, 5 times a power of ten that is not above `value`. */
 export function niceStep(value) {
     const power = 10 ** Math.floor(Math.log10(value));

@@ -1,7 +1,7 @@
 // What lies over the picture: legend of tensions, axes with gravity, scale of the grid.
 import { Quaternion } from "three";
 import { viridisGradient } from "./colours.js";
-import { h, short } from "./dom.js";
+import { ends, h } from "./dom.js";
 
 const AXIS = 26; // pixels
 const AXES = ["x", "y", "z"];
@@ -19,7 +19,7 @@ function svg(tag, attributes, text = "") {
 export class TensionLegend {
     constructor(range, unit) {
         this.bar = h("div", { class: "bar" });
-        const [low, high] = range.map((value) => h("span", { class: "value" }, short(value, 3)));
+        const [low, high] = ends(range).map((text) => h("span", { class: "value" }, text));
         this.element = h("div", { class: "card tension" }, unit ? `tension (${unit})` : "tension", low, this.bar, high);
     }
 

@@ -1,6 +1,6 @@
 // A picture of the scene with its title, time and legend, for files.
 import { viridis } from "./colours.js";
-import { short } from "./dom.js";
+import { ends } from "./dom.js";
 
 const FONT = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif";
 
@@ -30,13 +30,14 @@ function legend(pen, app, scale) {
     };
     pen.font = `${12 * scale}px ${FONT}`;
     write(app.scene.units.force ? `tension (${app.scene.units.force})` : "tension", palette.muted);
-    write(short(range[0], 3), palette.ink);
+    const [low, high] = ends(range);
+    write(low, palette.ink);
     for (let step = 0; step < width; step += 1) {
         pen.fillStyle = `rgb(${viridis(step / width, theme).join(" ")})`;
         pen.fillRect(Math.round(x) + step, base - height, 1, height);
     }
     x += width + gap;
-    write(short(range[1], 3), palette.ink);
+    write(high, palette.ink);
 }
 
 /** The three axes and gravity, as beside the scene. */
