@@ -124,6 +124,15 @@ def test_results_show_outcome_table_and_page() -> None:
     assert "POINT_MASS/2" in page and 'id="scene"' in page
 
 
+def test_results_name_the_command_file_that_lies_beside(tmp_path: Any) -> None:
+    (tmp_path / "spring.adm").write_text(SPRING + "END\n")
+    (tmp_path / "spring.acf").write_text(RUN)
+    rows = shown(al.simulate(tmp_path / "spring.adm")).rows
+    assert ["deck", "spring.adm"] in rows and ["commands", "spring.acf"] in rows
+    rows = shown(al.simulate(SPRING + "END\n", commands=RUN)).rows
+    assert {row[0] for row in rows}.isdisjoint({"deck", "commands"})
+
+
 def test_the_frame_is_small() -> None:
     """A long run of a small deck is decimated: two million numbers become less than a megabyte
     beside the program of the page."""

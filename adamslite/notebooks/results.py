@@ -23,11 +23,20 @@ def results_html(results: Results) -> str:
     title = results.meta.get("deck", "results")
     parts = [f"<p><b>{escape(title)}</b>: {marked(kind, ending(results))}</p>"]
     parts += [] if results.outcome.is_requested else [paragraph(results.message)]
-    parts.append(rows_table([*figures(results), *notes(results)]))
+    parts.append(rows_table([*_files(results), *figures(results), *notes(results)]))
     if results.confirmation is not None:
         parts.append(paragraph(results.confirmation.verdict))
     parts += [_channels(results), _frame(results)]
     return f"<div>{''.join(parts)}</div>"
+
+
+def _files(results: Results) -> list[tuple[str, str]]:
+    """The files that were run: a command file may have been taken because it lies beside."""
+    source = results.source
+    if source is None:
+        return []
+    names = {"deck": source.name, "commands": source.commands_name}
+    return [(what, name) for what, name in names.items() if name and not name.startswith("<")]
 
 
 def _channels(results: Results) -> str:
