@@ -47,6 +47,18 @@ def test_a_page_loads_without_a_word_and_asks_for_nothing(show: Any) -> None:
         assert tab.page.title() == "A crank, a sheave & a <weight>"
 
 
+def test_a_page_tells_what_was_run_and_keeps_the_licences(show: Any) -> None:
+    with show(sample(), address="t=0&tab=about") as tab:
+        told = tab.seen(".about")
+        assert "sample.adm: The run reached its end." in told and "A note." in told
+        assert f"Motion is drawn from {FRAMES} times" in told
+        tab.page.locator(".about summary").click()
+        licences = tab.seen(".about pre")
+        assert all(f"{name} " in licences for name in ("three", "uplot", "fflate"))
+        tab.page.locator(".events button").click()
+        assert tab.do("it.time") == 1.0
+
+
 def test_a_page_plays_when_it_is_opened(show: Any) -> None:
     with show(sample(), address="") as tab:
         tab.wait("it.playing && it.time > 0")

@@ -112,6 +112,7 @@ def test_a_second_result_is_a_ghost_and_its_difference_is_plotted(show: Any) -> 
         tab.do("(it.plot(['PART/2.x']), it.select('PART/2'))")
         difference = tab.do("it.app.plots.plots[1].chart.data[1][50]")
         assert difference == pytest.approx(crank(0.5)[0] - crank(0.4)[0], abs=1e-6)
+        assert "Dashed: other.csv." in tab.seen(".plots > .hint")
         apart = np.linalg.norm(crank(0.5) - crank(0.4))
         assert f"{apart:.3g} m from other.csv" in tab.seen(".selection")
 

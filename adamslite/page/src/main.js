@@ -97,7 +97,7 @@ class App {
             { name: "Plots", element: h("div", {}, list.element, this.plots.element) },
             { name: "Bodies", element: bodyList(bodies, scene.units, (b) => this.select(b)) },
             ...(this.modes.element ? [{ name: "Modes", element: this.modes.element }] : []),
-            { name: "About", element: about(scene, licenses, (time) => this.player.seek(time)) },
+            { name: "About", element: about(scene, licenses, (time) => this.player.seek(time), this.clock.times.length, this.channels.times.length) },
         ]);
         this.showing = showMenu(this.#switches());
         this.tension = this.cables.range ? new TensionLegend(this.cables.range, scene.units.force) : null;

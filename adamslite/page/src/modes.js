@@ -93,7 +93,7 @@ export class Modes {
         return h(
             "div",
             { class: "modes" },
-            h("p", { class: "hint" }, "Small motions about a state. Choose a mode to see it; choose it again to return to the motion."),
+            h("p", { class: "hint" }, "Small motions about a state, drawn far larger and at one pace for all. Choose a mode to see it; choose it again to return to the motion."),
             h("div", { class: "mode head" }, h("span", {}, "#"), h("span", {}, "frequency"), h("span", {}, "damping ratio"), h("span", {}, "at time")),
             ...this.rows,
             h("label", { class: "amplitude" }, "Amplitude", amplitude),

@@ -56,8 +56,8 @@ export function bodyList(bodies, units, select) {
     return h("div", { class: "picker" }, input, list);
 }
 
-/** What the run was and how it ended. */
-export function about(scene, licenses, seek) {
+/** What the run was and how it ended; `drawn` and `plotted`: how many times the page has. */
+export function about(scene, licenses, seek, drawn, plotted) {
     const unit = scene.units.time;
     const items = [...scene.events].map(({ time, text }) =>
         h("li", {}, h("button", { type: "button", class: "link", onclick: () => seek(time) }, `${short(time, 6)} ${unit}`), ` ${text}`));
@@ -68,6 +68,7 @@ export function about(scene, licenses, seek) {
         h("h3", {}, scene.title || scene.name),
         h("p", {}, [scene.deck, scene.outcome].filter(Boolean).join(": ")),
         h("p", { class: "hint" }, units ? `Units: ${units}.` : "The deck names no units."),
+        h("p", { class: "hint" }, `Motion is drawn from ${drawn} times, curves from ${plotted}; between them lines are straight.`),
         ...(scene.notes.length ? [h("h3", {}, "Notes"), h("ul", {}, ...scene.notes.map((note) => h("li", {}, note)))] : []),
         ...(items.length ? [h("h3", {}, "Events"), h("ul", { class: "events" }, ...items)] : []),
         h("details", {}, h("summary", {}, "Licences of the libraries in this page"), h("pre", {}, licenses.trim())),

@@ -170,7 +170,7 @@ export class Plots {
         this.names = [];
         this.plots = [];
         this.element = h("div", { class: "plots" });
-        this.hint = h("p", { class: "hint" }, "Drag over a plot to move through time; the wheel zooms.");
+        this.hint = h("p", { class: "hint" });
         new ResizeObserver(() => this.layout()).observe(this.element);
     }
 
@@ -193,8 +193,9 @@ export class Plots {
             return shared.length ? [...plots, new Plot(this, unit, shared, true)] : plots;
         });
         this.element.replaceChildren(...this.plots.map(({ element }) => element), this.hint);
+        const dashed = this.against ? ` Dashed: ${this.against.name}.` : "";
         this.hint.textContent = this.names.length
-            ? "Drag over a plot to move through time; the wheel zooms."
+            ? `Drag over a plot to move through time; the wheel zooms.${dashed}`
             : "Choose a channel above to plot it.";
         this.built = null;
         this.layout();
