@@ -173,7 +173,7 @@ def test_what_is_no_command_is_refused_in_a_sentence(wrong: object) -> None:
 @pytest.mark.parametrize("time", [-1.0, float("nan"), float("inf"), "1"])
 def test_a_time_of_linearisation_is_a_time(time: object) -> None:
     with pytest.raises(UsageError, match=f"time={time}: it must be a time, zero or above"):
-        al.linearize(SWING + "END\n", time=time)
+        al.linearize(FALL + "END\n", time=time)
 
 
 def test_single_texts_stand_for_lists_of_one() -> None:
