@@ -13,6 +13,8 @@ import pytest
 from browsing import PHONE, Opened
 from sample_page import ARM, END, FRAMES, TURNS, UPRIGHT, bare, crank, sample, solid, swarm, weight
 
+from adamslite.page.frame import framed
+
 pytestmark = pytest.mark.browser
 
 STEP = END / (FRAMES - 1)
@@ -357,3 +359,16 @@ def test_many_rods_are_lines_from_end_to_end(show: Any) -> None:
         ends = np.array(drawn).reshape(61, 2, 4)[..., :3]
         assert ends[:, 0] == pytest.approx(np.array([[k, 0, 0] for k in range(61)]), abs=1e-5)
         assert ends[:, 1] == pytest.approx(np.array([[k, 3, 4] for k in range(61)]), abs=1e-5)
+
+
+def test_a_page_works_in_the_frame_of_a_notebook(show: Any) -> None:
+    with show(f"<!DOCTYPE html><body>{framed(sample())}</body>") as tab:
+        frame = tab.page.frame_locator("iframe")
+        frame.locator("button.play").wait_for()
+        inside = tab.page.frames[1]
+        inside.wait_for_function("() => window.adamslite?.time > 0")
+        time, place = inside.evaluate(
+            "() => { const it = window.adamslite; it.pause(); it.renderFrame();"
+            " return [it.time, it.bodyPosition('PART/2')]; }"
+        )
+        assert place == pytest.approx(crank(time), abs=CHORD)
