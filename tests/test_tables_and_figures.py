@@ -144,6 +144,12 @@ def test_a_page_is_written_and_opened(opened: list[Path]) -> None:
     assert "POINT_MASS/2" in Path("stone.html").read_text("utf-8")
 
 
+def test_a_page_that_no_browser_opens(thrown: al.Results, monkeypatch: Any) -> None:
+    monkeypatch.setattr("adamslite.page.desktop.open_page", lambda page: False)
+    with pytest.warns(UserWarning, match=r"no browser could be opened; open results\.html"):
+        assert al.view(thrown) == Path("results.html")
+
+
 def test_a_page_that_is_named_is_written_only(thrown: al.Results, opened: list[Path]) -> None:
     assert thrown.view("a stone.html") == Path("a stone.html")
     assert not opened

@@ -153,8 +153,8 @@ def view(
     path = Path(output or f"{found.source.stem if found.source else 'results'}.html")
     asked = {"theme": "dark" if dark else "light", **({"view": along} if along else {})}
     write_motion(path, deck_of(found), found, other, name, Look(time, size, asked))
-    if show or (show is None and output is None):
-        open_page(path)
+    if (show or (show is None and output is None)) and not open_page(path):
+        warnings.warn(f"no browser could be opened; open {path} yourself", stacklevel=2)
     return path
 
 
