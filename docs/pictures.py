@@ -26,7 +26,7 @@ ROOT = Path(__file__).parent.parent
 FOLDER = Path(__file__).parent / "pictures"
 WIDE, FILMED, LASTING = (1280, 720), (640, 360), 4
 """Sizes of a page and of a film in pixels; how long a film is [s]."""
-COLOURS, LINES = 96, 24
+COLOURS, LINES = 256, 24
 """Colours of a scene, of a plot."""
 
 
