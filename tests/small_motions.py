@@ -75,7 +75,7 @@ class Flow:
         assert initial_conditions(system) is None
         before = self._state()
         times = np.array([t, t + time])
-        outcome = run_dynamic(system, times, time, self.settings, lambda *_: None)
+        outcome = run_dynamic(system, times, time, self.settings, None)
         assert outcome is Outcome.DONE
         return before, self._state()
 

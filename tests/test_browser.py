@@ -49,6 +49,7 @@ def test_a_page_loads_without_a_word_and_asks_for_nothing(show: Any) -> None:
         assert tab.page.title() == "A crank, a sheave & a <weight>"
 
 
+@pytest.mark.slow
 def test_a_page_tells_what_was_run_and_keeps_the_licences(show: Any) -> None:
     with show(sample(), address="t=0&tab=about") as tab:
         told = tab.seen(".about")
@@ -61,6 +62,7 @@ def test_a_page_tells_what_was_run_and_keeps_the_licences(show: Any) -> None:
         assert tab.do("it.time") == 1.0
 
 
+@pytest.mark.slow
 def test_a_page_plays_when_it_is_opened(show: Any) -> None:
     with show(sample(), address="") as tab:
         tab.wait("it.playing && it.time > 0")
@@ -68,6 +70,7 @@ def test_a_page_plays_when_it_is_opened(show: Any) -> None:
         assert not tab.do("it.playing")
 
 
+@pytest.mark.slow
 def test_the_pointer_turns_moves_and_zooms_the_view_and_picks_nothing(show: Any) -> None:
     with show(sample()) as tab:
         box = tab.page.locator("canvas.scene").bounding_box()
@@ -99,6 +102,7 @@ def test_the_pointer_turns_moves_and_zooms_the_view_and_picks_nothing(show: Any)
         assert tab.do("it.selected") is None
 
 
+@pytest.mark.slow
 def test_the_picture_shows_bodies_cable_and_ground_in_their_colours(show: Any) -> None:
     with show(sample(), address="t=0.5") as tab:
         picture = pixels(tab)
@@ -122,6 +126,7 @@ def test_playing_moves_bodies_as_the_results_say(show: Any) -> None:
         assert height == pytest.approx(weight(time), abs=CHORD)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("time", [0.0, 0.123, 1.0, 1.999, 2.0])
 def test_at_any_time_a_body_has_its_place_and_attitude(show: Any, time: float) -> None:
     with show(sample()) as tab:
@@ -132,6 +137,7 @@ def test_at_any_time_a_body_has_its_place_and_attitude(show: Any, time: float) -
         assert tab.do("it.bodyAttitude('PART/2')") == pytest.approx(turned, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_playing_begins_again_at_the_end_and_stops_there_when_not_repeated(show: Any) -> None:
     with show(sample()) as tab:
         tab.do("(it.seek(1.9), it.play())")
@@ -159,6 +165,7 @@ def test_picking_names_the_part_and_says_where_it_is_and_how_fast(show: Any) -> 
         assert tab.do("it.selected") is None
 
 
+@pytest.mark.slow
 def test_a_body_is_picked_anywhere_on_it_and_none_beside_it(show: Any) -> None:
     with show(sample(), address="t=0.5") as tab:
         x, y = tab.do("it.screenPosition('POINT_MASS/3')")
@@ -166,11 +173,13 @@ def test_a_body_is_picked_anywhere_on_it_and_none_beside_it(show: Any) -> None:
         assert tab.do("it.pick(2, 300)") is None
 
 
+@pytest.mark.slow
 def test_names_of_bodies_are_text(show: Any) -> None:
     with show(sample(), address="t=0.5&show=labels") as tab:
         assert "Rolle <b>ö</b>" in tab.page.locator(".label").all_inner_texts()
 
 
+@pytest.mark.slow
 def test_the_camera_frames_the_whole_motion(show: Any) -> None:
     with show(sample()) as tab:
         for view in ("iso", "x", "y", "z", "start"):
@@ -182,6 +191,7 @@ def test_the_camera_frames_the_whole_motion(show: Any) -> None:
                     assert 0 < x < 880 and 0 < y < 620, (view, time, name)
 
 
+@pytest.mark.slow
 def test_views_look_along_their_axes(show: Any) -> None:
     with show(sample()) as tab:
         for k, name in enumerate("xyz"):
@@ -191,6 +201,7 @@ def test_views_look_along_their_axes(show: Any) -> None:
             assert towards[k] / np.linalg.norm(towards) == pytest.approx(1, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_a_followed_body_stays_where_it_is_in_the_picture(show: Any) -> None:
     with show(sample()) as tab:
         tab.do("it.select('PART/2')")
@@ -200,6 +211,7 @@ def test_a_followed_body_stays_where_it_is_in_the_picture(show: Any) -> None:
         assert tab.do("it.screenPosition('PART/2')") == pytest.approx(before, abs=0.5)
 
 
+@pytest.mark.slow
 def test_a_cable_runs_along_tangents_and_around_the_rim(show: Any) -> None:
     """The weight hangs below the right of the sheave, the other end is below its left."""
     with show(sample()) as tab:
@@ -220,6 +232,7 @@ def test_a_cable_runs_along_tangents_and_around_the_rim(show: Any) -> None:
         assert tab.seen(".tension").split() == ["tension", "(N)", "27", "50"]
 
 
+@pytest.mark.slow
 def test_a_spring_reaches_from_end_to_end(show: Any) -> None:
     with show(sample()) as tab:
         tab.do("(it.seek(0.5), it.renderFrame())")
@@ -229,6 +242,7 @@ def test_a_spring_reaches_from_end_to_end(show: Any) -> None:
         assert start + along == pytest.approx([0, -1.4, 0], abs=1e-5)
 
 
+@pytest.mark.slow
 def test_a_mode_swings_the_bodies_that_take_part(show: Any) -> None:
     with show(sample()) as tab:
         rest = np.array(tab.do("it.bodyPosition('POINT_MASS/3')"))
@@ -242,6 +256,7 @@ def test_a_mode_swings_the_bodies_that_take_part(show: Any) -> None:
         assert tab.do("it.bodyPosition('POINT_MASS/3')") == pytest.approx(rest, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_on_a_phone_everything_is_within_the_width(show: Any) -> None:
     with show(sample(), size=PHONE, device_scale_factor=2, has_touch=True) as tab:
         assert tab.do("document.documentElement.scrollWidth") == PHONE[0]
@@ -256,6 +271,7 @@ def test_on_a_phone_everything_is_within_the_width(show: Any) -> None:
             assert tab.page.locator(selector).is_visible()
 
 
+@pytest.mark.slow
 def test_a_page_is_dark_where_the_system_is_and_where_it_is_switched(show: Any) -> None:
     dark, light = "rgb(23, 28, 35)", "rgb(255, 255, 255)"
     background = "getComputedStyle(document.querySelector('.panel')).backgroundColor"
@@ -271,6 +287,7 @@ NOTHING = bare()
 ONE_TIME = {"times": {"at": 0, "shape": [1], "coding": "f32"}}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [NOTHING, bare(**ONE_TIME)], ids=["no time", "one time"])
 def test_a_page_with_nothing_to_see_is_shown_all_the_same(show: Any, text: str) -> None:
     with show(text) as tab:
@@ -280,12 +297,14 @@ def test_a_page_with_nothing_to_see_is_shown_all_the_same(show: Any, text: str) 
         assert not tab.do("it.playing")
 
 
+@pytest.mark.slow
 def test_without_graphics_the_page_says_so(show: Any) -> None:
     refuse = "HTMLCanvasElement.prototype.getContext = () => null;"
     with show(sample(), before=refuse, quiet=False) as tab:
         assert "shows no 3-D graphics" in tab.seen(".failure")
 
 
+@pytest.mark.slow
 def test_a_thousand_masses_are_drawn_by_few_calls_of_few_triangles(show: Any) -> None:
     """What takes software renderers time is counted: time itself depends on who measures."""
     with show(swarm(1000)) as tab:
@@ -302,6 +321,7 @@ def test_a_thousand_masses_are_drawn_by_few_calls_of_few_triangles(show: Any) ->
         tab.do("it.renderFrame()")
 
 
+@pytest.mark.slow
 def test_lines_are_tangents_of_wheels_that_turn_either_way(show: Any) -> None:
     """From a point around two wheels crosswise to a point, and a belt around both: every straight
     piece is perpendicular to the radii at which it begins and ends, and runs as the wheels turn.
@@ -335,6 +355,7 @@ def test_lines_are_tangents_of_wheels_that_turn_either_way(show: Any) -> None:
     assert lines[1][-1, 1] == pytest.approx(lines[1][24, 0], abs=1e-5)  # the belt closes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count, pieces", [(40, 0), (41, 11), (150, 11), (151, 1)])
 def test_many_springs_are_lines_between_their_ends(show: Any, count: int, pieces: int) -> None:
     ends = [([0, k, 0, 0], [0, k, 2 + k, 1]) for k in range(count)]
@@ -352,6 +373,7 @@ def test_many_springs_are_lines_between_their_ends(show: Any, count: int, pieces
             assert lines[:, 1:, 0] == pytest.approx(lines[:, :-1, 1])  # one line without gaps
 
 
+@pytest.mark.slow
 def test_many_rods_are_lines_from_end_to_end(show: Any) -> None:
     rods = [solid("rod", 0, (k, 0, 0), to=[0.0, 3.0, 4.0]) for k in range(61)]
     with show(bare(shapes=rods)) as tab:
@@ -361,6 +383,7 @@ def test_many_rods_are_lines_from_end_to_end(show: Any) -> None:
         assert ends[:, 1] == pytest.approx(np.array([[k, 3, 4] for k in range(61)]), abs=1e-5)
 
 
+@pytest.mark.slow
 def test_a_page_works_in_the_frame_of_a_notebook(show: Any) -> None:
     with show(f"<!DOCTYPE html><body>{framed(sample())}</body>") as tab:
         frame = tab.page.frame_locator("iframe")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from sample_page import END, FRAMES, crank, sample
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 STEP = END / (FRAMES - 1)
 CURSOR = 0.01  # time of a pixel of a plot, which is 290 wide

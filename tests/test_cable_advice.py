@@ -53,6 +53,7 @@ def test_the_advice_keeps_its_promise_and_asks_for_no_more(name: str, accuracy: 
     assert error(SCENES[name], less(advice)) > accuracy
 
 
+@pytest.mark.slow
 def test_sections_for_a_kink_go_with_the_power_two_thirds_of_the_accuracy() -> None:
     """The ripple behind a kink at a sheave leaves N^(-3/2) in a mean, with a sign that swings.
 

@@ -104,7 +104,7 @@ def source(module: str) -> Path | None:
     return next((file for file in files if file.is_file()), None)
 
 
-@pytest.mark.parametrize("root", ROOTS)
+@pytest.mark.parametrize("root", every(3, ROOTS))
 def test_the_graph_is_that_of_the_syntax_trees(root: str) -> None:
     files = [*map(Path, covered(PACKAGE, *ROOTS[root]))]
     for file in files:
@@ -126,7 +126,7 @@ compile_model(al.assemble(al.read("{DECK}")))
 TRANSLATED = "from adamslite.equations.engine import engine_text; engine_text({entry!r})"
 
 
-@pytest.mark.parametrize("root", ROOTS)
+@pytest.mark.parametrize("root", every(3, ROOTS))
 def test_all_that_is_loaded_while_code_is_shaped_is_covered(root: str, tmp_path: Path) -> None:
     """Imports that no import statement names would be missing from the graph."""
     entry = OPERATIONS if root == "operations" else root

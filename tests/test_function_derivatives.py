@@ -148,7 +148,7 @@ def test_derivatives_are_formed_as_sympy_does(name, form):
     assert slope.symbols(gradient.expr) == gradient.expr.free_symbols
 
 
-@pytest.mark.parametrize(("name", "form"), CASES, ids=[f"{n}{f}" for n, f in CASES])
+@pytest.mark.parametrize(("name", "form"), every(3, CASES))
 def test_only_printable_operations(name, form):
     gradient = Gradient(name, form)
     for expr in (gradient.expr, *gradient.derivatives):

@@ -22,6 +22,7 @@ from sample_scope import (
     state,
     turn,
 )
+from tiers import every
 
 import adamslite.functions  # noqa: F401  fills the registry
 from adamslite.functions.angles import SEQUENCES
@@ -68,7 +69,7 @@ def turning(i: int, j: int):
 CASES = {"V": (separation, 1), "ACC": (separation, 2), "WDT": (turning, 1)}
 
 
-@pytest.mark.parametrize("family", CASES)
+@pytest.mark.parametrize("family", every(3, CASES))
 @pytest.mark.parametrize("l", MARKERS)
 @pytest.mark.parametrize("j", (GROUND, 1))
 def test_time_derivatives_are_taken_in_frame_l(family, j, l):  # noqa: E741

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from page_blocks import ROOT, Reader, agree, blocks
+from tiers import slow
 
 from adamslite.language.not_supported import INSTEAD
 
@@ -14,9 +15,13 @@ GUIDES = sorted(
     if page.name != "index.md"
 )
 name = pytest.mark.parametrize("page", GUIDES, ids=lambda page: f"{page.parent.name}/{page.stem}")
+LONG = {"vary-the-accuracy", "choose-an-integrator", "plot"}
+FOLLOWED = [slow(page) if page.stem in LONG else page for page in GUIDES]
 
 
-@name
+@pytest.mark.parametrize(
+    "page", FOLLOWED, ids=[f"{page.parent.name}/{page.stem}" for page in GUIDES]
+)
 def test_a_reader_who_follows_the_page_sees_what_it_shows(page: Path, tmp_path: Path) -> None:
     Reader(page, tmp_path).follow()
 

@@ -12,7 +12,7 @@ from browsing import opened, started
 
 import adamslite as al
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 STONE = """A stone
 UNITS/SYSTEM=MKS

@@ -45,6 +45,7 @@ def coloured(picture: np.ndarray, colour: tuple[int, int, int]) -> np.ndarray:
     return np.argwhere(np.abs(picture - colour).max(axis=-1) < 45)
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_a_picture_shows_the_scene_at_its_time(tmp_path: Path) -> None:
     need(find_browser(), "browser of the Chromium family")
