@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 from figure_checks import assert_legible, illegible
+from plot_tables import BODY, SPRING, TIME, UNITS, table
 
-from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.plots import style
 from adamslite.plots.frame import balanced
@@ -24,37 +24,7 @@ from adamslite.verification.reference_file import Reference
 
 pytest.importorskip("matplotlib")
 
-SPRING = """\
-A mass on a spring
-UNITS/SYSTEM=MKS
-PART/1, GROUND
-MARKER/1, PART=1
-POINT_MASS/2, MASS=1, CM=2, QG=1,0,0
-MARKER/2, POINT_MASS=2
-SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=1, K=100, LENGTH=0.5
-REQUEST/1, F2=DM(2,1)\\F3=2*DM(2,1)
-SIMULATE/DYNAMIC, END=1, STEPS=20
-END
-"""
-TIME = np.linspace(0.0, 2.0, 41)
-UNITS = {"units": "NEWTON KILOGRAM MILLIMETER SECOND", "deck": "a test"}
 LONG = "VARIABLE/a_name_that_is_much_longer_than_what_has_room_beside_an_axis_of_a_figure"
-
-
-def table(**columns: np.ndarray | float) -> Results:
-    """Results with these columns; __ in a name is a slash, _ a dot."""
-    names = tuple(name.replace("__", "/").replace("_", ".") for name in columns)
-    values = np.column_stack([np.broadcast_to(v, TIME.shape) for v in columns.values()])
-    return Results(time=TIME, names=names, values=values, meta=UNITS)
-
-
-BODY = table(
-    PART__2_x=np.sin(TIME),
-    PART__2_y=0.0,
-    PART__2_vx=np.cos(TIME),
-    PART__2_psi=TIME,
-    JOINT__3_fx=5.0,
-)
 
 
 def titles(figure: Any) -> list[str]:
@@ -344,115 +314,3 @@ def test_settings_of_the_user_do_not_change_a_figure(tmp_path: Path) -> None:
         style.save(plot(BODY, "PART/2.*"), tmp_path / "b.svg")
         assert matplotlib.rcParams["font.size"] == 30
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
-
-
-@pytest.fixture
-def spring(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    Path("spring.adm").write_text(SPRING)
-    return tmp_path
-
-
-def saved(folder: Path, results: Results, name: str = "run.csv") -> str:
-    results.save(folder / name)
-    return name
-
-
-def test_a_deck_is_solved_and_plotted(spring: Path, capsys: pytest.CaptureFixture) -> None:
-    assert main(["plot", "spring.adm", "POINT_MASS/2.x", "--steps", "10"]) == 0
-    assert Path("spring-plot.png").read_bytes().startswith(b"\x89PNG")
-    assert "spring-plot.png: 1 of 12 channels" in capsys.readouterr().err
-
-
-def test_what_a_run_knows_of_its_accuracy_is_said(
-    spring: Path, capsys: pytest.CaptureFixture
-) -> None:
-    words = ["plot", "spring.adm", "POINT_MASS/2.x", "--audit", "--confirm", "--error", "1e-7"]
-    assert main(words) == 0
-    told = capsys.readouterr().err
-    assert "\nenergy: " in f"\n{told}" and "confirmed" in told
-
-
-def test_results_find_their_deck_beside_them(spring: Path, capsys: pytest.CaptureFixture) -> None:
-    assert main(["solve", "spring.adm", "-o", "run.csv", "--quiet"]) == 0
-    assert main(["plot", "run.csv", "REQUEST/1.F2", "-o", "a.svg"]) == 0
-    assert "= DM(2,1)" in Path("a.svg").read_text()
-    Path("spring.adm").write_text(SPRING.replace("A mass", "Another mass"))
-    assert main(["plot", "run.csv", "REQUEST/1.F2", "-o", "b.svg"]) == 0
-    assert "= DM(2,1)" not in Path("b.svg").read_text()
-    capsys.readouterr()
-    assert main(["plot", "run.csv", "REQUEST/1.F2", "-o", "c.svg", "--deck", "spring.adm"]) == 0
-    assert "the deck is not the one of these results" in capsys.readouterr().err
-    assert "= DM(2,1)" in Path("c.svg").read_text()
-
-
-def test_the_reference_of_a_file_is_drawn(spring: Path) -> None:
-    saved(spring, BODY)
-    Path("reference.csv").write_text("# tolerance: abs 1\ntime,PART/2.psi\n0,0\n2,2.5\n")
-    words = ["plot", "run.csv", "PART/2.psi", "--against", "reference.csv", "-o", "f.svg"]
-    assert main(words) == 0
-    assert "within 50 % of the tolerance of reference.csv" in Path("f.svg").read_text()
-
-
-EMPTY = Results(time=np.empty(0), names=("PART/2.x",), values=np.empty((0, 1)))
-
-
-@pytest.mark.parametrize(
-    ("words", "code", "why"),
-    [
-        (["run.csv", "PART/2.y"], 2, "did you mean"),
-        (["run.csv", "PART/2.x", "--x", "PART/2.q"], 2, "did you mean"),
-        (["run.csv"], 2, "no channel is named; there are PART/2.x"),
-        (["run.csv", "JOINT/3.fx"], 2, "JOINT/3.fx is not a number at any output time"),
-        (["run.csv", "PART/2.x", "--x", "JOINT/3.fx"], 2, "JOINT/3.fx is not a number at any"),
-        (["run.csv", "PART/2.x", "-o", "fig.jpg"], 2, "none of .png, .svg, .pdf"),
-        (["run.csv", "PART/2.x", "-o", "fig"], 2, "none of .png, .svg, .pdf"),
-        (["run.csv", "PART/2.x", "--end", "2"], 2, "there is nothing to solve"),
-        (["spring.adm", "PART/2.x", "--deck", "spring.adm"], 2, "is a deck itself"),
-        (["empty.csv", "PART/2.x"], 5, "empty.csv holds no output time"),
-        (["nothing.csv", "PART/2.x"], 5, "'nothing.csv': No such file"),
-        (["fig.png", "PART/2.x"], 5, "results cannot be read from fig.png"),
-        (["words.csv", "PART/2.x"], 5, "words.csv:1: the header row must start with 'time'"),
-        (["run.csv", "PART/2.x", "--against", "words.csv"], 5, "words.csv:1"),
-        (["run.csv", "PART/2.x", "-o", "nowhere/fig.png"], 5, "no such folder"),
-    ],
-)
-def test_what_cannot_be_drawn_is_one_sentence(
-    spring: Path, capsys: pytest.CaptureFixture, words: list[str], code: int, why: str
-) -> None:
-    holes = table(PART__2_x=TIME, PART__2_vx=TIME, JOINT__3_fx=np.nan)
-    saved(spring, holes)
-    saved(spring, EMPTY, "empty.csv")
-    Path("words.csv").write_text("these are words\n")
-    Path("fig.png").write_bytes(b"\x89PNG")
-    assert main(["plot", *words]) == code
-    told = capsys.readouterr().err
-    assert why in told and told.count("\n") == 1
-    assert not list(Path().glob("*-plot.*"))
-
-
-def test_no_file_that_is_read_is_written_over(spring: Path, capsys: pytest.CaptureFixture) -> None:
-    saved(spring, BODY)
-    Path("run.csv").rename("run.svg.csv")
-    Path("fig.svg").symlink_to("run.svg.csv")
-    assert main(["plot", "run.svg.csv", "PART/2.x", "-o", "fig.svg"]) == 2
-    assert "is read, and would be written over" in capsys.readouterr().err
-
-
-def test_without_matplotlib_there_is_one_sentence(
-    spring: Path, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
-    assert main(["plot", saved(spring, BODY), "PART/2.x"]) == 2
-    told = capsys.readouterr().err
-    assert "python -m pip install matplotlib" in told and told.count("\n") == 1
-
-
-def test_a_run_that_stops_early_is_plotted_up_to_there(
-    spring: Path, capsys: pytest.CaptureFixture
-) -> None:
-    """MOTION-free pole: a force 1/(0.5 - t) that is infinite at 0.5 s."""
-    pole = SPRING.replace("END\n", "VFORCE/1, I=2, J_PART=1, FX=1/(0.5-TIME)**3\nEND\n", 1)
-    Path("pole.adm").write_text(pole.replace("SIMULATE/DYNAMIC, VFORCE", "VFORCE"))
-    assert main(["plot", "pole.adm", "POINT_MASS/2.x", "-o", "pole.svg"]) == 4
-    assert "stopped early at t = 0." in Path("pole.svg").read_text()
