@@ -73,6 +73,20 @@ radius = 0.1
 inertia = 0.1
 """
 
+# A block of 50 kg and a wheel of J/R^2 = 2 kg on a vertical slide, and the first of its two legs.
+BLOCK = """\
+[[route]]
+kind = "fixed"
+at = [-0.1, 0, 0]
+[[route]]
+kind = "pulley"
+at = [0, -2, 0]
+radius = 0.1
+inertia = 0.02
+mass = 50
+slide = [0, 1, 0]
+"""
+
 
 def folded(depth: float, radius: float, other: str, end: float) -> str:
     """A chain of 51 sections that hangs in a fold; its second end is `other`: fixed or free."""

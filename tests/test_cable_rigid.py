@@ -1,7 +1,7 @@
 """Level 1 of `adamslite cable`: a rigid cable without mass, against equations of motion."""
 
 import numpy as np
-from descriptions import ATWOOD, G, solve
+from descriptions import ATWOOD, BLOCK, G, solve
 
 
 def test_two_weights_over_two_pulleys() -> None:
@@ -64,23 +64,14 @@ def test_wheels_of_moved_blocks_and_weights() -> None:
     with M = 50 + the wheel's 2 kg and J1 = 2 kg, J2 = 0.5 kg (J/R^2).  Level 1 is exact: what is
     left is ERROR = 1e-8 a step."""
     results = solve(
-        """
+        f"""
         end = 1
         steps = 50
         error = 1e-8
         [cable]
         EA = 1e6
         rho = 0.05
-        [[route]]
-        kind = "fixed"
-        at = [-0.1, 0, 0]
-        [[route]]
-        kind = "pulley"
-        at = [0, -2, 0]
-        radius = 0.1
-        inertia = 0.02
-        mass = 50
-        slide = [0, 1, 0]
+{BLOCK}
         [[route]]
         kind = "pulley"
         at = [0.2, 0, 0]

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from descriptions import solve
+from descriptions import BLOCK, solve
 from formulas import Cable, Impact
 from tiers import slow
 
@@ -147,22 +147,13 @@ def test_an_axle_may_lie_anywhere(level: int) -> None:
 def test_a_block_starts_at_rest_under_the_weight_of_its_wheel_too() -> None:
     """50 kg and a wheel of J/R^2 = 2 kg on two legs: T = 52 g/2, and it stays where it is."""
     results = solve(
-        """
+        f"""
         end = 0.1
         steps = 20
         [cable]
         EA = 2e6
         rho = 0.05
-        [[route]]
-        kind = "fixed"
-        at = [-0.1, 0, 0]
-        [[route]]
-        kind = "pulley"
-        at = [0, -2, 0]
-        radius = 0.1
-        inertia = 0.02
-        mass = 50
-        slide = [0, 1, 0]
+{BLOCK}
         [[route]]
         kind = "fixed"
         at = [0.1, 0, 0]
