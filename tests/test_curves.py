@@ -175,6 +175,17 @@ def test_curves_start_where_they_are_closest_or_where_the_deck_has_it(
         assert expected is None or found == pytest.approx(expected, abs=1e-6)
 
 
+def test_curves_that_cross_start_where_their_normals_are_one_line() -> None:
+    """The disc drawn 5 cm too deep: the places where the circles cross are nearer, but no contact.
+
+    Its centre and the other one are on a line 53.13 degrees below the x axis, as if it touched.
+    """
+    deep = DISC.replace("QG=0.6,-0.8,0", "QG=0.57,-0.76,0")
+    deck = al.read(f"{deep}CVCV/1, ICURVE=2, JCURVE=1, IRM=5, JRM=1\nEND\n")
+    starts = deck.find("CVCV", 1).derived(al.assemble(deck))["starts"]
+    assert starts == pytest.approx((0.352416, 0.852416), abs=1e-6)
+
+
 def test_a_point_starts_at_the_place_that_the_deck_gives() -> None:
     """A bead drawn off a circle is put on its top, in the axes of a marker turned by 90 degrees."""
     deck = bead(circle(60), "CLOSED", np.array([0.9, 0.3, 0.1]))
