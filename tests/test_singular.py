@@ -69,30 +69,36 @@ def parallelogram(rate: float = -1.0) -> str:
 
 
 @pytest.mark.parametrize(
-    ("rate", "hmax"),
+    ("rate", "hmax", "error"),
     [
-        (-1.0, 0.003),
-        (-1.0, 0.005),
-        (0.7, 0.002),
-        (-1.3, 0.004),
-        (-1.3, 0.006),
-        (-1.0, 0.008),
-        (1.1, 0.01),
-        (1.4, 0.0015),
-        (-1.3, 0.003),
-        (1.1, 0.003),
-        (2.7, 0.003),
+        (-1.0, 0.003, 1e-8),
+        (-1.0, 0.005, 1e-8),
+        (0.7, 0.002, 1e-8),
+        (-1.3, 0.004, 1e-8),
+        (-1.3, 0.006, 1e-8),
+        (-1.0, 0.008, 1e-8),
+        (1.1, 0.01, 1e-8),
+        (1.4, 0.0015, 1e-8),
+        (-1.3, 0.003, 1e-8),
+        (1.1, 0.003, 1e-8),
+        (2.7, 0.003, 1e-8),
+        (0.9, 0.003, 1e-9),
+        (1.7, 0.006, 1e-9),
+        (1.4, 0.004, 1e-10),
     ],
 )
-def test_a_flattened_parallelogram_stays_one_or_stops(rate: float, hmax: float) -> None:
-    """ABAM at 1e-8: (2/3 + 1) a" = -2 g cos a, cranks parallel, or a named stop.
+def test_a_flattened_parallelogram_stays_one_or_stops(
+    rate: float, hmax: float, error: float
+) -> None:
+    """ABAM: (2/3 + 1) a" = -2 g cos a, cranks parallel, or a named stop.
 
     Runs have left the branch in three ways: the projection moved further than a step may err; steps
     that became ever shorter walked into the posture; after a stall other rows were left out there.
+    Steps of the last three runs end, unless that is forbidden, where round-off decides the branch.
     """
     results = adamslite.simulate(
         adamslite.read(parallelogram(rate)),
-        end=5.0, steps=50, integrator="ABAM", error=1e-8, hmax=hmax,
+        end=5.0, steps=50, integrator="ABAM", error=error, hmax=hmax,
     )  # fmt: skip
     assert results.outcome in (Outcome.DONE, Outcome.NEWTON_FAILED)
     assert np.abs(results["VARIABLE/skew"]).max() < 1e-4
