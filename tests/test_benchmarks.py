@@ -307,6 +307,7 @@ def test_the_matrix_on_the_page_has_no_silent_wrong_answer() -> None:
     assert not [cell for cell in cells if cell.verdict == hard_cases.SILENT]
 
 
+@pytest.mark.slow
 def test_charts_are_the_same_file_for_the_same_points(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     made = []

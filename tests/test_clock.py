@@ -78,6 +78,7 @@ def test_a_parabola_of_two_milliseconds_in_ten_seconds(formula, steps):
         assert last["POINT_MASS/2.vx"][-1] == approx(exact, rel=1.2e-4)
 
 
+@pytest.mark.slow
 def test_pulses_in_a_variable_and_in_a_motion_are_found():
     """A carriage is shifted by 0.1 in 1 ms, a mass gets 1 N s in 0.2 ms at the same time."""
     more = """VARIABLE/9, FUNCTION=TIME-0.503

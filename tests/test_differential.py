@@ -12,7 +12,7 @@ from benchmarks.differential import AUTO, RIGHT, SILENT, attempt
 SEED, DECKS, GROUP = 1, 100, 4
 
 
-@pytest.mark.parametrize("first", fast(range(0, DECKS, GROUP), 24, 28, 44))
+@pytest.mark.parametrize("first", fast(range(0, DECKS, GROUP), 24))
 def test_no_method_is_silently_wrong(first: int) -> None:
     reports = [attempt(number, SEED) for number in range(first, first + GROUP)]
     silent = [(r.title, j) for r in reports for j in r.judged if j.verdict == SILENT]

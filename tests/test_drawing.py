@@ -182,6 +182,7 @@ def test_places_beyond_all_numbers_are_none() -> None:
     assert named(drawn.plain["bodies"], "PART/2")["position"] == [1, 2, 3]
 
 
+@pytest.mark.slow
 def test_many_channels_are_kept_to_a_share_of_their_range() -> None:
     """300 000 numbers: to half of 1/8191 of the range each, beside one that has gaps."""
     deck = al.read(PENDULUM)

@@ -220,7 +220,7 @@ def interpreted_run_of(name: str):
         return run_of(name)
 
 
-@pytest.mark.parametrize("name", every(3, RUNS))
+@pytest.mark.parametrize("name", every(6, RUNS))
 def test_the_engine_runs_the_same_interpreted_and_native(name):
     """Same steps, same iterations, same results to round-off."""
     by_python, native_run = interpreted_run_of(name), run_of(name)

@@ -104,7 +104,7 @@ class Gradient:
         return True
 
 
-@pytest.mark.parametrize(("name", "form"), every(2, CASES), ids=[f"{n}{f}" for n, f in CASES])
+@pytest.mark.parametrize(("name", "form"), every(4, CASES), ids=[f"{n}{f}" for n, f in CASES])
 def test_derivative_of_the_value(name, form):
     gradient = Gradient(name, form)
     rng = random.Random(name)
@@ -148,7 +148,7 @@ def test_derivatives_are_formed_as_sympy_does(name, form):
     assert slope.symbols(gradient.expr) == gradient.expr.free_symbols
 
 
-@pytest.mark.parametrize(("name", "form"), every(3, CASES))
+@pytest.mark.parametrize(("name", "form"), every(6, CASES))
 def test_only_printable_operations(name, form):
     gradient = Gradient(name, form)
     for expr in (gradient.expr, *gradient.derivatives):

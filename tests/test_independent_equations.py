@@ -28,7 +28,7 @@ def attitude(results: al.Results, part: str, row: int) -> np.ndarray:
     return about(2, a) @ about(0, b) @ about(2, c)
 
 
-@pytest.mark.parametrize("seed", fast(range(60), *range(5, 40, 9)))
+@pytest.mark.parametrize("seed", fast(range(60), *range(14, 40, 9)))
 def test_motion_and_reactions_of_a_random_mechanism(seed: int) -> None:
     made = make(seed)
     assembly, length = made.assembly, made.length
@@ -59,6 +59,7 @@ def test_motion_and_reactions_of_a_random_mechanism(seed: int) -> None:
             assert got[3:] == pytest.approx(expected[row][tie.name][3:], abs=1e-6 * scale[True])
 
 
+@pytest.mark.slow
 def test_the_sixty_mechanisms_hold_every_kind() -> None:
     lines = [line for seed in range(60) for line in make(seed).lines]
     kinds = {line.split(", ")[1] for line in lines}

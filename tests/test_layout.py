@@ -121,12 +121,14 @@ def test_every_deck_says_the_same_in_its_layout(folder: Path) -> None:
         assert_same_deck(read_text(path).text)
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None)
 @given(decks())
 def test_a_random_deck_says_the_same_in_its_layout(text: str) -> None:
     assert_same_deck(text)
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(st.sampled_from(FIRST), st.data())
 def test_a_spoiled_deck_says_the_same_in_its_layout(path: Path, data: st.DataObject) -> None:

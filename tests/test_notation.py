@@ -89,6 +89,7 @@ def texts() -> list[tuple[str, str]]:
     return found
 
 
+@pytest.mark.slow
 def test_no_text_of_the_package_shows_flags_to_python() -> None:
     """Help texts of arguments are pages of the manual, which name commands."""
     found = [(place, text) for place, text in texts() if not place.startswith("elements/")]

@@ -36,6 +36,7 @@ def heading(figure: Any) -> str:
     return " ".join(text.get_text() for text in figure.texts)
 
 
+@pytest.mark.slow
 def test_each_quantity_has_an_axis_with_its_unit() -> None:
     figure = plot(BODY, ["PART/2.*", "JOINT/3.fx"])
     assert titles(figure) == ["position [mm]", "velocity [mm/s]", "angle [rad]", "force [N]"]

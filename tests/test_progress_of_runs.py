@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import pytest
 from progress_scenes import Clock, Stream
 
 import adamslite as al
@@ -58,6 +59,7 @@ def test_a_run_reports_time_step_order_and_steps() -> None:
     assert seen[0].time < seen[-1].time and seen[0].steps < seen[-1].steps
 
 
+@pytest.mark.slow
 def test_an_analysis_of_many_runs_is_reported_as_one() -> None:
     """s' = -s(t - 0.01): a run for each two delays, each of which is over long before a look."""
     decay = "DIFF/1, IC=1, FUNCTION=-DELAY(DIF(1),0.01,1)\n"
@@ -115,6 +117,7 @@ def test_events_are_named_with_their_statement() -> None:
     assert limits[-1] == "events of VFORCE/7 (<text>:7:1)"
 
 
+@pytest.mark.slow
 def test_a_run_prints_lines_to_a_file() -> None:
     """On a clock that adds a second at each look, until a line shows the speed."""
     clock, stream = Clock(), Stream(False)

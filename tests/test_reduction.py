@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tiers import every
 
 import adamslite
 from adamslite.analyses import planar_reduction
@@ -65,7 +66,8 @@ def last_digits(deck: str, results: adamslite.Results) -> np.ndarray:
 
 
 @pytest.mark.parametrize(
-    ("deck", "rule"), [(deck, rule) for deck, (_, rules) in SCENES.items() for rule in rules]
+    ("deck", "rule"),
+    every(2, [(deck, rule) for deck, (_, rules) in SCENES.items() for rule in rules]),
 )
 def test_results_are_the_same_with_and_without(deck: str, rule: str) -> None:
     """To 1e-9 of the largest value of its kind; ERROR = 1e-11 of a method of order 5 leaves less

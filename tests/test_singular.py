@@ -105,6 +105,7 @@ def test_a_flattened_parallelogram_stays_one_or_stops(
     assert np.ptp(results["VARIABLE/energy"]) < 1e-3
 
 
+@pytest.mark.slow
 def test_most_runs_pass_the_flat_posture() -> None:
     """Stages are projected there: six of eight do; with stages that drift off at most one."""
     done = 0
