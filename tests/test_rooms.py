@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -87,6 +88,7 @@ def is_module(name: str) -> bool:
     return PACKAGE.joinpath(*name.split(".")).with_suffix(".py").is_file() or is_room(name)
 
 
+@cache
 def imported(module: str) -> set[str]:
     """Modules of the package that a module imports, anywhere in its text."""
     file = PACKAGE.joinpath(*module.split(".")).with_suffix(".py")
@@ -106,23 +108,26 @@ def imported(module: str) -> set[str]:
     }
 
 
-@pytest.mark.parametrize("module", MODULES)
-def test_no_import_goes_up_or_across(module: str) -> None:
+def test_no_import_goes_up_or_across() -> None:
     """Rooms below, and the own one, are all that a module may know."""
-    room = room_of(module)
-    for name in imported(module):
-        other = room_of(name)
-        assert other == room or FLOOR[other] < FLOOR[room], f"{module} imports {name}"
+    for module in MODULES:
+        room = room_of(module)
+        for name in imported(module):
+            other = room_of(name)
+            assert other == room or FLOOR[other] < FLOOR[room], f"{module} imports {name}"
 
 
-@pytest.mark.parametrize("room", FLOOR)
-def test_modules_of_a_room_do_not_import_each_other_in_a_circle(room: str) -> None:
-    inside = {module: imported(module) for module in MODULES if room_of(module) == room}
-    while inside:
-        ready = [module for module, names in inside.items() if not names & inside.keys() - {module}]
-        assert ready, f"a circle among {', '.join(inside)}"
+def test_modules_of_a_room_do_not_import_each_other_in_a_circle() -> None:
+    left = {module: imported(module) for module in MODULES}
+    while left:
+        ready = [
+            module
+            for module, names in left.items()
+            if not any(room_of(name) == room_of(module) for name in names & left.keys() - {module})
+        ]
+        assert ready, f"a circle among {', '.join(left)}"
         for module in ready:
-            del inside[module]
+            del left[module]
 
 
 def test_every_room_has_a_floor_and_every_floor_a_room() -> None:

@@ -1,7 +1,6 @@
 """Habits of this code that a reader may rely on."""
 
 import ast
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,27 +11,35 @@ PACKAGE = Path(adamslite.__file__).parent
 FILES = sorted(path for path in PACKAGE.rglob("*.py") if "decks" not in path.parts)
 
 
-def nodes(file: Path) -> Iterator[ast.AST]:
-    """Walk the syntax tree of a file."""
-    return ast.walk(ast.parse(file.read_text()))
-
-
-@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(PACKAGE)))
-def test_no_text_is_ever_run_as_python(file: Path) -> None:
-    called = {
-        node.func.id if isinstance(node.func, ast.Name) else getattr(node.func, "attr", "")
-        for node in nodes(file)
-        if isinstance(node, ast.Call)
+@pytest.fixture(scope="module")
+def trees() -> dict[str, list[ast.AST]]:
+    """The nodes of the syntax tree of every file."""
+    return {
+        str(file.relative_to(PACKAGE)): [*ast.walk(ast.parse(file.read_text(encoding="utf-8")))]
+        for file in FILES
     }
-    assert not called & {"eval", "exec", "sympify", "parse_expr"}
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(PACKAGE)))
-def test_only_the_command_line_leaves_and_nothing_is_caught_unnamed(file: Path) -> None:
-    for node in nodes(file):
-        assert not (isinstance(node, ast.ExceptHandler) and node.type is None)
-        if file.name not in ("cli.py", "__main__.py"):
-            assert not (isinstance(node, ast.Attribute) and node.attr == "exit")
+def test_no_text_is_ever_run_as_python(trees: dict[str, list[ast.AST]]) -> None:
+    run = {"eval", "exec", "sympify", "parse_expr"}
+    for file, nodes in trees.items():
+        called = {
+            node.func.id if isinstance(node.func, ast.Name) else getattr(node.func, "attr", "")
+            for node in nodes
+            if isinstance(node, ast.Call)
+        }
+        assert not called & run, file
+
+
+def test_only_the_command_line_leaves_and_nothing_is_caught_unnamed(
+    trees: dict[str, list[ast.AST]],
+) -> None:
+    for file, nodes in trees.items():
+        handlers = [node for node in nodes if isinstance(node, ast.ExceptHandler)]
+        assert all(node.type is not None for node in handlers), file
+        if Path(file).name not in ("cli.py", "__main__.py"):
+            names = {node.attr for node in nodes if isinstance(node, ast.Attribute)}
+            assert "exit" not in names, file
 
 
 def test_the_readme_opens_with_the_pipeline_of_the_package() -> None:
