@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 from page_blocks import ROOT, Reader, agree, blocks
-from tiers import slow
+from tiers import fast
 
 from adamslite.language.not_supported import INSTEAD
 
@@ -15,8 +15,9 @@ GUIDES = sorted(
     if page.name != "index.md"
 )
 name = pytest.mark.parametrize("page", GUIDES, ids=lambda page: f"{page.parent.name}/{page.stem}")
-LONG = {"vary-the-accuracy", "choose-an-integrator", "plot"}
-FOLLOWED = [slow(page) if page.stem in LONG else page for page in GUIDES]
+FOLLOWED = fast(
+    GUIDES, *(page for page in GUIDES if page.stem in ("first-deck", "compare-results"))
+)
 
 
 @pytest.mark.parametrize(

@@ -36,6 +36,7 @@ def said(content: Content) -> tuple[object, ...]:
 
 @settings(max_examples=40, deadline=None)
 @given(st.sampled_from(SMALL), st.data())
+@pytest.mark.slow
 def test_reading_again_is_reading_afresh(path: Path, data: st.DataObject) -> None:
     document = Document("x.adm", "deck")
     text = read_text(path).text
