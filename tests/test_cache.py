@@ -290,6 +290,7 @@ for turn in range(60):
 """
 
 
+@pytest.mark.slow
 def test_processes_that_read_write_trim_and_clear_at_once(cache) -> None:
     environment = {**os.environ, "ADAMSLITE_CACHE_SIZE": "0.009"}
     environment["PYTHONPATH"] = str(Path(forms.__file__).parents[2])

@@ -305,6 +305,7 @@ def deck(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     return "spring.adm"
 
 
+@pytest.mark.slow
 def test_a_deck_is_charted(deck: str, capsys: pytest.CaptureFixture) -> None:
     pytest.importorskip("matplotlib")
     assert main(["chart", deck, "--error", "1e-3", "1e-6", "--repeats", "2"]) == 0

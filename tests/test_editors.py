@@ -128,6 +128,7 @@ def test_a_snippet_of_a_function_has_its_form(name: str) -> None:
     assert not found & FORM - {"function-rule"}
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("node"), reason="needs node")
 def test_the_extension_drives_the_server(tmp_path: Path) -> None:
     """In a stand-in for VS Code, which sees what a user of the editor would see."""

@@ -266,6 +266,7 @@ def test_those_runs_reach_every_native_function(called):
     assert reached <= called
 
 
+@pytest.mark.slow
 def test_the_entries_are_translated_whole():
     """Every native function is part of one; each has one name that others may call."""
     texts = [engine.engine_text(name) for name in ENTRIES]

@@ -14,6 +14,7 @@ def test_mutants_are_always_the_same() -> None:
     assert mutant(7) == mutant(7) != mutant(8)
 
 
+@pytest.mark.slow
 def test_mutants_are_read_and_checked(tmp_path: Path) -> None:
     found = {outcome(number, tmp_path) for number in range(FAST)}
     assert found == {"errors", "checked"}

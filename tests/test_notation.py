@@ -98,6 +98,7 @@ def test_no_text_of_the_package_shows_flags_to_python() -> None:
         assert not FLAG.search(in_python(text)), f"{place}: {in_python(text)}"
 
 
+@pytest.mark.slow
 def test_no_fault_of_a_file_speaks_of_flags() -> None:
     """What a file holds is quoted as it is; so only these messages are shown untranslated."""
     for file in sorted(PACKAGE.rglob("*.py")):

@@ -90,6 +90,7 @@ def test_results_are_the_same_with_and_without(deck: str, rule: str) -> None:
     assert (np.abs(reduced.values - whole.values).max(axis=0) < allowed).all()
 
 
+@pytest.mark.slow
 def test_a_planar_mechanism_is_folded_and_others_are_not() -> None:
     """Three parts of a four-bar: 3 coordinates each out of the plane, and of the 20 rows 12 that
     hold them, 3 of which are redundant and left out before; stabilised every row counts twice.
