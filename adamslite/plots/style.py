@@ -97,7 +97,7 @@ METHODS = {
 #: Muted colours of the libraries that the program is compared with.
 LIBRARIES = {
     "scipy": "#a08972", "scikit-sundae": "#7ba08c", "CasADi": "#7b93ad", "Exudyn": "#a283a0",
-    "MuJoCo": "#a0a06a",
+    "MuJoCo": "#a0a06a", "heyoka": "#8b8b98",
 }  # fmt: skip
 EXPLICIT = (0, (4, 2))
 LIMIT = (0, (1, 1.5))

@@ -1,8 +1,15 @@
-"""CasADi's IDAS and CVODES on a chain: symbolic right-hand side, exact sparse Jacobian."""
+"""CasADi's IDAS and CVODES on a chain: symbolic right-hand side, exact sparse Jacobian.
+
+Evaluated by CasADi's own interpreter, or ("jit") as C that a compiler has translated with -O2.
+"""
 
 from __future__ import annotations
 
-from functools import partial
+import contextlib
+import shutil
+import tempfile
+from collections.abc import Callable
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -34,31 +41,59 @@ def right_hand_side(ca: Any, c: Chain) -> Any:
     return ca.Function("f", [t, y], [ca.vec(ca.vertcat(states[3:, :], a))]).expand()
 
 
-def solve(method: str, scene: str, n: int, settings: Settings) -> Solution:
-    """Solve with "idas" or "cvodes" and CasADi's default direct solver."""
+@cache
+def integrator(method: str, jit: bool, scene: str, n: int, rtol: float, atol: float) -> Any:
+    """CasADi's integrator with its default direct solver, kept with the code that it has compiled;
+    the files of the compiler are written to a folder that is deleted.
+    """
     import casadi as ca
 
-    laps = Laps()
     c = chain(scene, n)
     f = right_hand_side(ca, c)
     t, y = ca.SX.sym("t"), ca.SX.sym("y", 6 * n)
     options = {
-        "reltol": settings["rtol"], "abstol": settings["atol"],
-        "max_num_steps": 10_000_000, "newton_scheme": "direct",
+        "reltol": rtol, "abstol": atol, "max_num_steps": 10_000_000, "newton_scheme": "direct",
     }  # fmt: skip
+    if jit:
+        how = {"compiler": compiler(), "flags": ["-O2"]}
+        options |= {"jit": True, "compiler": "shell", "jit_options": how}
     problem = {"t": t, "x": y, "ode": f(t, y)}
-    integrator = ca.integrator("integrator", method, problem, 0.0, float(c.end), options)
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        return ca.integrator("integrator", method, problem, 0.0, float(c.end), options)
+
+
+def solve(method: str, jit: bool, scene: str, n: int, settings: Settings) -> Solution:
+    """Solve with "idas" or "cvodes"."""
+    import casadi  # noqa: F401  an import is no set-up
+
+    laps = Laps()
+    if not jit:
+        integrator.cache_clear()
+    solver = integrator(method, jit, scene, n, settings["rtol"], settings["atol"])
+    c = chain(scene, n)
     setup = laps.lap()
-    end = integrator(x0=np.hstack((c.position, c.velocity)).ravel())["xf"]
+    end = solver(x0=np.hstack((c.position, c.velocity)).ravel())["xf"]
     took = laps.lap()
-    steps = int(integrator.stats().get("nsteps", 0))
+    steps = int(solver.stats().get("nsteps", 0))
     return Solution(np.array(end).reshape(n, 6)[:, :3].copy(), setup, took, steps)
+
+
+def compiler() -> str:
+    """A compiler of C, empty where there is none."""
+    return next((name for name in ("gcc", "clang", "cc") if shutil.which(name)), "")
+
+
+def installed(jit: bool) -> Callable[[], bool]:
+    """Whether CasADi is there, and for ``jit`` a compiler."""
+    found = module_found("casadi")
+    return lambda: found() and (not jit or bool(compiler()))
 
 
 PROGRAMS = [
     Program(
-        f"CasADi {method}", "implicit", CHAINS, tolerances(1e-3, 1e-9), partial(solve, method),
-        module_found("casadi"),
+        f"CasADi {method}{', jit' if jit else ''}", "implicit", CHAINS, tolerances(1e-3, 1e-9),
+        partial(solve, method, jit), installed(jit), compiles=jit,
     )
     for method in ("idas", "cvodes")
+    for jit in (False, True)
 ]  # fmt: skip
