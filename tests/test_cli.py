@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from pkgutil import iter_modules
 
 import numpy as np
 import pytest
@@ -12,7 +13,8 @@ from fakes import ERROR, SIMULATE, fall, install, stopped
 
 import adamslite
 from adamslite.analyses.session import Session
-from adamslite.cli.main import main
+from adamslite.cli import commands
+from adamslite.cli.main import ALL_THREADS, COMMANDS, THREADS, command_parsers, main
 from adamslite.elements.joint import Joint
 from adamslite.elements.part import Part
 from adamslite.errors import UsageError
@@ -248,6 +250,53 @@ def test_help_needs_nothing_heavy() -> None:
         "assert not heavy, heavy\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True, stdout=subprocess.DEVNULL)
+
+
+def test_the_list_of_commands_has_the_first_lines_of_their_modules() -> None:
+    for name, parser in command_parsers().items():
+        assert (parser.description or "").partition("\n")[0] == COMMANDS[name]
+    there = {module.name for module in iter_modules(commands.__path__)}
+    assert there - {"codes", "results_given"} == {*COMMANDS}
+
+
+def test_a_command_imports_no_other_command() -> None:
+    program = (
+        "import sys\n"
+        "from adamslite.cli.main import main\n"
+        "main(['diff', '--help'])\n"
+        "names = {n.rpartition('.')[2] for n in sys.modules if n.startswith('adamslite.cli.c')}\n"
+        "assert names == {'commands', 'codes', 'diff'}, names\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, stdout=subprocess.DEVNULL)
+
+
+@pytest.mark.parametrize(
+    ("given", "seen"),
+    [
+        ({}, "None 1"),
+        ({"OMP_NUM_THREADS": "3"}, "3 None"),
+        ({"OPENBLAS_NUM_THREADS": "2"}, "None 2"),
+    ],
+)
+def test_the_command_line_takes_one_thread_unless_told(given: dict[str, str], seen: str) -> None:
+    """Set for the process of the command; a caller of `main` with arguments keeps his own."""
+    program = (
+        "import os, sys\n"
+        "from adamslite.cli.main import main\n"
+        "shown = lambda: print(*map(os.environ.get, ('OMP_NUM_THREADS', 'OPENBLAS_NUM_THREADS')))\n"
+        "sys.argv = ['adamslite', '--version']\n"
+        "main(sys.argv[1:])\n"
+        "shown()\n"
+        "main()\n"
+        "shown()\n"
+    )
+    threads = (*THREADS, ALL_THREADS)
+    clean = {name: text for name, text in os.environ.items() if name not in threads}
+    run = subprocess.run(
+        [sys.executable, "-c", program], env=clean | given, capture_output=True, text=True
+    )
+    before = " ".join(str(given.get(n)) for n in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"))
+    assert run.stdout.splitlines()[1::2] == [before, seen]
 
 
 def test_a_reader_that_goes_away_is_no_fault(tmp_path: Path) -> None:

@@ -19,42 +19,55 @@ Exit codes: 0 done or equal, 1 outside tolerance or not in the canonical layout,
 3 the deck has errors, 4 the solver stopped early (results so far are written), 5 reading or
 writing failed, 70 a fault of the program itself.
 
-Only argparse and its like are imported here: everything else waits until a command needs it.
+Only argparse and its like are imported here: everything else, the other commands too, waits until
+a command needs it.
 """
 
 import argparse
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from importlib import import_module
+from typing import TypeAlias
 
 from adamslite import __version__
-from adamslite.cli.commands import (
-    cable,
-    cache,
-    chart,
-    check,
-    diff,
-    editors,
-    fmt,
-    help,
-    linear,
-    lsp,
-    plot,
-    solve,
-    verify,
-    view,
-)
 from adamslite.cli.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, STOPPED_EARLY, USAGE
 from adamslite.notation import COMMAND_LINE, notation
 
-COMMANDS = (
-    check, solve, view, plot, diff, verify, linear, chart, cable, cache, fmt, lsp, editors, help,
-)  # fmt: skip
+#: The first line of the docstring of each command: only the one that is called is imported.
+COMMANDS = {
+    "check": "what is wrong with a deck, and what it contains",
+    "solve": "run a deck and write the results",
+    "view": "write a page that shows how it moves, and open it in the browser",
+    "plot": "plot channels of results",
+    "diff": "compare two result files",
+    "verify": "run reference decks and compare",
+    "linear": "eigenvalues and modes of small motions",
+    "chart": "what accuracy costs with each integrator",
+    "cable": "write the deck of a cable scene from a short description",
+    "cache": "what is kept between runs",
+    "fmt": "put decks and command files into the canonical layout",
+    "lsp": (
+        "serve editors: messages while typing, pages, completion, renaming (Language Server "
+        "Protocol)"
+    ),
+    "editors": "write what editors need: colours, snippets, a folder for VS Code",
+    "help": "print the page of a name",
+}
 EXIT_CODES = """exit codes:
   0 done, or equal        1 outside tolerance, or not in the canonical layout
   2 usage                 3 the deck has errors
   4 solver stopped early, results so far are written
   5 reading or writing failed"""
+
+#: How many threads linear algebra takes: variables of the libraries that numpy is built with,
+#: and one that other programs follow, too.
+THREADS = (
+    "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS", "VECLIB_MAXIMUM_THREADS",
+)  # fmt: skip
+ALL_THREADS = "OMP_NUM_THREADS"
+
+Parser: TypeAlias = argparse.ArgumentParser
 
 REPORT = (
     "adamslite: a fault in the program, not in your deck: {fault}\n"
@@ -64,13 +77,27 @@ REPORT = (
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line `argv` (default: of the process) and return the exit code."""
+    if argv is None:
+        _take_one_thread()
+        argv = sys.argv[1:]
     with notation(COMMAND_LINE):
         return _run(argv)
 
 
-def _run(argv: Sequence[str] | None) -> int:
+def _take_one_thread() -> None:
+    """Let linear algebra use one thread, unless the user has said how many.
+
+    A run computes in a thread of its own; those of the library would only wait for work, and
+    waiting takes as much CPU.  A process that imports the package keeps its own setting.
+    """
+    if not any(name in os.environ for name in (*THREADS, ALL_THREADS)):
+        os.environ.update(dict.fromkeys(THREADS, "1"))
+
+
+def _run(argv: Sequence[str]) -> int:
+    word = next((word for word in argv if not word.startswith("-")), "")
     try:
-        args = _parser().parse_args(argv)
+        args = _with_commands([word] if word in COMMANDS else [])[0].parse_args(argv)
     except SystemExit as leaving:
         return int(leaving.code or DONE)
     if args.debug:
@@ -90,12 +117,15 @@ def _run(argv: Sequence[str] | None) -> int:
         return _explain(fault)
 
 
-def command_parsers() -> Mapping[str, argparse.ArgumentParser]:
+def command_parsers() -> Mapping[str, Parser]:
     """The parser of each command, by its name."""
-    return dict(_parser().get_default("parsers"))
+    return dict(_with_commands(COMMANDS)[1])
 
 
-def _parser() -> argparse.ArgumentParser:
+def _with_commands(called: Collection[str]) -> tuple[Parser, Mapping[str, Parser]]:
+    """The parser of the program, and those of the commands that are called; without any, it lists
+    all of them.
+    """
     parser = argparse.ArgumentParser(
         prog="adamslite",
         description="Solve ADAMS/Solver-like decks of cables, pulleys and mechanisms.",
@@ -108,21 +138,23 @@ def _parser() -> argparse.ArgumentParser:
         "--debug", action="store_true", help="show the traceback of a program fault"
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for module in COMMANDS:
-        name = module.__name__.rpartition(".")[2]
-        summary = (module.__doc__ or "").partition("\n")[0]
+    for name in called:
+        module = import_module(f"adamslite.cli.commands.{name}")
         command = commands.add_parser(
             name,
             parents=[shared],
-            help=summary,
+            help=COMMANDS[name],
             description=module.__doc__,
             epilog=EXIT_CODES,
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         module.add_arguments(command)
         command.set_defaults(run=module.run)
-    parser.set_defaults(parsers=commands.choices)
-    return parser
+    if not called:
+        for name, summary in COMMANDS.items():
+            commands.add_parser(name, help=summary)
+    parser.set_defaults(parsers=command_parsers)
+    return parser, commands.choices
 
 
 def _explain(fault: Exception) -> int:

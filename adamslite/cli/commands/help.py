@@ -22,6 +22,7 @@ def run(args: argparse.Namespace) -> int:
     """Print the pages of a name, or the names."""
     from adamslite.manual import lookup
 
-    text = lookup.pages(args.name, args.parsers) if args.name else lookup.contents(args.parsers)
+    parsers = args.parsers()
+    text = lookup.pages(args.name, parsers) if args.name else lookup.contents(parsers)
     sys.stdout.write(text)
     return DONE
