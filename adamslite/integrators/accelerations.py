@@ -3,7 +3,8 @@
     F(t, q, u, a, lam, V, s') = 0,   d2g/dt2 = 0        solved by Newton for (a, lam, V, s')
 
 Its matrix [M - df/da, G^T; G, 0] loses rank when a force that depends on accelerations cancels the
-inertia; :func:`mass_signature` sees that between two steps.
+inertia; :func:`mass_signature` sees that between two steps.  Where nothing couples them,
+accelerations follow body by body (:mod:`adamslite.integrators.unconstrained`).
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from adamslite.integrators.motion_equations import (
     residual,
     spread,
 )
+from adamslite.integrators.unconstrained import invert_bodies, is_free, times_inverse
 from adamslite.native.translate import Reals, native
 
 MAX_ITERATIONS = 12
@@ -61,15 +63,32 @@ def acceleration_matrix(P: Problem) -> None:
 
 
 @native
+def factor_accelerations(P: Problem, L: Plan) -> bool:
+    """The matrix of the accelerations at the workspace's state, factored; False when singular."""
+    if is_free(P):
+        P.count.jacobians += 1
+        P.count.factorizations += 1
+        return invert_bodies(P, P.LA)
+    acceleration_matrix(P)
+    return factor(L, P.LA, P.pivots_a, P.work)
+
+
+@native
+def solve_accelerations(P: Problem, L: Plan) -> None:
+    """Replace ``P.F`` by the solution with the matrix of :func:`factor_accelerations`."""
+    if is_free(P):
+        times_inverse(P, P.LA, P.F)
+    else:
+        solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
+
+
+@native
 def accelerations(
     P: Problem, L: Plan, t: float, q: Reals, u: Reals, a: Reals, z: Reals, sd: Reals
 ) -> bool:
     """Solve for a, lam, V and s' in place; False when the matrix is singular or Newton fails."""
     put_state(P, t, q, u, a, z, sd)
-    acceleration_matrix(P)
-    if not factor(L, P.LA, P.pivots_a, P.work):
-        return False
-    return settle(P, L, u, a, z, sd)
+    return factor_accelerations(P, L) and settle(P, L, u, a, z, sd)
 
 
 @native
@@ -81,7 +100,7 @@ def settle(P: Problem, L: Plan, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool
         residual(P, ACCELERATION, P.F)
         for k in range(P.sizes.nz - P.sizes.n - P.sizes.m - P.sizes.nv - P.sizes.ns):
             P.F[P.sizes.nz - 1 - k] = 0.0
-        solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
+        solve_accelerations(P, L)
         size = correct_rates(P, a, z, sd)
         if not size < HUGE:
             break
@@ -90,8 +109,7 @@ def settle(P: Problem, L: Plan, u: Reals, a: Reals, z: Reals, sd: Reals) -> bool
         if size <= ROUND_OFF or (iteration > 1 and size >= 0.5 * last and size < STALLED):
             return True
         if iteration > 0 and size > SLOW * last:
-            acceleration_matrix(P)
-            if not factor(L, P.LA, P.pivots_a, P.work):
+            if not factor_accelerations(P, L):
                 return False
         last = size
     note_trouble(P, ACCELERATION, P.report.iteration)

@@ -9,8 +9,16 @@ accelerations; nothing is factored.  tau is about the mass centre, in ground axe
 from __future__ import annotations
 
 from adamslite.integrators.contract import BROKEN_START, DONE, LOADS, Problem
-from adamslite.integrators.linalg.blocks import invert3
-from adamslite.integrators.motion_equations import PART, attitude, jacobian, put_time, run_groups
+from adamslite.integrators.linalg.blocks import invert, invert3, replace, replace3
+from adamslite.integrators.linalg.plan import TINY
+from adamslite.integrators.motion_equations import (
+    PART,
+    attitude,
+    jacobian,
+    put_time,
+    rotation_block,
+    run_groups,
+)
 from adamslite.native.translate import Reals, native
 
 # A part's inertia below this share of its largest entry is singular.
@@ -44,6 +52,41 @@ def invert_inertia(P: Problem, inverse: Reals) -> bool:
             if not abs(det) > SINGULAR * top * top * top:
                 return False
     return True
+
+
+@native
+def invert_bodies(P: Problem, A: Reals) -> bool:
+    """Inverses of the blocks of all bodies in dF/da, one behind the other; False when one is
+    singular.
+    """
+    at = 0
+    for b in range(P.sizes.nb):
+        width = P.body[b].width
+        for k in range(width * width):
+            A[at + k] = 0.0
+        for k in range(3):
+            A[at + k * (width + 1)] = P.mass[b]
+        if width == PART:
+            rotation_block(P, b, P.body[b].at, 0.0, 0.0, 1.0, A, at)
+            if not invert(A, at, width, P.pivots_a, 0, P.work):
+                return False
+        elif not abs(invert3(A, at)) > TINY:
+            return False
+        at += width * width
+    return True
+
+
+@native
+def times_inverse(P: Problem, A: Reals, x: Reals) -> None:
+    """x = M^-1 x with the blocks of :func:`invert_bodies`."""
+    at = 0
+    for b in range(P.sizes.nb):
+        width = P.body[b].width
+        if width == PART:
+            replace(A[at:], width, x[P.body[b].first :], P.work)
+        else:
+            replace3(A[at:], x[P.body[b].first :])
+        at += width * width
 
 
 @native

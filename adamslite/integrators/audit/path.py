@@ -12,9 +12,8 @@ Reference: Prenter, Splines and Variational Methods, 1975, section 3.2 (Hermite 
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import acceleration_matrix, settle
+from adamslite.integrators.accelerations import factor_accelerations, settle
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART, attitude, put_motion, put_time
 from adamslite.native.translate import Reals, native
@@ -133,5 +132,4 @@ def solve_on_path(P: Problem, L: Plan, s: float) -> bool:
         rates[k] = old[o] + s * (new[o] - old[o])
         W[o] = rates[k]
     put_motion(P, u, a)
-    acceleration_matrix(P)
-    return factor(L, P.LA, P.pivots_a, P.work) and settle(P, L, u, a, z, rates)
+    return factor_accelerations(P, L) and settle(P, L, u, a, z, rates)

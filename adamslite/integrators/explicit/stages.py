@@ -8,8 +8,8 @@ Accelerations come body by body when nothing ties bodies together, else from the
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import (
-    acceleration_matrix,
     accelerations,
+    factor_accelerations,
     put_state,
     settle,
 )
@@ -17,7 +17,6 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.explicit.control import BODIES, MASSES, TIED, Control
 from adamslite.integrators.explicit.dop853 import RESULT, ROW, TIMES
 from adamslite.integrators.explicit.history import INVERSE, NEXT_STATE, OLD
-from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.projection import project
@@ -139,8 +138,7 @@ def exact_rates(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -
         for i in range(P.sizes.ns):
             P.z[first + i] = y[2 * n + i]
         put_state(P, t, y, y[n:], P.a, P.z, P.rd)
-        acceleration_matrix(P)
-        good = factor(L, P.LA, P.pivots_a, P.work)
+        good = factor_accelerations(P, L)
         if good and P.sizes.m > 0:
             good = project(P, L, y, y[n:])
         if good:
