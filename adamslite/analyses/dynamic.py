@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, fields, replace
+from functools import partial
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from adamslite.analyses.clock.motion_jumps import first_jump
 from adamslite.analyses.clock.step_limits import timetable
 from adamslite.analyses.sensors import EQUAL, require_changing, require_none
 from adamslite.analyses.step_limits import StepLimits
+from adamslite.analyses.worker import Worker
 from adamslite.equations.engine import ints
 from adamslite.equations.system import System
 from adamslite.integrators import contract
@@ -218,17 +219,15 @@ def _watched(
     system: System, entry: str, progress: Progress | None, start: float, end: float
 ) -> int:
     limits = StepLimits(system)
-    # Not Thread.join: in Python 3.11 an interrupted join takes a running thread for finished.
-    with ThreadPoolExecutor(max_workers=1) as pool:
-        running = pool.submit(system.integrate, entry)
-        while not running.done():
-            try:
-                wait([running], timeout=WATCH_INTERVAL)
-                if progress and not running.done():
-                    progress.watch(_state(system, limits, start, end))
-            except KeyboardInterrupt:
-                system.settings.stop = True
-        code = running.result()
+    running = Worker(partial(system.integrate, entry))
+    while running.works:
+        try:
+            running.wait(WATCH_INTERVAL)
+            if progress and running.works:
+                progress.watch(_state(system, limits, start, end))
+        except KeyboardInterrupt:
+            system.settings.stop = True
+    code = running.result()
     try:
         if progress and not system.settings.stop:
             progress.watch(_state(system, limits, start, end))  # it may be one of many short runs

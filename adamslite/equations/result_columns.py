@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import groupby
+
 import numpy as np
 
 from adamslite.equations.system import System
@@ -10,6 +12,8 @@ from adamslite.kernels.code.kinematics import (
     ALPHA,
     ATTITUDE,
     OMEGA,
+    PART_SIZE,
+    POINT_SIZE,
     POSITION,
     VELOCITY,
 )
@@ -20,8 +24,8 @@ from adamslite.model.model import PART, Body
 # Below this sine of theta the first and third angle of the 3-1-3 sequence are one angle.
 ALIGNED = 1e-10
 
-OF_PART = "x y z psi theta phi vx vy vz wx wy wz ax ay az alx aly alz".split()
-OF_POINT = "x y z vx vy vz ax ay az".split()
+OF_PART = ".x .y .z .psi .theta .phi .vx .vy .vz .wx .wy .wz .ax .ay .az .alx .aly .alz".split()
+OF_POINT = ".x .y .z .vx .vy .vz .ax .ay .az".split()
 
 
 def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
@@ -31,39 +35,46 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
     acceleration of its centre-of-mass marker in ground axes; a point mass the translational ones.
     """
     parts: list[np.ndarray] = []
-    for b, body in enumerate(system.model.bodies):
-        w = record[:, system.w_at["BODY", b] :]
-        parts.append(_part(system, b, w) if _turns(body) else _point(body.width, w))
+    at = system.numbering.n_head
+    for width, bodies in groupby(system.model.bodies, key=lambda body: body.width):
+        if width != PART:  # point masses stand in the record as they do here
+            size = POINT_SIZE * len(list(bodies))
+            parts.append(record[:, at : at + size])
+            at += size
+            continue
+        for body in bodies:
+            w = record[:, at : at + PART_SIZE]
+            parts.append(_part(system, body, w) if _turns(body) else _point(w))
+            at += PART_SIZE
     parts.append(record[:, system.nw :])
-    values = np.concatenate(parts, axis=1) if parts else np.zeros((len(record), 0))
-    return column_names(system.kernels), values
+    return column_names(system.kernels), np.concatenate(parts, axis=1)
 
 
 def column_names(kernels: Kernels) -> tuple[str, ...]:
-    """The names of all columns."""
-    names: list[str] = []
-    for body in kernels.model.bodies:
-        label = body.statement.label
-        names += [f"{label}.{c}" for c in (OF_PART if _turns(body) else OF_POINT)]
-    for statement, suffixes in kernels.outputs:
-        names += [f"{statement.label}.{s}" if s else statement.label for s in suffixes]
-    return tuple(names)
+    """The names of all columns; found once."""
+    if kernels.columns is None:
+        names: list[str] = []
+        for body in kernels.model.bodies:
+            label = body.statement.label
+            names += [label + each for each in (OF_PART if _turns(body) else OF_POINT)]
+        for statement, suffixes in kernels.outputs:
+            names += [f"{statement.label}.{s}" if s else statement.label for s in suffixes]
+        kernels.columns = tuple(names)
+    return kernels.columns
 
 
 def _turns(body: Body) -> bool:
     return body.statement.keyword == "PART"
 
 
-def _point(width: int, w: np.ndarray) -> np.ndarray:
-    """Position, velocity and acceleration; a point mass may have been solved as a part."""
-    if width != PART:
-        return w[:, :9]
+def _point(w: np.ndarray) -> np.ndarray:
+    """Position, velocity and acceleration of a point mass that is solved as a part."""
     return np.concatenate([w[:, k : k + 3] for k in (POSITION, VELOCITY, ACCELERATION)], axis=1)
 
 
-def _part(system: System, b: int, w: np.ndarray) -> np.ndarray:
+def _part(system: System, body: Body, w: np.ndarray) -> np.ndarray:
     attitude = w[:, ATTITUDE : ATTITUDE + 9].reshape(-1, 3, 3)
-    cm = system.model.bodies[b].statement.cm
+    cm = body.statement.cm
     if cm is not None:
         attitude = attitude @ system.model.marker(cm).axes
     columns = [

@@ -96,6 +96,7 @@ class System:
         self._bodies()
         self._scalars()
         self._tables()
+        self._parts = [(name, self._keeper(name)) for name in contract.Problem.references]
 
     def drop(self, rows: list[int]) -> None:
         """Leave out redundant constraint rows (counted from the first multiplier): lam = mu = 0."""
@@ -324,10 +325,8 @@ class System:
 
     def records(self) -> tuple[contract.Problem, Plan]:
         """The arrays as native code takes them."""
-        for name in contract.Problem.references:
-            setattr(self.problem, name, getattr(self._keeper(name), name))
-        for name in Plan.fields:
-            setattr(self.order, name, self.elimination.plan[name])
+        self.problem.refer(getattr(part, name) for name, part in self._parts)
+        self.order.refer(map(self.elimination.plan.__getitem__, Plan.references))
         return self.problem, self.order
 
 

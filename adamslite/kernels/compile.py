@@ -55,7 +55,8 @@ class ShapeGroup:
 class Kernels:
     """A model with its compiled groups and the values it writes.
 
-    ``outputs``: (statement, result names) in the order of the output rows.
+    ``outputs``: (statement, result names) in the order of the output rows.  ``columns``: names of
+    the columns of results, once they are known.
     """
 
     model: Model
@@ -63,6 +64,7 @@ class Kernels:
     outputs: list[tuple[Statement, tuple[str, ...]]]
     addresses: dict[str, int]
     compiled: int
+    columns: tuple[str, ...] | None = None
 
 
 LEVELS = ("reactions", "position", "velocity", "acceleration")

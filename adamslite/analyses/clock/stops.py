@@ -41,6 +41,8 @@ def edges(system: System, clock: Clock, times: np.ndarray) -> tuple[np.ndarray, 
 def merged(found: np.ndarray, times: np.ndarray) -> np.ndarray:
     """Times inside the run and its end, sorted, without those that differ by round-off."""
     start, end = float(times[0]), float(times[-1])
+    if (found == end).all():
+        return np.array([end])
     same = SAME * (end - start)
     near = times[np.abs(times[:, None] - found).argmin(axis=0)]
     found = np.where(np.abs(near - found) <= same, near, found)

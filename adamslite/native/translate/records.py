@@ -21,7 +21,7 @@ from __future__ import annotations
 import inspect
 import operator
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeAlias, TypeGuard, TypeVar
 
 import numpy as np
@@ -227,6 +227,13 @@ class Record:
             self._ints[:] = 0
         else:
             raise TypeError("a record is set to another one, or to 0")
+
+    def refer(self, arrays: Iterable[Any]) -> None:
+        """Hold these arrays and rows, in the order of ``references``: most are there already."""
+        kept = self._kept
+        for name, value in zip(self.references, arrays, strict=True):
+            if kept[self.fields[name].at] is not value:
+                setattr(self, name, value)
 
     def copy(self) -> Self:
         """Another record with the same numbers."""
