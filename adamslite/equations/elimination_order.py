@@ -98,19 +98,21 @@ class _Graph:
             for each in before:
                 self.frees.setdefault(each, []).append(node)
         self.done = [False] * count
-        self.heap: list[tuple[int, int]] = []
+        self.heap: list[tuple[int, int, int]] = []
+        self.offered = 0
         for node in range(count):
             self.offer(node)
 
     def offer(self, node: int) -> None:
         """Put a node that waits for nothing on the heap with its present degree."""
         if node not in self.waiting and not self.done[node]:
-            heapq.heappush(self.heap, (len(self.near[node]), node))
+            self.offered += 1
+            heapq.heappush(self.heap, (len(self.near[node]), self.offered, node))
 
     def least(self) -> int:
         """The node of least degree; when all wait in a circle, the least coupled of those."""
         while self.heap:
-            degree, node = heapq.heappop(self.heap)
+            degree, _, node = heapq.heappop(self.heap)
             if not self.done[node] and degree == len(self.near[node]):
                 return node
         node = min(self.waiting, key=lambda n: len(self.near[n]))
