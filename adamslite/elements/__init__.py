@@ -1,7 +1,9 @@
-"""The statements, one per file; importing this package registers them all."""
+"""The statements, one per file; :data:`adamslite.language.statement.STATEMENTS` finds them."""
 
-from importlib import import_module
+from collections.abc import Iterator
 from pkgutil import iter_modules
 
-for _module in iter_modules(__path__):
-    import_module(f"{__name__}.{_module.name}")
+
+def modules() -> Iterator[str]:
+    """Names of all modules here; the import of one registers the statements that it holds."""
+    return (f"{__name__}.{each.name}" for each in iter_modules(__path__))

@@ -34,6 +34,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from inspect import cleandoc
 
+from adamslite.language.register import Register
 from adamslite.symbolic.types import Expr
 
 NUMERIC_KINDS = ("number", "constant", "vector", "past")
@@ -152,14 +153,14 @@ class Function:
         return found
 
 
-FUNCTIONS: dict[str, Function] = {}
+FUNCTIONS: Register[Function] = Register("adamslite.functions")
 INTERNAL: dict[str, Function] = {}
 """Functions that only statements use: no deck has them."""
 
 
 def find_function(name: str) -> Function:
     """The function of that name, internal or not."""
-    return FUNCTIONS.get(name) or INTERNAL[name]
+    return INTERNAL.get(name) or FUNCTIONS[name]
 
 
 def function(
@@ -179,12 +180,14 @@ def function(
     colon = bool(words) and words[0].endswith(":")
 
     def register(body: Body) -> Body:
-        if name in FUNCTIONS:
-            raise ValueError(f"function {name} is registered twice")
         parameters = tuple(_parameter(word.removesuffix(":")) for word in words)
-        (INTERNAL if internal else FUNCTIONS)[name] = Function(
+        made = Function(
             name, parameters, body, cleandoc(body.__doc__ or ""), colon, edges, order, rule
         )
+        if internal:
+            INTERNAL[name] = made
+        else:
+            FUNCTIONS.enter(name, made, body.__module__)
         return body
 
     return register

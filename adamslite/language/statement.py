@@ -19,8 +19,9 @@ from typing import Any, ClassVar, TypeAlias, TypedDict, TypeVar, Unpack
 from adamslite.language.diagnostics import Span, Spans
 from adamslite.language.expression import Node
 from adamslite.language.interfaces import DrawnModel, Key, Lookup
+from adamslite.language.register import Register
 
-STATEMENTS: dict[str, type[Statement]] = {}
+STATEMENTS: Register[type[Statement]] = Register("adamslite.elements")
 INTERNAL: dict[str, type[Statement]] = {}
 """Statements that only others bring with them: no deck has them."""
 NO_SPANS = Spans()
@@ -312,7 +313,7 @@ class Statement:
 
 def class_of(keyword: str) -> type[Statement]:
     """The class of a statement, internal or not."""
-    return STATEMENTS.get(keyword) or INTERNAL[keyword]
+    return INTERNAL.get(keyword) or STATEMENTS[keyword]
 
 
 def expressions(statement: Statement) -> list[Node]:
@@ -380,7 +381,10 @@ def statement(
         made.ends, made.ignored, made.planned, made.body = ends, ignored, planned, body
         made.data, made.inert = data, inert
         made.inert_fields = tuple(name for name, each in made.arguments.items() if each.inert)
-        (INTERNAL if internal else STATEMENTS)[keyword] = made
+        if internal:
+            INTERNAL[keyword] = made
+        else:
+            STATEMENTS.enter(keyword, made, cls.__module__)
         return made
 
     return register

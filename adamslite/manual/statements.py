@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from inspect import cleandoc, getattr_static
 
-from adamslite import elements  # noqa: F401  register what there is to describe
 from adamslite.language.expression import Node, to_text
 from adamslite.language.not_supported import COMMANDS, INSTEAD
 from adamslite.language.not_supported import STATEMENTS as MISSING

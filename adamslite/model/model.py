@@ -16,7 +16,6 @@ from typing import Any, TypeVar, overload
 
 import numpy as np
 
-from adamslite import elements  # noqa: F401  registers the statements
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.marker import Marker

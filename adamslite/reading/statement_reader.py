@@ -10,7 +10,6 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-import adamslite.elements  # noqa: F401  registers the statements
 from adamslite.deck.deck import Deck
 from adamslite.deck.names import Key, Names
 from adamslite.deck.redefinition import Command, Redefinition
