@@ -2,8 +2,8 @@
 
 AUTO, with rho the largest circular frequency of the linearised scene and dt the output step:
 
-1. variables that are solved for, DIFF states, forces of accelerations and bodies without inertia
-   may be as fast as they like: implicit;
+1. variables that are solved for, DIFF states, forces of accelerations other than added mass, and
+   bodies without inertia may be as fast as they like: implicit;
 2. otherwise, tied by constraints or not, explicit while rho dt stays below ``STEPS_WORTH`` radians:
    VERLET for free point masses with ERROR of ``COARSE`` and above, RKF45 for the rest;
 3. implicit: RADAU below ``COARSE``, GSTIFF for bodies without inertia; from ``COARSE`` on HHT for
@@ -94,6 +94,13 @@ def what_is_solved(system: System) -> str:
     return ""
 
 
+def has_effective_masses(system: System) -> bool:
+    """Whether forces that depend on accelerations are added mass, and nothing else is solved for:
+    accelerations then follow body by body.
+    """
+    return bool(system.sizes.added_mass) and system.nz == system.n
+
+
 def what_is_light(system: System) -> str:
     """A body without mass or inertia in some direction, as words; empty when there is none."""
     for body in system.model.bodies:
@@ -144,7 +151,8 @@ def fastest(system: System, time: float) -> float:
 def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, str]:
     """Method and reason."""
     implicit = "GSTIFF" if error >= COARSE else "RADAU"
-    if obstacle := what_is_solved(system):
+    obstacle = what_is_solved(system)
+    if obstacle and not has_effective_masses(system):
         return implicit, f"implicit, because {obstacle}"
     if obstacle := what_is_light(system):
         return "GSTIFF", f"implicit, because {obstacle}"

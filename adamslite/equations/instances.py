@@ -69,6 +69,8 @@ class Instances:
             phase = contract.RATE_ROWS
         if group.face == "loads" and hasattr(group.instances[0][0], "stored"):
             phase |= contract.ELASTIC
+        if group.face == "loads" and group.meta["mass"] and group.meta["added_mass"]:
+            phase |= contract.ADDED_MASS
         ints = np.array(
             [self._integers(group, b, n) for n, (_, b) in enumerate(group.instances)],
             dtype=np.int64,

@@ -185,11 +185,13 @@ class System:
         for b in range(len(self.model.bodies)):
             body += [self.widths[b], self.starts[b], self.w_at["BODY", b], self.blocks.offset(b, b)]
         self.body = Rows(contract.BodyRow, ints(body))
-        mass = any(g.meta["mass"] for g in self.kernels.groups if g.face in ("loads", "equation"))
+        forces = [g for g in self.kernels.groups if g.face in ("loads", "equation")]
+        massive = [g.meta["added_mass"] for g in forces if g.meta["mass"]]
         facts = {
             "nb": len(self.model.bodies), "n": self.n, "m": self.m, "nv": self.nv, "ns": self.ns,
             "nw": self.nw, "ng": self.group.size, "si2": self.numbering.stabilised,
-            "implicit_mass": mass, "n_out": self.instances.n_out, "nz": self.nz,
+            "implicit_mass": bool(massive), "added_mass": bool(massive) and all(massive),
+            "n_out": self.instances.n_out, "nz": self.nz,
             "holonomic": self.holonomic, "n_head": self.numbering.n_head,
             "clocks": len(self.guarded["clock"]), "watched": len(self.guarded["watch"]),
             "zones": len(self.guarded["zone"]),

@@ -10,6 +10,7 @@ accelerations follow body by body (:mod:`adamslite.integrators.unconstrained`).
 from __future__ import annotations
 
 from adamslite.integrators.contract import ACCELERATION, MODE_DYNAMICS, Problem
+from adamslite.integrators.effective_mass import effective_masses, signature_of_masses
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.linalg.blocks import factor, signature, solve
 from adamslite.integrators.linalg.plan import HUGE, Plan
@@ -142,6 +143,11 @@ def correct_rates(P: Problem, a: Reals, z: Reals, sd: Reals) -> float:
 @native
 def mass_signature(P: Problem, L: Plan, found: Reals) -> int:
     """Negative pivots of the acceleration matrix at the workspace's state; -1 when singular."""
+    if P.sizes.added_mass and P.sizes.nz == P.sizes.n:
+        P.count.jacobians += 1
+        P.count.factorizations += 1
+        effective_masses(P, P.J)
+        return signature_of_masses(P, P.J, found, LATE)
     acceleration_matrix(P)
     return signature(L, P.LA, P.pivots_a, P.work, found, LATE)
 

@@ -79,7 +79,8 @@ from adamslite.native.translate import Ints, Reals, Record, Rows
     OUTPUTS,
     STORED_ENERGY,
     ELASTIC,
-) = (1 << k for k in range(11))
+    ADDED_MASS,
+) = (1 << k for k in range(12))
 INDEX3 = LOADS | REACTIONS | POSITION_ROWS | RATE_ROWS | ROWS
 STABILISED = INDEX3 | VELOCITY_ROWS
 STATIC = LOADS | REACTIONS | POSITION_ROWS | ROWS
@@ -133,8 +134,9 @@ MODE_STATICS = 5.0
 class Sizes(Record):
     """How many of what a model has.
 
-    ``si2``: the stabilised form; ``implicit_mass``: loads depend on accelerations; ``n_head``:
-    entries of the workspace before those of bodies.
+    ``si2``: the stabilised form; ``implicit_mass``: loads depend on accelerations, as
+    ``added_mass`` linearly on those of their own body alone; ``n_head``: entries of the workspace
+    before those of bodies.
     """
 
     nb: int
@@ -146,6 +148,7 @@ class Sizes(Record):
     ng: int
     si2: bool
     implicit_mass: bool
+    added_mass: bool
     n_out: int
     nz: int
     holonomic: int

@@ -239,6 +239,21 @@ def rotation_block(
 
 
 @native
+def put_mass(P: Problem, b: int, J: Reals, at: int) -> None:
+    """The mass matrix of a body, 3 x 3 or 6 x 6, at ``at``."""
+    width = P.body[b].width
+    for k in range(width * width):
+        J[at + k] = 0.0
+    for k in range(3):
+        J[at + k * (width + 1)] = P.mass[b]
+    if width == PART:
+        rotated_inertia(P, b, P.body[b].at, P.work)
+        for i in range(3):
+            for j in range(3):
+                J[at + 6 * (3 + i) + 3 + j] = P.work[3 * i + j]
+
+
+@native
 def inertia_blocks(P: Problem, cq: float, cu: float, ca: float, J: Reals) -> None:
     """Derivative of the inertia forces, each in its body's own block."""
     body = P.body

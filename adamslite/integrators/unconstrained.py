@@ -2,24 +2,30 @@
 
     x'' = f/m + g,        w' = R I^-1 (R^T tau - w_b x I w_b),    w_b = R^T w
 
-for models without constraints, loops of variables, DIFF states and forces that depend on
-accelerations; nothing is factored.  tau is about the mass centre, in ground axes; I in part axes.
+for models without constraints, loops of variables and DIFF states; nothing is factored.  tau is
+about the mass centre, in ground axes; I in part axes.  Forces that depend on accelerations must be
+added mass; the equations of bodies then have their effective masses
+(:mod:`adamslite.integrators.effective_mass`).
 """
 
 from __future__ import annotations
 
 from adamslite.integrators.contract import BROKEN_START, DONE, LOADS, Problem
+from adamslite.integrators.effective_mass import effective_masses
 from adamslite.integrators.linalg.blocks import invert, invert3, replace, replace3
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.integrators.motion_equations import (
     PART,
     attitude,
+    inertia_forces,
     jacobian,
+    put_mass,
+    put_motion,
+    put_pose,
     put_time,
-    rotation_block,
     run_groups,
 )
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, copy, native
 
 # A part's inertia below this share of its largest entry is singular.
 SINGULAR = 1e-12
@@ -31,7 +37,9 @@ NOTHING = 1e-200
 @native
 def is_free(P: Problem) -> bool:
     """Whether accelerations follow body by body."""
-    if P.sizes.implicit_mass or P.sizes.m + P.sizes.nv + P.sizes.ns > 0:
+    if P.sizes.implicit_mass and not P.sizes.added_mass:
+        return False
+    if P.sizes.m + P.sizes.nv + P.sizes.ns > 0:
         return False
     for b in range(P.sizes.nb):
         if not P.mass[b] > 0.0:
@@ -60,14 +68,15 @@ def invert_bodies(P: Problem, A: Reals) -> bool:
     singular.
     """
     at = 0
+    if P.sizes.added_mass:
+        effective_masses(P, P.J)
     for b in range(P.sizes.nb):
         width = P.body[b].width
-        for k in range(width * width):
-            A[at + k] = 0.0
-        for k in range(3):
-            A[at + k * (width + 1)] = P.mass[b]
+        if P.sizes.added_mass:
+            copy(A[at:], P.J[P.body[b].block :], width * width)
+        else:
+            put_mass(P, b, A, at)
         if width == PART:
-            rotation_block(P, b, P.body[b].at, 0.0, 0.0, 1.0, A, at)
             if not invert(A, at, width, P.pivots_a, 0, P.work):
                 return False
         elif not abs(invert3(A, at)) > TINY:
@@ -110,12 +119,34 @@ def put_free(P: Problem, t: float, q: Reals, u: Reals) -> None:
 
 
 @native
-def free_accelerations(P: Problem, t: float, q: Reals, u: Reals, inverse: Reals, a: Reals) -> None:
-    """a (n,) at positions q, velocities u."""
+def free_accelerations(P: Problem, t: float, q: Reals, u: Reals, inverse: Reals, a: Reals) -> bool:
+    """a (n,) at positions q, velocities u; False when an effective mass vanishes."""
+    if P.sizes.added_mass:
+        return accelerations_of_effective(P, t, q, u, a)
     put_free(P, t, q, u)
     run_groups(P, LOADS, P.F)
     P.count.residuals += 1
     divide_by_mass(P, P.F, inverse, 1.0, a)
+    return True
+
+
+@native
+def accelerations_of_effective(P: Problem, t: float, q: Reals, u: Reals, a: Reals) -> bool:
+    """a = -E^-1 F(0) at positions q, velocities u; False when an effective mass vanishes."""
+    for i in range(P.sizes.n):
+        a[i] = 0.0
+    put_time(P, t)
+    put_pose(P, q)
+    put_motion(P, u, a)
+    inertia_forces(P, P.F)
+    run_groups(P, LOADS, P.F)
+    P.count.residuals += 1
+    if not invert_bodies(P, P.LA):
+        return False
+    times_inverse(P, P.LA, P.F)
+    for i in range(P.sizes.n):
+        a[i] = 0.0 - P.F[i]
+    return True
 
 
 @native
@@ -133,8 +164,13 @@ def mass_tables(P: Problem, inverse: Reals, weight: Reals) -> bool:
 @native
 def mass_accelerations(
     P: Problem, t: float, q: Reals, u: Reals, inverse: Reals, weight: Reals, a: Reals
-) -> None:
-    """a (n,) of point masses, with the tables made before; unknowns and workspace are in a row."""
+) -> bool:
+    """a (n,) of point masses, with the tables made before; unknowns and workspace are in a row.
+
+    False when an effective mass vanishes.
+    """
+    if P.sizes.added_mass:
+        return accelerations_of_effective(P, t, q, u, a)
     n, W, F = P.sizes.n, P.W[P.body[0].at :], P.F
     put_time(P, t)
     for b in range(P.sizes.nb):
@@ -148,6 +184,7 @@ def mass_accelerations(
     P.count.residuals += 1
     for i in range(n):
         a[i] = inverse[i] * F[i]
+    return True
 
 
 @native
@@ -188,6 +225,8 @@ def spectrum(P: Problem) -> int:
     """
     if not invert_inertia(P, P.history):
         return BROKEN_START
+    if P.sizes.added_mass and not invert_bodies(P, P.D):
+        return BROKEN_START
     P.report.stiffness, P.report.damping = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
     return DONE
 
@@ -209,7 +248,11 @@ def radius(P: Problem, cq: float, cu: float) -> float:
             x[i] *= w
             y[i] = 0.0
         multiply(P, x, y)
-        divide_by_mass(P, y, inverse, 0.0, x)
+        if P.sizes.added_mass:
+            times_inverse(P, P.D, y)
+            copy(x, y, n)
+        else:
+            divide_by_mass(P, y, inverse, 0.0, x)
         size = 0.0
         for i in range(n):
             size += x[i] * x[i]

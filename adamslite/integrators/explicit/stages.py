@@ -90,12 +90,11 @@ def rates_at(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -> b
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     inverse = P.history[INVERSE * (2 * n) :]
     if C.kind == MASSES:
-        mass_accelerations(P, t, y, y[n:], inverse, inverse[n:], k)
-        return True
+        return mass_accelerations(P, t, y, y[n:], inverse, inverse[n:], k)
     if C.kind == BODIES:
-        free_accelerations(P, t, y, y[n:], inverse, k[n:])
+        good = free_accelerations(P, t, y, y[n:], inverse, k[n:])
         vector_rates(P, y, y[n:], k)
-        return True
+        return good
     for i in range(P.sizes.ns):
         P.z[first + i] = y[2 * n + i]
     # Once the matrix of the step's start was too old for a stage, each of the rest gets its own.
@@ -129,7 +128,7 @@ def exact_rates(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     good = True
     if C.kind != TIED:
-        rates_at(P, L, C, t, y, k)
+        good = rates_at(P, L, C, t, y, k)
         first = 0 if C.kind == MASSES else n
         for i in range(n):
             P.a[i] = k[first + i]
