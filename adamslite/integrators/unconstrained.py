@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import BROKEN_START, DONE, LOADS, Problem
 from adamslite.integrators.effective_mass import effective_masses
-from adamslite.integrators.linalg.blocks import invert, invert3, replace, replace3
+from adamslite.integrators.linalg.blocks import determinant3, invert, invert3, replace, replace3
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.integrators.motion_equations import (
     PART,
@@ -79,7 +79,9 @@ def invert_bodies(P: Problem, A: Reals) -> bool:
         if width == PART:
             if not invert(A, at, width, P.pivots_a, 0, P.work):
                 return False
-        elif not abs(invert3(A, at)) > TINY:
+        elif abs(determinant3(A, at)) > TINY:
+            invert3(A, at)
+        else:
             return False
         at += width * width
     return True

@@ -22,6 +22,15 @@ from adamslite.native.translate import Ints, Reals, native
 
 
 @native
+def determinant3(A: Reals, o: int) -> float:
+    """Determinant of the 3 x 3 block at ``o``."""
+    a, b, c = A[o], A[o + 1], A[o + 2]
+    d, e, f = A[o + 3], A[o + 4], A[o + 5]
+    g, h, i = A[o + 6], A[o + 7], A[o + 8]
+    return a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
+
+
+@native
 def invert3(A: Reals, o: int) -> float:
     """Replace the 3 x 3 block at ``o`` with its inverse; returns its determinant."""
     a, b, c = A[o], A[o + 1], A[o + 2]
