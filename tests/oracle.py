@@ -13,7 +13,7 @@ import numpy as np
 from frame_constraints import any_rotation
 from newton_euler import Frame
 from random_mechanisms import SYSTEMS, Mechanism, _add_body, _place, _start, text
-from scenes import quick
+from scenes import compiled
 
 import adamslite as al
 
@@ -74,7 +74,7 @@ class Flight:
         kept, made.lines = made.lines, list(statements)
         deck = text(made, end, steps, "RADAU, ERROR=1E-10")
         made.lines = kept
-        return al.simulate(quick(deck))
+        return al.simulate(compiled(deck))
 
     def accelerations(self, loads: list[tuple[int, Array, Array, Array]]) -> Array:
         """(BODIES, 6) a and alpha for loads (body, point, force, torque) in ground axes."""

@@ -15,8 +15,8 @@ from adamslite.equations.system import System
 from adamslite.integrators import motion_equations
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.kernels.compile import Kernels
-from adamslite.native import compiler, translate
 from adamslite.native import compiler as code
+from adamslite.native import translate
 from adamslite.native.translate import Record
 from adamslite.native.translate.statements import translate as assembly_of
 from adamslite.results.results import Results
@@ -76,14 +76,14 @@ def done(deck: str, end: float, steps: int = 10, **options: Any) -> Results:
     return results
 
 
-def quick(deck: str) -> Kernels:
-    """A deck that is evaluated a few times only, compiled at the quick level."""
-    return al.compile_model(al.assemble(al.read(deck)), speed=compiler.QUICK)
+def compiled(deck: str) -> Kernels:
+    """The kernels of a deck, given as text."""
+    return al.compile_model(al.assemble(al.read(deck)))
 
 
 def system(deck: str, stabilised: bool = True) -> System:
     """The numbered equations of a deck, to look at them."""
-    return System(quick(deck), stabilised)
+    return System(compiled(deck), stabilised)
 
 
 def added_mass(share: float) -> str:

@@ -12,7 +12,7 @@ import pytest
 from frame_constraints import GEARS, JOINTS, PRIMITIVES, about
 from newton_euler import Frame, Tie
 from random_mechanisms import SYSTEMS, leaves, make, text
-from scenes import quick
+from scenes import compiled
 from tiers import fast
 
 import adamslite as al
@@ -32,7 +32,7 @@ def attitude(results: al.Results, part: str, row: int) -> np.ndarray:
 def test_motion_and_reactions_of_a_random_mechanism(seed: int) -> None:
     made = make(seed)
     assembly, length = made.assembly, made.length
-    results = al.simulate(quick(text(made, END, STEPS, METHODS[seed % 2])))
+    results = al.simulate(compiled(text(made, END, STEPS, METHODS[seed % 2])))
     assert results.outcome is Outcome.DONE, results.message
     if not leaves(made):
         assert "assembled" not in results.meta and "start speeds" not in results.meta

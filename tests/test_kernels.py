@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from scenes import (
     GROUND,
-    PENDULUM,
     assert_derivatives,
     chain,
     compare_derivatives,
@@ -23,7 +22,6 @@ from adamslite.functions.vectors import VECTORS
 from adamslite.integrators import contract
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.routines import USER
-from adamslite.native.compiler import FULL, QUICK
 
 BODIES = (
     GROUND
@@ -236,12 +234,3 @@ def test_results_do_not_depend_on_ids_or_on_the_order_of_statements():
     back = done("\n".join([title, *ground, *rest[::-1], "END\n"]), 0.2, 4, error=1e-6)
     for name in ("PART/2.x", "PART/3.phi", "JOINT/1.fx", "SFORCE/1.f"):
         np.testing.assert_allclose(back[name], there[name], rtol=1e-7, atol=1e-8)
-
-
-def test_quick_kernels_have_names_of_their_own_and_the_same_values():
-    """Levels of optimisation differ by round-off, and neither is taken for the other."""
-    model = al.assemble(al.read(PENDULUM))
-    full, fast = (al.compile_model(model, speed=speed) for speed in (FULL, QUICK))
-    assert len(full.addresses) == len(fast.addresses) == len(full.addresses | fast.addresses) / 2
-    ends = [al.simulate(kernels, end=0.5, steps=1).values[-1] for kernels in (full, fast)]
-    np.testing.assert_allclose(*ends, rtol=1e-9, atol=1e-9)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from constraint_decks import BODIES
 from newton_matrix import matrix_error
-from scenes import quick
+from scenes import compiled
 
 from adamslite.analyses.simulation import simulate
 from adamslite.model.geometry import rotation_313
@@ -81,7 +81,7 @@ LAWS = {
 
 def start_of(statements: str) -> tuple[Model, Results]:
     """Two skew bodies in motion with these statements: the model and its state at t = 0."""
-    kernels = quick(f"{MOVING}{statements}\nEND\n")
+    kernels = compiled(f"{MOVING}{statements}\nEND\n")
     return kernels.model, simulate(kernels, end=1e-4, steps=1)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 from oracle import Flight, Marker, pair, projected_angles, reported, seen, velocity
-from scenes import quick
+from scenes import compiled
 
 import adamslite as al
 from adamslite.elements.bases.wrench import Wrench
@@ -307,7 +307,7 @@ def check_friction(kind: str, effect: str, vs: float, more: str, used: set[str])
     deck = RUBBING.format(
         kind=joint, j=4 if across else 1, vs=vs, more=more, start=start, kgrav=kgrav
     )
-    results = al.simulate(quick(deck))
+    results = al.simulate(compiled(deck))
 
     def six_of(name: str) -> Array:
         return np.array([results[f"{name}.{c}"][0] for c in ("fx", "fy", "fz", "tx", "ty", "tz")])

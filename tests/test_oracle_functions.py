@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from frame_constraints import about
 from oracle import Flight, Marker, projected_angles, reported, seen, velocity
-from scenes import quick
+from scenes import compiled
 from tiers import slow
 
 import adamslite as al
@@ -361,7 +361,7 @@ def test_six_motions_carry_a_part_where_they_say(how: str, off: float, scale: fl
         f"MOTION/{n}, I=2, J=1, {name}, " + how.format(a=a, b=b)
         for n, (name, (a, b)) in enumerate(law.items(), 1)
     )
-    results = al.simulate(quick(HELD.format(motions=motions)))
+    results = al.simulate(compiled(HELD.format(motions=motions)))
     J = about(2, 0.4) @ about(0, 0.7) @ about(2, -0.3)
     for row, t in enumerate(results.time):
         at = {name: a + b * t for name, (a, b) in law.items()}

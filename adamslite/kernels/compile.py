@@ -48,7 +48,6 @@ class ShapeGroup:
     instances: list[tuple[Statement, Binding]] = field(default_factory=list)
     code: bytes = b""
     meta: Meta = field(default_factory=dict)
-    speed: int = compiler.FULL
 
 
 @dataclass
@@ -75,15 +74,13 @@ def compile_model(
     model: Model,
     progress: Progress | None = None,
     audited: bool = False,
-    speed: int = compiler.FULL,
 ) -> Kernels:
     """Bind every statement, compile the shapes not seen before, link all of them.
 
-    ``audited``: what elastic elements store too.  ``speed``: :data:`compiler.QUICK` takes a third
-    of LLVM's time, and gives the same values but for round-off.
+    ``audited``: what elastic elements store too.
     """
     groups: dict[Tree, ShapeGroup] = {}
-    add = partial(_add, groups, model, speed=speed)
+    add = partial(_add, groups, model)
     outputs = []
     with without_collection():
         for statement in model.deck.statements:
@@ -121,10 +118,7 @@ def _output(statement: Statement) -> Iterator[str]:
         yield "output"
 
 
-def _add(
-    groups: dict[Tree, ShapeGroup], model: Model, statement: Statement, face: str,
-    speed: int = compiler.FULL,
-) -> None:  # fmt: skip
+def _add(groups: dict[Tree, ShapeGroup], model: Model, statement: Statement, face: str) -> None:
     binder = Binder(model, inline_signals=face == "signal")
     try:
         fields, own = _bound(binder, statement, face)
@@ -134,13 +128,11 @@ def _add(
     rate = held and isinstance(statement, Constraint) and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
     if key not in groups:
-        name = "k" + compiler.digest(
-            repr(key), version_of("kernels.compile"), algebra(), f"O{speed}"
-        )
+        name = "k" + compiler.digest(repr(key), version_of("kernels.compile"), algebra())
         level = LEVELS.index(face) - 1 if face in LEVELS else 0
         level -= level > 0 and rate
         write = FaceWriter(binder, statement.keyword, face, fields, own, level)
-        groups[key] = ShapeGroup(face, name, write, speed=speed)
+        groups[key] = ShapeGroup(face, name, write)
     groups[key].instances.append((statement, binder.instance))
 
 
@@ -241,9 +233,7 @@ def _compile(group: ShapeGroup, progress: Progress | None) -> bool:
         return made[0]
 
     group.meta = recall_json(f"{group.name}.json", lambda: text_and_meta()[1])
-    group.code = recall(
-        f"{group.name}.o", lambda: compiler.object_code(text_and_meta()[0], group.speed)
-    )
+    group.code = recall(f"{group.name}.o", lambda: compiler.straight_code(text_and_meta()[0]))
     return bool(made)
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from adamslite.native import processor
@@ -29,23 +29,44 @@ def digest(*parts: str) -> str:
 INLINED = 100
 
 
-#: Levels of optimisation: for code that runs often, and for code that runs a few times only.
-FULL, QUICK = 3, 1
+def object_code(text: str) -> bytes:
+    """Compile LLVM assembly to object code, with all that LLVM can do for functions and loops."""
+    return _compiled(text, 3, lambda passes: passes.getModulePassManager())
 
 
-def object_code(text: str, speed: int = FULL) -> bytes:
-    """Compile LLVM assembly to object code at a level of optimisation."""
+def straight_code(text: str) -> bytes:
+    """The same for long bodies without branches, whose equal parts are numbered already.
+
+    Sums and products are rearranged, no more, unless native functions stand beside the bodies.
+    Vectors made of scalars (SLP) take two thirds of LLVM's time on such bodies, which run slower
+    for them.
+    """
+    import llvmlite.binding as llvm
+
+    def passes_of(passes: Any) -> Any:
+        if "define internal" in text:
+            return passes.getModulePassManager()
+        manager = llvm.create_new_module_pass_manager()
+        manager.add_instruction_combine_pass()
+        manager.add_reassociate_pass()
+        return manager
+
+    return _compiled(text, 1, passes_of)
+
+
+def _compiled(text: str, level: int, passes_of: Callable[[Any], Any]) -> bytes:
+    """Object code by the passes that ``passes_of`` takes from a builder of passes."""
     import llvmlite.binding as llvm
 
     machine = processor.target_machine()
     module = llvm.parse_assembly(text)
     module.triple = machine.triple
     module.data_layout = str(machine.target_data)
-    tuning = llvm.create_pipeline_tuning_options(speed_level=speed)
-    tuning.loop_vectorization = tuning.slp_vectorization = speed > 2
+    tuning = llvm.create_pipeline_tuning_options(speed_level=level)
+    tuning.loop_vectorization = tuning.slp_vectorization = level > 2
     tuning.inlining_threshold = INLINED
     passes = llvm.create_pass_builder(machine, tuning)
-    passes.getModulePassManager().run(module, passes)
+    passes_of(passes).run(module, passes)
     return machine.emit_object(module)
 
 
