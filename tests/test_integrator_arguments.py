@@ -130,13 +130,14 @@ def test_pattern_does_not_change_the_motion(method):
 
 @pytest.mark.parametrize("method", IMPLICIT)
 def test_the_original_corrector_waits_for_multipliers(method):
+    """It takes more iterations, or more matrices that spare some."""
     original, constant, modified, usual = (
         counts(f"{method}, HMAX=0.05{word}", "newton", "steps", "factorizations")
         for word in (
             ", CORRECTOR=ORIGINAL", ", CORRECTOR=ORIG_CONSTANT", ", CORRECTOR=MODIFIED", "",
         )
     )  # fmt: skip
-    assert original[0] > modified[0]
+    assert original[0] + original[2] > modified[0] + modified[2]
     assert constant == original
     assert usual == modified
 

@@ -11,7 +11,7 @@ of an error is large.  What is left open is
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, maximum, native
 
 # Share of the largest velocity from which a jolt is large: a fast vibration with 8 steps (HHT) or 3
 # steps (RADAU) a period, or an impact in as few.  Jolts below so many ERRORs are none.
@@ -32,13 +32,13 @@ def note_jolt(P: Problem, u: Reals, h: float, stages: bool) -> None:
     With ``stages`` the jolt is large or not against velocities until the step.  Without, a start
     from rest is one: there the largest of the run tells.
     """
-    R, jolt, speed = P.report, 0.0, max(UNFELT * P.settings.error, P.report.speed)
+    R, jolt, speed, fastest = P.report, 0.0, max(UNFELT * P.settings.error, P.report.speed), 0.0
     for i in range(P.sizes.n):
         left_open = 0.5 * h * (P.a[i] - P.ra[i])
         if stages:
             left_open += P.u[i] - u[i] - h * P.a[i]
-        jolt, speed = max(jolt, abs(left_open)), max(speed, abs(u[i]))
-        R.speed = max(R.speed, abs(P.u[i]))
-    R.jolt = max(R.jolt, jolt)
+        jolt, speed = maximum(jolt, abs(left_open)), maximum(speed, abs(u[i]))
+        fastest = maximum(fastest, abs(P.u[i]))
+    R.jolt, R.speed = max(R.jolt, jolt), max(R.speed, fastest)
     if stages and jolt > JOLT * speed:
         R.jolts += 1

@@ -14,9 +14,11 @@ Reference: O. A. Bauchau, Flexible Multibody Dynamics, 2011, section 13.6.
 from __future__ import annotations
 
 from adamslite.integrators.contract import REACTIONS, SIGNALS, Problem
-from adamslite.native.translate import Reals, call_address, native
+from adamslite.native.translate import Alone, Reals, call_address, native
 
 POINT, PART = 3, 6
+# Numbers of a point mass in the workspace.
+POINT_SIZE = 9
 # Guards of the clock and of the watch.
 CLOCK, WATCH = 0, 1
 
@@ -37,9 +39,26 @@ def attitude(c0: float, c1: float, c2: float, base: Reals, r0: int, W: Reals, o:
 
 
 @native
+def only_points(P: Problem) -> bool:
+    """Whether no body turns: unknowns and workspace of the bodies are in a row."""
+    return P.sizes.n == POINT * P.sizes.nb
+
+
+@native
+def put_vectors(x: Alone, W: Alone, count: int) -> None:
+    """A vector of every point mass into its place of the workspace."""
+    for b in range(count):
+        for k in range(3):
+            W[POINT_SIZE * b + k] = x[3 * b + k]
+
+
+@native
 def put_pose(P: Problem, q: Reals) -> None:
     """Positions and attitudes into the workspace."""
     W, body = P.W, P.body
+    if only_points(P):
+        put_vectors(q, W[P.sizes.n_head :], P.sizes.nb)
+        return
     for b in range(P.sizes.nb):
         i, o = body[b].first, body[b].at
         W[o], W[o + 1], W[o + 2] = q[i], q[i + 1], q[i + 2]
@@ -51,6 +70,10 @@ def put_pose(P: Problem, q: Reals) -> None:
 def put_motion(P: Problem, u: Reals, a: Reals) -> None:
     """Velocities and accelerations into the workspace."""
     W, body = P.W, P.body
+    if only_points(P):
+        put_vectors(u, W[P.sizes.n_head + 3 :], P.sizes.nb)
+        put_vectors(a, W[P.sizes.n_head + 6 :], P.sizes.nb)
+        return
     for b in range(P.sizes.nb):
         i, o = body[b].first, body[b].at
         for k in range(3):

@@ -11,6 +11,8 @@ class Control(ImplicitControl):
     cu, ca, cs           how u and a follow from q, and s' from s
     fixed                the fixed step (0: steps vary)
     reach                the largest position, at least 1
+    life, served         steps for which a factored matrix is believed to serve, and how many have
+                         been since one did not
     rough                whether accelerations changed by a large share in this step
     """
 
@@ -19,4 +21,6 @@ class Control(ImplicitControl):
     cs: float
     fixed: float
     reach: float
+    life: int
+    served: int
     rough: bool

@@ -11,20 +11,22 @@ from adamslite.integrators.hht.error import first_order_share
 from adamslite.integrators.hht.prediction import predict, turn_from_start
 from adamslite.integrators.implicit.tolerance import error_limit
 from adamslite.integrators.linalg.blocks import factor, solve
-from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
     PART,
-    attitude,
+    POINT,
     back_rotate,
     jacobian,
+    only_points,
+    put_motion,
+    put_pose,
     put_scalars,
     residual,
     spread,
 )
 from adamslite.integrators.newton import ROUND_OFF, multiplier_change, renews
 from adamslite.integrators.stepping.outcome import OVERFLOW
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Alone, Reals, maximum, native
 
 # Newton stops when the estimated remaining error is this share of ERROR; after a single iteration,
 # whose rate is not known, only when the increment is this share of that.
@@ -35,7 +37,7 @@ WORST_RATE = 0.999
 # renewed for the next step when this one took more iterations.
 SLOW, MOST_ITERATIONS = 0.3, 4
 # ... or after this many steps, or when the step has changed by this share.
-KEEP_STEPS, KEEP_RATIO = 50.0, 1e-3
+KEEP_STEPS, KEEP_RATIO = 50, 1e-3
 # Increments of full Newton that grow this much do not converge.
 DIVERGING = 2.0
 # Rotations within a step below this change the matrix less than a kept one is allowed to be off.
@@ -47,7 +49,8 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     """Newton from the prediction; True when converged.
 
     A kept matrix that converges slowly is no longer believed: back to the prediction, or on from
-    here when the matrix was made in this step, with a new matrix at every iteration.
+    here when the matrix was made in this step, with a new matrix at every iteration.  Where that
+    happens again and again, the next ones are renewed before that age.
     """
     tolerance, last = CORRECTOR_SHARE * error_limit(P, C.fixed), 0.0
     if first_order_share(P) > 0.0:
@@ -55,7 +58,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     full, tries = False, 0
     C.fresh = False
     while tries < P.settings.max_it:
-        if full or not matrix_fits(C) or renews(P, tries, C.age < KEEP_STEPS):
+        if full or not matrix_fits(C) or renews(P, tries, C.age < C.life):
             C.factored, C.fresh, C.age = C.h, True, 0
             if not newton_matrix(P, L, C):
                 C.factored = 0.0
@@ -67,18 +70,36 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         tries += 1
         P.report.iteration = tries
         if remaining(size, last, tries) <= tolerance:
-            if tries > MOST_ITERATIONS:
-                C.factored = 0.0
+            note_service(C, tries)
             return True
         if not size < OVERFLOW or (tries > 1 and size > SLOW * last):
             if full and not size < DIVERGING * last:
                 return False
             if not full and (not C.fresh or not size < last):
+                note_failure(C)
                 predict(P, C)
                 tries = 0
             full = True
         last = size
     return False
+
+
+@native
+def note_service(C: Control, tries: int) -> None:
+    """The matrix has served a step."""
+    if tries > MOST_ITERATIONS:
+        C.factored = 0.0
+    C.served += 1
+    if C.served > KEEP_STEPS and C.life < KEEP_STEPS:
+        C.life, C.served = min(2 * C.life, KEEP_STEPS), 0
+
+
+@native
+def note_failure(C: Control) -> None:
+    """The matrix has not served: too old, if it was not made in this step, and if that is usual."""
+    if not C.fresh:
+        C.life = C.life if C.served > KEEP_STEPS else max(1, C.age)
+        C.served = 0
 
 
 @native
@@ -148,32 +169,48 @@ def move_all(P: Problem, C: Control, dz: Reals) -> float:
     Returns the largest increment of positions, rotations, variables and states, each against
     max(1, |value|); at the round-off of positions it counts as none.
     """
-    W, q, u, a = P.W, P.q, P.u, P.a
-    cu, ca, noise, largest = C.cu, C.ca, ROUND_OFF * C.reach, 0.0
-    for b in range(P.sizes.nb):
-        kind, i, o = P.body[b].width, P.body[b].first, P.body[b].at
-        for k in range(3):
-            d = dz[i + k]
-            x, v, w = q[i + k] - d, u[i + k] - cu * d, a[i + k] - ca * d
-            q[i + k], u[i + k], a[i + k] = x, v, w
-            W[o + k], W[o + 3 + k], W[o + 6 + k] = x, v, w
-            # Compared before divided: few elements ever set a new maximum.
-            if exceeds(abs(d), largest * max(1.0, abs(x))):
-                largest = abs(d) / max(1.0, abs(x))
-        if kind == PART:
-            back_rotate(q, dz, i, dz)
-            for k in range(3, 6):
-                d = dz[i + k]
-                u[i + k] -= cu * d
-                a[i + k] -= ca * d
-                W[o + 6 + k], W[o + 9 + k] = u[i + k], a[i + k]
-                if exceeds(abs(d), largest):
-                    largest = abs(d)
-            turn_from_start(P, C, i)
-            attitude(q[i + 3], q[i + 4], q[i + 5], P.base, 9 * b, W, o + 15)
-    if largest <= noise:
+    q, u, a, largest = P.q, P.u, P.a, 0.0
+    if only_points(P):
+        largest = move_places(q, u, a, dz, P.sizes.n, C.cu, C.ca)
+    else:
+        for b in range(P.sizes.nb):
+            i = P.body[b].first
+            size = move_places(q[i:], u[i:], a[i:], dz[i:], POINT, C.cu, C.ca)
+            if P.body[b].width == PART:
+                size = maximum(size, turn_part(P, C, i, dz))
+            largest = maximum(largest, size)
+    put_pose(P, q)
+    put_motion(P, u, a)
+    if largest <= ROUND_OFF * C.reach:
         largest = 0.0
-    return max(largest, move_scalars(P, C, dz))
+    return maximum(largest, move_scalars(P, C, dz))
+
+
+@native
+def move_places(q: Alone, u: Alone, a: Alone, dz: Alone, count: int, cu: float, ca: float) -> float:
+    """Subtract increments of positions; returns the largest against max(1, |q|)."""
+    largest = 0.0
+    for i in range(count):
+        d = dz[i]
+        x = q[i] - d
+        q[i] = x
+        u[i] -= cu * d
+        a[i] -= ca * d
+        largest = maximum(largest, abs(d) / max(1.0, abs(x)))
+    return largest
+
+
+@native
+def turn_part(P: Problem, C: Control, i: int, dz: Reals) -> float:
+    """Subtract the rotation of the part whose positions start at ``i``; returns its size."""
+    largest = 0.0
+    back_rotate(P.q, dz, i, dz)
+    for k in range(i + 3, i + 6):
+        P.u[k] -= C.cu * dz[k]
+        P.a[k] -= C.ca * dz[k]
+        largest = maximum(largest, abs(dz[k]))
+    turn_from_start(P, C, i)
+    return largest
 
 
 @native

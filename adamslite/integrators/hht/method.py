@@ -35,7 +35,7 @@ from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import hold_watch, keep_margins
 from adamslite.integrators.events.stops import horizon, step_limit
 from adamslite.integrators.hht.control import Control
-from adamslite.integrators.hht.corrector import correct
+from adamslite.integrators.hht.corrector import KEEP_STEPS, correct
 from adamslite.integrators.hht.dense_output import record
 from adamslite.integrators.hht.error import first_order_share, local_error
 from adamslite.integrators.hht.events import end_at_crossing, pass_on, passes_crossing
@@ -84,6 +84,7 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     """Accelerations at the start, the first record, attitudes counted from here."""
     C[:] = 0
     C.t, C.blamed, C.fixed = P.settings.t, NOBODY, fixed_step(P)
+    C.life, C.served = KEEP_STEPS, KEEP_STEPS + 1
     P.report.rough_steps = 0
     start_jolts(P)
     start_events(P, C.fixed == 0.0, first_order_share(P) > 0.0)

@@ -3,7 +3,7 @@
 A function marked :func:`native` may use ``int`` (64 bit), ``float``, ``bool``, arrays (``Ints``,
 ``Reals``), records (:mod:`adamslite.native.translate.records`) and their ``Rows``, ``if``,
 ``while``, ``for .. in range``, assignments, arithmetic, comparisons, ``abs min max float int sqrt
-floor``, slices ``a[k:]`` (a shifted array), calls of other native functions, ``copy`` and
+floor maximum``, slices ``a[k:]`` (a shifted array), calls of other native functions, ``copy`` and
 ``call_address``. Arguments carry annotations; a local variable has the type of its first
 assignment. ``Alone`` is an array of reals that no other argument reaches while the function runs.
 Sums may be reordered except in functions marked :func:`as_written`. There is no bounds check, and
@@ -20,6 +20,7 @@ from adamslite.native.translate.language import (
     as_written,
     call_address,
     copy,
+    maximum,
     native,
     symbol,
 )
@@ -37,6 +38,7 @@ __all__ = [
     "as_written",
     "call_address",
     "copy",
+    "maximum",
     "native",
     "symbol",
 ]

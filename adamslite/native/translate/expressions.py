@@ -212,6 +212,8 @@ class Expressions(Writer):
             return self.library("llvm.fabs.f64", *args)
         if name in ("sqrt", "floor"):
             return self.library(f"llvm.{name}.f64", *args)
+        if name == "maximum":
+            return self.library("llvm.maximum.f64", *args)
         if name in ("float", "int"):
             return self.number(name, args[0])
         if name in ("call_address", "copy"):

@@ -58,6 +58,11 @@ def call_address(address: int, *arguments: np.ndarray | int) -> None:
     ctypes.CFUNCTYPE(None, *[type(a) for a in given])(int(address))(*given)
 
 
+def maximum(a: float, b: float) -> float:
+    """The larger one, or not-a-number where one is: loops natively take several at once of it."""
+    return a if a > b or a != a else b
+
+
 def copy(target: Numbers, source: Numbers, count: int) -> None:
     """The first ``count`` numbers of an array into another that does not overlap it, bit by bit:
     also those of a room that records are seen in, which are reals as well as integers.
