@@ -226,6 +226,57 @@ def test_an_exponent_and_a_flag_are_part_of_the_shape():
     assert len(names) == 3
 
 
+CONTACT = """SFORCE/1, TRANSLATIONAL, I=21, J=31
+, FUNCTION=IMPACT(DM(21,31),VR(21,31),{free},7,{exponent},0.3,0.1)
+"""
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0, 3.0, 2.2])
+@pytest.mark.parametrize("free", [5.0, 0.01])
+def test_derivatives_of_a_contact(exponent, free):
+    """In contact and out of it: products, a root, or a power."""
+    scene = system(BODIES + CONTACT.format(free=free, exponent=exponent) + "END\n")
+    random_state(scene)
+    assert_derivatives(scene, contract.LOADS)
+
+
+@pytest.mark.parametrize(
+    "exponent, needed", [("1", 0), ("3/2", 0), ("2.0", 0), ("3", 0), ("2.2", 1)]
+)
+@pytest.mark.parametrize(
+    "force", [
+        "IMPACT(DM(21,31),VR(21,31),1,2,{},3,4)", "BISTOP(DM(21,31),VR(21,31),1,5,2,{},3,4)"
+    ],
+)  # fmt: skip
+def test_the_usual_exponents_of_contacts_need_no_power(force, exponent, needed):
+    text = f"SFORCE/1, TRANSLATIONAL, I=21, J=31, FUNCTION={force.format(exponent)}"
+    model = al.assemble(al.read(f"{BODIES}{text}\nEND\n"))
+    (group,) = [g for g in al.compile_model(model).groups if g.face == "loads"]
+    assert (" @llvm.pow." in group.write.kernels("kernel")[0]) == needed
+
+
+def test_a_contact_that_is_held_open_or_shut():
+    """Where its branch says that nothing touches, nothing is added, whatever the depth; where it
+    says that something does, the law goes on behind its end; released, the depth decides.
+    """
+    scene = system(BODIES + CONTACT.format(free=30.0, exponent=1.5) + "END\n")
+    random_state(scene)
+    first, count = scene.nw, scene.sizes.watched
+    assert count == 2
+    loads = {}
+    for branch in (0.0, -1e200, 1e200):
+        scene.W[first : first + count] = branch
+        scene.run(contract.RESIDUAL, contract.LOADS)
+        loads[branch] = scene.F[: scene.n].copy()
+    free = system(BODIES + "END\n")
+    for name in ("q", "u", "a", "base"):
+        getattr(free, name)[:] = getattr(scene, name)
+    free.run(contract.RESIDUAL, contract.LOADS)
+    assert np.array_equal(loads[-1e200], free.F[: free.n])
+    assert np.array_equal(loads[0.0], loads[1e200])
+    assert np.abs(loads[0.0] - loads[-1e200]).max() > 1.0
+
+
 def test_results_do_not_depend_on_ids_or_on_the_order_of_statements():
     deck = BODIES + ELEMENTS.replace("JOINT/1, REVOLUTE", "JOINT/1, SPHERICAL") + "END\n"
     title, *lines = deck.replace("END\n", "").rstrip().split("\n")

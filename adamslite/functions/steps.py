@@ -72,7 +72,7 @@ def havsin(scope: Scope, x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr) -> Exp
 
 @function(
     "IMPACT",
-    "x:number v:number x1:number k:number e:number cmax:number d:number",
+    "x:number v:number x1:number k:number e:exponent cmax:number d:number",
     edges=lambda x, v, x1, k, e, cmax, d: (x - x1, x - (x1 - d)),
     order=0,
 )
@@ -91,6 +91,8 @@ def spring(k: Expr, depth: Expr, e: Expr) -> Expr:
     """k depth**e, continued as an odd function: a step that ends just behind the contact stays
     finite.
     """
+    if e in (1, 3):
+        return k * power(depth, e)
     deep = depth >= 0
     size = piecewise((depth, deep), otherwise=-depth)
     return k * power(size, e) * piecewise((1, deep), otherwise=-1)
@@ -98,7 +100,7 @@ def spring(k: Expr, depth: Expr, e: Expr) -> Expr:
 
 @function(
     "BISTOP",
-    "x:number v:number x1:number x2:number k:number e:number cmax:number d:number",
+    "x:number v:number x1:number x2:number k:number e:exponent cmax:number d:number",
     edges=lambda x, v, x1, x2, k, e, cmax, d: (x - x1, x - (x1 - d), x - x2, x - (x2 + d)),
     order=0,
     rule=ascending(2, 3, "the lower stop must lie below the upper one: x1 < x2"),

@@ -18,12 +18,13 @@ A bound tree is one of
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from adamslite import functions  # noqa: F401  registers the deck functions
 from adamslite.functions.forces import NET
 from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
-from adamslite.language.function import Function, find_function
+from adamslite.language.function import PRODUCTS, Function, find_function
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
 from adamslite.language.statement import Argument, Statement
@@ -131,6 +132,8 @@ class Binder:
             return self.reference(value)
         if isinstance(value, Interpolant):
             return self.table(value)
+        if isinstance(value, Fraction):  # part of the shape
+            return ("c", float(value))
         if isinstance(value, float):
             return self.number(value)
         assert isinstance(value, Node)
@@ -239,14 +242,22 @@ class Binder:
 
     def _taken(self, function: Function, n: int, call: Call) -> Tree:
         """Argument number ``n`` of a call."""
-        node = call.args[n]
-        if function.parameter(n).kind == "past":
+        node, kind = call.args[n], function.parameter(n).kind
+        if kind == "past":
             return self.table(past_of(self.model, call).table)
         if type(node) is Ref:
             return self.reference(node)
-        if type(node) is Num and function.parameter(n).kind == "constant":
+        if type(node) is Num and kind == "constant":
             return ("c", int(node.value))
-        return self.expression(node)
+        return self._exponent(node) if kind == "exponent" else self.expression(node)
+
+    def _exponent(self, node: Node) -> Tree:
+        """An exponent: part of the shape where it needs no power."""
+        tree, value = self._bound(node)
+        if value not in PRODUCTS:
+            return tree
+        self.instance.params.pop()
+        return ("c", value)
 
     def reference(self, ref: Ref) -> Tree:
         if ref.kind == "MARKER":

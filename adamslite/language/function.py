@@ -16,6 +16,7 @@ The words of a signature are separated by blanks:
 ``c:constant``      a number written in the deck that decides the form of the result; the body
                     gets an ``int``
 ``c:constant{1..8}``  the same, with the values allowed (``{1..12,27}``)
+``e:exponent``      any expression; a number of :data:`PRODUCTS` decides the form of the result
 ``v:vector``        a vector, see :mod:`adamslite.functions.vectors`
 ``e:past``          any expression; the body gets a table of its past values over TIME
 ``i:marker``        the id of a MARKER; the body gets a frame
@@ -37,7 +38,9 @@ from inspect import cleandoc
 from adamslite.language.register import Register
 from adamslite.symbolic.types import Expr
 
-NUMERIC_KINDS = ("number", "constant", "vector", "past")
+NUMERIC_KINDS = ("number", "exponent", "constant", "vector", "past")
+PRODUCTS = (1.0, 1.5, 2.0, 3.0)
+"""Exponents for which products and a root take the place of a power."""
 
 Mistake = tuple[int, str]
 Rule = Callable[..., Mistake | None]

@@ -39,7 +39,9 @@ def function(each: Function) -> str:
 
 
 def _parameter(p: Parameter) -> str:
-    kinds = {"number": "number", "constant": "number written in the deck"}
+    kinds = {"constant": "number written in the deck"} | dict.fromkeys(
+        ("number", "exponent"), "number"
+    )
     text = f"  {p.name:10}{kinds.get(p.kind, p.statement)}"
     if p.allowed:
         text += f", {listed(p.allowed)}"

@@ -6,6 +6,7 @@ I, N and F: normal force and friction of :mod:`adamslite.elements.bases.contact_
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import sqrt
 from typing import NamedTuple
 
@@ -13,7 +14,7 @@ from adamslite.elements.bases.contact_forms import Form
 from adamslite.elements.bases.contact_geometry import Touch, touch
 from adamslite.elements.bases.contact_law import across, bristle_rate, friction, normal_force
 from adamslite.language.expression import Call, Num, Ref
-from adamslite.language.function import function
+from adamslite.language.function import PRODUCTS, function
 from adamslite.language.interfaces import DrawnModel, Key, Lookup
 from adamslite.language.statement import STATEMENTS, Statement, statement
 from adamslite.symbolic.scope import (
@@ -102,7 +103,11 @@ class ContactPoint(Statement):
         law = self.law
         if law.kind == "POISSON":
             law = law._replace(damping=_joining(law, _reduced_mass(self, model)))
-        numbers = {name: value for name, value in law._asdict().items() if name != "kind"}
+        numbers: dict[str, object] = {
+            name: value for name, value in law._asdict().items() if name != "kind"
+        }
+        if law.exponent in PRODUCTS:
+            numbers["exponent"] = Fraction(law.exponent)
         return numbers | {
             "law": law.kind,
             "rubs": "yes" if law.vs else None,

@@ -30,6 +30,7 @@ class JacobianWriter(ResidualWriter):
 
     def jacobian(self, out: Outputs) -> None:
         self.rates_only = out.rates_only
+        self.unless_idle(out)
         for load in out.loads:
             force = [(self.value(f), self.columns(f)) for f in load.force]
             torque = [self.columns(t) for t in load.torque]

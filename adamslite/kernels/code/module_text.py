@@ -32,12 +32,14 @@ entry:
 {prelude}  %some = icmp sgt i64 %n, 0
   br i1 %some, label %loop, label %exit
 loop:
-  %k = phi i64 [0, %entry], [%next, %loop]
+  %k = phi i64 [0, %entry], [%next, %latch]
   %io = mul i64 %k, {n_ints}
   %ip = getelementptr i64, ptr %ints, i64 %io
   %ro = mul i64 %k, {n_reals}
   %rp = getelementptr double, ptr %reals, i64 %ro
 {body}
+  br label %latch
+latch:
   %next = add nuw nsw i64 %k, 1
   %more = icmp slt i64 %next, %n
   br i1 %more, label %loop, label %exit, !llvm.loop !loop

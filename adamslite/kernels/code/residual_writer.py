@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from adamslite.kernels.code.idle import IdleTest
 from adamslite.kernels.code.kinematics import HEAD, MODE, RUN, TIME, Geometry, Vec
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.kernels.code.sympy_to_llvm import Lowering
@@ -74,7 +75,14 @@ class ResidualWriter:
         turns = b.call("floor", b.add(b.mul(gap, 0.5 / math.pi), 0.5))
         return b.mul(turns, 2 * math.pi)
 
+    def unless_idle(self, out: Outputs) -> None:
+        """Go on to the next instance where all that is evaluated vanishes."""
+        idle = IdleTest(self.b, self.lower.branches)(out.expressions)
+        if isinstance(idle, str):
+            self.b.lines += [f"  br i1 {idle}, label %latch, label %work", "work:"]
+
     def residual(self, out: Outputs) -> None:
+        self.unless_idle(out)
         for load in out.loads:
             force = [self.value(f) for f in load.force]
             torque = [self.value(t) for t in load.torque]
