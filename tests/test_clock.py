@@ -10,6 +10,7 @@ from pytest import approx
 from scenes import GROUND, carriage, done, options, run, system
 from tiers import every
 
+from adamslite.analyses.clock import changes
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.enclosures import enclose
 from adamslite.analyses.clock.step_limits import timetable
@@ -262,3 +263,22 @@ def test_an_enclosure_holds_every_value_and_rate(name, others):
     noise = 1e-6 * (1.0 + np.abs(slopes))
     assert (slopes >= slow - noise).all()
     assert (slopes <= fast + noise).all()
+
+
+@pytest.mark.parametrize("pace", [1e-3, 0.2, 30.0, -0.9])
+@pytest.mark.parametrize("longest", [1e-3, 0.05, 1.0, 50.0])
+@pytest.mark.parametrize("power", [-1, 1, 3])
+def test_one_enclosure_decides_as_many_do(
+    pace: float, longest: float, power: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """(1 + pace t)^power over 0..1: where it is gradual at once, it is without looking closer."""
+    program = (
+        ("number", 1.0), ("number", pace), ("t",), ("Mul", 1, 2), ("Add", 0, 3),
+        ("root", 4, power, 1),
+    )  # fmt: skip
+    found = changes.time_scales(program, 0.0, 1.0, longest)
+    monkeypatch.setattr(changes, "_is_gradual", lambda *_: False)
+    known = changes.time_scales(program, 0.0, 1.0, longest)
+    np.testing.assert_array_equal(found.spans, known.spans)
+    np.testing.assert_array_equal(found.times, known.times)
+    assert found.whole == known.whole

@@ -264,12 +264,16 @@ def rotation_block(
 @native
 def put_mass(P: Problem, b: int, J: Reals, at: int) -> None:
     """The mass matrix of a body, 3 x 3 or 6 x 6, at ``at``."""
-    width = P.body[b].width
-    for k in range(width * width):
-        J[at + k] = 0.0
-    for k in range(3):
-        J[at + k * (width + 1)] = P.mass[b]
-    if width == PART:
+    width, m = P.body[b].width, P.mass[b]
+    if width == POINT:
+        J[at], J[at + 1], J[at + 2] = m, 0.0, 0.0
+        J[at + 3], J[at + 4], J[at + 5] = 0.0, m, 0.0
+        J[at + 6], J[at + 7], J[at + 8] = 0.0, 0.0, m
+    else:
+        for k in range(width * width):
+            J[at + k] = 0.0
+        for k in range(3):
+            J[at + k * (width + 1)] = m
         rotated_inertia(P, b, P.body[b].at, P.work)
         for i in range(3):
             for j in range(3):

@@ -11,7 +11,7 @@ added mass; the equations of bodies then have their effective masses
 from __future__ import annotations
 
 from adamslite.integrators.contract import BROKEN_START, DONE, LOADS, Problem
-from adamslite.integrators.effective_mass import effective_masses
+from adamslite.integrators.effective_mass import divide_by_masses, effective_masses
 from adamslite.integrators.linalg.blocks import determinant3, invert, invert3, replace, replace3
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.integrators.motion_equations import (
@@ -171,8 +171,6 @@ def mass_accelerations(
 
     False when an effective mass vanishes.
     """
-    if P.sizes.added_mass:
-        return accelerations_of_effective(P, t, q, u, a)
     n, W, F = P.sizes.n, P.W[P.body[0].at :], P.F
     put_time(P, t)
     for b in range(P.sizes.nb):
@@ -180,10 +178,14 @@ def mass_accelerations(
         x, y, z = q[i], q[i + 1], q[i + 2]
         vx, vy, vz = u[i], u[i + 1], u[i + 2]
         W[o], W[o + 1], W[o + 2], W[o + 3], W[o + 4], W[o + 5] = x, y, z, vx, vy, vz
+        W[o + 6], W[o + 7], W[o + 8] = 0.0, 0.0, 0.0
     for i in range(n):
         F[i] = weight[i]
     run_groups(P, LOADS, F)
     P.count.residuals += 1
+    if P.sizes.added_mass:
+        effective_masses(P, P.J)
+        return divide_by_masses(P, P.J, F, a)
     for i in range(n):
         a[i] = inverse[i] * F[i]
     return True

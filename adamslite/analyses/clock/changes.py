@@ -37,6 +37,8 @@ QUIET, SURELY_QUIET = 1e-5, 1e-9
 OVERFLOW = 1e290
 # Rates within this factor are of one size, if one is found that is not far below.
 ALIKE, FOUND = 0.5, 0.1
+# Ratios above this are above one whatever the round-off.
+CLEARLY = 1.0 + 1e-9
 # Where a span is evaluated: nowhere a periodic function could always be met at the same phase.
 GOLDEN = 0.6180339887498949
 
@@ -70,6 +72,8 @@ def around_changes(program: Program, start: float, end: float, floor: bool) -> F
 
 def time_scales(program: Program, start: float, end: float, longest: float) -> Found:
     """Where a curve changes so fast that steps up to ``longest`` may miss it."""
+    if _is_gradual(program, start, end, longest):
+        return Found(np.zeros(0), np.zeros((0, 3)), True)
     curve = _Curve(program, start, end)
     low, high = _spans(start, end)
     kept, whole, first = [], True, True
@@ -93,6 +97,15 @@ def time_scales(program: Program, start: float, end: float, longest: float) -> F
     short = (scale < longest) & (sharp == 0.0)
     spans = np.stack([low, high, scale], axis=1)[short]
     return Found(high[sharp > 0.0], spans[np.argsort(spans[:, 0])], whole)
+
+
+def _is_gradual(program: Program, start: float, end: float, longest: float) -> bool:
+    """Whether one enclosure of the whole run shows that a curve rises, or falls, throughout, and
+    nowhere so fast that it crosses its range within ``longest``.
+    """
+    _, _, slow, fast = enclose(program, np.array([start]), np.array([end]))[:, 0].tolist()
+    least, most = sorted((abs(slow), abs(fast)))
+    return slow * fast > 0.0 and most < np.inf and least * (end - start) > CLEARLY * most * longest
 
 
 class _Curve:

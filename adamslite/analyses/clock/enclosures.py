@@ -48,14 +48,18 @@ def enclose(code: Sequence[Instruction], low: np.ndarray, high: np.ndarray) -> n
 
 def _plus(a: Interval, b: Interval) -> Interval:
     low, high = np.asarray(a[0] + b[0]), np.asarray(a[1] + b[1])
-    return np.where(np.isnan(low), -np.inf, low), np.where(np.isnan(high), np.inf, high)
+    if np.isnan(low + high).any():
+        return np.where(np.isnan(low), -np.inf, low), np.where(np.isnan(high), np.inf, high)
+    return low, high
 
 
 def _times(a: Interval, b: Interval) -> Interval:
-    corners = np.array(np.broadcast_arrays(a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]))
-    # Zero times what has no bound: an exact zero.
-    corners[np.isnan(corners)] = 0.0
-    return corners.min(axis=0), corners.max(axis=0)
+    w, x, y, z = a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]
+    if np.isnan(w + x + y + z).any():
+        # Zero times what has no bound: an exact zero.
+        w, x, y, z = (np.where(np.isnan(each), 0.0, each) for each in (w, x, y, z))
+    low, high = np.minimum(np.minimum(w, x), np.minimum(y, z)), np.maximum(w, x)
+    return low, np.maximum(high, np.maximum(y, z))
 
 
 def _inverse(a: Interval) -> Interval:
