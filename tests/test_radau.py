@@ -59,13 +59,13 @@ def test_the_complex_elimination_solves(pivoting):
     widths, links = [3, 3, 6, 1, 3], [(0, 1), (1, 2), (2, 3), (2, 4)]
     starts = np.concatenate([[0], np.cumsum(widths)])[:-1].tolist()
     pairs = {(k, k) for k in range(5)} | set(links) | {(b, a) for a, b in links}
-    found = analyse(widths, starts, pairs, {}, pivoting)
+    both = np.array(sorted(pairs)).T
+    found = analyse(widths, both, {}, pivoting)
     n, factors = sum(widths), np.zeros(2 * found.size)
     full = np.zeros((n, n), dtype=complex)
-    for row, column in pairs:
+    for row, column, at, lead in zip(*both, *found.places.locate(*both), strict=True):
         block = some.standard_normal((widths[row], widths[column], 2)) @ (1, 1j)
         full[starts[row] :, starts[column] :][: widths[row], : widths[column]] = block
-        at, lead = found.places[row, column]
         for i in range(widths[row]):
             for j in range(widths[column]):
                 k = 2 * (at + i * lead + j)

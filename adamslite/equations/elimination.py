@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -29,7 +31,7 @@ class Elimination:
         self.numbering, self.blocks, self.pivoting = numbering, blocks, pivoting
         self.nodes, self.node_at = numbering.nodes, numbering.node_at
         self.starts, self.widths = numbering.starts, numbering.widths
-        self.plan: dict[str, np.ndarray] = {}
+        self.plan: dict[str, Any] = {}
         self._derive()
         self.drop([])
 
@@ -69,30 +71,30 @@ class Elimination:
             return
         self.dead = ints(dead)
         left = set(dead)
-        self.live = [
-            [k for k in range(width) if start + k not in left]
-            for start, width in zip(self.starts, self.widths, strict=True)
-        ]
+        whole = {width: [*range(width)] for width in set(self.widths)}
+        self.live = [whole[width] for width in self.widths]
+        for k, (start, width) in enumerate(zip(self.starts, self.widths, strict=True)):
+            if left and not left.isdisjoint(range(start, start + width)):
+                self.live[k] = [i for i in range(width) if start + i not in left]
         self._plan()
 
     def _derive(self) -> None:
         """Blocks made of others, and room for all."""
         self.mixed = ints(self._mixed_products() if self.numbering.stabilised else [])
         self.turning = ints(self._turning_blocks())
-        self.product = ints(
-            [
-                value
-                for (row, column), offset in self.blocks.offsets.items()
-                if max(row, column) < len(self.numbering.model.bodies)
-                for value in (
-                    offset,
-                    self.widths[row],
-                    self.widths[column],
-                    self.starts[row],
-                    self.starts[column],
-                )  # fmt: skip
-            ]
-        )
+        rows, columns, at = self._entries()
+        inner = np.maximum(rows, columns) < self.n_bodies
+        rows, columns, at = rows[inner], columns[inner], at[inner]
+        wide, first = np.array(self.widths, dtype=int), np.array(self.starts, dtype=int)
+        facts = (at, wide[rows], wide[columns], first[rows], first[columns])
+        self.product = ints(np.column_stack(facts).ravel())
+
+    def _entries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of all blocks of the Jacobian: node of the rows, of the columns, and where it begins."""
+        offsets = self.blocks.offsets
+        pairs = np.fromiter(chain.from_iterable(offsets), np.int64, 2 * len(offsets))
+        at = np.fromiter(offsets.values(), np.int64, len(offsets))
+        return pairs[::2], pairs[1::2], at
 
     def _plan(self) -> None:
         """The order of elimination and where blocks are copied to."""
@@ -107,26 +109,29 @@ class Elimination:
         }
         for k in mu:
             late[at[k]] = {at[self.node_at[self.nodes[k][1]]]}
-        kept = [(r, c) for r, c in self.blocks.offsets if r in at and c in at]
-        pairs = {(at[r], at[c]) for r, c in kept} | {(k, k) for k in range(len(nodes))}
-        widths = [counts[k] for k in nodes]
-        starts = np.concatenate([[0], np.cumsum(widths)]).astype(int)[:-1].tolist()
-        found = analyse(widths, starts, pairs, late, self.pivoting)
+        number = np.full(len(self.nodes), -1)
+        number[nodes] = np.arange(len(nodes))
+        rows, columns, _ = self._entries()
+        kept = (number[rows] >= 0) & (number[columns] >= 0)
+        own = np.arange(len(nodes))
+        pairs = np.stack([np.append(number[each[kept]], own) for each in (rows, columns)])
+        found = analyse([counts[k] for k in nodes], pairs, late, self.pivoting)
         self.plan = {**found.plan, "place": self._places(found.plan["place"])}
-        self.copies = ints(
-            [x for r, c in kept for x in self._copies(r, c, *found.places[at[r], at[c]])]
-        )
+        where = found.places.locate(*pairs)
+        self.copies = self._copies(kept, *(each[: kept.sum()] for each in where))
+        own_places = zip(*(each[kept.sum() :].tolist() for each in where), strict=True)
+        diagonal = dict(zip(nodes, own_places, strict=True))
         self.unit = ints(
-            [
-                found.places[at[k], at[k]][0] + c * (found.places[at[k], at[k]][1] + 1)
-                for k in mu
-                for c in range(counts[k])
-            ]
+            [diagonal[k][0] + c * (diagonal[k][1] + 1) for k in mu for c in range(counts[k])]
         )
-        self.LV, self.LA = np.zeros(found.size + 1), np.zeros(found.size + 1)
-        nz = self.numbering.nz
+        self._make_room(found.size, found.room)
+
+    def _make_room(self, size: int, room: int) -> None:
+        """Arrays of the factors, and workspace."""
+        nz, self.room = self.numbering.nz, max(WORK, room)
+        self.LV, self.LA = np.zeros(size + 1), np.zeros(size + 1)
         self.pivots, self.pivots_a = ints([0] * (nz + 1)), ints([0] * (nz + 1))
-        self.work = np.zeros(max(WORK, found.widest**2))
+        self.work = np.zeros(self.room)
 
     def unknowns(self) -> list[int]:
         """The unknowns that are solved for: all but those of redundant rows."""
@@ -139,13 +144,28 @@ class Elimination:
         places[live] = place
         return places
 
-    def _copies(self, row: int, column: int, at: int, lead: int) -> Iterator[int]:
-        """What of a block goes where: the whole of it, or runs of neighbours in its rows."""
-        offset, width = self.blocks.offsets[row, column], self.widths[column]
-        rows, columns = self.live[row], self.live[column]
-        if len(rows) == self.widths[row] and len(columns) == width:
-            yield from (offset, len(rows), width, at, lead)
-            return
+    def _copies(self, kept: np.ndarray, at: np.ndarray, lead: np.ndarray) -> np.ndarray:
+        """What of the blocks that are ``kept`` goes where: the whole of one, or runs of neighbours
+        in its rows.
+        """
+        rows, columns, offset = (each[kept] for each in self._entries())
+        wide = np.array(self.widths, dtype=np.int64)
+        whole = np.array([len(live) for live in self.live], dtype=np.int64) == wide
+        copies = np.column_stack([offset, wide[rows], wide[columns], at, lead])
+        if whole.all():
+            return np.ascontiguousarray(copies.ravel())
+        found: list[int] = []
+        for row, column, copy in zip(rows.tolist(), columns.tolist(), copies.tolist(), strict=True):
+            if whole[row] and whole[column]:
+                found += copy
+            else:
+                found += self._part_of(self.live[row], self.live[column], copy)
+        return ints(found)
+
+    @staticmethod
+    def _part_of(rows: list[int], columns: list[int], copy: list[int]) -> Iterator[int]:
+        """Runs of neighbours in the rows of a block of which not everything is copied."""
+        offset, _, width, at, lead = copy
         for r, i in enumerate(rows):
             for first, run in _runs(columns):
                 yield from (offset + i * width + columns[first], 1, run)
@@ -154,26 +174,33 @@ class Elimination:
     def _late_nodes(self, counts: list[int]) -> dict[int, set[int]]:
         """For each constraint's node, what must be eliminated before it, by unknowns of a node."""
         held: dict[int, set[int]] = {}
-        for row, column in self.blocks.offsets:
-            if self._is_multiplier(row) and self.nodes[column][0] == "BODY":
-                held.setdefault(row, set()).add(column)
+        rows, columns, _ = self._entries()
+        tied = self._is_multiplier()[rows] & (columns < self.n_bodies)
+        for row, column in zip(rows[tied].tolist(), columns[tied].tolist(), strict=True):
+            held.setdefault(row, set()).add(column)
         constraints = [(k, frozenset(b), counts[k]) for k, b in sorted(held.items()) if counts[k]]
-        return prerequisites(constraints, counts[: len(self.numbering.model.bodies)])
+        return prerequisites(constraints, counts[: self.n_bodies])
 
-    def _is_multiplier(self, node: int) -> bool:
-        return self.nodes[node] in self.numbering.model.held
+    @property
+    def n_bodies(self) -> int:
+        """Bodies, whose nodes come first."""
+        return len(self.numbering.model.bodies)
+
+    def _is_multiplier(self) -> np.ndarray:
+        """Of every node, whether it has the multipliers of a constraint."""
+        held, nb = self.numbering.model.held, self.n_bodies
+        return np.array([False] * nb + [node in held for node in self.nodes[nb:]], dtype=bool)
 
     def _mixed_products(self) -> list[int]:
         """Columns of mu: D[row, body] W G[constraint, body]^T for every block of D."""
         touched: dict[int, list[int]] = {}
-        for row, column in self.blocks.offsets:
-            if self._is_multiplier(row) and ("MU", self.nodes[row]) in self.node_at:
-                if self.nodes[column][0] == "BODY":
-                    touched.setdefault(column, []).append(row)
+        rows, columns, at = self._entries()
+        with_mu = [("MU", node) in self.node_at for node in self.nodes]
+        tied = self._is_multiplier()[rows] & np.array(with_mu)[rows] & (columns < self.n_bodies)
+        for row, column in zip(rows[tied].tolist(), columns[tied].tolist(), strict=True):
+            touched.setdefault(column, []).append(row)
         products = []
-        for (row, body), offset in list(self.blocks.offsets.items()):
-            if self.nodes[body][0] != "BODY":
-                continue
+        for row, body, offset in zip(rows.tolist(), columns.tolist(), at.tolist(), strict=True):
             for constraint in touched.get(body, ()):
                 mu = self.node_at["MU", self.nodes[constraint]]
                 target = self.blocks.offset(row, mu)
@@ -182,12 +209,12 @@ class Elimination:
                 products += [self.widths[body], gradient, body]
         return products
 
-    def _turning_blocks(self) -> list[int]:
-        found = []
-        for (row, column), offset in self.blocks.offsets.items():
-            if self.nodes[column][0] == "BODY" and self.widths[column] == PART:
-                found += [offset, self.widths[row], column]
-        return found
+    def _turning_blocks(self) -> np.ndarray:
+        """Per block with a rotating column: where it begins, its rows, the body."""
+        rows, columns, at = self._entries()
+        wide = np.array(self.widths, dtype=np.int64)
+        turns = (columns < self.n_bodies) & (wide[columns] == PART)
+        return np.column_stack([at, wide[rows], columns])[turns].ravel()
 
 
 def _runs(numbers: Sequence[int]) -> Iterator[tuple[int, int]]:

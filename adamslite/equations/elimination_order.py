@@ -4,53 +4,98 @@ Nodes are eliminated by least degree, a constraint's multipliers only after the 
 their own block regular (:mod:`adamslite.equations.spanning_tree`).  On a chain this works from the
 free ends inwards and on a tree from the leaves to the root: no fill, cost proportional to the
 number of bodies. Reference: George, Liu, SIAM Review 31 (1989) 1 (minimum degree).
+
+A pattern that fills, as a net does, is eliminated by fronts
+(:mod:`adamslite.equations.frontal_plan`).
 """
 
 from __future__ import annotations
 
 import heapq
 from dataclasses import dataclass
+from math import inf
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
+
+from adamslite.integrators.linalg.plan import Front, Run
+from adamslite.native.translate import Rows
+
+if TYPE_CHECKING:  # few models need them
+    pass
 
 # With constraints, up to this many unknowns ordinary dense elimination with pivoting is as quick
 # and safer, unless it takes so many times the multiplications of the blocks, as on a chain;
 # without constraints every block is regular and blocks win from the first.
 DENSE, WASTE = 96, 20
+# Block by block no more than so many updates, and for each node so many: a net of 14 x 14 point
+# masses takes as long by blocks as by fronts.
+UPDATES, UPDATES_OF_NODE = 4000, 32
+# Without constraints, so many nodes with so many couplings each, their own included, are a net:
+# its blocks need not be counted.
+MANY, CROWDED = 1000, 4.5
+
+
+class Places(Protocol):
+    """Where blocks are in the factors."""
+
+    def locate(self, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Of blocks (row, column): the place of the first entry, and the leading dimension."""
 
 
 @dataclass
 class EliminationOrder:
     """The plan for :mod:`adamslite.integrators.linalg.blocks` and where each block is copied to.
 
-    ``places[(row, column)]``: offset and leading dimension in the factor array of ``size`` entries.
+    ``size``: entries of the factors; ``room``: numbers of workspace.
     """
 
-    plan: dict[str, np.ndarray]
-    places: dict[tuple[int, int], tuple[int, int]]
+    plan: dict[str, Any]
+    places: Places
     size: int
-    widest: int
+    room: int
 
 
 def analyse(
     widths: list[int],
-    starts: list[int],
-    pairs: set[tuple[int, int]],
+    pairs: np.ndarray,
     late: dict[int, set[int]],
     pivoting: bool = False,
 ) -> EliminationOrder:
-    """Order and fill for nodes of ``widths`` unknowns at ``starts`` coupled by ``pairs``.
+    """Order and fill for nodes of ``widths`` unknowns coupled by ``pairs`` (rows, columns).
 
     ``late[node]``: nodes that must have been eliminated before ``node``; ``pivoting``: treat the
     matrix as one dense block.
     """
     total = sum(widths)
     if pivoting:
-        return _dense(widths, starts, pairs, total)
-    order, below = _order(len(widths), pairs, late)
+        return _dense(widths, total)
+    found = _order(len(widths), pairs, late, spared=total <= DENSE)
+    if found is None:
+        return _by_fronts(widths, pairs, late)
+    order, below = found
     if late and total <= DENSE and total**3 <= WASTE * _work(widths, order, below):
-        return _dense(widths, starts, pairs, total)
-    return _block_plan(widths, starts, order, below)
+        return _dense(widths, total)
+    return _block_plan(widths, order, below)
+
+
+def _by_fronts(widths: list[int], pairs: np.ndarray, late: dict[int, set[int]]) -> EliminationOrder:
+    from adamslite.equations.frontal_plan import FrontalPlan, codes
+
+    found = FrontalPlan(np.array(widths, dtype=np.int64), pairs[0], pairs[1], late)
+    plan = _filled(
+        place=_place(widths, found.place), fronts=found.fronts, runs=found.runs, code=codes()
+    )
+    return EliminationOrder(plan, found, found.size, found.room)
+
+
+def _filled(**given: Any) -> dict[str, Any]:
+    """All arrays of a plan; those that are not given are empty."""
+    names = "size start diagonal first node lower upper target place code".split()
+    empty = np.zeros(0, dtype=np.int64)
+    arrays = {name: np.ascontiguousarray(given.get(name, empty), dtype=np.int64) for name in names}
+    none = {"fronts": Rows(Front, 0), "runs": Rows(Run, 0)}
+    return {**arrays, **{name: given.get(name, each) for name, each in none.items()}}
 
 
 def _work(widths: list[int], order: list[int], below: list[list[int]]) -> int:
@@ -62,33 +107,36 @@ def _work(widths: list[int], order: list[int], below: list[list[int]]) -> int:
     return work
 
 
-def _place(widths: list[int], starts: list[int], first: list[int]) -> np.ndarray:
-    place = np.zeros(sum(widths), dtype=np.int64)
-    for node, width in enumerate(widths):
-        place[starts[node] : starts[node] + width] = first[node] + np.arange(width)
-    return place
+def _place(widths: list[int], first: np.ndarray) -> np.ndarray:
+    """Of every unknown: its place, from those of the first unknowns of the nodes."""
+    wide = np.array(widths, dtype=np.int64)
+    behind = np.arange(wide.sum()) - np.repeat(np.cumsum(wide) - wide, wide)
+    return np.repeat(first, wide) + behind
 
 
-def _dense(
-    widths: list[int], starts: list[int], pairs: set[tuple[int, int]], total: int
-) -> EliminationOrder:
-    places = {(r, c): (starts[r] * total + starts[c], total) for r, c in pairs}
-    empty = np.zeros(1, dtype=np.int64)
-    plan = {name: empty for name in ("start", "diagonal", "node", "lower", "upper", "target")}
-    plan |= {
-        "size": np.array([total], dtype=np.int64),
-        "first": np.zeros(2, dtype=np.int64),
-        "place": np.arange(total, dtype=np.int64),
-    }
-    return EliminationOrder(plan, places, total * total, total)
+class _OneBlock:
+    """Places in one dense matrix of nodes that start at ``starts``."""
+
+    def __init__(self, starts: np.ndarray, total: int) -> None:
+        self.starts, self.total = starts, total
+
+    def locate(self, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        at = self.starts[rows] * self.total + self.starts[columns]
+        return at, np.full(len(at), self.total)
+
+
+def _dense(widths: list[int], total: int) -> EliminationOrder:
+    starts = np.cumsum(widths) - widths
+    plan = _filled(size=[total], start=[0], diagonal=[0], first=[0, 0], place=np.arange(total))
+    return EliminationOrder(plan, _OneBlock(starts, total), total * total, total * total)
 
 
 class _Graph:
     """What is still to be eliminated: couplings, and what each node waits for."""
 
-    def __init__(self, count: int, pairs: set[tuple[int, int]], late: dict[int, set[int]]) -> None:
+    def __init__(self, count: int, pairs: np.ndarray, late: dict[int, set[int]]) -> None:
         self.near: list[set[int]] = [set() for _ in range(count)]
-        for r, c in pairs:
+        for r, c in zip(*pairs.tolist(), strict=True):
             if r != c:
                 self.near[r].add(c)
                 self.near[c].add(r)
@@ -142,32 +190,51 @@ class _Graph:
 
 
 def _order(
-    count: int, pairs: set[tuple[int, int]], late: dict[int, set[int]]
-) -> tuple[list[int], list[list[int]]]:
-    """Minimum degree order, and for each node those that stay coupled to it below."""
+    count: int, pairs: np.ndarray, late: dict[int, set[int]], spared: bool
+) -> tuple[list[int], list[list[int]]] | None:
+    """Minimum degree order, and for each node those that stay coupled to it below; None when there
+    are more updates than blocks are good for, unless ``spared``.
+    """
+    most = inf if spared else UPDATES + UPDATES_OF_NODE * count
+    if not late and count > MANY and pairs.shape[1] > CROWDED * count:
+        return None
     graph = _Graph(count, pairs, late)
     order: list[int] = []
     below: list[list[int]] = []
-    while len(order) < count:
+    updates = 0
+    while len(order) < count and updates <= most:
         order.append(graph.least())
         below.append(graph.eliminate(order[-1]))
-    return order, below
+        updates += len(below[-1]) ** 2
+    return (order, below) if updates <= most else None
 
 
-def _block_plan(
-    widths: list[int], starts: list[int], order: list[int], below: list[list[int]]
-) -> EliminationOrder:
+class _Blocks:
+    """Places of blocks of ``widths`` that follow each other as they are met."""
+
+    def __init__(self, widths: list[int]) -> None:
+        self.widths = widths
+        self.places: dict[tuple[int, int], int] = {}
+        self.size = 0
+
+    def place(self, row: int, column: int) -> int:
+        """Of one block, which is made on first use."""
+        found = self.places.get((row, column))
+        if found is None:
+            found = self.places[row, column] = self.size
+            self.size += self.widths[row] * self.widths[column]
+        return found
+
+    def locate(self, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        pairs = zip(rows.tolist(), columns.tolist(), strict=True)
+        at = np.array([self.places[pair] for pair in pairs], dtype=np.int64)
+        return at, np.array(self.widths, dtype=np.int64)[columns]
+
+
+def _block_plan(widths: list[int], order: list[int], below: list[list[int]]) -> EliminationOrder:
     rank = {node: k for k, node in enumerate(order)}
-    places: dict[tuple[int, int], tuple[int, int]] = {}
-    size = 0
-
-    def place(row: int, column: int) -> int:
-        nonlocal size
-        if (row, column) not in places:
-            places[row, column] = (size, widths[column])
-            size += widths[row] * widths[column]
-        return places[row, column][0]
-
+    blocks = _Blocks(widths)
+    place = blocks.place
     first, node, lower, upper, diagonal = [0], [], [], [], []
     for k, pivot in enumerate(order):
         rest = sorted(below[k], key=rank.__getitem__)
@@ -182,17 +249,9 @@ def _block_plan(
         rest = [order[r] for r in node[first[k] : first[k + 1]]]
         target += [place(row, column) for row in rest for column in rest]
     begin = np.concatenate([[0], np.cumsum([widths[n] for n in order])]).astype(int)
-    at = [int(begin[rank[n]]) for n in range(len(widths))]
-    arrays = {
-        "size": [widths[n] for n in order],
-        "start": begin[:-1],
-        "diagonal": diagonal,
-        "first": first,
-        "node": node or [0],
-        "lower": lower or [0],
-        "upper": upper or [0],
-        "target": target or [0],
-        "place": _place(widths, starts, at),
-    }
-    plan = {name: np.ascontiguousarray(values, dtype=np.int64) for name, values in arrays.items()}
-    return EliminationOrder(plan, places, size, max(widths, default=0))
+    plan = _filled(
+        size=[widths[n] for n in order], start=begin[:-1], diagonal=diagonal, first=first,
+        node=node, lower=lower, upper=upper, target=target,
+        place=_place(widths, begin[[rank[n] for n in range(len(widths))]]),
+    )  # fmt: skip
+    return EliminationOrder(plan, blocks, blocks.size, max(widths, default=0) ** 2)

@@ -29,15 +29,25 @@ HERE = "adamslite."
 
 def engine(entry: str = OPERATIONS, progress: Progress | None = None) -> Callable[..., int]:
     """The native code of an entry, as a function of Python."""
+    if entry not in _functions:
+        integers = [ctypes.c_int64, ctypes.c_int64] if entry == OPERATIONS else []
+        kind = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, *integers)
+        _functions[entry] = kind(address_of(entry, progress))
+    return _functions[entry]
+
+
+def address_of(entry: str, progress: Progress | None = None) -> int:
+    """Where the native code of an entry begins."""
     if entry not in _built:
         _built[entry] = _build(entry, progress)
     return _built[entry]
 
 
-_built: dict[str, Callable[..., int]] = {}
+_functions: dict[str, Callable[..., int]] = {}
+_built: dict[str, int] = {}
 
 
-def _build(entry: str, progress: Progress | None) -> Callable[..., int]:
+def _build(entry: str, progress: Progress | None) -> int:
     symbol = entry.removeprefix(HERE)
 
     def compiled() -> bytes:
@@ -48,9 +58,7 @@ def _build(entry: str, progress: Progress | None) -> Callable[..., int]:
 
     name = symbol.rpartition(".")[2]
     code = recall(f"{name}{compiler.digest(entry, _version(entry))}.o", compiled)
-    address = compiler.addresses([(code, [symbol])])[symbol]
-    integers = [ctypes.c_int64, ctypes.c_int64] if entry == OPERATIONS else []
-    return ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, *integers)(address)
+    return compiler.addresses([(code, [symbol])])[symbol]
 
 
 def _version(entry: str) -> str:

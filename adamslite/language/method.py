@@ -65,10 +65,12 @@ class Settings(Protocol):
 
 
 class Factors(Protocol):
-    """The elimination of the matrix of Newton: its plan, and the factors."""
+    """The elimination of the matrix of Newton: the factors, and how many numbers its workspace
+    has.
+    """
 
-    plan: dict[str, np.ndarray]
     LV: np.ndarray
+    room: int
 
 
 class Equations(Protocol):

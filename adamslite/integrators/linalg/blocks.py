@@ -17,8 +17,8 @@ Matrices, 2017, ch. 7 and 11.
 from __future__ import annotations
 
 from adamslite.integrators.linalg.dense import lu_dense, negative_pivots, solve_dense
-from adamslite.integrators.linalg.plan import TINY, Plan
-from adamslite.native.translate import Ints, Reals, native
+from adamslite.integrators.linalg.plan import FACTOR, REAL, SIGNATURE, SOLVE, TINY, Plan
+from adamslite.native.translate import Ints, Reals, call_address, native
 
 
 @native
@@ -151,6 +151,9 @@ def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
     updated, entry by entry.
     """
     n = L.size.size
+    if L.fronts.size > 0:
+        call_address(L.code[REAL], L, LV, pivots, work, work, work, FACTOR, 0.0)
+        return pivots[L.place.size] != 0
     if n == 1:
         return lu_dense(LV, 0, L.size[0], pivots, 0)
     at = 0
@@ -172,6 +175,9 @@ def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
 def signature(L: Plan, LV: Reals, pivots: Ints, work: Reals, found: Reals, late: float) -> int:
     """Factor and count negative pivots, ``late`` as there; -1 when singular."""
     n = L.size.size
+    if L.fronts.size > 0:
+        call_address(L.code[REAL], L, LV, pivots, work, found, work, SIGNATURE, late)
+        return pivots[L.place.size]
     if n == 1:
         only = negative_pivots(LV, 0, L.size[0], work, found, 0, late)
         return only if invert(LV, 0, L.size[0], pivots, 0, work) else -1
@@ -195,6 +201,9 @@ def signature(L: Plan, LV: Reals, pivots: Ints, work: Reals, found: Reals, late:
 def solve(L: Plan, LV: Reals, pivots: Ints, b: Reals, x: Reals, work: Reals) -> None:
     """Replace ``b``, in the order of the unknowns, by the solution; ``x``, ``work``: workspace."""
     n = L.size.size
+    if L.fronts.size > 0:
+        call_address(L.code[REAL], L, LV, pivots, b, x, work, SOLVE, 0.0)
+        return
     for i in range(L.place.size):
         x[L.place[i]] = b[i]
     if n == 1:

@@ -8,8 +8,8 @@ entry k is (A[2k], A[2k + 1]).  The blocks, their places and the formulas are th
 from __future__ import annotations
 
 from adamslite.integrators.linalg.blocks import TINY
-from adamslite.integrators.linalg.plan import Plan
-from adamslite.native.translate import Ints, Reals, native
+from adamslite.integrators.linalg.plan import COMPLEX, FACTOR, SOLVE, Plan
+from adamslite.native.translate import Ints, Reals, call_address, native
 
 
 @native
@@ -109,6 +109,9 @@ def right_times_complex(A: Reals, low: int, d: int, si: int, sk: int, work: Real
 def factor_complex(L: Plan, A: Reals, pivots: Ints, work: Reals) -> bool:
     """Eliminate in place; False when a pivot block is singular."""
     n = L.size.size
+    if L.fronts.size > 0:
+        call_address(L.code[COMPLEX], L, A, pivots, work, work, work, FACTOR)
+        return pivots[L.place.size] != 0
     if n == 1:
         return lu_complex(A, 0, L.size[0], pivots, 0)
     at = 0
@@ -133,6 +136,9 @@ def factor_complex(L: Plan, A: Reals, pivots: Ints, work: Reals) -> bool:
 def solve_complex(L: Plan, A: Reals, pivots: Ints, b: Reals, x: Reals, work: Reals) -> None:
     """Replace ``b``, in the order of the unknowns, by the solution; ``x``, ``work``: workspace."""
     n = L.size.size
+    if L.fronts.size > 0:
+        call_address(L.code[COMPLEX], L, A, pivots, b, x, work, SOLVE)
+        return
     for i in range(L.place.size):
         p = 2 * L.place[i]
         x[p], x[p + 1] = b[2 * i], b[2 * i + 1]

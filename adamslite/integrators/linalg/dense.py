@@ -64,7 +64,9 @@ def coupled(A: Reals, o: int, s: int) -> int:
 def eliminate_column(
     A: Reals, o: int, s: int, n: int, c: int, end: int, pivots: Ints, po: int
 ) -> bool:
-    """Pivot, swap whole rows, and eliminate column c from the columns before ``end``."""
+    """Pivot among n rows of s entries, swap them, and eliminate column c from the columns before
+    ``end``.
+    """
     best, p = 0.0, c
     for i in range(c, n):
         size = abs(A[o + i * s + c])
@@ -74,7 +76,7 @@ def eliminate_column(
         return False
     pivots[po + c] = p
     if p != c:
-        swap_rows(n, A[o + c * s :], A[o + p * s :])
+        swap_rows(s, A[o + c * s :], A[o + p * s :])
     w = 1.0 / A[o + c * s + c]
     for i in range(c + 1, n):
         factor = A[o + i * s + c] * w

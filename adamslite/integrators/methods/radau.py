@@ -10,15 +10,14 @@ def prepare(system: Equations, settings: Settings) -> None:
     from adamslite.integrators.radau.history import Y_ROWS, Z_ROWS
 
     z = system.m + system.nv + system.ns + system.holonomic
-    widest = int(system.elimination.plan["size"].max(initial=0))
     system.tableau = coefficients()
     system.make_room(
         control=Control.slots,
         history=Y_ROWS * (2 * system.n + system.ns) + Z_ROWS * z + 7 * system.nz + 16,
         parts=3 * system.J.size,
         LC=2 * system.elimination.LV.size,
-        pivots_c=system.nz,
-        work=2 * widest**2,
+        pivots_c=system.nz + 1,
+        work=2 * system.elimination.room,
     )
 
 

@@ -10,7 +10,7 @@ from typing import Any, TypeGuard, TypeVar
 
 import numpy as np
 
-from adamslite.native.translate.records import Kind, Numbers, RowsOf, is_record, resolve
+from adamslite.native.translate.records import Kind, Numbers, Record, RowsOf, is_record, resolve
 
 F = TypeVar("F", bound=Callable[..., Any])
 Native = Callable[..., Any]
@@ -49,18 +49,24 @@ def as_written(function: F) -> F:
     return function
 
 
-def call_address(address: int, *arguments: np.ndarray | int) -> None:
+def call_address(address: int, *arguments: np.ndarray | Record | float) -> None:
     """Call the kernel at an address; natively a plain call, under Python one through ctypes."""
-    given = [
-        ctypes.c_void_p(a.ctypes.data) if hasattr(a, "ctypes") else ctypes.c_int64(int(a))
-        for a in arguments
-    ]
+    given = [_passed(a) for a in arguments]
     ctypes.CFUNCTYPE(None, *[type(a) for a in given])(int(address))(*given)
 
 
 def maximum(a: float, b: float) -> float:
     """The larger one, or not-a-number where one is: loops natively take several at once of it."""
     return a if a > b or a != a else b
+
+
+def _passed(value: np.ndarray | Record | float) -> Any:
+    """An argument as C takes it: arrays and records by their address."""
+    if isinstance(value, Record):
+        return ctypes.c_void_p(value.address)
+    if isinstance(value, np.ndarray):
+        return ctypes.c_void_p(value.ctypes.data)
+    return ctypes.c_double(value) if isinstance(value, float) else ctypes.c_int64(int(value))
 
 
 def copy(target: Numbers, source: Numbers, count: int) -> None:
