@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scenes import quick
+from scenes import compiled
 from scipy.sparse import coo_array
 from scipy.sparse.linalg import spsolve
 
@@ -270,7 +270,7 @@ def test_a_net_moves_the_same_by_fronts_and_by_blocks(
     With ``GROWING``, a force adds mass to one of them: accelerations are coupled.
     """
     run = {"end": 0.1, "steps": 2, "integrator": method, "error": 1e-6}
-    kernels = quick(net(15, more))
+    kernels = compiled(net(15, more))
     assert System(kernels, False).elimination.plan["fronts"].size > 1
     by_fronts = al.simulate(kernels, **run)
     monkeypatch.setattr(elimination_order, "UPDATES", np.inf)
