@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 import scenes
 
-from adamslite.analyses.initial.conditions import constraint_gradient, initial_conditions
+from adamslite.analyses.initial.conditions import initial_conditions
+from adamslite.analyses.initial.rows import constraint_gradient
 from adamslite.equations.system import System
 from adamslite.integrators import contract, motion_equations, newton
 from adamslite.integrators.bdf import corrector

@@ -11,7 +11,7 @@ from decklets import told
 from tiers import fast
 
 import adamslite as al
-from adamslite.analyses.initial.conditions import constraint_gradient
+from adamslite.analyses.initial.rows import constraint_gradient
 from adamslite.analyses.initial.redundancy import row_name
 from adamslite.analyses.session import Session
 from adamslite.assembly.closing import close, moved

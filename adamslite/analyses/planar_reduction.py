@@ -14,7 +14,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from adamslite.analyses.initial.conditions import constraint_gradient
+from adamslite.analyses.initial.least_change import VELOCITIES
+from adamslite.analyses.initial.sparse_rows import Pattern, evaluated
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS
@@ -81,10 +82,10 @@ def _is_still(values: np.ndarray, out: list[int]) -> bool:
 
 def _rows_out(system: System, out: list[int]) -> list[int] | None:
     """Constraint rows that act out of the plane and carry nothing; None when a row does both."""
-    gradient = np.abs(constraint_gradient(system))
-    beside = gradient[:, out].max(axis=1)
-    gradient[:, out] = 0.0
-    within = gradient.max(axis=1)
+    gradient = evaluated(system, Pattern(system, True), *VELOCITIES)
+    across = np.zeros(system.n, dtype=bool)
+    across[out] = True
+    beside, within = gradient.largest(across), gradient.largest(~across)
     away, inside = within <= NOTHING * beside, beside <= NOTHING * within
     if not (away | inside).all():
         return None

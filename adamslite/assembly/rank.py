@@ -53,13 +53,17 @@ def dependent_of_many(rows: csr_array) -> list[int]:
     if not np.isfinite(length).all():
         return []
     unit = rows.multiply(1.0 / np.where(length > 0.0, length, 1.0)[:, None]).tocsr()
-    y = _vanishing(unit)
-    if y.shape[1] == 0:
+    return rows_carried(_vanishing(unit).T)
+
+
+def rows_carried(y: np.ndarray) -> list[int]:
+    """As many rows as there are combinations y (r, m) that vanish: those that carry them."""
+    if not len(y):
         return []
     from scipy.linalg import qr
 
-    _, order = qr(y.T, mode="r", pivoting=True)
-    return sorted(int(row) for row in order[: y.shape[1]])
+    _, order = qr(y, mode="r", pivoting=True)
+    return sorted(int(row) for row in order[: len(y)])
 
 
 def _vanishing(unit: csr_array) -> np.ndarray:

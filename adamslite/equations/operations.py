@@ -11,18 +11,22 @@ from adamslite.integrators.contract import (
     CLOCK,
     DONE,
     EQUILIBRIUM,
+    FACTOR,
     MODE_STATICS,
     RECORD,
     RECORD_AT_REST,
     RESIDUAL,
     RESIDUAL_AT_REST,
+    SINGULAR_MASS,
+    SOLVE,
     SPECTRUM,
     Problem,
 )
 from adamslite.integrators.equilibrium import equilibrium
 from adamslite.integrators.events.stops import sample_clock
+from adamslite.integrators.linalg.blocks import add_to_diagonal, factor, solve
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import jacobian, residual, track
+from adamslite.integrators.motion_equations import jacobian, residual, spread, track
 from adamslite.integrators.records import write_record
 from adamslite.integrators.unconstrained import spectrum
 from adamslite.native.translate import native
@@ -32,8 +36,11 @@ from adamslite.native.translate import native
 def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     """Do one operation on the state in q, u, a, z and rd at time ``settings[T]``; RECORD writes
     row ``phases``; what is AT_REST has the MODE of statics; CLOCK writes the guards of the clock
-    at output times; AUDIT starts a balance.
+    at output times; AUDIT starts a balance; FACTOR eliminates the blocks of J with F added to the
+    diagonal, SOLVE replaces F by the solution.
     """
+    if operation == FACTOR or operation == SOLVE:
+        return eliminated(P, L, operation)
     if operation == CLOCK:
         return sample_clock(P)
     if operation == EQUILIBRIUM:
@@ -56,3 +63,14 @@ def run(P: Problem, L: Plan, operation: int, phases: int) -> int:
     else:
         jacobian(P, phases, P.coef, P.J)
     return DONE
+
+
+@native
+def eliminated(P: Problem, L: Plan, operation: int) -> int:
+    """Factor the matrix of the blocks, or solve with it."""
+    if operation == SOLVE:
+        solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
+        return DONE
+    spread(P, P.LA)
+    add_to_diagonal(L, P.F, P.LA, P.x)
+    return DONE if factor(L, P.LA, P.pivots_a, P.work) else SINGULAR_MASS

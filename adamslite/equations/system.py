@@ -6,6 +6,8 @@ in the stabilised form, multipliers of the velocity rows; every equation has the
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -319,6 +321,11 @@ class System:
         """Do an operation of native code on the arrays as they are now; returns an outcome."""
         problem, plan = self.records()
         return engine()(problem.address, plan.address, operation, phases)
+
+    def operation(self, operation: int) -> Callable[[], int]:
+        """An operation to be done many times on arrays that are not replaced meanwhile."""
+        problem, plan = self.records()
+        return partial(engine(), problem.address, plan.address, operation, 0)
 
     def integrate(self, entry: str) -> int:
         """Let the native code of a method run from the present state; returns an outcome."""

@@ -128,7 +128,9 @@ MODE_STATICS = 5.0
     AUDIT,
     RECORD_AT_REST,
     RESIDUAL_AT_REST,
-) = range(10)
+    FACTOR,
+    SOLVE,
+) = range(12)
 
 
 class Sizes(Record):

@@ -15,13 +15,15 @@ from math import isnan
 
 import numpy as np
 
+from adamslite.analyses.initial.least_change import POSITIONS, VELOCITIES, Way, ways
+from adamslite.analyses.initial.rows import SPEEDS, velocity_rows
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.equations.system import System
 from adamslite.integrators import contract
-from adamslite.integrators.contract import JACOBIAN, RESIDUAL
+from adamslite.integrators.contract import RESIDUAL
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.model.model import PART
-from adamslite.model.scaling import coordinate_weights, turned
+from adamslite.model.scaling import turned
 from adamslite.results.outcomes import Outcome
 
 MAX_ITERATIONS = 100
@@ -33,11 +35,10 @@ OPEN, OPEN_SPEED = 1e-9, 1e-8
 STILL = 1e-15
 # Largest turn of a part in one step [rad], halvings of a step that does not help.
 MOST_TURN, HALVINGS = 0.5, 12
-# Singular values below this share of the largest are redundant rows.
-RANK = 1e-9
+# Passes over the velocities: what round-off leaves of the first.
+PASSES = 3
 # Rows off by this share of the worst take part in a contradiction.
 INVOLVED = 1e-3
-SPEEDS = contract.VELOCITY_ROWS | contract.RATE_ROWS
 
 
 @dataclass
@@ -67,26 +68,29 @@ def initial_conditions(system: System, free: Iterable[Constraint] = ()) -> Unclo
     """
     if system.m == 0:
         return None
-    if system.holonomic:
-        unclosed = _positions(system)
-        if unclosed:
-            return unclosed
-    return _velocities(system, free)
+    before = system.q.copy(), system.u.copy(), system.base.copy()
+    unclosed = None
+    for way in ways(system):
+        system.q[:], system.u[:], system.base[:] = before
+        unclosed = _positions(system, way) if system.holonomic else None
+        unclosed = unclosed or _velocities(system, free, way)
+        if unclosed is None:
+            break
+    return unclosed
 
 
-def _positions(system: System) -> Unclosed | None:
+def _positions(system: System, way: Way) -> Unclosed | None:
     rows = np.arange(system.n, system.n + system.holonomic)
     size = max(1.0, float(np.abs(system.q).max()))
     g = _residual(system, contract.POSITION_ROWS)[rows]
     for _ in range(MAX_ITERATIONS):
         if not np.isfinite(g).all() or float(np.abs(g).max()) <= CLOSED * size:
             break
-        gradient = _gradient(system, contract.POSITION_ROWS, 0, rows)
-        if not np.isfinite(gradient).all():
-            g = g + 0.0 * gradient.sum(axis=1)
+        gradient = way(system, POSITIONS, np.arange(len(rows)))
+        if not np.isfinite(gradient.sums).all():
+            g = g + 0.0 * gradient.sums
             break
-        step = _least_change(system, gradient, g)
-        g, moved = _damped(system, step, g, rows)
+        g, moved = _damped(system, gradient.step(g), g, rows)
         if moved <= STILL * size:
             break
     return _unclosed(system, g, np.arange(len(g)), OPEN * size, "position")
@@ -121,18 +125,18 @@ def largest_turn(system: System, step: np.ndarray) -> float:
     return max(turns, default=0.0)
 
 
-def _velocities(system: System, free: Iterable[Constraint]) -> Unclosed | None:
+def _velocities(system: System, free: Iterable[Constraint], way: Way) -> Unclosed | None:
     kept = np.setdiff1d(np.arange(system.m), [row for c in free for row in _rows_of(system, c)])
     rows = velocity_rows(system)[kept]
     if not len(rows):
         return None
-    for _ in range(3):
-        defect = _residual(system, SPEEDS)[rows]
-        gradient = _gradient(system, SPEEDS, 1, rows)
-        if not (np.isfinite(defect).all() and np.isfinite(gradient).all()):
-            defect = defect + 0.0 * gradient.sum(axis=1)
+    defect = _residual(system, SPEEDS)[rows]
+    for _ in range(PASSES):
+        gradient = way(system, VELOCITIES, kept)
+        if not (np.isfinite(defect).all() and np.isfinite(gradient.sums).all()):
+            defect = defect + 0.0 * gradient.sums
             break
-        system.u[: system.n] -= _least_change(system, gradient, defect, speeds=True)
+        system.u[: system.n] -= gradient.step(defect)
         defect = _residual(system, SPEEDS)[rows]
     size = max(1.0, float(np.abs(system.u).max()))
     return _unclosed(system, defect, kept, OPEN_SPEED * size, "velocity")
@@ -160,7 +164,15 @@ def consistent_velocities(system: System) -> Unclosed | None:
         return None
     defect = _residual(system, SPEEDS)[velocity_rows(system)]
     size = max(1.0, float(np.abs(system.u).max()))
-    return _velocities(system, ()) if np.abs(defect).max() > OPEN * size else None
+    if np.abs(defect).max() <= OPEN * size:
+        return None
+    before, unclosed = system.u.copy(), None
+    for way in ways(system):
+        system.u[:] = before
+        unclosed = _velocities(system, (), way)
+        if unclosed is None:
+            break
+    return unclosed
 
 
 def speed_defects(system: System, constraints: Iterable[Constraint]) -> list[np.ndarray]:
@@ -193,45 +205,6 @@ def _unclosed(
 def _residual(system: System, phases: int) -> np.ndarray:
     system.run(RESIDUAL, phases)
     return system.F.copy()
-
-
-def _gradient(system: System, phases: int, kind: int, rows: np.ndarray) -> np.ndarray:
-    """Derivative of constraint rows with respect to positions (kind 0) or velocities (1), dense."""
-    system.coef[:5] = 0.0
-    system.coef[kind] = 1.0
-    system.run(JACOBIAN, phases)
-    return system.dense_jacobian()[rows, : system.n]
-
-
-def _least_change(
-    system: System, gradient: np.ndarray, defect: np.ndarray, speeds: bool = False
-) -> np.ndarray:
-    """Smallest weighted step that removes the defect to first order (redundant rows are shared)."""
-    scale = 1.0 / weights(system, speeds)
-    step, *_ = np.linalg.lstsq(gradient * scale, defect, rcond=RANK)
-    return scale * step
-
-
-def constraint_gradient(system: System) -> np.ndarray:
-    """G: derivative of every constraint row with respect to velocities, (m, n)."""
-    return _gradient(system, SPEEDS, 1, velocity_rows(system))
-
-
-def velocity_rows(system: System) -> np.ndarray:
-    """Rows of the velocity conditions: holonomic ones (at mu when there is one), then rates."""
-    first = system.nz - system.holonomic if system.numbering.stabilised else system.n
-    rates = np.arange(system.n + system.holonomic, system.n + system.m)
-    return np.concatenate([np.arange(first, first + system.holonomic), rates])
-
-
-def weights(system: System, speeds: bool = False) -> np.ndarray:
-    """(n,) weights of the coordinates, or of their velocities."""
-    model = system.model
-    table = model.once(("weights", speeds), lambda: coordinate_weights(model, speeds))
-    w = np.ones(system.n)
-    for b, body in enumerate(model.bodies):
-        w[system.starts[b] : system.starts[b] + body.width] = table[b, : body.width]
-    return w
 
 
 def move(system: System, step: np.ndarray) -> None:

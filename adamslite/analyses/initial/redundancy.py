@@ -7,17 +7,26 @@ from __future__ import annotations
 
 import numpy as np
 
-from adamslite.analyses.initial.conditions import constraint_gradient, weights
-from adamslite.assembly.rank import dependent_rows, name_of_row, unit_rows
+from adamslite.analyses.initial.least_change import MOST_DENSE, VELOCITIES
+from adamslite.analyses.initial.rows import constraint_gradient, weights
+from adamslite.analyses.initial.sparse_rows import LeastChanges, Pattern, evaluated
+from adamslite.assembly.rank import dependent_rows, name_of_row, rows_carried, unit_rows
 from adamslite.equations.system import System
 
 # Rows kept that are nearer to dependence than all rows by this factor were the wrong choice.
 WORSE = 1e-3
+# Vectors of an iteration besides those that are asked for.
+SPARE = 4
 
 
 def redundant_rows(system: System) -> list[int]:
     """Numbers of the redundant rows at the present posture, counted from the first multiplier."""
-    return dependent_rows(_scaled_rows(system)) if system.m else []
+    if not system.m:
+        return []
+    if system.m <= MOST_DENSE:
+        return dependent_rows(_scaled_rows(system))
+    system.drop([])
+    return rows_carried(_factored(system, np.arange(system.m)).vanishing())
 
 
 def badly_chosen(system: System) -> bool:
@@ -28,13 +37,29 @@ def badly_chosen(system: System) -> bool:
     of all rows: where constraints lose rank (a flattened parallelogram) both vanish, and leaving
     out another row there would let the mechanism come apart.
     """
-    kept = system.m - len(system.elimination.dropped)
-    if kept in (0, system.m):
+    dropped = system.elimination.dropped
+    if len(dropped) in (0, system.m):
         return False
-    scaled = _scaled_rows(system)
-    independent = np.delete(scaled, system.elimination.dropped, axis=0)
-    least = np.linalg.svd(independent, compute_uv=False)[kept - 1]
-    return bool(least < WORSE * np.linalg.svd(scaled, compute_uv=False)[kept - 1])
+    kept = np.delete(np.arange(system.m), dropped)
+    if system.m <= MOST_DENSE:
+        scaled = _scaled_rows(system)
+        some, all_ = (np.linalg.svd(each, compute_uv=False) for each in (scaled[kept], scaled))
+        return bool(some[len(kept) - 1] < WORSE * all_[len(kept) - 1])
+    system.drop([])
+    # Rows that are zero count as combinations that vanish.
+    found = np.zeros((0, system.m))
+    some, all_ = (
+        _factored(system, rows).smallest(len(dropped) + SPARE, found)[0][SPARE - 1]
+        for rows in (kept, np.arange(system.m))
+    )
+    system.drop(dropped)
+    return bool(some < WORSE * all_)
+
+
+def _factored(system: System, kept: np.ndarray) -> LeastChanges:
+    pattern = Pattern(system, True)
+    rows = evaluated(system, pattern, *VELOCITIES).only(kept)
+    return LeastChanges(system, pattern, rows, weights(system))
 
 
 def _scaled_rows(system: System) -> np.ndarray:

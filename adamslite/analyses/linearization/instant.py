@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.initial.conditions import velocity_rows
+from adamslite.analyses.initial.rows import velocity_rows
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, JACOBIAN

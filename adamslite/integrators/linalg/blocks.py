@@ -142,6 +142,17 @@ def eliminate(L: Plan, LV: Reals, k: int, at: int, work: Reals) -> int:
 
 
 @native
+def add_to_diagonal(L: Plan, d: Reals, A: Reals, x: Reals) -> None:
+    """A_ii += d_i in the order of the unknowns; ``x``: workspace."""
+    for i in range(L.place.size):
+        x[L.place[i]] = d[i]
+    for k in range(L.size.size):
+        s = L.size[k]
+        for i in range(s):
+            A[L.diagonal[k] + i * (s + 1)] += x[L.start[k] + i]
+
+
+@native
 def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
     """Eliminate in place; returns False when a pivot block is singular.
 
