@@ -9,15 +9,16 @@ and at a body much heavier or lighter than the masses in between.
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from statistics import median
+from typing import NamedTuple
 
 from adamslite.cables.payout_law import Unknown
-from adamslite.cables.posture import GROUND, Body, Posture
+from adamslite.cables.posture import GROUND, STILL, Body, Posture
 from adamslite.cables.vectors import ZERO, add, dot, norm
 from adamslite.deck.deck import Deck
 from adamslite.elements.sforce import Sforce
 from adamslite.elements.springdamper import Springdamper
 from adamslite.elements.vforce import Vforce
-from adamslite.language.expression import Node, Ref, rebuild
+from adamslite.language.expression import Call, Node, Num, Op, Ref, rebuild
 from adamslite.language.interfaces import Key
 
 Spring = Sforce | Vforce | Springdamper
@@ -151,13 +152,66 @@ def _sprung(link: Link, posture: Posture) -> Link | None:
     if isinstance(spring, Springdamper):
         free = spring.length + spring.force / spring.k if spring.k > 0 else 0.0
         return _made(link, spring.k * (drawn - free), spring.k, free) if free > 0 else None
-    if not drawn > 0 or not _pull(link, posture, STRETCHES[-1]) > 0:
+    if not drawn > 0:
+        return None
+    law = None if posture.given or len(link.components) > 1 else _line(link.components[0], link)
+    if law is not None:
+        free = -law.at_zero / law.slope if law.slope < 0 else 0.0
+        pulls = free > 0 and free < (1 + STRETCHES[-1]) * drawn
+        return _made(link, -law(drawn), -law.slope, free) if pulls else None
+    if not _pull(link, posture, STRETCHES[-1]) > 0:
         return None
     found = _stiff(link, posture, STRETCHES)
     if found is None or not found[1] > 0:
         return None
     taut = found[0] * (drawn - found[1])
     return _made(link, taut if taut > 0 else _pull(link, posture, 0.0), *found)
+
+
+class _Line(NamedTuple):
+    """A force that is a straight line of the distance between the ends of a spring."""
+
+    at_zero: float
+    slope: float
+
+    def __call__(self, distance: float) -> float:
+        return self.at_zero + self.slope * distance
+
+
+NOTHING = _Line(0.0, 0.0)
+
+
+def _line(node: Node, link: Link) -> _Line | None:
+    """An expression as such a line while everything is still; None where it is no line."""
+    if type(node) is Num:
+        return _Line(node.value, 0.0)
+    if type(node) is Call:
+        ends = {arg.id for arg in node.args if type(arg) is Ref}
+        if node.name == "DM" and ends == {link.i, link.j}:
+            return _Line(0.0, 1.0)
+        return NOTHING if node.name in STILL else None
+    if type(node) is not Op:
+        return None
+    sides = [_line(arg, link) for arg in node.args]
+    return _joined(node.op, *(side for side in sides if side)) if all(sides) else None
+
+
+def _joined(op: str, a: _Line, b: _Line = NOTHING) -> _Line | None:
+    """What an operation makes of two lines, where it is a line again."""
+    match op:
+        case "neg":
+            return _Line(-a.at_zero, -a.slope)
+        case "+":
+            return _Line(a.at_zero + b.at_zero, a.slope + b.slope)
+        case "-":
+            return _Line(a.at_zero - b.at_zero, a.slope - b.slope)
+        case "*" if b.slope == 0.0:
+            return _Line(a.at_zero * b.at_zero, a.slope * b.at_zero)
+        case "*" if a.slope == 0.0:
+            return _Line(a.at_zero * b.at_zero, a.at_zero * b.slope)
+        case "/" if b.slope == 0.0 and b.at_zero != 0.0:
+            return _Line(a.at_zero / b.at_zero, a.slope / b.at_zero)
+    return None
 
 
 def _stiff(link: Link, posture: Posture, stretches: Sequence[float]) -> tuple[float, float] | None:

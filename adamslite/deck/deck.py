@@ -109,11 +109,12 @@ class Deck:
     def find(self, kind: str, id: Key) -> Any: ...
     def find(self, kind: type[Statement] | str, id: Key) -> Any:
         """The statement of that kind with that id or name; None when there is none."""
-        keyword = _keyword(kind)
-        wanted = id.upper() if isinstance(id, str) else id
-        found = self._by_key.get((keyword, wanted))
-        if found is None and isinstance(wanted, str):
-            key = self.names.find(keyword, wanted)
+        keyword = kind if type(kind) is str else _keyword(kind)
+        found = self._by_key.get((keyword, id))
+        if found is None and isinstance(id, str):
+            found = self._by_key.get((keyword, id.upper()))
+        if found is None and isinstance(id, str):
+            key = self.names.find(keyword, id.upper())
             found = self._by_key.get((keyword, key)) if isinstance(key, int | str) else None
         return found
 

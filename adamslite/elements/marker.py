@@ -14,6 +14,7 @@ from adamslite.language.statement import Statement, flag, reference, statement, 
 
 BODIES = ("POINT_MASS", "PART", "FLEX_BODY", "FE_PART")
 """What a marker may be on, by arguments of the same name."""
+OWNERS = tuple((keyword, keyword.lower()) for keyword in BODIES)
 
 
 @statement("MARKER")
@@ -64,7 +65,7 @@ class Marker(Statement):
         cls, values: dict[str, object], body: tuple[str, Key | None] | None
     ) -> dict[str, object]:
         """The nearest body before it owns a marker that names none."""
-        if body is None or any(keyword.lower() in values for keyword in BODIES):
+        if body is None or any(field in values for _, field in OWNERS):
             return {}
         keyword, id = body
         return {keyword.lower(): id}
@@ -72,5 +73,8 @@ class Marker(Statement):
     @property
     def owner(self) -> tuple[str, int | str] | None:
         """Keyword and id of the body it is fixed to."""
-        owners = ((keyword, getattr(self, keyword.lower())) for keyword in BODIES)
-        return next((owner for owner in owners if owner[1] is not None), None)
+        for keyword, field in OWNERS:
+            key = getattr(self, field)
+            if key is not None:
+                return keyword, key
+        return None
