@@ -22,6 +22,8 @@ from adamslite.integrators import contract
 MOST_DENSE, MOST_REPEATED = 120, 1200
 # Singular values below this share of the largest are redundant rows.
 RANK = 1e-9
+# Defects below this share of the values are round-off.
+STILL = 1e-15
 
 
 class Level(NamedTuple):
@@ -73,16 +75,19 @@ class Dense:
 
 
 class Sparse:
-    """By the factors of G G^T."""
+    """By the factors of independent rows."""
 
     def __init__(self, system: System, level: Level, kept: np.ndarray) -> None:
-        self.kept, speeds = kept, level is VELOCITIES
-        self.defect = np.zeros(system.m)
-        pattern = Pattern(system, speeds)
-        rows = evaluated(system, pattern, level.phases, level.kind).only(kept)
-        self.sums = np.bincount(rows.row, rows.values, system.m)[kept]
-        self.changes = LeastChanges(system, pattern, rows, weights(system, speeds))
+        self.system, self.kept, self.speeds = system, kept, level is VELOCITIES
+        self.pattern = Pattern(system, self.speeds)
+        self.rows = evaluated(system, self.pattern, level.phases, level.kind).only(kept)
+        self.sums = np.bincount(self.rows.row, self.rows.values, system.m)[kept]
 
     def step(self, defect: np.ndarray) -> np.ndarray:
-        self.defect[self.kept] = defect
-        return self.changes.step(self.defect)
+        system, values = self.system, self.system.u if self.speeds else self.system.q
+        if np.abs(defect).max() <= STILL * max(1.0, float(np.abs(values).max())):
+            return np.zeros(system.n)
+        all_defects = np.zeros(system.m)
+        all_defects[self.kept] = defect
+        scale = weights(system, self.speeds)
+        return LeastChanges(system, self.pattern, self.rows, scale).step(all_defects)

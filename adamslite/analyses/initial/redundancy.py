@@ -10,13 +10,11 @@ import numpy as np
 from adamslite.analyses.initial.least_change import MOST_DENSE, VELOCITIES
 from adamslite.analyses.initial.rows import constraint_gradient, weights
 from adamslite.analyses.initial.sparse_rows import LeastChanges, Pattern, evaluated
-from adamslite.assembly.rank import dependent_rows, name_of_row, rows_carried, unit_rows
+from adamslite.assembly.rank import dependent_rows, name_of_row, unit_rows
 from adamslite.equations.system import System
 
 # Rows kept that are nearer to dependence than all rows by this factor were the wrong choice.
 WORSE = 1e-3
-# Vectors of an iteration besides those that are asked for.
-SPARE = 4
 
 
 def redundant_rows(system: System) -> list[int]:
@@ -26,7 +24,7 @@ def redundant_rows(system: System) -> list[int]:
     if system.m <= MOST_DENSE:
         return dependent_rows(_scaled_rows(system))
     system.drop([])
-    return rows_carried(_factored(system, np.arange(system.m)).vanishing())
+    return _factored(system, np.arange(system.m)).dependent
 
 
 def badly_chosen(system: System) -> bool:
@@ -46,14 +44,13 @@ def badly_chosen(system: System) -> bool:
         some, all_ = (np.linalg.svd(each, compute_uv=False) for each in (scaled[kept], scaled))
         return bool(some[len(kept) - 1] < WORSE * all_[len(kept) - 1])
     system.drop([])
-    # Rows that are zero count as combinations that vanish.
-    found = np.zeros((0, system.m))
-    some, all_ = (
-        _factored(system, rows).smallest(len(dropped) + SPARE, found)[0][SPARE - 1]
-        for rows in (kept, np.arange(system.m))
-    )
+    few, whole = _factored(system, kept), _factored(system, np.arange(system.m))
+    if len(whole.dependent) > len(dropped):
+        worse = False  # all rows have lost rank
+    else:
+        worse = len(few.dependent) > 0 or few.least < WORSE * whole.least
     system.drop(dropped)
-    return bool(some < WORSE * all_)
+    return worse
 
 
 def _factored(system: System, kept: np.ndarray) -> LeastChanges:

@@ -3,29 +3,44 @@
     [ 1   U^T ] [ W p ]   [   0    ]
     [ U   -s  ] [ -x  ] = [ D^-1 g ],     (U U^T + s) x = D^-1 g,    p = W^-1 U^T x
 
-D makes every row of U = D^-1 G W^-1 as long as 1, s lets redundant rows share what they carry. The
-elimination is the native one, in the order that is planned for the equations of motion: a chain
-costs as much as it has bodies.  What s leaves of the defects is removed by further passes with the
-same factors.  Reference: Vanderbei, Symmetric quasidefinite matrices, SIAM J. Optim. 5 (1995) 100.
+D makes every row of U = D^-1 G W^-1 as long as 1.  The elimination is the native one, in the order
+that is planned for the equations of motion: a chain costs as much as it has bodies.  Rows that
+follow from others, or nearly, are left out first: those that carry the vectors y with U^T y = 0
+which inverse iteration finds.  What is left of them beside the rows kept is then known to full
+accuracy, and by its singular values what they add to a step, and whether defects contradict each
+other.
+References: Vanderbei, Symmetric quasidefinite matrices, SIAM J. Optim. 5 (1995) 100; Golub, Van
+Loan, Matrix Computations, 2013, sections 5.5, 8.2.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.assembly.rank import RANK
+from adamslite.assembly.rank import RANK, rows_carried
 from adamslite.equations.system import System
-from adamslite.integrators.contract import DONE, FACTOR, JACOBIAN, SOLVE
+from adamslite.integrators.contract import FACTOR, JACOBIAN, SOLVE
 
-# s: what round-off of rows of unit length, times a thousand, stays below.
-SHARED = 1e-12
-# Defects that no longer shrink by this factor are contradictions.
-PASSES, SHRINKING = 8, 0.5
-# Vectors of an inverse iteration at first and at most; iterations; sizes that are clearly not zero.
-FIRST, MOST, ITERATIONS, CLEAR = 4, 64, 8, 1e-6
+if TYPE_CHECKING:  # few models need it
+    from scipy.sparse.linalg import SuperLU
+
+# s where some rows follow from others, and where all are independent.
+SHARED, ROUND_OFF = 1e-10, 1e-15
+# Passes of a step with the same factors; what is left of a defect that holds, and what shrinks no
+# more.
+PASSES, LEFT, SHRINKING = 8, 1e-14, 0.5
+# Contradictions below this share of the defects are round-off.
+CONTRADICTED = 1e-9
+# The largest residual of a solution whose factors have kept their digits, against it.
+DIGITS = 1e-9
+# A change of a combination of rows that is round-off.
+NOTHING = 1e-11
+# Vectors of an inverse iteration at first and at most; iterations; sizes that may vanish.
+FIRST, MOST, ITERATIONS, SMALL = 4, 64, 2, 1e-5
 
 
 @dataclass(frozen=True)
@@ -117,75 +132,179 @@ def evaluated(system: System, pattern: Pattern, phases: int, kind: int) -> Rows:
 class LeastChanges:
     """The factors at one posture.
 
-    ``unit``: the rows U;  ``weights``: W (n,) of the coordinates.
+    ``unit``: the rows U;  ``weights``: W (n,) of the coordinates;  ``found``: numbers of the rows
+    that follow from those kept, or nearly;  ``forces``: what is left of them, F = Y U, where each
+    row of ``combinations``, Y, is one of them less what those kept make up of it.
     """
 
     def __init__(self, system: System, pattern: Pattern, rows: Rows, weights: np.ndarray) -> None:
-        self.system, self.weights = system, weights
-        dead = system.elimination.dead - system.n
-        self.left_out = dead[(dead >= 0) & (dead < system.m)]
+        self.system, self.pattern, self.weights = system, pattern, weights
         columns = 1.0 / weights
         length = rows.scaled(np.ones(system.m), columns).lengths
         self.shrunk = 1.0 / np.where(length > 0.0, length, 1.0)
         self.unit = rows.scaled(self.shrunk, columns)
-        system.J[:] = 0.0
-        system.J[pattern.below] = system.J[pattern.above] = self.unit.values
-        system.F[:] = 1.0
-        system.F[system.n : system.n + system.m] = -SHARED
-        self.regular = system.run(FACTOR) == DONE
+        dead = system.elimination.dead - system.n
+        self.left_out = np.zeros(system.m, dtype=bool)
+        self.left_out[dead[(dead >= 0) & (dead < system.m)]] = True
+        self.left_out[length == 0.0] = True
+        self.found = self._leave_out()
+        self.combinations = np.array([self._combination(row) for row in self.found])
+        self.forces = np.array([self.unit.transposed_times(each) for each in self.combinations])
 
-    def carried(self, defects: np.ndarray) -> np.ndarray:
-        """(U U^T + s)^-1 r for each row r of an array (k, m)."""
-        system, n, m = self.system, self.system.n, self.system.m
-        solve = system.operation(SOLVE)
-        found = np.empty_like(defects)
-        for k, defect in enumerate(defects):
-            system.F[:] = 0.0
-            system.F[n : n + m] = defect
-            solve()
-            found[k] = -system.F[n : n + m]
-        found[:, self.left_out] = 0.0
-        return found
+    @property
+    def dependent(self) -> list[int]:
+        """Numbers of the rows that follow from all others: of those left out, pivoted, the ones of
+        which no more than RANK is left.
+        """
+        if not self.found:
+            return []
+        from scipy.linalg import qr
+
+        r, order = qr(self.forces.T, mode="r", pivoting=True)
+        independent = int((np.abs(np.diag(r)) > RANK).sum())
+        return sorted(self.found[k] for k in order[independent:])
+
+    @property
+    def least(self) -> float:
+        """The smallest singular value of the rows that are kept."""
+        return float(self.smallest(FIRST, np.zeros((0, self.system.m)))[0][-1])
 
     def step(self, defect: np.ndarray) -> np.ndarray:
         """The smallest weighted change (n,) that removes a defect (m,) of the rows, to first order;
         contradictions stay at their least sum of squares.
         """
-        rest, step = self.shrunk * defect, np.zeros(self.system.n)
-        size = np.linalg.norm(rest)
-        for _ in range(PASSES):
-            change = self.unit.transposed_times(self.carried(rest[None])[0])
-            step += change
-            rest = rest - self.unit.times(change)
-            before, size = size, np.linalg.norm(rest)
-            if not size < SHRINKING * before:
-                break
+        step = self._step(self.shrunk * defect)
+        if self.found:
+            left, sizes, right = np.linalg.svd(self.forces, full_matrices=False)
+            wanted, some = left.T @ (self.combinations @ (self.shrunk * defect)), sizes > RANK
+            lost = np.abs(wanted[~some]).max(initial=0.0)
+            if lost > CONTRADICTED * np.abs(self.shrunk * defect).max():
+                vanishing = left.T[~some] @ self.combinations * self.shrunk
+                basis = np.linalg.qr(vanishing.T)[0]
+                return self.step(defect - basis @ (basis.T @ defect))
+            step += right[some].T @ (wanted[some] / sizes[some])
         return step / self.weights
 
-    def vanishing(self) -> np.ndarray:
-        """An orthonormal basis (r, m) of the y with U^T y = 0: of a few vectors, then of more
-        across those found, until some do not vanish.
+    def _step(self, defect: np.ndarray) -> np.ndarray:
+        """The smallest change that removes a defect of the rows of U that are kept."""
+        rest, step = np.where(self.left_out, 0.0, defect), np.zeros(self.system.n)
+        enough, size = LEFT * np.abs(rest).max(), np.abs(rest).max()
+        for _ in range(PASSES):
+            change = self.unit.transposed_times(self._carried(rest[None])[0])
+            left = np.where(self.left_out, 0.0, rest - self.unit.times(change))
+            before, size = size, np.abs(left).max()
+            if not size < before:
+                break
+            rest, step = left, step + change
+            if size <= enough or size > SHRINKING * before:
+                break
+        return step
+
+    def _combination(self, row: int) -> np.ndarray:
+        """A dependent row less what the kept ones make up of it: y, |y| = 1, with U^T y = 0."""
+        y = np.zeros(self.system.m)
+        y[row] = 1.0
+        for _ in range(PASSES):
+            force = self.unit.transposed_times(y)
+            change = self._carried(self.unit.times(force)[None])[0]
+            y = y - change
+            if np.linalg.norm(change) <= NOTHING * np.linalg.norm(y):
+                break
+        return y / np.linalg.norm(y)
+
+    def _leave_out(self) -> list[int]:
+        """Leave out the rows that follow from others, or nearly; what is left is factored."""
+        found: list[int] = []
+        while True:
+            self._factor(SHARED)
+            more = rows_carried(self._small())
+            if not more:
+                break
+            found += more
+            self.left_out[more] = True
+        self._factor(ROUND_OFF)
+        return sorted(found)
+
+    def _factor(self, shared: float) -> None:
+        """Factor the rows kept, U U^T + s: by the native elimination unless its order, which counts
+        on inertia that weights of coordinates may undo, makes it lose digits.
+        """
+        system, kept = self.system, ~self.left_out
+        system.J[:] = 0.0
+        values = self.unit.values * kept[self.unit.row]
+        system.J[self.pattern.below] = system.J[self.pattern.above] = values
+        system.F[:] = 1.0
+        system.F[system.n : system.n + system.m] = np.where(kept, -shared, -1.0)
+        system.run(FACTOR)
+        self._stable: SuperLU | None = None
+        probe = np.where(kept, np.random.default_rng(0).normal(size=system.m), 0.0)
+        x = self._carried(probe[None])[0]
+        rest = np.where(kept, self._product(x) + shared * x - probe, 0.0)
+        if not np.abs(rest).max() <= DIGITS * np.abs(x).max():
+            self._stable = self._by_diagonal(np.where(kept, shared, 1.0))
+
+    def _product(self, x: np.ndarray) -> np.ndarray:
+        """U U^T x."""
+        return self.unit.times(self.unit.transposed_times(x))
+
+    def _by_diagonal(self, added: np.ndarray) -> SuperLU:
+        """The factors of U U^T of the rows kept, with ``added`` on the diagonal, pivot by pivot."""
+        from scipy.sparse import csr_array, diags_array
+        from scipy.sparse.linalg import splu
+
+        values = self.unit.values * ~self.left_out[self.unit.row]
+        rows = csr_array((values, (self.unit.row, self.unit.column)), shape=self.unit.shape)
+        square = (rows @ rows.T + diags_array(added)).tocsc()
+        return splu(
+            square, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        )  # fmt: skip
+
+    def _carried(self, defects: np.ndarray) -> np.ndarray:
+        """(U U^T + s)^-1 r of the rows kept, for each r of an array (k, m)."""
+        if self._stable is not None:
+            found = self._stable.solve(np.ascontiguousarray(defects.T)).T
+        else:
+            found = self._eliminated(defects)
+        found[:, self.left_out] = 0.0
+        return found
+
+    def _eliminated(self, defects: np.ndarray) -> np.ndarray:
+        """The same by the native elimination."""
+        system, n, m = self.system, self.system.n, self.system.m
+        solve = system.operation(SOLVE)
+        found = np.zeros_like(defects)
+        for k, defect in enumerate(defects):
+            system.F[:] = 0.0
+            system.F[n : n + m] = defect
+            solve()
+            found[k] = -system.F[n : n + m]
+        return found
+
+    def _small(self) -> np.ndarray:
+        """Orthonormal combinations (r, m) of the rows kept that may vanish: of a few vectors, then
+        of more across those found, until some are far from it.
         """
         found, count = np.zeros((0, self.system.m)), FIRST
-        while len(found) < self.system.m:
-            sizes, y = self.smallest(count, found)
-            found = np.concatenate([found, y[sizes <= RANK]])
-            if sizes[0] > RANK:
+        left = int((~self.left_out).sum())
+        while len(found) < left:
+            sizes, y = self.smallest(min(count, left - len(found)), found)
+            found = np.concatenate([found, y[sizes <= SMALL]])
+            if sizes[0] > SMALL:
                 break
             count = min(2 * count, MOST)
         return found
 
     def smallest(self, count: int, found: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Singular values of U, the smallest but for those of the rows of ``found``, in falling
-        order, and their combinations of rows; by inverse iteration on ``count`` vectors.
+        """Singular values of the rows kept, the smallest but for those of the rows of ``found``, in
+        falling order, and their combinations of rows; by inverse iteration on ``count`` vectors.
         """
-        m = self.system.m
-        y = np.random.default_rng(len(found)).normal(size=(min(count, m - len(found)), m))
+        y = np.random.default_rng(len(found)).normal(size=(count, self.system.m))
+        y[:, self.left_out] = 0.0
         for _ in range(ITERATIONS):
-            y = self.carried(y)
-            y = np.linalg.qr((y - (y @ found.T) @ found).T)[0].T
-            forces = np.array([self.unit.transposed_times(each) for each in y])
-            mix, sizes, _ = np.linalg.svd(forces, full_matrices=False)
-            if not ((sizes > RANK) & (sizes < CLEAR)).any():
-                break
+            y = self._carried(y)
+            for _twice in range(2):
+                y = np.linalg.qr((y - (y @ found.T) @ found).T)[0].T
+        forces = np.array([self.unit.transposed_times(each) for each in y])
+        mix, sizes, _ = np.linalg.svd(forces, full_matrices=False)
         return sizes, mix.T @ y
