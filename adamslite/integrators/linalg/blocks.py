@@ -150,6 +150,10 @@ def add_to_diagonal(L: Plan, d: Reals, A: Reals, x: Reals) -> None:
         s = L.size[k]
         for i in range(s):
             A[L.diagonal[k] + i * (s + 1)] += x[L.start[k] + i]
+    for k in range(L.fronts.size):
+        F = L.fronts[k]
+        for i in range(F.size):
+            A[F.panel + i * (F.size + F.rest + 1)] += x[F.start + i]
 
 
 @native
