@@ -12,7 +12,7 @@ from adamslite.integrators.contract import ADDED_MASS, Problem
 from adamslite.integrators.linalg.blocks import invert
 from adamslite.integrators.linalg.dense import negative_pivots
 from adamslite.integrators.linalg.plan import TINY
-from adamslite.integrators.motion_equations import POINT, put_mass
+from adamslite.integrators.motion_equations import POINT, put_mass, put_point
 from adamslite.native.translate import Reals, call_address, native
 
 # A pivot above this share of what it was, and of the rest of its row, is no round-off.
@@ -24,7 +24,10 @@ def effective_masses(P: Problem, E: Reals) -> None:
     """E of every body at the workspace's state, where its block of the Jacobian is."""
     body, c, g = P.body, P.coef, P.group
     for b in range(P.sizes.nb):
-        put_mass(P, b, E, body[b].block)
+        if body[b].width == POINT:
+            put_point(P.mass[b], E[body[b].block :])
+        else:
+            put_mass(P, b, E, body[b].block)
     c[0], c[1], c[2], c[3], c[4] = 0.0, 0.0, 1.0, 0.0, 0.0
     for k in range(P.sizes.ng):
         if g[k].phases & ADDED_MASS:
@@ -33,19 +36,32 @@ def effective_masses(P: Problem, E: Reals) -> None:
 
 @native
 def divide_by_masses(P: Problem, E: Reals, F: Reals, a: Reals) -> bool:
-    """a = -E^-1 F of point masses, by Cramer's rule; False when one is singular."""
+    """a = -E^-1 F of point masses; False when one is singular."""
     for m in range(P.sizes.nb):
         o, k = P.body[m].block, P.body[m].first
-        b, c, d, f, g, h = E[o + 1], E[o + 2], E[o + 3], E[o + 5], E[o + 6], E[o + 7]
-        p, q, r = E[o + 4] * E[o + 8] - f * h, f * g - d * E[o + 8], d * h - E[o + 4] * g
-        det = E[o] * p + b * q + c * r
-        if not abs(det) > TINY:
+        e, f, g = E[o], E[o + 4], E[o + 8]
+        beside = abs(E[o + 1]) + abs(E[o + 2]) + abs(E[o + 3])
+        beside += abs(E[o + 5]) + abs(E[o + 6]) + abs(E[o + 7])
+        if beside == 0.0 and abs(e * f * g) > TINY:
+            a[k], a[k + 1], a[k + 2] = 0.0 - F[k] / e, 0.0 - F[k + 1] / f, 0.0 - F[k + 2] / g
+        elif not by_cramer(E, o, F[k:], a[k:]):
             return False
-        w = -1.0 / det
-        x, y, z = w * F[k], w * F[k + 1], w * F[k + 2]
-        a[k] = p * x + (c * h - b * E[o + 8]) * y + (b * f - c * E[o + 4]) * z
-        a[k + 1] = q * x + (E[o] * E[o + 8] - c * g) * y + (c * d - E[o] * f) * z
-        a[k + 2] = r * x + (b * g - E[o] * h) * y + (E[o] * E[o + 4] - b * d) * z
+    return True
+
+
+@native
+def by_cramer(E: Reals, o: int, F: Reals, a: Reals) -> bool:
+    """a = -E^-1 F with the 3 x 3 block at ``o``; False when it is singular."""
+    b, c, d, f, g, h = E[o + 1], E[o + 2], E[o + 3], E[o + 5], E[o + 6], E[o + 7]
+    p, q, r = E[o + 4] * E[o + 8] - f * h, f * g - d * E[o + 8], d * h - E[o + 4] * g
+    det = E[o] * p + b * q + c * r
+    if not abs(det) > TINY:
+        return False
+    w = -1.0 / det
+    x, y, z = w * F[0], w * F[1], w * F[2]
+    a[0] = p * x + (c * h - b * E[o + 8]) * y + (b * f - c * E[o + 4]) * z
+    a[1] = q * x + (E[o] * E[o + 8] - c * g) * y + (c * d - E[o] * f) * z
+    a[2] = r * x + (b * g - E[o] * h) * y + (E[o] * E[o + 4] - b * d) * z
     return True
 
 

@@ -264,20 +264,25 @@ def rotation_block(
 @native
 def put_mass(P: Problem, b: int, J: Reals, at: int) -> None:
     """The mass matrix of a body, 3 x 3 or 6 x 6, at ``at``."""
-    width, m = P.body[b].width, P.mass[b]
-    if width == POINT:
-        J[at], J[at + 1], J[at + 2] = m, 0.0, 0.0
-        J[at + 3], J[at + 4], J[at + 5] = 0.0, m, 0.0
-        J[at + 6], J[at + 7], J[at + 8] = 0.0, 0.0, m
+    if P.body[b].width == POINT:
+        put_point(P.mass[b], J[at:])
     else:
-        for k in range(width * width):
+        for k in range(36):
             J[at + k] = 0.0
         for k in range(3):
-            J[at + k * (width + 1)] = m
+            J[at + 7 * k] = P.mass[b]
         rotated_inertia(P, b, P.body[b].at, P.work)
         for i in range(3):
             for j in range(3):
                 J[at + 6 * (3 + i) + 3 + j] = P.work[3 * i + j]
+
+
+@native
+def put_point(m: float, J: Reals) -> None:
+    """m on the diagonal of 3 x 3 zeros."""
+    J[0], J[1], J[2] = m, 0.0, 0.0
+    J[3], J[4], J[5] = 0.0, m, 0.0
+    J[6], J[7], J[8] = 0.0, 0.0, m
 
 
 @native

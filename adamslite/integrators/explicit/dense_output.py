@@ -119,7 +119,7 @@ def interpolated(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
         y[i] += h * ((b - c) * old[width + i] - c * new[width + i])
     weight = h * x * x * z * z
     for j in range(4):
-        add_combined(P, C, POWERS + j, w, weight, y)
+        add_combined(P, C, POWERS + j, 0, w, weight, y)
         weight *= x if j % 2 == 0 else z
 
 
@@ -138,10 +138,10 @@ def slope(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
     for i in range(w - width):
         y[i] += h * ((b - c) * old[width + i] - c * new[width + i])
     xz = x * z
-    add_combined(P, C, POWERS, w, h * 2.0 * xz * b, y)
-    add_combined(P, C, POWERS + 1, w, h * x * xz * (3.0 * z - 2.0 * x), y)
-    add_combined(P, C, POWERS + 2, w, h * 3.0 * xz * xz * b, y)
-    add_combined(P, C, POWERS + 3, w, h * x * xz * xz * (4.0 * z - 3.0 * x), y)
+    add_combined(P, C, POWERS, 0, w, h * 2.0 * xz * b, y)
+    add_combined(P, C, POWERS + 1, 0, w, h * x * xz * (3.0 * z - 2.0 * x), y)
+    add_combined(P, C, POWERS + 2, 0, w, h * 3.0 * xz * xz * b, y)
+    add_combined(P, C, POWERS + 3, 0, w, h * x * xz * xz * (4.0 * z - 3.0 * x), y)
 
 
 @native

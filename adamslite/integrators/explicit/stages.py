@@ -28,25 +28,41 @@ from adamslite.native.translate import Alone, Reals, native
 def combine(P: Problem, C: Control, row: int, w: int, h: float, x: Reals, y: Reals) -> None:
     """y = x + h sum (weight k) over one row of the tableau."""
     if C.kind == MASSES:
-        n, s = P.sizes.n, h * P.tableau[ROW * row + 1]
-        for i in range(n):
-            y[n + i] = x[n + i]
-            y[i] = x[i] + s * x[n + i]
+        K, V, n, k = P.history, P.tableau[ROW * row + 2 :], P.sizes.n, h * C.h
+        start_twice(
+            x, x[n:], h * P.tableau[ROW * row + 1],
+            K[n * int(V[0]) :], K[n * int(V[3]) :], K[n * int(V[6]) :], K[n * int(V[9]) :],
+            h * V[1], h * V[4], h * V[7], h * V[10], k * V[2], k * V[5], k * V[8], k * V[11],
+            n, y, y[n:],
+        )  # fmt: skip
+        add_combined(P, C, row, 4, w, h, y)
     else:
         for i in range(w):
             y[i] = x[i]
-    add_combined(P, C, row, w, h, y)
+        add_combined(P, C, row, 0, w, h, y)
 
 
 @native
-def add_combined(P: Problem, C: Control, row: int, w: int, h: float, y: Reals) -> None:
-    """y += h sum (weight k) over one row of the tableau.
+def start_twice(
+    x: Reals, v: Reals, s: float, a: Reals, b: Reals, c: Reals, d: Reals,
+    ca: float, cb: float, cc: float, cd: float,
+    ea: float, eb: float, ec: float, ed: float, n: int, q: Alone, u: Alone,
+) -> None:  # fmt: skip
+    """u = v + ca a + ..., q = x + s v + ea a + ... in one pass."""
+    for i in range(n):
+        u[i] = v[i] + ((ca * a[i] + cb * b[i]) + (cc * c[i] + cd * d[i]))
+        q[i] = (x[i] + s * v[i]) + ((ea * a[i] + eb * b[i]) + (ec * c[i] + ed * d[i]))
+
+
+@native
+def add_combined(P: Problem, C: Control, row: int, first: int, w: int, h: float, y: Reals) -> None:
+    """y += h sum (weight k) over one row of the tableau, from its term ``first`` on.
 
     Masses keep no rates of positions: those of stage i are u + h sum a_ij a_j, so that positions
     get h^2 sum (weight A)_j a_j.
     """
     K, o, n = P.history, ROW * row, P.sizes.n
-    for g in range(0, int(P.tableau[o]), 4):
+    for g in range(first, int(P.tableau[o]), 4):
         V = P.tableau[o + 2 + 3 * g :]
         if C.kind == MASSES:
             add_twice(
