@@ -105,3 +105,44 @@ def test_forces_balance_though_places_hardly_move(stiffness):
     assert results.outcome is al.Outcome.DONE
     x = results["POINT_MASS/2.x"][-1]
     assert abs(100 - stiffness * x**3) < 1e-4
+
+
+@pytest.mark.parametrize("stiffness", [1e6, 1e9, 1e12])
+def test_rounding_of_the_coordinates_is_no_lack_of_balance(stiffness: float) -> None:
+    """1 kg on a spring from (0, 0) to about (180, -240): no place of 64 bits balances it to 1e-9 N
+    where a unit in the last place, 3e-14, is 3e-14 k = 3e-5 N and more; the place is right all
+    the same.
+    """
+    deck = f"""\
+a stiff spring
+ACCGRAV/JGRAV=-8\\ IGRAV=6
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=1, CM=2, QG=181,-241,0
+MARKER/2, POINT_MASS=2
+SFORCE/1, TRANSLATIONAL, I=2, J=1, FUNCTION=-{stiffness:g}*(DM(2,1)-300)
+EQUILIBRIUM/ERROR=1E-9, IMBALANCE=1E-9
+SIMULATE/STATICS
+END
+"""
+    results = al.simulate(al.read(deck.replace("\\ ", ", ")))
+    assert results.outcome is al.Outcome.DONE
+    place = np.array([results[f"POINT_MASS/2.{c}"][-1] for c in "xyz"])
+    expected = (300 + 10 / stiffness) * np.array([0.6, -0.8, 0])
+    np.testing.assert_allclose(place, expected, rtol=0, atol=1e-12 * 300)
+
+
+def test_a_body_that_nothing_holds_has_no_equilibrium() -> None:
+    """However small the steps that are tried: its weight stays."""
+    deck = """\
+a falling body
+ACCGRAV/JGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=1, CM=2, QG=0,0,0
+MARKER/2, POINT_MASS=2
+EQUILIBRIUM/ERROR=1E-9, IMBALANCE=1E-9, TLIMIT=1E-3
+SIMULATE/STATICS
+END
+"""
+    assert al.simulate(al.read(deck)).outcome is al.Outcome.NO_EQUILIBRIUM

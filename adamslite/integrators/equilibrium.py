@@ -35,6 +35,8 @@ LEAST_SIGMA = 1e-8
 AT_REST = 1e-12
 # A larger number is none to form products of.
 LARGE = 1e200
+# A correction below this share of the model, or angle [rad], is the rounding of the coordinates.
+ROUNDED = 1e-14
 # Constraints are closed to this share of the tolerance.
 CLOSED = 1e-3
 
@@ -227,17 +229,18 @@ def limited_move(P: Problem) -> bool:
     new ones.
     """
     C = Control(P.control)
-    shrink, moved = 1.0, 0.0
+    shrink, moved, shift = 1.0, 0.0, 0.0
     for b in range(P.sizes.nb):
         i, kind = P.body[b].first, P.body[b].width
         for k in range(kind):
             size = abs(P.F[i + k])
             moved = max(moved, size / max(1.0, abs(P.q[i + k])))
+            shift = max(shift, size / C.length if k < 3 else size)
             if not size < LARGE:
                 return False
             limit = C.tlimit if k < 3 else C.alimit
             shrink = min(shrink, limit / max(size, TINY))
-    C.moved = states_moved(P, moved)
+    C.moved, C.shift = states_moved(P, moved), states_moved(P, shift)
     if shrink < 1.0:
         for i in range(P.sizes.n):
             P.F[i] *= shrink
@@ -266,11 +269,17 @@ def states_moved(P: Problem, moved: float) -> float:
 
 @native
 def settled(P: Problem) -> bool:
-    """Small correction, and small residual of forces and constraints after it."""
+    """Small correction, and small residual of forces and constraints after it.
+
+    Where the full correction is no more than the rounding of the coordinates, no others leave less
+    of the forces, stiff as they may be.
+    """
     C = Control(P.control)
     imbalance(P)
     first = P.sizes.n + P.sizes.m + P.sizes.nv
     for k in range(P.sizes.n, first):
         if not abs(P.F[k]) <= C.error * CLOSED * max(1.0, C.length):
             return False
+    if C.shift <= ROUNDED and C.sigma <= C.stability:
+        return True
     return C.worst <= C.imbalance and C.moved <= C.error

@@ -15,6 +15,7 @@ class Control(Record):
     length               of the model
     sigma                times the mass matrix is added now
     worst, moved         largest residual [force], relative correction of the last iteration
+    shift                that correction as a share of the model, or an angle [rad]
     found                Newton settled, before anything was judged
     """
 
@@ -28,4 +29,5 @@ class Control(Record):
     sigma: float
     worst: float
     moved: float
+    shift: float
     found: bool
