@@ -207,6 +207,11 @@ def _interpolate(reference: Reference, subject: str | None, text: str) -> None:
 
 
 def _measure(reference: Reference, subject: str | None, text: str) -> None:
+    reference.measures.append(parse_measure(text))
+
+
+def parse_measure(text: str) -> Measure:
+    """Read ``mean NAME from T0 to T1 = VALUE tol rel R`` and the like; ValueError with the form."""
     match = re.fullmatch(
         rf"(\w+)\s+(\S+)((?:\s+(?:{'|'.join(_WORDS)})\s+\S+)*)\s*=\s*(\S+)\s+tol\s+(.+)",
         text,
@@ -221,17 +226,15 @@ def _measure(reference: Reference, subject: str | None, text: str) -> None:
     pairs = words.split()
     given = dict(zip(pairs[::2], map(_number, pairs[1::2]), strict=True))
     _need_kind(kind, given)
-    reference.measures.append(
-        Measure(
-            kind=kind,
-            channel=channel,
-            start=given.get("at", given.get("from")),
-            end=given.get("at", given.get("to")),
-            level=given.get("through"),
-            smoothed=given.get("smoothed", 0.0),
-            value=_number(value),
-            tolerance=parse_tolerance(tolerance),
-        )
+    return Measure(
+        kind=kind,
+        channel=channel,
+        start=given.get("at", given.get("from")),
+        end=given.get("at", given.get("to")),
+        level=given.get("through"),
+        smoothed=given.get("smoothed", 0.0),
+        value=_number(value),
+        tolerance=parse_tolerance(tolerance),
     )
 
 

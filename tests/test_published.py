@@ -1,0 +1,61 @@
+"""Published cases: ours is the number of the source, or the exact one where there is one."""
+
+from __future__ import annotations
+
+import runpy
+import shutil
+import sys
+import warnings
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tiers import every, slow
+from written import assert_same_reference, assert_same_text
+
+from adamslite.resources import find
+
+ROOT = find("decks").parent
+PAGE = runpy.run_path(str(ROOT / "docs" / "validation.py"))
+CASES: dict[str, Any] = {str(c.folder.relative_to(ROOT / "decks")): c for c in PAGE["cases"]()}
+#: Large models, or several of them.
+LONG = {"fast", "a02-n40", "published/sagging-cable", "published/loaded-rod"}
+
+
+@pytest.mark.parametrize("name", [slow(n) if n in LONG else n for n in sorted(CASES)])
+@pytest.mark.filterwarnings("ignore::adamslite.DeckWarning")
+def test_a_published_number_is_met(name: str) -> None:
+    case = CASES[name]
+    runs = {deck: PAGE["run"](case, deck)[0] for deck in {q.deck for q in case.quantities}}
+    for quantity in case.quantities:
+        value = PAGE["ours"](quantity, runs[quantity.deck])
+        assert value == pytest.approx(quantity.expected, rel=case.within), quantity.name
+
+
+def test_the_page_names_every_quantity_in_order() -> None:
+    page = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+    rows = [line.split(" | ")[1].strip() for line in page.splitlines() if line.startswith("| ")][1:]
+    assert rows == [q.name for case in CASES.values() for q in case.quantities]
+
+
+@pytest.mark.parametrize("name", every(3, sorted(n for n in CASES if n.startswith("published/"))))
+def test_a_published_deck_is_what_its_generator_writes(name: str, tmp_path: Path) -> None:
+    """In a copy of its folder: a generator writes beside itself."""
+    kept = ROOT / "decks" / name
+    copy = tmp_path / kept.name
+    shutil.copytree(kept, copy)
+    for module in ("catenary.py", "elastica.py"):
+        shutil.copy(kept.parent / module, tmp_path)
+    before = list(sys.path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        runpy.run_path(str(copy / "make_reference.py"), run_name="__main__")
+    sys.path[:] = before
+    for module in ("catenary", "elastica"):
+        sys.modules.pop(module, None)
+    for reference in kept.glob("*.csv"):
+        written = (copy / reference.name).read_text(encoding="utf-8")
+        assert_same_reference(written, reference.read_text(encoding="utf-8"))
+    for deck in kept.glob("*.adm"):
+        written = (copy / deck.name).read_text(encoding="utf-8")
+        assert_same_text(written, deck.read_text(encoding="utf-8"))
