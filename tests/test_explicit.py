@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 import adamslite as al
+from adamslite.analyses import dynamic
 from adamslite.analyses.dynamic import Settings
+from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.results.outcomes import Outcome
 
@@ -136,3 +138,37 @@ def test_records_between_steps_at_the_bound_of_stability(pace: int) -> None:
     found = al.simulate(kernels, integrator="ABAM", error=1e-6, **settings)
     known = al.simulate(kernels, integrator="RADAU", error=1e-9, **settings)
     assert found["DIFF/1"] == pytest.approx(known["DIFF/1"], abs=1e-5)
+
+
+@pytest.mark.parametrize("unwatched", [0.0, 6.0, 200.0, 1e9])
+def test_a_run_that_pauses_continues_as_if_it_had_not(
+    unwatched: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The first tries are made without a thread: none, one, 33 or all of them."""
+    known = run(SPRING, "ABAM", error=1e-9)
+    assert known.summary["steps"] > 50
+    monkeypatch.setattr(dynamic, "UNWATCHED", unwatched)
+    found = run(SPRING, "ABAM", error=1e-9)
+    np.testing.assert_array_equal(found.values, known.values)
+    assert found.summary["steps"] == known.summary["steps"]
+
+
+@pytest.mark.parametrize(
+    ("unwatched", "outcome"), [(200.0, Outcome.INTERRUPTED), (1e9, Outcome.DONE)]
+)
+def test_an_interrupt_within_the_first_tries_is_heeded(
+    unwatched: float, outcome: Outcome, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Python raises it when native code returns; a run that is over by then is over."""
+    integrate, calls = System.integrate, []
+
+    def interrupted(system: System, entry: str) -> int:
+        code = integrate(system, entry)
+        calls.append(code)
+        if len(calls) == 1:
+            raise KeyboardInterrupt
+        return code
+
+    monkeypatch.setattr(dynamic, "UNWATCHED", unwatched)
+    monkeypatch.setattr(System, "integrate", interrupted)
+    assert run(SPRING, "ABAM", error=1e-9).outcome is outcome

@@ -26,6 +26,8 @@ from adamslite.results.outcomes import Outcome
 STEPS_PER_OUTPUT = 20.0
 # Share of a time that its round-off may be.
 ROUND_OFF = 1e-14
+# Unknowns times tries of a step that take less than that.
+UNWATCHED = 50_000.0
 # Time between two looks at a run [s].
 WATCH_INTERVAL = 0.1
 # How a run may end before a motion that jumps, or gets ever faster.
@@ -161,7 +163,7 @@ def run_dynamic(
     require_changing(system)
     start_audit(system, audited)
     system.start_record(times)
-    code = _watched(system, method.entry, progress, start, end)
+    code = _watched(system, method, progress, start, end)
     system.release_guards()
     if system.search.loose:
         require_none(system, EQUAL)
@@ -215,22 +217,42 @@ def _named(system: System, code: int) -> Outcome:
     return OUTCOMES[code]
 
 
+def _first_tries(system: System, method: Method) -> int:
+    """So many tries of a step as take no longer than a run goes unwatched, without a thread; PAUSED
+    where there are more. Routines of the user may take any time.
+    """
+    run = system.settings
+    run.begun, run.pause = False, int(UNWATCHED / system.nz)
+    if not method.pauses or run.pause == 0 or system.model.deck.user.used:
+        return contract.PAUSED
+    try:
+        return system.integrate(method.entry)
+    except KeyboardInterrupt:
+        run.stop = True
+    return contract.PAUSED
+
+
 def _watched(
-    system: System, entry: str, progress: Progress | None, start: float, end: float
+    system: System, method: Method, progress: Progress | None, start: float, end: float
 ) -> int:
+    """Run; what is not over soon in a thread of its own, with a look at it from time to time."""
     limits = StepLimits(system)
-    running = Worker(partial(system.integrate, entry))
-    while running.works:
-        try:
-            running.wait(WATCH_INTERVAL)
-            if progress and running.works:
-                progress.watch(_state(system, limits, start, end))
-        except KeyboardInterrupt:
-            system.settings.stop = True
-    code = running.result()
+    look = partial(_state, system, limits, start, end)
+    code = _first_tries(system, method)
+    if code == contract.PAUSED:
+        system.settings.pause = 0
+        running = Worker(partial(system.integrate, method.entry))
+        while running.works:
+            try:
+                running.wait(WATCH_INTERVAL)
+                if progress and running.works:
+                    progress.watch(look())
+            except KeyboardInterrupt:
+                system.settings.stop = True
+        code = running.result()
     try:
         if progress and not system.settings.stop:
-            progress.watch(_state(system, limits, start, end))  # it may be one of many short runs
+            progress.watch(look())  # it may be one of many short runs
     except KeyboardInterrupt:
         return contract.INTERRUPTED
     return code

@@ -12,7 +12,8 @@ converge to;
 :mod:`adamslite.integrators.events.events` says;
 6. counts what it does in ``P.count``;
 7. leaves the last accepted state behind, whatever the outcome;
-8. returns one of ``OUTCOMES``.
+8. returns one of ``OUTCOMES``;
+9. where it declares so, pauses after ``settings.pause`` tries of a step, to be called again.
 
 Fields of :class:`Problem`; arrays have one dimension; nb bodies, n body unknowns, m multipliers, nv
 variables, ns states of DIFF, nw workspace entries:
@@ -113,7 +114,8 @@ MODE_STATICS = 5.0
     NOT_SETTLED,
     UNSTABLE,
     CHATTERING,
-) = range(10)
+    PAUSED,
+) = range(11)
 
 
 # What is done to equations besides integration: see adamslite.equations.operations.
@@ -161,7 +163,11 @@ class Sizes(Record):
 
 
 class RunSettings(Record):
-    """The settings of a run; ``stop`` ends it, also from outside."""
+    """The settings of a run; ``stop`` ends it, also from outside.
+
+    ``pause``: tries of a step after which a run that can be resumed is ``PAUSED`` (0: none);
+    ``begun``: it is resumed.
+    """
 
     t: float
     t_end: float
@@ -179,6 +185,8 @@ class RunSettings(Record):
     fixed_step: float
     adaptivity: float
     all_converge: bool
+    pause: int
+    begun: bool
 
 
 class Report(Record):

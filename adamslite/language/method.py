@@ -132,6 +132,8 @@ class Method:
         ``VARIABLE``, ``FIXED`` or ``FIXED_BY_HINIT``.
     interpolates : bool
         Whether steps pass output times when INTERPOLATE does not say.
+    pauses : bool
+        Whether it pauses after ``settings.pause`` tries of a step, and continues when called again.
     least_step : float
         The least step without HMIN, in longest steps.
     damping : callable, optional
@@ -159,6 +161,7 @@ class Method:
     tests_velocities: bool = True
     steps: str = VARIABLE
     interpolates: bool = True
+    pauses: bool = False
     least_step: float = 1e-14
     damping: Callable[[Settings], tuple[float, float, float]] | None = None
     unfit: Callable[[Settings, str], str] | None = None

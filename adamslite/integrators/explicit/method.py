@@ -73,7 +73,10 @@ ORDER = 8
 def explicit(P: Problem, L: Plan) -> int:
     """Integrate to the end time; returns an outcome."""
     C = Control(P.control)
-    outcome = begin(P, L, C)
+    outcome = RUNNING
+    if not P.settings.begun:
+        P.settings.begun = True
+        outcome = begin(P, L, C)
     while outcome == RUNNING:
         outcome = advance(P, L, C)
     P.report.t = C.t

@@ -50,6 +50,7 @@ register(
         order=8,
         family="Runge-Kutta",
         explicit=True,
+        pauses=True,
         prepare=prepare,
         arguments={
             "ERROR": "local error of q, u and states",

@@ -8,6 +8,7 @@ from adamslite.integrators.contract import (
     DONE,
     INTERRUPTED,
     NEWTON_FAILED,
+    PAUSED,
     SINGULAR_MASS,
     STEP_TOO_SMALL,
     Problem,
@@ -28,10 +29,13 @@ OVERFLOW = 1e12
 
 @native
 def end_of_run(P: Problem, C: StepControl) -> int:
-    """DONE at the end time, INTERRUPTED by the user, else RUNNING."""
+    """DONE at the end time, INTERRUPTED by the user, PAUSED after so many tries, else RUNNING."""
     if C.t >= P.settings.t_end:
         return DONE
-    return INTERRUPTED if P.settings.stop else RUNNING
+    if P.settings.stop:
+        return INTERRUPTED
+    tries = P.count.steps + P.count.rejected + P.count.failures
+    return PAUSED if P.settings.pause > 0 and tries >= P.settings.pause else RUNNING
 
 
 @native
