@@ -127,6 +127,28 @@ def test_the_time_of_a_corner_is_reported() -> None:
     ]
 
 
+@pytest.mark.parametrize(
+    ("law", "expected"),
+    [
+        ("IF(TIME-1: TIME**3, 1, 3*TIME-2)", []),
+        ("IF(TIME-1: TIME**3, 1, 2*TIME-1)", ["kink"]),
+        ("MAX(0,TIME-1)**2", ["kink"]),
+        ("MAX(0,TIME-5)", []),
+        ("MIN(DY(2),1)", ["kink"]),
+    ],
+)
+def test_a_law_in_a_gcon_has_corners_where_the_function_of_time_has(
+    law: str, expected: list[str]
+) -> None:
+    """x = law: t^3 continues smoothly as 3 t - 2 at t = 1; t = 5 is after the end.
+
+    MAX itself has a corner at 1; that its square has none is not looked into.
+    """
+    run = "SIMULATE/DYNAMICS, END=2, STEPS=1"
+    found = codes_of(f"GCON/1, FUNCTION=DX(2)-({law})\n{run}")
+    assert [code for code in found if code != "dimensions"] == expected
+
+
 # ---- dimensions --------------------------------------------------------------------------------
 
 

@@ -197,12 +197,12 @@ def _form(deck: Deck, motion: Motion) -> Iterator[Diagnostic]:
 @needs("VARIABLE")
 def functions_of_time(deck: Deck) -> Iterator[Diagnostic]:
     for motion in deck.of(Motion):
-        culprit = _not_of_time(deck, motion.function, ())
+        culprit = not_of_time(deck, motion.function)
         if culprit:
             yield diagnose_inside(motion, culprit, "motion-not-of-time", "function", word=culprit)
 
 
-def _not_of_time(deck: Deck, node: Node, inside: tuple[Key, ...]) -> str | None:
+def not_of_time(deck: Deck, node: Node, inside: tuple[Key, ...] = ()) -> str | None:
     """What in an expression depends on more than TIME, itself or through variables.
 
     ``inside``: the variables whose expressions it is part of.
@@ -220,7 +220,7 @@ def _not_of_time(deck: Deck, node: Node, inside: tuple[Key, ...]) -> str | None:
             variable = deck.find(Variable, ref.id)
             if variable is None:
                 continue
-            if ref.id in inside or _not_of_time(deck, variable.function, (*inside, ref.id)):
+            if ref.id in inside or not_of_time(deck, variable.function, (*inside, ref.id)):
                 return variable.label
     return None
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from math import degrees, hypot, isfinite, pi
+from typing import TYPE_CHECKING
 
+from adamslite.checks.constraints import not_of_time
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_all, diagnose_inside
@@ -24,6 +26,9 @@ from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 from adamslite.language.units import G0, INCH, LENGTH, TIME
+
+if TYPE_CHECKING:
+    from adamslite.model.model import Model
 
 # What is written as a plain number, without D for degrees.
 PLAIN = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([EeDd][-+]?\d+)?")
@@ -153,19 +158,31 @@ def kinks(deck: Deck) -> Iterator[Diagnostic]:
     held: list[Motion | Gcon] = [*deck.of(Motion), *deck.of(Gcon)]
     if not any(_may_jump(deck, each.function) for each in held):
         return
-    from adamslite.assembly.corners import corner, suspects
+    from adamslite.assembly.corners import suspects
     from adamslite.model.model import Model
 
     model, until = Model(deck), _end(deck)
     for each in held:
         least = SMOOTH[each.level] if isinstance(each, Motion) else SMOOTH["DISPLACEMENT"]
-        found = next((call.name for call in suspects(model, each.function, least)), "")
-        when = ""
-        if found and until and isinstance(each, Motion):
-            at = corner(model, each.function, least, until)
-            found, when = (at[0], f" at {at[1]:.4g}") if at else ("", "")
-        if found:
-            yield diagnose_inside(each, found, "kink", "function", word=found, when=when)
+        whole = (
+            [each.function] if isinstance(each, Motion) else suspects(model, each.function, least)
+        )
+        for part in list(whole):
+            found, when = _corner(model, part, least, until)
+            if found:
+                yield diagnose_inside(each, found, "kink", "function", word=found, when=when)
+                break
+
+
+def _corner(model: Model, node: Node, least: int, until: float) -> tuple[str, str]:
+    """The function by which an expression may have a corner, with the time where it is known."""
+    from adamslite.assembly.corners import corner, suspects
+
+    found = next((call.name for call in suspects(model, node, least)), "")
+    if not found or not until or not_of_time(model.deck, node):
+        return found, ""
+    at = corner(model, node, least, until)
+    return (at[0], f" at {at[1]:.4g}") if at else ("", "")
 
 
 def _may_jump(deck: Deck, node: Node) -> bool:
