@@ -124,7 +124,10 @@ class Session(SessionState):
         if system.sizes.si2 and system.holonomic and self.chosen.settings.form != "SI2":
             system = self.present = self.renumbered(system, system.elimination.pivoting)
         began = clock.process_time()
-        engine(self.chosen.settings.formula.entry, self.progress)
+        formula = self.chosen.settings.formula
+        engine(formula.entry, self.progress)
+        if formula.by_component:
+            system.lay_lanes()
         self.late_setup += clock.process_time() - began
         if self.progress:
             start, end = float(times[0]), float(times[-1])

@@ -19,6 +19,7 @@ from adamslite.equations.elimination import Elimination
 from adamslite.equations.engine import engine, ints, reals
 from adamslite.equations.instances import Instances
 from adamslite.equations.jacobian_blocks import JacobianBlocks
+from adamslite.equations.lanes import Runs, runs
 from adamslite.equations.numbering import Numbering
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
@@ -145,6 +146,8 @@ class System:
         self.parts, self.LC, self.pivots_c = np.zeros(1), np.zeros(1), ints([0])
         self.coef = np.zeros(contract.COEFFICIENTS)
         self.times, self.record, self.undo = np.zeros(1), np.zeros(1), np.zeros(0)
+        self.lane_runs, self.lane = Rows(contract.LaneRun, 0), np.zeros(0)
+        self.lanes: Runs | None = None
         self.gravity = np.asarray(self.model.deck.gravity, dtype=float)
 
     def _bodies(self) -> None:
@@ -281,6 +284,11 @@ class System:
     def release_guards(self) -> None:
         """Let every expression take the branch of the moment again."""
         self.W[self.nw :] = 0.0
+
+    def lay_lanes(self) -> None:
+        """Have loads evaluated by component where that pays, by a method that does."""
+        if self.lanes is None and (found := runs(self.instances)):
+            self.lanes, self.lane_runs = found, found.rows
 
     def make_room(self, **sizes: int) -> None:
         """Have arrays of at least these sizes; one that is replaced begins with zeros."""

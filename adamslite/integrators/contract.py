@@ -56,6 +56,8 @@ sensors         of :class:`SensorRow`
 margin zone     how far guards are from changing; where the state is within zones
 stops           times at which guards of the clock change
 paces           of :class:`Pace`
+lane_runs lane  of :class:`LaneRun`: all loads, if they are evaluated by component; numbers of the
+                bodies for that, in rows of equal length
 audit           balance of energy (:class:`Audit`);  uncounted: counts before it was drawn up
 pattern         per iteration whether it renews the Newton matrix, repeated; empty: as needed
 ==============  =================================================================================
@@ -273,6 +275,19 @@ class KernelGroup(Record):
     watch: int
 
 
+class LaneRun(Record):
+    """A run of instances for :mod:`adamslite.kernels.code.lane_writer`: the function, how many,
+    addresses of the integers of the run and of the reals of the shape from the first instance on,
+    how many instances the shape has.
+    """
+
+    function: int
+    count: int
+    ints: int
+    reals: int
+    of: int
+
+
 class Pace(Record):
     """How long steps may be from a time on, and the time that no step of this pace may pass because
     steps must be shorter behind it.
@@ -379,6 +394,8 @@ class Problem(Record):
     pattern: Ints
     audit: Audit
     uncounted: Counts
+    lane_runs: Rows[LaneRun]
+    lane: Reals
 
 
 # Numbers of ``P.work`` that this module uses.

@@ -19,13 +19,14 @@ from adamslite.integrators.motion_equations import (
     attitude,
     inertia_forces,
     jacobian,
+    only_points,
     put_mass,
     put_motion,
     put_pose,
     put_time,
     run_groups,
 )
-from adamslite.native.translate import Reals, copy, native
+from adamslite.native.translate import Alone, Ints, Reals, copy, native
 
 # A part's inertia below this share of its largest entry is singular.
 SINGULAR = 1e-12
@@ -267,8 +268,22 @@ def radius(P: Problem, cq: float, cu: float) -> float:
 
 
 @native
+def multiply_points(product: Ints, size: int, J: Alone, x: Alone, y: Alone) -> None:
+    """The same where no body turns."""
+    for k in range(0, size, 5):
+        A, X, Y = J[product[k] :], x[product[k + 4] :], y[product[k + 3] :]
+        a, b, c = X[0], X[1], X[2]
+        Y[0] += A[0] * a + A[1] * b + A[2] * c
+        Y[1] += A[3] * a + A[4] * b + A[5] * c
+        Y[2] += A[6] * a + A[7] * b + A[8] * c
+
+
+@native
 def multiply(P: Problem, x: Reals, y: Reals) -> None:
     """y += J x over the blocks of bodies."""
+    if only_points(P):
+        multiply_points(P.product, P.product.size, P.J, x, y)
+        return
     for k in range(0, P.product.size, 5):
         at, columns = P.product[k], P.product[k + 2]
         first, c = P.product[k + 3], P.product[k + 4]

@@ -31,7 +31,7 @@ from adamslite.symbolic.scope import Scope, UndefinedRate
 from adamslite.symbolic.types import Expr, Tree
 
 if TYPE_CHECKING:  # a deck whose shapes are cached needs no sympy
-    from adamslite.kernels.code.shape import Outputs
+    from adamslite.kernels.code.shape import Outputs, Shape
 
 
 Meta = dict[str, Any]
@@ -168,14 +168,23 @@ class FaceWriter:
     def kernels(self, name: str) -> tuple[str, Meta]:
         """LLVM text of all kernels of the shape, and what an instance must provide."""
         from adamslite.kernels.code.module_text import write_kernels
+
+        return write_kernels(self._shape(), name, self.face, self.face in WITH_JACOBIAN)
+
+    def lanes(self, name: str) -> str:
+        """LLVM text of the residual for runs of instances."""
+        from adamslite.kernels.code.lane_writer import write_lanes
+
+        return write_lanes(self._shape(), name)
+
+    def _shape(self) -> Shape:
         from adamslite.kernels.code.shape import Shape
 
         at, model = self.binder.instance, self.binder.model
         widths = [model.body_width(b) for b in at.bodies]
         widths += [model.node_width(n) for n in at.nodes]
         counts = (len(at.params), 0, 0, len(at.signals), len(at.tables))
-        shape = Shape(self.binder.slots, widths, self.n_bodies, *counts, self)
-        return write_kernels(shape, name, self.face, self.face in WITH_JACOBIAN)
+        return Shape(self.binder.slots, widths, self.n_bodies, *counts, self)
 
     def __call__(self, scope: Scope) -> Outputs:
         from adamslite.kernels.code.shape import Outputs
@@ -235,6 +244,16 @@ def _compile(group: ShapeGroup, progress: Progress | None) -> bool:
     group.meta = recall_json(f"{group.name}.json", lambda: text_and_meta()[1])
     group.code = recall(f"{group.name}.o", lambda: compiler.straight_code(text_and_meta()[0]))
     return bool(made)
+
+
+def lanes(group: ShapeGroup) -> int:
+    """Address of the residual for runs of instances; made when it is first asked for."""
+    symbol = f"{group.name}_lanes"
+
+    def compiled() -> bytes:
+        return compiler.object_code(group.write.lanes(symbol))
+
+    return compiler.addresses([(recall(f"{symbol}.o", compiled), [symbol])])[symbol]
 
 
 def _kernels(group: ShapeGroup) -> tuple[str, Meta]:

@@ -136,6 +136,8 @@ class Method:
         Whether it pauses after ``settings.pause`` tries of a step, and continues when called again.
     least_step : float
         The least step without HMIN, in longest steps.
+    by_component : bool
+        Whether it evaluates loads of many bodies by component where it can.
     damping : callable, optional
         ``damping(settings)`` gives alpha, beta and gamma of a formula of Newmark's kind.
     unfit : callable, optional
@@ -163,6 +165,7 @@ class Method:
     interpolates: bool = True
     pauses: bool = False
     least_step: float = 1e-14
+    by_component: bool = False
     damping: Callable[[Settings], tuple[float, float, float]] | None = None
     unfit: Callable[[Settings, str], str] | None = None
     prepare: Callable[[Equations, Settings], None] = lambda system, settings: None

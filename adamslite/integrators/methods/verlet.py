@@ -15,9 +15,12 @@ from adamslite.language.method import (
 def prepare(system: Equations, settings: Settings) -> None:
     """Room for the numbers of the method, inverse inertias and two states."""
     from adamslite.integrators.verlet.control import Control
+    from adamslite.integrators.verlet.lanes import NUMBERS
 
     bodies = len(system.model.bodies)
-    system.make_room(control=Control.slots, history=(9 + 2 * 6) * bodies)
+    # Rows are whole lines of the cache, an odd number: those of 4 KB would share places in it.
+    row = 8 * ((bodies + 7) // 8 | 1)
+    system.make_room(control=Control.slots, history=(9 + 2 * 6) * bodies, lane=NUMBERS * row)
 
 
 NO_CORRECTOR = "-an explicit formula has no corrector"
@@ -37,6 +40,7 @@ register(
         steps=FIXED_BY_HINIT,
         # Near a pole of a force its equal steps would be so many that the run does not end.
         least_step=1e-8,
+        by_component=True,
         prepare=prepare,
         arguments={
             "ERROR": "local error of q, unless HINIT is given",

@@ -45,14 +45,10 @@ from adamslite.integrators.step_back import bring_audit_back, keep_audit
 from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.integrators.unconstrained import divide_by_mass, put_free, radius
 from adamslite.integrators.verlet.control import Control
+from adamslite.integrators.verlet.lanes import take_lane_steps
+from adamslite.integrators.verlet.sampling import HOPELESS, LARGE, note_steps, steps_per_estimate
 from adamslite.native.translate import Reals, native
 
-# Steps from one look at the local error to the next, where no force changes its law (a contact may
-# begin and end between two looks) and stability decides how long they are: eight of these are one
-# or two periods of the fastest vibration.
-SAMPLE = 8
-# ... and with equal steps, whose length nothing changes.
-FIXED_SAMPLE = 32
 # Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
 WORTH = 200
 SHRINK, GROW = 0.25, 2.0
@@ -64,12 +60,8 @@ SPIKE, JOLT, STIFFER, IN_CONTACT = 4.0, 0.1, 0.9, 0.3
 # Of the step that the error allows, after a rejected run and after an accepted one; an error below
 # LEAST_ERROR counts as that.
 SAFETY_DOWN, SAFETY, LEAST_ERROR = 0.8, 0.9, 1e-3
-# A run whose error has come to this many times ERROR is given up before its end.
-HOPELESS = 1e6
 # What a number of steps may exceed a whole one by without one step more.
 WHOLE = 1e-9
-# A larger number is none to form products of.
-LARGE = 1e200
 # Tries of one interval that may blow up: steps 4^8 times as short take every jump of a stiffness
 # that a run can be meant to have; what still blows up has no value there, with any step.
 MOST_BLOWN = 8
@@ -236,11 +228,11 @@ def take_steps(P: Problem, L: Plan, C: Control, t: float, h: float, count: int) 
     """``count`` steps of half a kick, drift, half a kick, where the two half kicks between steps
     are one; returns the largest local error seen against ERROR, 1e300 for a blow-up.
     """
+    if P.lane_runs.size > 0 and not P.audit.on:
+        return take_lane_steps(P, C, t, h, count)
     fixed, n = C.fixed, P.sizes.n
-    top, every, C.spent = 0.0, FIXED_SAMPLE if fixed else 1, 0.0
+    top, every, C.spent = 0.0, steps_per_estimate(P, C, h), 0.0
     hard = P.history[9 * P.sizes.nb + 2 * n :]
-    if not fixed and P.sizes.watched == 0 and 2.0 * h > C.limit:
-        every = SAMPLE
     put_free(P, t, P.q, P.u)
     for s in range(count + 1):
         if s > 0:
@@ -264,9 +256,7 @@ def take_steps(P: Problem, L: Plan, C: Control, t: float, h: float, count: int) 
     C.top, C.mean = top, C.spent / count if count > 2.0 * SPIKE else 0.0
     if not accept(P):
         return HUGE
-    P.count.steps += count
-    P.count.residuals += count + 1
-    C.since += count
+    note_steps(P, C, count)
     return 0.0 if fixed else top
 
 

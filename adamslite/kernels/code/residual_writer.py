@@ -17,10 +17,10 @@ from adamslite.symbolic.types import Expr, Frame, Leaf
 class ResidualWriter:
     """Writes the loop body of a kernel of values: residual, angle memory, guards."""
 
-    def __init__(self, shape: Shape, scope: Scope) -> None:
+    def __init__(self, shape: Shape, scope: Scope, builder: Builder | None = None) -> None:
         self.shape = shape
         self.scope = scope
-        self.b = Builder()
+        self.b = builder or Builder()
         self.g = Geometry(self.b, shape.slots, shape.marker_reals())
         self.lower = Lowering(self.b, {}, shape.tables_at)
         for place, found in enumerate((shape.guards.clock, shape.guards.watch)):

@@ -1,0 +1,77 @@
+"""Runs of instances whose bodies follow each other, for loads that are evaluated by component.
+
+The bodies of instance k of a run stand k places behind those of its first instance, as
+:mod:`adamslite.kernels.code.lane_writer` needs them: the sections of a cable are one run, a net has
+one for each row and each column.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from adamslite.equations.instances import Instances
+from adamslite.equations.numbering import POINT_SIZE
+from adamslite.integrators.contract import LaneRun
+from adamslite.kernels.compile import ShapeGroup, lanes
+from adamslite.native.translate import Rows
+
+#: Instances per run from which runs pay.
+WORTH = 4
+
+
+@dataclass
+class Runs:
+    """``rows`` for native code, which reads the arrays that are kept here."""
+
+    rows: Rows[LaneRun]
+    kept: list[np.ndarray]
+
+
+def runs(instances: Instances) -> Runs | None:
+    """All loads as runs; None where an element has no such loads, or runs would be too short."""
+    numbering, kernels = instances.numbering, instances.kernels
+    if numbering.n != numbering.nz or numbering.n != 3 * len(kernels.model.bodies):
+        return None
+    rows, kept, total = [], [], 0
+    loads = [(k, group) for k, group in enumerate(kernels.groups) if group.face == "loads"]
+    if not all(_is_plain(group) for _, group in loads):
+        return None
+    for k, group in loads:
+        n, count = group.write.n_bodies, len(group.instances)
+        ints = instances.keep[2 * k].reshape(count, -1)[:, : n + _signals(group)].copy()
+        ints[:, :n] = (ints[:, :n] - numbering.n_head) // POINT_SIZE
+        reals = np.ascontiguousarray(instances.keep[2 * k + 1][:-1].reshape(count, -1).T)
+        kept += [ints, reals]
+        total += count
+        for first, end in _spans(ints, n):
+            rows.append((k, first, end - first, ints[first:], reals[:, first:]))
+    if WORTH * len(rows) > total:
+        return None
+    made = Rows(LaneRun, len(rows))
+    for run, (k, _, count, ints, reals) in zip(made, rows, strict=True):
+        group = kernels.groups[k]
+        run.function, run.count, run.of = lanes(group), count, len(group.instances)
+        run.ints, run.reals = ints.ctypes.data, reals.ctypes.data
+    return Runs(made, kept)
+
+
+def _is_plain(group: ShapeGroup) -> bool:
+    """Loads that depend on time, places and velocities alone, always by the same law."""
+    meta, binding = group.meta, group.instances[0][1]
+    remembers = meta["angles"] or meta["limits"] or any(meta["guards"].values())
+    return not (remembers or meta["mass"] or binding.tables or binding.nodes)
+
+
+def _signals(group: ShapeGroup) -> int:
+    return len(group.instances[0][1].signals)
+
+
+def _spans(ints: np.ndarray, n_bodies: int) -> Iterator[tuple[int, int]]:
+    """First instance and end of every run: ``n_bodies`` columns count up, the others are equal."""
+    steps = np.diff(ints, axis=0)
+    steps[:, :n_bodies] -= 1
+    breaks = np.flatnonzero(steps.any(axis=1)) + 1
+    return zip([0, *breaks.tolist()], [*breaks.tolist(), len(ints)], strict=True)

@@ -1,0 +1,115 @@
+"""The steps of VERLET with the numbers of all point masses by component.
+
+    S = x of all bodies, y, z, then vx, vy, vz        F = forces, the same way
+
+in rows of equal length, so that a step is a few loops over all bodies without a place to look up,
+and :mod:`adamslite.kernels.code.lane_writer` evaluates the loads.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import Problem
+from adamslite.integrators.linalg.plan import HUGE
+from adamslite.integrators.motion_equations import put_time
+from adamslite.integrators.verlet.control import Control
+from adamslite.integrators.verlet.sampling import HOPELESS, LARGE, note_steps, steps_per_estimate
+from adamslite.native.translate import Alone, Reals, call_address, maximum, native
+
+# Numbers of a body: place, velocity, force, 1/m, minus its weight, acceleration before; each by
+# component.
+NUMBERS = 18
+
+
+@native
+def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> float:
+    """``count`` steps of half a kick, drift, half a kick, where the two half kicks between steps
+    are one; returns the largest local error seen against ERROR, 1e300 for a blow-up.
+    """
+    row = P.lane.size // NUMBERS
+    n, top, every, C.spent = 3 * row, 0.0, steps_per_estimate(P, C, h), 0.0
+    x, v, F = P.lane[0:], P.lane[n:], P.lane[2 * n :]
+    inverse, weight, before = P.lane[3 * n :], P.lane[4 * n :], P.lane[5 * n :]
+    fill_lanes(P, row)
+    put_time(P, t)
+    for s in range(count + 1):
+        if s > 0:
+            put_time(P, t + s * h)
+        run_lanes(P, x, row, F)
+        if s > 0 and s % every == 1 % every:
+            error = change_of(F, inverse, before, x, n) * h * h / (6.0 * P.settings.error)
+            if not error < LARGE:
+                error = HUGE
+            top = maximum(top, error)
+            if not top < HOPELESS and not C.fixed:
+                return top
+            C.spent += every * error
+        if s % every == 0:
+            keep_accelerations(F, inverse, before, n)
+        kick = 0.5 * h if s == 0 or s == count else h
+        kick_and_drift(x, v, F, inverse, weight, n, kick, h if s < count else 0.0)
+    C.top, C.mean = top, 0.0
+    if not take_lanes(P, row):
+        return HUGE
+    note_steps(P, C, count)
+    return 0.0 if C.fixed else top
+
+
+@native
+def run_lanes(P: Problem, S: Reals, row: int, F: Reals) -> None:
+    """All loads, subtracted from F."""
+    for k in range(P.lane_runs.size):
+        run = P.lane_runs[k]
+        call_address(run.function, run.count, run.ints, run.reals, run.of, P.W, S, row, F)
+
+
+@native
+def fill_lanes(P: Problem, row: int) -> None:
+    """Places, velocities and inverse masses of all bodies; minus the weights into F."""
+    lane, n = P.lane, 3 * row
+    for k in range(3):
+        for b in range(P.sizes.nb):
+            i, at = P.body[b].first + k, k * row + b
+            weight = 0.0 - P.mass[b] * P.gravity[k]
+            lane[at], lane[n + at] = P.q[i], P.u[i]
+            lane[2 * n + at], lane[4 * n + at] = weight, weight
+            lane[3 * n + at] = 1.0 / P.mass[b]
+
+
+@native
+def take_lanes(P: Problem, row: int) -> bool:
+    """Places and velocities into q and u; False when they are not numbers."""
+    good = True
+    for k in range(3):
+        for b in range(P.sizes.nb):
+            i, at = P.body[b].first + k, k * row + b
+            P.q[i], P.u[i] = P.lane[at], P.lane[3 * row + at]
+            good = good and abs(P.q[i]) + abs(P.u[i]) < LARGE
+    return good
+
+
+@native
+def kick_and_drift(
+    x: Alone, v: Alone, F: Alone, inverse: Alone, weight: Alone, n: int, kick: float, drift: float
+) -> None:
+    """v -= kick M^-1 F, x += drift v; minus the weights into F."""
+    for i in range(n):
+        u = v[i] - kick * inverse[i] * F[i]
+        v[i] = u
+        x[i] += drift * u
+        F[i] = weight[i]
+
+
+@native
+def keep_accelerations(F: Alone, inverse: Alone, before: Alone, n: int) -> None:
+    """Minus the accelerations, to compare the next ones with."""
+    for i in range(n):
+        before[i] = inverse[i] * F[i]
+
+
+@native
+def change_of(F: Alone, inverse: Alone, before: Alone, x: Alone, n: int) -> float:
+    """The largest change of an acceleration against max(1, |x|)."""
+    top = 0.0
+    for i in range(n):
+        top = maximum(top, abs(inverse[i] * F[i] - before[i]) / max(1.0, abs(x[i])))
+    return top

@@ -1,0 +1,34 @@
+"""How often VERLET looks at its local error."""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import Problem
+from adamslite.integrators.verlet.control import Control
+from adamslite.native.translate import native
+
+# Steps from one look at the local error to the next, where no force changes its law (a contact may
+# begin and end between two looks) and stability decides how long they are: eight of these are one
+# or two periods of the fastest vibration.
+SAMPLE = 8
+# ... and with equal steps, whose length nothing changes.
+FIXED_SAMPLE = 32
+# A run whose error has come to this many times ERROR is given up before its end.
+HOPELESS = 1e6
+# A larger number is none to form products of.
+LARGE = 1e200
+
+
+@native
+def steps_per_estimate(P: Problem, C: Control, h: float) -> int:
+    """Steps from one look at the local error to the next."""
+    if C.fixed:
+        return FIXED_SAMPLE
+    return SAMPLE if P.sizes.watched == 0 and 2.0 * h > C.limit else 1
+
+
+@native
+def note_steps(P: Problem, C: Control, count: int) -> None:
+    """Count accepted steps."""
+    P.count.steps += count
+    P.count.residuals += count + 1
+    C.since += count
