@@ -43,7 +43,9 @@ def runs(instances: Instances) -> Runs | None:
         n, count = group.write.n_bodies, len(group.instances)
         ints = instances.keep[2 * k].reshape(count, -1)[:, : n + _signals(group)].copy()
         ints[:, :n] = (ints[:, :n] - numbering.n_head) // POINT_SIZE
-        reals = np.ascontiguousarray(instances.keep[2 * k + 1][:-1].reshape(count, -1).T)
+        order = _as_bodies_follow(ints, n)
+        ints, reals = ints[order], instances.keep[2 * k + 1][:-1].reshape(count, -1)
+        reals = np.ascontiguousarray(reals[order].T)
         kept += [ints, reals]
         total += count
         for first, end in _spans(ints, n):
@@ -53,7 +55,7 @@ def runs(instances: Instances) -> Runs | None:
     made = Rows(LaneRun, len(rows))
     for run, (k, _, count, ints, reals) in zip(made, rows, strict=True):
         group = kernels.groups[k]
-        run.function, run.count, run.of = lanes(group), count, len(group.instances)
+        run.function, run.count, run.of = lanes(kernels, group), count, len(group.instances)
         run.ints, run.reals = ints.ctypes.data, reals.ctypes.data
     return Runs(made, kept)
 
@@ -67,6 +69,15 @@ def _is_plain(group: ShapeGroup) -> bool:
 
 def _signals(group: ShapeGroup) -> int:
     return len(group.instances[0][1].signals)
+
+
+def _as_bodies_follow(ints: np.ndarray, n_bodies: int) -> np.ndarray:
+    """The order of instances in which those of a run follow each other."""
+    if not n_bodies:
+        return np.arange(len(ints))
+    apart = ints[:, 1:].copy()
+    apart[:, : n_bodies - 1] -= ints[:, :1]
+    return np.lexsort((ints[:, 0], *apart.T))
 
 
 def _spans(ints: np.ndarray, n_bodies: int) -> Iterator[tuple[int, int]]:

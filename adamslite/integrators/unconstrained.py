@@ -31,6 +31,9 @@ from adamslite.native.translate import Alone, Ints, Reals, copy, native
 # A part's inertia below this share of its largest entry is singular.
 SINGULAR = 1e-12
 POWERS = 30
+# The vector without symmetry with which a search begins: its largest component, and how large
+# those are against the components of a vector that is known.
+LARGEST, ADDED = 50.3, 0.1
 # Squares of accelerations below this are those of a model on which no force depends.
 NOTHING = 1e-200
 
@@ -232,22 +235,41 @@ def spectrum(P: Problem) -> int:
         return BROKEN_START
     if P.sizes.added_mass and not invert_bodies(P, P.D):
         return BROKEN_START
-    P.report.stiffness, P.report.damping = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
+    x = P.trial[0:]
+    clear(x, P.sizes.n)
+    P.report.stiffness = radius(P, 1.0, 0.0, x, POWERS)
+    clear(x, P.sizes.n)
+    P.report.damping = radius(P, 0.0, 1.0, x, POWERS)
     return DONE
 
 
 @native
-def radius(P: Problem, cq: float, cu: float) -> float:
-    """Spectral radius of M^-1 (cq dF/dq + cu dF/du) by power iteration (Golub, Van Loan, 7.3.1)."""
-    n, c = P.sizes.n, P.coef
-    x, y, inverse = P.trial[0:], P.trial[n:], P.history[0:]
+def clear(x: Reals, n: int) -> None:
+    """Nothing is known of a vector."""
+    for i in range(n):
+        x[i] = 0.0
+
+
+@native
+def radius(P: Problem, cq: float, cu: float, x: Reals, turns: int) -> float:
+    """Spectral radius of M^-1 (cq dF/dq + cu dF/du) by power iteration (Golub, Van Loan, 7.3.1).
+
+    ``x`` (n,) is replaced by the vector found; the next search may start there, with fewer
+    ``turns``.  Some of a vector without symmetry, the same in every run, is added: what was not
+    among the fastest may have become so.
+    """
+    n, c, known = P.sizes.n, P.coef, 0.0
+    y, inverse = P.trial[n:], P.history[0:]
     c[0], c[1], c[2], c[3], c[4] = cq, cu, 0.0, 0.0, 0.0
     jacobian(P, LOADS, c, P.J)
     size, found = 0.0, 0.0
-    for i in range(n):  # a vector without symmetry, the same in every run
-        x[i] = float((i * 7919 + 3) % 101) - 50.3
+    for i in range(n):
+        known += x[i] * x[i]
+    share = ADDED / LARGEST * (known / float(n)) ** 0.5 if known > 0.0 else 1.0
+    for i in range(n):
+        x[i] += share * (float((i * 7919 + 3) % 101) - LARGEST)
         size += x[i] * x[i]
-    for _iteration in range(POWERS):
+    for _iteration in range(turns):
         w = size**-0.5
         for i in range(n):
             x[i] *= w

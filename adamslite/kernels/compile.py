@@ -246,14 +246,17 @@ def _compile(group: ShapeGroup, progress: Progress | None) -> bool:
     return bool(made)
 
 
-def lanes(group: ShapeGroup) -> int:
+def lanes(kernels: Kernels, group: ShapeGroup) -> int:
     """Address of the residual for runs of instances; made when it is first asked for."""
     symbol = f"{group.name}_lanes"
 
     def compiled() -> bytes:
         return compiler.object_code(group.write.lanes(symbol))
 
-    return compiler.addresses([(recall(f"{symbol}.o", compiled), [symbol])])[symbol]
+    if symbol not in kernels.addresses:
+        code = recall(f"{symbol}.o", compiled)
+        kernels.addresses.update(compiler.addresses([(code, [symbol])]))
+    return kernels.addresses[symbol]
 
 
 def _kernels(group: ShapeGroup) -> tuple[str, Meta]:

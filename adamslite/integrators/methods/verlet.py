@@ -13,14 +13,14 @@ from adamslite.language.method import (
 
 
 def prepare(system: Equations, settings: Settings) -> None:
-    """Room for the numbers of the method, inverse inertias and two states."""
+    """Room for the numbers of the method, inverse inertias, two states, two vectors."""
     from adamslite.integrators.verlet.control import Control
     from adamslite.integrators.verlet.lanes import NUMBERS
 
     bodies = len(system.model.bodies)
     # Rows are whole lines of the cache, an odd number: those of 4 KB would share places in it.
     row = 8 * ((bodies + 7) // 8 | 1)
-    system.make_room(control=Control.slots, history=(9 + 2 * 6) * bodies, lane=NUMBERS * row)
+    system.make_room(control=Control.slots, history=(9 + 3 * 6) * bodies, lane=NUMBERS * row)
 
 
 NO_CORRECTOR = "-an explicit formula has no corrector"

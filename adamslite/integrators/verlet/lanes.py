@@ -15,9 +15,8 @@ from adamslite.integrators.verlet.control import Control
 from adamslite.integrators.verlet.sampling import HOPELESS, LARGE, note_steps, steps_per_estimate
 from adamslite.native.translate import Alone, Reals, call_address, maximum, native
 
-# Numbers of a body: place, velocity, force, 1/m, minus its weight, acceleration before; each by
-# component.
-NUMBERS = 18
+# Numbers of a body: place, velocity, force, acceleration before, each by component; 1/m.
+NUMBERS = 13
 
 
 @native
@@ -28,7 +27,7 @@ def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> f
     row = P.lane.size // NUMBERS
     n, top, every, C.spent = 3 * row, 0.0, steps_per_estimate(P, C, h), 0.0
     x, v, F = P.lane[0:], P.lane[n:], P.lane[2 * n :]
-    inverse, weight, before = P.lane[3 * n :], P.lane[4 * n :], P.lane[5 * n :]
+    before, inverse = P.lane[3 * n :], P.lane[4 * n :]
     fill_lanes(P, row)
     put_time(P, t)
     for s in range(count + 1):
@@ -36,7 +35,7 @@ def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> f
             put_time(P, t + s * h)
         run_lanes(P, x, row, F)
         if s > 0 and s % every == 1 % every:
-            error = change_of(F, inverse, before, x, n) * h * h / (6.0 * P.settings.error)
+            error = change_of(F, inverse, before, x, row) * h * h / (6.0 * P.settings.error)
             if not error < LARGE:
                 error = HUGE
             top = maximum(top, error)
@@ -44,9 +43,11 @@ def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> f
                 return top
             C.spent += every * error
         if s % every == 0:
-            keep_accelerations(F, inverse, before, n)
-        kick = 0.5 * h if s == 0 or s == count else h
-        kick_and_drift(x, v, F, inverse, weight, n, kick, h if s < count else 0.0)
+            keep_accelerations(F, inverse, before, row)
+        kick, drift = 0.5 * h if s == 0 or s == count else h, h if s < count else 0.0
+        for k in range(3):
+            at, fall = k * row, kick * P.gravity[k]
+            kick_and_drift(x[at:], v[at:], F[at:], inverse, row, kick, fall, drift)
     C.top, C.mean = top, 0.0
     if not take_lanes(P, row):
         return HUGE
@@ -56,7 +57,7 @@ def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> f
 
 @native
 def run_lanes(P: Problem, S: Reals, row: int, F: Reals) -> None:
-    """All loads, subtracted from F."""
+    """All loads, with the other sign, into F."""
     for k in range(P.lane_runs.size):
         run = P.lane_runs[k]
         call_address(run.function, run.count, run.ints, run.reals, run.of, P.W, S, row, F)
@@ -64,15 +65,13 @@ def run_lanes(P: Problem, S: Reals, row: int, F: Reals) -> None:
 
 @native
 def fill_lanes(P: Problem, row: int) -> None:
-    """Places, velocities and inverse masses of all bodies; minus the weights into F."""
+    """Places, velocities and inverse masses of all bodies; no forces."""
     lane, n = P.lane, 3 * row
-    for k in range(3):
-        for b in range(P.sizes.nb):
+    for b in range(P.sizes.nb):
+        lane[4 * n + b] = 1.0 / P.mass[b]
+        for k in range(3):
             i, at = P.body[b].first + k, k * row + b
-            weight = 0.0 - P.mass[b] * P.gravity[k]
-            lane[at], lane[n + at] = P.q[i], P.u[i]
-            lane[2 * n + at], lane[4 * n + at] = weight, weight
-            lane[3 * n + at] = 1.0 / P.mass[b]
+            lane[at], lane[n + at], lane[2 * n + at] = P.q[i], P.u[i], 0.0
 
 
 @native
@@ -89,27 +88,30 @@ def take_lanes(P: Problem, row: int) -> bool:
 
 @native
 def kick_and_drift(
-    x: Alone, v: Alone, F: Alone, inverse: Alone, weight: Alone, n: int, kick: float, drift: float
+    x: Alone, v: Alone, F: Alone, inverse: Alone, n: int, kick: float, fall: float, drift: float
 ) -> None:
-    """v -= kick M^-1 F, x += drift v; minus the weights into F."""
+    """v -= kick M^-1 F - fall, x += drift v, F = 0 of one component."""
     for i in range(n):
-        u = v[i] - kick * inverse[i] * F[i]
+        u = v[i] + fall - kick * inverse[i] * F[i]
         v[i] = u
         x[i] += drift * u
-        F[i] = weight[i]
+        F[i] = 0.0
 
 
 @native
-def keep_accelerations(F: Alone, inverse: Alone, before: Alone, n: int) -> None:
-    """Minus the accelerations, to compare the next ones with."""
-    for i in range(n):
-        before[i] = inverse[i] * F[i]
+def keep_accelerations(F: Alone, inverse: Alone, before: Alone, row: int) -> None:
+    """What forces accelerate, with the other sign, to compare the next ones with."""
+    for k in range(0, 3 * row, row):
+        for b in range(row):
+            before[k + b] = inverse[b] * F[k + b]
 
 
 @native
-def change_of(F: Alone, inverse: Alone, before: Alone, x: Alone, n: int) -> float:
+def change_of(F: Alone, inverse: Alone, before: Alone, x: Alone, row: int) -> float:
     """The largest change of an acceleration against max(1, |x|)."""
     top = 0.0
-    for i in range(n):
-        top = maximum(top, abs(inverse[i] * F[i] - before[i]) / max(1.0, abs(x[i])))
+    for k in range(0, 3 * row, row):
+        for b in range(row):
+            change = abs(inverse[b] * F[k + b] - before[k + b])
+            top = maximum(top, change / max(1.0, abs(x[k + b])))
     return top

@@ -43,12 +43,14 @@ from adamslite.integrators.motion_equations import put_time, run_groups, track
 from adamslite.integrators.records import write_record
 from adamslite.integrators.step_back import bring_audit_back, keep_audit
 from adamslite.integrators.stepping.outcome import OVERFLOW
-from adamslite.integrators.unconstrained import divide_by_mass, put_free, radius
+from adamslite.integrators.unconstrained import POWERS, clear, divide_by_mass, put_free, radius
 from adamslite.integrators.verlet.control import Control
 from adamslite.integrators.verlet.lanes import take_lane_steps
 from adamslite.integrators.verlet.sampling import HOPELESS, LARGE, note_steps, steps_per_estimate
 from adamslite.native.translate import Reals, native
 
+# Turns of the search for an eigenvalue from the vector found before, where laws are smooth.
+POWERS_AGAIN = 8
 # Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
 WORTH = 200
 SHRINK, GROW = 0.25, 2.0
@@ -137,15 +139,19 @@ def limit_step(P: Problem, C: Control) -> None:
     """The longest stable step at the workspace's state, when enough steps were taken since."""
     if C.since < WORTH:
         return
-    C.since, C.limit = 0, STABLE * stable_step(P)
+    C.since, C.limit = 0, STABLE * stable_step(P, C.limit > 0.0 and P.sizes.watched == 0)
     C.longest = max(C.longest, C.limit / STABLE)
     P.report.stable_step = min(P.report.stable_step, C.limit / STABLE)
 
 
 @native
-def stable_step(P: Problem) -> float:
-    """The longest stable step at the workspace's state."""
-    kappa, c = radius(P, 1.0, 0.0), radius(P, 0.0, 1.0)
+def stable_step(P: Problem, again: bool) -> float:
+    """The longest stable step at the workspace's state; ``again``: not far from the last look."""
+    n, turns = P.sizes.n, POWERS_AGAIN if again else POWERS
+    x = P.history[9 * P.sizes.nb + 4 * n :]
+    if not again:
+        clear(x, 2 * n)
+    kappa, c = radius(P, 1.0, 0.0, x, turns), radius(P, 0.0, 1.0, x[n:], turns)
     bottom = c + (c * c + 4.0 * kappa) ** 0.5
     return 4.0 / bottom if bottom > 0.0 else HUGE
 
@@ -164,11 +170,11 @@ def stable_in_contact(P: Problem, C: Control, t: float, h: float) -> float:
     if 6.0 * P.settings.error * C.top < JOLT * speed * h:
         return HUGE
     put_free(P, t, hard, hard[n:])
-    stable = stable_step(P)
+    stable = stable_step(P, False)
     for i in range(n):  # velocities are those of the middle of the step
         hard[i] -= h * hard[n + i]
     put_free(P, t, hard, hard[n:])
-    stable = min(stable, stable_step(P))
+    stable = min(stable, stable_step(P, False))
     return stable if stable < STIFFER * C.longest else HUGE
 
 
