@@ -60,7 +60,7 @@ def test_equal_steps_do_not_depend_on_error(method: str, error: float):
 
 
 def test_divided_steps_are_told():
-    """The same pendulum in steps of 10 ms: the first one takes more than three iterations."""
+    """The same pendulum in steps of 10 ms: some take more than two iterations."""
     deck = (
         GROUND + "ACCGRAV/JGRAV=-9.81\nPOINT_MASS/2, MASS=1, CM=2, QG=1,0,0\n"
         "MARKER/2, POINT_MASS=2\n"
@@ -68,7 +68,7 @@ def test_divided_steps_are_told():
         "INTEGRATOR/HHT, HINIT=1E-2, HMIN=1E-2, HMAX=1E-2, MAXIT={}\nEND\n"
     )
     assert "divided" not in done(deck.format(10), 1.0).meta.get("accuracy", "")
-    results = done(deck.format(3), 1.0)
+    results = done(deck.format(2), 1.0)
     assert results.summary["steps"] > 100
     assert "steps were divided" in results.meta["accuracy"]
 

@@ -156,7 +156,8 @@ def test_hht_renews_a_matrix_before_it_is_too_old():
     one matrix a step; 4.5 and 1.7 when each had to fail.
     """
     n, k = 60, 6e5
-    masses = (f"POINT_MASS/{i}, MASS={1 / 6}, CM={i}, QG={(i - 1) / 6},0,0\nMARKER/{i}, POINT_MASS={i}\n"
+    masses = (f"POINT_MASS/{i}, MASS={1 / 6}, CM={i}, QG={(i - 1) / 6},0,0\n"
+              f"MARKER/{i}, POINT_MASS={i}\n"
               for i in range(2, n + 2))  # fmt: skip
     springs = (f"SFORCE/{i}, TRANSLATIONAL, I={i}, J={i - 1}\n"
                f", FUNCTION=-{k}*(DM({i},{i - 1})-{1 / 6})-{2e-5 * k}*VR({i},{i - 1})\n"
