@@ -6,13 +6,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import adamslite
+from adamslite.kept_scene import find, keep, origin_of, tables_of
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.progress import Progress
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
+    from adamslite.deck.commands import Commands
     from adamslite.deck.deck import Deck
     from adamslite.deck.user_bindings import Given
-    from adamslite.reading.read import Commands
     from adamslite.results.results import Results
 
     User = Mapping[str, Given] | Iterable[str] | None
@@ -48,9 +49,7 @@ class Scene:
     def read(self) -> tuple[Path, ...]:
         """The files that were read, with tables that statements take from files."""
         commands = [self.commands_path] if self.commands_path else []
-        changes = (getattr(command, "changes", {}).get("file") for command in self.commands)
-        named = (getattr(each, "file", None) for each in self.deck.statements)
-        tables = (self.deck.folder / name for name in (*named, *changes) if name)
+        tables = (self.deck.folder / name for name in tables_of(self.deck, self.commands))
         return (self.deck_path, *commands, *tables)
 
     @property
@@ -69,7 +68,8 @@ class Scene:
 def load_scene(deck_path: Path, commands_path: Path | None = None, user: "User" = ()) -> Scene:
     """Read and check a deck and its command file, by default the `.acf` of its name beside it.
 
-    `user` is what is bound to routines that are no part of them, as `read` takes it.
+    What an earlier run has kept of the same files is taken instead. `user` is what is bound to
+    routines that are no part of them, as `read` takes it.
 
     Raises
     ------
@@ -77,7 +77,12 @@ def load_scene(deck_path: Path, commands_path: Path | None = None, user: "User" 
         With everything that is wrong in the two files.
     """
     chosen = commands_path or command_file_beside(deck_path)
-    deck, commands, warnings = read_together(deck_path, chosen, user)
+    origin = None if user else origin_of(deck_path, chosen)
+    kept = origin and find(origin)
+    read = kept or read_together(deck_path, chosen, user)
+    if origin and not kept:
+        keep(origin, read)
+    deck, commands, warnings = read
     return Scene(
         deck=deck, commands=commands, warnings=warnings, deck_path=deck_path,
         commands_path=chosen, beside=commands_path is None and chosen is not None,
@@ -95,7 +100,8 @@ def read_together(
         With everything that is wrong in both.
     """
     from adamslite.checks.inert import in_one_note
-    from adamslite.reading.read import Commands, read_commands
+    from adamslite.deck.commands import Commands
+    from adamslite.reading.read import read_commands
     from adamslite.reading.user_routines import unused_bindings
 
     found: list[Diagnostic] = []

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import adamslite
+from adamslite.deck.commands import Commands
 from adamslite.deck.user_bindings import Bindings
 from adamslite.language.diagnostics import Diagnostic, Source, Span
-from adamslite.reading.read import Commands
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 

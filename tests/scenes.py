@@ -14,7 +14,7 @@ from adamslite.equations import operations
 from adamslite.equations.system import System
 from adamslite.integrators import motion_equations
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
-from adamslite.kernels.compile import Kernels
+from adamslite.kernels.groups import Kernels
 from adamslite.native import compiler as code
 from adamslite.native import translate
 from adamslite.native.translate import Record

@@ -9,12 +9,13 @@ from typing import Any
 import pytest
 
 from adamslite.analyses.output_times import output_times
+from adamslite.deck.commands import Commands
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.expression import Num, to_text
 from adamslite.language.messages import START
-from adamslite.reading.read import Commands, read, read_commands
+from adamslite.reading.read import read, read_commands
 from adamslite.scene import load_scene
 
 RIG = (

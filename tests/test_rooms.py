@@ -53,6 +53,7 @@ analyses.clock analyses.initial
 analyses.linearization
 analyses
 run_flags
+kept_scene
 scene
 result_files
 verification

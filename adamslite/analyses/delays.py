@@ -21,7 +21,7 @@ import numpy as np
 
 from adamslite.equations.system import System
 from adamslite.errors import UsageError
-from adamslite.kernels.compile import Kernels
+from adamslite.kernels.groups import Kernels
 from adamslite.language.expression import Call, to_text
 from adamslite.model.past import KNOTS, Past, past_of
 from adamslite.symbolic.interpolant import interpolant

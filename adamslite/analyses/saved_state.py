@@ -20,7 +20,7 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition
 from adamslite.equations.system import System
 from adamslite.errors import UsageError
-from adamslite.kernels.compile import Kernels
+from adamslite.kernels.groups import Kernels
 from adamslite.language.interfaces import Key
 from adamslite.reading.read import read_commands
 

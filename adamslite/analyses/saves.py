@@ -14,7 +14,7 @@ from adamslite.deck.redefinition import Redefinition
 from adamslite.elements.reload import Reload
 from adamslite.elements.save import Save
 from adamslite.equations.system import System
-from adamslite.kernels.compile import Kernels
+from adamslite.kernels.groups import Kernels
 from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
+from adamslite.analyses import kept_kernels
 from adamslite.deck.deck import Deck
-from adamslite.kernels.compile import Kernels, compile_model
+from adamslite.kernels.groups import Kernels
 from adamslite.model.model import Model, assemble
 from adamslite.progress import Progress
 
@@ -25,5 +26,18 @@ def kernels_of(
     """The kernels of a subject; ``without`` and ``audited`` count where they are compiled now."""
     if isinstance(subject, Kernels):
         return subject
-    model = subject if isinstance(subject, Model) else assemble(subject, without)
+    if isinstance(subject, Model):
+        return _compiled(subject, progress, audited)
+    name = kept_kernels.name_of(subject, without, audited)
+    kernels = kept_kernels.find(name, subject)
+    if kernels is None:
+        kernels = _compiled(assemble(subject, without), progress, audited)
+        kept_kernels.keep(name, kernels)
+    return kernels
+
+
+def _compiled(model: Model, progress: Progress | None, audited: bool) -> Kernels:
+    # Kernels that are kept need nothing that binds and writes them.
+    from adamslite.kernels.compile import compile_model
+
     return compile_model(model, progress, audited)

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+from adamslite.deck.commands import Commands
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.user_bindings import Given
@@ -15,7 +16,7 @@ from adamslite.errors import DeckWarning, UsageError
 from adamslite.language.abbreviations import match
 from adamslite.language.diagnostics import WARNING, Diagnostic
 from adamslite.language.statement import STATEMENTS, Statement
-from adamslite.reading.read import Commands, read_commands
+from adamslite.reading.read import read_commands
 from adamslite.scene import command_file_beside, read_together
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck

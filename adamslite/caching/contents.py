@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 #: Names of entries, and of those being written. Nothing else in the folder is ever touched.
-ENTRY = re.compile(r"[a-z_]+[0-9a-f]{32}\.(?:o|json|parser)")
+ENTRY = re.compile(r"[a-z_]+[0-9a-f]{32}\.(?:o|json|parser|kept)")
 
 
 DRAFT = re.compile(rf"\.{ENTRY.pattern}\.\d+-\d+\.part")

@@ -42,20 +42,30 @@ DAY = 24 * HOUR
 
 def recall(name: str, make: Callable[[], bytes]) -> bytes:
     """The content kept under ``name``, verified; made and kept when there is none or it fails."""
+    content = find(name)
+    if content is None:
+        content = make()
+        keep(name, content)
+    return content
+
+
+def find(name: str) -> bytes | None:
+    """The content kept under ``name``, verified; None when there is none or it fails."""
     path = cache_folder() / name
     try:
-        sealed = path.read_bytes()
-        content = unsealed(name, sealed)
+        content = unsealed(name, path.read_bytes())
     except FileNotFoundError:
-        pass
+        return None
     except (Damaged, OSError) as fault:
         warn(f"the cache entry {path} is rebuilt: {getattr(fault, 'strerror', None) or fault}")
-    else:
-        _note_use(path)
-        return content
-    content = make()
-    store(path, content)
+        return None
+    _note_use(path)
     return content
+
+
+def keep(name: str, content: bytes) -> None:
+    """Keep a content under a name."""
+    store(cache_folder() / name, content)
 
 
 def recall_json(name: str, make: Callable[[], Any]) -> Any:

@@ -67,6 +67,8 @@ class Deck:
         """Of sensors that have triggered, the value of their EVALUATE then, by key."""
         self.user = Bindings()
         """What runs in place of routines of the user."""
+        self.origin = ""
+        """What names all that it was read from, where what is made of it may be kept."""
         self.incomplete: set[str] = set()
         """Keywords of statements with mistakes, which are not among the statements."""
         self._of: dict[str, list[Statement]] = {}

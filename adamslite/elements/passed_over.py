@@ -242,7 +242,7 @@ def _register(keyword: str, entry: Entry) -> None:
         place="deck" if entry.has_id else entry.place, body=entry.body, ignored=True, inert=True,
         data=True,
     )  # fmt: skip
-    declare(made)
+    globals()[made.__name__] = declare(made)  # where a copy of a statement looks for its class
 
 
 for _keyword, _entry in TABLE.items():

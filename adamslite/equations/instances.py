@@ -14,7 +14,7 @@ from adamslite.equations.numbering import Numbering
 from adamslite.integrators import contract
 from adamslite.integrators.contract import KernelGroup
 from adamslite.kernels.binding import Binding
-from adamslite.kernels.compile import ShapeGroup
+from adamslite.kernels.groups import ShapeGroup
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 from adamslite.model.model import NodeKey

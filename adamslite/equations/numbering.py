@@ -11,7 +11,7 @@ from adamslite.elements.sensor import Sensor
 from adamslite.elements.variable import Variable
 from adamslite.equations.engine import ints
 from adamslite.integrators.contract import STATE_SIZE
-from adamslite.kernels.compile import Kernels
+from adamslite.kernels.groups import Kernels
 from adamslite.language.statement import Statement
 from adamslite.model.model import PART, NodeKey
 

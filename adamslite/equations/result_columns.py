@@ -17,7 +17,7 @@ from adamslite.kernels.code.kinematics import (
     POSITION,
     VELOCITY,
 )
-from adamslite.kernels.compile import Kernels
+from adamslite.kernels.groups import Kernels
 from adamslite.model.attitude_angles import angles_313
 from adamslite.model.model import PART, Body
 

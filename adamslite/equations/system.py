@@ -26,7 +26,7 @@ from adamslite.integrators import contract
 from adamslite.integrators.audit_record import Audit
 from adamslite.integrators.event_rows import MARGIN_ROWS, Search
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.kernels.compile import Kernels
+from adamslite.kernels.groups import Kernels
 from adamslite.language.statement import Statement
 from adamslite.model.model import PART, NodeKey
 from adamslite.model.scaling import rotation_weights

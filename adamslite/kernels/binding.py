@@ -17,12 +17,11 @@ A bound tree is one of
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from adamslite import functions  # noqa: F401  registers the deck functions
 from adamslite.functions.forces import NET
+from adamslite.kernels.groups import Binding
 from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.language.function import PRODUCTS, Function, find_function
 from adamslite.language.interfaces import Key
@@ -45,18 +44,6 @@ LASTING = ("MARKER", "VARIABLE", "DIFF", "SENSOR")
 
 class ForceLoop(Exception):
     """An element's force depends on itself without a VARIABLE between."""
-
-
-@dataclass
-class Binding:
-    """One instance: what fills the slots of its shape."""
-
-    markers: list[Key | MassCentre] = field(default_factory=list)
-    bodies: list[int] = field(default_factory=list)
-    nodes: list[NodeKey] = field(default_factory=list)
-    params: list[float] = field(default_factory=list)
-    signals: list[Key] = field(default_factory=list)
-    tables: list[Interpolant | Routine] = field(default_factory=list)
 
 
 class Binder:

@@ -8,18 +8,19 @@ instances of one face with one shape form a :class:`ShapeGroup`, run by one kern
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache, partial
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
 from adamslite.deck.statement_diagnostics import diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
-from adamslite.kernels.binding import Binder, Binding, ForceLoop
+from adamslite.kernels.binding import Binder, ForceLoop
+from adamslite.kernels.groups import LEVELS, WITH_JACOBIAN, Kernels, Meta, ShapeGroup, linked
 from adamslite.kernels.reactions import reactions
 from adamslite.kernels.reader import ExpressionReader, symbolic_view
 from adamslite.language.diagnostics import DeckError, Diagnostic
@@ -32,42 +33,6 @@ from adamslite.symbolic.types import Expr, Tree
 
 if TYPE_CHECKING:  # a deck whose shapes are cached needs no sympy
     from adamslite.kernels.code.shape import Outputs, Shape
-
-
-Meta = dict[str, Any]
-"""What an instance of a shape must provide, see :mod:`adamslite.kernels.code.module_text`."""
-
-
-@dataclass
-class ShapeGroup:
-    """The instances of one shape: ``face`` names what its kernels compute."""
-
-    face: str
-    name: str
-    write: FaceWriter
-    instances: list[tuple[Statement, Binding]] = field(default_factory=list)
-    code: bytes = b""
-    meta: Meta = field(default_factory=dict)
-
-
-@dataclass
-class Kernels:
-    """A model with its compiled groups and the values it writes.
-
-    ``outputs``: (statement, result names) in the order of the output rows.  ``columns``: names of
-    the columns of results, once they are known.
-    """
-
-    model: Model
-    groups: list[ShapeGroup]
-    outputs: list[tuple[Statement, tuple[str, ...]]]
-    addresses: dict[str, int]
-    compiled: int
-    columns: tuple[str, ...] | None = None
-
-
-LEVELS = ("reactions", "position", "velocity", "acceleration")
-WITH_JACOBIAN = ("loads", "equation", *LEVELS)
 
 
 def compile_model(
@@ -92,8 +57,8 @@ def compile_model(
                 outputs.append((statement, statement.result_names))
                 add(statement, face)
     fresh = sum(_compile(group, progress) for group in groups.values())
-    addresses = compiler.addresses((group.code, _entry_points(group)) for group in groups.values())
-    return Kernels(model, list(groups.values()), outputs, addresses, fresh)
+    made = list(groups.values())
+    return Kernels(model, made, outputs, linked(made), fresh)
 
 
 def faces(statement: Statement, model: Model) -> Iterator[str]:
@@ -242,7 +207,7 @@ def _compile(group: ShapeGroup, progress: Progress | None) -> bool:
         return made[0]
 
     group.meta = recall_json(f"{group.name}.json", lambda: text_and_meta()[1])
-    group.code = recall(f"{group.name}.o", lambda: compiler.straight_code(text_and_meta()[0]))
+    group.code = recall(group.entry, lambda: compiler.straight_code(text_and_meta()[0]))
     return bool(made)
 
 
@@ -261,9 +226,9 @@ def lanes(kernels: Kernels, group: ShapeGroup) -> int:
 
 def _kernels(group: ShapeGroup) -> tuple[str, Meta]:
     try:
-        return group.write.kernels(group.name)
+        return group.writer.kernels(group.name)
     except UndefinedRate as fault:
-        raise DeckError([_no_rate(group, fault)], group.write.binder.model.deck) from None
+        raise DeckError([_no_rate(group, fault)], group.writer.binder.model.deck) from None
 
 
 def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnostic]:
@@ -277,7 +242,7 @@ def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnost
             yield from fault.diagnostics
     for group in groups.values():
         try:
-            group.write(Scope(group.write.binder.slots))
+            group.writer(Scope(group.writer.binder.slots))
         except UndefinedRate as fault:
             yield _no_rate(group, fault)
 
@@ -292,24 +257,12 @@ def _no_rate(group: ShapeGroup, fault: UndefinedRate) -> Diagnostic:
     what = {"a": "an acceleration", "al": "an angular acceleration"}.get(kind, "a second rate")
     label = ""
     if kind in ("z", "dif1"):
-        binder = group.write.binder
-        label = binder.model.element(*binder.instance.nodes[at - group.write.n_bodies]).label
+        binder = group.writer.binder
+        label = binder.model.element(*binder.instance.nodes[at - group.writer.n_bodies]).label
         circular = label.startswith("VARIABLE")
         what = f"{label}, which depends on itself" if circular else f"a reaction of {label}"
         what = f"the rate of {label}" if kind == "dif1" else what
     return diagnose_inside(group.instances[0][0], label, "no-rate", what=what)
-
-
-def _entry_points(group: ShapeGroup) -> list[str]:
-    names = [f"{group.name}_residual"]
-    if group.face in WITH_JACOBIAN:
-        names.append(f"{group.name}_jacobian")
-    if group.meta["tracks"]:
-        names.append(f"{group.name}_track")
-    kinds = group.meta["guards"]
-    names += [f"{group.name}_clock"] if kinds["clock"] else []
-    names += [f"{group.name}_watch"] if kinds["watch"] or kinds["zone"] else []
-    return names
 
 
 @cache

@@ -44,8 +44,8 @@ from adamslite.results.results import Results
 from adamslite.results.run_texts import attributes, need_rows, printable
 
 if TYPE_CHECKING:
+    from adamslite.deck.commands import Commands
     from adamslite.deck.deck import Deck
-    from adamslite.reading.read import Commands
     from adamslite.results.adams_options import AdamsOptions
     from adamslite.results.adams_terms import Groups
 

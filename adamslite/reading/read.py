@@ -17,6 +17,7 @@ from adamslite.checks.runs import (
     late_start_values,
     names_of_files,
 )
+from adamslite.deck.commands import Commands
 from adamslite.deck.deck import ANALYSES, Deck
 from adamslite.deck.named_places import with_named
 from adamslite.deck.names import Names
@@ -73,16 +74,6 @@ def read_by(reading: Reading, path: Path | None, given: Bindings) -> Deck:
         deck.user = given
         deck.warnings = _judged(deck, reading, RULES, deck)
     return deck
-
-
-class Commands(tuple[Command, ...]):
-    """Commands in their order: statements, and :class:`Redefinition` for those that change one."""
-
-    warnings: tuple[Diagnostic, ...] = ()
-    prefix: str = ""
-    """First part of the names of the files of a run; empty where the commands name none."""
-    source: Source | None = None
-    """The text that they were read from."""
 
 
 def read_commands(source: str | Path, deck: Deck) -> Commands:
@@ -175,10 +166,14 @@ def decoded(data: bytes) -> str:
         return data.decode("latin-1")
 
 
+def text_of(source: str) -> str:
+    """A text with ``\\n`` line ends."""
+    return source.replace("\r\n", "\n").replace("\r", "\n")
+
+
 def _load(source: str | Path) -> tuple[str, Path | None]:
     """Text with ``\\n`` line ends, and the file it came from."""
-    path = None
     if isinstance(source, Path) or "\n" not in source:
         path = Path(source)
-        source = decoded(path.read_bytes())
-    return source.replace("\r\n", "\n").replace("\r", "\n"), path
+        return text_of(decoded(path.read_bytes())), path
+    return text_of(source), None

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tempfile import TemporaryDirectory
 
+    from adamslite.deck.commands import Commands
     from adamslite.deck.deck import Deck
     from adamslite.deck.redefinition import Command
-    from adamslite.reading.read import Commands
 
 
 NO_FILE = "<text>"
@@ -75,10 +75,11 @@ class RunSource:
             With every mistake; tables that the deck names are those kept, or looked for in
             ``folder``.
         """
+        from adamslite.deck.commands import Commands
         from adamslite.deck.names import Names
         from adamslite.deck.user_bindings import bindings
         from adamslite.language.diagnostics import Source
-        from adamslite.reading.read import Commands, commands_of, read_by
+        from adamslite.reading.read import commands_of, read_by
         from adamslite.reading.statement_reader import Reading
 
         if self.made:
@@ -128,7 +129,7 @@ def _scratch() -> TemporaryDirectory[str]:
 
 def source_of(deck: Deck, commands: Iterable[Command]) -> RunSource:
     """The texts that a deck and its commands were read from."""
-    from adamslite.reading.read import Commands
+    from adamslite.deck.commands import Commands
 
     written = getattr(commands, "source", None)
     return RunSource(

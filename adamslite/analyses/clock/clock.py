@@ -9,7 +9,7 @@ from operator import add
 from adamslite.analyses.clock.enclosures import Instruction
 from adamslite.kernels.binding import Binding
 from adamslite.kernels.code.clock_program import Instruction as Written
-from adamslite.kernels.compile import Kernels
+from adamslite.kernels.groups import Kernels
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 from adamslite.symbolic.interpolant import Interpolant

@@ -1,0 +1,92 @@
+"""Scenes between runs: what reading and checking a deck and its commands has given.
+
+An entry of the cache is named by everything that decides it: the program (all of its source files,
+Python, libraries), the processor, the current folder, and path and content of deck and command
+file.  A scene whose reading has taken anything else is not kept: tables from files, routines of the
+user.  Neither is one with errors, which is about to be changed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from adamslite.caching import objects
+from adamslite.caching.program import is_unchanged, program
+from adamslite.errors import UsageError
+from adamslite.native import processor
+
+if TYPE_CHECKING:
+    from adamslite.deck.commands import Commands
+    from adamslite.deck.deck import Deck
+    from adamslite.language.diagnostics import Diagnostic
+
+    Read = tuple[Deck, Commands, tuple[Diagnostic, ...]]
+    """Deck, commands, and the messages about both."""
+
+
+class Origin(NamedTuple):
+    """The name of everything that a scene is read from, and the contents of its files."""
+
+    name: str
+    contents: Sequence[bytes]
+
+
+def origin_of(deck: Path, commands: Path | None) -> Origin | None:
+    """What a scene is read from; None where that cannot be known."""
+    try:
+        facts = [program(), processor.identity(), os.getcwd()]
+        paths = [deck, commands] if commands else [deck]
+        contents = [path.read_bytes() for path in paths]
+    except (OSError, UsageError):  # reported where they stand in the way
+        return None
+    if not facts[0]:
+        return None
+    found = hashlib.sha256("\0".join([*facts, *map(str, paths)]).encode(errors="surrogateescape"))
+    for content in contents:
+        found.update(hashlib.sha256(content).digest())
+    return Origin(found.hexdigest()[:32], contents)
+
+
+def find(origin: Origin) -> Read | None:
+    """The scene that was read from there; None when none is kept."""
+    found: Read | None = objects.find(_entry(origin))
+    if found is not None:
+        found[0].origin = origin.name
+    return found
+
+
+def keep(origin: Origin, read: Read) -> None:
+    """Keep a scene that was read from there, if nothing else decided it."""
+    deck, commands, _ = read
+    if is_kept(origin, deck, commands):
+        objects.keep(_entry(origin), read)
+        deck.origin = origin.name
+
+
+def is_kept(origin: Origin, deck: Deck, commands: Commands) -> bool:
+    """Whether deck and commands are decided by their origin alone."""
+    from adamslite.reading.read import decoded, text_of
+
+    sources = [deck.source, *([commands.source] if commands.source else [])]
+    read = [source.text for source in sources]
+    return (
+        not (deck.user.called or deck.user.statements or deck.user.routines)
+        and not any(tables_of(deck, commands))
+        and read == [text_of(decoded(content)) for content in origin.contents]
+        and is_unchanged()
+    )
+
+
+def tables_of(deck: Deck, commands: Commands) -> list[str]:
+    """Names of files in statements: what stands in them may decide the deck."""
+    changes = (getattr(command, "changes", {}).get("file") for command in commands)
+    named = (getattr(each, "file", None) for each in deck.statements)
+    return [name for name in (*named, *changes) if name]
+
+
+def _entry(origin: Origin) -> str:
+    return f"scene{origin.name}.kept"
