@@ -15,13 +15,14 @@ from adamslite.elements.linear import Linear
 from adamslite.elements.reload import Reload
 from adamslite.elements.save import Save
 from adamslite.errors import UsageError
-from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.language.diagnostics import DeckError
 from adamslite.outputs.modes import files_beside
 from adamslite.outputs.saved_files import missing
 from adamslite.outputs.whole_files import need_writable, same_file
 from adamslite.results.adams_options import adams_options
 
 if TYPE_CHECKING:
+    from adamslite.language.diagnostics import Diagnostic
     from adamslite.scene import Scene
 
 READ = "read by this run"

@@ -11,14 +11,17 @@ and counts as e^(3/2).
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.dynamic import Settings
-from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.jolts import JOLT
 from adamslite.language.method import FIXED, FIXED_BY_HINIT
+
+if TYPE_CHECKING:
+    from adamslite.analyses.dynamic import Settings
+    from adamslite.equations.system import System
 
 # ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do
 # not have to offer.

@@ -14,13 +14,17 @@ What goes beyond adds up one-sidedly, or is a force that a step did not see.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from adamslite.equations.engine import ints
-from adamslite.equations.system import System
 from adamslite.integrators.audit_record import POINTS, ROWS_OF_GUARDS
 from adamslite.integrators.contract import ACCELERATIONS, AUDIT
 from adamslite.results.balance import Balance
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
 
 # Standard deviations within which a sum of independent errors stays.
 CONFIDENCE = 3.0

@@ -14,13 +14,17 @@ Reference: Ziegler, Principles of Structural Stability, 1968, section 1.2.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.elements.sforce import Sforce
 from adamslite.elements.springdamper import Springdamper
-from adamslite.model.geometry import Place
-from adamslite.model.model import POINT, Model
+from adamslite.model.model import POINT
+
+if TYPE_CHECKING:
+    from adamslite.model.geometry import Place
+    from adamslite.model.model import Model
 
 # The exponential of more is beyond the range of numbers.
 EXP_LIMIT = 700.0

@@ -18,15 +18,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from math import inf, pi
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.dynamic import Settings
 from adamslite.errors import UsageError
 from adamslite.language.method import FIXED, declared, method_of
 from adamslite.results.confirmation import Channel, Confirmation
 from adamslite.results.results import Results
+
+if TYPE_CHECKING:
+    from adamslite.analyses.dynamic import Settings
 
 # Both witnesses are taken at ERROR over this, but not below what round-off leaves of a test.
 TIGHTER, TIGHTEST = 100.0, 1e-12

@@ -16,15 +16,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.equations.system import System
 from adamslite.errors import UsageError
-from adamslite.kernels.groups import Kernels
-from adamslite.language.expression import Call, to_text
-from adamslite.model.past import KNOTS, Past, past_of
+from adamslite.language.expression import to_text
+from adamslite.model.past import KNOTS, past_of
 from adamslite.symbolic.interpolant import interpolant
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
+    from adamslite.kernels.groups import Kernels
+    from adamslite.language.expression import Call
+    from adamslite.model.past import Past
 
 SAMPLES = 128
 MOST_SMOOTHED = 6

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,12 +16,16 @@ from adamslite.analyses.sensors import EQUAL, require_changing, require_none
 from adamslite.analyses.step_limits import StepLimits
 from adamslite.analyses.worker import Worker
 from adamslite.equations.engine import ints
-from adamslite.equations.system import System
 from adamslite.integrators import contract
-from adamslite.language.method import FIXED, FIXED_BY_HINIT, USUAL, Method, method_of
+from adamslite.language.method import FIXED, FIXED_BY_HINIT, USUAL, method_of
 from adamslite.native.translate import Rows
-from adamslite.progress import Progress, RunState
+from adamslite.progress import RunState
 from adamslite.results.outcomes import Outcome
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
+    from adamslite.language.method import Method
+    from adamslite.progress import Progress
 
 # Of a method with fixed steps where the deck gives none.
 STEPS_PER_OUTPUT = 20.0

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from math import isnan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.initial.conditions import Unclosed
-from adamslite.equations.system import System
 from adamslite.equations.unknown_names import equation, placed, tested, unknown
 from adamslite.integrators import contract
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.integrators.verlet.control import Control
-from adamslite.language.statement import Statement
 from adamslite.results.outcomes import Outcome
+
+if TYPE_CHECKING:
+    from adamslite.analyses.initial.conditions import Unclosed
+    from adamslite.equations.system import System
+    from adamslite.language.statement import Statement
 
 # A step below this multiple of HMIN is HMIN.
 NEARLY = 1.01

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from adamslite.analyses.saved_state import State
-from adamslite.elements.info import Info
 from adamslite.elements.request import MEASURES, Request
 from adamslite.equations.result_columns import columns
 from adamslite.equations.system import System
@@ -13,6 +14,9 @@ from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.kernels.compile import compile_model
 from adamslite.model.model import assemble
+
+if TYPE_CHECKING:
+    from adamslite.elements.info import Info
 
 # A name that no deck can give to a REQUEST.
 ONCE = "info "

@@ -8,12 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from adamslite.caching import entries, objects
 from adamslite.caching.program import is_unchanged
-from adamslite.deck.deck import Deck
-from adamslite.kernels.groups import Kernels, linked
+from adamslite.kernels.groups import linked
 from adamslite.native import compiler
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.kernels.groups import Kernels
 
 
 def name_of(deck: Deck, without: frozenset[str], audited: bool) -> str:

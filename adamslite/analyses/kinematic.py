@@ -6,18 +6,24 @@ forces.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from adamslite.analyses.initial.conditions import (
-    Unclosed,
     initial_conditions,
     largest_turn,
     move,
 )
-from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.results.outcomes import Outcome
+
+if TYPE_CHECKING:
+    from adamslite.analyses.initial.conditions import (
+        Unclosed,
+    )
+    from adamslite.equations.system import System
 
 # Angles are counted by the nearest one to the last: no part turns further in a step, and two may
 # turn against each other.

@@ -15,17 +15,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import sqrt
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.dynamic import Settings
-from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
 from adamslite.integrators.contract import SPECTRUM
 from adamslite.language.method import AUTO, CONSTRAINTS, ROTATIONS, STATE_JUMPS, methods
 from adamslite.model.model import PART
 from adamslite.symbolic.guards import JUMPS
+
+if TYPE_CHECKING:
+    from adamslite.analyses.dynamic import Settings
+    from adamslite.equations.system import System
 
 # An explicit step costs a few residuals and covers a few radians of the fastest oscillation; an
 # implicit one costs some ten, and motion worth recording takes some ten steps per output step.

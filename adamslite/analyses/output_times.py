@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from adamslite.elements.simulate import MOST_STEPS, STEPS, Simulate, output_steps
+from adamslite.elements.simulate import MOST_STEPS, STEPS, output_steps
 from adamslite.errors import UsageError
+
+if TYPE_CHECKING:
+    from adamslite.elements.simulate import Simulate
 
 # A last interval shorter than this share of the whole is no interval of its own.
 ROUND_OFF = 1e-9

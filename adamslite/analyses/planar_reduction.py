@@ -11,16 +11,19 @@ equation of the model in space.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.analyses.initial.least_change import VELOCITIES
 from adamslite.analyses.initial.sparse_rows import Pattern, evaluated
-from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS
 from adamslite.model.model import PART
-from adamslite.results.outcomes import Outcome
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
+    from adamslite.results.outcomes import Outcome
 
 # Of the largest of their kind: speeds, accelerations, reactions and gradients below are round-off.
 NOTHING = 1e-11

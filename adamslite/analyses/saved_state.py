@@ -10,19 +10,21 @@ import json
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from operator import is_
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
 from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.static import StaticSettings
-from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition
-from adamslite.equations.system import System
 from adamslite.errors import UsageError
-from adamslite.kernels.groups import Kernels
-from adamslite.language.interfaces import Key
 from adamslite.reading.read import read_commands
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.equations.system import System
+    from adamslite.kernels.groups import Kernels
+    from adamslite.language.interfaces import Key
 
 HEAD = "saved by adamslite"
 VERSION = 1

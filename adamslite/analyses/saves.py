@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.saved_state import Kept, State, document
-from adamslite.analyses.sensors import SensorLog
-from adamslite.analyses.static import StaticSettings
-from adamslite.deck.deck import Deck
-from adamslite.deck.redefinition import Redefinition
-from adamslite.elements.reload import Reload
-from adamslite.elements.save import Save
-from adamslite.equations.system import System
-from adamslite.kernels.groups import Kernels
-from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
+
+if TYPE_CHECKING:
+    from adamslite.analyses.dynamic import Settings
+    from adamslite.analyses.sensors import SensorLog
+    from adamslite.analyses.static import StaticSettings
+    from adamslite.deck.deck import Deck
+    from adamslite.deck.redefinition import Redefinition
+    from adamslite.elements.reload import Reload
+    from adamslite.elements.save import Save
+    from adamslite.equations.system import System
+    from adamslite.kernels.groups import Kernels
+    from adamslite.outputs.saved_files import SavedFiles
 
 
 class Session(Protocol):

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from adamslite.elements.sensor import Sensor
-from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
-from adamslite.language.interfaces import Key
 from adamslite.results.outcomes import Outcome
+
+if TYPE_CHECKING:
+    from adamslite.elements.sensor import Sensor
+    from adamslite.equations.system import System
+    from adamslite.language.interfaces import Key
 
 # A sensor that has triggered does not do so again within this share of the longest step.
 ROUND_OFF = 1e-7

@@ -17,6 +17,7 @@ import time as clock
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -33,20 +34,23 @@ from adamslite.analyses.sensors import AT_TIMES, require_none
 from adamslite.analyses.session_state import SessionState
 from adamslite.analyses.setting_commands import changes_the_model, updated
 from adamslite.analyses.static import StaticSettings, at_rest
-from adamslite.deck.redefinition import Command, Redefinition
-from adamslite.elements.equilibrium import Equilibrium
-from adamslite.elements.info import Info
-from adamslite.elements.integrator import Integrator
-from adamslite.elements.linear import Linear
-from adamslite.elements.reload import Reload
-from adamslite.elements.save import Save
-from adamslite.elements.simulate import Simulate
+from adamslite.deck.redefinition import Redefinition
 from adamslite.equations.engine import engine
-from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD, RECORD_AT_REST
 from adamslite.progress import AnalysisProgress
 from adamslite.results.outcomes import Outcome
+
+if TYPE_CHECKING:
+    from adamslite.deck.redefinition import Command
+    from adamslite.elements.equilibrium import Equilibrium
+    from adamslite.elements.info import Info
+    from adamslite.elements.integrator import Integrator
+    from adamslite.elements.linear import Linear
+    from adamslite.elements.reload import Reload
+    from adamslite.elements.save import Save
+    from adamslite.elements.simulate import Simulate
+    from adamslite.equations.system import System
 
 # Outcomes after which the rank of the constraints is computed again.
 STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)

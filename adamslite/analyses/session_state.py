@@ -10,7 +10,7 @@ Another deck takes over the values of bodies, multipliers and states that it sti
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,16 +20,14 @@ from adamslite.analyses.delays import Delays
 from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.history import History, Piece
 from adamslite.analyses.initial.algebraic_states import settle_states
-from adamslite.analyses.initial.conditions import Unclosed, initial_conditions, settle_variables
+from adamslite.analyses.initial.conditions import initial_conditions, settle_variables
 from adamslite.analyses.initial.joint_start import start_of_joints
 from adamslite.analyses.initial.redundancy import leave_out_redundant
 from adamslite.analyses.method_choice import MethodChoice
 from adamslite.analyses.saves import Saves
 from adamslite.analyses.sensors import SensorLog
 from adamslite.analyses.static import PIVOTING, StaticSettings
-from adamslite.analyses.subject import Subject, deck_of, kernels_of
-from adamslite.deck.deck import Deck
-from adamslite.deck.redefinition import Redefinition
+from adamslite.analyses.subject import deck_of, kernels_of
 from adamslite.equations.engine import engine
 from adamslite.equations.result_columns import columns
 from adamslite.equations.system import System
@@ -39,10 +37,16 @@ from adamslite.integrators.contract import ACCELERATIONS
 from adamslite.kernels.compile import compile_model
 from adamslite.model.model import assemble
 from adamslite.outputs.saved_files import SavedFiles
-from adamslite.progress import AnalysisProgress, Progress
-from adamslite.results.balance import Balance
 from adamslite.results.outcomes import Outcome
-from adamslite.results.results import Linearized
+
+if TYPE_CHECKING:
+    from adamslite.analyses.initial.conditions import Unclosed
+    from adamslite.analyses.subject import Subject
+    from adamslite.deck.deck import Deck
+    from adamslite.deck.redefinition import Redefinition
+    from adamslite.progress import AnalysisProgress, Progress
+    from adamslite.results.balance import Balance
+    from adamslite.results.results import Linearized
 
 
 class SessionState:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.static import StaticSettings
-from adamslite.deck.deck import Deck
-from adamslite.deck.redefinition import Command, Redefinition
+from adamslite.deck.redefinition import Redefinition
 from adamslite.elements.contact import Contact
-from adamslite.elements.equilibrium import Equilibrium
 from adamslite.elements.graphics import Graphics
-from adamslite.elements.integrator import Integrator
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.deck.redefinition import Command
+    from adamslite.elements.equilibrium import Equilibrium
+    from adamslite.elements.integrator import Integrator
 
 # What is settled before a run: the deck, the end of its commands, settings without effect.
 SETTLED = ("FILE", "END", "KINEMATICS")

@@ -20,10 +20,9 @@ from adamslite.analyses.output_times import spread_times
 from adamslite.analyses.run_options import checked
 from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
-from adamslite.analyses.subject import Subject, deck_of
-from adamslite.deck.deck import Deck
+from adamslite.analyses.subject import deck_of
 from adamslite.deck.element_switch import Switch
-from adamslite.deck.redefinition import Command, Redefinition
+from adamslite.deck.redefinition import Redefinition
 from adamslite.elements.marker import Marker
 from adamslite.elements.simulate import Simulate
 from adamslite.elements.units import Units
@@ -31,12 +30,10 @@ from adamslite.equations.result_columns import column_names
 from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
 from adamslite.integrators.linalg.plan import TINY
-from adamslite.language.interfaces import Key
 from adamslite.language.messages import did_you_mean
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import left_off
 from adamslite.outputs.saved_files import SavedFiles
-from adamslite.progress import Progress
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.selection import limited, selected
@@ -44,6 +41,11 @@ from adamslite.results.source import source_of
 
 # Few runs need them, and they take a while to load.
 if TYPE_CHECKING:
+    from adamslite.analyses.subject import Subject
+    from adamslite.deck.deck import Deck
+    from adamslite.deck.redefinition import Command
+    from adamslite.language.interfaces import Key
+    from adamslite.progress import Progress
     from adamslite.results.balance import Balance
     from adamslite.results.linearization import Linearization
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from adamslite.deck.deck import Deck
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
 
 FORCES = ("SFORCE", "SPRINGDAMPER")
 # Pushes below this share of the largest pull are those of waves that sections cannot follow.

@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.equations.engine import ints
-from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import EQUILIBRIUM, JACOBIAN, STATIC
 from adamslite.integrators.equilibrium_control import Control
 from adamslite.results.outcomes import Outcome
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
 
 # Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
 # pivot.

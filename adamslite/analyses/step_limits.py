@@ -6,13 +6,15 @@ Counts and the last error estimate are memory of the run; reading them costs the
 from __future__ import annotations
 
 from collections import deque
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from adamslite.equations.system import System
 from adamslite.equations.unknown_names import equation, placed, tested
 from adamslite.integrators.event_rows import CHANGES, SINCE
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
 
 #: Looks that count: the last two seconds or so.
 LOOKS = 20

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from adamslite.analyses import kept_kernels
 from adamslite.deck.deck import Deck
 from adamslite.kernels.groups import Kernels
 from adamslite.model.model import Model, assemble
-from adamslite.progress import Progress
+
+if TYPE_CHECKING:
+    from adamslite.progress import Progress
 
 Subject: TypeAlias = Deck | Model | Kernels
 

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.deck.redefinition import Command
-from adamslite.language.diagnostics import Diagnostic, Source
+
+if TYPE_CHECKING:
+    from adamslite.language.diagnostics import Diagnostic, Source
 
 
 class Commands(tuple[Command, ...]):

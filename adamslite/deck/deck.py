@@ -12,17 +12,23 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path, PureWindowsPath
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import adamslite
 from adamslite.deck.delayed import delayed, watched
 from adamslite.deck.element_switch import Switch
-from adamslite.deck.names import Key, Names
-from adamslite.deck.redefinition import Command, Redefinition, settled
+from adamslite.deck.redefinition import Redefinition, settled
 from adamslite.deck.user_bindings import Bindings
-from adamslite.language.diagnostics import Diagnostic, Source
-from adamslite.language.expression import Node, Num, rebuild
-from adamslite.language.statement import STATEMENTS, S, Statement
+from adamslite.language.expression import Num, rebuild
+from adamslite.language.statement import STATEMENTS
+
+if TYPE_CHECKING:
+    from adamslite.deck.names import Names
+    from adamslite.deck.redefinition import Command
+    from adamslite.language.diagnostics import Diagnostic, Source
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import Key
+    from adamslite.language.statement import S, Statement
 
 SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
 ANALYSES = ("SIMULATE", "LINEAR")

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import count
+from typing import TYPE_CHECKING
 
-from adamslite.deck.names import Names
-from adamslite.language.expression import Call, calls
+from adamslite.language.expression import calls
 from adamslite.language.function import FUNCTIONS
-from adamslite.language.interfaces import Key
-from adamslite.language.statement import STATEMENTS, Statement, expressions
+from adamslite.language.statement import STATEMENTS, expressions
+
+if TYPE_CHECKING:
+    from adamslite.deck.names import Names
+    from adamslite.language.expression import Call
+    from adamslite.language.interfaces import Key
+    from adamslite.language.statement import Statement
 
 
 def delayed(statements: Iterable[Statement], names: Names) -> dict[Call, Key]:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from adamslite.deck.names import Names
-from adamslite.language.interfaces import Key
+from typing import TYPE_CHECKING
+
 from adamslite.language.statement import choice, ids, vector
+
+if TYPE_CHECKING:
+    from adamslite.deck.names import Names
+    from adamslite.language.interfaces import Key
 
 SWITCHABLE = (
     "BEAM", "BUSHING", "CONTACT", "COUPLER", "CVCV", "FIELD", "FRICTION", "GCON", "GEAR", "GFORCE",

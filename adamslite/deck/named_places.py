@@ -6,11 +6,15 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
+from typing import TYPE_CHECKING
 
-from adamslite.deck.deck import Deck
-from adamslite.language.diagnostics import Diagnostic, Related, Span
-from adamslite.language.interfaces import Key
+from adamslite.language.diagnostics import Related
 from adamslite.language.messages import MESSAGES
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.language.diagnostics import Diagnostic, Span
+    from adamslite.language.interfaces import Key
 
 LABEL = re.compile(r"\b([A-Z]\w*)/(\w[\w.]*)")
 HEADER = re.compile(r"[^,!;\n]*")

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
-from adamslite.language.expression import MODE, TIME, Node, Num
-from adamslite.language.interfaces import Key
+from adamslite.language.expression import MODE, TIME, Num
 from adamslite.language.spelling import spelled
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import Key
 
 RESERVED: dict[str, Node] = {
     "TIME": TIME,

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Generic, TypeAlias
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias
 
-from adamslite.language.diagnostics import MergedSpans, Span, Spans
-from adamslite.language.interfaces import Key
+from adamslite.language.diagnostics import MergedSpans
 from adamslite.language.statement import S, Statement
+
+if TYPE_CHECKING:
+    from adamslite.language.diagnostics import Span, Spans
+    from adamslite.language.interfaces import Key
 
 
 @dataclass(frozen=True, kw_only=True)

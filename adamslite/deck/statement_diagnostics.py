@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from adamslite.deck.redefinition import Redefinition
-from adamslite.language.diagnostics import Diagnostic, Span, Spans
-from adamslite.language.interfaces import Key
 from adamslite.language.messages import compose
 from adamslite.language.messages.fixes import NEEDLESS, left_out
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Statement
-from adamslite.syntax.tokens import CLOSES, Lexeme, end_of, scan
+from adamslite.syntax.tokens import CLOSES, end_of, scan
+
+if TYPE_CHECKING:
+    from adamslite.language.diagnostics import Diagnostic, Span, Spans
+    from adamslite.language.interfaces import Key
+    from adamslite.syntax.tokens import Lexeme
 
 Owner: TypeAlias = Statement | Redefinition[Any]
 

@@ -26,7 +26,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from adamslite.deck.names import Key, Names, to_number
+from adamslite.deck.names import to_number
 from adamslite.errors import UsageError
 from adamslite.language.abbreviations import match
 from adamslite.language.messages import did_you_mean
@@ -36,7 +36,9 @@ from adamslite.language.statement import STATEMENTS
 if TYPE_CHECKING:  # few decks call routines, and numpy takes a while to load
     from importlib.metadata import EntryPoint
 
+    from adamslite.deck.names import Names
     from adamslite.deck.python_routine import Routine
+    from adamslite.language.interfaces import Key
 
 GROUP = "adamslite.user"
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?[dD]?")

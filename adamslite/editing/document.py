@@ -10,13 +10,14 @@ from pathlib import Path
 from adamslite.checks.rules import check
 from adamslite.deck.deck import Deck
 from adamslite.deck.element_switch import Switch
-from adamslite.deck.names import Key, Names
+from adamslite.deck.names import Names
 from adamslite.deck.user_bindings import bindings
 from adamslite.editing.moved import moved
 from adamslite.editing.outline import Written, head_end, statements
 from adamslite.editing.rereading import Memory, Notebook, Rereading, Use
 from adamslite.gc_pause import without_collection
 from adamslite.language.diagnostics import DeckError, Diagnostic, Source, Span, sort_by_place
+from adamslite.language.interfaces import Key
 from adamslite.language.messages.ignoring import without_ignored
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Statement

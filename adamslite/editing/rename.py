@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from adamslite.deck.names import RESERVED, Key
+from adamslite.deck.names import RESERVED
 from adamslite.editing.document import Content
 from adamslite.editing.rereading import Use
 from adamslite.errors import UsageError
+from adamslite.language.interfaces import Key
 from adamslite.language.spelling import spelled
 from adamslite.reading.argument_values import to_id
 from adamslite.syntax.tokens import scan

@@ -11,10 +11,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from adamslite.deck.names import Key, Names
+from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command
 from adamslite.language.diagnostics import Source, Spans
 from adamslite.language.expression import Node
+from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 from adamslite.reading.argument_values import ValueReader
 from adamslite.reading.statement_reader import Entry, Reading, gives_values

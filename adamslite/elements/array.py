@@ -9,9 +9,10 @@ Equation (a_n = ARYVAL(id, n), n from 1)::
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from adamslite.elements.bases.system_element import Values
-from adamslite.language.expression import Call, Node, Num, Ref
+from adamslite.language.expression import Call, Num, Ref
 from adamslite.language.statement import (
     Statement,
     choice,
@@ -20,6 +21,9 @@ from adamslite.language.statement import (
     statement,
     vector,
 )
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
 
 
 @statement("ARRAY", planned=("ROUTINE",), data=True)

@@ -37,19 +37,25 @@ Source: Adams/Solver statement BEAM; J. S. Przemieniecki, Theory of Matrix Struc
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.wrench import (
     NOTHING,
     Compliance,
-    Row,
     between,
     displacement,
     symmetric,
     times,
 )
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, number, reference, statement, vector
-from adamslite.symbolic.scope import Load, Scope
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.elements.bases.wrench import (
+        Row,
+    )
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Load, Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("BEAM")

@@ -14,9 +14,13 @@ Source: Adams/Solver statement BUSHING, Adams/View "Constitutive Equations for B
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.wrench import NOTHING, Compliance, diagonal
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, reference, statement, vector
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import DrawnModel
 
 NONE = (0.0, 0.0, 0.0)
 

@@ -62,13 +62,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import product
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from adamslite.elements.bases.contact_forms import Meeting, meetings
+from adamslite.elements.bases.contact_forms import meetings
 from adamslite.elements.bases.contact_point import POINT, ContactPoint, Law
 from adamslite.elements.bases.wrench import Wrench
-from adamslite.language.expression import Node, Ref, measure
-from adamslite.language.interfaces import DrawnModel, Key, Lookup
+from adamslite.language.expression import Ref, measure
 from adamslite.language.statement import (
     Statement,
     choice,
@@ -78,6 +77,11 @@ from adamslite.language.statement import (
     statement,
     text,
 )
+
+if TYPE_CHECKING:
+    from adamslite.elements.bases.contact_forms import Meeting
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel, Key, Lookup
 
 # Components of CONTACT(): how many points touch, the greatest depth.
 STATE = (9, 10)

@@ -14,6 +14,8 @@ function of Python says by its ``reads`` which displacements it needs.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import routine_name
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.bases.joint_coordinates import (
@@ -24,8 +26,6 @@ from adamslite.elements.bases.joint_coordinates import (
     turn,
 )
 from adamslite.elements.gcon import measures_rates
-from adamslite.language.expression import Node
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import (
     Statement,
     expression,
@@ -34,8 +34,12 @@ from adamslite.language.statement import (
     vector,
     words,
 )
-from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("COUPLER")

@@ -11,11 +11,11 @@ Equation (s from 0 at the first point to 1 at the last, proportional to the leng
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import routine_name
-from adamslite.elements.bases.spline_curve import SplineCurve, guided, through
+from adamslite.elements.bases.spline_curve import guided, through
 from adamslite.elements.bases.traced_curve import traced_points
-from adamslite.language.expression import Node
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import (
     Statement,
     choice,
@@ -25,7 +25,13 @@ from adamslite.language.statement import (
     reference,
     statement,
 )
-from adamslite.symbolic.interpolant import Interpolant, interpolant
+from adamslite.symbolic.interpolant import interpolant
+
+if TYPE_CHECKING:
+    from adamslite.elements.bases.spline_curve import SplineCurve
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.interpolant import Interpolant
 
 
 @statement("CURVE", data=True)

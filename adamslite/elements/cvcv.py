@@ -22,15 +22,20 @@ component along the common tangent::
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.bases.curve_contact import touching
 from adamslite.elements.bases.curve_point import carrier_name, carriers, parameter, point
 from adamslite.elements.bases.joint_coordinates import pose
 from adamslite.language.expression import Ref
-from adamslite.language.interfaces import DrawnModel, Lookup
 from adamslite.language.statement import Statement, reference, statement, vector
-from adamslite.symbolic.scope import Scope, along_axes, dot, minus, plus
-from adamslite.symbolic.types import Expr, Seen
+from adamslite.symbolic.scope import along_axes, dot, minus, plus
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import DrawnModel, Lookup
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 
 def _curve(side: str) -> int | str:

@@ -16,13 +16,18 @@ expression: FUNCTION=e-DIF(id) gives DIF1(id) = de/dt.  y starts where it holds,
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import routine_name
-from adamslite.language.expression import Call, Node, Ref
-from adamslite.language.interfaces import DrawnModel
+from adamslite.language.expression import Call, Ref
 from adamslite.language.statement import Statement, expression, flag, statement, vector
-from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import piecewise, sp
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 # MODE of all analyses but statics, which have the next number.
 DYNAMICS = 4

@@ -16,10 +16,11 @@ Source: Adams/Solver statement FIELD.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import components_of_routine, routine_name
 from adamslite.elements.bases.wrench import NOTHING, Compliance, between, by_columns, times
-from adamslite.language.expression import Node, Num
-from adamslite.language.interfaces import DrawnModel
+from adamslite.language.expression import Num
 from adamslite.language.statement import (
     Statement,
     choice,
@@ -29,8 +30,12 @@ from adamslite.language.statement import (
     statement,
     vector,
 )
-from adamslite.symbolic.scope import Load, Scope
-from adamslite.symbolic.types import Seen
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Load, Scope
+    from adamslite.symbolic.types import Seen
 
 COMPONENTS = ("fx", "fy", "fz", "tx", "ty", "tz")
 

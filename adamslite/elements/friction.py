@@ -72,14 +72,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from types import ModuleType
-from typing import ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from adamslite.elements.bases import lugre, stick_slip
 from adamslite.elements.bases.joint_coordinates import built_slide, relative_velocity, slide
 from adamslite.elements.bases.wrench import Wrench
-from adamslite.elements.joint import Joint
-from adamslite.language.expression import COMPONENTS, Call, Node, Num, Ref, measure
-from adamslite.language.interfaces import DrawnModel, Lookup
+from adamslite.language.expression import COMPONENTS, Call, Num, Ref, measure
 from adamslite.language.statement import (
     STATEMENTS,
     Statement,
@@ -89,9 +87,15 @@ from adamslite.language.statement import (
     statement,
     words,
 )
-from adamslite.symbolic.scope import ZERO, Load, Scope, Vector, dot, minus, scale
+from adamslite.symbolic.scope import ZERO, Load, dot, minus, scale
 from adamslite.symbolic.sympy_nodes import norm, piecewise, sp
-from adamslite.symbolic.types import Expr, Seen, Symbol
+
+if TYPE_CHECKING:
+    from adamslite.elements.joint import Joint
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel, Lookup
+    from adamslite.symbolic.scope import Scope, Vector
+    from adamslite.symbolic.types import Expr, Seen, Symbol
 
 STATICS = 5
 INPUTS = ("PRELOAD", "REACTION_FORCE", "BENDING_MOMENT", "TORSIONAL_MOMENT")

@@ -12,14 +12,18 @@ include it, GCON(id, 0, comp) is what acts on the first of them, or on I where t
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from adamslite.elements.bases.constraint import Constraint
-from adamslite.language.expression import Call, Node, Ref, measure, walk
+from adamslite.language.expression import Call, Ref, measure, walk
 from adamslite.language.function import FUNCTIONS
-from adamslite.language.interfaces import DrawnModel, Key
 from adamslite.language.statement import expression, reference, statement
-from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel, Key
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 # Measures of velocity: a GCON that uses one constrains velocities only.
 RATES = frozenset(("VM", "VR", "VX", "VY", "VZ", "WM", "WX", "WY", "WZ"))

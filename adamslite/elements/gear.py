@@ -25,13 +25,14 @@ from adamslite.elements.bases.joint_coordinates import (
     slide,
     turn,
 )
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, reference, references, statement
-from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.types import Expr, Seen
 
 if TYPE_CHECKING:  # reading a deck does without numpy
     import numpy as np
+
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("GEAR")

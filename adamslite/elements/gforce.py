@@ -15,6 +15,8 @@ Source: Adams/Solver statement GFORCE.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import (
     component_axes,
     component_vector,
@@ -24,10 +26,14 @@ from adamslite.elements.bases.arguments import (
     routine_name,
 )
 from adamslite.elements.bases.wrench import Wrench
-from adamslite.language.expression import Node, Num
+from adamslite.language.expression import Num
 from adamslite.language.statement import Statement, expression, reference, statement
-from adamslite.symbolic.scope import Load, Scope, along_axes
-from adamslite.symbolic.types import Seen
+from adamslite.symbolic.scope import Load, along_axes
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Seen
 
 
 def _component(key: str, unit: str) -> Node:

@@ -18,10 +18,9 @@ Source: Adams/Solver statement GRAPHICS; the words of a TORUS are those of Adams
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from adamslite.language.statement import (
-    Field,
     Statement,
     choice,
     ids,
@@ -31,6 +30,11 @@ from adamslite.language.statement import (
     statement,
     text,
 )
+
+if TYPE_CHECKING:
+    from adamslite.language.statement import (
+        Field,
+    )
 
 
 def _length(key: str, help: str, *aliases: str) -> Field:

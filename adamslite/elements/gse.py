@@ -11,7 +11,7 @@ Equation (x the values of ARRAY X, u of ARRAY U, y of ARRAY Y)::
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from adamslite.elements.bases.arguments import routine_name
 from adamslite.elements.bases.system_element import (
@@ -22,9 +22,12 @@ from adamslite.elements.bases.system_element import (
     state_array,
     static_hold,
 )
-from adamslite.language.expression import Node, Num
-from adamslite.language.interfaces import Lookup
+from adamslite.language.expression import Num
 from adamslite.language.statement import expression, integer, number, reference, statement, texts
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import Lookup
 
 
 @statement("GSE", planned=("IMPLICIT", "STATICS_ONLY"))

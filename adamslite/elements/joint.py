@@ -32,7 +32,7 @@ the line of shafts; which of its two forms applies is decided by the drawn z axe
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from adamslite.elements.bases.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
 from adamslite.elements.bases.joint_coordinates import (
@@ -46,7 +46,6 @@ from adamslite.elements.bases.joint_coordinates import (
     turn,
     turn_on_rack,
 )
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import (
     Statement,
     choice,
@@ -56,9 +55,13 @@ from adamslite.language.statement import (
     text,
     vector,
 )
-from adamslite.symbolic.scope import Scope, dot
+from adamslite.symbolic.scope import dot
 from adamslite.symbolic.sympy_nodes import sp
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 Initial = tuple[str, str, float | None, float | None]
 

@@ -14,12 +14,15 @@ Sign: the reaction reported is the force and torque on I.
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from adamslite.elements.bases.constraint import ON_LINE, PARALLEL, SAME_TURN, TOGETHER, Constraint
 from adamslite.language.statement import Statement, choice, reference, statement
-from adamslite.symbolic.scope import Scope, dot
-from adamslite.symbolic.types import Expr, Seen
+from adamslite.symbolic.scope import dot
+
+if TYPE_CHECKING:
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("JPRIM")

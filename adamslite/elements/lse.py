@@ -9,6 +9,8 @@ Equation (x the values of ARRAY X, u of ARRAY U, y of ARRAY Y)::
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.linear_system import LinearSystem, Matrices
 from adamslite.elements.bases.system_element import (
     input_array,
@@ -17,8 +19,10 @@ from adamslite.elements.bases.system_element import (
     state_array,
     static_hold,
 )
-from adamslite.language.interfaces import Key, Lookup
 from adamslite.language.statement import reference, statement
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import Key, Lookup
 
 
 @statement("LSE")

@@ -9,8 +9,12 @@ With RM, r and A are those of that marker of the same body.
 
 from __future__ import annotations
 
-from adamslite.language.interfaces import Key
+from typing import TYPE_CHECKING
+
 from adamslite.language.statement import Statement, flag, reference, statement, texts, vector
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import Key
 
 BODIES = ("POINT_MASS", "PART", "FLEX_BODY", "FE_PART")
 """What a marker may be on, by arguments of the same name."""

@@ -21,12 +21,12 @@ Sign: I relative to J; the reaction reported is the force and torque on I that m
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import routine_name
 from adamslite.elements.bases.constraint import Constraint
-from adamslite.elements.bases.joint_coordinates import Turn, angle_to, relative_velocity, spin, turn
-from adamslite.elements.joint import Joint
-from adamslite.language.expression import Call, Node, Ref
-from adamslite.language.interfaces import DrawnModel, Lookup
+from adamslite.elements.bases.joint_coordinates import angle_to, relative_velocity, spin, turn
+from adamslite.language.expression import Call, Ref
 from adamslite.language.statement import (
     STATEMENTS,
     Statement,
@@ -36,9 +36,16 @@ from adamslite.language.statement import (
     reference,
 )
 from adamslite.language.statement import statement as register
-from adamslite.symbolic.scope import Scope, dot
+from adamslite.symbolic.scope import dot
 from adamslite.symbolic.sympy_nodes import root
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.elements.bases.joint_coordinates import Turn
+    from adamslite.elements.joint import Joint
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel, Lookup
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 AXES = ("X", "Y", "Z")
 ANGLES = ("B1", "B2", "B3")

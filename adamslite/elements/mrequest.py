@@ -13,9 +13,8 @@ Each is written as a REQUEST of its own, with the name of the MREQUEST and of wh
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from adamslite.language.interfaces import Key, Lookup
 from adamslite.language.statement import (
     STATEMENTS,
     Statement,
@@ -26,6 +25,9 @@ from adamslite.language.statement import (
     statement,
     text,
 )
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import Key, Lookup
 
 ALL = "ALL"
 KINDS = {

@@ -15,11 +15,14 @@ Source: Adams/Solver statement NFORCE.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from adamslite.elements.bases.wrench import SIX, Row
-from adamslite.language.interfaces import Key, Lookup
 from adamslite.language.statement import STATEMENTS, Statement, number, reference, references
 from adamslite.language.statement import statement as register
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import Key, Lookup
 
 WIDTH = len(SIX)
 Block = tuple[Row, ...]

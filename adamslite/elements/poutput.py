@@ -7,8 +7,13 @@ Equation (V the VARIABLEs, see LINEAR)::
 
 from __future__ import annotations
 
-from adamslite.language.expression import Call, Node, Ref
+from typing import TYPE_CHECKING
+
+from adamslite.language.expression import Call, Ref
 from adamslite.language.statement import Statement, references, statement
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
 
 
 @statement("POUTPUT")

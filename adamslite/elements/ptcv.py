@@ -18,14 +18,19 @@ torque about RM's origin::
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.bases.curve_point import carrier_name, carriers, parameter, point
 from adamslite.elements.bases.joint_coordinates import pose
 from adamslite.language.expression import Ref
-from adamslite.language.interfaces import DrawnModel, Lookup
 from adamslite.language.statement import Statement, number, reference, statement, vector
-from adamslite.symbolic.scope import Scope, along_axes, minus
-from adamslite.symbolic.types import Expr, Seen
+from adamslite.symbolic.scope import along_axes, minus
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import DrawnModel, Lookup
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("PTCV")

@@ -15,10 +15,11 @@ The file .req (OUTPUT/REQSAVE) has all but F1 and F5, with six digits; in the fi
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import components_of_routine, routine_name
-from adamslite.language.expression import GROUND_FRAME, Call, Node, Num, Ref
+from adamslite.language.expression import GROUND_FRAME, Call, Num, Ref
 from adamslite.language.function import FUNCTIONS
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import (
     Statement,
     choice,
@@ -29,6 +30,10 @@ from adamslite.language.statement import (
     text,
     texts,
 )
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
 
 MEASURES = {
     "DISPLACEMENT": ("DM", "DX", "DY", "DZ", None, "PSI", "THETA", "PHI"),

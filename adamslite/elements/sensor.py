@@ -9,13 +9,17 @@ Equation (e the FUNCTION; the first time at which it is true)::
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import routine_name
-from adamslite.language.expression import Node
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, expression, flag, number, statement
-from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import piecewise
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("SENSOR")

@@ -13,12 +13,17 @@ Sign: positive pushes I and J apart, so a spring is ``-k*(DM(I,J)-L0)``::
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import reaction_part, routine_name
-from adamslite.language.expression import Node
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, expression, flag, reference, statement
-from adamslite.symbolic.scope import ZERO, Load, Scope, scale, towards
-from adamslite.symbolic.types import Seen
+from adamslite.symbolic.scope import ZERO, Load, scale, towards
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Seen
 
 
 @statement("SFORCE")

@@ -21,12 +21,15 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from adamslite.elements.bases import data_file
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, flag, integer, statement, text, vector, vectors
-from adamslite.symbolic.interpolant import Interpolant, interpolant, piece_numbers
+from adamslite.symbolic.interpolant import interpolant, piece_numbers
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.interpolant import Interpolant
 
 LEAST, MOST = 4, 10**6
 KINDS = ("linear", "akima", "natural")

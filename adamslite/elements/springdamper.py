@@ -12,12 +12,18 @@ with ``u = (r_I - r_J)/|r_I - r_J|``; the opposite acts on J.  Sign: positive pu
 
 from __future__ import annotations
 
-from adamslite.language.expression import COMPONENTS, GROUND_FRAME, Call, Node, Op, Ref, measure
+from typing import TYPE_CHECKING
+
+from adamslite.language.expression import COMPONENTS, GROUND_FRAME, Call, Op, Ref, measure
 from adamslite.language.function import FUNCTIONS
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement, choice, number, reference, statement
-from adamslite.symbolic.scope import ORIGIN, ZERO, Load, Scope, scale, towards
-from adamslite.symbolic.types import Seen
+from adamslite.symbolic.scope import ORIGIN, ZERO, Load, scale, towards
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Seen
 
 
 @statement("SPRINGDAMPER")

@@ -18,6 +18,8 @@ whose input is differentiated).  Which states ADAMS takes is not published; y is
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.linear_system import LinearSystem, Matrices
 from adamslite.elements.bases.system_element import (
     input_array,
@@ -26,8 +28,10 @@ from adamslite.elements.bases.system_element import (
     state_array,
     static_hold,
 )
-from adamslite.language.interfaces import Lookup
 from adamslite.language.statement import statement, vector
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import Lookup
 
 MOST_COEFFICIENTS = 30
 

@@ -9,10 +9,14 @@ It is a GCON with the same FUNCTION, ``GCON/UCON_id``, whose multiplier is in th
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import routine_name
-from adamslite.language.expression import Node
-from adamslite.language.interfaces import Lookup
 from adamslite.language.statement import STATEMENTS, Statement, expression, statement
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import Lookup
 
 
 @statement("UCON")

@@ -7,12 +7,17 @@ Equation::
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import routine_name
-from adamslite.language.expression import Call, Node, Ref
-from adamslite.language.interfaces import DrawnModel
+from adamslite.language.expression import Call, Ref
 from adamslite.language.statement import Statement, expression, number, statement
-from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 
 @statement("VARIABLE")

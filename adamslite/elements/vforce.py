@@ -11,6 +11,8 @@ The opposite force acts on the part of JFLOAT at the present place of I::
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import (
     component_axes,
     component_vector,
@@ -19,11 +21,15 @@ from adamslite.elements.bases.arguments import (
     reaction_part,
     routine_name,
 )
-from adamslite.language.expression import Node, Num
-from adamslite.language.interfaces import DrawnModel
+from adamslite.language.expression import Num
 from adamslite.language.statement import Statement, expression, reference, statement
-from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes
-from adamslite.symbolic.types import Seen
+from adamslite.symbolic.scope import ZERO, Load, along_axes
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Seen
 
 
 @statement("VFORCE")

@@ -13,6 +13,8 @@ Source: Adams/Solver statement VTORQUE.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.bases.arguments import (
     component_axes,
     component_vector,
@@ -22,10 +24,14 @@ from adamslite.elements.bases.arguments import (
     routine_name,
 )
 from adamslite.elements.bases.wrench import Wrench
-from adamslite.language.expression import Node, Num
+from adamslite.language.expression import Num
 from adamslite.language.statement import Statement, expression, reference, statement
-from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes
-from adamslite.symbolic.types import Seen
+from adamslite.symbolic.scope import ZERO, Load, along_axes
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Seen
 
 
 @statement("VTORQUE")

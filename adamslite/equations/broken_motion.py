@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from adamslite.language.statement import Statement
+if TYPE_CHECKING:
+    from adamslite.language.statement import Statement
 
 
 class Break(NamedTuple):

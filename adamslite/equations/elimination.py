@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from adamslite.equations.elimination_order import analyse
 from adamslite.equations.engine import ints
-from adamslite.equations.jacobian_blocks import JacobianBlocks
-from adamslite.equations.numbering import Numbering
 from adamslite.equations.spanning_tree import prerequisites
 from adamslite.integrators.contract import WORK
 from adamslite.model.model import PART
+
+if TYPE_CHECKING:
+    from adamslite.equations.jacobian_blocks import JacobianBlocks
+    from adamslite.equations.numbering import Numbering
 
 
 class Elimination:

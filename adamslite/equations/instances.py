@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from math import inf
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.equations.engine import ints
-from adamslite.equations.jacobian_blocks import JacobianBlocks
-from adamslite.equations.numbering import Numbering
 from adamslite.integrators import contract
 from adamslite.integrators.contract import KernelGroup
-from adamslite.kernels.binding import Binding
-from adamslite.kernels.groups import ShapeGroup
 from adamslite.language.interfaces import Key
-from adamslite.language.statement import Statement
-from adamslite.model.model import NodeKey
 from adamslite.native.translate import Rows
+
+if TYPE_CHECKING:
+    from adamslite.equations.jacobian_blocks import JacobianBlocks
+    from adamslite.equations.numbering import Numbering
+    from adamslite.kernels.binding import Binding
+    from adamslite.kernels.groups import ShapeGroup
+    from adamslite.language.statement import Statement
+    from adamslite.model.model import NodeKey
 
 PHASES = {
     "loads": contract.LOADS,

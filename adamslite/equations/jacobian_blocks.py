@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.equations.engine import ints
-from adamslite.equations.numbering import Numbering
 
 if TYPE_CHECKING:  # few runs need sparse matrices
     from scipy.sparse import csr_array
+
+    from adamslite.equations.numbering import Numbering
 
 
 class JacobianBlocks:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,9 +12,12 @@ from adamslite.elements.sensor import Sensor
 from adamslite.elements.variable import Variable
 from adamslite.equations.engine import ints
 from adamslite.integrators.contract import STATE_SIZE
-from adamslite.kernels.groups import Kernels
-from adamslite.language.statement import Statement
-from adamslite.model.model import PART, NodeKey
+from adamslite.model.model import PART
+
+if TYPE_CHECKING:
+    from adamslite.kernels.groups import Kernels
+    from adamslite.language.statement import Statement
+    from adamslite.model.model import NodeKey
 
 HEAD = 6
 POINT_SIZE, PART_SIZE = 9, 24

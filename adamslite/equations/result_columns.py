@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from itertools import groupby
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.equations.system import System
 from adamslite.kernels.code.kinematics import (
     ACCELERATION,
     ALPHA,
@@ -17,9 +17,13 @@ from adamslite.kernels.code.kinematics import (
     POSITION,
     VELOCITY,
 )
-from adamslite.kernels.groups import Kernels
 from adamslite.model.attitude_angles import angles_313
-from adamslite.model.model import PART, Body
+from adamslite.model.model import PART
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
+    from adamslite.kernels.groups import Kernels
+    from adamslite.model.model import Body
 
 # Below this sine of theta the first and third angle of the 3-1-3 sequence are one angle.
 ALIGNED = 1e-10

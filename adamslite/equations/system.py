@@ -13,8 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.elements.diff import Diff
-from adamslite.elements.sensor import Sensor
-from adamslite.equations.broken_motion import Break
 from adamslite.equations.elimination import Elimination
 from adamslite.equations.engine import engine, ints, reals
 from adamslite.equations.instances import Instances
@@ -23,17 +21,22 @@ from adamslite.equations.lanes import Runs, runs
 from adamslite.equations.numbering import Numbering
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
-from adamslite.integrators.audit_record import Audit
-from adamslite.integrators.event_rows import MARGIN_ROWS, Search
+from adamslite.integrators.event_rows import MARGIN_ROWS
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.kernels.groups import Kernels
-from adamslite.language.statement import Statement
-from adamslite.model.model import PART, NodeKey
+from adamslite.model.model import PART
 from adamslite.model.scaling import rotation_weights
 from adamslite.native.translate import Rows
 
 if TYPE_CHECKING:  # few runs need sparse matrices
     from scipy.sparse import csr_array
+
+    from adamslite.elements.sensor import Sensor
+    from adamslite.equations.broken_motion import Break
+    from adamslite.integrators.audit_record import Audit
+    from adamslite.integrators.event_rows import Search
+    from adamslite.kernels.groups import Kernels
+    from adamslite.language.statement import Statement
+    from adamslite.model.model import NodeKey
 
 # Moves of the assembly below this are round-off.
 MOVED = 1e-9

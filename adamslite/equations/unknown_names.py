@@ -7,9 +7,13 @@ PART/3 (scene.adm:12:1), forces along x          the equation of a body
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.elements.diff import Diff
-from adamslite.equations.system import System
-from adamslite.language.statement import Statement
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
+    from adamslite.language.statement import Statement
 
 AXES = ("x", "y", "z")
 COORDINATES = (*AXES, *(f"rotation about {axis}" for axis in AXES))

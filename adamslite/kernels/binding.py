@@ -23,19 +23,21 @@ from typing import TYPE_CHECKING, Any
 from adamslite.functions.forces import NET
 from adamslite.kernels.groups import Binding
 from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
-from adamslite.language.function import PRODUCTS, Function, find_function
-from adamslite.language.interfaces import Key
+from adamslite.language.function import PRODUCTS, find_function
 from adamslite.language.routines import USER
-from adamslite.language.statement import Argument, Statement
-from adamslite.model.model import MassCentre, Model, NodeKey, folded
+from adamslite.model.model import folded
 from adamslite.model.net_force import written_out
 from adamslite.model.past import past_of
 from adamslite.symbolic.interpolant import Interpolant
 from adamslite.symbolic.scope import ORIGIN, Slot
-from adamslite.symbolic.types import Tree
 
 if TYPE_CHECKING:  # few decks call routines
     from adamslite.deck.python_routine import Routine
+    from adamslite.language.function import Function
+    from adamslite.language.interfaces import Key
+    from adamslite.language.statement import Argument, Statement
+    from adamslite.model.model import MassCentre, Model, NodeKey
+    from adamslite.symbolic.types import Tree
 
 IGNORED = ("text", "texts")
 # What cannot be switched off.

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from adamslite.language.interfaces import Key
-from adamslite.language.statement import Statement
-from adamslite.model.model import MassCentre, Model, NodeKey
 from adamslite.native import compiler
 
 if TYPE_CHECKING:  # kernels that are kept between runs were written earlier
     from adamslite.deck.python_routine import Routine
     from adamslite.kernels.compile import FaceWriter
+    from adamslite.language.interfaces import Key
+    from adamslite.language.statement import Statement
+    from adamslite.model.model import MassCentre, Model, NodeKey
     from adamslite.symbolic.interpolant import Interpolant
 
 

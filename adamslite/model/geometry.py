@@ -6,12 +6,15 @@ Axes are (3, 3), in columns.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.elements.marker import Marker
-from adamslite.elements.part import Part
-from adamslite.elements.point_mass import PointMass
+
+if TYPE_CHECKING:
+    from adamslite.elements.part import Part
+    from adamslite.elements.point_mass import PointMass
 
 Point = tuple[float, ...]
 IDENTITY = np.eye(3)

@@ -12,11 +12,10 @@ from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 
-from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.marker import Marker
 from adamslite.elements.part import Part
@@ -28,7 +27,6 @@ from adamslite.functions.forces import NET
 from adamslite.language.expression import (
     Call,
     Mode,
-    Node,
     Num,
     Op,
     Ref,
@@ -39,9 +37,16 @@ from adamslite.language.expression import (
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
-from adamslite.language.statement import Statement, class_of, expressions
+from adamslite.language.statement import class_of, expressions
 from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
 from adamslite.model.net_force import written_out
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.language.expression import (
+        Node,
+    )
+    from adamslite.language.statement import Statement
 
 POINT, PART = 3, 6
 MassCentre = tuple[str, Key]

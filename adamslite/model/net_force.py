@@ -10,15 +10,19 @@ Source: Adams/Solver C++ functions FX, TX; the value is the force on marker i, a
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from adamslite.deck.deck import Deck
 from adamslite.elements.gcon import Gcon
 from adamslite.elements.joint import Joint
 from adamslite.functions.forces import MEASURES, NET
-from adamslite.language.expression import GROUND_FRAME, Call, Node, Num, Op, Ref, measure
-from adamslite.language.interfaces import DrawnModel, Key
-from adamslite.language.statement import Statement
+from adamslite.language.expression import GROUND_FRAME, Call, Num, Op, Ref, measure
+from adamslite.language.interfaces import DrawnModel
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import Key
+    from adamslite.language.statement import Statement
 
 
 class WithDeck(DrawnModel, Protocol):

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.language.expression import Call, fold
-from adamslite.model.model import Model
-from adamslite.symbolic.interpolant import Interpolant, joined
+from adamslite.language.expression import fold
+from adamslite.symbolic.interpolant import joined
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Call
+    from adamslite.model.model import Model
+    from adamslite.symbolic.interpolant import Interpolant
 
 # Knots of a table.
 KNOTS = 512

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from adamslite.model.model import PART, Model
+from adamslite.model.model import PART
+
+if TYPE_CHECKING:
+    from adamslite.model.model import Model
 
 # Share of a lever that a radius of gyration counts at least.
 LEVER = 0.1

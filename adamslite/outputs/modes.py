@@ -7,16 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from adamslite.elements.linear import Linear
 from adamslite.errors import UsageError
 from adamslite.outputs.second_order import save_second_order
 from adamslite.outputs.whole_files import whole_file
-from adamslite.results.linearization import Linearization
-from adamslite.results.results import Linearized
+
+if TYPE_CHECKING:
+    from adamslite.elements.linear import Linear
+    from adamslite.results.linearization import Linearization
+    from adamslite.results.results import Linearized
 
 HEAD = ("mode", "frequency [Hz]", "damping ratio", "real", "imaginary")
 # An eigenvalue within this share of the largest one of an axis lies on it.

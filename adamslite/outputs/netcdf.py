@@ -21,16 +21,19 @@ import struct
 from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from adamslite.errors import FormatError
 from adamslite.outputs.whole_files import whole_file
-from adamslite.results.channels import Channel, describe
+from adamslite.results.channels import describe
 from adamslite.results.formats import register_format
 from adamslite.results.results import Results
 from adamslite.results.run_texts import attributes, need_rows, restored
+
+if TYPE_CHECKING:
+    from adamslite.results.channels import Channel
 
 AXIS, ANGLE = ("x", "y", "z"), ("psi", "theta", "phi")
 GROUPS = {

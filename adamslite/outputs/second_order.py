@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.linearization import SecondOrder
-from adamslite.results.results import Linearized
+
+if TYPE_CHECKING:
+    from adamslite.results.results import Linearized
 
 
 def save_second_order(made: Linearized, path: Path) -> list[Path]:

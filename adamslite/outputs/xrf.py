@@ -40,7 +40,6 @@ from adamslite.outputs.adams.xrf_layout import (
 from adamslite.outputs.number_text import lines
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.formats import register_format
-from adamslite.results.results import Results
 from adamslite.results.run_texts import attributes, need_rows, printable
 
 if TYPE_CHECKING:
@@ -48,6 +47,7 @@ if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
     from adamslite.results.adams_options import AdamsOptions
     from adamslite.results.adams_terms import Groups
+    from adamslite.results.results import Results
 
 
 ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})

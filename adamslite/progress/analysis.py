@@ -5,8 +5,12 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from adamslite.progress.base import Progress, RunState
+from adamslite.progress.base import Progress
+
+if TYPE_CHECKING:
+    from adamslite.progress.base import RunState
 
 #: Least time between two looks, and before the first one [s].
 INTERVAL = 0.09

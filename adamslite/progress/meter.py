@@ -6,8 +6,10 @@ import time as clock
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from adamslite.progress.base import RunState
+if TYPE_CHECKING:
+    from adamslite.progress.base import RunState
 
 #: Speeds are those of the last seconds [s].
 WINDOW = 5.0

@@ -5,10 +5,13 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from adamslite.progress.base import Progress, RunState
+from adamslite.progress.base import Progress
 from adamslite.progress.meter import Meter
+
+if TYPE_CHECKING:
+    from adamslite.progress.base import RunState
 
 #: Least time between two outputs [s]; shorter runs show none.
 INTERVAL = 0.5

@@ -8,11 +8,13 @@ import time as clock
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TextIO
 
-from adamslite.progress.base import Progress, RunState
-from adamslite.progress.meter import Look, Meter
+from adamslite.progress.base import Progress
+from adamslite.progress.meter import Meter
 
 if TYPE_CHECKING:
     from adamslite.progress.bar import Bar
+    from adamslite.progress.base import RunState
+    from adamslite.progress.meter import Look
 
 #: Least time between two drawings [s].
 INTERVAL = 0.1

@@ -7,9 +7,10 @@ import re
 from collections.abc import Callable
 from typing import NoReturn
 
-from adamslite.deck.names import Key, Names, to_number
+from adamslite.deck.names import Names, to_number
 from adamslite.language.abbreviations import match
 from adamslite.language.expression import Node
+from adamslite.language.interfaces import Key
 from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.routines import ARGUMENT as ROUTINE_ARGUMENT
 from adamslite.language.routines import is_user_call

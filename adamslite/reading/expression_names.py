@@ -9,9 +9,10 @@ from __future__ import annotations
 from typing import NoReturn
 
 from adamslite import functions  # noqa: F401  registers the functions
-from adamslite.deck.names import RESERVED, Key, Names
+from adamslite.deck.names import RESERVED, Names
 from adamslite.language.expression import Call, Node, Num, Ref
 from adamslite.language.function import FUNCTIONS, Function
+from adamslite.language.interfaces import Key
 from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.not_supported import FUNCTIONS as PLANNED
 from adamslite.language.spelling import spelled

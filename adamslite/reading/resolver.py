@@ -10,11 +10,12 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from adamslite.deck.names import RESERVED, Key, Names, to_number
+from adamslite.deck.names import RESERVED, Names, to_number
 from adamslite.functions.arrays import NUMBERED
 from adamslite.functions.vectors import ASSUMED, VECTORS, Components, Value, combined, negated
 from adamslite.language.expression import Call, Node, Num, Op, Ref, fold
 from adamslite.language.function import FUNCTIONS, Function, Parameter
+from adamslite.language.interfaces import Key
 from adamslite.language.messages import Log
 from adamslite.language.routines import USER, is_user_call
 from adamslite.language.spelling import spelled

@@ -11,12 +11,13 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from adamslite.deck.deck import Deck
-from adamslite.deck.names import Key, Names
+from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.part import Part
 from adamslite.language.abbreviations import PREFERRED, Ambiguous, match, vocabulary
 from adamslite.language.diagnostics import Source, Spans
 from adamslite.language.file_name import is_file_name
+from adamslite.language.interfaces import Key
 from adamslite.language.messages import Log, did_you_mean
 from adamslite.language.not_supported import COMMANDS as PLANNED_COMMANDS
 from adamslite.language.not_supported import STATEMENTS as PLANNED_STATEMENTS

@@ -32,17 +32,19 @@ from adamslite.results.part_frames import (
     OF_POINT,
     PLACE,
     SPEED,
-    MarkerInPart,
     markers_in_parts,
     of_centre,
     of_origin,
     with_one_split,
 )
-from adamslite.results.results import Results
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
     from adamslite.language.interfaces import Key
+    from adamslite.results.part_frames import (
+        MarkerInPart,
+    )
+    from adamslite.results.results import Results
 
 BCS = "bcs_"
 VECTOR = ("fx", "fy", "fz", "tx", "ty", "tz")

@@ -16,11 +16,11 @@ from adamslite.language.diagnostics import DeckError
 from adamslite.results.adams_terms import BCS, from_adams, with_split_angles
 from adamslite.results.channels import unit_symbols
 from adamslite.results.comparison import Mismatch
-from adamslite.results.results import Results
 from adamslite.results.unit_factors import in_symbols, unit_factor
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
+    from adamslite.results.results import Results
 
 #: What readers of files of other programs note in the comments.
 WRITTEN_BY = "written by"

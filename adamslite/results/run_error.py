@@ -14,11 +14,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from math import inf, isfinite
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.results.comparison import fits
-from adamslite.results.results import Results
+
+if TYPE_CHECKING:
+    from adamslite.results.results import Results
 
 
 def error_of(results: Results, truth: Results, channels: Sequence[str] = ()) -> float:

@@ -24,15 +24,17 @@ import json
 import re
 import zlib
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 import adamslite
 from adamslite.errors import FormatError
 from adamslite.results.outcomes import Outcome
-from adamslite.results.results import Results
 from adamslite.results.source import NO_FILE, RunSource
+
+if TYPE_CHECKING:
+    from adamslite.results.results import Results
 
 #: A binding of numbers. One of a function is not taken from a file, which may come from others: it
 #: would have a module loaded.

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.errors import UsageError
 from adamslite.results.comparison import fits
-from adamslite.results.results import Results
+
+if TYPE_CHECKING:
+    from adamslite.results.results import Results
 
 
 def selected(names: Sequence[str], patterns: Iterable[str]) -> list[int]:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from adamslite.results.results import Results
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from adamslite.results.results import Results
 
 #: A row of the counters, and what it shows; left out where a result file has lost a counter.
 FIGURES = (

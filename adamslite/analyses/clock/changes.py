@@ -17,11 +17,14 @@ Reference: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2009, sect
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.clock.clock import Program
 from adamslite.analyses.clock.enclosures import enclose
+
+if TYPE_CHECKING:
+    from adamslite.analyses.clock.clock import Program
 
 # Spans at first, and into how many one is divided.
 FIRST, PARTS = 64, 4

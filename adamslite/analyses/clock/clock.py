@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 from operator import add
+from typing import TYPE_CHECKING
 
 from adamslite.analyses.clock.enclosures import Instruction
-from adamslite.kernels.binding import Binding
-from adamslite.kernels.code.clock_program import Instruction as Written
-from adamslite.kernels.groups import Kernels
 from adamslite.language.interfaces import Key
-from adamslite.language.statement import Statement
 from adamslite.symbolic.interpolant import Interpolant
 from adamslite.symbolic.sympy_nodes import LOOKUPS
+
+if TYPE_CHECKING:
+    from adamslite.kernels.binding import Binding
+    from adamslite.kernels.code.clock_program import Instruction as Written
+    from adamslite.kernels.groups import Kernels
+    from adamslite.language.statement import Statement
 
 Program = tuple[Instruction, ...]
 Used = float | Key | Interpolant

@@ -12,12 +12,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from adamslite.analyses.clock.table_ranges import ranges
-from adamslite.symbolic.interpolant import Interpolant
+
+if TYPE_CHECKING:
+    from adamslite.symbolic.interpolant import Interpolant
 
 Bound: TypeAlias = Any
 """One number for all spans of time, or one for each, (n,)."""

@@ -10,11 +10,15 @@ counts as a jump.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from adamslite.analyses.clock.clock import Clock, Program
 from adamslite.analyses.clock.enclosures import enclose
 from adamslite.equations.broken_motion import Break
+
+if TYPE_CHECKING:
+    from adamslite.analyses.clock.clock import Clock, Program
 
 # Distances from a stop, as shares of the run, and what must be left of a jump at the smaller one.
 FAR, NEAR, LEFT = 1e-8, 1e-11, 0.5

@@ -17,15 +17,18 @@ is the end of a step.  Where it is steep, methods that do not test velocities ke
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.analyses.clock.changes import time_scales
-from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.stops import SAME, edges, merged
-from adamslite.equations.system import System
 from adamslite.integrators import contract
-from adamslite.language.statement import Statement
+
+if TYPE_CHECKING:
+    from adamslite.analyses.clock.clock import Clock
+    from adamslite.equations.system import System
+    from adamslite.language.statement import Statement
 
 # From a step as short as round-off of the run to one of its length.
 DOUBLINGS = 64

@@ -10,14 +10,18 @@ are found before the run:
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from adamslite.analyses.clock.changes import around_changes
 from adamslite.analyses.clock.clock import Clock
-from adamslite.equations.system import System
 from adamslite.integrators.contract import CLOCK
-from adamslite.language.statement import Statement
 from adamslite.symbolic.guards import FLOOR, STRICT
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
+    from adamslite.language.statement import Statement
 
 # Changes nearer to each other, or to an output time, than this share of the run are one; they are
 # located to that of round-off.

@@ -7,11 +7,15 @@ that is known from before, for every run of 2^k neighbours.
 from __future__ import annotations
 
 from math import factorial
+from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from adamslite.symbolic.interpolant import Interpolant, pieces_at
+from adamslite.symbolic.interpolant import pieces_at
+
+if TYPE_CHECKING:
+    from adamslite.symbolic.interpolant import Interpolant
 
 # A curve or derivative jumps at a knot where its two sides differ by more than this share of its
 # largest value.

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from math import isfinite, nan
+from typing import TYPE_CHECKING
 
-from adamslite.deck.deck import Deck
 from adamslite.elements.diff import Diff
 from adamslite.elements.variable import Variable
-from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.language.expression import Ref, calls
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.equations.system import System
 
 ROUNDS = 50
 # Step of a difference, and correction that is round-off, as shares of the value.

@@ -12,19 +12,22 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from math import isnan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.analyses.initial.least_change import POSITIONS, VELOCITIES, Way, ways
 from adamslite.analyses.initial.rows import SPEEDS, velocity_rows
-from adamslite.elements.bases.constraint import Constraint
-from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import RESIDUAL
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.model.model import PART
 from adamslite.model.scaling import turned
 from adamslite.results.outcomes import Outcome
+
+if TYPE_CHECKING:
+    from adamslite.elements.bases.constraint import Constraint
+    from adamslite.equations.system import System
 
 MAX_ITERATIONS = 100
 # |g| below this share of the model's size counts as closed.

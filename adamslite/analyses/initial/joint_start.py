@@ -9,7 +9,9 @@ PTCV is such a motion of the point that carries its parameter.
 
 from __future__ import annotations
 
-from adamslite.analyses.initial.conditions import Unclosed, initial_conditions, speed_defects
+from typing import TYPE_CHECKING
+
+from adamslite.analyses.initial.conditions import initial_conditions, speed_defects
 from adamslite.assembly.start_conditions import conditions, speed_on_curve
 from adamslite.elements.joint import Joint
 from adamslite.elements.motion import Motion
@@ -17,7 +19,10 @@ from adamslite.elements.ptcv import Ptcv
 from adamslite.equations.system import System
 from adamslite.kernels.compile import compile_model
 from adamslite.model.model import assemble
-from adamslite.progress import Progress
+
+if TYPE_CHECKING:
+    from adamslite.analyses.initial.conditions import Unclosed
+    from adamslite.progress import Progress
 
 # The speed of a path that a closed posture has moved is found again there.
 PASSES = 3

@@ -5,13 +5,17 @@ Reactions of the joints concerned are one choice among many, see :mod:`adamslite
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from adamslite.analyses.initial.least_change import MOST_DENSE, VELOCITIES
 from adamslite.analyses.initial.rows import constraint_gradient, weights
 from adamslite.analyses.initial.sparse_rows import LeastChanges, Pattern, evaluated
 from adamslite.assembly.rank import dependent_rows, name_of_row, unit_rows
-from adamslite.equations.system import System
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
 
 # Rows kept that are nearer to dependence than all rows by this factor were the wrong choice.
 WORSE = 1e-3

@@ -29,14 +29,18 @@ stiffen as they should.  References: P. E. Nikravesh, Computer-Aided Analysis of
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.linearization.instant import Instant, skew
-from adamslite.analyses.linearization.observer import Jet
-from adamslite.equations.system import System
+from adamslite.analyses.linearization.instant import skew
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.model.model import PART
+
+if TYPE_CHECKING:
+    from adamslite.analyses.linearization.instant import Instant
+    from adamslite.analyses.linearization.observer import Jet
+    from adamslite.equations.system import System
 
 # Singular values below this share of the largest are redundant rows.
 RANK = 1e-9

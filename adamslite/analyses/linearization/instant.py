@@ -15,13 +15,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.analyses.initial.rows import velocity_rows
-from adamslite.equations.system import System
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, JACOBIAN
 from adamslite.model.model import PART
 
 if TYPE_CHECKING:  # few runs need sparse matrices
     from scipy.sparse import csr_array
+
+    from adamslite.equations.system import System
 
 PHASES = contract.LOADS | contract.REACTIONS | contract.ROWS
 RATES = contract.VELOCITY_ROWS | contract.RATE_ROWS

@@ -11,22 +11,27 @@ Undamped frequencies come from the columns of y and p' alone.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from adamslite.analyses.initial.conditions import consistent_velocities
 from adamslite.analyses.linearization.eigen import eigen
-from adamslite.analyses.linearization.first_order import FirstOrder, Ports
+from adamslite.analyses.linearization.first_order import Ports
 from adamslite.analyses.linearization.observer import Observer
 from adamslite.analyses.linearization.stationarity import Trajectory
-from adamslite.elements.linear import Linear
 from adamslite.elements.pinput import Pinput
 from adamslite.elements.poutput import Poutput
-from adamslite.equations.system import System
 from adamslite.errors import UsageError
-from adamslite.language.interfaces import Key
 from adamslite.model.model import PART
 from adamslite.results.linearization import Linearization, SecondOrder
 from adamslite.results.results import Linearized
+
+if TYPE_CHECKING:
+    from adamslite.analyses.linearization.first_order import FirstOrder
+    from adamslite.elements.linear import Linear
+    from adamslite.equations.system import System
+    from adamslite.language.interfaces import Key
 
 # Displacements that differ by less than this share are equally large: the first one counts.
 ALIKE = 1e-6

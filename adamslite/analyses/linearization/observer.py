@@ -19,13 +19,17 @@ On the ground E is constant, and no body is special.
 from __future__ import annotations
 
 from math import comb
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.linearization.instant import Instant, skew
-from adamslite.equations.system import System
-from adamslite.language.interfaces import Key
+from adamslite.analyses.linearization.instant import skew
 from adamslite.model.model import PART
+
+if TYPE_CHECKING:
+    from adamslite.analyses.linearization.instant import Instant
+    from adamslite.equations.system import System
+    from adamslite.language.interfaces import Key
 
 Jet = tuple[np.ndarray, np.ndarray, np.ndarray]
 

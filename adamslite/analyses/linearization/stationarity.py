@@ -8,16 +8,20 @@ at rest, turning with him, or turning about an axis of symmetry.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.linearization.first_order import FirstOrder, Ports, moving, still
+from adamslite.analyses.linearization.first_order import FirstOrder, moving, still
 from adamslite.analyses.linearization.instant import neighbours, present
 from adamslite.analyses.linearization.observer import Observer
 from adamslite.elements.marker import Marker
-from adamslite.equations.system import System
-from adamslite.language.interfaces import Key
 from adamslite.model.model import PART
+
+if TYPE_CHECKING:
+    from adamslite.analyses.linearization.first_order import Ports
+    from adamslite.equations.system import System
+    from adamslite.language.interfaces import Key
 
 # Time to the neighbours, as a share of that in which the motion turns or crosses the model.
 SHARE = 1e-3

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from adamslite.language.routines import ARGUMENT
-from adamslite.language.statement import Field, expression, reference, text, vector
+from adamslite.language.statement import expression, reference, text, vector
+
+if TYPE_CHECKING:
+    from adamslite.language.statement import Field
 
 
 def body_origin() -> Field:

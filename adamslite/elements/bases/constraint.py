@@ -13,12 +13,16 @@ Sign: the reaction is what acts **on I**, torque about I's origin; J gets the op
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING
 
-from adamslite.language.expression import COMPONENTS, Node, Ref, measure
-from adamslite.language.interfaces import DrawnModel
+from adamslite.language.expression import COMPONENTS, Ref, measure
 from adamslite.language.statement import Statement
-from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen
 
 # What each kind of row keeps at zero, for messages.
 TOGETHER = ("x of I - J", "y of I - J", "z of I - J")

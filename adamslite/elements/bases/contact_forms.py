@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from itertools import product
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from adamslite.language.interfaces import Key
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import Key
 
 EQUAL = 1e-9
 """Share by which the scales of a ball may differ."""

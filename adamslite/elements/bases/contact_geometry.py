@@ -21,11 +21,9 @@ point, in the middle of the overlap, as its place relative to the marker of I; i
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from adamslite.symbolic.scope import (
-    Scope,
-    Vector,
     along_axes,
     dot,
     minus,
@@ -33,7 +31,13 @@ from adamslite.symbolic.scope import (
     scale,
 )
 from adamslite.symbolic.sympy_nodes import magnitude, norm, piecewise, root, sp
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.symbolic.scope import (
+        Scope,
+        Vector,
+    )
+    from adamslite.symbolic.types import Expr, Seen
 
 # Slant of an end from which on its edge alone touches: the contact moves there from its centre.
 LEVEL = 1e-3

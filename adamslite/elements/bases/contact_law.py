@@ -28,11 +28,16 @@ so that below vs a load up to MU_STATIC N is held, and beyond vs friction is as 
 
 from __future__ import annotations
 
-from adamslite.elements.bases.contact_geometry import Touch
+from typing import TYPE_CHECKING
+
 from adamslite.functions.steps import spring, step
-from adamslite.symbolic.scope import Vector, dot, minus, plus, scale
+from adamslite.symbolic.scope import dot, minus, plus, scale
 from adamslite.symbolic.sympy_nodes import norm, piecewise, root
-from adamslite.symbolic.types import Expr, Seen
+
+if TYPE_CHECKING:
+    from adamslite.elements.bases.contact_geometry import Touch
+    from adamslite.symbolic.scope import Vector
+    from adamslite.symbolic.types import Expr, Seen
 
 # Deflection from which bristles begin to slip.
 YIELDING = 0.9

@@ -8,20 +8,17 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import sqrt
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from adamslite.elements.bases.contact_forms import Form
-from adamslite.elements.bases.contact_geometry import Touch, touch
+from adamslite.elements.bases.contact_geometry import touch
 from adamslite.elements.bases.contact_law import across, bristle_rate, friction, normal_force
 from adamslite.language.expression import Call, Num, Ref
 from adamslite.language.function import PRODUCTS, function
-from adamslite.language.interfaces import DrawnModel, Key, Lookup
 from adamslite.language.statement import STATEMENTS, Statement, statement
 from adamslite.symbolic.scope import (
     ZERO,
     Load,
-    Scope,
-    Vector,
     along_axes,
     cross,
     dot,
@@ -30,7 +27,15 @@ from adamslite.symbolic.scope import (
     scale,
 )
 from adamslite.symbolic.sympy_nodes import piecewise, sp
-from adamslite.symbolic.types import Expr, Seen, Tree
+
+if TYPE_CHECKING:
+    from adamslite.elements.bases.contact_geometry import Touch
+    from adamslite.language.interfaces import DrawnModel, Key, Lookup
+    from adamslite.symbolic.scope import (
+        Scope,
+        Vector,
+    )
+    from adamslite.symbolic.types import Expr, Seen, Tree
 
 POINT = "CONTACT_POINT"
 AXES = ("X", "Y", "Z")

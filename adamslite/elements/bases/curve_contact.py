@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from adamslite.elements.bases.spline_curve import SplineCurve
-
 if TYPE_CHECKING:  # reading a deck does without numpy
     import numpy as np
+
+    from adamslite.elements.bases.spline_curve import SplineCurve
 
     Pose = tuple[np.ndarray, np.ndarray]
 

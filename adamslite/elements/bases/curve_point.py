@@ -11,11 +11,17 @@ the reaction has no component along the curve.
 
 from __future__ import annotations
 
-from adamslite.language.interfaces import Key
-from adamslite.language.statement import STATEMENTS, Statement
-from adamslite.symbolic.scope import ORIGIN, Scope
+from typing import TYPE_CHECKING
+
+from adamslite.language.statement import STATEMENTS
+from adamslite.symbolic.scope import ORIGIN
 from adamslite.symbolic.sympy_nodes import floor, lookup
-from adamslite.symbolic.types import Expr, Frame, Seen
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import Key
+    from adamslite.language.statement import Statement
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Frame, Seen
 
 COORDINATES = range(3)
 

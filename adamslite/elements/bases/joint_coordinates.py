@@ -16,13 +16,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from adamslite.language.interfaces import DrawnModel, Key
-from adamslite.symbolic.scope import Scope, cross, dot, scale
+from adamslite.symbolic.scope import cross, dot, scale
 from adamslite.symbolic.sympy_nodes import piecewise, sp
-from adamslite.symbolic.types import Expr, Frame
+from adamslite.symbolic.types import Expr
 
 if TYPE_CHECKING:  # reading a deck does without numpy
     import numpy as np
+
+    from adamslite.language.interfaces import DrawnModel, Key
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Frame
 
 Turn = tuple[Expr, Expr]
 # Sines below this are the round-off of markers that are drawn aligned.

@@ -11,11 +11,14 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from adamslite.elements.bases.system_element import SystemElement, Values
-from adamslite.language.expression import Node, Num, Op
-from adamslite.language.interfaces import Key, Lookup
+from adamslite.language.expression import Num, Op
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import Key, Lookup
 
 Table = Sequence[Sequence[float]]
 

@@ -15,11 +15,14 @@ Friction, IEEE Transactions on Automatic Control 40 (1995) 419.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from adamslite.elements.bases.stick_slip import STILL, Regime, size, speed_of
-from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import piecewise, power, sp
-from adamslite.symbolic.types import Expr, Seen, Symbol
+
+if TYPE_CHECKING:
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen, Symbol
 
 
 def regime(scope: Scope, friction: Seen, slip: Sequence[Expr]) -> Regime:

@@ -20,10 +20,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from adamslite.symbolic.interpolant import Interpolant, continued, interpolant
+from adamslite.symbolic.interpolant import continued, interpolant
 
 if TYPE_CHECKING:  # reading a deck does without numpy
     import numpy as np
+
+    from adamslite.symbolic.interpolant import Interpolant
 
 # How finely the nearest point is looked for before it is polished, per piece; steps of that.
 SAMPLES, POLISHED = 20, 20

@@ -20,12 +20,14 @@ under a creep that has not begun to slip, its slope by v is not, unless D = 0.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from adamslite.functions.steps import step5
-from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.sympy_nodes import magnitude, piecewise, root
-from adamslite.symbolic.types import Expr, Seen, Symbol
+
+if TYPE_CHECKING:
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Seen, Symbol
 
 # Creep fades out between MAX_STICTION_DEFORMATION and this multiple of it, where friction no longer
 # changes with it: an end at once were an event that a joint rests on.

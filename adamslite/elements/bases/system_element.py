@@ -9,11 +9,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
-from typing import ClassVar, overload
+from typing import TYPE_CHECKING, ClassVar, overload
 
 from adamslite.language.expression import Call, Node, Ref
-from adamslite.language.interfaces import Key, Lookup
-from adamslite.language.statement import STATEMENTS, Field, Statement, flag, reference
+from adamslite.language.statement import STATEMENTS, Statement, flag, reference
+
+if TYPE_CHECKING:
+    from adamslite.language.interfaces import Key, Lookup
+    from adamslite.language.statement import Field
 
 MOST = 10**6
 KINDS = {"X": ("DIFF", "DIF"), "Y": ("VARIABLE", "VARVAL")}

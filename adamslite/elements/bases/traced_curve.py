@@ -9,11 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from adamslite.elements.bases.spline_curve import SplineCurve, through
-from adamslite.language.expression import Call, Node, Num
+from adamslite.elements.bases.spline_curve import through
+from adamslite.language.expression import Call, Num
 
 if TYPE_CHECKING:  # reading a deck does without numpy
     import numpy as np
+
+    from adamslite.elements.bases.spline_curve import SplineCurve
+    from adamslite.language.expression import Node
 
 POINTS = "POINTS"
 # Pieces at first, and doublings at most.

@@ -14,15 +14,20 @@ from J.  AX, AY and AZ are projected angles: all three small, or only AZ large.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from adamslite.elements.bases.joint_coordinates import relative_velocity
 from adamslite.functions.forces import MEASURES
-from adamslite.language.expression import COMPONENTS, Node, Ref, measure
+from adamslite.language.expression import COMPONENTS, Ref, measure
 from adamslite.language.function import FUNCTIONS
-from adamslite.language.interfaces import DrawnModel
 from adamslite.language.statement import Statement
-from adamslite.symbolic.scope import ZERO, Load, Scope, along_axes, cross, dot, scale
-from adamslite.symbolic.types import Expr, Frame, Seen
+from adamslite.symbolic.scope import ZERO, Load, along_axes, cross, dot, scale
+
+if TYPE_CHECKING:
+    from adamslite.language.expression import Node
+    from adamslite.language.interfaces import DrawnModel
+    from adamslite.symbolic.scope import Scope
+    from adamslite.symbolic.types import Expr, Frame, Seen
 
 Row = tuple[float, ...]
 SIX = range(6)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from io import BytesIO
 from math import radians
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, ParseError, iterparse
 
 import numpy as np
@@ -18,10 +19,13 @@ from adamslite.language.diagnostics import DeckError
 from adamslite.outputs.adams.res_text import START, read_text
 from adamslite.outputs.adams.xrf_layout import KINDS, MOTION_WORDS, NAMESPACE, SYMBOL_OF, unpacked
 from adamslite.results.adams_terms import REQUEST_WORDS, from_adams
-from adamslite.results.channels import Channel, describe
+from adamslite.results.channels import describe
 from adamslite.results.printed import Printed
 from adamslite.results.results import Results
 from adamslite.results.run_texts import restored
+
+if TYPE_CHECKING:
+    from adamslite.results.channels import Channel
 
 KEYWORDS = {kind: keyword for keyword, kind in KINDS.items()} | {
     "Plant_Input": "PINPUT", "Plant_Output": "POUTPUT",
