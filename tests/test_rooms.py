@@ -55,6 +55,7 @@ analyses
 run_flags
 kept_scene
 scene
+command_files
 result_files
 verification
 plots

@@ -18,20 +18,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.elements.sforce import Sforce
-from adamslite.elements.springdamper import Springdamper
 from adamslite.model.model import POINT
 
 if TYPE_CHECKING:
+    from adamslite.elements.sforce import Sforce
+    from adamslite.elements.springdamper import Springdamper
     from adamslite.model.geometry import Place
     from adamslite.model.model import Model
+
+    Strut = Sforce | Springdamper
 
 # The exponential of more is beyond the range of numbers.
 EXP_LIMIT = 700.0
 ROUND_OFF = 2e-16
 # Share of the way that grown round-off may come to untold.
 FELT = 1e-3
-Strut = Sforce | Springdamper
 # Numbers of records that are processed together.
 BLOCK = 2**18
 
@@ -61,7 +62,7 @@ def buckled(model: Model, names: tuple[str, ...], time: np.ndarray, values: np.n
 def _struts(model: Model, column: dict[str, int]) -> list[Strut]:
     """Forces along the line between point masses, or one and the ground, that are recorded."""
     found = []
-    elements: list[Strut] = [*model.deck.of(Sforce), *model.deck.of(Springdamper)]
+    elements: list[Strut] = [*model.deck.of("SFORCE"), *model.deck.of("SPRINGDAMPER")]
     for element in elements:
         ends = [model.marker(end) for end in (element.i, element.j)]
         if f"{element.label}.f" not in column or element.kind == "ROTATIONAL":

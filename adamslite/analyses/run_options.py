@@ -9,7 +9,7 @@ from typing import Any
 
 from adamslite.elements.integrator import Integrator
 from adamslite.errors import UsageError
-from adamslite.language.messages import did_you_mean
+from adamslite.language.likeness import did_you_mean
 
 POSITIVE = ("end", "error", "hmax")
 FORMULATIONS = ("I3", "SI2")

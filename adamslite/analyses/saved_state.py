@@ -18,7 +18,6 @@ from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.static import StaticSettings
 from adamslite.deck.redefinition import Redefinition
 from adamslite.errors import UsageError
-from adamslite.reading.read import read_commands
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -162,6 +161,8 @@ def _refuse(name: str, why: str) -> NoReturn:
 
 
 def _changes(texts: Iterable[str], deck: Deck) -> Iterable[Redefinition[Any]]:
+    from adamslite.reading.read import read_commands  # which takes a while to load
+
     for text in texts:
         yield from (each for each in read_commands(text + "\n", deck)
                     if isinstance(each, Redefinition))  # fmt: skip

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
-from adamslite.analyses.saved_state import Kept, State, document
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
     from adamslite.analyses.dynamic import Settings
+    from adamslite.analyses.saved_state import Kept, State
     from adamslite.analyses.sensors import SensorLog
     from adamslite.analyses.static import StaticSettings
     from adamslite.deck.deck import Deck
@@ -65,6 +65,8 @@ class Saves:
         system = session.system
         if session.outcome is not Outcome.DONE or not command.where[1]:  # AUTOSAVE alone
             return
+        from adamslite.analyses.saved_state import Kept, State
+
         kept = Kept(
             State.of(system, session.time, session.began_static, session.sensors.asleep),
             session.kernels, system, session.settings, session.statics, session.changes,
@@ -102,6 +104,8 @@ class Saves:
             session.present = session.assembled_of(system)
 
     def _reload_file(self, session: Session, name: str) -> None:
+        from adamslite.analyses.saved_state import document
+
         found = document(self.files.read(name), name, self.deck)
         session.settings = replace(found.settings, **session.flags)
         session.statics, session.changes = found.statics, found.changes

@@ -23,10 +23,8 @@ import numpy as np
 
 from adamslite.analyses.delays import NO_PAST, require_no_delay
 from adamslite.analyses.dynamic import largest_step, run_dynamic
-from adamslite.analyses.info import info
 from adamslite.analyses.initial.conditions import consistent_velocities
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
-from adamslite.analyses.kinematic import run_kinematic
 from adamslite.analyses.method_choice import choose_method
 from adamslite.analyses.output_times import output_times
 from adamslite.analyses.planar_reduction import in_its_plane
@@ -244,6 +242,8 @@ class Session(SessionState):
         if system.dof > 0:
             self.outcome = Outcome.NOT_KINEMATIC
             return
+        from adamslite.analyses.kinematic import run_kinematic
+
         self.outcome, self.unclosed = run_kinematic(system, times)
         self.time = float(system.report.t)
         self.keep(system, times, False)
@@ -270,4 +270,6 @@ class Session(SessionState):
         self.linearizations.append(carried_out(command, self.system, self.time))
 
     def _do_info(self, command: Info) -> None:
+        from adamslite.analyses.info import info
+
         self.printed.append(info(self.system, command, self.time))

@@ -14,8 +14,6 @@ import numpy as np
 
 from adamslite.analyses.accuracy_notes import accuracy_notes
 from adamslite.analyses.buckling import buckled
-from adamslite.analyses.failure_report import explain
-from adamslite.analyses.initial.redundancy import row_name
 from adamslite.analyses.output_times import spread_times
 from adamslite.analyses.run_options import checked
 from adamslite.analyses.session import Session
@@ -23,20 +21,16 @@ from adamslite.analyses.slack import compressed
 from adamslite.analyses.subject import deck_of
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition
-from adamslite.elements.marker import Marker
 from adamslite.elements.simulate import Simulate
-from adamslite.elements.units import Units
 from adamslite.equations.result_columns import column_names
 from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
 from adamslite.integrators.linalg.plan import TINY
-from adamslite.language.messages import did_you_mean
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import left_off
 from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
-from adamslite.results.selection import limited, selected
 from adamslite.results.source import source_of
 
 # Few runs need them, and they take a while to load.
@@ -125,7 +119,8 @@ def simulate(
     files = files or SavedFiles()
     session = Session(scene, progress, flags, left_off(no_reduction), audit, files)
     wanted = (outputs,) if isinstance(outputs, str) else tuple(outputs)
-    selected(column_names(session.kernels), wanted)
+    if wanted:
+        _need_columns(session, wanted)
     results = replace(_results(session, _carried_out(session, plan, began)), source=source)
     if confirm:
         again = partial(
@@ -133,7 +128,29 @@ def simulate(
             no_reduction=no_reduction, files=files.to_read,
         )  # fmt: skip
         results = _confirmed(results, session, again)
-    return limited(results, wanted) if wanted else results
+    return _limited(results, wanted) if wanted else results
+
+
+# Most runs need none of what the following functions import.
+
+
+def _need_columns(session: Session, wanted: tuple[str, ...]) -> None:
+    from adamslite.results.selection import selected
+
+    selected(column_names(session.kernels), wanted)
+
+
+def _limited(results: Results, wanted: tuple[str, ...]) -> Results:
+    from adamslite.results.selection import limited
+
+    return limited(results, wanted)
+
+
+def _explained(session: Session) -> str:
+    """Why a run has ended early."""
+    from adamslite.analyses.failure_report import explain
+
+    return explain(session.system, session.outcome, session.unclosed)
 
 
 def _carried_out(session: Session, plan: list[Command], began: float) -> tuple[float, float]:
@@ -190,7 +207,7 @@ def linearize(
     session.execute([*plan, *commands, *([_dynamics(time)] if time else [])])
     system = session.system
     if not session.outcome.is_requested:
-        raise RunFailed(explain(system, session.outcome, session.unclosed))
+        raise RunFailed(_explained(session))
     made = session.linearizations
     return made[-1].model if made and rm is None else linear(system, relative_to=marker)
 
@@ -202,7 +219,9 @@ def _need_time(time: object) -> None:
 
 def _marker(deck: Deck, word: str) -> Key:
     """The id of a MARKER that a flag names."""
-    found = deck.find(Marker, int(word) if word.isdigit() else word)
+    from adamslite.language.likeness import did_you_mean
+
+    found = deck.find("MARKER", int(word) if word.isdigit() else word)
     if found is None:
         hint = did_you_mean(word, deck.names.known("MARKER"))
         raise UsageError(f"--rm {word}: there is no MARKER/{word}" + (f"; {hint}" if hint else ""))
@@ -281,14 +300,14 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
     meta = {**_meta(session), **({"no number": without} if without else {})}
     return Results(
         time=time, names=names, values=values, meta=meta, outcome=session.outcome,
-        message="" if done else explain(system, session.outcome, session.unclosed), summary=summary,
+        message="" if done else _explained(session), summary=summary,
         linearizations=tuple(session.linearizations), balances=tuple(session.balances),
     )  # fmt: skip
 
 
 def _meta(session: Session) -> Mapping[str, str]:
     deck, settings = session.deck, session.chosen.settings
-    units = deck.single(Units).names
+    units = deck.single("UNITS").names
     hurried = ", ".join(dict.fromkeys(map(placed, session.system.hurried)))
     return {
         "deck": deck.title,
@@ -358,7 +377,9 @@ def _notes(session: Session) -> dict[str, str]:
     if idle:
         text = "; ".join(f"{word}, because {reason}" for word, reason in idle)
         found["integrator arguments"] = f"without effect: {text}"
-    rows = [row_name(session.system, row) for row in session.system.elimination.dropped]
-    if rows:
+    if session.system.elimination.dropped:
+        from adamslite.analyses.initial.redundancy import row_name
+
+        rows = [row_name(session.system, row) for row in session.system.elimination.dropped]
         found["redundant"] = f"left out, their reactions are zero: {'; '.join(rows)}"
     return found

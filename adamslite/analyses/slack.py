@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
 
 FORCES = ("SFORCE", "SPRINGDAMPER")
+# Fewer are no cable; one VFORCE may be several.
+FEWEST = 3
 # Pushes below this share of the largest pull are those of waves that sections cannot follow.
 FELT = 0.02
 REMEDY = "a slack cable carries nothing: write its pull as MAX(0, pull); described: pulls_only"
@@ -28,7 +30,8 @@ def compressed(deck: Deck, names: tuple[str, ...], time: np.ndarray, values: np.
         if f"{each.label}.f" in column
     }
     pushing = _pushing(places, values)
-    labels = _sections(deck) & pushing.keys() if pushing else set()
+    cable = deck.of("VFORCE") or sum(len(deck.of(word)) for word in FORCES) >= FEWEST
+    labels = _sections(deck) & pushing.keys() if pushing and cable else set()
     if not labels:
         return ""
     hardest = max(labels, key=lambda label: (pushing[label], label))

@@ -13,10 +13,8 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.user_bindings import Given
 from adamslite.errors import DeckWarning, UsageError
-from adamslite.language.abbreviations import match
 from adamslite.language.diagnostics import WARNING, Diagnostic
 from adamslite.language.statement import STATEMENTS, Statement
-from adamslite.reading.read import read_commands
 from adamslite.scene import command_file_beside, read_together
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
@@ -111,6 +109,7 @@ def with_commands(subject: Subject, commands: CommandSource) -> Inputs:
     if not isinstance(given, str | Path):
         return Inputs(subject, given)
     from adamslite.analyses.subject import deck_of
+    from adamslite.reading.read import read_commands
 
     read = read_commands(given, deck_of(subject))
     return Inputs(subject, read, read.warnings)
@@ -135,6 +134,8 @@ def _source(commands: CommandSource) -> str | Path | Sequence[Command] | None:
 
 def _is_statement(text: str) -> bool:
     """Whether one line is a command, not a file: it begins with a keyword and names no file."""
+    from adamslite.language.abbreviations import match
+
     word = text.replace(",", "/").partition("/")[0].strip().upper()
     return bool(word) and match(word, STATEMENTS) is not None and not os.path.exists(text)
 

@@ -101,7 +101,7 @@ def _table(
     faults: Faults, data: Toml, rules: Rules, path: Path, also: tuple[str, ...] = ()
 ) -> Toml:
     """The values of a table, checked; those of keys that are not written."""
-    from adamslite.language.messages import did_you_mean
+    from adamslite.language.likeness import did_you_mean
 
     for key in data:
         if key not in rules:

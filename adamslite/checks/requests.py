@@ -12,7 +12,7 @@ from adamslite.elements.request import Request
 from adamslite.functions.integration import NUMBERS
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import calls
-from adamslite.language.messages import did_you_mean
+from adamslite.language.likeness import did_you_mean
 
 
 def requests(deck: Deck) -> Iterator[Diagnostic]:

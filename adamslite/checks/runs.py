@@ -27,7 +27,7 @@ from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Node, Ref, calls, walk
 from adamslite.language.file_name import is_file_name
 from adamslite.language.interfaces import Key
-from adamslite.language.messages import did_you_mean
+from adamslite.language.likeness import did_you_mean
 from adamslite.language.method import USUAL, method_of, methods, without_effect
 from adamslite.language.statement import Statement, expressions
 

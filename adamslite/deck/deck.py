@@ -15,7 +15,6 @@ from pathlib import Path, PureWindowsPath
 from typing import TYPE_CHECKING, Any, overload
 
 import adamslite
-from adamslite.deck.delayed import delayed, watched
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition, settled
 from adamslite.deck.user_bindings import Bindings
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
     from adamslite.deck.names import Names
     from adamslite.deck.redefinition import Command
     from adamslite.language.diagnostics import Diagnostic, Source
-    from adamslite.language.expression import Node
+    from adamslite.language.expression import Call, Node
     from adamslite.language.interfaces import Key
     from adamslite.language.statement import S, Statement
 
@@ -82,8 +81,13 @@ class Deck:
         self._enter(statements)
         groups = [(each, each.companions(self)) for each in statements]
         brought = tuple(s for each, group in groups for s in (each, *group))
-        self.delays = delayed(brought, names) if names.delays else {}
-        self.statements = (*brought, *(watched(call, key) for call, key in self.delays.items()))
+        self.delays: dict[Call, Key] = {}
+        self.statements: tuple[Statement, ...] = brought
+        if names.delays:  # few decks have any
+            from adamslite.deck.delayed import delayed, watched
+
+            self.delays = delayed(brought, names)
+            self.statements += tuple(watched(call, key) for call, key in self.delays.items())
         self._acts_for = {
             (s.keyword, s.key): (each.keyword, each.key)
             for each, group in groups

@@ -28,8 +28,7 @@ from typing import TYPE_CHECKING, Any
 
 from adamslite.deck.names import to_number
 from adamslite.errors import UsageError
-from adamslite.language.abbreviations import match
-from adamslite.language.messages import did_you_mean
+from adamslite.language.likeness import did_you_mean
 from adamslite.language.routines import short_name
 from adamslite.language.statement import STATEMENTS
 
@@ -160,6 +159,8 @@ def _enter(found: Bindings, name: str, binding: Binding) -> None:
             raise UsageError(f"--user {name}: it is bound twice")
         found.routines[name.upper()] = binding
         return
+    from adamslite.language.abbreviations import match
+
     cls = match(kind.strip().upper(), STATEMENTS)
     if not isinstance(cls, type):
         hint = did_you_mean(kind, STATEMENTS)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.kernels.code.kinematics import (
+from adamslite.kernels.workspace import (
     ACCELERATION,
     ALPHA,
     ATTITUDE,

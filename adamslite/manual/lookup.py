@@ -9,7 +9,8 @@ from typing import NamedTuple
 from adamslite.deck.names import MEANINGS
 from adamslite.errors import UsageError
 from adamslite.language.function import FUNCTIONS
-from adamslite.language.messages import MESSAGES, did_you_mean
+from adamslite.language.likeness import did_you_mean
+from adamslite.language.messages import MESSAGES
 from adamslite.language.method import declared, methods
 from adamslite.language.not_supported import COMMANDS as MISSING_COMMANDS
 from adamslite.language.not_supported import FUNCTIONS as MISSING_FUNCTIONS

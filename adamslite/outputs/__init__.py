@@ -1,7 +1,9 @@
-"""Output files: formats of results, charts and tables of modes; an import registers the formats."""
+"""Output files: formats of results, charts and tables of modes."""
 
-from importlib import import_module
+from collections.abc import Iterator
 from pkgutil import iter_modules
 
-for _module in iter_modules(__path__):
-    import_module(f"{__name__}.{_module.name}")
+
+def modules() -> Iterator[str]:
+    """Names of all modules here; the import of one registers the formats that it holds."""
+    return (f"{__name__}.{each.name}" for each in iter_modules(__path__))

@@ -7,7 +7,8 @@ the next ``KEY=``.  Keywords may be shortened to any prefix that fits one argume
 from __future__ import annotations
 
 from adamslite.language.abbreviations import Ambiguous, vocabulary
-from adamslite.language.messages import Log, did_you_mean
+from adamslite.language.likeness import did_you_mean
+from adamslite.language.messages import Log
 from adamslite.language.messages.fixes import fix
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import STATEMENTS, Argument, Statement

@@ -11,7 +11,8 @@ from adamslite.deck.names import Names, to_number
 from adamslite.language.abbreviations import match
 from adamslite.language.expression import Node
 from adamslite.language.interfaces import Key
-from adamslite.language.messages import Log, did_you_mean
+from adamslite.language.likeness import did_you_mean
+from adamslite.language.messages import Log
 from adamslite.language.routines import ARGUMENT as ROUTINE_ARGUMENT
 from adamslite.language.routines import is_user_call
 from adamslite.language.spelling import spelled

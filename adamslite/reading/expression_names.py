@@ -13,7 +13,8 @@ from adamslite.deck.names import RESERVED, Names
 from adamslite.language.expression import Call, Node, Num, Ref
 from adamslite.language.function import FUNCTIONS, Function
 from adamslite.language.interfaces import Key
-from adamslite.language.messages import Log, did_you_mean
+from adamslite.language.likeness import did_you_mean
+from adamslite.language.messages import Log
 from adamslite.language.not_supported import FUNCTIONS as PLANNED
 from adamslite.language.spelling import spelled
 from adamslite.syntax.forms import Tree

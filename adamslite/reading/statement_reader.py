@@ -18,7 +18,8 @@ from adamslite.language.abbreviations import PREFERRED, Ambiguous, match, vocabu
 from adamslite.language.diagnostics import Source, Spans
 from adamslite.language.file_name import is_file_name
 from adamslite.language.interfaces import Key
-from adamslite.language.messages import Log, did_you_mean
+from adamslite.language.likeness import did_you_mean
+from adamslite.language.messages import Log
 from adamslite.language.not_supported import COMMANDS as PLANNED_COMMANDS
 from adamslite.language.not_supported import STATEMENTS as PLANNED_STATEMENTS
 from adamslite.language.statement import STATEMENTS, Statement

@@ -18,7 +18,8 @@ from adamslite.deck.user_bindings import Binding, Bindings
 from adamslite.elements.bases.traced_curve import line, traced
 from adamslite.language.diagnostics import NOWHERE, Diagnostic, Source
 from adamslite.language.expression import TIME, Call, Node, Num, to_text
-from adamslite.language.messages import Log, compose, did_you_mean
+from adamslite.language.likeness import did_you_mean
+from adamslite.language.messages import Log, compose
 from adamslite.language.routines import (
     ARGUMENT,
     USER,

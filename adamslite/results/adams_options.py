@@ -6,11 +6,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from adamslite.elements.passed_over import InertStatement
+from adamslite.language.statement import Statement
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
     from adamslite.deck.redefinition import Command
+    from adamslite.elements.passed_over import InertStatement
 
 ALL_DECIMALS = 17
 
@@ -34,8 +35,9 @@ def adams_options(deck: Deck, commands: Iterable[Command] = ()) -> AdamsOptions:
     """What OUTPUT and RESULTS say; a later value wins over an earlier one."""
     found: dict[str, dict[str, str]] = {"OUTPUT": {}, "RESULTS": {}}
     for each in (*deck.statements, *commands):
-        if isinstance(each, InertStatement) and each.keyword in found:
-            found[each.keyword] |= each.words
+        if each.keyword in found and isinstance(each, Statement):
+            written: InertStatement = each  # type: ignore[assignment]
+            found[each.keyword] |= written.words
     words = found["RESULTS"]
     places = words.get("DECIMALPLACES", "")
     return AdamsOptions(

@@ -69,7 +69,8 @@ def register_format(
 @cache
 def formats() -> dict[str, Format]:
     """Every format by its suffix."""
-    import_module("adamslite.outputs")
+    for module in import_module("adamslite.outputs").modules():
+        import_module(module)
     return _FORMATS
 
 
@@ -82,6 +83,9 @@ def format_of(path: str | Path, to_read: bool = False) -> Format:
         When no format has its suffix: to write in, or to read from.
     """
     suffix = Path(path).suffix.lower() or DEFAULT
+    if suffix == DEFAULT:  # most runs need no other
+        import_module("adamslite.outputs.csv")
+        return _FORMATS[suffix]
     usable = {s: f for s, f in formats().items() if f.read or not to_read}
     if suffix in usable:
         return usable[suffix]

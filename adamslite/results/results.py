@@ -1,8 +1,9 @@
 """The results of a run: time histories under the names of the deck, and the outcome."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from functools import cached_property
 from importlib import import_module
 from pathlib import Path
@@ -12,14 +13,9 @@ import numpy as np
 
 import adamslite
 from adamslite.language.diagnostics import DeckError
-from adamslite.results.balance import Balance
-from adamslite.results.channels import Channel, describe, unit_symbols
-from adamslite.results.confirmation import Confirmation
 from adamslite.results.formats import format_of
-from adamslite.results.linearization import Linearization
 from adamslite.results.outcomes import Outcome
 from adamslite.results.printed import Printed
-from adamslite.results.source import RunSource
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,6 +23,11 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from adamslite.deck.deck import Deck
+    from adamslite.results.balance import Balance
+    from adamslite.results.channels import Channel
+    from adamslite.results.confirmation import Confirmation
+    from adamslite.results.linearization import Linearization
+    from adamslite.results.source import RunSource
 
 
 class UnknownChannel(KeyError):
@@ -120,6 +121,8 @@ class Results:
 
     def channel(self, name: str) -> Channel:
         """Statement, quantity and unit of the column called `name`, or of "time"."""
+        from adamslite.results.channels import Channel, describe
+
         if name.casefold() == "time":
             own = Channel("time", "", "", "", "time", self.unit_symbols.get("time", ""))
             return self.channels.get("time", own)
@@ -131,6 +134,8 @@ class Results:
     @cached_property
     def unit_symbols(self) -> dict[str, str]:
         """Symbols by ``force``, ``mass``, ``length``, ``time``; empty where none are known."""
+        from adamslite.results.channels import unit_symbols
+
         return unit_symbols(self.meta.get("units", ""))
 
     def save(self, path: str | Path) -> None:
@@ -141,13 +146,13 @@ class Results:
         format_of(path).write(self, path)
 
     @staticmethod
-    def load(path: str | Path) -> "Results":
+    def load(path: str | Path) -> Results:
         """Read what `save` wrote; the comment lines come back in `meta`."""
         read = format_of(path, to_read=True).read
         assert read is not None
         return read(path)
 
-    def select(self, *patterns: str) -> "Results":
+    def select(self, *patterns: str) -> Results:
         """The results with some columns alone: ``REQUEST/*``, ``PART/2.v?``, ``PART/2`` for all
         of it.
 
@@ -161,7 +166,7 @@ class Results:
         chosen: Results = selection.limited(self, patterns)
         return chosen
 
-    def plot(self, *channels: str, **options: Any) -> "Figure":
+    def plot(self, *channels: str, **options: Any) -> Figure:
         """Draw channels (names or patterns); ``against``, ``x`` and ``output`` as for
         :func:`adamslite.plot`.
         """
@@ -171,19 +176,19 @@ class Results:
         """Show how it moves; ``against``, ``deck`` and ``show`` as for :func:`adamslite.view`."""
         return adamslite.view(self, output, **options)
 
-    def to_pandas(self) -> "DataFrame":
+    def to_pandas(self) -> DataFrame:
         """A table of pandas: the times as index, a column for each channel.
 
         ``attrs`` of the table has the comments of the results, and ``"channel units"``.
         """
         return import_module("adamslite.api.tables").to_pandas(self)
 
-    def to_xarray(self) -> "Dataset":
+    def to_xarray(self) -> Dataset:
         """A Dataset of xarray: what a NetCDF file of the results (.nc) holds, with units."""
         return import_module("adamslite.api.tables").to_xarray(self)
 
     @cached_property
-    def deck(self) -> "Deck | None":
+    def deck(self) -> Deck | None:
         """The statements of the run, where its text is known and can be read here."""
         try:
             return self.source.read()[0] if self.source else None
@@ -195,6 +200,8 @@ class Results:
         return {name.casefold(): column for column, name in enumerate(self.names)}
 
     def _unknown(self, name: str) -> str:
+        from difflib import get_close_matches
+
         close = get_close_matches(name.casefold(), self._column, n=3, cutoff=0.6)
         near = [self.names[self._column[key]] for key in close] or list(self.names[:3])
         hint = (

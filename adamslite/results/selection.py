@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -48,6 +47,8 @@ def means(pattern: str, name: str) -> bool:
 
 def near(pattern: str, names: Sequence[str]) -> str:
     """What may have been meant: columns, or statements with all of theirs."""
+    from difflib import get_close_matches
+
     known = {name.casefold(): name for name in names}
     known |= {label.casefold(): f"{label}.*" for label in (n.rpartition(".")[0] for n in names)}
     known.pop("", None)

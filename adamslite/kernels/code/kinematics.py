@@ -21,17 +21,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from adamslite.kernels.workspace import (
+    ACCELERATION,
+    ALPHA,
+    ATTITUDE,
+    OMEGA,
+    POSITION,
+    VELOCITY,
+)  # fmt: skip
 from adamslite.native.llvm_builder import Builder, Value
 from adamslite.symbolic.scope import ORIGIN, Slot
 from adamslite.symbolic.types import Leaf
 
 Vec = list[Value]
-
-# Where a body's quantities stand in the workspace, counted from its first entry.
-POSITION, VELOCITY, ACCELERATION, OMEGA, ALPHA, ATTITUDE = 0, 3, 6, 9, 12, 15
-POINT_SIZE, PART_SIZE = 9, 24
-# The head of the workspace.
-TIME, MODE, RUN, HEAD = 0, 1, 2, 6
 
 
 class Geometry:

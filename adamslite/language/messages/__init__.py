@@ -12,6 +12,7 @@ from typing import Protocol
 
 from adamslite.language.diagnostics import ERROR, Diagnostic, Fix, Related, Source, Span
 from adamslite.language.interfaces import Key
+from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages.arguments import ARGUMENTS
 from adamslite.language.messages.constraints import CONSTRAINTS
 from adamslite.language.messages.entry import Message
@@ -28,8 +29,6 @@ from adamslite.language.messages.tables import TABLES
 from adamslite.language.not_supported import INSTEAD
 from adamslite.notation import shown
 
-# Of words that may have been meant: likeness at least (1: equal), and what they may fall behind by.
-LIKENESS, SPREAD = 0.6, 0.1
 MESSAGES: dict[str, Message] = (
     STATEMENTS
     | ARGUMENTS
@@ -68,19 +67,6 @@ def compose(
     message = MESSAGES[code]
     sentence, hint = message.sentence.format(**words), hint or message.hint.format(**words)
     return Diagnostic(code, message.severity, shown(sentence), span, shown(hint), source_line)
-
-
-def did_you_mean(word: str, candidates: Iterable[str]) -> str:
-    """A hint naming the closest candidates; empty when none is close."""
-    from difflib import SequenceMatcher, get_close_matches
-
-    word = word.upper()
-    close = get_close_matches(word, dict.fromkeys(c.upper() for c in candidates), 3, LIKENESS)
-    likeness = [SequenceMatcher(None, each, word).ratio() for each in close]
-    found = [
-        each for each, ratio in zip(close, likeness, strict=True) if ratio > likeness[0] - SPREAD
-    ]
-    return f"did you mean {' or '.join(found)}?" if found else ""
 
 
 @dataclass

@@ -12,7 +12,8 @@ from functools import cache
 from typing import NamedTuple
 
 from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
-from adamslite.language.messages import MESSAGES, compose, did_you_mean
+from adamslite.language.likeness import did_you_mean
+from adamslite.language.messages import MESSAGES, compose
 from adamslite.language.messages.fixes import fixes
 
 COMMENT = re.compile(r"adamslite:[ \t]*ignore\b([^\n]*)", re.IGNORECASE)
