@@ -36,11 +36,8 @@ INTERNAL = 1e-9
 DRIVING = ("MOTION", "GCON", "COUPLER")
 
 
-def start_audit(system: System, audited: bool) -> None:
-    """Begin a balance with the state at the start, or none."""
-    system.audit.on = False
-    if not audited:
-        return
+def start_audit(system: System) -> None:
+    """Begin a balance with the state at the start."""
     kept = [(name, getattr(system, name).copy()) for name in ("a", "z", "rd", "count", "report")]
     system.run(ACCELERATIONS)
     _make_room(system)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from adamslite.caching import entries, objects
 from adamslite.caching.program import is_unchanged
 from adamslite.kernels.groups import linked
+from adamslite.model.geometry import IDENTITY
 from adamslite.native import compiler
 
 if TYPE_CHECKING:
@@ -49,4 +50,5 @@ def keep(name: str, kernels: Kernels) -> None:
 
 
 def _known(deck: Deck) -> Sequence[object]:
-    return [deck, *deck.statements]
+    """What kernels refer to that lies outside of them."""
+    return [deck, *deck.statements, IDENTITY]

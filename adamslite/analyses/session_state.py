@@ -21,7 +21,6 @@ from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.history import History, Piece
 from adamslite.analyses.initial.algebraic_states import settle_states
 from adamslite.analyses.initial.conditions import initial_conditions, settle_variables
-from adamslite.analyses.initial.joint_start import start_of_joints
 from adamslite.analyses.initial.redundancy import leave_out_redundant
 from adamslite.analyses.method_choice import MethodChoice
 from adamslite.analyses.saves import Saves
@@ -34,7 +33,6 @@ from adamslite.equations.system import System
 from adamslite.gc_pause import without_collection
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS
-from adamslite.kernels.compile import compile_model
 from adamslite.model.model import assemble
 from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
@@ -47,6 +45,10 @@ if TYPE_CHECKING:
     from adamslite.progress import AnalysisProgress, Progress
     from adamslite.results.balance import Balance
     from adamslite.results.results import Linearized
+
+
+#: Statements that may have initial conditions of their own.
+STARTED = ("JOINT", "MOTION", "PTCV")
 
 
 class SessionState:
@@ -124,9 +126,17 @@ class SessionState:
         if self.present is None:
             system = self.present = self.numbered(False)
             if self.is_driven(system):
-                self.unclosed = start_of_joints(system, self.progress)
+                self.unclosed = self._start_of_joints(system)
                 self.present = self.assembled_of(system)
         return self.present
+
+    def _start_of_joints(self, system: System) -> Unclosed | None:
+        if not any(map(self.deck.of, STARTED)):
+            return None
+        # Only initial conditions of joints take another model.
+        from adamslite.analyses.initial.joint_start import start_of_joints
+
+        return start_of_joints(system, self.progress)
 
     def prepare(self) -> None:
         """Number and assemble the equations now."""
@@ -135,6 +145,8 @@ class SessionState:
     def change(self, deck: Deck) -> None:
         """Go on with another deck from the present state."""
         old = self.present
+        from adamslite.kernels.compile import compile_model
+
         self.kernels = compile_model(assemble(deck, self.without), self.progress, self.audited)
         self.present = None
         if old is not None:

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, TypeVar
 from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.static import StaticSettings
 from adamslite.deck.redefinition import Redefinition
-from adamslite.elements.contact import Contact
-from adamslite.elements.graphics import Graphics
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -36,6 +34,6 @@ def changes_the_model(command: Command, deck: Deck) -> bool:
     """Whether a command that is not an analysis changes the model or its elements."""
     if isinstance(command, Redefinition):
         # Shapes are only drawn where nothing touches.
-        touches = issubclass(command.of, Graphics) and bool(deck.of(Contact))
+        touches = command.keyword == "GRAPHICS" and bool(deck.of("CONTACT"))
         return bool(command.changes) and (touches or not command.of.inert)
     return not command.inert and command.keyword not in SETTLED

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from adamslite.elements.diff import Diff
-from adamslite.elements.sensor import Sensor
 from adamslite.elements.variable import Variable
 from adamslite.equations.engine import ints
 from adamslite.integrators.contract import STATE_SIZE
 from adamslite.model.model import PART
 
 if TYPE_CHECKING:
+    from adamslite.elements.sensor import Sensor
     from adamslite.kernels.groups import Kernels
     from adamslite.language.statement import Statement
     from adamslite.model.model import NodeKey
@@ -44,7 +43,7 @@ class Numbering:
         self.n = sum(self.widths)
         constraints = [(c.keyword, c.key) for c in model.constraints]
         loops = [v for v in model.deck.of(Variable) if model.variable_kind(v.key) == "loop"]
-        states = model.deck.of(Diff)
+        states = model.deck.of("DIFF")
         scalars = constraints + [("VARIABLE", v.key) for v in loops]
         scalars += [("DIFF", d.key) for d in states]
         self.nodes += scalars
@@ -109,8 +108,8 @@ class Numbering:
         for group in self.kernels.groups:
             guards = group.meta["guards"]
             place = "watch" if guards["watch"] else "clock"
-            for n, (sensor, _) in enumerate(group.instances if group.face == "sensor" else ()):
-                assert isinstance(sensor, Sensor)
+            for n, (each, _) in enumerate(group.instances if group.face == "sensor" else ()):
+                sensor = cast("Sensor", each)
                 first = self.first_branch[place, group.name] + n * len(guards[place])
                 last = first + sensor.relation_count - 1
                 if len(guards[place]) >= sensor.relation_count:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.elements.diff import Diff
 from adamslite.equations.elimination import Elimination
 from adamslite.equations.engine import engine, ints, reals
 from adamslite.equations.instances import Instances
@@ -171,7 +170,7 @@ class System:
     @property
     def held_states(self) -> list[int]:
         """Numbers of the unknowns that statics keep: states of DIFF with STATIC_HOLD."""
-        states = enumerate(self.model.deck.of(Diff), self.n + self.m + self.nv)
+        states = enumerate(self.model.deck.of("DIFF"), self.n + self.m + self.nv)
         return [k for k, state in states if state.static_hold]
 
     @property

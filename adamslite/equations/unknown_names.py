@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from adamslite.elements.diff import Diff
-
 if TYPE_CHECKING:
     from adamslite.equations.system import System
     from adamslite.language.statement import Statement
@@ -48,7 +46,7 @@ def tested(system: System, k: int) -> str:
         return _named(system, k, COORDINATES, "")
     if k < 2 * system.n:
         return _named(system, k - system.n, SPEEDS, "")
-    return placed(system.model.deck.of(Diff)[k - 2 * system.n])
+    return placed(system.model.deck.of("DIFF")[k - 2 * system.n])
 
 
 def _named(system: System, k: int, components: tuple[str, ...], of_row: str) -> str:

@@ -19,11 +19,8 @@ import numpy as np
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.marker import Marker
 from adamslite.elements.part import Part
-from adamslite.elements.pinput import Pinput
 from adamslite.elements.point_mass import PointMass
-from adamslite.elements.poutput import Poutput
 from adamslite.elements.variable import Variable
-from adamslite.functions.forces import NET
 from adamslite.language.expression import (
     Call,
     Mode,
@@ -39,13 +36,12 @@ from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
 from adamslite.language.statement import class_of, expressions
 from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
-from adamslite.model.net_force import written_out
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
-    from adamslite.language.expression import (
-        Node,
-    )
+    from adamslite.elements.pinput import Pinput
+    from adamslite.elements.poutput import Poutput
+    from adamslite.language.expression import Node
     from adamslite.language.statement import Statement
 
 POINT, PART = 3, 6
@@ -247,7 +243,7 @@ class Model:
     @cached_property
     def _plant(self) -> set[Key]:
         """VARIABLEs of every PINPUT and POUTPUT."""
-        ports: list[Pinput | Poutput] = [*self.deck.of(Pinput), *self.deck.of(Poutput)]
+        ports: list[Pinput | Poutput] = [*self.deck.of("PINPUT"), *self.deck.of("POUTPUT")]
         return {key for port in ports for key in port.variables}
 
     @cached_property
@@ -269,6 +265,9 @@ class Model:
 
     def _uses(self, node: Node) -> Iterator[Key]:
         """Variables an expression depends on, through the elements it measures too."""
+        from adamslite.functions.forces import NET
+        from adamslite.model.net_force import written_out
+
         seen: set[Node] = set()
         pending = [node]
         while pending:
