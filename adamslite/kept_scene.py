@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from adamslite.caching import objects
+from adamslite.caching import entries, objects
 from adamslite.caching.program import is_unchanged, program
 from adamslite.errors import UsageError
 from adamslite.native import processor
@@ -22,6 +22,7 @@ from adamslite.native import processor
 if TYPE_CHECKING:
     from adamslite.deck.commands import Commands
     from adamslite.deck.deck import Deck
+    from adamslite.deck.redefinition import Command
     from adamslite.language.diagnostics import Diagnostic
 
     Read = tuple[Deck, Commands, tuple[Diagnostic, ...]]
@@ -51,6 +52,12 @@ def origin_of(deck: Path, commands: Path | None) -> Origin | None:
     return Origin(found.hexdigest()[:32], contents)
 
 
+def command_file_beside(deck_path: Path) -> Path | None:
+    """Return the command file that has the name of the deck, if there is one."""
+    candidates = (deck_path.with_suffix(suffix) for suffix in (".acf", ".ACF"))
+    return next((path for path in candidates if path.is_file()), None)
+
+
 def find(origin: Origin) -> Read | None:
     """The scene that was read from there; None when none is kept."""
     found: Read | None = objects.find(_entry(origin))
@@ -67,11 +74,12 @@ def keep(origin: Origin, read: Read) -> None:
         deck.origin = origin.name
 
 
-def is_kept(origin: Origin, deck: Deck, commands: Commands) -> bool:
+def is_kept(origin: Origin, deck: Deck, commands: Sequence[Command]) -> bool:
     """Whether deck and commands are decided by their origin alone."""
     from adamslite.reading.read import decoded, text_of
 
-    sources = [deck.source, *([commands.source] if commands.source else [])]
+    written = getattr(commands, "source", None)
+    sources = [deck.source, *([written] if written else [])]
     read = [source.text for source in sources]
     return (
         not (deck.user.called or deck.user.statements or deck.user.routines)
@@ -81,11 +89,30 @@ def is_kept(origin: Origin, deck: Deck, commands: Commands) -> bool:
     )
 
 
-def tables_of(deck: Deck, commands: Commands) -> list[str]:
+def tables_of(deck: Deck, commands: Sequence[Command]) -> list[str]:
     """Names of files in statements: what stands in them may decide the deck."""
     changes = (getattr(command, "changes", {}).get("file") for command in commands)
     named = (getattr(each, "file", None) for each in deck.statements)
     return [name for name in (*named, *changes) if name]
+
+
+def find_text(origin: Origin, *about: str) -> str | None:
+    """The text about a scene that :func:`keep_text` has kept; None when there is none."""
+    found = entries.find(_text_entry(origin, about))
+    return None if found is None else found.decode(errors="surrogatepass")
+
+
+def keep_text(
+    origin: Origin, text: str, deck: Deck, commands: Sequence[Command], *about: str
+) -> None:
+    """Keep a text that deck and commands, and ``about``, decide."""
+    if is_kept(origin, deck, commands):
+        entries.keep(_text_entry(origin, about), text.encode(errors="surrogatepass"))
+
+
+def _text_entry(origin: Origin, about: Sequence[str]) -> str:
+    found = hashlib.sha256("\0".join((origin.name, *about)).encode())
+    return f"text{found.hexdigest()[:32]}.kept"
 
 
 def _entry(origin: Origin) -> str:

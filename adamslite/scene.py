@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import adamslite
-from adamslite.kept_scene import find, keep, origin_of, tables_of
+from adamslite.kept_scene import command_file_beside, find, keep, origin_of, tables_of
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.progress import Progress
 
@@ -122,12 +122,6 @@ def read_together(
     if any(diagnostic.is_error for diagnostic in found):
         raise DeckError(found, deck)
     return deck, commands, tuple(found)
-
-
-def command_file_beside(deck_path: Path) -> Path | None:
-    """Return the command file that has the name of the deck, if there is one."""
-    candidates = (deck_path.with_suffix(suffix) for suffix in (".acf", ".ACF"))
-    return next((path for path in candidates if path.is_file()), None)
 
 
 def run_scene(

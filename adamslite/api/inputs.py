@@ -13,9 +13,10 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.user_bindings import Given
 from adamslite.errors import DeckWarning, UsageError
+from adamslite.kept_scene import command_file_beside
 from adamslite.language.diagnostics import WARNING, Diagnostic
 from adamslite.language.statement import STATEMENTS, Statement
-from adamslite.scene import command_file_beside, read_together
+from adamslite.scene import read_together
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
     from adamslite.analyses.subject import Subject

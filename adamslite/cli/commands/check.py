@@ -36,9 +36,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print what there is to say; return the exit code."""
+    from adamslite import kept_scene
+
+    beside = None if args.commands else kept_scene.command_file_beside(args.deck)
+    about = ("check", args.format, str(beside))
+    origin = None if args.user else kept_scene.origin_of(args.deck, args.commands or beside)
+    kept = origin and kept_scene.find_text(origin, *about)
+    if kept:
+        sys.stdout.write(kept)
+        return DONE
     from adamslite.api.checks import check
     from adamslite.language.messages.formats import FORMATS
 
     found = check(args.deck, args.commands, args.user)
-    sys.stdout.write(str(found) if args.format == "text" else FORMATS[args.format](found))
+    text = str(found) if args.format == "text" else FORMATS[args.format](found)
+    sys.stdout.write(text)
+    if origin and found.deck and not found.errors:
+        kept_scene.keep_text(origin, text, found.deck, found.commands, *about)
     return DECK_ERRORS if found.errors else DONE
