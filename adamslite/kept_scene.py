@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from adamslite.caching import entries, objects
 from adamslite.caching.program import is_unchanged, program
 from adamslite.errors import UsageError
+from adamslite.language.text import decoded, text_of
 from adamslite.native import processor
 
 if TYPE_CHECKING:
@@ -76,8 +77,6 @@ def keep(origin: Origin, read: Read) -> None:
 
 def is_kept(origin: Origin, deck: Deck, commands: Sequence[Command]) -> bool:
     """Whether deck and commands are decided by their origin alone."""
-    from adamslite.reading.read import decoded, text_of
-
     written = getattr(commands, "source", None)
     sources = [deck.source, *([written] if written else [])]
     read = [source.text for source in sources]

@@ -11,7 +11,7 @@ from adamslite.elements.part import Part
 from adamslite.elements.point_mass import PointMass
 from adamslite.errors import FormatError
 from adamslite.language.diagnostics import DeckError
-from adamslite.reading.read import decoded
+from adamslite.language.text import decoded
 from adamslite.results.results import Results
 
 HASH = "deck hash"

@@ -6,8 +6,8 @@ from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from pathlib import Path
 from typing import NamedTuple
 
+from adamslite.language.text import decoded
 from adamslite.outputs.whole_files import whole_file
-from adamslite.reading.read import decoded
 
 COMMAND_SUFFIX = ".acf"
 
@@ -40,7 +40,7 @@ def place_of(path: str | Path) -> str:
 
 
 def read_text(path: Path) -> TextFile:
-    """Read a file; see :func:`adamslite.reading.read.decoded` for its encodings."""
+    """Read a file; see :func:`adamslite.language.text.decoded` for its encodings."""
     data = path.read_bytes()
     text = decoded(data)
     line_end = "\r\n" if "\r\n" in text else "\n"

@@ -113,7 +113,7 @@ def read(path: str | Path) -> Results:
     FormatError
         When it is damaged, cut off or no such file.
     """
-    from adamslite.reading.read import decoded
+    from adamslite.language.text import decoded
 
     data = Path(path).read_bytes()
     if b"\0" in data[:4096]:

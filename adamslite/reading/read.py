@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -29,6 +28,7 @@ from adamslite.language.diagnostics import DeckError, Diagnostic, Source
 from adamslite.language.file_name import is_file_name
 from adamslite.language.messages.ignoring import judged, without_ignored
 from adamslite.language.statement import Statement
+from adamslite.language.text import decoded, text_of
 from adamslite.reading.statement_reader import Reading
 from adamslite.reading.user_routines import RoutineBinder
 
@@ -155,20 +155,6 @@ def _judged(
     if any(diagnostic.is_error for diagnostic in diagnostics):
         raise DeckError(judged(deck.source, diagnostics, complete=False), deck)
     return tuple(diagnostics)
-
-
-def decoded(data: bytes) -> str:
-    """The text of a file: UTF-16 where it begins as such, else UTF-8, else Latin-1."""
-    wide = data[:2] in (BOM_UTF16_LE, BOM_UTF16_BE)
-    try:
-        return data.decode("utf-16" if wide else "utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode("latin-1")
-
-
-def text_of(source: str) -> str:
-    """A text with ``\\n`` line ends."""
-    return source.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def _load(source: str | Path) -> tuple[str, Path | None]:

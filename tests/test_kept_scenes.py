@@ -1,0 +1,497 @@
+"""What is kept of a scene between runs gives what a first run gives, and never what another would.
+
+A deck in the folder of a test is one that nothing has been kept of: its path is part of the name.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tiers import every
+
+import adamslite
+from adamslite import kept_scene, resources, scene
+from adamslite.analyses import kept_kernels, subject
+from adamslite.caching import contents, entries, objects, program
+from adamslite.caching.folder import cache_folder
+from adamslite.cli.main import main
+from adamslite.kept_scene import origin_of
+from adamslite.results.results import Results
+
+DECKS = resources.find("decks")
+FALL = """a mass that falls {now}
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=2
+MARKER/2, POINT_MASS=2
+VFORCE/1, I=2, J_PART=1, FX=0\\, FY=-10.0\\, FZ=0
+INTEGRATOR/GSTIFF, ERROR=1E-6
+SIMULATE/DYNAMIC, END=2, STEPS=4
+END
+"""
+
+
+class Counted:
+    """How often decks were read, and kernels made."""
+
+    def __init__(self) -> None:
+        self.read = self.compiled = 0
+
+
+@pytest.fixture
+def counted(monkeypatch: pytest.MonkeyPatch) -> Counted:
+    found, read_together, compiled = Counted(), scene.read_together, subject._compiled
+
+    def read(*words):
+        found.read += 1
+        return read_together(*words)
+
+    def compile_model(*words):
+        found.compiled += 1
+        return compiled(*words)
+
+    monkeypatch.setattr(scene, "read_together", read)
+    monkeypatch.setattr(subject, "_compiled", compile_model)
+    return found
+
+
+@pytest.fixture
+def deck(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """FALL in the current folder."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "fall.adm").write_text(FALL.format(now=time.time_ns()))
+    return Path("fall.adm")
+
+
+def solve(path: Path, *words: str) -> float:
+    """y at the end of a run: F t^2 / 2 m."""
+    assert main(["solve", str(path), "-o", "out.csv", *words]) == 0
+    return float(Results.load("out.csv")["POINT_MASS/2.y"][-1])
+
+
+def replaced(path: Path, old: str, new: str) -> None:
+    """Change a file, keep its size and its times."""
+    facts, text = path.stat(), path.read_text()
+    assert old in text and len(old) == len(new)
+    path.write_text(text.replace(old, new))
+    os.utime(path, ns=(facts.st_atime_ns, facts.st_mtime_ns))
+
+
+# ---- the same as a first run --------------------------------------------------------------------
+
+#: One of each kind of what a deck may hold; those with warnings, notes and command files first.
+SAMPLE = """growing-mass-printed/growing-mass-printed paper-sforce/paper-sforce cables/pulley-slip/heavy
+    hanging-mass/hanging-mass splines/spline-force bushing/bushing bricard/bricard
+    delayed-brake/delayed-brake friction/sliding arrays/arrays contact/rolling pid-winch/pid-winch
+    transfer-functions/second-order gear-pair/gear-pair cam/cam beam-string/beam-string
+    slider-crank/slider-crank user-routine/user-routine replay/pendulum view-crank/generic_model
+    tackle/tackle heavy-top/heavy-top four-bar/four-bar nforce/nforce""".split()
+SAMPLE = [name for name in SAMPLE if (DECKS / f"{name}.adm").is_file()]
+
+
+def said(capsys: pytest.CaptureFixture[str]) -> tuple[str, list[str]]:
+    """What a command has printed, without CPU and progress."""
+    out, err = capsys.readouterr()
+    passing = ("compiling ", "  CPU ")
+    lines = err.splitlines()
+    return out, [e for e in lines if not e.startswith(passing) and " steps/s " not in e]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SAMPLE)
+def test_results_and_messages_are_those_of_a_first_run(
+    name: str, tmp_path: Path, monkeypatch, capsys, counted
+) -> None:
+    """Byte for byte, for files and texts; decks with tables and routines are read each time."""
+    source = DECKS / f"{name}.adm"
+    shutil.copytree(source.parent, tmp_path / "deck")
+    monkeypatch.chdir(tmp_path / "deck")
+    for command in (["solve", source.name, "-o", "../out.csv"], ["check", source.name]):
+        runs = []
+        for _ in range(2):
+            code = main(command)
+            files = {p.name: p.read_bytes() for p in tmp_path.iterdir() if p.is_file()}
+            runs.append((code, said(capsys), files))
+        assert runs[0] == runs[1]
+    kept = name not in ("user-routine/user-routine", "replay/pendulum")
+    assert counted.read == 2 if kept and runs[0][0] == 0 else 4
+
+
+def test_a_second_run_reads_and_compiles_nothing(deck: Path, counted: Counted) -> None:
+    assert solve(deck) == solve(deck) == pytest.approx(-10.0)
+    assert (counted.read, counted.compiled) == (1, 1)
+
+
+def test_a_second_check_reads_nothing(deck: Path, counted: Counted, capsys) -> None:
+    replaced(deck, "FX=0\\", "FX=3 ")  # a mistake: no backslash
+    assert main(["check", str(deck)]) == main(["check", str(deck)]) == 3
+    assert counted.read == 2 and not kept_entries(deck)
+    replaced(deck, "FX=3 ", "FX=0\\")
+    capsys.readouterr()
+    assert main(["check", str(deck)]) == main(["check", str(deck)]) == 0
+    first, second = capsys.readouterr().out.split("fall.adm: no mistakes found")[1:]
+    assert first == second and counted.read == 3
+
+
+def kept_entries(deck: Path) -> list[str]:
+    """Which entries there are of a deck as it is."""
+    origin = origin_of(deck, None)
+    assert origin
+    names = kept_scene._entry(origin), kept_scene._text_entry(origin, ("check", "text", "None"))
+    return [name for name in names if (cache_folder() / name).exists()]
+
+
+def test_formats_of_a_check_are_kept_apart(deck: Path, capsys) -> None:
+    printed = []
+    for form in ("text", "gcc", "json", "text", "gcc", "json"):
+        assert main(["check", str(deck), "--format", form]) == 0
+        printed.append(capsys.readouterr().out)
+    assert printed[:3] == printed[3:] and len(set(printed)) == 3
+
+
+def test_flags_of_a_run_do_not_touch_what_is_kept(deck: Path, counted: Counted) -> None:
+    """An audit has more kernels; a model without a reduction has others."""
+    plain = solve(deck)
+    audited = solve(deck, "--audit")
+    points = solve(deck, "--no-reduction", "points")
+    assert solve(deck) == plain and solve(deck, "--audit") == audited
+    assert solve(deck, "--no-reduction", "points") == points
+    assert (counted.read, counted.compiled) == (1, 3)
+    assert solve(deck, "--confirm") == plain
+
+
+# ---- never what another would -------------------------------------------------------------------
+
+
+def test_a_deck_that_changes_and_keeps_size_and_time(deck: Path) -> None:
+    assert solve(deck) == pytest.approx(-10.0)
+    replaced(deck, "-10.0", "-30.0")
+    assert solve(deck) == pytest.approx(-30.0)
+    replaced(deck, "-30.0", "-10.0")
+    assert solve(deck) == pytest.approx(-10.0)
+
+
+def test_commands_that_come_change_and_go(deck: Path, capsys) -> None:
+    """-2.5 at t = 1, -22.5 at t = 3."""
+    commands = Path("fall.acf")
+    assert solve(deck) == pytest.approx(-10.0)
+    commands.write_text("SIMULATE/DYNAMIC, END=1, STEPS=4\nSTOP\n")
+    assert solve(deck) == pytest.approx(-2.5)
+    replaced(commands, "END=1", "END=3")
+    assert solve(deck) == pytest.approx(-22.5)
+    assert main(["check", "fall.adm"]) == 0
+    assert "with fall.acf beside it" in capsys.readouterr().out
+    assert main(["check", "fall.adm", "fall.acf"]) == 0
+    assert "beside it" not in capsys.readouterr().out
+    commands.unlink()
+    assert solve(deck) == pytest.approx(-10.0)
+
+
+def test_another_folder_has_other_files(deck: Path, tmp_path: Path, monkeypatch) -> None:
+    """The same name and text, and other commands beside."""
+    assert solve(deck) == pytest.approx(-10.0)
+    other = tmp_path / "other"
+    other.mkdir()
+    shutil.copy(deck, other)
+    (other / "fall.acf").write_text("SIMULATE/DYNAMIC, END=1, STEPS=4\nSTOP\n")
+    monkeypatch.chdir(other)
+    assert solve(deck) == pytest.approx(-2.5)
+
+
+def test_a_deck_that_is_a_link_is_what_the_link_means(deck: Path) -> None:
+    shutil.copy(deck, "heavy.adm")
+    replaced(Path("heavy.adm"), "-10.0", "-30.0")
+    link = Path("link.adm")
+    link.symlink_to(deck)
+    assert solve(link) == pytest.approx(-10.0)
+    link.unlink()
+    link.symlink_to("heavy.adm")
+    assert solve(link) == pytest.approx(-30.0)
+
+
+def test_tables_from_files_are_read_each_time(deck: Path, counted: Counted) -> None:
+    force = "VFORCE/1, I=2, J_PART=1, FX=0\\, FY=AKISPL(TIME,0,1)\\, FZ=0"
+    old = "VFORCE/1, I=2, J_PART=1, FX=0\\, FY=-10.0\\, FZ=0"
+    deck.write_text(deck.read_text().replace(old, f"{force}\nSPLINE/1, FILE=f.csv"))
+    table = Path("f.csv")
+    table.write_text("".join(f"{t}, -10.0\n" for t in range(6)))
+    assert solve(deck) == pytest.approx(-10.0)
+    replaced(table, "-10.0", "-30.0")
+    elsewhere = table.stat().st_mtime + 7  # the reader knows a table by size and time
+    os.utime(table, (elsewhere, elsewhere))
+    assert solve(deck) == pytest.approx(-30.0)
+    assert counted.read == counted.compiled == 2 and not kept_entries(deck)
+
+
+def test_routines_of_the_user_are_bound_each_time(deck: Path) -> None:
+    """In processes of their own, as modules of Python are imported once."""
+    text = deck.read_text().replace("FY=-10.0", "FY=USER(1)")
+    deck.write_text(text)
+    routine = Path("pull.py")
+    routine.write_text("def pull(parameters, time):\n    return 0.0, -10.0, 0.0\n")
+    words = ["-m", "adamslite", "solve", "fall.adm", "-o", "out.csv", "--user", "VFOSUB=pull:pull"]
+    deck.write_text(
+        text.replace("FX=0\\, FY=USER(1)\\, FZ=0", "FUNCTION=USER(1)"),
+    )
+    path = os.pathsep.join([str(Path(adamslite.__file__).parents[1]), "."])
+    env = {**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"}
+    for force in ("-10.0", "-30.0"):
+        replaced(routine, "-10.0", force) if force != "-10.0" else None
+        run = subprocess.run([sys.executable, *words], env=env, capture_output=True, text=True)
+        assert run.returncode == 0, run.stderr
+        found = Results.load("out.csv")["POINT_MASS/2.y"][-1]
+        assert found == pytest.approx(float(force))
+    assert not kept_entries(deck)
+
+
+def test_numbers_of_the_user_are_part_of_no_entry(deck: Path, counted: Counted) -> None:
+    text = deck.read_text().replace("FX=0\\, FY=-10.0\\, FZ=0", "FUNCTION=USER(1)")
+    deck.write_text(text)
+    assert solve(deck, "--user", "VFORCE/1=0,-10,0") == pytest.approx(-10.0)
+    assert solve(deck, "--user", "VFORCE/1=0,-30,0") == pytest.approx(-30.0)
+    assert main(["solve", str(deck)]) == 3  # no routine at all
+    assert counted.read == 3 and not kept_entries(deck)
+
+
+def test_a_deck_replaced_while_it_is_read_is_not_kept(deck: Path, monkeypatch) -> None:
+    """What is read is not what was digested."""
+    read_together = scene.read_together
+
+    def read(*words):
+        replaced(deck, "-10.0", "-30.0")
+        return read_together(*words)
+
+    monkeypatch.setattr(scene, "read_together", read)
+    assert solve(deck) == pytest.approx(-30.0)
+    monkeypatch.setattr(scene, "read_together", read_together)
+    replaced(deck, "-30.0", "-10.0")
+    assert solve(deck) == pytest.approx(-10.0)
+
+
+def test_a_program_replaced_while_it_runs_keeps_nothing(deck: Path, monkeypatch) -> None:
+    monkeypatch.setattr(kept_scene, "is_unchanged", lambda: False)
+    assert solve(deck) == pytest.approx(-10.0)
+    assert not kept_entries(deck)
+
+
+def test_every_processor_has_kernels_of_its_own(deck: Path, monkeypatch, counted) -> None:
+    names = set()
+    for name in ("host", "x86-64", "x86-64-v2"):
+        monkeypatch.setenv("ADAMSLITE_CPU", name)
+        origin = origin_of(deck, None)
+        assert origin
+        names.add(origin.name)
+    assert len(names) == 3
+    monkeypatch.setenv("ADAMSLITE_CPU", "none")
+    assert origin_of(deck, None) is None
+    assert main(["solve", str(deck)]) == 2
+
+
+# ---- the identity of the program ----------------------------------------------------------------
+
+
+@pytest.fixture
+def sources(tmp_path: Path, cache: Path, monkeypatch) -> Iterator[list[str]]:
+    """Folders like those of the program, and a library, written long before this process began."""
+    for name in ("package/a.py", "package/room/b.py", "grammar/deck.lark", "numpy/version.py"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(f"# {name} 1")
+    monkeypatch.setattr(adamslite, "STARTED", float("inf"))
+    monkeypatch.setattr(program, "TICK", 0.0)
+    yield [str(tmp_path / name) for name in ("package", "grammar", "numpy/version.py")]
+
+
+CHANGES: dict[str, Callable[[Path], object]] = {
+    "content": lambda at: replaced(at / "package/a.py", "1", "2"),
+    "content deeper": lambda at: replaced(at / "package/room/b.py", "1", "2"),
+    "grammar": lambda at: replaced(at / "grammar/deck.lark", "1", "2"),
+    "library": lambda at: replaced(at / "numpy/version.py", "1", "2"),
+    "new module": lambda at: (at / "package/room/c.py").write_text(""),
+    "module gone": lambda at: (at / "package/room/b.py").unlink(),
+    "module renamed": lambda at: (at / "package/a.py").rename(at / "package/b.py"),
+    "file swapped": lambda at: (
+        (at / "new").write_text("# package/a.py 3"), (at / "new").rename(at / "package/a.py"),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_any_change_of_the_program_gives_it_another_name(change, sources, tmp_path) -> None:
+    """Also one that keeps size and time of a file, as some tools do that install."""
+    before = program.identity_of(sources)
+    assert before and program.identity_of(sources) == before
+    CHANGES[change](tmp_path)
+    assert program.identity_of(sources) != before
+
+
+def test_what_is_no_source_does_not_count(sources, tmp_path) -> None:
+    before = program.identity_of(sources)
+    (tmp_path / "package/__pycache__").mkdir()
+    (tmp_path / "package/__pycache__/a.py").write_text("")
+    (tmp_path / "package/notes.txt").write_text("")
+    assert program.identity_of(sources) == before
+
+
+def test_the_name_is_that_of_the_contents_whatever_their_times(sources, tmp_path) -> None:
+    before = program.identity_of(sources)
+    os.utime(tmp_path / "package/a.py", (1e9, 1e9))
+    assert program.identity_of(sources) == before
+
+
+def test_a_file_newer_than_the_process_leaves_no_name(sources, monkeypatch) -> None:
+    monkeypatch.setattr(adamslite, "STARTED", time.time() - 60.0)
+    assert program.identity_of(sources) == ""
+
+
+def test_files_that_have_just_changed_are_read_each_time(sources, tmp_path, monkeypatch) -> None:
+    """Two changes within a tick of the clock may have equal times."""
+    monkeypatch.setattr(program, "TICK", 60.0)
+    facts = os.stat(tmp_path / "package/a.py")
+    before = program.identity_of(sources)
+    replaced(tmp_path / "package/a.py", "1", "2")
+    stat = os.stat
+    monkeypatch.setattr(os, "stat", lambda p: facts if str(p).endswith("a.py") else stat(p))
+    assert program.identity_of(sources) != before
+
+
+def test_the_program_covers_every_module_that_is_loaded(tmp_path: Path) -> None:
+    places = [program.PACKAGE, str(resources.find("grammar"))]
+    covered = {*program._files(places)}
+    loaded = [getattr(m, "__file__", None) for n, m in sys.modules.items() if "adamslite" in n]
+    assert {f for f in loaded if f and Path(f).is_relative_to(program.PACKAGE)} <= covered
+    assert {*map(str, Path(places[1]).glob("*.lark"))} <= covered
+    assert all(Path(file).is_file() for file in program.library_files())
+    assert len(program.library_files()) == len(program.LIBRARIES)
+
+
+# ---- entries ------------------------------------------------------------------------------------
+
+
+def test_an_object_refers_to_what_is_known(cache) -> None:
+    known = [["a"], {"b": 1}]
+    objects.keep("scene" + "0" * 32 + ".kept", {"x": known[0], "y": [known[1]]}, known)
+    found = objects.find("scene" + "0" * 32 + ".kept", known)
+    assert found["x"] is known[0] and found["y"][0] is known[1]
+    assert [entry.path.name for entry in contents.entries(cache)] == ["scene" + "0" * 32 + ".kept"]
+
+
+@pytest.mark.parametrize("thing", [lambda: 1, sys, Path.open])
+def test_what_cannot_be_kept_is_not(thing, cache) -> None:
+    objects.keep("scene" + "0" * 32 + ".kept", [thing] if thing is not sys else thing)
+    assert thing is Path.open or not os.listdir(cache)
+
+
+def test_a_large_object_is_not_kept(cache, monkeypatch) -> None:
+    monkeypatch.setattr(objects, "MOST", 1000)
+    objects.keep("scene" + "0" * 32 + ".kept", bytes(1000))
+    assert not os.listdir(cache)
+
+
+def test_an_object_that_its_class_no_longer_takes_is_rebuilt(cache, caplog) -> None:
+    entries.keep("scene" + "0" * 32 + ".kept", b"\x80\x05cadamslite.errors\nGone\n.")
+    assert objects.find("scene" + "0" * 32 + ".kept") is None
+    (line,) = caplog.messages
+    assert "is rebuilt" in line
+
+
+def test_damaged_entries_of_a_deck_are_rebuilt(deck: Path, counted, caplog) -> None:
+    right = solve(deck)
+    origin = origin_of(deck, None)
+    assert origin
+    read = kept_scene.find(origin)
+    assert read
+    names = kept_scene._entry(origin), kept_kernels.name_of(read[0], frozenset(), False)
+    for name in names:
+        file = cache_folder() / name
+        content = file.read_bytes()
+        file.write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
+    assert solve(deck) == right and counted.read == counted.compiled == 2
+    assert [name for name in names if name in caplog.text] == [*names]
+    assert solve(deck) == right and counted.read == counted.compiled == 2
+
+
+def test_kernels_whose_code_has_gone_are_made_again(deck: Path, counted) -> None:
+    right = solve(deck)
+    origin = origin_of(deck, None)
+    assert origin
+    read = kept_scene.find(origin)
+    assert read
+    kernels = objects.find(
+        kept_kernels.name_of(read[0], frozenset(), False), kept_kernels._known(read[0])
+    )
+    (cache_folder() / kernels.groups[0].entry).unlink()
+    assert solve(deck) == right and counted.compiled == 2
+
+
+@pytest.mark.slow
+def test_a_folder_that_goes_away_or_takes_nothing(deck: Path, tmp_path: Path) -> None:
+    """A run in a folder for the cache that is removed, or read-only, is a run all the same."""
+    folder = tmp_path / "kept"
+    env = {**os.environ, "ADAMSLITE_CACHE": str(folder)}
+    env["PYTHONPATH"] = str(Path(adamslite.__file__).parents[1])
+    words = [sys.executable, "-m", "adamslite", "solve", "fall.adm", "-o", "out.csv"]
+    found = []
+    for state in ("new", "kept", "removed", "read-only"):
+        if state == "removed":
+            shutil.rmtree(folder)
+        if state == "read-only":
+            folder.chmod(0o500)
+        run = subprocess.run(words, env=env, capture_output=True, text=True)
+        assert run.returncode == 0, run.stderr
+        found.append(Path("out.csv").read_bytes())
+    folder.chmod(0o700)
+    assert len({*found}) == 1
+
+
+@pytest.mark.slow
+def test_processes_at_once_agree(deck: Path, tmp_path: Path) -> None:
+    """Six runs of a deck that nothing is kept of, two of them of other numbers."""
+    shutil.copy(deck, "heavy.adm")
+    replaced(Path("heavy.adm"), "-10.0", "-30.0")
+    env = {**os.environ, "PYTHONPATH": str(Path(adamslite.__file__).parents[1])}
+    words = [sys.executable, "-m", "adamslite", "solve"]
+    runs = [
+        subprocess.Popen([*words, f"{name}.adm", "-o", f"{k}.csv", "--quiet"], env=env)
+        for k, name in enumerate(["fall", "heavy", "fall", "fall", "heavy", "fall"])
+    ]
+    assert [run.wait() for run in runs] == [0] * 6
+    ends = [Results.load(f"{k}.csv")["POINT_MASS/2.y"][-1] for k in range(6)]
+    assert np.allclose(ends, [-10.0, -30.0, -10.0, -10.0, -30.0, -10.0])
+
+
+# ---- decks at large -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("path", every(12, sorted(DECKS.rglob("*.adm"))), ids=lambda p: p.stem)
+def test_a_copy_of_a_scene_is_the_scene(path: Path, cache, monkeypatch) -> None:
+    """Statements, messages with their places and carets, names of columns."""
+    from adamslite.language.diagnostics import DeckError, render
+
+    try:
+        first = scene.load_scene(path)
+    except DeckError:
+        return
+    if any(kept_scene.tables_of(first.deck, first.commands)) or first.deck.user.called:
+        return
+    monkeypatch.setattr(scene, "read_together", pytest.fail)
+    second = scene.load_scene(path)
+    assert second.deck.statements is not first.deck.statements
+    assert render(second.warnings) == render(first.warnings)
+    assert second.deck.source.text == first.deck.source.text
+    assert (second.title, second.stem) == (first.title, first.stem)
+    for one, other in zip(
+        (*first.deck.statements, *first.commands),
+        (*second.deck.statements, *second.commands),
+        strict=True,
+    ):
+        assert type(one) is type(other) and one.label == other.label and one.span == other.span
+        assert repr(one) == repr(other)
