@@ -22,9 +22,13 @@ if TYPE_CHECKING:
 
 
 def name_of(deck: Deck, without: frozenset[str], audited: bool) -> str:
-    """The entry of the kernels of a deck; empty where nothing made of it is kept."""
+    """The entry of the kernels of a deck; empty where nothing made of it is kept.
+
+    Tables of the past are filled while a run proceeds, by two who share their memory: a copy of
+    both would no longer do so.
+    """
     facts = (deck.origin, repr(sorted(without)), repr(audited))
-    return f"kernels{compiler.digest(*facts)}.kept" if deck.origin else ""
+    return f"kernels{compiler.digest(*facts)}.kept" if deck.origin and not deck.delays else ""
 
 
 def find(name: str, deck: Deck) -> Kernels | None:
