@@ -100,7 +100,7 @@ SAMPLE = """
     delayed-brake/delayed-brake friction/friction arrays/arrays contact/incline/incline
     pid-winch/pid-winch transfer-functions/state-equations gear-pair/gear-pair cam/cam
     beam-string/beam-string slider-crank/slider-crank user-routine/user-routine replay/pendulum
-    view-crank/generic_model tackle/tackle heavy-top/heavy-top four-bar/four-bar nforce/nforce
+    view-crank/generic_model tackle/hoisting heavy-top/heavy-top four-bar/four-bar nforce/nforce
 """.split()
 
 
