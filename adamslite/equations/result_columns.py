@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.kernels.workspace import (
+from adamslite.kernels.code.workspace import (
     ACCELERATION,
     ALPHA,
     ATTITUDE,

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from adamslite.native import compiler
 
 if TYPE_CHECKING:  # kernels that are kept between runs were written earlier
     from adamslite.deck.python_routine import Routine
-    from adamslite.kernels.compile import FaceWriter
+    from adamslite.kernels.code.shape import Outputs
     from adamslite.language.interfaces import Key
     from adamslite.language.statement import Statement
     from adamslite.model.model import MassCentre, Model, NodeKey
     from adamslite.symbolic.interpolant import Interpolant
+    from adamslite.symbolic.scope import Scope
 
 
 Meta: TypeAlias = dict[str, Any]
@@ -35,6 +36,17 @@ class Binding:
     tables: list[Interpolant | Routine] = field(default_factory=list)
 
 
+class Writer(Protocol):
+    """What writes the kernels of a shape, :class:`adamslite.kernels.compile.FaceWriter`."""
+
+    binder: Any
+
+    @property
+    def n_bodies(self) -> int: ...
+    def kernels(self, name: str) -> tuple[str, Meta]: ...
+    def __call__(self, scope: Scope) -> Outputs: ...
+
+
 @dataclass
 class ShapeGroup:
     """The instances of one shape: ``face`` names what its kernels compute.
@@ -44,13 +56,13 @@ class ShapeGroup:
 
     face: str
     name: str
-    write: FaceWriter | None
+    write: Writer | None
     instances: list[tuple[Statement, Binding]] = field(default_factory=list)
     code: bytes = b""
     meta: Meta = field(default_factory=dict)
 
     @property
-    def writer(self) -> FaceWriter:
+    def writer(self) -> Writer:
         """``write`` of kernels that are new."""
         assert self.write is not None
         return self.write

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from adamslite.kernels.workspace import (
+from adamslite.kernels.code.workspace import (
     ACCELERATION,
     ALPHA,
     ATTITUDE,

@@ -8,7 +8,7 @@ from adamslite.kernels.code.idle import IdleTest
 from adamslite.kernels.code.kinematics import Geometry, Vec
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.kernels.code.sympy_to_llvm import Lowering
-from adamslite.kernels.workspace import HEAD, MODE, RUN, TIME
+from adamslite.kernels.code.workspace import HEAD, MODE, RUN, TIME
 from adamslite.native.llvm_builder import Builder, Value
 from adamslite.symbolic.scope import UNFORESEEN, Load, Scope, Slot
 from adamslite.symbolic.sympy_nodes import sp
