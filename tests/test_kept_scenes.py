@@ -512,3 +512,24 @@ def test_a_copy_of_a_scene_is_the_scene(path: Path, cache, monkeypatch) -> None:
 def values(statement: Any) -> str:
     names = sorted(statement.field_names - {"spans"} if isinstance(statement, Statement) else ())
     return repr([(name, getattr(statement, name)) for name in names])
+
+
+@pytest.mark.slow
+def test_loads_by_component_are_written_of_kept_kernels(deck: Path, counted) -> None:
+    """VERLET evaluates a row of springs by component; the kernels were kept by another method."""
+    masses = 12
+    lines = ["a row of springs", "UNITS/SYSTEM=MKS", "PART/1, GROUND", "MARKER/1, PART=1"]
+    for k in range(2, masses + 2):
+        lines.append(f"POINT_MASS/{k}, MASS=1, CM={k}, QG={k - 1},{0.1 * (k % 3)},0")
+        lines.append(f"MARKER/{k}, POINT_MASS={k}")
+        law = f"-{90 + time.time_ns() % 7}*(DM({k},{k - 1})-0.9)"
+        lines.append(f"SFORCE/{k}, I={k}, J={k - 1}, FUNCTION={law}")
+    deck.write_text("\n".join([*lines, "SIMULATE/DYNAMIC, END=0.5, STEPS=5", "END", ""]))
+    solve(deck, "--integrator", "GSTIFF")
+    solve(deck, "--integrator", "VERLET")
+    kept = Path("out.csv").read_bytes()
+    solve(deck, "--integrator", "VERLET", "--no-reduction", "plane")
+    assert counted.compiled == 2
+    found = adamslite.simulate(str(deck), integrator="VERLET")
+    found.save("fresh.csv")
+    assert Path("fresh.csv").read_bytes() == kept

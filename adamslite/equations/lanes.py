@@ -9,14 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.equations.instances import Instances
 from adamslite.equations.numbering import POINT_SIZE
 from adamslite.integrators.contract import LaneRun
-from adamslite.kernels.compile import ShapeGroup, lanes
 from adamslite.native.translate import Rows
+
+if TYPE_CHECKING:
+    from adamslite.equations.instances import Instances
+    from adamslite.kernels.groups import ShapeGroup
 
 #: Instances per run from which runs pay.
 WORTH = 4
@@ -40,7 +43,7 @@ def runs(instances: Instances) -> Runs | None:
     if not all(_is_plain(group) for _, group in loads):
         return None
     for k, group in loads:
-        n, count = group.write.n_bodies, len(group.instances)
+        n, count = group.n_bodies, len(group.instances)
         ints = instances.keep[2 * k].reshape(count, -1)[:, : n + _signals(group)].copy()
         ints[:, :n] = (ints[:, :n] - numbering.n_head) // POINT_SIZE
         order = _as_bodies_follow(ints, n)
@@ -52,6 +55,9 @@ def runs(instances: Instances) -> Runs | None:
             rows.append((k, first, end - first, ints[first:], reals[:, first:]))
     if WORTH * len(rows) > total:
         return None
+    # Only methods that evaluate by component need it.
+    from adamslite.kernels.compile import lanes
+
     made = Rows(LaneRun, len(rows))
     for run, (k, _, count, ints, reals) in zip(made, rows, strict=True):
         group = kernels.groups[k]

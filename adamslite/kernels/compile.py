@@ -20,7 +20,15 @@ from adamslite.deck.statement_diagnostics import diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
 from adamslite.kernels.binding import Binder, ForceLoop
-from adamslite.kernels.groups import LEVELS, WITH_JACOBIAN, Kernels, Meta, ShapeGroup, linked
+from adamslite.kernels.groups import (
+    LEVELS,
+    WITH_JACOBIAN,
+    Kernels,
+    Meta,
+    ShapeGroup,
+    Writer,
+    linked,
+)
 from adamslite.kernels.reactions import reactions
 from adamslite.kernels.reader import ExpressionReader, symbolic_view
 from adamslite.language.diagnostics import DeckError, Diagnostic
@@ -211,12 +219,21 @@ def _compile(group: ShapeGroup, progress: Progress | None) -> bool:
     return bool(made)
 
 
+def _writer(kernels: Kernels, group: ShapeGroup) -> Writer:
+    """The writer of a group; of kernels that were kept between runs one instance is bound again."""
+    if group.write is None:
+        made: dict[Tree, ShapeGroup] = {}
+        _add(made, kernels.model, group.instances[0][0], group.face)
+        (group.write,) = (each.write for each in made.values() if each.name == group.name)
+    return group.writer
+
+
 def lanes(kernels: Kernels, group: ShapeGroup) -> int:
     """Address of the residual for runs of instances; made when it is first asked for."""
     symbol = f"{group.name}_lanes"
 
     def compiled() -> bytes:
-        return compiler.object_code(group.write.lanes(symbol))
+        return compiler.object_code(_writer(kernels, group).lanes(symbol))
 
     if symbol not in kernels.addresses:
         code = recall(f"{symbol}.o", compiled)

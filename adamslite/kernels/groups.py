@@ -44,6 +44,7 @@ class Writer(Protocol):
     @property
     def n_bodies(self) -> int: ...
     def kernels(self, name: str) -> tuple[str, Meta]: ...
+    def lanes(self, name: str) -> str: ...
     def __call__(self, scope: Scope) -> Outputs: ...
 
 
@@ -66,6 +67,11 @@ class ShapeGroup:
         """``write`` of kernels that are new."""
         assert self.write is not None
         return self.write
+
+    @property
+    def n_bodies(self) -> int:
+        """Bodies of each instance."""
+        return len(self.instances[0][1].bodies)
 
     @property
     def entry(self) -> str:
