@@ -101,6 +101,7 @@ WRONG = {
                    "leans = true", (13, 1)),
     "brute-cannot": (LOWERS, PAYOUT, PAYOUT + "\nreel = { thickness = 0.01, core = 0.1 }", (12, 1)),
     "brute-plane": (LOWERS, "level = 3", 'gravity = [0, -9, 1]', (18, 1)),
+    "overstretched": (LOWERS, "EA = 2e7", "EA = 2e3", (3, 1)),
     "bend-too-tight": (FOLD, "radius = 0.01", "radius = 0.005", (13, 1)),
     "speed-on-a-route": (FOLD, "end = 1", "end = 1\nspeed = 3", (2, 1)),
     "slides-between": (BEAD.replace("fixed", "winch", 1).replace(ZERO, WOUND, 1), "", "", (17, 1)),
@@ -120,7 +121,7 @@ WRONG = {
     "pushed": (LOWERS, "0.5*TIME**2", "6*TIME**2", (11, 1)),
     "pushed-at-once": (LOWERS, "0.5*TIME**2", "2*TIME", (11, 1)),
 }  # fmt: skip
-BRUTE = {"stored-too-little", "brute-plane", "brute-cannot"}
+BRUTE = {"stored-too-little", "brute-plane", "brute-cannot", "overstretched"}
 
 
 def told(spec: str) -> list[Diagnostic]:
@@ -224,3 +225,18 @@ def test_a_winch_that_outruns_its_load_pushes(payout, cable, load, told) -> None
     text = text.replace("rho = 4\n", "rho = 4\n" + cable) + load + "[model]\nlevel = 3\n"
     found = {each.code for each in deck(text)[1]}
     assert found & {"pushed", "pushed-at-once"} == told
+
+
+@pytest.mark.parametrize("value", ["1e-300", "1e51", "-1e60", "inf"])
+@pytest.mark.parametrize("key", ["EA = 1e7", "rho = 0.01", "mass = 3"])
+def test_numbers_no_product_of_which_is_a_number_are_refused(key: str, value: str) -> None:
+    """Sizes from 1e-50 to 1e50 are numbers of an engineer, in whatever units."""
+    name = key.split(" = ")[0]
+    only, *others = told(ATWOOD.replace(key, f"{name} = {value}", 1))
+    assert (only.code, others) == ("wrong-value", [])
+    assert "1e-50 to 1e+50" in only.message
+
+
+@pytest.mark.parametrize("law", ["1e60*TIME", "TIME**400", "EXP(999*TIME)"])
+def test_a_payout_beyond_all_numbers_is_refused(law: str) -> None:
+    assert [each.code for each in told(HOIST.replace("0.5*TIME**2", law))] == ["law-no-value"]

@@ -207,6 +207,10 @@ def length(parts: list[Straight | Arc], pitch: float) -> float:
     return total
 
 
+class Overstretched(Exception):
+    """A stretch of cable that its tension at rest makes longer by half, or more."""
+
+
 def lay(
     spec: Spec,
     parts: list[Straight | Arc],
@@ -224,12 +228,23 @@ def lay(
         Of the part, the way on it and the place: tension at rest [N].
     contact : float
         Stiffness of the contact of a node with a wheel [N/m].
+
+    Raises
+    ------
+    Overstretched
     """
     total = sum(part.length for part in parts)
     walk = _Walk(spec, parts, tension, contact)
     # Tension stretches, arcs shorten: far less than by half.
     guess = total / count
-    free = brentq(lambda x: walk(x, count)[1], 0.5 * guess, 1.5 * guess, **EXACTLY)
+    low, high = 0.5 * guess, 1.5 * guess
+    try:
+        brackets = walk(low, count)[1] < 0 < walk(high, count)[1]
+    except (ArithmeticError, ValueError):  # stretched beyond all numbers
+        brackets = False
+    if not brackets:
+        raise Overstretched
+    free = brentq(lambda x: walk(x, count)[1], low, high, **EXACTLY)
     nodes, _ = walk(free, count)
     begins, at = {}, 0.0
     for part in parts:

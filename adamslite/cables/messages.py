@@ -4,6 +4,9 @@ from adamslite.cables.toml_places import Path, Places
 from adamslite.language.diagnostics import WARNING, Diagnostic
 from adamslite.language.messages.entry import Message
 
+#: Sizes of numbers whose products of several are numbers as well, in any units.
+SMALLEST, LARGEST = 1e-50, 1e50
+
 MESSAGES: dict[str, Message] = {
     "toml": Message("this is not TOML: {why}", "a key, =, a value; texts in quotes"),
     "unknown-key": Message("there is no key {word} here", "the keys are {known}"),
@@ -51,7 +54,7 @@ MESSAGES: dict[str, Message] = {
     ),
     "law-no-value": Message(
         "{word} has no value at TIME = {time:.4g}",
-        "no division by zero, no root or logarithm of a negative number, nothing above 1e308",
+        "no division by zero, no root or logarithm of a negative number, nothing above 1e50",
     ),
     "payout-too-far-in": Message(
         "at TIME = {time:.4g} the payout is {value:.4g} m: the cable of {length:.4g} m has no"
@@ -83,6 +86,10 @@ MESSAGES: dict[str, Message] = {
     "brute-cannot": Message(
         "form brute lays sections on rims of one radius, in one plane: no {word}",
         "level = 1, 2 or 3, or leave {word} out",
+    ),
+    "overstretched": Message(
+        "the tension at rest stretches a cable of EA = {stiffness:.4g} N by half or more",
+        "a larger EA, less weight, shorter spans",
     ),
     "brute-plane": Message(
         "sections round wheels and bends lie in one plane across their axes",

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 
-from adamslite.cables.messages import Faults
+from adamslite.cables.messages import LARGEST, Faults
 from adamslite.cables.toml_places import Path
 from adamslite.language.expression import Call, Node, Num, Op, Ref, Time, operate
 
@@ -64,7 +64,10 @@ def value(node: Node, time: float, named: Mapping[str, float]) -> float:
                 return named[str(name).upper()]
         raise Unknown
 
-    return evaluate(node, look)
+    found = evaluate(node, look)
+    if not abs(found) <= LARGEST:
+        raise NoValue
+    return found
 
 
 def evaluate(node: Node, look: Callable[[Node], float]) -> float:

@@ -1,6 +1,6 @@
 """From the text of a description to the text of a deck."""
 
-from adamslite.cables.brute_force_layout import length, stretches, way
+from adamslite.cables.brute_force_layout import Overstretched, length, stretches, way
 from adamslite.cables.deck_writer import write
 from adamslite.cables.demand import MOST
 from adamslite.cables.estimate import Moves, estimate_moves, laws
@@ -43,7 +43,11 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     _check_shape(spec, pieces, model, faults)
     _check(spec, pieces, moves, model, faults)
     _stop(faults, faults.errors)
-    return write(spec, pieces, moves, model), sort_by_place(faults.found)
+    try:
+        return write(spec, pieces, moves, model), sort_by_place(faults.found)
+    except Overstretched:
+        faults.add("overstretched", ("cable", "EA"), stiffness=spec.cable.stiffness)
+        raise DeckError(sort_by_place(faults.found)) from None
 
 
 def _stop(faults: Faults, wrong: bool) -> None:

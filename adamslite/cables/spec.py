@@ -2,9 +2,9 @@
 
 import tomllib
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeGuard
 
-from adamslite.cables.messages import Faults
+from adamslite.cables.messages import LARGEST, SMALLEST, Faults
 from adamslite.cables.route import check_route
 from adamslite.cables.toml_places import Path, Places
 from adamslite.cables.vocabulary import (
@@ -24,8 +24,7 @@ from adamslite.cables.vocabulary import (
 )
 from adamslite.language.diagnostics import DeckError, Source, sort_by_place
 
-# Neither infinite nor so large that a product of it is.
-LARGEST = 1e300
+NUMBER = f"a number, 0 or of a size from {SMALLEST:g} to {LARGEST:g}"
 
 
 def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
@@ -173,7 +172,7 @@ def _fits(value: Any, takes: str | tuple[str | int, ...]) -> tuple[bool, str]:
     whole = _is_number(value) and isinstance(value, int)
     return {
         "text": (_is_line(value), "a text in quotes, on one line"),
-        "number": (_is_number(value), "a number"),
+        "number": (_is_number(value), "a number" if not _is_real(value) else NUMBER),
         "vector": (_is_three(value, _is_number), "three numbers [x, y, z]"),
         "laws": (_is_three(value, lambda x: _is_number(x) or _is_line(x)),
                  "three expressions of TIME [x, y, z]"),
@@ -184,7 +183,11 @@ def _fits(value: Any, takes: str | tuple[str | int, ...]) -> tuple[bool, str]:
 
 
 def _is_number(value: object) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < LARGEST
+    return _is_real(value) and (value == 0 or SMALLEST <= abs(value) <= LARGEST)
+
+
+def _is_real(value: object) -> TypeGuard[float]:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def _is_line(value: object) -> bool:
