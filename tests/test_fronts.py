@@ -278,3 +278,11 @@ def test_a_net_moves_the_same_by_fronts_and_by_blocks(
     assert System(kernels, False).elimination.plan["fronts"].size == 0
     assert by_fronts.summary["newton"] == by_blocks.summary["newton"]
     np.testing.assert_allclose(by_fronts.values, by_blocks.values, rtol=1e-9, atol=1e-9)
+
+
+def test_results_of_a_net_are_its_record() -> None:
+    """Tables of large models are not copied."""
+    results = al.simulate(net(3), end=0.1, steps=2)
+    assert not results.values.flags.owndata
+    assert results["POINT_MASS/5.z"].tolist() != [0.0, 0.0, 0.0]
+    assert results.time.tolist() == [0.0, 0.05, 0.1]

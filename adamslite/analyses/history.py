@@ -48,6 +48,8 @@ class History:
     def _joined(self) -> Piece:
         if not self.pieces:
             return Piece(np.zeros(0), (), np.zeros((0, 0)))
+        if len(self.pieces) == 1:
+            return self.pieces[0]
         names = tuple(dict.fromkeys(name for each in self.pieces for name in each.names))
         values = [each.values if each.names == names else _spread(each, names)
                   for each in self.pieces]  # fmt: skip

@@ -206,7 +206,7 @@ class SessionState:
         row = system.nw + system.sizes.n_out
         names, values = columns(system, system.record[: made * row].reshape(made, row))
         kept = np.ones(made, dtype=bool) if wanted is None else wanted[:made]
-        piece = Piece(times[:made][kept], names, values[kept])
+        piece = Piece(times[:made][kept], names, values if kept.all() else values[kept])
         self.history.append(piece, static, self.began_static)
         self.began_static = static
         self.counts.add(system.count)

@@ -37,9 +37,11 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
 
     A body gives position, 3-1-3 angles, velocity, angular velocity, acceleration and angular
     acceleration of its centre-of-mass marker in ground axes; a point mass the translational ones.
+    Where all bodies are point masses, and nothing stands between them and what is written, the
+    values are the record itself, without a copy.
     """
     parts: list[np.ndarray] = []
-    at = system.numbering.n_head
+    at = first = system.numbering.n_head
     for width, bodies in groupby(system.model.bodies, key=lambda body: body.width):
         if width != PART:  # point masses stand in the record as they do here
             size = POINT_SIZE * len(list(bodies))
@@ -51,6 +53,8 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
             parts.append(_part(system, body, w) if _turns(body) else _point(w))
             at += PART_SIZE
     parts.append(record[:, system.nw :])
+    if at == system.nw and not any(body.width == PART for body in system.model.bodies):
+        return column_names(system.kernels), record[:, first:]
     return column_names(system.kernels), np.concatenate(parts, axis=1)
 
 
