@@ -14,8 +14,8 @@ from adamslite.native.translate import Ints, Record, native
 
 NONE = -1
 # Fronts up to so many unknowns may have such a share of zeros.
-TINY_FRONT, SMALL_FRONT, FRONT = 12, 48, 144
-SOME, FEW, NEARLY_NONE = 0.6, 0.12, 0.05
+TINY_FRONT, SMALL_FRONT, FRONT = 6, 24, 96
+SOME, FEW, NEARLY_NONE = 0.5, 0.1, 0.05
 
 
 class Tree(Record):
