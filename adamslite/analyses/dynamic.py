@@ -142,7 +142,15 @@ def run_dynamic(
     progress: Progress | None,
     audited: bool = False,
 ) -> Outcome:
-    """Integrate over ``times`` (nt,) and fill ``system.record``.
+    """Integrate over ``times`` (nt,) and fill ``system.record``, see :func:`make_ready`."""
+    make_ready(system, times, apart, settings, audited)
+    return integrate(system, settings, progress)
+
+
+def make_ready(
+    system: System, times: np.ndarray, apart: float, settings: Settings, audited: bool = False
+) -> None:
+    """Whatever an integration over ``times`` (nt,) needs to begin.
 
     ``apart``: the largest step between requested outputs; ``audited``: with a balance of energy in
     ``system.audit``.
@@ -160,10 +168,9 @@ def run_dynamic(
     run.all_converge = settings.corrector in EVERYTHING
     run.stop, system.report.torn = False, 0
     system.pattern = ints([word == "T" for word in settings.pattern])
-    method = settings.formula
     times = _scheduled(system, times, settings, hmax)
-    system.settings.t_end = end = float(system.stops[-1])
-    method.prepare(system, settings)
+    run.t_end = float(system.stops[-1])
+    settings.formula.prepare(system, settings)
     require_changing(system)
     system.audit.on = False
     if audited:
@@ -172,7 +179,13 @@ def run_dynamic(
 
         start_audit(system)
     system.start_record(times)
-    code = _watched(system, method, progress, start, end)
+
+
+def integrate(system: System, settings: Settings, progress: Progress | None) -> Outcome:
+    """Run what was made ready; how it ended."""
+    run = system.settings
+    start, end, hmax = float(run.t), float(run.t_end), float(run.h_max)
+    code = _watched(system, settings.formula, progress, start, end)
     system.release_guards()
     if system.search.loose:
         require_none(system, EQUAL)

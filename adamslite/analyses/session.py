@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.analyses.delays import NO_PAST, require_no_delay
-from adamslite.analyses.dynamic import largest_step, run_dynamic
+from adamslite.analyses.dynamic import integrate, largest_step, make_ready, run_dynamic
 from adamslite.analyses.initial.conditions import consistent_velocities
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
 from adamslite.analyses.method_choice import choose_method
@@ -122,15 +122,15 @@ class Session(SessionState):
             if self.unclosed:
                 self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
                 return
+        began = clock.process_time()
         self.chosen = choose_method(system, times, self.settings)
         if system.sizes.si2 and system.holonomic and self.chosen.settings.form != "SI2":
             system = self.present = self.renumbered(system, system.elimination.pivoting)
-        began = clock.process_time()
         formula = self.chosen.settings.formula
         engine(formula.entry, self.progress)
         if formula.by_component:
             system.lay_lanes()
-        self.late_setup += clock.process_time() - began
+        self._count_setup(began)
         if self.progress:
             start, end = float(times[0]), float(times[-1])
             self.whole = AnalysisProgress(self.progress, start, end, self._steps_before)
@@ -176,11 +176,19 @@ class Session(SessionState):
         settings = self.chosen.settings
 
         def run() -> Outcome:
-            return run_dynamic(system, times, apart, settings, self.whole, self.audited)
+            began = clock.process_time()
+            make_ready(system, times, apart, settings, self.audited)
+            self._count_setup(began)
+            return integrate(system, settings, self.whole)
 
         outcome = run() if "plane" in self.without else in_its_plane(system, run)
         self._note_balance(system)
         return outcome
+
+    def _count_setup(self, began: float) -> None:
+        """What was done since ``began`` before the first step of a run is set-up."""
+        if not self.history.pieces:
+            self.late_setup += clock.process_time() - began
 
     def _note_balance(self, system: System) -> None:
         if self.audited:

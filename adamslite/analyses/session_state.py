@@ -63,7 +63,7 @@ class SessionState:
     history : History
         What the analyses wrote.
     late_setup : float
-        CPU [s] of compiling an integrator when a run first needed it.
+        CPU [s] of what comes before the first step but after the first command.
     outcome, unclosed
         How the last analysis ended; the constraint that stayed open, if one did.
     present : System or None
