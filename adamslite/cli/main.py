@@ -24,9 +24,11 @@ a command needs it.
 """
 
 import argparse
+import gc
 import os
 import sys
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from importlib import import_module
 from typing import TypeAlias
 
@@ -69,6 +71,10 @@ ALL_THREADS = "OMP_NUM_THREADS"
 
 Parser: TypeAlias = argparse.ArgumentParser
 
+#: Objects that are made before those are looked for that nothing refers to; a run makes few such,
+#: and Python's 700 are looked through a hundred times while modules are imported.
+GARBAGE = 50_000
+
 REPORT = (
     "adamslite: a fault in the program, not in your deck: {fault}\n"
     "Please report it with the deck and the output of the same command with --debug."
@@ -77,11 +83,12 @@ REPORT = (
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line `argv` (default: of the process) and return the exit code."""
-    if argv is None:
+    own, argv = argv is None, sys.argv[1:] if argv is None else argv
+    if own:
         _take_one_thread()
-        argv = sys.argv[1:]
+        gc.set_threshold(GARBAGE)
     with notation(COMMAND_LINE):
-        return _run(argv)
+        return _run(argv, own)
 
 
 def _take_one_thread() -> None:
@@ -94,7 +101,7 @@ def _take_one_thread() -> None:
         os.environ.update(dict.fromkeys(THREADS, "1"))
 
 
-def _run(argv: Sequence[str]) -> int:
+def _run(argv: Sequence[str], own: bool) -> int:
     word = next((word for word in argv if not word.startswith("-")), "")
     try:
         args = _with_commands([word] if word in COMMANDS else [])[0].parse_args(argv)
@@ -103,7 +110,8 @@ def _run(argv: Sequence[str]) -> int:
     if args.debug:
         return args.run(args)
     try:
-        code = args.run(args)
+        with _kept_modules(word) if own else nullcontext():
+            code = args.run(args)
         if not sys.stdout.closed:  # by a server that has served
             sys.stdout.flush()  # a reader that has gone is noticed here, not while the process ends
         return code
@@ -115,6 +123,12 @@ def _run(argv: Sequence[str]) -> int:
         return STOPPED_EARLY
     except Exception as fault:
         return _explain(fault)
+
+
+def _kept_modules(command: str) -> AbstractContextManager[None]:
+    from adamslite.caching.modules import kept_modules
+
+    return kept_modules(command)
 
 
 def command_parsers() -> Mapping[str, Parser]:
