@@ -13,7 +13,6 @@ again.
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import struct
 import time
@@ -70,6 +69,8 @@ def keep(name: str, content: bytes) -> None:
 
 def recall_json(name: str, make: Callable[[], Any]) -> Any:
     """A value of JSON, kept as :func:`recall` does."""
+    import json
+
     return json.loads(recall(name, lambda: json.dumps(make()).encode()))
 
 

@@ -19,7 +19,6 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from hashlib import sha256
-from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from importlib.util import spec_from_file_location
 from types import CodeType, ModuleType
@@ -63,8 +62,11 @@ def _entry(identity: str, command: str) -> str:
     return f"modules{sha256(' '.join(facts).encode()).hexdigest()[:32]}.kept"
 
 
-class Finder(MetaPathFinder):
-    """Finds modules of the package in an entry, else among the sources."""
+class Finder:
+    """Finds modules of the package in an entry, else among the sources.
+
+    (A subclass of ``importlib.abc.MetaPathFinder`` would import twenty modules with it.)
+    """
 
     def __init__(self, entry: str) -> None:
         self.entry = entry

@@ -88,7 +88,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         _take_one_thread()
         gc.set_threshold(GARBAGE)
     with notation(COMMAND_LINE):
-        return _run(argv, own)
+        code = _run(argv, own)
+    if own:
+        gc.freeze()  # nothing is looked through while the process ends
+    return code
 
 
 def _take_one_thread() -> None:
@@ -151,7 +154,8 @@ def _with_commands(called: Collection[str]) -> tuple[Parser, Mapping[str, Parser
     shared.add_argument(
         "--debug", action="store_true", help="show the traceback of a program fault"
     )
-    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    # With a name of its own argparse does not look for the width of the terminal.
+    commands = parser.add_subparsers(prog="adamslite", metavar="COMMAND", required=True)
     for name in called:
         module = import_module(f"adamslite.cli.commands.{name}")
         command = commands.add_parser(
