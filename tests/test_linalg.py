@@ -75,6 +75,25 @@ def test_solutions_of_random_patterns(pattern, sizes):
     np.testing.assert_allclose(x, np.linalg.solve(full, b), rtol=1e-8, atol=1e-9)
 
 
+@pytest.mark.parametrize("sizes", WIDTHS)
+def test_what_nothing_depends_on_adds_no_fill(sizes):
+    """A chain of 12, two integrals of all of it, and one of the second of them."""
+    widths = list(itertools.islice(itertools.cycle(WIDTHS[sizes]), 15))
+    edges = both_ways(PATTERNS["chain"], 12)
+    pairs = [*edges, *((k, k) for k in range(12, 15)), (14, 13)]
+    pairs += [(row, column) for row in (12, 13) for column in range(12)]
+    full = random_matrix(widths, pairs, 5)
+    b = np.random.default_rng(6).standard_normal(len(full))
+    x = solved(full, widths, pairs, b)
+    np.testing.assert_allclose(x, np.linalg.solve(full, b), rtol=1e-8, atol=1e-9)
+    both, chain_only = (analyse(widths, np.array(sorted(each)).T, {}) for each in (pairs, edges))
+    assert len(both.plan["target"]) == len(chain_only.plan["target"]) == 11
+    plan, values, pivots, work = eliminate(full, widths, pairs)
+    negative = blocks.signature(plan, values, pivots, work, np.zeros(len(full)), 0.0)
+    sign = np.sign(np.linalg.det(full))
+    assert (-1) ** negative == sign
+
+
 def test_small_systems_are_dense_and_pivoted():
     """A zero on every diagonal is no obstacle up to DENSE unknowns."""
     widths = [3] * (DENSE // 3)

@@ -5,6 +5,9 @@ their own block regular (:mod:`adamslite.equations.spanning_tree`).  On a chain 
 free ends inwards and on a tree from the leaves to the root: no fill, cost proportional to the
 number of bodies. Reference: George, Liu, SIAM Review 31 (1989) 1 (minimum degree).
 
+Before all others come nodes on which no equation but their own depends, as on a state of DIFF that
+is an integral for the record: nothing is below their pivots, however much is beside them.
+
 A pattern that fills, as a net does, is eliminated by fronts
 (:mod:`adamslite.equations.frontal_plan`).
 """
@@ -70,13 +73,34 @@ def analyse(
     total = sum(widths)
     if pivoting:
         return _dense(widths, total)
-    found = _order(len(widths), pairs, late, spared=total <= DENSE)
+    alone = _lone(len(widths), pairs)
+    found = _order(len(widths), pairs, late, alone, spared=total <= DENSE)
     if found is None:
         return _by_fronts(widths, pairs, late)
     order, below = found
     if late and total <= DENSE and total**3 <= WASTE * _work(widths, order, below):
         return _dense(widths, total)
-    return _block_plan(widths, order, below)
+    return _block_plan(widths, order, below, len(alone))
+
+
+def _lone(count: int, pairs: np.ndarray) -> dict[int, list[int]]:
+    """Nodes on which no other depends, or only such as come before: the nodes beside them."""
+    rows, columns = (each[pairs[0] != pairs[1]] for each in pairs)
+    users = np.bincount(columns, minlength=count)
+    beside: dict[int, list[int]] = {}
+    pending = np.flatnonzero(users == 0).tolist()
+    if pending:
+        near: list[list[int]] = [[] for _ in range(count)]
+        for row, column in zip(rows.tolist(), columns.tolist(), strict=True):
+            near[row].append(column)
+    while pending:
+        node = pending.pop()
+        beside[node] = sorted(set(near[node]))
+        for other in near[node]:
+            users[other] -= 1
+            if users[other] == 0:
+                pending.append(other)
+    return beside
 
 
 def _by_fronts(widths: list[int], pairs: np.ndarray, late: dict[int, set[int]]) -> EliminationOrder:
@@ -134,18 +158,23 @@ def _dense(widths: list[int], total: int) -> EliminationOrder:
 class _Graph:
     """What is still to be eliminated: couplings, and what each node waits for."""
 
-    def __init__(self, count: int, pairs: np.ndarray, late: dict[int, set[int]]) -> None:
+    def __init__(
+        self, count: int, pairs: np.ndarray, late: dict[int, set[int]], gone: list[int]
+    ) -> None:
         self.near: list[set[int]] = [set() for _ in range(count)]
+        self.done = [False] * count
+        for node in gone:
+            self.done[node] = True
         for r, c in zip(*pairs.tolist(), strict=True):
-            if r != c:
+            if r != c and not self.done[r]:
                 self.near[r].add(c)
                 self.near[c].add(r)
-        self.waiting = {node: set(before) for node, before in late.items() if before}
+        left = {node: before.difference(gone) for node, before in late.items()}
+        self.waiting = {node: before for node, before in left.items() if before}
         self.frees: dict[int, list[int]] = {}
         for node, before in self.waiting.items():
             for each in before:
                 self.frees.setdefault(each, []).append(node)
-        self.done = [False] * count
         self.heap: list[tuple[int, int, int]] = []
         self.offered = 0
         for node in range(count):
@@ -190,17 +219,21 @@ class _Graph:
 
 
 def _order(
-    count: int, pairs: np.ndarray, late: dict[int, set[int]], spared: bool
+    count: int,
+    pairs: np.ndarray,
+    late: dict[int, set[int]],
+    alone: dict[int, list[int]],
+    spared: bool,
 ) -> tuple[list[int], list[list[int]]] | None:
-    """Minimum degree order, and for each node those that stay coupled to it below; None when there
-    are more updates than blocks are good for, unless ``spared``.
+    """Minimum degree order behind the nodes that are ``alone``, and for each node those that stay
+    coupled to it below; None when there are more updates than blocks are good for, unless
+    ``spared``.
     """
     most = inf if spared else UPDATES + UPDATES_OF_NODE * count
     if not late and count > MANY and pairs.shape[1] > CROWDED * count:
         return None
-    graph = _Graph(count, pairs, late)
-    order: list[int] = []
-    below: list[list[int]] = []
+    order, below = list(alone), list(alone.values())
+    graph = _Graph(count, pairs, late, order)
     updates = 0
     while len(order) < count and updates <= most:
         order.append(graph.least())
@@ -231,7 +264,10 @@ class _Blocks:
         return at, np.array(self.widths, dtype=np.int64)[columns]
 
 
-def _block_plan(widths: list[int], order: list[int], below: list[list[int]]) -> EliminationOrder:
+def _block_plan(
+    widths: list[int], order: list[int], below: list[list[int]], alone: int
+) -> EliminationOrder:
+    """``alone``: how many nodes of the order have nothing below."""
     rank = {node: k for k, node in enumerate(order)}
     blocks = _Blocks(widths)
     place = blocks.place
@@ -241,11 +277,11 @@ def _block_plan(widths: list[int], order: list[int], below: list[list[int]]) -> 
         diagonal.append(place(pivot, pivot))
         for other in rest:
             node.append(rank[other])
-            lower.append(place(other, pivot))
+            lower.append(place(other, pivot) if k >= alone else -1)
             upper.append(place(pivot, other))
         first.append(len(node))
     target = []
-    for k in range(len(order)):
+    for k in range(alone, len(order)):
         rest = [order[r] for r in node[first[k] : first[k + 1]]]
         target += [place(row, column) for row in rest for column in rest]
     begin = np.concatenate([[0], np.cumsum([widths[n] for n in order])]).astype(int)

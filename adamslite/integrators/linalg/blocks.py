@@ -6,6 +6,8 @@ elimination order and the fill; here is the numeric work only:
 
     A_kk <- A_kk^-1,   A_ik <- A_ik A_kk^-1,   A_ij <- A_ij - A_ik A_kj        for i, j after k.
 
+Nodes on which nothing depends come first and have nothing below: A_ik = 0.
+
 In a chain of point masses also A_kj <- A_kk A_kj: it keeps the inverse out of the chain of
 dependent operations when solving.
 
@@ -122,8 +124,17 @@ def is_link(L: Plan, k: int) -> bool:
 
 
 @native
+def has_lower(L: Plan, k: int) -> bool:
+    """Whether a node after k depends on it."""
+    lo = L.first[k]
+    return lo < L.first[k + 1] and L.lower[lo] >= 0
+
+
+@native
 def eliminate(L: Plan, LV: Reals, k: int, at: int, work: Reals) -> int:
     """Take the inverted pivot block k out of the blocks after it; ``at`` counts the targets."""
+    if not has_lower(L, k):
+        return at
     s, o, lo, hi = L.size[k], L.diagonal[k], L.first[k], L.first[k + 1]
     for e in range(lo, hi):
         si = L.size[L.node[e]]
@@ -162,8 +173,8 @@ def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
 
     ``L`` is the elimination plan of :mod:`adamslite.equations.elimination_order`: size, first
     unknown and diagonal block of each node; for the entries e below node k
-    (``first[k]:first[k+1]``) the other node, its lower and upper block; ``target`` the blocks
-    updated, entry by entry.
+    (``first[k]:first[k+1]``) the other node, its lower and upper block, -1 where there is no lower
+    one; ``target`` the blocks updated, entry by entry.
     """
     n = L.size.size
     if L.fronts.size > 0:
@@ -202,7 +213,8 @@ def signature(L: Plan, LV: Reals, pivots: Ints, work: Reals, found: Reals, late:
         count += negative_pivots(LV, o, s, work, found, L.start[k], late)
         if not invert(LV, o, s, pivots, L.start[k], work):
             return -1
-        lo, hi = L.first[k], L.first[k + 1]
+        lo = L.first[k]
+        hi = L.first[k + 1] if has_lower(L, k) else lo
         for e in range(lo, hi):
             si = L.size[L.node[e]]
             right_times(LV, L.lower[e], o, si, s, work)
@@ -234,8 +246,8 @@ def solve(L: Plan, LV: Reals, pivots: Ints, b: Reals, x: Reals, work: Reals) -> 
 def forward(L: Plan, LV: Reals, x: Reals) -> None:
     """x_i -= A_ik x_k for every i after k."""
     for k in range(L.size.size):
-        s, p = L.size[k], L.start[k]
-        for e in range(L.first[k], L.first[k + 1]):
+        s, p, lo = L.size[k], L.start[k], L.first[k]
+        for e in range(lo, L.first[k + 1] if has_lower(L, k) else lo):
             i, below = L.node[e], L.lower[e]
             if s == 3 and L.size[i] == 3:
                 subtract3(LV[below:], x[p:], x[L.start[i] :])

@@ -7,7 +7,7 @@ entry k is (A[2k], A[2k + 1]).  The blocks, their places and the formulas are th
 
 from __future__ import annotations
 
-from adamslite.integrators.linalg.blocks import TINY
+from adamslite.integrators.linalg.blocks import TINY, has_lower
 from adamslite.integrators.linalg.plan import COMPLEX, FACTOR, SOLVE, Plan
 from adamslite.native.translate import Ints, Reals, call_address, native
 
@@ -116,9 +116,10 @@ def factor_complex(L: Plan, A: Reals, pivots: Ints, work: Reals) -> bool:
         return lu_complex(A, 0, L.size[0], pivots, 0)
     at = 0
     for k in range(n):
-        s, o, lo, hi = L.size[k], L.diagonal[k], L.first[k], L.first[k + 1]
+        s, o, lo = L.size[k], L.diagonal[k], L.first[k]
         if not invert_complex(A, o, s, pivots, L.start[k], work):
             return False
+        hi = L.first[k + 1] if has_lower(L, k) else lo
         for e in range(lo, hi):
             si = L.size[L.node[e]]
             right_times_complex(A, L.lower[e], o, si, s, work)
@@ -156,7 +157,8 @@ def solve_complex(L: Plan, A: Reals, pivots: Ints, b: Reals, x: Reals, work: Rea
 def forward_complex(L: Plan, A: Reals, x: Reals) -> None:
     """x_i -= A_ik x_k for every i after k."""
     for k in range(L.size.size):
-        for e in range(L.first[k], L.first[k + 1]):
+        lo = L.first[k]
+        for e in range(lo, L.first[k + 1] if has_lower(L, k) else lo):
             i = L.node[e]
             subtract_complex(A, L.lower[e], L.size[i], L.size[k], x, L.start[k], L.start[i])
 
