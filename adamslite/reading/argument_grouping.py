@@ -17,6 +17,8 @@ from adamslite.syntax.forms import Item
 from adamslite.syntax.syntax_errors import Syntax
 from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
 
+Read = tuple[dict[str, object], dict[str, tuple[int, int]]]
+"""The field values of a statement and where they are written."""
 _LISTS = ("vector", "vectors", "references", "ids", "texts")
 
 
@@ -214,8 +216,8 @@ def read_arguments(
     reader: ValueReader,
     label: str,
     partial: bool = False,
-) -> tuple[dict[str, object], dict[str, tuple[int, int]]]:
-    """The field values of a statement and where they are written.
+) -> tuple[Read, dict[str, Pieces]]:
+    """What is read of a statement, and from what.
 
     Fields with a mistake are left out of the values; ``partial`` statements need no argument.
     """
@@ -247,4 +249,4 @@ def read_arguments(
                 word = argument.help if argument.bare else argument.key
                 place = syntax.range
                 reader.log.add("missing-argument", *place, label=label, word=word, hint=hint)
-    return values, ranges
+    return (values, ranges), found

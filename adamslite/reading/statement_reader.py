@@ -23,8 +23,9 @@ from adamslite.language.messages import Log
 from adamslite.language.not_supported import COMMANDS as PLANNED_COMMANDS
 from adamslite.language.not_supported import STATEMENTS as PLANNED_STATEMENTS
 from adamslite.language.statement import STATEMENTS, Statement
-from adamslite.reading.argument_grouping import read_arguments
+from adamslite.reading.argument_grouping import Read, read_arguments
 from adamslite.reading.argument_values import ValueReader, to_id
+from adamslite.reading.patterns import Patterns
 from adamslite.reading.resolver import Resolver
 from adamslite.syntax.lines import join
 from adamslite.syntax.syntax_errors import Faults, Syntax, statement_syntax
@@ -103,6 +104,7 @@ class Reading:
         self.broken: set[str] = set()
         """Keywords of statements that could not be read, or not wholly."""
         self.resolver = Resolver(names, self.log)
+        self.patterns = Patterns(names)
         self.prefix = ""
         """Of output files, at the top of a command file."""
         self._body: Body | None = None
@@ -362,12 +364,11 @@ class Reading:
             values = self._as_written(entry)
             ranges: dict[str, tuple[int, int]] = {}
         else:
-            errors = self.log.errors
-            items = syntax.items if cls.singleton else syntax.items[1:]
-            values, ranges = read_arguments(cls, syntax, items, reader, entry.label, entry.changes)
-            if self.log.errors != errors or entry.again or not syntax.whole:
+            read = self._arguments(entry, reader)
+            if read is None:
                 self.broken.add(cls.keyword)
                 return None
+            values, ranges = read
         spans = Spans(self.log.source, syntax.range, ranges)
         if entry.changes:
             return Redefinition(of=cls, key=entry.id, changes=values, spans=spans)
@@ -376,3 +377,20 @@ class Reading:
         values["name"] = syntax.name
         values["spans"] = spans
         return cls(**values)
+
+    def _arguments(self, entry: Entry, reader: ValueReader) -> Read | None:
+        """The arguments of a statement and where they are written; None when something is wrong."""
+        cls, syntax, patterns = entry.cls, entry.syntax, self.patterns
+        common = syntax.whole and not entry.again and not entry.changes
+        key = patterns.key(syntax, cls.singleton)
+        fitted = patterns.fitted(key, syntax.tokens) if common else None
+        if fitted:
+            return fitted
+        errors, messages = self.log.errors, len(self.log.diagnostics)
+        items = syntax.items if cls.singleton else syntax.items[1:]
+        read, found = read_arguments(cls, syntax, items, reader, entry.label, entry.changes)
+        if self.log.errors != errors or entry.again or not syntax.whole:
+            return None
+        if common and messages == len(self.log.diagnostics) and patterns.wanted(key):
+            patterns.learn(key, syntax.tokens, found, read[0])
+        return read
