@@ -39,6 +39,8 @@ def _is_suspect(deck: Deck, statement: Statement, known: dict[Key, bool]) -> boo
         names += RATELESS
     if hasattr(statement, "loads") or statement.keyword == "GCON":
         names += (*MEASURES.values(), *NET)
+    if statement.called.isdisjoint(names):
+        return False
     found = (call for node in expressions(statement) for call in calls(node, *names))
     return not all(call.name == "VARVAL" and _has_rates(deck, call, known) for call in found)
 

@@ -49,7 +49,7 @@ def many_requests(deck: Deck) -> Iterator[Diagnostic]:
 def numbers_of_the_run(deck: Deck) -> Iterator[Diagnostic]:
     """Numbers of the integrator, where they are more than an output."""
     for each in deck.statements:
-        if isinstance(each, Request):
+        if isinstance(each, Request) or each.called.isdisjoint(NUMBERS):
             continue
         for field, argument in each.arguments.items():
             node = getattr(each, field) if argument.kind == "expression" else None

@@ -49,7 +49,8 @@ class Matrix(Statement):
             "columns": self.columns if self.given("columns") else len(columns),
             "values": tuple(value for column in columns for value in column),
         }
-        return Matrix(**{**self.__dict__, **read})
+        given = {name: each for name, each in vars(self).items() if name in self.field_names}
+        return Matrix(**{**given, **read})
 
     @property
     def misplaced(self) -> str:

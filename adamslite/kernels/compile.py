@@ -100,13 +100,14 @@ def _add(groups: dict[Tree, ShapeGroup], model: Model, statement: Statement, fac
     held = (statement.keyword, statement.key) in model.held
     rate = held and isinstance(statement, Constraint) and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
-    if key not in groups:
+    group = groups.get(key)
+    if group is None:
         name = "k" + compiler.digest(repr(key), version_of("kernels.compile"), algebra())
         level = LEVELS.index(face) - 1 if face in LEVELS else 0
         level -= level > 0 and rate
         write = FaceWriter(binder, statement.keyword, face, fields, own, level)
-        groups[key] = ShapeGroup(face, name, write)
-    groups[key].instances.append((statement, binder.instance))
+        group = groups[key] = ShapeGroup(face, name, write)
+    group.instances.append((statement, binder.instance))
 
 
 def _bound(binder: Binder, statement: Statement, face: str) -> tuple[Tree, int]:

@@ -13,11 +13,12 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import FrozenInstanceError, dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, TypeAlias, TypedDict, TypeVar, Unpack
 
 from adamslite.language.diagnostics import Span, Spans
-from adamslite.language.expression import Node
+from adamslite.language.expression import Node, calls
 from adamslite.language.interfaces import DrawnModel, Key, Lookup
 from adamslite.language.register import Register
 
@@ -251,6 +252,11 @@ class Statement:
     def __repr__(self) -> str:
         given = ", ".join(f"{name}={getattr(self, name)!r}" for name in self.spans)
         return f"<{self.label} {given}>"
+
+    @cached_property
+    def called(self) -> frozenset[str]:
+        """Names of the functions that its expressions call."""
+        return frozenset(call.name for node in expressions(self) for call in calls(node))
 
     @classmethod
     def completed(
