@@ -198,6 +198,11 @@ class Deck:
         """The deck with further statements."""
         return self._but(own=(*self.own, *extra))
 
+    def with_one(self, statement: Statement) -> Deck:
+        """The deck with another statement of its text, in its place."""
+        own = sorted((*self.own, statement), key=lambda each: each.spans.whole_range[0])
+        return self._but(own=tuple(own))
+
     def with_active(self, keyword: str, ids: Iterable[Key], on: bool) -> Deck:
         """The deck with elements of one kind switched on or off."""
         named = {(keyword, id.upper() if isinstance(id, str) else id) for id in ids}

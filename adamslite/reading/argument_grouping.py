@@ -6,6 +6,9 @@ the next ``KEY=``.  Keywords may be shortened to any prefix that fits one argume
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import NamedTuple
+
 from adamslite.language.abbreviations import Ambiguous, vocabulary
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import Log
@@ -20,6 +23,17 @@ from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
 Read = tuple[dict[str, object], dict[str, tuple[int, int]]]
 """The field values of a statement and where they are written."""
 _LISTS = ("vector", "vectors", "references", "ids", "texts")
+
+
+class Arguments(NamedTuple):
+    """What is read of a statement: field values and where they are written, what they were read
+    from, and the fields that have no value because of a mistake.
+    """
+
+    values: dict[str, object]
+    ranges: dict[str, tuple[int, int]]
+    found: dict[str, Pieces]
+    unread: frozenset[str]
 
 
 class Pieces:
@@ -54,6 +68,10 @@ class Grouping:
         self.skipping = False
         self.unknown_flag = False
         """A word was not understood: it may be the choice that is missing."""
+        self.guessed: set[str] = set()
+        """Fields that were meant by words that are none."""
+        self.unclear = not syntax.whole
+        """Any field may have been meant."""
 
     def collect(self, items: tuple[Item, ...]) -> dict[str, Pieces]:
         """The pieces of each argument that is given, by field name."""
@@ -83,11 +101,19 @@ class Grouping:
             self._planned(meaning, token)
             return
         if not isinstance(meaning, Argument):
-            meaning = self.words.valued.get(self._unknown(token, meaning, True))
+            meaning = self._guess(self.words.valued.get(self._unknown(token, meaning, True)))
         pieces = self._open(meaning, token) if isinstance(meaning, Argument) else None
         if pieces:
             pieces.values.append(self.tokens[item.start : item.end])
             self.current, self.skipping = pieces, False
+
+    def _guess(self, meaning: Argument | str | None) -> Argument | str | None:
+        """Note the argument that a word is taken for."""
+        if isinstance(meaning, Argument):
+            self.guessed.add(meaning.name)
+        else:
+            self.unclear = True
+        return meaning
 
     def _open(self, argument: Argument, token: Lexeme) -> Pieces | None:
         if argument.name in self.found and argument.kind == "vectors":
@@ -123,6 +149,7 @@ class Grouping:
             if self._takes_more() or self.skipping:
                 return False
             meaning = self.words.bare.get(self._unknown(token, meaning, False))
+            self._guess(meaning[0] if meaning else None)
         if meaning:
             argument, option = meaning
             self.current, self.skipping = None, False
@@ -216,19 +243,18 @@ def read_arguments(
     reader: ValueReader,
     label: str,
     partial: bool = False,
-) -> tuple[Read, dict[str, Pieces]]:
-    """What is read of a statement, and from what.
-
-    Fields with a mistake are left out of the values; ``partial`` statements need no argument.
-    """
+) -> Arguments:
+    """What is read of a statement; ``partial`` statements need no argument."""
     grouping = Grouping(cls, syntax, reader.log)
     found = grouping.collect(items)
     values: dict[str, object] = {}
     ranges: dict[str, tuple[int, int]] = {}
+    unread = grouping.guessed
     for name, pieces in found.items():
         ranges[name] = pieces.range
+        fields = pieces.argument.fills
         try:
-            if fields := pieces.argument.fills:
+            if fields:
                 values |= zip(
                     fields, reader.components(pieces.argument, pieces.values), strict=True
                 )
@@ -238,15 +264,22 @@ def read_arguments(
             else:
                 values[name] = reader.value(cls, pieces.argument, pieces.values)
         except Refused:
-            continue
+            unread |= {name, *fields}
     if syntax.whole and not partial:
-        for argument in grouping.words.required:
-            unclear = argument.bare and grouping.unknown_flag
-            if argument.name not in found and not unclear:
-                hint = f"{argument.key}: {argument.help}"
-                if argument.bare:
-                    hint = f"one of {', '.join(argument.options)}"
-                word = argument.help if argument.bare else argument.key
-                place = syntax.range
-                reader.log.add("missing-argument", *place, label=label, word=word, hint=hint)
-    return (values, ranges), found
+        unread |= set(_missing(grouping, label, syntax.range))
+    if grouping.unclear:
+        unread |= cls.arguments.keys() - values.keys()
+    return Arguments(values, ranges, found, frozenset(unread))
+
+
+def _missing(grouping: Grouping, label: str, place: tuple[int, int]) -> Iterator[str]:
+    """Fields that must be given and are not, after saying so."""
+    for argument in grouping.words.required:
+        unclear = argument.bare and grouping.unknown_flag
+        if argument.name not in grouping.found and not unclear:
+            hint = f"{argument.key}: {argument.help}"
+            if argument.bare:
+                hint = f"one of {', '.join(argument.options)}"
+            word = argument.help if argument.bare else argument.key
+            grouping.log.add("missing-argument", *place, label=label, word=word, hint=hint)
+            yield argument.name

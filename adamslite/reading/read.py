@@ -29,6 +29,7 @@ from adamslite.language.file_name import is_file_name
 from adamslite.language.messages.ignoring import judged, without_ignored
 from adamslite.language.statement import Statement
 from adamslite.language.text import decoded, text_of
+from adamslite.reading.half_read import further_mistakes
 from adamslite.reading.statement_reader import Reading
 from adamslite.reading.user_routines import RoutineBinder
 
@@ -151,7 +152,9 @@ def _judged(
     ``named``: the deck that has the statements which messages name.
     """
     deck.incomplete |= reading.broken
-    diagnostics = with_named(named, [*reading.log.finish(), *apply(rules, deck)])
+    said = [*reading.log.finish(), *apply(rules, deck)]
+    said += further_mistakes(reading.half_read, rules, deck)
+    diagnostics = with_named(named, said)
     if any(diagnostic.is_error for diagnostic in diagnostics):
         raise DeckError(judged(deck.source, diagnostics, complete=False), deck)
     return tuple(diagnostics)

@@ -25,6 +25,7 @@ from adamslite.language.not_supported import STATEMENTS as PLANNED_STATEMENTS
 from adamslite.language.statement import STATEMENTS, Statement
 from adamslite.reading.argument_grouping import Read, read_arguments
 from adamslite.reading.argument_values import ValueReader, to_id
+from adamslite.reading.half_read import half_read
 from adamslite.reading.patterns import Patterns
 from adamslite.reading.resolver import Resolver
 from adamslite.syntax.lines import join
@@ -103,6 +104,7 @@ class Reading:
         self.entries: list[Entry] = []
         self.broken: set[str] = set()
         """Keywords of statements that could not be read, or not wholly."""
+        self.half_read: list[Statement] = []
         self.resolver = Resolver(names, self.log)
         self.patterns = Patterns(names)
         self.prefix = ""
@@ -359,28 +361,26 @@ class Reading:
 
     def _statement(self, entry: Entry, reader: ValueReader) -> Command | None:
         """The statement with its arguments; None when something is wrong with it."""
-        cls, syntax = entry.cls, entry.syntax
-        if cls.ignored or cls.ends:
-            values = self._as_written(entry)
-            ranges: dict[str, tuple[int, int]] = {}
-        else:
-            read = self._arguments(entry, reader)
-            if read is None:
-                self.broken.add(cls.keyword)
-                return None
-            values, ranges = read
-        spans = Spans(self.log.source, syntax.range, ranges)
+        cls, read = entry.cls, self._arguments(entry, reader)
+        if read is None:
+            return None
         if entry.changes:
-            return Redefinition(of=cls, key=entry.id, changes=values, spans=spans)
-        values.update(cls.completed(values, entry.body))
-        values["id"] = entry.id
-        values["name"] = syntax.name
-        values["spans"] = spans
-        return cls(**values)
+            spans = Spans(self.log.source, entry.syntax.range, read[1])
+            return Redefinition(of=cls, key=entry.id, changes=read[0], spans=spans)
+        return cls(**self._fields(entry, read))
+
+    def _fields(self, entry: Entry, read: Read) -> dict[str, object]:
+        """Everything that a statement is made from."""
+        (values, ranges), syntax = read, entry.syntax
+        spans = Spans(self.log.source, syntax.range, ranges)
+        own = {"id": entry.id, "name": syntax.name, "spans": spans}
+        return {**values, **entry.cls.completed(values, entry.body), **own}
 
     def _arguments(self, entry: Entry, reader: ValueReader) -> Read | None:
         """The arguments of a statement and where they are written; None when something is wrong."""
         cls, syntax, patterns = entry.cls, entry.syntax, self.patterns
+        if cls.ignored or cls.ends:
+            return self._as_written(entry), {}
         common = syntax.whole and not entry.again and not entry.changes
         key = patterns.key(syntax, cls.singleton)
         fitted = patterns.fitted(key, syntax.tokens) if common else None
@@ -388,9 +388,13 @@ class Reading:
             return fitted
         errors, messages = self.log.errors, len(self.log.diagnostics)
         items = syntax.items if cls.singleton else syntax.items[1:]
-        read, found = read_arguments(cls, syntax, items, reader, entry.label, entry.changes)
+        read = read_arguments(cls, syntax, items, reader, entry.label, entry.changes)
         if self.log.errors != errors or entry.again or not syntax.whole:
+            self.broken.add(cls.keyword)
+            if not (entry.again or entry.changes):
+                fields = self._fields(entry, (read.values, read.ranges))
+                self.half_read.append(half_read(cls, fields, read.unread))
             return None
         if common and messages == len(self.log.diagnostics) and patterns.wanted(key):
-            patterns.learn(key, syntax.tokens, found, read[0])
-        return read
+            patterns.learn(key, syntax.tokens, read.found, read.values)
+        return read.values, read.ranges

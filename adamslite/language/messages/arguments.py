@@ -18,19 +18,21 @@ ARGUMENTS: dict[str, Message] = {
         ("MATRIX/1, FULL, ROWS=1, COLUMNS=1, VALUES=1", "MARKER/4, PART=1, QP"),
     ),
     "ambiguous-argument": Message(
-        "{word} may mean {choices}", "write more letters", ("PART/4, V=1, MASS=1, CM=2",)
+        "{word} may mean {choices}", "write more letters",
+        ("PART/4, V=1, MASS=1, CM=4, IP=1,1,1\nMARKER/4, PART=4",),
     ),
     "planned-argument": Message(
         "not supported yet: argument {word} of {keyword}{times}",
         "the argument exists in ADAMS; this program cannot run it",
-        ("MATRIX/1, NAME=a, FILE=b.csv\nMATRIX/2, NAME=a, FILE=b.csv",),
+        ("MATRIX/1, NAME=a, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=1\n"
+         "MATRIX/2, NAME=a, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=1",),
     ),
     "duplicate-argument": Message(
         "{word} is given twice",
         "",
         (
             "MARKER/4, PART=1, QP=1,2,3, QP=1,2,3",
-            "MARKER/4, FLOATING, PART=1, FLOATING",
+            "MARKER/4, USEXP, PART=1, USEXP, ZP=0,0,1, XP=1,0,0",
             "SFORCE/1, TRANSLATIONAL, ROTATIONAL, I=1, J=2, FUNCTION=1",
             "VFORCE/1, I=2, J_PART=1, FXYZ=DXYZ(2)\\FX=1",
         ),
@@ -54,7 +56,7 @@ ARGUMENTS: dict[str, Message] = {
     "value-count": Message(
         "{word} takes {expected} and has {count}",
         "values are separated by commas",
-        ("MARKER/4, PART=1, QP=1,2", "PART/4, MASS=1, CM=2, IP=1,2,3,4,5,6,7",
+        ("MARKER/4, PART=1, QP=1,2", "PART/4, MASS=1, CM=4, IP=1,2,3,4,5,6,7\nMARKER/4, PART=4",
          "SPLINE/1, X=0,1,2, Y=0,1,4"),
     ),
     "not-a-number": Message(
@@ -82,7 +84,8 @@ ARGUMENTS: dict[str, Message] = {
     "unknown-choice": Message(
         "{word} cannot be {text}",
         "it is one of {known}",
-        ("UNITS/SYSTEM=SI", "UNITS/SYSTEM=1", "PART/4, MASS=1, CM=2, EXACT=X:Q"),
+        ("UNITS/SYSTEM=SI", "UNITS/SYSTEM=1",
+         "PART/4, MASS=1, CM=4, IP=1,1,1, EXACT=X:Q\nMARKER/4, PART=4"),
     ),
     "planned-choice": Message(
         "not supported yet: {keyword} of the kind {word}{times}",
