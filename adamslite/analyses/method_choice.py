@@ -23,7 +23,7 @@ from adamslite.errors import UsageError
 from adamslite.integrators import contract
 from adamslite.integrators.contract import SPECTRUM
 from adamslite.language.method import AUTO, CONSTRAINTS, ROTATIONS, STATE_JUMPS, methods
-from adamslite.model.model import PART
+from adamslite.model.model import PART, NodeKey
 from adamslite.symbolic.guards import JUMPS
 
 if TYPE_CHECKING:
@@ -81,20 +81,25 @@ def what_is_unfit(system: System, settings: Settings) -> str:
 
 def what_ties(system: System) -> str:
     """What keeps accelerations from following body by body, as words; empty when nothing does."""
-    for node in system.nodes:
-        if node[0] not in ("BODY", "MU", *SOLVED):
+    for node in _beside_bodies(system):
+        if node[0] not in ("MU", *SOLVED):
             return f"{node[0]}/{node[1]} is a constraint"
     return what_is_solved(system) or what_is_light(system)
 
 
 def what_is_solved(system: System) -> str:
     """What has to be solved for beside motion and reactions, as words; empty when nothing has."""
-    for node in system.nodes:
+    for node in _beside_bodies(system):
         if node[0] in SOLVED:
             return f"{node[0]}/{node[1]} {SOLVED[node[0]]}"
     if system.sizes.implicit_mass:
         return "a force depends on accelerations"
     return ""
+
+
+def _beside_bodies(system: System) -> list[NodeKey]:
+    """The nodes that are no bodies: those come first."""
+    return system.nodes[len(system.model.bodies) :]
 
 
 def has_effective_masses(system: System) -> bool:
@@ -106,6 +111,8 @@ def has_effective_masses(system: System) -> bool:
 
 def what_is_light(system: System) -> str:
     """A body without mass or inertia in some direction, as words; empty when there is none."""
+    if not _turning(system) and (system.mass > 0.0).all():
+        return ""
     for body in system.model.bodies:
         if not body.mass > 0.0 or (body.width == PART and np.linalg.matrix_rank(body.inertia) < 3):
             return f"{body.statement.label} has no mass or inertia"
@@ -114,8 +121,14 @@ def what_is_light(system: System) -> str:
 
 def what_turns(system: System) -> str:
     """A body that turns: its inertia forces depend on velocities."""
-    part = next((b for b in system.model.bodies if b.width == PART), None)
-    return f"{part.statement.label} turns, and its gyroscopic torque lags" if part else ""
+    if not _turning(system):
+        return ""
+    part = next(body for body in system.model.bodies if body.width == PART)
+    return f"{part.statement.label} turns, and its gyroscopic torque lags"
+
+
+def _turning(system: System) -> bool:
+    return PART in system.widths[: len(system.model.bodies)]
 
 
 def what_changes(system: System, error: float) -> str:

@@ -53,8 +53,9 @@ def reduce_to_plane(system: System) -> bool:
 
     Blocks of point masses without constraints are quick as they are.
     """
-    turning = any(body.width == PART for body in system.model.bodies)
-    if not (system.m and turning) or system.run(ACCELERATIONS) != contract.DONE:
+    if not system.m or PART not in system.widths[: len(system.model.bodies)]:
+        return False
+    if system.run(ACCELERATIONS) != contract.DONE:
         return False
     system.report.left_plane = False
     for normal in range(3):

@@ -40,8 +40,11 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
     Where all bodies are point masses, and nothing stands between them and what is written, the
     values are the record itself, without a copy.
     """
+    names, at = column_names(system.kernels), system.numbering.n_head
+    widths = system.widths[: len(system.model.bodies)]
+    if PART not in widths and at + POINT_SIZE * len(widths) == system.nw:
+        return names, record[:, at:]
     parts: list[np.ndarray] = []
-    at = first = system.numbering.n_head
     for width, bodies in groupby(system.model.bodies, key=lambda body: body.width):
         if width != PART:  # point masses stand in the record as they do here
             size = POINT_SIZE * len(list(bodies))
@@ -53,9 +56,7 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
             parts.append(_part(system, body, w) if _turns(body) else _point(w))
             at += PART_SIZE
     parts.append(record[:, system.nw :])
-    if at == system.nw and not any(body.width == PART for body in system.model.bodies):
-        return column_names(system.kernels), record[:, first:]
-    return column_names(system.kernels), np.concatenate(parts, axis=1)
+    return names, np.concatenate(parts, axis=1)
 
 
 def column_names(kernels: Kernels) -> tuple[str, ...]:

@@ -17,6 +17,8 @@ from adamslite.native.translate import Alone, Reals, call_address, maximum, nati
 
 # Numbers of a body: place, velocity, force, acceleration before, each by component; 1/m.
 NUMBERS = 13
+# Numbers of the workspace's head where no VARIABLE depends on time alone.
+HEAD = 6
 
 
 @native
@@ -30,11 +32,13 @@ def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> f
     before, inverse = P.lane[3 * n :], P.lane[4 * n :]
     fill_lanes(P, row)
     put_time(P, t)
+    looks = 0  # steps until the acceleration is kept, with which that of the step after is compared
     for s in range(count + 1):
-        if s > 0:
+        P.W[0] = t + s * h
+        if s > 0 and P.sizes.n_head > HEAD:
             put_time(P, t + s * h)
         run_lanes(P, x, row, F)
-        if s > 0 and s % every == 1 % every:
+        if s > 0 and looks == every - 1:
             error = change_of(F, inverse, before, x, row) * h * h / (6.0 * P.settings.error)
             if not error < LARGE:
                 error = HUGE
@@ -42,8 +46,10 @@ def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> f
             if not top < HOPELESS and not C.fixed:
                 return top
             C.spent += every * error
-        if s % every == 0:
+        if looks == 0:
             keep_accelerations(F, inverse, before, row)
+            looks = every
+        looks -= 1
         kick, drift = 0.5 * h if s == 0 or s == count else h, h if s < count else 0.0
         for k in range(3):
             at, fall = k * row, kick * P.gravity[k]

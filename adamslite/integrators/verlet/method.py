@@ -51,8 +51,9 @@ from adamslite.native.translate import Reals, native
 
 # Turns of the search for an eigenvalue from the vector found before, where laws are smooth.
 POWERS_AGAIN = 8
-# Intervals with fewer steps than this are not worth a new look at the eigenvalues each.
-WORTH = 200
+# Intervals with fewer steps than this are not worth a new look at the eigenvalues each; a look
+# costs as much as 75 steps of the quickest kind, which are those that follow smooth laws.
+WORTH, WORTH_SMOOTH = 200, 1000
 SHRINK, GROW = 0.25, 2.0
 # A law may have changed where the local error comes to this many times its mean, and where the
 # change of an acceleration moves a velocity by this share of the largest within a step.  Where the
@@ -96,7 +97,7 @@ def begin(P: Problem, C: Control) -> None:
     P.report.stable_step = HUGE
     record(P, P.times[0], C)
     P.report.t = P.times[0]
-    C.since = WORTH
+    C.since = WORTH_SMOOTH
     C.wanted = P.settings.h_init if C.fixed else P.settings.h_max
 
 
@@ -137,7 +138,8 @@ def restore_state(P: Problem, t: float) -> None:
 @native
 def limit_step(P: Problem, C: Control) -> None:
     """The longest stable step at the workspace's state, when enough steps were taken since."""
-    if C.since < WORTH:
+    smooth = P.sizes.watched == 0 and not C.fixed
+    if C.since < (WORTH_SMOOTH if smooth else WORTH):
         return
     C.since, C.limit = 0, STABLE * stable_step(P, C.limit > 0.0 and P.sizes.watched == 0)
     C.longest = max(C.longest, C.limit / STABLE)
