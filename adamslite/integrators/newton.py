@@ -16,10 +16,10 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.blocks import factor
-from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.norms import largest_share
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART, back_rotate, jacobian, spread
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, maximum, native
 
 # Increments of positions below this share of the largest position are round-off.
 ROUND_OFF = 2e-15
@@ -126,23 +126,19 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
     n, q, u, z = P.sizes.n, P.q, P.u, P.z
     reach = 1.0
     for i in range(n):
-        reach = max(reach, abs(q[i]))
+        reach = maximum(reach, abs(q[i]))
     noise, largest = ROUND_OFF * reach, 0.0
     for i in range(n):
         change = abs(dz[i])
-        if not change <= noise:
-            wq, wu = max(1.0, abs(q[i])), max(1.0, abs(u[i]))
-            if tied:
-                wq, wu = 1.0, 1.0
-            # Compared before divided: few elements ever set a new maximum.
-            if exceeds(change, largest * wq) or exceeds(cu * change, largest * wu):
-                largest = max(change / wq, cu * change / wu)
+        felt = 0.0 if change <= noise else change
+        if tied:
+            largest = maximum(largest, max(1.0, cu) * felt)
+        else:
+            moved = maximum(felt / max(1.0, abs(q[i])), cu * felt / max(1.0, abs(u[i])))
+            largest = maximum(largest, moved)
     first = P.sizes.m
-    for k in range(first, first + P.sizes.nv + P.sizes.ns):
-        size = abs(dz[n + k]) / max(1.0, abs(z[k]))
-        if exceeds(size, largest):
-            largest = size
-    return largest
+    share = largest_share(dz[n + first :], z[first:], P.sizes.nv + P.sizes.ns)
+    return maximum(largest, share)
 
 
 @native
@@ -169,8 +165,7 @@ def multiplier_change(P: Problem, dz: Reals, z: Reals, ca: float) -> float:
     noise = ROUND_OFF * reach * ca * heaviest
     for k in range(P.sizes.m):
         change, weight = abs(dz[P.sizes.n + k]), max(1.0, abs(z[k]))
-        if not change <= noise and exceeds(change, largest * weight):
-            largest = change / weight
+        largest = maximum(largest, 0.0 if change <= noise else change / weight)
     return largest
 
 
@@ -184,6 +179,5 @@ def velocity_change(P: Problem, before: Reals, cu: float) -> float:
     for i in range(P.sizes.n):
         reach = max(reach, abs(P.q[i]))
         change = abs(P.u[i] - before[i])
-        if exceeds(change, largest):
-            largest = change
+        largest = maximum(largest, change)
     return largest if largest > cu * ROUND_OFF * reach else 0.0

@@ -14,7 +14,7 @@ from adamslite.integrators.bdf.state import resize, tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.implicit.step_size import step_ratio
-from adamslite.integrators.implicit.tolerance import weighted
+from adamslite.integrators.implicit.tolerance import most_wrong, weighted
 from adamslite.integrators.stepping.step_size import LONGER, cut
 from adamslite.native.translate import native
 
@@ -29,11 +29,9 @@ GROWING_ORDER = 3.0
 
 @native
 def difference(P: Problem, C: Control, row: int) -> float:
-    """Largest |D_row|, weighted; what is reported of the tested error stays."""
-    where, tested = P.report.where, tests_velocities(P)
-    size = weighted(P.history, row, C.width, P.sizes.n, P.sizes.ns, P.history, tested, P.report)
-    P.report.where = where
-    return size
+    """Largest |D_row|, weighted."""
+    D, n, ns = P.history, P.sizes.n, P.sizes.ns
+    return weighted(D[row * C.width :], D, n, ns, tests_velocities(P))
 
 
 @native
@@ -50,7 +48,9 @@ def local_error(P: Problem, C: Control) -> float:
         y[i] = P.z[first + i - 2 * n]
     cap = C.cap
     cap.tries += 1.0
-    size = weighted(d, 0, 0, n, ns, y, tests_velocities(P), P.report)
+    tested = tests_velocities(P)
+    size = weighted(d, y, n, ns, tested)
+    P.report.where = most_wrong(size, d, y, n, ns, tested)
     P.report.error = size / ((C.order + 1.0) * P.settings.error)
     return P.report.error
 

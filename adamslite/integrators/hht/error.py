@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.hht.control import Control
-from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.norms import exceeds, largest_share, place_of
 from adamslite.integrators.motion_equations import PART
-from adamslite.native.translate import Reals, maximum, native
+from adamslite.native.translate import maximum, native
 
 # gamma + alpha - 1/2 below this is round-off: HHT is of order 2 for every alpha.
 FIRST_ORDER = 1e-9
 # A step is rough when accelerations change by this share of the largest, and that is more than this
 # share of ERROR: a vibration that is not followed but damped.
 HALF, FELT = 0.5, 0.01
-# Two errors are the same but for round-off from this share on.
-ALIKE = 1.0 - 1e-12
 
 
 @native
@@ -28,20 +26,17 @@ def local_error(P: Problem, C: Control) -> float:
     stretch = C.h / C.h_last if C.h_last > 0.0 else 0.0
     scale = abs(s.beta - 1.0 / 6.0) * C.h * C.h
     fast = first_order_share(P) * C.h
-    A, B, top = P.ra, D[2 * n :], 0.0
-    size, jump = 0.0, 0.0
+    A, B, d, size, jump = P.ra, D[2 * n :], P.x, 0.0, 0.0
     for i in range(n):
-        change = abs(jump_of(P.a[i], A[i], B[i], s.alpha, stretch))
-        size, jump = maximum(size, abs(P.a[i])), maximum(jump, change)
-        top = maximum(top, scale * change / max(1.0, abs(P.q[i])))
-    where = 0 if C.fixed > 0.0 else place_of(P, P.q, scale, stretch, top)
+        # b+ - b with b moved to this step's place.
+        d[i] = (1.0 + s.alpha) * (P.a[i] - A[i]) - stretch * (B[i] - A[i])
+        size, jump = maximum(size, abs(P.a[i])), maximum(jump, abs(d[i]))
+    share = largest_share(d, P.q, n)
+    top, where = scale * share, 0 if C.fixed > 0.0 else place_of(share, d, P.q, n)
     if fast > 0.0:
-        slow = top
-        for i in range(n):
-            change = abs(jump_of(P.a[i], A[i], B[i], s.alpha, stretch))
-            top = maximum(top, fast * change / max(1.0, abs(P.u[i])))
-        if top > slow:
-            where = place_of(P, P.u, fast, stretch, top)
+        share = largest_share(d, P.u, n)
+        if exceeds(fast * share, top):
+            top, where = fast * share, place_of(share, d, P.u, n)
     for b in range(P.sizes.nb):
         if P.body[b].width == PART:
             i = P.body[b].first
@@ -58,25 +53,6 @@ def local_error(P: Problem, C: Control) -> float:
             top, where = 0.5 * abs(value - explicit) / max(1.0, abs(value)), 2 * n + k
     P.report.where, P.report.error = where, top / s.error
     return P.report.error
-
-
-@native
-def jump_of(after: float, before: float, b: float, alpha: float, stretch: float) -> float:
-    """b+ - b of an acceleration, with b moved to this step's place."""
-    return (1.0 + alpha) * (after - before) - stretch * (b - before)
-
-
-@native
-def place_of(P: Problem, x: Reals, scale: float, stretch: float, top: float) -> int:
-    """The first unknown whose error, measured against ``x``, is ``top`` but for round-off; none is
-    the first.
-    """
-    A, B = P.ra, P.history[2 * P.sizes.n :]
-    for i in range(P.sizes.n):
-        change = abs(jump_of(P.a[i], A[i], B[i], P.settings.alpha, stretch))
-        if scale * change >= ALIKE * top * max(1.0, abs(x[i])):
-            return i
-    return 0
 
 
 @native

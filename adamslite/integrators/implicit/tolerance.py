@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import (
     Problem,
-    Report,
 )
-from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.norms import largest_share, place_of
 from adamslite.integrators.stepping.outcome import OVERFLOW
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, maximum, native
 
 # Fixed steps have no error test: a corrector looser than this would be all that errs.
 LOOSEST = 1e-3
@@ -27,20 +26,16 @@ def is_allowed(norm: float, fixed: float) -> bool:
 
 
 @native
-def weighted(
-    D: Reals, row: int, w: int, n: int, ns: int, y: Reals, si2: bool, report: Report
-) -> float:
-    """Largest |D_row| against max(1, |y|) over the tested variables; remembers where."""
-    top, where = 0.0, 0
-    o = row * w
-    for i in range(2 * n if si2 else n):
-        # Compared before divided: few elements ever set a new maximum.
-        weight = max(1.0, abs(y[i]))
-        if exceeds(abs(D[o + i]), top * weight):
-            top, where = abs(D[o + i]) / weight, i
-    for i in range(2 * n, 2 * n + ns):
-        weight = max(1.0, abs(y[i]))
-        if exceeds(abs(D[o + i]), top * weight):
-            top, where = abs(D[o + i]) / weight, i
-    report.where = where
-    return top
+def weighted(d: Reals, y: Reals, n: int, ns: int, si2: bool) -> float:
+    """Largest |d| against max(1, |y|) over the tested variables."""
+    count = 2 * n if si2 else n
+    return maximum(largest_share(d, y, count), largest_share(d[2 * n :], y[2 * n :], ns))
+
+
+@native
+def most_wrong(top: float, d: Reals, y: Reals, n: int, ns: int, si2: bool) -> int:
+    """The tested variable of which :func:`weighted` is ``top``."""
+    found = place_of(top, d, y, 2 * n if si2 else n)
+    if found < 0:
+        found = 2 * n + place_of(top, d[2 * n :], y[2 * n :], ns)
+    return max(found, 0)

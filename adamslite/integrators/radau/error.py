@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
-from adamslite.integrators.implicit.tolerance import weighted
+from adamslite.integrators.implicit.tolerance import most_wrong, weighted
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
@@ -71,7 +71,10 @@ def newton_error(P: Problem, L: Plan, C: Control, base: Reals, error: Reals) -> 
     for k in range(ns):
         error[2 * n + k] = P.z[first + k] - base[2 * n + k]
     error_motion(P, cu, base, error, v)
-    return weighted(P.trial, 1, w, n, ns, Y[ORIGIN * w :], True, P.report) / P.settings.error
+    origin = Y[ORIGIN * w :]
+    size = weighted(error, origin, n, ns, True)
+    P.report.where = most_wrong(size, error, origin, n, ns, True)
+    return size / P.settings.error
 
 
 @native

@@ -29,7 +29,7 @@ from adamslite.integrators.implicit.formulation import equations_kept, is_stabil
 from adamslite.integrators.implicit.rotation_count import count_anew
 from adamslite.integrators.linalg.blocks import factor, solve
 from adamslite.integrators.linalg.complex_blocks import factor_complex, solve_complex
-from adamslite.integrators.linalg.norms import exceeds
+from adamslite.integrators.linalg.norms import largest_of, largest_share
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
     PART,
@@ -60,7 +60,7 @@ from adamslite.integrators.radau.coefficients import (
 )
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.history import BEFORE, ORIGIN, RATES, Y_ROWS, Z_ROWS
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, maximum, native
 
 
 @native
@@ -232,7 +232,7 @@ def move_stages(P: Problem, h: float) -> float:
     for stage in range(3):
         y, z, dz = Y[(1 + stage) * w :], Y[stage_z(P, stage) :], R[stage * nz :]
         for k in range(P.sizes.m, first + ns):
-            largest = larger(largest, dz[n + k], z[k])
+            largest = maximum(largest, abs(dz[n + k]) / max(1.0, abs(z[k])))
         if P.settings.all_converge:
             largest = max(largest, multiplier_change(P, dz, z, (P.tableau[REAL] / h) ** 2.0))
         for i in range(n):
@@ -242,19 +242,15 @@ def move_stages(P: Problem, h: float) -> float:
     for stage in range(3):
         y, dz = Y[(1 + stage) * w :], R[stage * nz :]
         for i in range(n):
-            largest = larger(largest, dz[i], 0.0 if tied else origin[i])
-            change = y[n + i] - P.trial[stage * n + i]
-            largest = larger(largest, change, 0.0 if tied else origin[n + i])
+            P.x[i] = y[n + i] - P.trial[stage * n + i]
+        if tied:
+            size = maximum(largest_of(dz, n), largest_of(P.x, n))
+        else:
+            size = maximum(largest_share(dz, origin, n), largest_share(P.x, origin[n:], n))
+        largest = maximum(largest, size)
     for k in range(nz):
         P.F[k] = R[2 * nz + k]
     return largest
-
-
-@native
-def larger(largest: float, change: float, value: float) -> float:
-    """The larger of ``largest`` and |change|/max(1, |value|); one that is not a number wins."""
-    weight = max(1.0, abs(value))
-    return abs(change) / weight if exceeds(abs(change), largest * weight) else largest
 
 
 @native
