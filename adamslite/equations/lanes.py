@@ -36,7 +36,10 @@ class Runs:
 def runs(instances: Instances) -> Runs | None:
     """All loads as runs; None where an element has no such loads, or runs would be too short."""
     numbering, kernels = instances.numbering, instances.kernels
-    if numbering.n != numbering.nz or numbering.n != 3 * len(kernels.model.bodies):
+    bodies = kernels.model.bodies
+    if numbering.n != numbering.nz or numbering.n != 3 * len(bodies):
+        return None
+    if not all(body.mass > 0.0 for body in bodies):
         return None
     rows, kept, total = [], [], 0
     loads = [(k, group) for k, group in enumerate(kernels.groups) if group.face == "loads"]
@@ -61,16 +64,20 @@ def runs(instances: Instances) -> Runs | None:
     made = Rows(LaneRun, len(rows))
     for run, (k, _, count, ints, reals) in zip(made, rows, strict=True):
         group = kernels.groups[k]
-        run.function, run.count, run.of = lanes(kernels, group), count, len(group.instances)
+        run.function, run.mass = lanes(kernels, group)
+        run.count, run.of = count, len(group.instances)
         run.ints, run.reals = ints.ctypes.data, reals.ctypes.data
     return Runs(made, kept)
 
 
 def _is_plain(group: ShapeGroup) -> bool:
-    """Loads that depend on time, places and velocities alone, always by the same law."""
+    """Loads that depend on time, places and velocities alone, always by the same law, but for added
+    mass.
+    """
     meta, binding = group.meta, group.instances[0][1]
     remembers = meta["angles"] or meta["limits"] or any(meta["guards"].values())
-    return not (remembers or meta["mass"] or binding.tables or binding.nodes)
+    solved = meta["mass"] and not meta["added_mass"]
+    return not (remembers or solved or binding.tables or binding.nodes)
 
 
 def _signals(group: ShapeGroup) -> int:

@@ -292,6 +292,11 @@ class System:
         if self.lanes is None and (found := runs(self.instances)):
             self.lanes, self.lane_runs = found, found.rows
 
+    @property
+    def by_component(self) -> bool:
+        """Whether loads are evaluated by component, and no expression is watched for a change."""
+        return self.lanes is not None and not (self.guarded["watch"] or self.guarded["zone"])
+
     def make_room(self, **sizes: int) -> None:
         """Have arrays of at least these sizes; one that is replaced begins with zeros."""
         for name, size in sizes.items():

@@ -276,12 +276,13 @@ class KernelGroup(Record):
 
 
 class LaneRun(Record):
-    """A run of instances for :mod:`adamslite.kernels.code.lane_writer`: the function, how many,
-    addresses of the integers of the run and of the reals of the shape from the first instance on,
-    how many instances the shape has.
+    """A run of instances for :mod:`adamslite.kernels.code.lane_writer`: the function, that of added
+    mass (0: none), how many, addresses of the integers of the run and of the reals of the shape
+    from the first instance on, how many instances the shape has.
     """
 
     function: int
+    mass: int
     count: int
     ints: int
     reals: int

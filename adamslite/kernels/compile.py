@@ -145,11 +145,11 @@ class FaceWriter:
 
         return write_kernels(self._shape(), name, self.face, self.face in WITH_JACOBIAN)
 
-    def lanes(self, name: str) -> str:
-        """LLVM text of the residual for runs of instances."""
+    def lanes(self, name: str, mass: str) -> str:
+        """LLVM text of the residual for runs of instances, and of added mass if there is any."""
         from adamslite.kernels.code.lane_writer import write_lanes
 
-        return write_lanes(self._shape(), name)
+        return write_lanes(self._shape(), name, mass)
 
     def _shape(self) -> Shape:
         from adamslite.kernels.code.shape import Shape
@@ -229,17 +229,20 @@ def _writer(kernels: Kernels, group: ShapeGroup) -> Writer:
     return group.writer
 
 
-def lanes(kernels: Kernels, group: ShapeGroup) -> int:
-    """Address of the residual for runs of instances; made when it is first asked for."""
-    symbol = f"{group.name}_lanes"
+def lanes(kernels: Kernels, group: ShapeGroup) -> tuple[int, int]:
+    """Addresses of the residual for runs of instances and of their added mass, 0 without any; made
+    when they are first asked for.
+    """
+    symbol, mass = f"{group.name}_lanes", f"{group.name}_mass" if group.meta["mass"] else ""
 
     def compiled() -> bytes:
-        return compiler.object_code(_writer(kernels, group).lanes(symbol))
+        return compiler.object_code(_writer(kernels, group).lanes(symbol, mass))
 
     if symbol not in kernels.addresses:
         code = recall(f"{symbol}.o", compiled)
-        kernels.addresses.update(compiler.addresses([(code, [symbol])]))
-    return kernels.addresses[symbol]
+        names = [symbol, mass] if mass else [symbol]
+        kernels.addresses.update(compiler.addresses([(code, names)]))
+    return kernels.addresses[symbol], kernels.addresses[mass] if mass else 0
 
 
 def _kernels(group: ShapeGroup) -> tuple[str, Meta]:

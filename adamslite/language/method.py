@@ -96,6 +96,9 @@ class Equations(Protocol):
     @property
     def elimination(self) -> Factors: ...
 
+    @property
+    def by_component(self) -> bool: ...
+
     def make_room(self, **sizes: int) -> None:
         """Have arrays of at least these sizes."""
 

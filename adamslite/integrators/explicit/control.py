@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from adamslite.integrators.stepping.control import StepControl
 
-# Kinds of scenes: bodies that something ties together, free bodies, point masses alone.
-TIED, BODIES, MASSES = 0, 1, 2
+# Kinds of scenes: bodies that something ties together, free bodies, point masses alone, and those
+# by component.
+TIED, BODIES, MASSES, LANES = 0, 1, 2, 3
 
 
 class Control(StepControl):
     """The numbers of the explicit formula.
 
-    kind                 of scene: TIED, BODIES, MASSES
+    kind                 of scene: TIED, BODIES, MASSES, LANES
+    lane                 numbers in a row of a component
+    half                 numbers in q, and in u
     size                 numbers in a state: q, u and s
     width                numbers in the rates of a stage: all, of masses accelerations alone
     last_error           of the last accepted step, against ERROR
@@ -23,6 +26,8 @@ class Control(StepControl):
     """
 
     kind: int
+    lane: int
+    half: int
     size: int
     width: int
     last_error: float

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
-from adamslite.integrators.explicit.control import Control
+from adamslite.integrators.explicit.control import LANES, Control
 from adamslite.integrators.explicit.dop853 import ERROR3, ERROR5
 from adamslite.integrators.explicit.history import BETWEEN, NEXT_STATE, OLD, SCALES
+from adamslite.integrators.explicit.lanes import unknown_of
 from adamslite.integrators.explicit.stages import combine, rates_at
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE, Plan
@@ -61,12 +62,13 @@ def share(a: Reals, y: Reals, scales: Reals, i: int) -> float:
 @native
 def note_worst(P: Problem, C: Control) -> None:
     """Remember where the error estimate is largest, or no number."""
-    top, w = 0.0, C.size
+    top, where, w = 0.0, 0, C.size
     y, scales = P.history[NEXT_STATE * w :], P.history[SCALES * w :]
     for i in range(w):
         size = share(P.trial, y, scales, i)
         if exceeds(size, top):
-            top, P.report.where = size, i
+            top, where = size, i
+    P.report.where = unknown_of(P, C.lane, where) if C.kind == LANES else where
 
 
 @native
@@ -88,7 +90,7 @@ def first_step(P: Problem, L: Plan, C: Control) -> float:
     k = P.history[width:]
     if not rates_at(P, L, C, t + h, new, k):
         return TRIAL * h
-    d2, n = d1, P.sizes.n
+    d2, n = d1, C.half
     for i in range(w - n):
         k[i] = k[width - w + n + i] - P.history[width - w + n + i]
     d2 = max(d2, distance(P, k, y[n:], scales[n:], w - n) / h)

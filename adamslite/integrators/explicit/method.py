@@ -29,7 +29,7 @@ from adamslite.integrators.events.stops import (
     set_pace,
     step_limit,
 )
-from adamslite.integrators.explicit.control import BODIES, MASSES, Control
+from adamslite.integrators.explicit.control import BODIES, LANES, MASSES, TIED, Control
 from adamslite.integrators.explicit.dense_output import record
 from adamslite.integrators.explicit.error import (
     LEAST_ERROR,
@@ -39,6 +39,7 @@ from adamslite.integrators.explicit.error import (
 )
 from adamslite.integrators.explicit.events import end_at_crossing, pass_on, passes_crossing
 from adamslite.integrators.explicit.history import INVERSE, K_NEW, NEXT_STATE, OLD
+from adamslite.integrators.explicit.lanes import LINE, into_lanes, lane_tables
 from adamslite.integrators.explicit.recovery import (
     after_failure,
     after_rejection,
@@ -48,7 +49,7 @@ from adamslite.integrators.explicit.recovery import (
     stuck,
 )
 from adamslite.integrators.explicit.stages import exact_rates, stages
-from adamslite.integrators.explicit.state import base_here, restore_state
+from adamslite.integrators.explicit.state import base_here, restore_state, take_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation, write_record
@@ -89,9 +90,10 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     C[:] = 0
     P.undoing[:] = 0
     C.t, C.last_error, C.blamed = P.settings.t, LEAST_ERROR, NOBODY
+    choose_kind(P, C)
     start_state(P, C)
     start_events(P, True, True)
-    if not start_accelerations(P, L, C):
+    if C.kind == TIED and not accelerations(P, L, C.t, P.q, P.u, P.a, P.z, P.rd):
         return BROKEN_START
     note_signature(P, L, C, P.pivot0)
     y, k = P.history[OLD * C.size :], P.history[0:]
@@ -111,29 +113,36 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
 
 
 @native
+def choose_kind(P: Problem, C: Control) -> None:
+    """How accelerations come about in this scene, and what a state consists of."""
+    C.kind, C.half = TIED, P.sizes.n
+    C.size = 2 * C.half + P.sizes.ns
+    C.width = C.size
+    inverse = P.history[INVERSE * C.size :]
+    if P.lane_runs.size > 0 and P.sizes.watched + P.sizes.zones == 0:
+        C.kind, C.lane = LANES, LINE * ((P.sizes.nb + LINE - 1) // LINE)
+        C.half = 3 * C.lane
+        C.size, C.width = 2 * C.half, C.half
+        lane_tables(P, C)
+    elif is_free(P) and mass_tables(P, inverse, inverse[P.sizes.n :]):
+        C.kind, C.width = MASSES, P.sizes.n
+    elif is_free(P) and invert_inertia(P, inverse):
+        C.kind = BODIES
+
+
+@native
 def start_state(P: Problem, C: Control) -> None:
     """y = (q, u, s)"""
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
-    C.size = 2 * n + P.sizes.ns
-    C.width = C.size
     y = P.history[OLD * C.size :]
+    if C.kind == LANES:
+        into_lanes(P, C.lane, P.q, y)
+        into_lanes(P, C.lane, P.u, y[C.half :])
+        return
     for i in range(n):
         y[i], y[n + i] = P.q[i], P.u[i]
     for i in range(P.sizes.ns):
         y[2 * n + i] = P.z[first + i]
-
-
-@native
-def start_accelerations(P: Problem, L: Plan, C: Control) -> bool:
-    """How accelerations come about in this scene; False when there are none."""
-    inverse = P.history[INVERSE * C.size :]
-    if is_free(P) and mass_tables(P, inverse, inverse[P.sizes.n :]):
-        C.kind, C.width = MASSES, P.sizes.n
-        return True
-    if is_free(P) and invert_inertia(P, inverse):
-        C.kind = BODIES
-        return True
-    return accelerations(P, L, C.t, P.q, P.u, P.a, P.z, P.rd)
 
 
 @native
@@ -155,7 +164,8 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
     t, n = end_of_step(C, step_limit(P, C.row)), P.sizes.n
     y, k = P.history[NEXT_STATE * C.size :], P.history[K_NEW * C.width :]
     if P.sizes.implicit_mass:
-        put_state(P, t, y, y[n:], P.a, P.z, P.rd)
+        take_state(P, C, y, P.trial, P.trial[n:])
+        put_state(P, t, P.trial, P.trial[n:], P.a, P.z, P.rd)
     if passed_singularity(P, L, C):
         return near_singularity(P, C)
     P.report.moved = 0.0

@@ -14,9 +14,11 @@ from adamslite.integrators.accelerations import (
     settle,
 )
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.explicit.control import BODIES, MASSES, TIED, Control
+from adamslite.integrators.explicit.control import BODIES, LANES, MASSES, TIED, Control
 from adamslite.integrators.explicit.dop853 import RESULT, ROW, TIMES
 from adamslite.integrators.explicit.history import INVERSE, NEXT_STATE, OLD
+from adamslite.integrators.explicit.lanes import from_lanes, lane_accelerations
+from adamslite.integrators.explicit.state import take_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.projection import project
@@ -27,8 +29,8 @@ from adamslite.native.translate import Alone, Reals, native
 @native
 def combine(P: Problem, C: Control, row: int, w: int, h: float, x: Reals, y: Reals) -> None:
     """y = x + h sum (weight k) over one row of the tableau."""
-    if C.kind == MASSES:
-        K, V, n, k = P.history, P.tableau[ROW * row + 2 :], P.sizes.n, h * C.h
+    if C.kind >= MASSES:
+        K, V, n, k = P.history, P.tableau[ROW * row + 2 :], C.width, h * C.h
         start_twice(
             x, x[n:], h * P.tableau[ROW * row + 1],
             K[n * int(V[0]) :], K[n * int(V[3]) :], K[n * int(V[6]) :], K[n * int(V[9]) :],
@@ -61,10 +63,10 @@ def add_combined(P: Problem, C: Control, row: int, first: int, w: int, h: float,
     Masses keep no rates of positions: those of stage i are u + h sum a_ij a_j, so that positions
     get h^2 sum (weight A)_j a_j.
     """
-    K, o, n = P.history, ROW * row, P.sizes.n
+    K, o, n = P.history, ROW * row, C.width
     for g in range(first, int(P.tableau[o]), 4):
         V = P.tableau[o + 2 + 3 * g :]
-        if C.kind == MASSES:
+        if C.kind >= MASSES:
             add_twice(
                 K[n * int(V[0]) :], K[n * int(V[3]) :], K[n * int(V[6]) :], K[n * int(V[9]) :],
                 h * V[1], h * V[4], h * V[7], h * V[10],
@@ -104,7 +106,9 @@ def add_twice(
 def rates_at(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -> bool:
     """k = f(t, y); False when the accelerations cannot be solved for."""
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
-    inverse = P.history[INVERSE * (2 * n) :]
+    inverse = P.history[INVERSE * C.size :]
+    if C.kind == LANES:
+        return lane_accelerations(P, C, t, y, k)
     if C.kind == MASSES:
         return mass_accelerations(P, t, y, y[n:], inverse, inverse[n:], k)
     if C.kind == BODIES:
@@ -142,27 +146,35 @@ def exact_rates(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -
     q, u, a and the workspace.
     """
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
-    good = True
     if C.kind != TIED:
         good = rates_at(P, L, C, t, y, k)
-        first = 0 if C.kind == MASSES else n
-        for i in range(n):
-            P.a[i] = k[first + i]
+        put_rates(P, C, k)
+        take_state(P, C, y, P.q, P.u)
+        put_state(P, t, P.q, P.u, P.a, P.z, P.rd)
+        return good
+    for i in range(P.sizes.ns):
+        P.z[first + i] = y[2 * n + i]
+    put_state(P, t, y, y[n:], P.a, P.z, P.rd)
+    good = factor_accelerations(P, L)
+    if good and P.sizes.m > 0:
+        good = project(P, L, y, y[n:])
+    if good:
         put_state(P, t, y, y[n:], P.a, P.z, P.rd)
-    else:
-        for i in range(P.sizes.ns):
-            P.z[first + i] = y[2 * n + i]
-        put_state(P, t, y, y[n:], P.a, P.z, P.rd)
-        good = factor_accelerations(P, L)
-        if good and P.sizes.m > 0:
-            good = project(P, L, y, y[n:])
-        if good:
-            put_state(P, t, y, y[n:], P.a, P.z, P.rd)
-            good = settle(P, L, y[n:], P.a, P.z, P.rd)
-        keep_rates(P, y, k)
-    for i in range(n):
-        P.q[i], P.u[i] = y[i], y[n + i]
+        good = settle(P, L, y[n:], P.a, P.z, P.rd)
+    keep_rates(P, y, k)
+    take_state(P, C, y, P.q, P.u)
     return good
+
+
+@native
+def put_rates(P: Problem, C: Control, k: Reals) -> None:
+    """Accelerations from the rates of free bodies."""
+    if C.kind == LANES:
+        from_lanes(P, C.lane, k, P.a)
+    else:
+        first = C.width - P.sizes.n
+        for i in range(P.sizes.n):
+            P.a[i] = k[first + i]
 
 
 @native

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.explicit.control import Control
+from adamslite.integrators.explicit.control import LANES, MASSES, Control
 from adamslite.integrators.explicit.history import OLD
+from adamslite.integrators.explicit.lanes import from_lanes
 from adamslite.integrators.motion_equations import PART
 from adamslite.integrators.stepping.accepted import count_from_here
-from adamslite.native.translate import native
+from adamslite.native.translate import Reals, native
 
 
 @native
@@ -17,8 +18,9 @@ def restore_state(P: Problem, C: Control) -> None:
     w = C.size
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     y = P.history[OLD * w :]
+    take_state(P, C, y, P.q, P.u)
     for i in range(n):
-        P.q[i], P.u[i], P.a[i] = y[i], y[n + i], P.ra[i]
+        P.a[i] = P.ra[i]
     for i in range(first):
         P.z[i] = P.rz[i]
     for i in range(P.sizes.ns):
@@ -27,8 +29,21 @@ def restore_state(P: Problem, C: Control) -> None:
 
 
 @native
+def take_state(P: Problem, C: Control, y: Reals, q: Reals, u: Reals) -> None:
+    """Positions and velocities (n,) of a state."""
+    if C.kind == LANES:
+        from_lanes(P, C.lane, y, q)
+        from_lanes(P, C.lane, y[C.half :], u)
+    else:
+        for i in range(P.sizes.n):
+            q[i], u[i] = y[i], y[P.sizes.n + i]
+
+
+@native
 def base_here(P: Problem, C: Control) -> None:
     """Count rotation vectors from the accepted attitude."""
+    if C.kind >= MASSES:
+        return
     count_from_here(P)
     n, y, k = P.sizes.n, P.history[OLD * C.size :], P.history[0:]
     for b in range(P.sizes.nb):

@@ -19,12 +19,27 @@ def prepare(system: Equations, settings: Settings) -> None:
     from adamslite.integrators.explicit.control import Control
     from adamslite.integrators.explicit.dop853 import tableau
     from adamslite.integrators.explicit.history import HISTORY_ROWS, SCALES
+    from adamslite.integrators.explicit.lanes import LINE, TABLES
 
-    w = 2 * system.n + system.ns
+    scales, bodies = error_scales(system, settings.scale), len(system.model.bodies)
+    inverse = 9 * bodies
+    if system.by_component:
+        row = LINE * -(-bodies // LINE)
+        scales, inverse = by_component(scales, row), TABLES * row
+    w = len(scales)
     system.tableau = tableau()
-    inverse = 9 * len(system.model.bodies)
-    system.make_room(control=Control.slots, history=HISTORY_ROWS * w + inverse)
-    system.history[SCALES * w : (SCALES + 1) * w] = error_scales(system, settings.scale)
+    system.make_room(control=Control.slots, history=HISTORY_ROWS * w + inverse, trial=w)
+    system.history[SCALES * w : (SCALES + 1) * w] = scales
+
+
+def by_component(values: np.ndarray, row: int) -> np.ndarray:
+    """Numbers of bodies (2, bodies, 3) as those of each component (2, 3, row), ones behind."""
+    import numpy as np
+
+    found = np.ones((2, 3, row))
+    table = values.reshape(2, -1, 3)
+    found[:, :, : table.shape[1]] = table.transpose(0, 2, 1)
+    return found.ravel()
 
 
 def error_scales(system: Equations, scale: tuple[float, ...]) -> np.ndarray:
@@ -51,6 +66,7 @@ register(
         family="Runge-Kutta",
         explicit=True,
         pauses=True,
+        by_component=True,
         prepare=prepare,
         arguments={
             "ERROR": "local error of q, u and states",

@@ -9,11 +9,12 @@ and :mod:`adamslite.kernels.code.lane_writer` evaluates the loads.
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
+from adamslite.integrators.lanes import run_lanes
 from adamslite.integrators.linalg.plan import HUGE
 from adamslite.integrators.motion_equations import put_time
 from adamslite.integrators.verlet.control import Control
 from adamslite.integrators.verlet.sampling import HOPELESS, LARGE, note_steps, steps_per_estimate
-from adamslite.native.translate import Alone, Reals, call_address, maximum, native
+from adamslite.native.translate import Alone, maximum, native
 
 # Numbers of a body: place, velocity, force, acceleration before, each by component; 1/m.
 NUMBERS = 13
@@ -59,14 +60,6 @@ def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> f
         return HUGE
     note_steps(P, C, count)
     return 0.0 if C.fixed else top
-
-
-@native
-def run_lanes(P: Problem, S: Reals, row: int, F: Reals) -> None:
-    """All loads, with the other sign, into F."""
-    for k in range(P.lane_runs.size):
-        run = P.lane_runs[k]
-        call_address(run.function, run.count, run.ints, run.reals, run.of, P.W, S, row, F)
 
 
 @native

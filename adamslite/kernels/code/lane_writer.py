@@ -9,6 +9,9 @@ first, if the places, velocities and forces of all bodies are stored by componen
 Then there is nothing to gather or scatter, and the loop over a *run* of instances takes as many at
 once as the processor has lanes: in blocks, first all forces into ``T``, then those on the first
 body of every instance, on the second, and so on, since neighbours add to the same body.
+
+Loads of added mass have a second such function, of the derivatives of F by the accelerations of
+their body, nine rows E; their forces are those without acceleration.
 """
 
 from __future__ import annotations
@@ -18,9 +21,10 @@ from collections.abc import Iterator
 from adamslite.kernels.code.kinematics import Vec
 from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Outputs, Shape
-from adamslite.native.llvm_builder import FAST, Builder, Value
+from adamslite.native.llvm_builder import FAST, Builder, Value, literal
 from adamslite.native.translate.writer import module_text
 from adamslite.symbolic.scope import Scope, Slot
+from adamslite.symbolic.sympy_nodes import sp
 
 #: Instances whose forces stand in ``T`` at a time.
 BLOCK = 256
@@ -109,7 +113,7 @@ class LaneBuilder(Builder):
         if body >= self.n_bodies:
             return super().read(array, base, shift)
         if shift >= COMPONENTS:
-            raise IndexError(f"no component {shift} in lanes")
+            return literal(0.0)  # what accelerations are worth stands in E
         row = self.component("S", body, shift)
         address = self.emit(("pa", body, shift), f"getelementptr double, ptr {row}, i64 %j")
         return self.emit(("read", body, shift), f"load double, ptr {address}")
@@ -127,12 +131,30 @@ class LaneWriter(ResidualWriter):
 
     def _add_load(self, slot: Slot, sign: float, force: Vec, torque: Vec, lever: Vec) -> None:
         for component, value in enumerate(force):
-            if value == 0.0:
-                continue
-            if value not in self.kept:
-                self.kept.append(value)
-            op = "fadd" if sign > 0.0 else "fsub"
-            self.sums.append((slot.body, component, op, self.kept.index(value)))
+            self._keep(slot, component, sign, value)
+
+    def _keep(self, slot: Slot, component: int, sign: float, value: Value) -> None:
+        """Add a value to a component of a body."""
+        if value == 0.0:
+            return
+        if value not in self.kept:
+            self.kept.append(value)
+        op = "fadd" if sign > 0.0 else "fsub"
+        self.sums.append((slot.body, component, op, self.kept.index(value)))
+
+    def masses(self, out: Outputs) -> None:
+        """Derivatives of loads by the accelerations of their body: row 3 i + j of component i by
+        acceleration j.
+        """
+        for load in out.loads:
+            for slot, sign, _ in self._ends(load):
+                for i, force in enumerate(load.force):
+                    for symbol in sorted(self.scope.slope.symbols(sp.S.Zero + force), key=str):
+                        kind, *frames, j = self.scope.leaves[symbol]
+                        if kind == "a":
+                            along = -sign if self.scope.is_ground(frames[0]) else sign
+                            slope = self.value(self.scope.slope(force, symbol))
+                            self._keep(slot, 3 * i + j, along, slope)
 
     def text(self, name: str) -> str:
         """The function, or nothing where no body is loaded."""
@@ -158,11 +180,18 @@ class LaneWriter(ResidualWriter):
             )  # fmt: skip
 
 
-def write_lanes(shape: Shape, name: str) -> str:
-    """LLVM text of a shape's residual for runs of instances."""
+def write_lanes(shape: Shape, name: str, mass: str = "") -> str:
+    """LLVM text of a shape's residual for runs of instances, and with a name for it of its added
+    mass.
+    """
     scope = Scope(shape.slots)
     out: Outputs = shape.outputs(scope)
     writer = LaneWriter(shape, scope)
     writer.residual(out)
-    text = writer.text(name)
-    return module_text(writer.b.declared, [text])
+    texts, declared = [writer.text(name)], writer.b.declared
+    if mass:
+        writer = LaneWriter(shape, scope)
+        writer.masses(out)
+        texts.append(writer.text(mass))
+        declared |= writer.b.declared
+    return module_text(declared, texts)

@@ -1,0 +1,28 @@
+"""Loads of point masses whose numbers are stored by component.
+
+    S = x of all bodies, y, z, then vx, vy, vz        F = forces, the same way
+
+in rows of equal length: see :mod:`adamslite.kernels.code.lane_writer`.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import Problem
+from adamslite.native.translate import Reals, call_address, native
+
+
+@native
+def run_lanes(P: Problem, S: Reals, row: int, F: Reals) -> None:
+    """All loads, with the other sign, into F."""
+    for k in range(P.lane_runs.size):
+        run = P.lane_runs[k]
+        call_address(run.function, run.count, run.ints, run.reals, run.of, P.W, S, row, F)
+
+
+@native
+def run_masses(P: Problem, S: Reals, row: int, E: Reals) -> None:
+    """Add the derivatives of all loads by the accelerations of their bodies to nine rows E."""
+    for k in range(P.lane_runs.size):
+        run = P.lane_runs[k]
+        if run.mass:
+            call_address(run.mass, run.count, run.ints, run.reals, run.of, P.W, S, row, E)
