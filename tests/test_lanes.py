@@ -1,4 +1,4 @@
-"""VERLET takes the loads of bodies that stand behind each other several at once, by component."""
+"""VERLET and ABAM take the loads of bodies that stand behind each other several at once."""
 
 from __future__ import annotations
 
@@ -87,6 +87,17 @@ def stopped(n: int) -> str:
     return chain(n) + "".join(map("".join, zip(floor, laws, strict=True)))
 
 
+def growing(n: int, full: bool = False) -> str:
+    """The chain with masses that grow with time; ``full``: other ones along each axis, coupled."""
+    laws = ", FX=-0.5*(VARVAL(2)-1)*ACCX({i})\\, FY=-0.5*(VARVAL(2)-1)*(ACCY({i})-JGRAV)\\"
+    if full:
+        laws = ", FX=-VARVAL(2)*(2*ACCX({i})+0.5*ACCZ({i}))\\, FY=-VM({i})*ACCX({i})-ACCY({i})\\"
+    laws = f"VFORCE/{{i}}, I={{i}}, JFLOAT={{f}}{laws}, FZ=-0.5*(1+DX({{i}})**2)*ACCZ({{i}})\n"
+    float_ = "MARKER/{f}, PART=1, FLOATING\n"
+    pairs = [{"i": i, "f": i + 5000} for i in range(2, n + 2)]
+    return chain(n) + "".join((float_ + laws).format(**pair) for pair in pairs)
+
+
 SCENES = {
     "chain": chain(20), "two blocks": chain(300), "one more than lanes": chain(33),
     "net": net(9), "shuffled": shuffled(20), "wind": windy(20),
@@ -151,3 +162,83 @@ def test_a_session_goes_on_with_another_method():
     ]
     for a, b in itertools.pairwise(found):
         np.testing.assert_allclose(a["POINT_MASS/21.y"], b["POINT_MASS/21.y"], atol=1e-3)
+
+
+BY_COMPONENT = {
+    **{f"{n} masses": chain(n) for n in (4, 5, 8, 9)}, **SCENES, "scaled": chain(20),
+    "growing": growing(20), "growing by axis": growing(11, full=True),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("scene", BY_COMPONENT)
+@pytest.mark.parametrize("settings", ["ERROR=1E-3", "ERROR=1E-7", "ERROR=1E-5, INTERPOLATE=OFF"])
+def test_the_explicit_formula_moves_the_same_but_for_round_off(scene, settings, monkeypatch):
+    """A choice of the step may turn over by round-off: then the error of the formula is left."""
+    if scene == "scaled":
+        settings += ", SCALE=1,1,1,10,1,1"
+    kernels = compile_model(
+        assemble(read(f"{BY_COMPONENT[scene]}INTEGRATOR/ABAM, {settings}\nEND\n"))
+    )
+    fast = simulate(kernels, end=0.5, steps=10)
+    monkeypatch.setattr(equations, "runs", lambda instances: None)
+    slow = simulate(kernels, end=0.5, steps=10)
+    assert abs(fast.summary["steps"] - slow.summary["steps"]) <= 0.02 * slow.summary["steps"]
+    same = fast.summary["steps"] == slow.summary["steps"] and scene != "net"
+    np.testing.assert_allclose(fast.values, slow.values, rtol=0, atol=1e-6 if same else 1e-3)
+
+
+def test_growing_masses_are_those_of_the_implicit_formula():
+    """... whose matrix has them."""
+    for text in (growing(20), growing(11, full=True)):
+        assert count(text) == 3
+        found, known = (
+            simulate(read(text + "END\n"), end=0.5, steps=5, integrator=method, error=1e-9)
+            for method in ("ABAM", "RADAU")
+        )
+        for name in ("POINT_MASS/9.x", "POINT_MASS/10.y", "POINT_MASS/11.vz", "POINT_MASS/3.ay"):
+            np.testing.assert_allclose(found[name], known[name], atol=1e-4)
+
+
+def test_markers_of_one_mass_have_the_same_acceleration():
+    """The force of their difference is none, on ground it is that of the one that moves."""
+    others = "".join(f"MARKER/{i + 7000}, POINT_MASS={i}, QP=0.1,0,0\n" for i in range(2, 22))
+    texts = [growing(20) + others, growing(20)]
+    for i in range(2, 22):
+        texts[0] = texts[0].replace(f"*ACCX({i})", f"*(ACCX({i})+9*ACCX({i},{i + 7000}))")
+    found, known = (
+        simulate(read(text + "END\n"), end=0.5, steps=5, integrator="ABAM", error=1e-8)
+        for text in texts
+    )
+    assert count(texts[0]) == 3
+    for name in known:
+        np.testing.assert_allclose(found[name], known[name], atol=1e-6)
+
+
+def test_an_effective_mass_that_vanishes_among_others_ends_the_run():
+    """(1 + 0.1 k - 2 t) of each mass: the first is without at half a second."""
+    text = growing(9).replace("-0.5*(VARVAL(2)-1)*ACCX", "2*TIME*ACCX")
+    found = simulate(read(text + "END\n"), end=1.0, steps=100, integrator="ABAM", error=1e-5)
+    assert found.outcome.name == "SINGULAR_ACCELERATION"
+    assert 0.45 < found.time[-1] <= 0.5
+
+
+@pytest.mark.parametrize("last", ["POINT_MASS/24.x", "POINT_MASS/24.vy"])
+def test_what_is_hardest_to_follow_is_named(last):
+    """The last of 23 masses is driven ever faster towards a pole of its force at 0.3."""
+    axis = "FX" if last.endswith("x") else "FY"
+    push = f"VFORCE/1, I=24, J_PART=1, {axis}=1/(0.3-TIME)**2\n"
+    text = chain(23) + push + "VFORCE/2, I=23, J_PART=1, FZ=1E-3*SIN(TIME)\nEND\n"
+    found = simulate(read(text), end=1.0, steps=10, integrator="ABAM", error=1e-8)
+    assert found.outcome.name != "DONE" and "POINT_MASS/24" in found.message
+
+
+def test_the_balance_of_the_explicit_formula_closes():
+    found = simulate(read(chain(20) + "END\n"), 1.0, 10, "ABAM", error=1e-6, audit=True)
+    assert found.balances[0].closes
+
+
+def test_an_expression_that_is_watched_takes_the_other_way():
+    """A SENSOR ends the run where the last mass has fallen by a metre."""
+    sensor = "SENSOR/1, FUNCTION=DY(21), VALUE=-1, LE, HALT, ERROR=1E-6\nEND\n"
+    found = simulate(read(chain(20) + sensor), end=3.0, steps=10, integrator="ABAM", error=1e-6)
+    assert found["POINT_MASS/21.y"][-1] == pytest.approx(-1.0, abs=1e-5)

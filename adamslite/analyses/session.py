@@ -130,7 +130,7 @@ class Session(SessionState):
         engine(formula.entry, self.progress)
         if formula.by_component:
             system.lay_lanes()
-        self._count_setup(began)
+        self.late_setup += clock.process_time() - began
         if self.progress:
             start, end = float(times[0]), float(times[-1])
             self.whole = AnalysisProgress(self.progress, start, end, self._steps_before)
@@ -178,17 +178,13 @@ class Session(SessionState):
         def run() -> Outcome:
             began = clock.process_time()
             make_ready(system, times, apart, settings, self.audited)
-            self._count_setup(began)
+            if not self.history.pieces:
+                self.late_setup += clock.process_time() - began
             return integrate(system, settings, self.whole)
 
         outcome = run() if "plane" in self.without else in_its_plane(system, run)
         self._note_balance(system)
         return outcome
-
-    def _count_setup(self, began: float) -> None:
-        """What was done since ``began`` before the first step of a run is set-up."""
-        if not self.history.pieces:
-            self.late_setup += clock.process_time() - began
 
     def _note_balance(self, system: System) -> None:
         if self.audited:

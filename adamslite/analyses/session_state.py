@@ -63,7 +63,7 @@ class SessionState:
     history : History
         What the analyses wrote.
     late_setup : float
-        CPU [s] of what comes before the first step but after the first command.
+        CPU [s] of set-up after the first command: integrators, what the first run needs to begin.
     outcome, unclosed
         How the last analysis ended; the constraint that stayed open, if one did.
     present : System or None

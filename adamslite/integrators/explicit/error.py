@@ -17,7 +17,7 @@ from adamslite.integrators.explicit.stages import combine, rates_at
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.stepping.step_size import LONGER
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, maximum, native
 
 # The next step aims at this share of what the error test allows; exponents of the present and the
 # last error (section IV.2 of the second volume: steadier at the limit of stability).
@@ -39,18 +39,10 @@ TRIAL, SHORT, AT_REST, STRAIGHT = 0.01, 1e-6, 1e-5, 1e-15
 @native
 def distance(P: Problem, a: Reals, y: Reals, scales: Reals, w: int) -> float:
     """Largest |a_i| against ERROR scale_i max(1, |y_i|); not-a-number where one is none."""
-    p, q, r, s, total = 0.0, 0.0, 0.0, 0.0, 0.0
-    whole = w - w % 4
-    for i in range(0, whole, 4):
-        # Four maxima that do not wait for each other.
-        k, m, n, o = share(a, y, scales, i), share(a, y, scales, i + 1), 0.0, 0.0
-        n, o = share(a, y, scales, i + 2), share(a, y, scales, i + 3)
-        p, q, r, s = max(p, k), max(q, m), max(r, n), max(s, o)
-        total += (k + m) + (n + o)
-    for i in range(whole, w):
-        k = share(a, y, scales, i)
-        p, total = max(p, k), total + k
-    return (max(max(p, q), max(r, s)) if total == total else total) / P.settings.error
+    top = 0.0
+    for i in range(w):
+        top = maximum(top, share(a, y, scales, i))
+    return top / P.settings.error
 
 
 @native

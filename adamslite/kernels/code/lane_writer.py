@@ -146,15 +146,16 @@ class LaneWriter(ResidualWriter):
         """Derivatives of loads by the accelerations of their body: row 3 i + j of component i by
         acceleration j.
         """
-        for load in out.loads:
-            for slot, sign, _ in self._ends(load):
-                for i, force in enumerate(load.force):
-                    for symbol in sorted(self.scope.slope.symbols(sp.S.Zero + force), key=str):
-                        kind, *frames, j = self.scope.leaves[symbol]
-                        if kind == "a":
-                            along = -sign if self.scope.is_ground(frames[0]) else sign
+        ends = [(load, slot, sign) for load in out.loads for slot, sign, _ in self._ends(load)]
+        for load, slot, sign in ends:
+            for i, force in enumerate(load.force):
+                for symbol in sorted(self.scope.slope.symbols(sp.S.Zero + force), key=str):
+                    leaf = self.scope.leaves[symbol]
+                    frames = ((leaf[1], sign), (leaf[2], -sign)) if leaf[0] == "a" else ()
+                    for frame, along in frames:
+                        if not self.scope.is_ground(frame):
                             slope = self.value(self.scope.slope(force, symbol))
-                            self._keep(slot, 3 * i + j, along, slope)
+                            self._keep(slot, 3 * i + leaf[3], along, slope)
 
     def text(self, name: str) -> str:
         """The function, or nothing where no body is loaded."""
