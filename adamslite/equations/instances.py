@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from adamslite.kernels.binding import Binding
     from adamslite.kernels.groups import ShapeGroup
     from adamslite.language.statement import Statement
-    from adamslite.model.model import NodeKey
+    from adamslite.model.model import MassCentre, NodeKey
 
 PHASES = {
     "loads": contract.LOADS,
@@ -54,8 +54,10 @@ class Instances:
         self.keep: list[np.ndarray] = []
         self.outputs: dict[Statement, int] = {}
         self.n_out = 0
-        for b in range(len(self.model.bodies)):
-            blocks.offset(b, b)
+        own = np.arange(len(self.model.bodies))
+        blocks.offsets_of(own, own)
+        self.starts = ints(numbering.starts)
+        self.body_w = ints([numbering.w_at["BODY", b] for b in own.tolist()])
         for statement, names in self.kernels.outputs:
             self.outputs[statement] = self.n_out
             self.n_out += len(names)
@@ -74,18 +76,13 @@ class Instances:
             phase |= contract.ELASTIC
         if group.face == "loads" and group.meta["mass"] and group.meta["added_mass"]:
             phase |= contract.ADDED_MASS
-        ints = np.array(
-            [self._integers(group, b, n) for n, (_, b) in enumerate(group.instances)],
-            dtype=np.int64,
-        )
-        reals = np.array([self._reals(group, b) for _, b in group.instances], dtype=float)
-        reals = np.ascontiguousarray(np.append(reals.ravel(), 0.0))
-        ints = np.ascontiguousarray(ints.ravel())
-        self.keep += [ints, reals]
+        bindings = [binding for _, binding in group.instances]
+        integers, reals = self._integers(group, bindings), self._reals(group, bindings)
+        self.keep += [integers, reals]
         at = self.kernels.addresses
         kinds = ("residual", "jacobian", "track", "clock", "watch")
         entry = [at.get(f"{group.name}_{kind}", 0) for kind in kinds]
-        data = [len(group.instances), ints.ctypes.data, reals.ctypes.data]
+        data = [len(bindings), integers.ctypes.data, reals.ctypes.data]
         return [phase, *entry[:3], *data, *entry[3:]]
 
     def one_instance(self, groups: Rows[KernelGroup], k: int, instance: int) -> Rows[KernelGroup]:
@@ -126,23 +123,43 @@ class Instances:
                 found[statement.label] = f"{statement.beyond}, first at t = {time:.6g}"
         return found
 
-    def _integers(self, group: ShapeGroup, binding: Binding, instance: int) -> list[int]:
-        nodes: list[NodeKey] = [("BODY", b) for b in binding.bodies] + binding.nodes
-        found = [self.numbering.w_at.get(node, 0) for node in nodes]
-        found += [self.numbering.w_at["SIGNAL", s] for s in binding.signals]
-        found += [self._row(group, node) for node in nodes]
-        found += [table.data.ctypes.data for table in binding.tables]
+    def _integers(self, group: ShapeGroup, bindings: list[Binding]) -> np.ndarray:
+        """What each instance of a group reads and writes, one instance behind the other: offsets
+        in the workspace, first rows, addresses of tables, guards, blocks of the Jacobian.
+        """
+        count, w_at = len(bindings), self.numbering.w_at
+        bodies = np.array([each.bodies for each in bindings], dtype=np.int64).reshape(count, -1).T
+        others = [*zip(*(each.nodes for each in bindings), strict=True)]
+        signals = zip(*(each.signals for each in bindings), strict=True)
+        tables = zip(*(each.tables for each in bindings), strict=True)
+        columns: list[np.ndarray] = [self.body_w[each] for each in bodies]
+        columns += [ints([w_at.get(node, 0) for node in nodes]) for nodes in others]
+        columns += [ints([w_at["SIGNAL", each] for each in signal]) for signal in signals]
+        columns += [self.starts[each] for each in bodies]
+        columns += [ints([self._row(group, node) for node in nodes]) for nodes in others]
+        columns += [ints([each.data.ctypes.data for each in table]) for table in tables]
         guards = group.meta["guards"]
         if any(guards.values()):
-            found += [
-                self.numbering.first_branch[place, group.name] + instance * len(each)
+            columns += [
+                self.numbering.first_branch[place, group.name] + len(each) * np.arange(count)
                 for place, each in guards.items()
             ]
         if group.meta["blocks"]:
-            rows = [self._row_node(group, node) for node in nodes]
-            columns = [self.numbering.node_at[node] for node in nodes]
-            found += [self.blocks.offset(rows[r], columns[c]) for r, c in group.meta["blocks"]]
-        return found
+            columns += self._blocks(group, bodies, others)
+        return np.column_stack(columns).ravel() if columns else ints([])
+
+    def _blocks(
+        self, group: ShapeGroup, bodies: np.ndarray, others: list[tuple[NodeKey, ...]]
+    ) -> list[np.ndarray]:
+        """Where the blocks that each instance writes begin."""
+        node_at = self.numbering.node_at
+        rows = [*bodies, *(ints([self._row_node(group, k) for k in nodes]) for nodes in others)]
+        columns = [*bodies, *(ints([node_at[k] for k in nodes]) for nodes in others)]
+        pairs = group.meta["blocks"]
+        of_rows = np.column_stack([rows[r] for r, _ in pairs])
+        of_columns = np.column_stack([columns[c] for _, c in pairs])
+        found = self.blocks.offsets_of(of_rows.ravel(), of_columns.ravel())
+        return [*found.reshape(of_rows.shape).T]
 
     def _row_node(self, group: ShapeGroup, node: NodeKey) -> int:
         """Node whose rows an instance writes: velocity rows stand at mu."""
@@ -159,15 +176,20 @@ class Instances:
             return 0  # all add up in one number, or are guards alone
         return self.numbering.starts[self._row_node(group, node)]
 
-    def _reals(self, group: ShapeGroup, binding: Binding) -> list[float]:
-        values = list(binding.params) + [0.0] * group.meta["angles"]
-        values += [inf] * group.meta["limits"]
-        for marker_id in binding.markers:
-            place = self.model.marker(marker_id)
-            if place is None:
-                continue
-            if place.offset:
-                values += place.p.tolist()
-            if place.turned:
-                values += place.axes.ravel().tolist()
-        return values
+    def _reals(self, group: ShapeGroup, bindings: list[Binding]) -> np.ndarray:
+        """Parameters, what is remembered, and places of markers, one instance behind the other."""
+        memory = [0.0] * group.meta["angles"] + [inf] * group.meta["limits"]
+        fixed = [k for k, each in enumerate(bindings[0].markers) if self._placed(each)]
+        rows = [
+            [*each.params, *memory, *(x for k in fixed for x in self._placed(each.markers[k]))]
+            for each in bindings
+        ]
+        return np.append(np.array(rows, dtype=float).ravel(), 0.0)
+
+    def _placed(self, marker: Key | MassCentre) -> list[float]:
+        """Where a marker is on its body, and its axes, unless these are those of the body."""
+        place = self.model.marker(marker)
+        if place is None:
+            return []
+        offset = place.p.tolist() if place.offset else []
+        return [*offset, *place.axes.ravel().tolist()] if place.turned else offset

@@ -30,6 +30,19 @@ class JacobianBlocks:
             self.size += self.widths[row] * self.widths[column]
         return self.offsets[row, column]
 
+    def offsets_of(self, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+        """Where each of many blocks begins; those not met before are made, in this order."""
+        pairs = [*zip(rows.tolist(), columns.tolist(), strict=True)]
+        fresh = [pair for pair in dict.fromkeys(pairs) if pair not in self.offsets]
+        if fresh:
+            wide = np.array(self.widths, dtype=np.int64)
+            row, column = np.array(fresh).T
+            sizes = wide[row] * wide[column]
+            begins = self.size + np.cumsum(sizes) - sizes
+            self.offsets.update(zip(fresh, begins.tolist(), strict=True))
+            self.size += int(sizes.sum())
+        return ints([self.offsets[pair] for pair in pairs])
+
     def dense(self, entries: np.ndarray) -> np.ndarray:
         """Their entries (size,) as one matrix (nz, nz)."""
         full = np.zeros((self.nz, self.nz))

@@ -94,8 +94,9 @@ class Numbering:
         for place, found in self.guarded.items():
             for group in self.kernels.groups:
                 self.first_branch[place, group.name] = at + len(found)
-                for statement, _ in group.instances:
-                    found += [(statement, kind) for kind in group.meta["guards"][place]]
+                kinds = group.meta["guards"][place]
+                for statement, _ in group.instances if kinds else ():
+                    found += [(statement, kind) for kind in kinds]
             at += len(found)
         self.unchanging: list[Sensor] = []
         self.sensors = list(self._sensors())
