@@ -30,6 +30,10 @@ if TYPE_CHECKING:
     """Deck, commands, and the messages about both."""
 
 
+MOST = 1 << 22
+"""Texts that are kept [bytes]: of some 30 000 statements. Larger ones would fill the cache."""
+
+
 class Origin(NamedTuple):
     """The name of everything that a scene is read from, and the contents of its files."""
 
@@ -42,10 +46,12 @@ def origin_of(deck: Path, commands: Path | None) -> Origin | None:
     try:
         facts = [program(), processor.identity(), os.getcwd()]
         paths = [deck, commands] if commands else [deck]
+        if not all(path.is_file() for path in paths):
+            return None  # a pipe can be read once only
         contents = [path.read_bytes() for path in paths]
     except (OSError, UsageError):  # reported where they stand in the way
         return None
-    if not facts[0]:
+    if not facts[0] or sum(map(len, contents)) > MOST:
         return None
     found = hashlib.sha256("\0".join([*facts, *map(str, paths)]).encode(errors="surrogateescape"))
     for content in contents:

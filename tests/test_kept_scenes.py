@@ -291,6 +291,20 @@ def test_a_deck_replaced_while_it_is_read_is_not_kept(deck: Path, monkeypatch) -
     assert solve(deck) == pytest.approx(-10.0)
 
 
+def test_what_can_be_read_once_is_not_read_for_its_name(deck: Path, capsys) -> None:
+    """A pipe, as of ``adamslite check <(program)``."""
+    os.mkfifo("pipe.adm")
+    with subprocess.Popen(["cp", "fall.adm", "pipe.adm"]):
+        assert main(["check", "pipe.adm"]) == 0
+    assert "9 statements" in capsys.readouterr().out
+
+
+def test_a_large_deck_is_not_kept(deck: Path, monkeypatch) -> None:
+    monkeypatch.setattr(kept_scene, "MOST", 100)
+    assert origin_of(deck, None) is None
+    assert solve(deck) == pytest.approx(-10.0)
+
+
 def test_a_program_replaced_while_it_runs_keeps_nothing(deck: Path, monkeypatch) -> None:
     monkeypatch.setattr(kept_scene, "is_unchanged", lambda: False)
     assert solve(deck) == pytest.approx(-10.0)
