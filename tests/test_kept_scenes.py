@@ -221,6 +221,16 @@ def test_another_folder_has_other_files(deck: Path, tmp_path: Path, monkeypatch)
     assert solve(deck) == pytest.approx(-2.5)
 
 
+def test_another_folder_has_other_names(deck: Path, tmp_path: Path, monkeypatch) -> None:
+    """Also where nothing lies beside: whatever is found from the current folder may differ."""
+    here = origin_of(deck, None)
+    (tmp_path / "other").mkdir()
+    shutil.copy(deck, tmp_path / "other")
+    monkeypatch.chdir(tmp_path / "other")
+    there = origin_of(deck, None)
+    assert here and there and here.name != there.name and here.contents == there.contents
+
+
 def test_a_deck_that_is_a_link_is_what_the_link_means(deck: Path) -> None:
     shutil.copy(deck, "heavy.adm")
     replaced(Path("heavy.adm"), "-10.0", "-30.0")
@@ -274,6 +284,14 @@ def test_numbers_of_the_user_are_part_of_no_entry(deck: Path, counted: Counted) 
     assert solve(deck, "--user", "VFORCE/1=0,-30,0") == pytest.approx(-30.0)
     assert main(["solve", str(deck)]) == 3  # no routine at all
     assert counted.read == 3 and not kept_entries(deck)
+
+
+def test_a_binding_without_use_is_reported_of_a_kept_deck(deck: Path, capsys) -> None:
+    assert solve(deck) == pytest.approx(-10.0)
+    capsys.readouterr()
+    for command in ("solve", "check"):
+        main([command, str(deck), "--user", "VFORCE/1=0,-30,0"])
+        assert "VFORCE/1" in "".join(capsys.readouterr())
 
 
 def test_a_deck_replaced_while_it_is_read_is_not_kept(deck: Path, monkeypatch) -> None:
