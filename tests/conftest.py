@@ -36,7 +36,7 @@ TEXTUAL = {
     "test_accuracy_notes", "test_browser", "test_browser_plots", "test_bundle",
     "test_cable_messages", "test_chart", "test_commands", "test_compare",
     "test_deck", "test_lexical", "test_manual", "test_messages", "test_pages", "test_reference",
-    "test_results", "test_statement", "test_style", "test_sympy_to_llvm",
+    "test_results", "test_statement", "test_style", "test_graph_to_llvm",
 }  # fmt: skip
 
 

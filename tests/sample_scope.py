@@ -13,8 +13,11 @@ from types import SimpleNamespace
 
 import mpmath as mp
 import numpy as np
-import sympy as sp
+from graph_values import value
 
+from adamslite.symbolic.algebra import atan2
+from adamslite.symbolic.derivatives import along
+from adamslite.symbolic.graph import Node, symbol
 from adamslite.symbolic.interpolant import Interpolant, interpolant, piece_numbers
 from adamslite.symbolic.scope import Load
 
@@ -54,8 +57,8 @@ def held_value(number: int, curve: int, order: int, piece, x) -> mp.mpf:
     return table_value(number, curve, order, x)
 
 
-# What sympy does not know of; for lambdify.
-MODULES = [{"Lookup": table_value, "LookupHeld": held_value}, "mpmath"]
+# Values of the nodes that mpmath knows no function for.
+TABLES = {"Lookup": table_value, "LookupHeld": held_value}
 
 
 def turn(axis: int, angle) -> mp.matrix:
@@ -136,11 +139,11 @@ class SampleScope:
     """The scope of deck functions over the frames 0, 1, 2 and ``GROUND``."""
 
     def __init__(self) -> None:
-        self.values: dict[sp.Symbol, mp.mpf] = {}
+        self.values: dict[Node, mp.mpf] = {}
         self.loads: list[tuple] = []
 
-    def symbol(self, name: str, value) -> sp.Symbol:
-        made = sp.Symbol(name, real=True)
+    def symbol(self, name: str, value) -> Node:
+        made = symbol(name)
         self.values[made] = mp.mpf(value)
         return made
 
@@ -180,7 +183,7 @@ class SampleScope:
         return self.symbol("side", 1)
 
     def angle(self, sine, cosine):
-        return sp.atan2(sine, cosine) + self.symbol("turns", 2 * mp.pi)
+        return atan2(sine, cosine) + self.symbol("turns", 2 * mp.pi)
 
     def load(self, id, jflag: int) -> tuple:
         self.loads.append((id, jflag))
@@ -217,13 +220,10 @@ class SampleScope:
         return False
 
     def derivative(self, expr):
-        return sum(
-            sp.diff(expr, s) * self.symbol(f"rate_of_{s}", "0.25") for s in list(self.values)
-        )
+        return along(expr, {s: self.symbol(f"rate_of_{s}", "0.25") for s in list(self.values)})
 
 
 def evaluate(expr, values: dict) -> mp.mpf:
     """Value of an expression at many digits."""
-    symbols = sorted(expr.free_symbols, key=str)
     with mp.workdps(DIGITS):
-        return mp.mpmathify(sp.lambdify(symbols, expr, "mpmath")(*[values[s] for s in symbols]))
+        return value(expr, values, mp, TABLES)

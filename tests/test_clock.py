@@ -18,8 +18,9 @@ from adamslite.integrators import contract
 from adamslite.kernels.code.clock_program import ClockWriter
 from adamslite.language.function import FUNCTIONS
 from adamslite.results.outcomes import Outcome
+from adamslite.symbolic.algebra import sin
+from adamslite.symbolic.graph import number
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import sp
 
 FORMULAS = (
     "GSTIFF", "GSTIFF I3", "WSTIFF", "HHT", "NEWMARK", "RADAU", "ABAM", "RKF45", "VERLET"
@@ -238,13 +239,13 @@ CALLS = [
 def _program(name: str, others):
     scope = Scope([])
     x = scope.time
-    arg = {"inside": sp.sin(x) * sp.Float(0.9), "above": 1 / (x**2 + sp.Float(0.3))}
-    first = arg.get(others, x - sp.Float(0.25)) if isinstance(others, str) else x - sp.Float(0.25)
-    rest = () if others is None or isinstance(others, str) else map(sp.Float, others)
-    given = (sp.Integer(1), first) if name == "SIGN" else (first, *rest)
+    arg = {"inside": sin(x) * 0.9, "above": 1 / (x**2 + 0.3)}
+    first = arg.get(others, x - 0.25) if isinstance(others, str) else x - 0.25
+    rest = () if others is None or isinstance(others, str) else map(number, others)
+    given = (number(1), first) if name == "SIGN" else (first, *rest)
     writer = ClockWriter(scope.leaves)
     expression = FUNCTIONS[name].body(scope, *given) * (x**3 - x) ** 2
-    return writer.closed(writer.place(sp.S.Zero + expression))
+    return writer.closed(writer.place(expression))
 
 
 @pytest.mark.parametrize(("name", "others"), CALLS)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import itertools
 
 import pytest
-import sympy as sp
 
 from adamslite.kernels.code.idle import IdleTest
-from adamslite.symbolic.sympy_nodes import piecewise
+from adamslite.symbolic import algebra, graph
+from adamslite.symbolic.formulas import piecewise
 
-x, y, v = sp.symbols("x y v", real=True)
+x, y, v = map(graph.symbol, "xyv")
 A, B, C = x > 0, y >= 0, v < 0
-ONE_SIDED = piecewise((x * v, sp.And(A, B)), otherwise=0, order=0)
+ONE_SIDED = piecewise((x * v, algebra.And(A, B)), otherwise=0, order=0)
 OTHER_SIDE = piecewise((y, C), otherwise=0, order=0)
 UNHELD = piecewise((x, A), otherwise=0)
 TRUE, FALSE, OPEN = 1.0, -1.0, 0.0
@@ -26,7 +26,7 @@ class Logic:
 
 
 def idle(expressions, a: float, b: float, c: float) -> bool:
-    return IdleTest(Logic(), {A: a, B: b, C: c})(map(sp.sympify, expressions))
+    return IdleTest(Logic(), {A: a, B: b, C: c})(map(graph.node, expressions))
 
 
 @pytest.mark.parametrize(
@@ -35,14 +35,14 @@ def idle(expressions, a: float, b: float, c: float) -> bool:
         ([0], lambda a, b, c: True),
         ([x], lambda a, b, c: False),
         ([ONE_SIDED], lambda a, b, c: a < 0 or b < 0),
-        ([ONE_SIDED * sp.sin(y) / v, 3 * ONE_SIDED], lambda a, b, c: a < 0 or b < 0),
+        ([ONE_SIDED * algebra.sin(y) / v, 3 * ONE_SIDED], lambda a, b, c: a < 0 or b < 0),
         ([ONE_SIDED, x], lambda a, b, c: False),
         ([ONE_SIDED + 1], lambda a, b, c: False),
         ([ONE_SIDED - OTHER_SIDE], lambda a, b, c: (a < 0 or b < 0) and c < 0),
         ([ONE_SIDED * OTHER_SIDE], lambda a, b, c: a < 0 or b < 0 or c < 0),
         ([UNHELD], lambda a, b, c: False),
-        ([piecewise((x, sp.Not(A, evaluate=False)), otherwise=0, order=0)], lambda a, b, c: a > 0),
-        ([piecewise((x, sp.Or(A, C)), otherwise=0, order=0)], lambda a, b, c: a < 0 and c < 0),
+        ([piecewise((x, graph.made("not", A)), otherwise=0, order=0)], lambda a, b, c: a > 0),
+        ([piecewise((x, algebra.Or(A, C)), otherwise=0, order=0)], lambda a, b, c: a < 0 and c < 0),
         ([piecewise((0, A), otherwise=x, order=0)], lambda a, b, c: a > 0),
         ([piecewise((0, A), (x, B), otherwise=y, order=0)], lambda a, b, c: a > 0),
         ([piecewise((0, A), (x, B), otherwise=0, order=0)], lambda a, b, c: a > 0 or b < 0),

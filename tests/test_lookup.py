@@ -22,8 +22,8 @@ from adamslite.native import compiler
 from adamslite.native.translate import symbol
 from adamslite.native.translate.statements import translate
 from adamslite.results.outcomes import Outcome
+from adamslite.symbolic.formulas import lookup, lookup_between
 from adamslite.symbolic.interpolant import BEYOND, Interpolant, interpolant
-from adamslite.symbolic.sympy_nodes import lookup, lookup_between
 
 RANDOM = np.random.default_rng(7)
 X = np.cumsum(RANDOM.uniform(0.05, 1.0, 40)) - 3.0

@@ -18,7 +18,7 @@ from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import Key
 from adamslite.model.model import Model
 from adamslite.symbolic.duals import Dual
-from adamslite.symbolic.sympy_nodes import with_numbers
+from adamslite.symbolic.formulas import with_numbers
 
 # Times at which edges are evaluated, halvings of the interval in which one passes through zero.
 SAMPLES, HALVINGS = 400, 60

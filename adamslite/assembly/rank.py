@@ -22,6 +22,8 @@ if TYPE_CHECKING:  # only large models need sparse matrices
     from scipy.sparse import csr_array
 
 RANK = 1e-9
+# Decimals of rows that choose between them: those that are alike but for round-off stay in order.
+ALIKE = 12
 # Rows up to which matrices are dense.
 MOST_DENSE = 800
 # What is added to the diagonal of G G^T, vectors at first, and iterations: singular values above
@@ -41,7 +43,7 @@ def dependent_rows(scaled: np.ndarray) -> list[int]:
         return []
     from scipy.linalg import qr
 
-    r, order = qr(scaled.T, mode="r", pivoting=True)
+    r, order = qr(np.round(scaled, ALIKE).T, mode="r", pivoting=True)
     pivots = np.abs(np.diag(r))
     rank = int((pivots > RANK * pivots[0]).sum())
     return sorted(int(row) for row in order[rank:])

@@ -13,7 +13,7 @@ from adamslite.assembly.scope import WIDTH, Crowded, Posture, Unmeasured
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.model.model import Model
 from adamslite.symbolic.duals import Dual
-from adamslite.symbolic.sympy_nodes import with_numbers
+from adamslite.symbolic.formulas import with_numbers
 from adamslite.symbolic.types import Physics
 
 if TYPE_CHECKING:  # only large models need sparse matrices

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from adamslite.elements.bases.arguments import routine_name
 from adamslite.language.expression import Call, Ref
 from adamslite.language.statement import Statement, expression, flag, statement, vector
-from adamslite.symbolic.sympy_nodes import piecewise, sp
+from adamslite.symbolic.formulas import piecewise
 
 if TYPE_CHECKING:
     from adamslite.language.expression import Node
@@ -69,8 +69,8 @@ class Diff(Statement):
         state, rate = self.unknowns
         if hasattr(self, "owner"):
             return rate - self.owner.cls.state_rate(self.owner, scope, int(self.number), state)
-        residual = sp.S.Zero + (self.function if self.implicit else rate - self.function)
-        if not self.dynamic_hold and rate in residual.free_symbols:
+        residual = self.function if self.implicit else rate - self.function
+        if not self.dynamic_hold and rate in scope.slope.symbols(residual):
             return residual
         moving = rate if self.dynamic_hold else scope.derivative(residual)
         return piecewise((residual, scope.mode > DYNAMICS), otherwise=moving)

@@ -87,8 +87,8 @@ from adamslite.language.statement import (
     statement,
     words,
 )
+from adamslite.symbolic.formulas import fn, norm, piecewise
 from adamslite.symbolic.scope import ZERO, Load, dot, minus, scale
-from adamslite.symbolic.sympy_nodes import norm, piecewise, sp
 
 if TYPE_CHECKING:
     from adamslite.elements.joint import Joint
@@ -278,7 +278,7 @@ class Friction(Wrench, Statement):
             capped(torque, self.max_friction_torque),
         )
         if self.inactive == "STATIC":
-            acts = piecewise((0, sp.Eq(scope.mode, STATICS)), otherwise=1)
+            acts = piecewise((0, fn.Eq(scope.mode, STATICS)), otherwise=1)
             force, torque = scale(acts, force), scale(acts, torque)
         return [Load(i, force, torque, j, follows=True)]
 

@@ -55,8 +55,8 @@ from adamslite.language.statement import (
     text,
     vector,
 )
+from adamslite.symbolic.formulas import fn
 from adamslite.symbolic.scope import dot
-from adamslite.symbolic.sympy_nodes import sp
 
 if TYPE_CHECKING:
     from adamslite.language.interfaces import DrawnModel
@@ -184,7 +184,7 @@ class Joint(Constraint, Statement):
         i, j = self.i, self.j
         if self.kind == "SCREW":
             angle = angle_since(scope, turn(scope, i, j), self.turned)
-            return [slide(scope, i, j) - self.slid - self.pitch / (2 * sp.pi) * angle]
+            return [slide(scope, i, j) - self.slid - self.pitch / (2 * fn.pi) * angle]
         if self.kind == "RACKPIN":
             angle = angle_since(scope, turn_on_rack(scope, i, j), self.turned)
             return [self.slid - slide(scope, i, j) - self.pd / 2 * angle]

@@ -36,8 +36,8 @@ from adamslite.language.statement import (
     reference,
 )
 from adamslite.language.statement import statement as register
+from adamslite.symbolic.formulas import root
 from adamslite.symbolic.scope import dot
-from adamslite.symbolic.sympy_nodes import root
 
 if TYPE_CHECKING:
     from adamslite.elements.bases.joint_coordinates import Turn

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from adamslite.elements.bases.arguments import routine_name
 from adamslite.language.statement import Statement, choice, expression, flag, number, statement
-from adamslite.symbolic.sympy_nodes import piecewise
+from adamslite.symbolic.formulas import piecewise
 
 if TYPE_CHECKING:
     from adamslite.language.expression import Node

@@ -13,8 +13,8 @@ from __future__ import annotations
 import math
 
 from adamslite.language.function import Mistake, function
+from adamslite.symbolic.formulas import fn, norm, piecewise, root
 from adamslite.symbolic.scope import Scope, cross, dot
-from adamslite.symbolic.sympy_nodes import norm, piecewise, root, sp
 from adamslite.symbolic.types import Expr, Frame
 
 SEQUENCES = (
@@ -53,10 +53,10 @@ def _sequence_angle(r: Matrix, sequence: tuple[int, int, int], component: int) -
         middle = (e * r[a][c], norm((*first, 0)))
         last = (-e * r[a][b], r[a][a])
     if component == 2:
-        return sp.atan2(*middle)
+        return fn.atan2(*middle)
     sine, cosine = first if component == 1 else last
-    together = sp.atan2(e * r[other][b], r[b][b]) if component == 1 else 0
-    return piecewise((sp.atan2(sine, cosine), sine**2 + cosine**2 > ALIGNED), otherwise=together)
+    together = fn.atan2(e * r[other][b], r[b][b]) if component == 1 else 0
+    return piecewise((fn.atan2(sine, cosine), sine**2 + cosine**2 > ALIGNED), otherwise=together)
 
 
 def _euler_parameter(r: Matrix, component: int) -> Expr:
@@ -77,7 +77,7 @@ def _euler_parameter(r: Matrix, component: int) -> Expr:
         values.append(piecewise((value, row[0] >= 0), otherwise=-value))
     return piecewise(
         (values[0], trace >= 0),
-        (values[1], sp.And(r[0][0] >= r[1][1], r[0][0] >= r[2][2])),
+        (values[1], fn.And(r[0][0] >= r[1][1], r[0][0] >= r[2][2])),
         (values[2], r[1][1] >= r[2][2]),
         otherwise=values[3],
     )
@@ -223,7 +223,7 @@ def orient(scope: Scope, system: int, component: int, i: Frame, j: Frame) -> Exp
         return (ax, ay, az)[component - 1](scope, i, j)
     r = _attitude(scope, i, j)
     if system == COSINES:
-        return sp.S.Zero + r[(component - 1) % 3][(component - 1) // 3]
+        return fn.S.Zero + r[(component - 1) % 3][(component - 1) // 3]
     if system == EULER_PARAMETERS:
         return _euler_parameter(r, component)
     if system >= SPACE_FIXED:  # R_c R_b R_a: body-fixed, the other way round

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from adamslite.language.function import function
+from adamslite.symbolic.formulas import piecewise
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import piecewise
 from adamslite.symbolic.types import Expr
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from adamslite.language.function import Mistake, function
+from adamslite.symbolic.formulas import lookup
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import lookup
 from adamslite.symbolic.types import Expr
 
 DELAY = "DELAY"

@@ -13,8 +13,8 @@ comp: 1 FM, 2 FX, 3 FY, 4 FZ, 5 TM, 6 TX, 7 TY, 8 TZ, components along the axes 
 from __future__ import annotations
 
 from adamslite.language.function import function
+from adamslite.symbolic.formulas import norm, piecewise
 from adamslite.symbolic.scope import ZERO, Scope, Vector, cross, dot, plus, scale
-from adamslite.symbolic.sympy_nodes import norm, piecewise
 from adamslite.symbolic.types import Expr, Frame, Tree
 
 MEASURES: dict[str, str] = {}

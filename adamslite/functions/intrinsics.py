@@ -6,8 +6,8 @@ import math
 from functools import reduce
 
 from adamslite.language.function import function
+from adamslite.symbolic.formulas import floor, fn, magnitude, piecewise, root
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import floor, magnitude, piecewise, root, sp
 from adamslite.symbolic.types import Expr
 
 
@@ -77,7 +77,7 @@ def sign(scope: Scope, a: Expr, b: Expr) -> Expr:
     return piecewise((size, b >= 0), otherwise=-size, order=-1)
 
 
-@function("MOD", "a:number b:number", edges=lambda a, b: (sp.sin(math.pi * a / b),), order=-1)
+@function("MOD", "a:number b:number", edges=lambda a, b: (fn.sin(math.pi * a / b),), order=-1)
 def mod(scope: Scope, a: Expr, b: Expr) -> Expr:
     """Remainder a - AINT(a/b) b; it has the sign of a.
 
@@ -86,7 +86,7 @@ def mod(scope: Scope, a: Expr, b: Expr) -> Expr:
     return a - _truncated(a / b) * b
 
 
-@function("AINT", "x:number", edges=lambda x: (sp.sin(math.pi * x),), order=-1)
+@function("AINT", "x:number", edges=lambda x: (fn.sin(math.pi * x),), order=-1)
 def aint(scope: Scope, x: Expr) -> Expr:
     """x without its fraction (towards 0).
 
@@ -95,7 +95,7 @@ def aint(scope: Scope, x: Expr) -> Expr:
     return _truncated(x)
 
 
-@function("INT", "x:number", edges=lambda x: (sp.sin(math.pi * x),), order=-1)
+@function("INT", "x:number", edges=lambda x: (fn.sin(math.pi * x),), order=-1)
 def int_(scope: Scope, x: Expr) -> Expr:
     """x without its fraction (towards 0): another name of AINT.
 
@@ -104,7 +104,7 @@ def int_(scope: Scope, x: Expr) -> Expr:
     return _truncated(x)
 
 
-@function("ANINT", "x:number", edges=lambda x: (sp.cos(math.pi * x),), order=-1)
+@function("ANINT", "x:number", edges=lambda x: (fn.cos(math.pi * x),), order=-1)
 def anint(scope: Scope, x: Expr) -> Expr:
     """The whole number nearest to x, halves away from 0.
 
@@ -113,7 +113,7 @@ def anint(scope: Scope, x: Expr) -> Expr:
     return _nearest(x)
 
 
-@function("NINT", "x:number", edges=lambda x: (sp.cos(math.pi * x),), order=-1)
+@function("NINT", "x:number", edges=lambda x: (fn.cos(math.pi * x),), order=-1)
 def nint(scope: Scope, x: Expr) -> Expr:
     """The whole number nearest to x, halves away from 0: another name of ANINT.
 
@@ -137,7 +137,7 @@ def exp(scope: Scope, x: Expr) -> Expr:
 
     Unit: none.  Source: FORTRAN intrinsic EXP.
     """
-    return sp.exp(x)
+    return fn.exp(x)
 
 
 @function("LOG", "x:number")
@@ -146,7 +146,7 @@ def log(scope: Scope, x: Expr) -> Expr:
 
     Unit: none.  Source: FORTRAN intrinsic LOG.
     """
-    return sp.log(x)
+    return fn.log(x)
 
 
 @function("LOG10", "x:number")
@@ -155,7 +155,7 @@ def log10(scope: Scope, x: Expr) -> Expr:
 
     Unit: none.  Source: FORTRAN intrinsic LOG10.
     """
-    return sp.log(x) / math.log(10.0)
+    return fn.log(x) / math.log(10.0)
 
 
 @function("SIN", "x:number")
@@ -164,7 +164,7 @@ def sin(scope: Scope, x: Expr) -> Expr:
 
     Source: FORTRAN intrinsic SIN.
     """
-    return sp.sin(x)
+    return fn.sin(x)
 
 
 @function("COS", "x:number")
@@ -173,7 +173,7 @@ def cos(scope: Scope, x: Expr) -> Expr:
 
     Source: FORTRAN intrinsic COS.
     """
-    return sp.cos(x)
+    return fn.cos(x)
 
 
 @function("TAN", "x:number")
@@ -182,7 +182,7 @@ def tan(scope: Scope, x: Expr) -> Expr:
 
     Source: FORTRAN intrinsic TAN.
     """
-    return sp.tan(x)
+    return fn.tan(x)
 
 
 @function("ASIN", "x:number")
@@ -191,7 +191,7 @@ def asin(scope: Scope, x: Expr) -> Expr:
 
     Source: FORTRAN intrinsic ASIN.
     """
-    return sp.asin(x)
+    return fn.asin(x)
 
 
 @function("ACOS", "x:number")
@@ -200,7 +200,7 @@ def acos(scope: Scope, x: Expr) -> Expr:
 
     Source: FORTRAN intrinsic ACOS.
     """
-    return sp.acos(x)
+    return fn.acos(x)
 
 
 @function("ATAN", "x:number")
@@ -209,7 +209,7 @@ def atan(scope: Scope, x: Expr) -> Expr:
 
     Source: FORTRAN intrinsic ATAN.
     """
-    return sp.atan(x)
+    return fn.atan(x)
 
 
 @function("ATAN2", "y:number x:number")
@@ -218,7 +218,7 @@ def atan2(scope: Scope, y: Expr, x: Expr) -> Expr:
 
     Source: FORTRAN intrinsic ATAN2.
     """
-    return sp.atan2(y, x)
+    return fn.atan2(y, x)
 
 
 @function("SINH", "x:number")
@@ -227,7 +227,7 @@ def sinh(scope: Scope, x: Expr) -> Expr:
 
     Source: FORTRAN intrinsic SINH.
     """
-    return sp.sinh(x)
+    return fn.sinh(x)
 
 
 @function("COSH", "x:number")
@@ -236,7 +236,7 @@ def cosh(scope: Scope, x: Expr) -> Expr:
 
     Source: FORTRAN intrinsic COSH.
     """
-    return sp.cosh(x)
+    return fn.cosh(x)
 
 
 @function("TANH", "x:number")
@@ -245,4 +245,4 @@ def tanh(scope: Scope, x: Expr) -> Expr:
 
     Source: FORTRAN intrinsic TANH.
     """
-    return sp.tanh(x)
+    return fn.tanh(x)

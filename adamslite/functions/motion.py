@@ -14,8 +14,8 @@ are the ground frame.  Accelerations are purely kinematic: gravity is not part o
 from __future__ import annotations
 
 from adamslite.language.function import function
+from adamslite.symbolic.formulas import norm, root
 from adamslite.symbolic.scope import Scope, Vector, cross, dot, minus, scale
-from adamslite.symbolic.sympy_nodes import norm, root
 from adamslite.symbolic.types import Expr, Frame
 
 

@@ -6,8 +6,8 @@ import math
 
 from adamslite.functions.steps import step5
 from adamslite.language.function import ascending, function
+from adamslite.symbolic.formulas import fn, piecewise
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import piecewise, sp
 from adamslite.symbolic.types import Expr
 
 
@@ -17,7 +17,7 @@ def shf(scope: Scope, x: Expr, x0: Expr, a: Expr, w: Expr, phi: Expr = 0, b: Exp
 
     phi and w (x - x0) in radians.  Unit: that of a and b.  Source: Adams/Solver function SHF.
     """
-    return a * sp.sin(w * (x - x0) - phi) + b
+    return a * fn.sin(w * (x - x0) - phi) + b
 
 
 @function("FORCOS", "x:number x0:number w:number *a0:number[1..31]")
@@ -26,7 +26,7 @@ def forcos(scope: Scope, x: Expr, x0: Expr, w: Expr, *a: Expr) -> Expr:
 
     Unit: that of the a_j.  Source: Adams/Solver function FORCOS.
     """
-    return a[0] + sum(aj * sp.cos(j * w * (x - x0)) for j, aj in enumerate(a[1:], 1))
+    return a[0] + sum(aj * fn.cos(j * w * (x - x0)) for j, aj in enumerate(a[1:], 1))
 
 
 @function("FORSIN", "x:number x0:number w:number *a0:number[1..31]")
@@ -35,7 +35,7 @@ def forsin(scope: Scope, x: Expr, x0: Expr, w: Expr, *a: Expr) -> Expr:
 
     Unit: that of the a_j.  Source: Adams/Solver function FORSIN.
     """
-    return a[0] + sum(aj * sp.sin(j * w * (x - x0)) for j, aj in enumerate(a[1:], 1))
+    return a[0] + sum(aj * fn.sin(j * w * (x - x0)) for j, aj in enumerate(a[1:], 1))
 
 
 @function("POLY", "x:number x0:number *a0:number[1..31]")
@@ -85,4 +85,4 @@ def sweep(scope: Scope, x: Expr, a: Expr, x0: Expr, f0: Expr, x1: Expr, f1: Expr
         otherwise=f0 * x + rise * (x - x0) ** 2 / (2 * (x1 - x0)),
         order=1,
     )
-    return a * sp.sin(2 * math.pi * phase) * step5(scope, x, x0, 0, x0 + dx, 1)
+    return a * fn.sin(2 * math.pi * phase) * step5(scope, x, x0, 0, x0 + dx, 1)

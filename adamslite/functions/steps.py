@@ -13,8 +13,8 @@ import math
 from collections.abc import Callable
 
 from adamslite.language.function import Mistake, ascending, function
+from adamslite.symbolic.formulas import fn, piecewise, power
 from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import piecewise, power, sp
 from adamslite.symbolic.types import Expr
 
 STEP_SIGNATURE = "x:number x0:number h0:number x1:number h1:number"
@@ -67,7 +67,7 @@ def havsin(scope: Scope, x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr) -> Exp
 
     D = (x - x0)/(x1 - x0).  Unit: that of h0 and h1.  Source: Adams/Solver function HAVSIN.
     """
-    return _blend(1, lambda d: (1 - sp.cos(math.pi * d)) / 2, x, x0, h0, x1, h1)
+    return _blend(1, lambda d: (1 - fn.cos(math.pi * d)) / 2, x, x0, h0, x1, h1)
 
 
 @function(
@@ -84,7 +84,7 @@ def impact(scope: Scope, x: Expr, v: Expr, x1: Expr, k: Expr, e: Expr, cmax: Exp
     """
     touching = x < x1
     force = spring(k, x1 - x, e) - v * step(scope, x, x1 - d, cmax, x1, 0)
-    return piecewise((force, sp.And(touching, force > 0)), otherwise=0, order=0)
+    return piecewise((force, fn.And(touching, force > 0)), otherwise=0, order=0)
 
 
 def spring(k: Expr, depth: Expr, e: Expr) -> Expr:

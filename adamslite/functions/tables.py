@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from adamslite.language.function import function
-from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.sympy_nodes import (
+from adamslite.symbolic.formulas import (
     floor,
     lookup,
     lookup_between,
     lookup_between_with_corners,
     lookup_with_corners,
 )
+from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Tree
 
 # Methods of INTERP.

@@ -2,7 +2,7 @@
 
 :class:`Binder` walks a statement's declared arguments and replaces every id, number and marker by
 a slot. What remains, written as text, is the *key* of the shape; what was taken out is the
-instance.  The walk needs no sympy, so a deck whose shapes are cached compiles nothing.
+instance.  The walk writes no expressions, so a deck whose shapes are cached compiles nothing.
 :mod:`adamslite.kernels.reader` does the reverse.
 
 A bound tree is one of

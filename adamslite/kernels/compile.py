@@ -9,9 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cache, partial
-from importlib.util import find_spec
-from pathlib import Path
+from functools import partial
 from typing import TYPE_CHECKING
 
 from adamslite.caching.entries import recall, recall_json
@@ -39,7 +37,7 @@ from adamslite.progress import Progress
 from adamslite.symbolic.scope import Scope, UndefinedRate
 from adamslite.symbolic.types import Expr, Tree
 
-if TYPE_CHECKING:  # a deck whose shapes are cached needs no sympy
+if TYPE_CHECKING:  # a deck whose shapes are cached needs no expressions
     from adamslite.kernels.code.shape import Outputs, Shape
 
 
@@ -102,7 +100,7 @@ def _add(groups: dict[Tree, ShapeGroup], model: Model, statement: Statement, fac
     key = binder.key(face, (statement.keyword, fields, own, rate))
     group = groups.get(key)
     if group is None:
-        name = "k" + compiler.digest(repr(key), version_of("kernels.compile"), algebra())
+        name = "k" + compiler.digest(repr(key), version_of("kernels.compile"))
         level = LEVELS.index(face) - 1 if face in LEVELS else 0
         level -= level > 0 and rate
         write = FaceWriter(binder, statement.keyword, face, fields, own, level)
@@ -284,11 +282,3 @@ def _no_rate(group: ShapeGroup, fault: UndefinedRate) -> Diagnostic:
         what = f"{label}, which depends on itself" if circular else f"a reaction of {label}"
         what = f"the rate of {label}" if kind == "dif1" else what
     return diagnose_inside(group.instances[0][0], label, "no-rate", what=what)
-
-
-@cache
-def algebra() -> str:
-    """Version of sympy, whose transformations shape the text of a kernel; sympy is not imported."""
-    spec = find_spec("sympy")
-    assert spec is not None and spec.origin is not None
-    return (Path(spec.origin).parent / "release.py").read_text(encoding="utf-8")

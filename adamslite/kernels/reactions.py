@@ -15,17 +15,14 @@ def reactions(rows: Iterable[Expr], multipliers: Sequence[Symbol], scope: Scope)
     and the torque -lam sum x_c cross dg/dx_c on the part of each axis used; for velocity rows d
     and x are replaced by v and w (Jourdain's principle).
     """
-    from adamslite.symbolic.sympy_nodes import sp
-
     loads = []
     for row, lam in zip(rows, multipliers, strict=True):
-        row = sp.S.Zero + row
         groups: dict[Leaf, list[Expr]] = {}
-        for symbol in sorted(scope.slope.symbols(row), key=str):
+        gradient = scope.slope.gradient(row)
+        for symbol in sorted(gradient, key=str):
             leaf = scope.leaves[symbol]
             if leaf[0] in ("d", "x", "v", "w"):
-                slope = groups.setdefault(leaf[:-1], [sp.S.Zero] * 3)
-                slope[leaf[-1]] = scope.slope(row, symbol)
+                groups.setdefault(leaf[:-1], [0, 0, 0])[leaf[-1]] = gradient[symbol]
         rates = any(leaf[0] in ("v", "w") for leaf in groups)
         for leaf, slope in groups.items():
             pull = scale(-lam, (slope[0], slope[1], slope[2]))

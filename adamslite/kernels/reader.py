@@ -1,24 +1,19 @@
-"""From bound trees to sympy: the reverse of :mod:`adamslite.kernels.binding`."""
+"""From bound trees to expressions: the reverse of :mod:`adamslite.kernels.binding`."""
 
 from __future__ import annotations
-
-import math
 
 from adamslite.kernels.view import View
 from adamslite.language.expression import OPERATORS
 from adamslite.language.function import find_function
 from adamslite.language.statement import class_of
+from adamslite.symbolic.graph import NAN, Node, power
+from adamslite.symbolic.graph import node as as_node
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Read, Tree
 
-# Whole and half numbers below this are exact fractions, so that powers and products of them are.
-EXACT_BELOW = 1e6
-# With these a double is read back as it was.
-DIGITS = 17
-
 
 class ExpressionReader:
-    """Turns bound trees into sympy with a scope."""
+    """Turns bound trees into expressions of a scope."""
 
     def __init__(self, scope: Scope, n_bodies: int) -> None:
         self.scope = scope
@@ -34,23 +29,19 @@ class ExpressionReader:
         return self.memo[tree]
 
     def _defined(self, value: Read) -> Read:
-        """What sympy knows to be undefined (a pole, a division by zero) becomes not-a-number."""
-        from adamslite.symbolic.sympy_nodes import sp
-
-        if isinstance(value, sp.Basic) and self._is_undefined(value):
+        """What is known to be undefined (a pole, a division by zero) becomes not-a-number."""
+        if isinstance(value, Node) and self._is_undefined(value):
             return self.scope.symbol("nan")
         return value
 
     def _is_undefined(self, value: Expr) -> bool:
         """Whether a pole or not-a-number is part of an expression; each part is visited once."""
-        from adamslite.symbolic.sympy_nodes import sp
-
         pending = [value]
         while pending:
             top = pending.pop()
             if top in self.seen:
                 continue
-            if top is sp.zoo or top is sp.nan:
+            if top is NAN:
                 return True
             self.seen.add(top)
             pending += top.args
@@ -62,7 +53,7 @@ class ExpressionReader:
             case ("p", _) | ("sig", _, _):
                 return scope.symbol(*tree)
             case ("c", value):
-                return _exact(value) if isinstance(value, float) else value
+                return as_node(value) if isinstance(value, float) else value
             case ("t",) | ("mode",):
                 return scope.symbol(tree[0])
             case ("m", number) | ("tab", number):
@@ -90,18 +81,8 @@ class ExpressionReader:
         return function.body(self.scope, *args)
 
     def _operation(self, op: str, args: list[Expr]) -> Expr:
-        from adamslite.symbolic.sympy_nodes import power
-
-        return power(*args) if op == "**" else OPERATORS[op].function(*args)
-
-
-def _exact(value: float) -> Expr:
-    from adamslite.symbolic.sympy_nodes import sp
-
-    doubled = 2.0 * value
-    if math.isfinite(doubled) and doubled == int(doubled) and abs(doubled) < EXACT_BELOW:
-        return sp.Rational(int(doubled), 2)
-    return sp.Float(value, DIGITS)
+        nodes = map(as_node, args)
+        return power(*nodes) if op == "**" else OPERATORS[op].function(*nodes)
 
 
 def symbolic_view(

@@ -7,12 +7,12 @@ A deck function is one Python function under a signature::
         \"""...\"""
 
 Its body receives a :class:`adamslite.symbolic.scope.Scope` and one value per parameter, and returns
-a sympy expression.  Its docstring is its page in the manual.
+an expression.  Its docstring is its page in the manual.
 
 The words of a signature are separated by blanks:
 
 ==================  ============================================================================
-``x:number``        any expression; the body gets a sympy expression
+``x:number``        any expression; the body gets an expression
 ``c:constant``      a number written in the deck that decides the form of the result; the body
                     gets an ``int``
 ``c:constant{1..8}``  the same, with the values allowed (``{1..12,27}``)

@@ -1,1 +1,1 @@
-"""Expressions in sympy: the scope of elements, nodes of the language, guards."""
+"""Expressions as graphs: the scope of elements, derivatives, guards."""

@@ -1,70 +1,120 @@
-"""Partial derivatives of expressions whose parts occur many times.
+"""Derivatives on the graph of an expression, by the chain rule from node to node.
 
-    (a + b)' = a' + b'      (a b)' = a' b + a b'      (b^e)' = b^e (e' log b + b' e/b)
-    f(a, b)' = f_a a' + f_b b'
+    gradient   by all symbols at once, from the result to the symbols (reverse mode):
+               the weight of a node is the sum over those it is part of,  w_b = sum w_a da/db
+    along      in one direction, from the symbols to the result (forward mode):
+               a' = sum da/db b'
 
-They are the trees that ``sympy.diff`` gives.  It forms for every part of an expression again its
-symbols and for unevaluated derivatives, at every level: the effort grows with the size of the tree
-times its depth, and the trees of kernels share most of their parts.  Here each part is visited
-once, and differentiated once by each symbol.
+Each visits every node once, so that the effort grows with the graph and not with the tree that it
+stands for.  The slopes da/db of single functions are those of sympy (:mod:`.slopes`).  A choice is
+differentiated piece by piece and chosen between afterwards: what has no value in a piece that does
+not hold stays there.
+
+Reference: Griewank, Walther, Evaluating Derivatives, 2008, chapters 3 and 6.
 """
 
 from __future__ import annotations
 
-from adamslite.symbolic.sympy_nodes import sp
-from adamslite.symbolic.types import Expr, Symbol
+from collections.abc import Callable, Iterable, Mapping
+
+from adamslite.symbolic.graph import ONE, TRUE, ZERO, Given, Node, add, choice, mul, node, ordered
+from adamslite.symbolic.slopes import slopes
+
+NONE: frozenset[Node] = frozenset()
 
 
 class Derivatives:
-    """Differentiates expressions that share parts; remembers what it has found."""
+    """Differentiates expressions that share parts; ``constant``: by which symbols never."""
 
-    def __init__(self) -> None:
-        self._symbols: dict[Expr, frozenset[Symbol]] = {}
-        self._found: dict[tuple[Expr, Symbol], Expr] = {}
+    def __init__(self, constant: Callable[[Node], bool] = lambda symbol: False) -> None:
+        self.constant = constant
+        self._symbols: dict[Node, frozenset[Node]] = {}
+        self._varies: dict[Node, bool] = {}
+        self._gradients: dict[Node, dict[Node, Node]] = {}
 
-    def symbols(self, expr: Expr) -> frozenset[Symbol]:
+    def symbols(self, expr: Given) -> frozenset[Node]:
         """The symbols in an expression."""
-        found = self._symbols.get(expr)
-        if found is None:
-            parts = map(self.symbols, expr.args)
-            found = frozenset((expr,)) if expr.is_Symbol else frozenset().union(*parts)
-            self._symbols[expr] = found
-        return found
+        expr, known = node(expr), self._symbols
+        for top in _new(expr, known):
+            own = frozenset((top,)) if top.kind == "symbol" else NONE
+            known[top] = own.union(*[known[each] for each in top.args])
+        return known[expr]
 
-    def __call__(self, expr: Expr, symbol: Symbol) -> Expr:
-        """d(expr)/d(symbol)."""
-        if expr == symbol:
-            return sp.S.One
-        if symbol not in self.symbols(expr):
-            return sp.S.Zero
-        key = expr, symbol
-        if key not in self._found:
-            self._found[key] = self._derivative(expr, symbol)
-        return self._found[key]
+    def varies(self, expr: Node) -> bool:
+        """Whether an expression has symbols that are no constants."""
+        known = self._varies
+        for top in _new(expr, known):
+            own = top.kind == "symbol" and not self.constant(top)
+            known[top] = own or any(known[each] for each in top.args)
+        return known[expr]
 
-    def _derivative(self, expr: Expr, symbol: Symbol) -> Expr:
-        if expr.is_Add:
-            return expr.func(*[self(term, symbol) for term in expr.args])
-        if expr.is_Mul:
-            return self._of_product(expr.args, symbol)
-        if expr.is_Pow:
-            base, exponent = expr.args
-            by_base = self(base, symbol) * exponent / base
-            slope = self(exponent, symbol)
-            # sympy asks a lot about the logarithm before it lets zero times it be zero.
-            return expr * (slope * sp.log(base) + by_base if slope != 0 else by_base)
-        if type(expr).__name__ == "Piecewise":
-            return expr.func(*[(self(each.expr, symbol), each.cond) for each in expr.args])
-        if type(expr)._eval_derivative is sp.Function._eval_derivative:
-            slopes = [self(argument, symbol) for argument in expr.args]
-            parts = [expr.fdiff(n) * slope for n, slope in enumerate(slopes, 1) if slope != 0]
-            return sp.Add(*parts)
-        return sp.diff(expr, symbol)
+    def gradient(self, expr: Given) -> Mapping[Node, Node]:
+        """The derivatives by the symbols that an expression depends on."""
+        expr = node(expr)
+        if expr not in self._gradients:
+            self._gradients[expr] = self._gradient(expr) if self.varies(expr) else {}
+        return self._gradients[expr]
 
-    def _of_product(self, factors: tuple[Expr, ...], symbol: Symbol) -> Expr:
-        terms = []
-        for n, factor in enumerate(factors):
-            slope = self(factor, symbol)
-            if slope != 0:
-                terms.append(sp.Mul(*factors[:n], slope, *factors[n + 1 :]))
-        return sp.Add(*terms)
+    def _gradient(self, expr: Node) -> dict[Node, Node]:
+        weights: dict[Node, Node] = {expr: ONE}
+        found: dict[Node, Node] = {}
+        for top in reversed(ordered([expr], self._below)):
+            weight = weights.pop(top)
+            if top.kind == "symbol":
+                found[top] = add(found.get(top, ZERO), weight)
+            elif top.kind == "choice":
+                for symbol, its_slope in self._of_choice(top).items():
+                    found[symbol] = add(found.get(symbol, ZERO), mul(weight, its_slope))
+            else:
+                for each, slope in slopes(top):
+                    if self._varies[each]:
+                        weights[each] = add(weights.get(each, ZERO), mul(weight, slope()))
+        return {symbol: slope for symbol, slope in found.items() if slope is not ZERO}
+
+    def _below(self, top: Node) -> Iterable[Node]:
+        """What a weight is passed on to."""
+        if top.kind == "choice":
+            return ()
+        return [each for each, _ in slopes(top) if self._varies[each]] if top.args else ()
+
+    def _of_choice(self, top: Node) -> dict[Node, Node]:
+        """The gradient of a choice: of its pieces, chosen between."""
+        pieces = [(self.gradient(value), condition) for value, condition in top.pieces]
+        pieces.append((self.gradient(top.args[-1]), TRUE))
+        symbols = dict.fromkeys(symbol for slope, _ in pieces for symbol in slope)
+        return {
+            symbol: choice([(slope.get(symbol, ZERO), c) for slope, c in pieces], top.order)
+            for symbol in symbols
+        }
+
+
+def along(expr: Given, rates: Mapping[Node, Node]) -> Node:
+    """The derivative in the direction in which symbols change at given rates, others not at all."""
+    expr, found = node(expr), dict(rates)
+    for top in ordered([expr], lambda top: top.args[:: 1 + (top.kind == "choice")]):
+        if top.kind == "choice":
+            pieces = [(found[value], condition) for value, condition in top.pieces]
+            found[top] = choice([*pieces, (found[top.args[-1]], TRUE)], top.order)
+        elif top.args and top not in found:
+            found[top] = _rate(top, found)
+        else:
+            found.setdefault(top, ZERO)
+    return found[expr]
+
+
+def _rate(top: Node, rates: Mapping[Node, Node]) -> Node:
+    total = ZERO
+    if all(rates[each] is ZERO for each in top.args):
+        return total
+    for each, slope in slopes(top):
+        if rates[each] is not ZERO:
+            total = add(total, mul(slope(), rates[each]))
+    return total
+
+
+def _new(expr: Node, known: Mapping[Node, object]) -> list[Node]:
+    """The nodes of an expression that nothing is known of, each behind those it is made of."""
+    if expr in known:
+        return []
+    return [top for top in ordered([expr], lambda top: () if top in known else top.args)
+            if top not in known]  # fmt: skip

@@ -1,11 +1,11 @@
-"""Numbers that carry their derivatives, and the functions of sympy for them.
+"""Numbers that carry their derivatives, and the functions of formulas for them.
 
 A :class:`Dual` is a value with its slope: the derivatives by some coordinates, an array, or 0.0
 where there are none.  The rules of differentiation are applied as values are computed, so that
 slopes are exact to round-off.  What has no value is not a number; nothing here raises.
 
-Elements and functions write their formulas with ``sp`` and the operations of
-:mod:`adamslite.symbolic.sympy_nodes`.  Inside :func:`~adamslite.symbolic.sympy_nodes.with_numbers`
+Elements and functions write their formulas with the operations of
+:mod:`adamslite.symbolic.formulas`.  Inside :func:`~adamslite.symbolic.formulas.with_numbers`
 these are the functions of this module.
 
 Reference: Griewank, Walther, Evaluating Derivatives, 2008, chapter 3.
@@ -163,17 +163,17 @@ def power(base: Number, exponent: Number) -> Dual:
     return Dual(value, slope)
 
 
-def And(*conditions: bool) -> bool:  # noqa: N802  sympy's name
+def And(*conditions: bool) -> bool:  # noqa: N802  as a word it is Python's
     """Whether all hold."""
     return all(conditions)
 
 
-def chosen(*pieces: tuple[Number, bool], otherwise: Number) -> Number:
+def chosen(*pieces: tuple[Number, bool], otherwise: Number, order: int | None = None) -> Number:
     """The value of the first condition that holds."""
     return next((value for value, holds in pieces if holds), otherwise)
 
 
-def floor(x: Number) -> Dual:
+def floor(x: Number, order: int | None = None) -> Dual:
     """The largest whole number not above x."""
     return Dual(_safe(math.floor, _value(x)))
 
@@ -193,3 +193,15 @@ def lookup_between(table: Interpolant, x: Number, z: Number, order: int, z_order
     start, end = float(table.places[at]), float(table.places[at + 1])
     rise = (high - low) / (end - start)
     return rise if z_order else low + (Dual(0.0) + z - start) * rise
+
+
+def lookup_with_corners(table: Interpolant, pieces: Interpolant, x: Number, order: int) -> Dual:
+    """A table of straight lines at ``x``, or its derivative."""
+    return lookup(table, x, 0, order)
+
+
+def lookup_between_with_corners(
+    table: Interpolant, strips: Interpolant, x: Number, z: Number
+) -> Dual:
+    """A table of two arguments."""
+    return lookup_between(table, x, z, 0, 0)

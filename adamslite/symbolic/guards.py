@@ -72,7 +72,7 @@ def guards(expressions: Iterable[Expr], leaves: dict[Symbol, Leaf]) -> Guards:
             result.clock.append(guard)
         elif kinds and order < 1:
             result.watch.append(guard)
-            if order < 0 and hasattr(guard, "rel_op"):
+            if order < 0 and guard.is_relation:
                 result.jumps.add(guard)
     return result
 
@@ -87,13 +87,13 @@ def _collect(expression: Expr, found: dict[Expr, int], zones: dict[Expr, None]) 
     pending, seen = [expression], set()
     while pending:
         node = pending.pop()
-        if node in seen or not getattr(node, "args", ()):
+        if node in seen or not node.args:
             continue
         seen.add(node)
-        order = getattr(node, "order", None)
-        if order is not None and type(node).__name__ == "floor":
+        order = node.order
+        if order is not None and node.kind == "floor":
             found[node] = order
-        elif order is not None and type(node).__name__ == "Piecewise":
+        elif order is not None and node.kind == "choice":
             for relation in _relations(node):
                 found[relation] = min(order, found.get(relation, order))
             place = _zone(node) if order >= 1 else None
@@ -102,30 +102,30 @@ def _collect(expression: Expr, found: dict[Expr, int], zones: dict[Expr, None]) 
         pending.extend(reversed(node.args))
 
 
-def _zone(piecewise: Expr) -> Expr:
+def _zone(choice: Expr) -> Expr:
     """The place within the zone between ``(x - x0) w <= 0`` and ``(x - x1) w >= 0``, w = x1 - x0:
     0 at x0 and 1 at x1; None where a choice is none between two borders.
     """
-    borders = [piece.cond for piece in piecewise.args[:-1]]
-    if [getattr(border, "rel_op", None) for border in borders] != ["<=", ">="]:
+    borders = [condition for _, condition in choice.pieces]
+    if [border.kind for border in borders] != ["<=", ">="]:
         return None
-    before, behind = (border.lhs - border.rhs for border in borders)
+    before, behind = (border.args[0] - border.args[1] for border in borders)
     return before / (before - behind)
 
 
-def _relations(piecewise: Expr) -> list[Expr]:
+def _relations(choice: Expr) -> list[Expr]:
     """The relations in the conditions of a choice, not those inside their sides."""
-    found, pending = [], [piece.cond for piece in piecewise.args]
+    found, pending = [], [condition for _, condition in choice.pieces]
     while pending:
         condition = pending.pop(0)
-        if type(condition).__name__ in ("And", "Or", "Not"):
-            pending += sorted(condition.args, key=str)
-        elif getattr(condition, "rel_op", None) in RELATIONS:
+        if condition.kind in ("and", "or", "not"):
+            pending += condition.args
+        elif condition.kind in RELATIONS:
             found.append(condition)
     return found
 
 
 def _kind(guard: Expr) -> int:
-    if type(guard).__name__ == "floor":
+    if guard.kind == "floor":
         return FLOOR
-    return STRICT if guard.rel_op in ("<", ">") else WEAK
+    return STRICT if guard.kind in ("<", ">") else WEAK

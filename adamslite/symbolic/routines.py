@@ -10,38 +10,37 @@ The array T of a routine, through which kernels talk to it, holds
 
 from __future__ import annotations
 
-from functools import cache
+from functools import partial
 
+from adamslite.symbolic.graph import ZERO, Node, made, node, number
 from adamslite.symbolic.scope import UNFORESEEN, Scope, UndefinedRate
-from adamslite.symbolic.sympy_nodes import sp
+from adamslite.symbolic.slopes import RULES, Slopes
 from adamslite.symbolic.types import Expr
 
 ADDRESS, ANSWER, INPUTS = range(3)
+# The kind of its nodes.
+ROUTINE = "RoutineValue"
 # Arguments of a node before those of the routine.
 FIRST = 5
 
 
-@cache
-def _node() -> type:
-    class RoutineValue(sp.Function):
-        """(routine, component, input of a derivative, of the second one, unforeseen, inputs ...)
+def _slopes(value: Node) -> Slopes:
+    """(routine, component, input of a derivative, of the second one, unforeseen, inputs ...)
 
-        Inputs of derivatives are counted from 1, the time; 0 means none.
-        """
+    Inputs of derivatives are counted from 1, the time; 0 means none.
+    """
+    routine, component, one, other, *inputs = value.args
 
-        is_extended_real = True
+    def slope(by: int) -> Node:
+        if other != 0:
+            raise UndefinedRate(("third", by))
+        pair = (one, number(by)) if one != 0 else (number(by), ZERO)
+        return made(ROUTINE, routine, component, *pair, *inputs)
 
-        def fdiff(self, argindex: int = FIRST + 1) -> Expr:
-            routine, component, one, other, *inputs = self.args
-            by = argindex - FIRST
-            if by < 1:
-                return sp.S.Zero
-            if other != 0:
-                raise UndefinedRate(("third", by))
-            pair = (one, by) if one != 0 else (by, 0)
-            return self.func(routine, component, *pair, *inputs)
+    return [(each, partial(slope, by)) for by, each in enumerate(inputs[1:], 1)]
 
-    return RoutineValue
+
+RULES[ROUTINE] = _slopes
 
 
 def routine_value(scope: Scope, routine: int, component: int, inputs: tuple[Expr, ...]) -> Expr:
@@ -50,4 +49,5 @@ def routine_value(scope: Scope, routine: int, component: int, inputs: tuple[Expr
     No bound of it is known before a run, not even where it depends on TIME alone: a symbol stands
     for that, so that what it decides is followed as what the state decides.
     """
-    return _node()(routine, component, 0, 0, scope.symbol(UNFORESEEN), *inputs)
+    unforeseen = scope.symbol(UNFORESEEN)
+    return made(ROUTINE, *map(node, (routine, component, 0, 0, unforeseen, *inputs)))

@@ -1,7 +1,7 @@
-"""The scope in which functions and elements write sympy expressions of markers and states.
+"""The scope in which functions and elements write expressions of markers and states.
 
 A marker is a *frame*: a small integer, its position in the shape's list of markers, or ``ORIGIN``
-for the global frame.  The scope hands out real symbols for the local kinematic inputs, always in
+for the global frame.  The scope hands out symbols for the local kinematic inputs, always in
 ground axes, always as differences, because no deck function depends on anything else:
 
 ===========  ===================================================  ==========================
@@ -25,15 +25,18 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
 
-from adamslite.symbolic.derivatives import Derivatives
+from adamslite.symbolic import graph
+from adamslite.symbolic.derivatives import Derivatives, along
+from adamslite.symbolic.formulas import fn, piecewise, root
 from adamslite.symbolic.guards import CLOCK_LEAVES, FIXED_LEAVES
-from adamslite.symbolic.sympy_nodes import piecewise, root, sp
 from adamslite.symbolic.types import Expr, Frame, Leaf, Read, Seen, Symbol, Tree
 
 ORIGIN = -1
 Vector = tuple[Expr, Expr, Expr]
 UNFORESEEN = "unforeseen"
 """The leaf in what a function of Python returns: no bound of it is known before a run."""
+# Leaves that stay what they are within a step.
+LASTING = ("p", "turn", "kept", "origin", "mode", "run", "nan", UNFORESEEN)
 ZERO: Vector = (0, 0, 0)
 
 
@@ -90,7 +93,7 @@ def _unbound(tree: Tree) -> Expr:
 
 def towards(d: Vector) -> Vector:
     """The unit vector of d; undefined where d vanishes."""
-    return scale(1 / sp.sqrt(dot(d, d)), d)
+    return scale(1 / fn.sqrt(dot(d, d)), d)
 
 
 def along_axes(axes: tuple[Vector, Vector, Vector], components: Vector) -> Vector:
@@ -110,15 +113,16 @@ class Scope:
         self.kept: list[Expr] = []
         self.origins: dict[int, Expr] = {}
         self.limits: list[Expr] = []
-        self.slope = Derivatives()
+        graph.forget()
+        self.slope = Derivatives(lambda symbol: self.leaves[symbol][0] in LASTING)
         self.elements: list[Seen] = []
         self._everything_moves = False
         self.read: Callable[[Tree], Read] = _unbound
 
     def symbol(self, *leaf: str | int) -> Symbol:
-        """The real symbol of one leaf."""
+        """The symbol of one leaf."""
         if leaf not in self.symbols:
-            symbol = sp.Symbol("_".join(map(str, leaf)), real=True)
+            symbol = graph.symbol("_".join(map(str, leaf)))
             self.symbols[leaf] = symbol
             self.leaves[symbol] = leaf
         return self.symbols[leaf]
@@ -206,7 +210,7 @@ class Scope:
 
         The number of turns to add is locally constant, so the derivative is that of atan2.
         """
-        wrapped = sp.atan2(sine, cosine)
+        wrapped = fn.atan2(sine, cosine)
         if wrapped not in self.angles:
             self.angles.append(wrapped)
         return wrapped + self.symbol("turn", self.angles.index(wrapped))
@@ -226,7 +230,7 @@ class Scope:
 
     def of_time(self, expr: Expr) -> bool:
         """Whether an expression depends on TIME alone, or on nothing that changes in a run."""
-        kinds = {self.leaves[symbol][0] for symbol in self.slope.symbols(sp.S.Zero + expr)}
+        kinds = {self.leaves[symbol][0] for symbol in self.slope.symbols(expr)}
         return kinds <= {*CLOCK_LEAVES, *FIXED_LEAVES}
 
     def origin(self, state: Symbol, within: Expr) -> Expr:
@@ -268,14 +272,8 @@ class Scope:
 
     def derivative(self, expr: Expr) -> Expr:
         """Total time derivative of an expression of these symbols."""
-        expr = sp.S.Zero + expr
-        total = sp.S.Zero
-        for symbol in sorted(self.slope.symbols(expr), key=str):
-            leaf = self.leaves.get(symbol)
-            rate = self.rate(leaf) if leaf else 0
-            if rate != 0:
-                total = total + self.slope(expr, symbol) * rate
-        return total
+        symbols = sorted(self.slope.symbols(expr), key=str)
+        return along(expr, {each: graph.node(self.rate(self.leaves[each])) for each in symbols})
 
     def rate(self, leaf: Leaf) -> Expr:
         """Time derivative of one leaf."""
@@ -294,7 +292,7 @@ class Scope:
             return self.symbol("sig", leaf[1], leaf[2] + 1)
         if kind == "dif":
             return self.symbol("dif1", leaf[1])
-        if kind in ("p", "turn", "kept", "origin", "mode", "run", "nan", UNFORESEEN):
+        if kind in LASTING:
             return 0
         raise UndefinedRate(leaf)
 

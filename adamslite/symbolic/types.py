@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any, TypeAlias
 
 Expr: TypeAlias = Any
-"""An expression of sympy, or a plain number in the place of one.  sympy has no types that a checker
-could read."""
+"""A node of :mod:`adamslite.symbolic.graph`, or a plain number in the place of one; where formulas
+compute numbers, one of :mod:`adamslite.symbolic.duals`."""
 Symbol: TypeAlias = Any
-"""A symbol of sympy, for the same reason."""
+"""A node that is a symbol."""
 Frame: TypeAlias = int
 """A marker as a scope knows it, see :mod:`adamslite.symbolic.scope`."""
 Leaf: TypeAlias = tuple[Any, ...]

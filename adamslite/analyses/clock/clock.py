@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from adamslite.analyses.clock.enclosures import Instruction
 from adamslite.language.interfaces import Key
 from adamslite.symbolic.interpolant import Interpolant
-from adamslite.symbolic.sympy_nodes import LOOKUPS
 
 if TYPE_CHECKING:
     from adamslite.kernels.binding import Binding

@@ -184,6 +184,20 @@ def _multiply(values: Values, *factors: int) -> Enclosure:
     return value, rate
 
 
+def _less(values: Values, first: int, second: int) -> Enclosure:
+    """A difference."""
+    return _add([values[first], _negative(values, second)], 0, 1)
+
+
+def _negative(values: Values, argument: int) -> Enclosure:
+    value, rate = values[argument]
+    return _minus(value), _minus(rate)
+
+
+def _quotient(values: Values, top: int, bottom: int) -> Enclosure:
+    return _multiply([values[top], _root(values, bottom, -1, 1)], 0, 1)
+
+
 def _root(values: Values, base: int, p: int, q: int) -> Enclosure:
     """A rational power; its rate is (p/q) a**(p/q - 1) a'."""
     value, rate = values[base]
@@ -331,6 +345,7 @@ def _unbounded(where: np.ndarray | bool, rate: Interval) -> Interval:
 # Conditions are (may be true, may be false).
 RULES: dict[str, Callable[..., Enclosure]] = {
     "Add": _add, "Mul": _multiply, "root": _root, "Pow": _pow, "atan2": _atan2,
+    "-": _less, "neg": _negative, "/": _quotient,
     "floor": _floor, "choose": _choose, "And": _both, "Or": _either,
     "Lookup": _lookup, "LookupBetween": _lookup_between,
     "Not": lambda values, a: values[a][::-1],

@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
+from adamslite.symbolic.formulas import fn, magnitude, norm, piecewise, root
 from adamslite.symbolic.scope import (
     along_axes,
     dot,
@@ -30,7 +31,6 @@ from adamslite.symbolic.scope import (
     plus,
     scale,
 )
-from adamslite.symbolic.sympy_nodes import magnitude, norm, piecewise, root, sp
 
 if TYPE_CHECKING:
     from adamslite.symbolic.scope import (
@@ -104,7 +104,7 @@ def ball_on_box(scope: Scope, point: Seen) -> Touch:
         piecewise((-1, outside), otherwise=a - b) <= 0
         for a, b in ((left[0], left[1]), (left[0], left[2]), (left[1], left[2]))
     )
-    nearest = [sp.And(xy, xz), sp.And(sp.Not(xy), yz), sp.And(sp.Not(xz), sp.Not(yz))]
+    nearest = [fn.And(xy, xz), fn.And(fn.Not(xy), yz), fn.And(fn.Not(xz), fn.Not(yz))]
     depth = piecewise(
         (radius - distance, outside), (radius + left[0], nearest[0]),
         (radius + left[1], nearest[1]), otherwise=radius + left[2], order=0,

@@ -31,8 +31,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from adamslite.functions.steps import spring, step
+from adamslite.symbolic.formulas import norm, piecewise, root
 from adamslite.symbolic.scope import dot, minus, plus, scale
-from adamslite.symbolic.sympy_nodes import norm, piecewise, root
 
 if TYPE_CHECKING:
     from adamslite.elements.bases.contact_geometry import Touch

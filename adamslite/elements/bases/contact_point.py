@@ -16,6 +16,7 @@ from adamslite.elements.bases.contact_law import across, bristle_rate, friction,
 from adamslite.language.expression import Call, Num, Ref
 from adamslite.language.function import PRODUCTS, function
 from adamslite.language.statement import STATEMENTS, Statement, statement
+from adamslite.symbolic.formulas import fn, piecewise
 from adamslite.symbolic.scope import (
     ZERO,
     Load,
@@ -26,7 +27,6 @@ from adamslite.symbolic.scope import (
     plus,
     scale,
 )
-from adamslite.symbolic.sympy_nodes import piecewise, sp
 
 if TYPE_CHECKING:
     from adamslite.elements.bases.contact_geometry import Touch
@@ -191,5 +191,5 @@ def contact_bristle(scope: Scope, id: Tree, axis: int) -> Expr:
     bristle = _bristle(scope, point, found)
     rate = bristle_rate(point, slip, bristle, found.overlap > 0)
     straight, moving = -point.bristle[axis], dot(rate, scope.axes(point.j)[axis])
-    at_rest = sp.And(scope.mode > STATICS[0], scope.mode < STATICS[1])
+    at_rest = fn.And(scope.mode > STATICS[0], scope.mode < STATICS[1])
     return piecewise((straight, at_rest), otherwise=moving)

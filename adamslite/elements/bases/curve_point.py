@@ -14,8 +14,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from adamslite.language.statement import STATEMENTS
+from adamslite.symbolic.formulas import floor, lookup
 from adamslite.symbolic.scope import ORIGIN
-from adamslite.symbolic.sympy_nodes import floor, lookup
 
 if TYPE_CHECKING:
     from adamslite.language.interfaces import Key

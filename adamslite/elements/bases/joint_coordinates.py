@@ -16,8 +16,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from adamslite.symbolic.formulas import fn, piecewise
 from adamslite.symbolic.scope import cross, dot, scale
-from adamslite.symbolic.sympy_nodes import piecewise, sp
 from adamslite.symbolic.types import Expr
 
 if TYPE_CHECKING:  # reading a deck does without numpy
@@ -59,7 +59,7 @@ def less(first: Turn, second: Turn) -> Turn:
 
 def angle_to(rotation: Turn, target: Expr) -> Expr:
     """``rotation`` less the angle ``target``, within half a turn: zero on any full turn."""
-    return sp.atan2(*less(rotation, (sp.sin(target), sp.cos(target))))
+    return fn.atan2(*less(rotation, (fn.sin(target), fn.cos(target))))
 
 
 def angle_since(scope: Scope, rotation: Turn, built: Turn) -> Expr:

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from adamslite.elements.bases.stick_slip import STILL, Regime, size, speed_of
-from adamslite.symbolic.sympy_nodes import piecewise, power, sp
+from adamslite.symbolic.formulas import fn, piecewise, power
 
 if TYPE_CHECKING:
     from adamslite.symbolic.scope import Scope
@@ -35,7 +35,7 @@ def regime(scope: Scope, friction: Seen, slip: Sequence[Expr]) -> Regime:
         b + damping * rate + viscous * v for b, rate, v in zip(bristles, yields, slip, strict=True)
     ]
     stiffness = friction.bristle_stiffness_coefficient
-    return Regime(share, mu, size(bristles), sp.S.Zero, [b / stiffness for b in bristles])
+    return Regime(share, mu, size(bristles), fn.S.Zero, [b / stiffness for b in bristles])
 
 
 def creep_rate(
@@ -58,4 +58,4 @@ def level(friction: Seen, speed: Expr) -> Expr:
     x = speed / friction.velocity_threshold_stribeck
     # The slope of x**p is written with 1/x.
     decay = piecewise((power(x, friction.decay_exponent_stribeck), x > 0), otherwise=0)
-    return moving + (rest - moving) * sp.exp(-decay)
+    return moving + (rest - moving) * fn.exp(-decay)

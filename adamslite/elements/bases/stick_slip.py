@@ -23,7 +23,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from adamslite.functions.steps import step5
-from adamslite.symbolic.sympy_nodes import magnitude, piecewise, root
+from adamslite.symbolic.formulas import magnitude, piecewise, root
 
 if TYPE_CHECKING:
     from adamslite.symbolic.scope import Scope

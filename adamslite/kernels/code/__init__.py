@@ -1,6 +1,6 @@
 """Code generation for one expression shape: residual, Jacobian, angle memory, guards.
 
-A *shape* is a statement with every id, number and marker replaced by a slot.  Its sympy loads and
+A *shape* is a statement with every id, number and marker replaced by a slot.  Its loads and
 rows are differentiated once with respect to the local inputs of
 :class:`~adamslite.symbolic.scope.Scope`, chained to body coordinates by
 :mod:`adamslite.kernels.code.kinematics`, and written as one loop over all instances:

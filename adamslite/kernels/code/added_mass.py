@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from adamslite.kernels.code.shape import Outputs, Shape
+from adamslite.symbolic.graph import node
 from adamslite.symbolic.scope import Frame, Load, Scope
-from adamslite.symbolic.sympy_nodes import sp
 from adamslite.symbolic.types import Expr
 
 ACCELERATIONS = ("a", "al")
@@ -28,7 +28,7 @@ def is_added_mass(shape: Shape, scope: Scope, out: Outputs) -> bool:
 
 
 def _is_own(shape: Shape, scope: Scope, load: Load, degrees: Degrees) -> bool:
-    parts = [sp.S.Zero + e for e in (*load.force, *load.torque)]
+    parts = [node(e) for e in (*load.force, *load.torque)]
     degree = max(map(degrees, parts))
     if degree != 1:
         return degree == 0
@@ -52,7 +52,7 @@ class Degrees:
         self._found: dict[Expr, int] = {}
 
     def __call__(self, expr: Expr) -> int:
-        expr = sp.S.Zero + expr
+        expr = node(expr)
         if expr not in self._found:
             self._found[expr] = self._degree(expr)
         return self._found[expr]
@@ -61,8 +61,10 @@ class Degrees:
         symbols = self.scope.slope.symbols(expr)
         if not any(self.scope.leaves[s][0] in ACCELERATIONS for s in symbols):
             return 0
-        if expr.is_Symbol:
+        if expr.kind == "symbol":
             return 1
-        if expr.is_Add:
+        if expr.kind in ("+", "-", "neg"):
             return max(map(self, expr.args))
-        return min(sum(map(self, expr.args)), HIGHER) if expr.is_Mul else HIGHER
+        if expr.kind == "/" and self(expr.args[1]):
+            return HIGHER
+        return min(sum(map(self, expr.args)), HIGHER) if expr.kind in "*/" else HIGHER

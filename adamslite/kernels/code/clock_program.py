@@ -17,16 +17,23 @@ rows        of a VARIABLE of time: its value and two rates
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from fractions import Fraction
 from typing import Any
 
 from adamslite.native.llvm_builder import LIBRARY
+from adamslite.symbolic.derivatives import Derivatives
+from adamslite.symbolic.formulas import LOOKUPS
+from adamslite.symbolic.graph import ONE, TRUE, ZERO, div, neg, ordered, sub
 from adamslite.symbolic.guards import CLOCK_LEAVES, FIXED_LEAVES
-from adamslite.symbolic.sympy_nodes import LOOKUPS, sp
+from adamslite.symbolic.slopes import slopes
 from adamslite.symbolic.types import Expr, Leaf, Symbol
 
 Instruction = list[Any]
 """A word, the numbers of the instructions that it takes, other numbers."""
 CURVED = LIBRARY - {"floor"}
+SUMS = ("+", "-", "neg")
+# The words of kinds that are called otherwise.
+WORDS = {"+": "Add", "*": "Mul", "**": "Pow", "and": "And", "or": "Or", "not": "Not"}
 
 
 class ClockWriter:
@@ -37,44 +44,44 @@ class ClockWriter:
         self.code: list[Instruction] = []
         self.known: dict[Expr, int] = {}
         self.clock: dict[Expr, bool] = {}
+        self.symbols = Derivatives().symbols
 
     def on_clock(self, expr: Expr) -> bool:
         """Whether an expression changes with time and with nothing else."""
         if expr not in self.clock:
-            kinds = {self.leaves[s][0] for s in expr.free_symbols} - set(FIXED_LEAVES)
+            kinds = {self.leaves[s][0] for s in self.symbols(expr)} - set(FIXED_LEAVES)
             self.clock[expr] = bool(kinds) and kinds <= set(CLOCK_LEAVES)
         return self.clock[expr]
 
     def place(self, expr: Expr) -> int:
         """Number of the instruction that gives the value of an expression."""
         if expr not in self.known:
-            instruction = self._instruction(expr)
-            self.code.append(instruction)
-            self.known[expr] = len(self.code) - 1
+            for top in ordered([expr], lambda top: () if top in self.known else _operands(top)):
+                if top not in self.known:
+                    self.code.append(self._instruction(top))
+                    self.known[top] = len(self.code) - 1
         return self.known[expr]
 
     def _instruction(self, expr: Expr) -> Instruction:
-        name = type(expr).__name__
-        if expr in self.leaves:
+        places = [self.known[each] for each in _operands(expr)]
+        if expr.kind == "symbol":
             return list(self.leaves[expr])
-        if expr in (sp.true, sp.false):
+        if expr.kind in ("true", "false"):
             return ["decided", bool(expr)]
-        if expr.is_Number or expr.is_NumberSymbol:
+        if expr.kind == "number":
             return ["number", float(expr)]
-        if expr.is_Pow and expr.exp.is_Rational:
-            return ["root", self.place(expr.base), int(expr.exp.p), int(expr.exp.q)]
-        if name == "Piecewise":
-            jumps = getattr(expr, "order", None) == -1
-            pieces = [x for each in expr.args for x in (each.cond, each.expr)]
-            return ["choose", jumps, *map(self.place, pieces)]
-        if name in LOOKUPS:
-            return [name, *map(int, expr.args[:3]), *map(self.place, expr.args[3:])]
-        name = getattr(expr, "rel_op", name)
-        return [name, *map(self.place, expr.args)]
+        if expr.kind == "**" and len(places) == 1:
+            exponent = Fraction(float(expr.args[1]))
+            return ["root", *places, exponent.numerator, exponent.denominator]
+        if expr.kind == "choice":
+            return ["choose", expr.order == -1, *places]
+        if expr.kind in LOOKUPS:
+            return [expr.kind, *map(int, expr.args[:3]), *places]
+        return [WORDS.get(expr.kind, expr.kind), *places]
 
     def gap(self, guard: Expr) -> int:
         """Number of what is zero where a relation changes."""
-        return self.place(sp.Add(guard.lhs, -guard.rhs))
+        return self.place(sub(*guard.args))
 
     def closed(self, number: int) -> list[Instruction]:
         """The instructions that one needs, itself last."""
@@ -83,7 +90,7 @@ class ClockWriter:
             at = pending.pop()
             if at not in needed:
                 needed.add(at)
-                pending += self._operands(self.code[at])
+                pending += self._places(self.code[at])
         order = sorted(needed)
         new = {old: n for n, old in enumerate(order)}
         return [self._renumbered(self.code[old], new) for old in order]
@@ -96,7 +103,7 @@ class ClockWriter:
             return 4
         return len(instruction) if instruction[0] in leaves else 1 + (instruction[0] == "choose")
 
-    def _operands(self, instruction: Instruction) -> list[int]:
+    def _places(self, instruction: Instruction) -> list[int]:
         first = self._first(instruction)
         return instruction[first : 2 if instruction[0] == "root" else None]
 
@@ -117,8 +124,8 @@ def clock_programs(
     found = {
         "curves": [writer.place(x) for x in curves],
         "slopes": [writer.place(x) for x in slopes],
-        "guards": [writer.gap(g) for g in guards if hasattr(g, "rel_op")],
-        "floors": [writer.place(g.args[0]) for g in guards if not hasattr(g, "rel_op")],
+        "guards": [writer.gap(g) for g in guards if g.is_relation],
+        "floors": [writer.place(g.args[0]) for g in guards if not g.is_relation],
         "driven": [],
         "rows": [],
     }
@@ -130,44 +137,71 @@ def clock_programs(
     return {kind: [writer.closed(at) for at in places] for kind, places in found.items()}
 
 
+def _operands(expr: Expr) -> list[Expr]:
+    """What an instruction takes the values of."""
+    if expr.kind == "choice":
+        pieces = [each for value, condition in expr.pieces for each in (condition, value)]
+        return [*pieces, TRUE, expr.args[-1]]
+    if expr.kind == "**" and expr.args[1].kind == "number":
+        return [expr.args[0]] if 2.0 * float(expr.args[1]) % 1.0 == 0.0 else list(expr.args)
+    return list(expr.args[3 if expr.kind in LOOKUPS else 0 :])
+
+
 def _curves(expression: Expr, writer: ClockWriter) -> Iterator[Expr]:
     """Functions of time in an expression that can change faster than their arguments."""
     for node in _nodes(expression, lambda node: reversed(node.args)):
-        name = type(node).__name__
-        bent = name in CURVED or (name in LOOKUPS and not any(_orders(node)))
-        if node.is_Pow:
-            bent = not (node.exp.is_Integer and node.exp > 0)
+        bent = node.kind in CURVED or (node.kind in LOOKUPS and not any(_orders(node)))
+        if node.kind == "**":
+            bent = node.args[1].kind != "number" or float(node.args[1]) % 1.0 != 0.0
         if bent and writer.on_clock(node):
             yield node
+        elif node.kind == "/" and writer.on_clock(node.args[1]):
+            yield div(ONE, node.args[1])
 
 
 def _orders(lookup: Expr) -> tuple[int, ...]:
     """Of which derivative of a table it is the value."""
-    return lookup.args[2:3] if type(lookup).__name__ == "Lookup" else lookup.args[1:3]
+    return tuple(map(int, lookup.args[2:3] if lookup.kind == "Lookup" else lookup.args[1:3]))
 
 
 def _slopes(curve: Expr) -> Iterator[Expr]:
     """The derivatives of a table by its arguments."""
-    if type(curve).__name__ in LOOKUPS:
-        for argument in range(4, len(curve.args) + 1):
-            yield curve.fdiff(argument)
+    if curve.kind in LOOKUPS:
+        for _, slope in slopes(curve):
+            yield slope()
 
 
 def _driven(expression: Expr, writer: ClockWriter) -> Iterator[Expr]:
     """The largest parts of an expression that depend on time alone."""
 
     def others(node: Expr) -> list[Expr]:
-        return [] if writer.on_clock(node) else [x for x in node.args if not splits(node, x)]
-
-    def splits(node: Expr, part: Expr) -> bool:
-        return (node.is_Add or node.is_Mul) and writer.on_clock(part)
+        return [] if writer.on_clock(node) else [x for x in _terms(node) if not writer.on_clock(x)]
 
     for node in _nodes(expression, others):
-        timed = [each for each in node.args if splits(node, each)]
+        timed = [each for each in _terms(node) if writer.on_clock(each)]
         if writer.on_clock(node):
             yield node
+        elif timed and node.kind in SUMS:
+            yield sum(timed, ZERO)
         elif timed:
-            yield node.func(*timed)
+            yield from timed
+
+
+def _terms(node: Expr) -> list[Expr]:
+    """The terms of a sum, with their signs; the arguments of anything else."""
+    if node.kind not in SUMS:
+        return list(node.args)
+    found, pending = [], [(node, 1)]
+    while pending:
+        top, sign = pending.pop()
+        if top.kind in SUMS:
+            second = -sign if top.kind == "-" else sign
+            first = -sign if top.kind == "neg" else sign
+            signs = (first, second)
+            pending += [(each, s) for each, s in zip(top.args, signs, strict=False)][::-1]
+        else:
+            found.append(top if sign > 0 else neg(top))
+    return found
 
 
 def _nodes(expression: Expr, below: Callable[[Expr], Iterable[Expr]]) -> Iterator[Expr]:

@@ -42,22 +42,22 @@ class IdleTest:
         return self.memo[expr]
 
     def _found(self, expr: Expr) -> Truth:
-        if expr.is_Number:
+        if expr.kind == "number":
             return bool(expr == 0)
-        if expr.is_Mul:
+        if expr.kind in ("neg", "/"):
+            return self._vanishes(expr.args[0])
+        if expr.kind == "*":
             return reduce(self._either, map(self._vanishes, expr.args), NEVER)
-        if expr.is_Add:
+        if expr.kind in ("+", "-"):
             return reduce(self._both, map(self._vanishes, expr.args), ALWAYS)
-        if type(expr).__name__ == "Piecewise" and getattr(expr, "order", None) is not None:
-            return self._choice(expr)
-        return False
+        return expr.kind == "choice" and expr.order is not None and self._choice(expr)
 
     def _choice(self, expr: Expr) -> Truth:
         """From the last piece back to the first: what the conditions before it leave open."""
-        found: Truth = True
-        for piece in reversed(expr.args):
-            here, passed = self._vanishes(piece.expr), self._fails(piece.cond)
-            kept = self._both(here, self._either(found, self._holds(piece.cond)))
+        found = self._vanishes(expr.args[-1])
+        for piece, condition in reversed([*expr.pieces]):
+            here, passed = self._vanishes(piece), self._fails(condition)
+            kept = self._both(here, self._either(found, self._holds(condition)))
             found = self._either(kept, self._both(passed, found))
         return found
 
@@ -70,17 +70,15 @@ class IdleTest:
         return self._known(cond, "<")
 
     def _known(self, cond: Expr, side: str) -> Truth:
-        name, opposite = type(cond).__name__, "<" if side == ">" else ">"
-        if name in ("And", "Or"):
+        opposite = "<" if side == ">" else ">"
+        if cond.kind in ("and", "or"):
             parts = [self._known(each, side) for each in cond.args]
-            every = (name == "And") == (side == ">")
+            every = (cond.kind == "and") == (side == ">")
             return (
                 reduce(self._both, parts, ALWAYS) if every else reduce(self._either, parts, NEVER)
             )
-        if name == "Not":
+        if cond.kind == "not":
             return self._known(cond.args[0], opposite)
-        if name in ("BooleanTrue", "BooleanFalse"):
-            return bool(cond) == (side == ">")
         branch = self.branches.get(cond)
         return False if branch is None else self.b.compare(side, branch, 0.0)
 

@@ -10,12 +10,8 @@ from adamslite.kernels.code.kinematics import Columns, Vec
 from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.native.llvm_builder import Value
-from adamslite.symbolic.scope import UNFORESEEN, Load, Scope, Slot
-from adamslite.symbolic.sympy_nodes import sp
+from adamslite.symbolic.scope import Load, Scope, Slot
 from adamslite.symbolic.types import Expr, Leaf
-
-# Leaves that are no unknowns and do not change with them.
-FIXED = ("p", "t", "now", "mode", "run", "sig", "turn", "kept", "origin", "nan", UNFORESEEN)
 
 
 class JacobianWriter(ResidualWriter):
@@ -92,16 +88,16 @@ class JacobianWriter(ResidualWriter):
 
     def columns(self, expr: Expr) -> Columns:
         """Derivative of one scalar with respect to every unknown it touches."""
-        expr = sp.S.Zero + expr
         total = Columns(self.g)
         vectors: dict[Leaf, Vec] = {}
-        for symbol in sorted(self.scope.slope.symbols(expr), key=str):
+        gradient = self.scope.slope.gradient(expr)
+        for symbol in sorted(gradient, key=str):
             leaf = self.scope.leaves[symbol]
-            if leaf[0] in FIXED:
+            if leaf[0] in ("t", "now", "sig"):
                 continue
             if self.rates_only and leaf[0] in ("d", "v", "x", "w", "dif"):
                 continue
-            slope = self.value(self.scope.slope(expr, symbol))
+            slope = self.value(gradient[symbol])
             if leaf[0] in ("z", "dif", "dif1"):
                 self._scalar_column(total, leaf, slope)
             else:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
+from adamslite.kernels.code.graph_to_llvm import Lowering
 from adamslite.kernels.code.idle import IdleTest
 from adamslite.kernels.code.kinematics import Geometry, Vec
 from adamslite.kernels.code.shape import Outputs, Shape
-from adamslite.kernels.code.sympy_to_llvm import Lowering
 from adamslite.kernels.code.workspace import HEAD, MODE, RUN, TIME
 from adamslite.native.llvm_builder import Builder, Value
+from adamslite.symbolic.graph import node
 from adamslite.symbolic.scope import UNFORESEEN, Load, Scope, Slot
-from adamslite.symbolic.sympy_nodes import sp
 from adamslite.symbolic.types import Expr, Frame, Leaf
 
 
@@ -31,7 +31,7 @@ class ResidualWriter:
 
     def value(self, expr: Expr) -> Value:
         """Lower an expression, loading the leaves it uses first."""
-        expr = sp.S.Zero + expr
+        expr = node(expr)
         for symbol in sorted(self.scope.slope.symbols(expr), key=str):
             if symbol not in self.lower.leaves:
                 self.lower.leaves[symbol] = self.leaf(self.scope.leaves[symbol])
@@ -89,10 +89,9 @@ class ResidualWriter:
             torque = [self.value(t) for t in load.torque]
             for body, sign, lever in self._ends(load):
                 self._add_load(body, sign, force, torque, lever)
-        for node, component, expr in out.rows:
-            self.b.accumulate(
-                "F", self.b.int_at(self.shape.row_at(node)), component, self.value(expr)
-            )
+        for at, component, expr in out.rows:
+            row = self.b.int_at(self.shape.row_at(at))
+            self.b.accumulate("F", row, component, self.value(expr))
 
     def _ends(self, load: Load) -> list[tuple[Slot, float, Vec]]:
         """The loaded bodies: slot, sign in the residual, lever about the mass centre."""
@@ -134,15 +133,15 @@ class ResidualWriter:
     def _guard_value(self, guard: Expr) -> Value:
         for side in guard.args:
             self.value(side)
-        return self.lower.gap(guard) if hasattr(guard, "rel_op") else self.value(guard.args[0])
+        return self.lower.gap(guard) if guard.is_relation else self.value(guard.args[0])
 
     def track(self) -> None:
         kept = [self.value(each) for each in self.scope.kept]
         for n, wrapped in enumerate(self.scope.angles):
             angle = self.b.add(self.value(wrapped), self._turns(n))
             self.b.store_real(self.shape.n_params + n, angle)
-        for node, origin in self.scope.origins.items():
-            self.b.store("F", self.b.int_at(node), 2, self.value(origin))
+        for at, origin in self.scope.origins.items():
+            self.b.store("F", self.b.int_at(at), 2, self.value(origin))
         for n, number in enumerate(kept):
             self.b.store_real(self._kept_at(n), number)
         for n, limit in enumerate(self.scope.limits):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from adamslite.symbolic.graph import node
 from adamslite.symbolic.guards import Guards
 from adamslite.symbolic.scope import Load, Scope, Slot
-from adamslite.symbolic.sympy_nodes import sp
 from adamslite.symbolic.types import Expr
 
 
@@ -81,4 +81,4 @@ class Outputs:
     def expressions(self) -> list[Expr]:
         """Everything that is evaluated."""
         loads = [e for load in self.loads for e in (*load.force, *load.torque)]
-        return [sp.S.Zero + e for e in (*loads, *(row[2] for row in self.rows))]
+        return [node(e) for e in (*loads, *(row[2] for row in self.rows))]

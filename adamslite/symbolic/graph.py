@@ -1,0 +1,486 @@
+"""Expressions as graphs: a part that occurs many times is one node.
+
+A node is a kind and its arguments.  Equal nodes are the same object, so that they are compared,
+found and differentiated once.  The operations below fold numbers and what cannot matter (zeros,
+ones, double signs, powers of one base); they never multiply out and never rearrange: what was
+written with shared parts keeps them.
+
+====================  =============================================================
+number                ``value``
+symbol                ``value``, its name
++  -  *  /            of two
+neg                   of one
+**                    base, exponent
+sin, atan2, ...       of their arguments
+floor                 of one; ``order`` as in :func:`choice`
+choice                value, condition, value, condition, ..., value where none holds
+< <= > >= == !=       conditions of two sides
+and, or, not          conditions of conditions
+true, false           decided conditions
+others                functions with a slope of their own (:mod:`adamslite.symbolic.slopes`)
+====================  =============================================================
+
+All numbers are real.  What has no value (a pole, the root of a negative number) is not a number,
+and so is everything that is made of it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+Given = Any
+"""A node, or a number or a truth in its place."""
+OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "==": "!=", "!=": "=="}
+EVEN, ODD = ("cos", "cosh"), ("sin", "tan", "asin", "atan", "sinh", "tanh")
+
+
+class Node:
+    """A part of an expression; made by the functions of this module only."""
+
+    __slots__ = ("kind", "args", "value", "order")
+
+    def __init__(self, kind: str, args: tuple[Node, ...], value: Any, order: int | None) -> None:
+        self.kind = kind
+        self.args = args
+        self.value = value
+        self.order = order
+
+    def __hash__(self) -> int:
+        return hash(self.value) if self.kind == "number" else id(self) >> 4
+
+    def __eq__(self, other: object) -> bool:
+        return self is other or (self.kind == "number" and self.value == _plain(other))
+
+    def __bool__(self) -> bool:
+        if self.kind in OPPOSITE or self.kind in ("and", "or", "not"):
+            raise TypeError(f"whether {self} holds is not known yet")
+        return self.kind != "false" and self.value != 0.0
+
+    def __str__(self) -> str:
+        if self.kind in ("number", "symbol"):
+            return str(self.value)
+        return f"{self.kind}({', '.join(map(str, self.args))})"
+
+    __repr__ = __str__
+
+    def __float__(self) -> float:
+        if self.kind != "number":
+            raise TypeError(f"{self} is not a number")
+        return float(self.value)
+
+    def __int__(self) -> int:
+        return int(float(self))
+
+    def __add__(self, other: Given) -> Node:
+        return add(self, node(other))
+
+    def __radd__(self, other: Given) -> Node:
+        return add(node(other), self)
+
+    def __sub__(self, other: Given) -> Node:
+        return sub(self, node(other))
+
+    def __rsub__(self, other: Given) -> Node:
+        return sub(node(other), self)
+
+    def __mul__(self, other: Given) -> Node:
+        return mul(self, node(other))
+
+    def __rmul__(self, other: Given) -> Node:
+        return mul(node(other), self)
+
+    def __truediv__(self, other: Given) -> Node:
+        return div(self, node(other))
+
+    def __rtruediv__(self, other: Given) -> Node:
+        return div(node(other), self)
+
+    def __pow__(self, other: Given) -> Node:
+        return power(self, node(other))
+
+    def __rpow__(self, other: Given) -> Node:
+        return power(node(other), self)
+
+    def __neg__(self) -> Node:
+        return neg(self)
+
+    def __lt__(self, other: Given) -> Node:
+        return relation("<", self, node(other))
+
+    def __le__(self, other: Given) -> Node:
+        return relation("<=", self, node(other))
+
+    def __gt__(self, other: Given) -> Node:
+        return relation(">", self, node(other))
+
+    def __ge__(self, other: Given) -> Node:
+        return relation(">=", self, node(other))
+
+    @property
+    def is_relation(self) -> bool:
+        return self.kind in OPPOSITE
+
+    @property
+    def pieces(self) -> Iterator[tuple[Node, Node]]:
+        """Value and condition of each piece of a choice but the last one."""
+        return zip(self.args[:-1:2], self.args[1::2], strict=True)
+
+
+_known: dict[tuple[Any, ...], Node] = {}
+"""The nodes of the expressions that are being written."""
+
+
+def forget() -> None:
+    """Begin anew: what is written from here on does not depend on what was written before."""
+    _known.clear()
+    for constant in (NAN, ZERO, ONE, TRUE, FALSE):
+        _known[constant.kind, constant.value, None] = constant
+
+
+def made(kind: str, *args: Node, value: Any = None, order: int | None = None) -> Node:
+    """The node of a kind with given arguments."""
+    key = (kind, value, order, *args)
+    found = _known.get(key)
+    if found is None:
+        found = _known[key] = Node(kind, args, value, order)
+    return found
+
+
+def number(value: float) -> Node:
+    """A number; infinity is not one."""
+    value = float(value)
+    if not math.isfinite(value):
+        return NAN
+    return made("number", value=value)
+
+
+NAN, ZERO, ONE = (Node("number", (), value, None) for value in (math.nan, 0.0, 1.0))
+TRUE, FALSE = Node("true", (), True, None), Node("false", (), False, None)
+forget()
+
+
+def symbol(name: str) -> Node:
+    """What is known when the expression is evaluated."""
+    return made("symbol", value=name)
+
+
+def node(given: Given) -> Node:
+    """A node of itself, of a number or of a truth."""
+    if type(given) is Node:
+        return given
+    if isinstance(given, bool):
+        return TRUE if given else FALSE
+    return number(given)
+
+
+def _plain(given: object) -> object:
+    return given.value if isinstance(given, Node) and given.kind == "number" else given
+
+
+def _numbers(*args: Node) -> bool:
+    return all(each.kind == "number" for each in args)
+
+
+def _either(kind: str, a: Node, b: Node) -> Node:
+    """A node whose arguments may be exchanged: as they were when it was first written."""
+    other = _known.get((kind, None, None, b, a))
+    return made(kind, a, b) if other is None else other
+
+
+def add(a: Node, b: Node) -> Node:
+    if a is NAN or b is NAN:
+        return NAN
+    if _numbers(a, b):
+        return number(a.value + b.value)
+    if a is ZERO:
+        return b
+    if b is ZERO:
+        return a
+    if b.kind == "neg":
+        return sub(a, b.args[0])
+    if a.kind == "neg":
+        return sub(b, a.args[0])
+    return mul(number(2.0), a) if a is b else _either("+", a, b)
+
+
+def sub(a: Node, b: Node) -> Node:
+    if a is NAN or b is NAN:
+        return NAN
+    if _numbers(a, b):
+        return number(a.value - b.value)
+    if a is b:
+        return ZERO
+    if a is ZERO:
+        return neg(b)
+    if b is ZERO:
+        return a
+    if b.kind == "neg":
+        return add(a, b.args[0])
+    return neg(add(a.args[0], b)) if a.kind == "neg" else made("-", a, b)
+
+
+def neg(a: Node) -> Node:
+    if a.kind == "number":
+        return number(-a.value)
+    if a.kind == "neg":
+        return a.args[0]
+    if a.kind == "-":
+        return sub(a.args[1], a.args[0])
+    if a.kind == "*" and a.args[0].kind == "number":
+        return mul(number(-a.args[0].value), a.args[1])
+    return made("neg", a)
+
+
+def mul(a: Node, b: Node) -> Node:
+    if a is NAN or b is NAN:
+        return NAN
+    if b.kind == "number":
+        a, b = b, a
+    if a.kind == "number":
+        return _multiple(a, b)
+    if a.kind == "neg":
+        return neg(mul(a.args[0], b))
+    if b.kind == "neg":
+        return neg(mul(a, b.args[0]))
+    (base, m), (other_base, n) = _raised(a), _raised(b)
+    if base is other_base and m is not None and n is not None:
+        return power(base, number(m + n))
+    return _either("*", a, b)
+
+
+def _multiple(factor: Node, b: Node) -> Node:
+    """A number times a node."""
+    if b.kind == "number":
+        return number(factor.value * b.value)
+    if factor is ZERO:
+        return ZERO
+    if factor is ONE:
+        return b
+    if factor.value == -1.0:
+        return neg(b)
+    if b.kind == "neg":
+        return _multiple(number(-factor.value), b.args[0])
+    if b.kind == "*" and b.args[0].kind == "number":
+        return _multiple(number(factor.value * b.args[0].value), b.args[1])
+    return made("*", factor, b)
+
+
+def _raised(a: Node) -> tuple[Node, float | None]:
+    """Base and exponent, where that is a number."""
+    if a.kind == "**":
+        return a.args[0], a.args[1].value if a.args[1].kind == "number" else None
+    return a, 1.0
+
+
+def div(a: Node, b: Node) -> Node:
+    if a is NAN or b is NAN or b is ZERO:
+        return NAN
+    if _numbers(a, b):
+        return number(a.value / b.value)
+    if a is ZERO:
+        return ZERO
+    if b.kind == "number" and math.isfinite(1.0 / b.value):
+        return mul(number(1.0 / b.value), a)
+    if a.kind == "neg":
+        return neg(div(a.args[0], b))
+    if b.kind == "neg":
+        return neg(div(a, b.args[0]))
+    (base, m), (other_base, n) = _raised(a), _raised(b)
+    if base is other_base and m is not None and n is not None:
+        return power(base, number(m - n))
+    return made("/", a, b)
+
+
+def power(base: Node, exponent: Node) -> Node:
+    """A real power; a constant whole exponent may have any base."""
+    if base is NAN or exponent is NAN:
+        return NAN
+    if _numbers(base, exponent):
+        return _of_numbers(math.pow, base, exponent)
+    if exponent.kind != "number":
+        return made("**", base, exponent)
+    n = exponent.value
+    if n == 0.0:
+        return ONE
+    if n == 1.0:
+        return base
+    if n < 0.0:
+        return div(ONE, power(base, number(-n)))
+    if n == int(n):
+        return _whole_power(base, n)
+    taken, rest = _without_squares(base, n)
+    return mul(taken, made("**", rest, exponent)) if rest is not ONE else taken
+
+
+def _whole_power(base: Node, n: float) -> Node:
+    if base.kind == "neg":
+        raised = power(base.args[0], number(n))
+        return neg(raised) if n % 2.0 else raised
+    inner, m = _raised(base)
+    if base.kind == "**" and m is not None:
+        return power(inner, number(m * n))
+    return made("**", base, number(n))
+
+
+def _without_squares(base: Node, n: float) -> tuple[Node, Node]:
+    """Factors of the n-th power of a base that are the power of a square or of a number, and the
+    rest of the base: a root alone of a square has no slope where that is zero.
+    """
+    taken = rest = ONE
+    for factor in _factors(base):
+        inner, m = _raised(factor)
+        if factor.kind == "number" and factor.value > 0.0:
+            taken = mul(taken, number(factor.value**n))
+        elif factor.kind == "**" and m is not None and m % 2.0 == 0.0:
+            taken = mul(taken, power(magnitude(inner), number(m * n)))
+        else:
+            rest = mul(rest, factor)
+    return taken, rest
+
+
+def _factors(a: Node) -> Iterator[Node]:
+    pending = [a]
+    while pending:
+        top = pending.pop()
+        if top.kind == "*":
+            pending += reversed(top.args)
+        else:
+            yield top
+
+
+def magnitude(x: Node, order: int | None = 0) -> Node:
+    """|x|, with the derivative 1 at zero."""
+    return choice([(x, relation(">=", x, ZERO)), (neg(x), TRUE)], order)
+
+
+def function(name: str, value: Callable[..., float], *args: Node) -> Node:
+    """A function of the C library; ``value``: the same of numbers."""
+    if NAN in args:
+        return NAN
+    if _numbers(*args):
+        return _of_numbers(value, *args)
+    if args[0].kind == "neg" and name in EVEN:
+        return made(name, args[0].args[0])
+    if args[0].kind == "neg" and name in ODD:
+        return neg(made(name, args[0].args[0]))
+    return made(name, *args)
+
+
+def _of_numbers(value: Callable[..., float], *args: Node) -> Node:
+    try:
+        return number(value(*[each.value for each in args]))
+    except (ArithmeticError, ValueError):
+        return NAN
+
+
+def floor(x: Node, order: int | None) -> Node:
+    """Largest integer not above x."""
+    return number(math.floor(x.value)) if _numbers(x) and x is not NAN else _floor(x, order)
+
+
+def _floor(x: Node, order: int | None) -> Node:
+    return x if x is NAN else made("floor", x, order=order)
+
+
+# ---- conditions --------------------------------------------------------------------------------
+
+
+def relation(kind: str, a: Node, b: Node) -> Node:
+    """A comparison, decided where numbers or squares decide it."""
+    if _numbers(a, b):
+        return node(_holds(kind, a.value - b.value))
+    if a is b:
+        return node(_holds(kind, 0.0))
+    for sign, gap in ((1.0, sub(a, b)), (-1.0, sub(b, a))):
+        if gap.kind == "number" and gap is not NAN:
+            return node(_holds(kind, sign * gap.value))
+        if least(gap) > 0.0:
+            return node(_holds(kind, sign))
+        if least(gap) == 0.0 and kind in ("<", ">=") and sign > 0.0:
+            return node(kind == ">=")
+        if least(gap) == 0.0 and kind in (">", "<=") and sign < 0.0:
+            return node(kind == "<=")
+    return made(kind, a, b)
+
+
+def _holds(kind: str, gap: float) -> bool:
+    below, equal = gap < 0.0, gap == 0.0
+    holds = {"<": below, "<=": below or equal, "==": equal}
+    return holds[kind] if kind in holds else gap == gap and not holds[OPPOSITE[kind]]
+
+
+def least(a: Node) -> float:
+    """A bound that a node does not fall below, as far as squares and numbers tell it."""
+    if a.kind == "number":
+        return a.value if a is not NAN else -math.inf
+    if a.kind == "+":
+        return least(a.args[0]) + least(a.args[1])
+    if a.kind == "**":
+        n = _raised(a)[1]
+        return 0.0 if n is not None and (n % 2.0 == 0.0 or n % 1.0 != 0.0) else -math.inf
+    if a.kind in ("*", "/"):
+        both = a.args[0] is a.args[1] or min(map(least, a.args)) >= 0.0
+        return 0.0 if both else -math.inf
+    return {"exp": 0.0, "cosh": 1.0}.get(a.kind, -math.inf)
+
+
+def joined(kind: str, conditions: Iterable[Given]) -> Node:
+    """All of the conditions (``and``) or one of them (``or``)."""
+    deciding, other = (FALSE, TRUE) if kind == "and" else (TRUE, FALSE)
+    kept: dict[Node, None] = {}
+    for each in map(node, conditions):
+        if each is deciding:
+            return deciding
+        kept.update(dict.fromkeys(each.args if each.kind == kind else (each,)))
+    kept.pop(other, None)
+    if len(kept) < 2:
+        return next(iter(kept), other)
+    return made(kind, *kept)
+
+
+def opposite(condition: Given) -> Node:
+    """Whether a condition does not hold."""
+    condition = node(condition)
+    if condition in (TRUE, FALSE):
+        return FALSE if condition is TRUE else TRUE
+    if condition.kind == "not":
+        return condition.args[0]
+    if condition.is_relation:
+        return made(OPPOSITE[condition.kind], *condition.args)
+    return made("not", condition)
+
+
+def choice(pieces: Iterable[tuple[Given, Given]], order: int | None) -> Node:
+    """The value of the first condition that holds; the last one is true.
+
+    ``order``: where the choice changes, derivatives up to this one are continuous.
+    """
+    kept: list[Node] = []
+    for value, condition in pieces:
+        if condition is FALSE or condition is False:
+            continue
+        kept.append(node(value))
+        if condition is TRUE or condition is True:
+            break
+        kept.append(condition)
+    if all(each is kept[-1] for each in kept[:-1:2]):
+        return kept[-1]
+    return made("choice", *kept, order=order)
+
+
+def ordered(
+    roots: Iterable[Node], below: Callable[[Node], Iterable[Node]] = lambda top: top.args
+) -> list[Node]:
+    """The nodes that ``roots`` are made of, each once and behind its own; ``below``: these."""
+    found: dict[Node, None] = {}
+    pending = [(root, False) for root in roots][::-1]
+    while pending:
+        top, complete = pending.pop()
+        if complete:
+            found[top] = None
+        elif top not in found:
+            pending.append((top, True))
+            pending += [(each, False) for each in below(top) if each not in found][::-1]
+    return list(found)
