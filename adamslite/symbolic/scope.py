@@ -37,6 +37,8 @@ UNFORESEEN = "unforeseen"
 """The leaf in what a function of Python returns: no bound of it is known before a run."""
 # Leaves that stay what they are within a step.
 LASTING = ("p", "turn", "kept", "origin", "mode", "run", "nan", UNFORESEEN)
+# Leaves that do not change with the unknowns.
+GIVEN = (*LASTING, "t", "now", "sig")
 ZERO: Vector = (0, 0, 0)
 
 
@@ -114,7 +116,7 @@ class Scope:
         self.origins: dict[int, Expr] = {}
         self.limits: list[Expr] = []
         graph.forget()
-        self.slope = Derivatives(lambda symbol: self.leaves[symbol][0] in LASTING)
+        self.slope = Derivatives(lambda symbol: self.leaves[symbol][0] in GIVEN)
         self.elements: list[Seen] = []
         self._everything_moves = False
         self.read: Callable[[Tree], Read] = _unbound

@@ -93,8 +93,6 @@ class JacobianWriter(ResidualWriter):
         gradient = self.scope.slope.gradient(expr)
         for symbol in sorted(gradient, key=str):
             leaf = self.scope.leaves[symbol]
-            if leaf[0] in ("t", "now", "sig"):
-                continue
             if self.rates_only and leaf[0] in ("d", "v", "x", "w", "dif"):
                 continue
             slope = self.value(gradient[symbol])
