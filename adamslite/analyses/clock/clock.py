@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from adamslite.analyses.clock.enclosures import Instruction
 from adamslite.language.interfaces import Key
+from adamslite.symbolic.formulas import LOOKUPS
 from adamslite.symbolic.interpolant import Interpolant
 
 if TYPE_CHECKING:

@@ -10,7 +10,8 @@ from adamslite.kernels.code.kinematics import Columns, Vec
 from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.native.llvm_builder import Value
-from adamslite.symbolic.scope import Load, Scope, Slot
+from adamslite.symbolic.derivatives import Derivatives
+from adamslite.symbolic.scope import GIVEN, Load, Scope, Slot
 from adamslite.symbolic.types import Expr, Leaf
 
 
@@ -23,9 +24,13 @@ class JacobianWriter(ResidualWriter):
         super().__init__(shape, scope)
         self.blocks: list[tuple[int, int]] = []
         self.rates_only = False
+        self.slope = scope.slope
 
     def jacobian(self, out: Outputs) -> None:
         self.rates_only = out.rates_only
+        if out.rates_only:
+            given = (*GIVEN, "d", "v", "x", "w", "dif")
+            self.slope = Derivatives(lambda symbol: self.scope.leaves[symbol][0] in given)
         self.unless_idle(out)
         for load in out.loads:
             force = [(self.value(f), self.columns(f)) for f in load.force]
@@ -90,11 +95,9 @@ class JacobianWriter(ResidualWriter):
         """Derivative of one scalar with respect to every unknown it touches."""
         total = Columns(self.g)
         vectors: dict[Leaf, Vec] = {}
-        gradient = self.scope.slope.gradient(expr)
+        gradient = self.slope.gradient(expr)
         for symbol in sorted(gradient, key=str):
             leaf = self.scope.leaves[symbol]
-            if self.rates_only and leaf[0] in ("d", "v", "x", "w", "dif"):
-                continue
             slope = self.value(gradient[symbol])
             if leaf[0] in ("z", "dif", "dif1"):
                 self._scalar_column(total, leaf, slope)
