@@ -244,7 +244,7 @@ def _first_tries(system: System, method: Method) -> int:
     where there are more. Routines of the user may take any time.
     """
     run = system.settings
-    run.begun, run.pause = False, int(UNWATCHED / system.nz)
+    run.begun, run.pause = False, int(UNWATCHED / max(system.nz, 1))
     if not method.pauses or run.pause == 0 or system.model.deck.user.used:
         return contract.PAUSED
     try:

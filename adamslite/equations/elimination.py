@@ -198,7 +198,11 @@ class Elimination:
         touched: dict[int, list[int]] = {}
         rows, columns, at = self._entries()
         with_mu = [("MU", node) in self.node_at for node in self.nodes]
-        tied = self._is_multiplier()[rows] & np.array(with_mu)[rows] & (columns < self.n_bodies)
+        tied = (
+            self._is_multiplier()[rows]
+            & np.array(with_mu, dtype=bool)[rows]
+            & (columns < self.n_bodies)
+        )
         for row, column in zip(rows[tied].tolist(), columns[tied].tolist(), strict=True):
             touched.setdefault(column, []).append(row)
         products = []

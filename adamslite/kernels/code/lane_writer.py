@@ -24,7 +24,6 @@ from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.native.llvm_builder import FAST, Builder, Value, literal
 from adamslite.native.translate.writer import module_text
 from adamslite.symbolic.scope import Scope, Slot
-from adamslite.symbolic.sympy_nodes import sp
 
 #: Instances whose forces stand in ``T`` at a time.
 BLOCK = 256
@@ -149,12 +148,13 @@ class LaneWriter(ResidualWriter):
         ends = [(load, slot, sign) for load in out.loads for slot, sign, _ in self._ends(load)]
         for load, slot, sign in ends:
             for i, force in enumerate(load.force):
-                for symbol in sorted(self.scope.slope.symbols(sp.S.Zero + force), key=str):
+                gradient = self.scope.slope.gradient(force)
+                for symbol in sorted(gradient, key=str):
                     leaf = self.scope.leaves[symbol]
                     frames = ((leaf[1], sign), (leaf[2], -sign)) if leaf[0] == "a" else ()
                     for frame, along in frames:
                         if not self.scope.is_ground(frame):
-                            slope = self.value(self.scope.slope(force, symbol))
+                            slope = self.value(gradient[symbol])
                             self._keep(slot, 3 * i + leaf[3], along, slope)
 
     def text(self, name: str) -> str:
