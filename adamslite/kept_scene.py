@@ -44,7 +44,7 @@ class Origin(NamedTuple):
 def origin_of(deck: Path, commands: Path | None) -> Origin | None:
     """What a scene is read from; None where that cannot be known."""
     try:
-        facts = [program(), processor.identity(), os.getcwd()]
+        facts = [program(), processor.name(), os.getcwd()]
         paths = [deck, commands] if commands else [deck]
         if not all(path.is_file() for path in paths):
             return None  # a pipe can be read once only

@@ -337,6 +337,10 @@ def test_every_processor_has_kernels_of_its_own(deck: Path, monkeypatch, counted
         assert origin
         names.add(origin.name)
     assert len(names) == 3
+    monkeypatch.setenv("ADAMSLITE_CPU", "host")
+    monkeypatch.setattr(processor, "_told_by_system", str)  # as on a system without /proc
+    origin = origin_of(deck, None)
+    assert origin and origin.name not in names
     monkeypatch.setenv("ADAMSLITE_CPU", "none")
     assert origin_of(deck, None) is None
     assert main(["solve", str(deck)]) == 2

@@ -42,6 +42,13 @@ def identity() -> str:
     return f"{target()} {_this_one()}"
 
 
+def name() -> str:
+    """What names this processor without asking LLVM, which takes a while to load: for what holds
+    no code.
+    """
+    return f"{target()} {_told_by_system() or _told_by_python()}"
+
+
 @functools.cache
 def _this_one() -> str:
     import llvmlite
@@ -49,6 +56,7 @@ def _this_one() -> str:
     return f"{llvmlite.__version__} {_told_by_system() or _told_by_llvm()}"
 
 
+@functools.cache
 def _told_by_system() -> str:
     """Model and features of the first processor as reported by Linux; empty elsewhere."""
     facts = ("vendor_id", "cpu family", "model", "stepping", "flags")
@@ -61,6 +69,11 @@ def _told_by_system() -> str:
     if not all(values.get(fact) for fact in facts):
         return ""
     return " ".join([os.uname().machine, str(sys.maxsize), *(values[fact] for fact in facts)])
+
+
+def _told_by_python() -> str:
+    system = os.uname() if hasattr(os, "uname") else ()
+    return " ".join([*system, os.environ.get("PROCESSOR_IDENTIFIER", "")])
 
 
 def _told_by_llvm() -> str:
