@@ -28,6 +28,7 @@ from adamslite.cli.main import main
 from adamslite.kept_scene import origin_of
 from adamslite.language.diagnostics import DeckError, render
 from adamslite.language.statement import Statement
+from adamslite.native import processor
 from adamslite.results.results import Results
 
 DECKS = resources.find("decks")
