@@ -13,8 +13,7 @@ Reference: Ziegler, Principles of Structural Stability, 1968, section 1.2.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -26,7 +25,6 @@ if TYPE_CHECKING:
     from adamslite.model.geometry import Place
     from adamslite.model.model import Model
 
-    Strut = Sforce | Springdamper
 
 # The exponential of more is beyond the range of numbers.
 EXP_LIMIT = 700.0
@@ -37,21 +35,31 @@ FELT = 1e-3
 BLOCK = 2**18
 
 
+class _Strut(NamedTuple):
+    """A force along a line, the column of its record, and its ends."""
+
+    element: Sforce | Springdamper
+    force: int
+    i: Place
+    j: Place
+
+
 def buckled(model: Model, names: tuple[str, ...], time: np.ndarray, values: np.ndarray) -> str:
     """The element that pushed longest and hardest, and what grew by that; empty when little did.
 
     names, values : columns of the records, (nt, len(names));  time : (nt,)
     """
     column = {name: k for k, name in enumerate(names)}
-    struts = _pushed(_struts(model, column), column, values)
+    struts = _pushed(_struts(model, column), values)
     size = max(1, BLOCK // max(1, len(time)))
     blocks = (struts[k : k + size] for k in range(0, len(struts), size))
-    found = [_exponents(model, block, column, time, values) for block in blocks]
+    ends = _Ends(model, column)
+    found = [_exponents(block, ends, time, values) for block in blocks]
     grown = np.concatenate([np.zeros(0), *found])
     most = grown.max(initial=0.0)
     if not most > -np.log(ROUND_OFF / FELT):
         return ""
-    worst = struts[int(grown.argmax())]
+    worst = struts[int(grown.argmax())].element
     return (
         f"{worst.label} pushed masses apart that nothing keeps in line: their distance from it,"
         f" even round-off, grew up to {np.exp(min(most, EXP_LIMIT)):.0e} times, so that ERROR does"
@@ -59,51 +67,64 @@ def buckled(model: Model, names: tuple[str, ...], time: np.ndarray, values: np.n
     )
 
 
-def _struts(model: Model, column: dict[str, int]) -> list[Strut]:
+def _struts(model: Model, column: dict[str, int]) -> list[_Strut]:
     """Forces along the line between point masses, or one and the ground, that are recorded."""
     found = []
-    elements: list[Strut] = [*model.deck.of("SFORCE"), *model.deck.of("SPRINGDAMPER")]
-    for element in elements:
-        ends = [model.marker(end) for end in (element.i, element.j)]
-        if f"{element.label}.f" not in column or element.kind == "ROTATIONAL":
+    for element in (*model.deck.of("SFORCE"), *model.deck.of("SPRINGDAMPER")):
+        force = column.get(f"{element.label}.f")
+        if force is None or element.kind == "ROTATIONAL":
             continue
-        bodies = [end.body for end in ends]
-        points = [b for b in bodies if b >= 0 and model.bodies[b].width == POINT]
-        if points and len(points) == sum(b >= 0 for b in bodies):
-            found.append(element)
+        i, j = model.marker(element.i), model.marker(element.j)
+        bodies = [end.body for end in (i, j) if end.body >= 0]
+        if bodies and all(model.bodies[b].width == POINT for b in bodies):
+            found.append(_Strut(element, force, i, j))
     return found
 
 
-def _pushed(struts: list[Strut], column: dict[str, int], values: np.ndarray) -> list[Strut]:
+def _pushed(struts: list[_Strut], values: np.ndarray) -> list[_Strut]:
     """Those that push somewhere in the records."""
-    forces = values[:, [column[f"{each.label}.f"] for each in struts]]
+    forces = values[:, [each.force for each in struts]]
     pushed = np.flatnonzero((~(forces <= 0.0)).any(axis=0))
     return [struts[k] for k in pushed.tolist()]
 
 
 def _exponents(
-    model: Model, struts: list[Strut], column: dict[str, int], time: np.ndarray, values: np.ndarray
+    struts: list[_Strut], ends: _Ends, time: np.ndarray, values: np.ndarray
 ) -> np.ndarray:
     """Integral of the growth rate of each element over the records, (len(struts),)."""
-    ends = [[model.marker(end) for end in (each.i, each.j)] for each in struts]
-    (x, a), (y, b) = (_ends(model, side, column, values) for side in zip(*ends, strict=True))
+    (x, a), (y, b) = (
+        ends.at(side, values) for side in ([each.i for each in struts], [each.j for each in struts])
+    )  # fmt: skip
     length = np.linalg.norm(x - y, axis=2)
-    push = np.maximum(values[:, [column[f"{each.label}.f"] for each in struts]], 0.0)
+    push = np.maximum(values[:, [each.force for each in struts]], 0.0)
     rate = np.sqrt(2.0 * (a + b) * push / np.where(length > 0.0, length, np.inf))
     rate = np.nan_to_num(rate)
     return 0.5 * np.diff(time) @ (rate[1:] + rate[:-1])
 
 
-def _ends(
-    model: Model, places: Iterable[Place], column: dict[str, int], values: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Where ends are, (nt, n, 3), and what a force of 1 does to them, (n,)."""
-    at, fixed, compliance = [], [], []
-    for place in places:
-        body = model.bodies[place.body] if place.body >= 0 else None
-        label = body and body.statement.label
-        at.append([column[f"{label}.{axis}"] for axis in "xyz"] if body else [0, 0, 0])
-        fixed.append([np.nan] * 3 if body else place.p)
-        compliance.append(1.0 / body.mass if body and body.mass > 0.0 else 0.0)
-    held = np.array(fixed)
-    return np.where(np.isnan(held), values[:, at], held), np.array(compliance)
+class _Ends:
+    """Where the ends of forces are, by the columns of their bodies."""
+
+    def __init__(self, model: Model, column: dict[str, int]) -> None:
+        self.model, self.column = model, column
+        self.known: dict[int, tuple[list[int], float]] = {}
+
+    def at(self, places: list[Place], values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Where they are, (nt, n, 3), and what a force of 1 does to them, (n,)."""
+        known = [self._body(place.body) for place in places]
+        found = values[:, [columns for columns, _ in known]]
+        held = [k for k, place in enumerate(places) if place.body < 0]
+        if held:
+            found[:, held] = [places[k].p for k in held]
+        return found, np.array([compliance for _, compliance in known])
+
+    def _body(self, number: int) -> tuple[list[int], float]:
+        """The columns of a body, any of the ground, and its compliance."""
+        if number < 0:
+            return [0, 0, 0], 0.0
+        if number not in self.known:
+            body = self.model.bodies[number]
+            label = body.statement.label
+            columns = [self.column[f"{label}.{axis}"] for axis in "xyz"]
+            self.known[number] = columns, 1.0 / body.mass if body.mass > 0.0 else 0.0
+        return self.known[number]

@@ -9,7 +9,6 @@ and at a body much heavier or lighter than the masses in between.
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from statistics import median
-from typing import NamedTuple
 
 from adamslite.cables.payout_law import Unknown
 from adamslite.cables.posture import GROUND, STILL, Body, Posture
@@ -154,11 +153,16 @@ def _sprung(link: Link, posture: Posture) -> Link | None:
         return _made(link, spring.k * (drawn - free), spring.k, free) if free > 0 else None
     if not drawn > 0:
         return None
-    law = None if posture.given or len(link.components) > 1 else _line(link.components[0], link)
+    law = (
+        None
+        if posture.given or len(link.components) > 1
+        else _line(link.components[0], (link.i, link.j))
+    )
     if law is not None:
-        free = -law.at_zero / law.slope if law.slope < 0 else 0.0
-        pulls = free > 0 and free < (1 + STRETCHES[-1]) * drawn
-        return _made(link, -law(drawn), -law.slope, free) if pulls else None
+        at_zero, slope = law
+        free = -at_zero / slope if slope < 0 else 0.0
+        pulls = 0 < free < (1 + STRETCHES[-1]) * drawn
+        return _made(link, -at_zero - slope * drawn, -slope, free) if pulls else None
     if not _pull(link, posture, STRETCHES[-1]) > 0:
         return None
     found = _stiff(link, posture, STRETCHES)
@@ -168,49 +172,41 @@ def _sprung(link: Link, posture: Posture) -> Link | None:
     return _made(link, taut if taut > 0 else _pull(link, posture, 0.0), *found)
 
 
-class _Line(NamedTuple):
-    """A force that is a straight line of the distance between the ends of a spring."""
-
-    at_zero: float
-    slope: float
-
-    def __call__(self, distance: float) -> float:
-        return self.at_zero + self.slope * distance
-
-
-NOTHING = _Line(0.0, 0.0)
-
-
-def _line(node: Node, link: Link) -> _Line | None:
-    """An expression as such a line while everything is still; None where it is no line."""
+def _line(node: Node, ends: tuple[Key, Key]) -> tuple[float, float] | None:
+    """The values a, b of an expression a + b DM(I, J) while everything is still; None where it is
+    no such line.
+    """
     if type(node) is Num:
-        return _Line(node.value, 0.0)
+        return node.value, 0.0
     if type(node) is Call:
-        ends = {arg.id for arg in node.args if type(arg) is Ref}
-        if node.name == "DM" and ends == {link.i, link.j}:
-            return _Line(0.0, 1.0)
-        return NOTHING if node.name in STILL else None
+        if node.name == "DM" and len(node.args) == 2 and _joins(node.args, ends):
+            return 0.0, 1.0
+        return (0.0, 0.0) if node.name in STILL else None
     if type(node) is not Op:
         return None
-    sides = [_line(arg, link) for arg in node.args]
-    return _joined(node.op, *(side for side in sides if side)) if all(sides) else None
+    first = _line(node.args[0], ends)
+    if first is None or len(node.args) == 1:
+        return first and (-first[0], -first[1])
+    other = _line(node.args[1], ends)
+    return other and _joined(node.op, *first, *other)
 
 
-def _joined(op: str, a: _Line, b: _Line = NOTHING) -> _Line | None:
-    """What an operation makes of two lines, where it is a line again."""
-    match op:
-        case "neg":
-            return _Line(-a.at_zero, -a.slope)
-        case "+":
-            return _Line(a.at_zero + b.at_zero, a.slope + b.slope)
-        case "-":
-            return _Line(a.at_zero - b.at_zero, a.slope - b.slope)
-        case "*" if b.slope == 0.0:
-            return _Line(a.at_zero * b.at_zero, a.slope * b.at_zero)
-        case "*" if a.slope == 0.0:
-            return _Line(a.at_zero * b.at_zero, a.at_zero * b.slope)
-        case "/" if b.slope == 0.0 and b.at_zero != 0.0:
-            return _Line(a.at_zero / b.at_zero, a.slope / b.at_zero)
+def _joins(args: Sequence[Node], ends: tuple[Key, Key]) -> bool:
+    """Whether a distance is that between two markers."""
+    i, j = (arg.id if type(arg) is Ref else None for arg in args)
+    return (i, j) == ends or (j, i) == ends
+
+
+def _joined(op: str, a: float, b: float, c: float, d: float) -> tuple[float, float] | None:
+    """What an operation makes of a + b x and c + d x, where it is a line again."""
+    if op == "+":
+        return a + c, b + d
+    if op == "-":
+        return a - c, b - d
+    if op == "*" and not (b and d):
+        return a * c, a * d + b * c
+    if op == "/" and not d and c:
+        return a / c, b / c
     return None
 
 

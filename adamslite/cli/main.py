@@ -71,9 +71,9 @@ ALL_THREADS = "OMP_NUM_THREADS"
 
 Parser: TypeAlias = argparse.ArgumentParser
 
-#: Objects that are made before those are looked for that nothing refers to; a run makes few such,
-#: and Python's 700 are looked through a hundred times while modules are imported.
-GARBAGE = 50_000
+#: Objects that are made before those are looked for that nothing refers to: a run makes few such,
+#: and what a large deck is made of would be looked through again and again.
+GARBAGE = 1_000_000
 
 REPORT = (
     "adamslite: a fault in the program, not in your deck: {fault}\n"

@@ -49,6 +49,9 @@ MassCentre = tuple[str, Key]
 NodeKey = tuple[str, Any]
 """Keyword and id of a statement with unknowns; ``("OUTPUT", statement)`` of one that writes."""
 T = TypeVar("T")
+# What most point masses share: thousands of small arrays take their time to make and to keep.
+NOTHING, NO_INERTIA = np.zeros(3), np.zeros((3, 3))
+NOTHING.flags.writeable = NO_INERTIA.flags.writeable = False
 
 
 @dataclass(frozen=True)
@@ -115,7 +118,8 @@ class Model:
             if "points" in self.without:
                 ball = mass * IDENTITY  # nothing turns it, whatever its inertia
                 return Body(statement, PART, mass, ball, x, attitude, v, np.zeros(3))
-            return Body(statement, POINT, mass, np.zeros((3, 3)), x, attitude, v, np.zeros(3))
+            v = v if v.any() else NOTHING
+            return Body(statement, POINT, mass, NO_INERTIA, x, attitude, v, NOTHING)
         if statement.vm is not None:
             v = self._drawn_axes(statement.vm) @ v
         axes = attitude @ cm[1] if statement.wm is None else self._drawn_axes(statement.wm)
