@@ -32,6 +32,8 @@ GROUND: Body = ("PART", "ground")
 AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 STILL = frozenset("VM VX VY VZ VR WM WX WY WZ ACCM ACCX ACCY ACCZ WDTM WDTX WDTY WDTZ DIF1".split())
 PLACES = ("DM", "DX", "DY", "DZ")
+# What gives axes of their own.
+TURNING = frozenset(("reuler", "zp", "xp", "zg", "xg"))
 # Measures that a joint's motion or a GCON may prescribe.
 DRIVEN = (*PLACES, "AX", "AY", "AZ", "DIF")
 FREEDOMS = {"ROTATION": "AZ", "TRANSLATION": "DZ"}
@@ -97,7 +99,10 @@ class Posture:
         part = self.deck.find(*found.owner) if found.owner else None
         if found.floating or part is None or found.rm is not None:
             raise Unknown
-        x, y, z = _axes(part)
+        x, y, z = axes = _axes(part)
+        if axes is AXES:
+            px, py, pz = found.qp
+            return add(part.qg, (px, py, pz))
         place = part.qg
         for axis, share in zip((x, y, z), found.qp, strict=True):
             place = add(place, axis, share)
@@ -266,8 +271,7 @@ class Posture:
 
 def _axes(statement: Part | PointMass | Marker) -> Axes:
     """Axes of a part or marker in what it is placed in; numpy only where they are turned."""
-    words = ("reuler", "zp", "xp", "zg", "xg")
-    if not any(statement.given(word) for word in words if hasattr(statement, word)):
+    if TURNING.isdisjoint(statement.spans):
         return AXES
     import numpy as np
 
