@@ -41,6 +41,8 @@ SHIFTED = 30.0
 MOVING = 0.1
 # A way below this share of a coordinate is its rounding: the body is at rest.
 ROUNDING = 1e-12
+# Columns of results that are looked at together.
+COLUMNS = 1024
 
 
 def accuracy_notes(
@@ -82,12 +84,16 @@ def longest_way(names: tuple[str, ...], values: np.ndarray) -> tuple[float, floa
     """
     places = [k for k, name in enumerate(names) if name.endswith((".x", ".y", ".z"))
               and name.startswith(("PART/", "POINT_MASS/"))]  # fmt: skip
-    found = values[:, places]
-    if not found.size or not np.isfinite(found).all():
+    if not places or not len(values):
         return 0.0, 0.0
-    ways = np.ptp(found, axis=0)
+    blocks = [places[k : k + COLUMNS] for k in range(0, len(places), COLUMNS)]
+    least = np.concatenate([values[:, block].min(axis=0) for block in blocks])
+    most = np.concatenate([values[:, block].max(axis=0) for block in blocks])
+    if not (np.isfinite(least).all() and np.isfinite(most).all()):
+        return 0.0, 0.0
+    ways = most - least
     way, moving = float(ways.max()), ways >= MOVING * ways.max()
-    reach = float(np.abs(found[:, moving]).max())
+    reach = float(np.maximum(np.abs(least), np.abs(most))[moving].max())
     return (way if way > ROUNDING * reach else 0.0), reach
 
 

@@ -32,7 +32,7 @@ ROUND_OFF = 2e-16
 # Share of the way that grown round-off may come to untold.
 FELT = 1e-3
 # Numbers of records that are processed together.
-BLOCK = 2**18
+BLOCK = 2**16
 
 
 class _Strut(NamedTuple):

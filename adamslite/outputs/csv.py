@@ -51,7 +51,7 @@ def write_to(results: Results, stream: IO[str]) -> None:
         stream.write(f"# outcome: {results.outcome.name} {_one_line(results.message)}\n")
     header = csv.writer(stream, lineterminator="\n")
     header.writerow(["time", *results.names])
-    stream.writelines(lines(np.column_stack([results.time, results.values])))
+    stream.writelines(lines(results.time[:, None], results.values))
 
 
 def read(path: str | Path) -> Results:

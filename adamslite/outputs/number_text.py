@@ -14,8 +14,8 @@ import numpy as np
 
 # Below this number of values the import would take longer than it saves.
 MANY = 20_000
-# At a time: a text of some megabytes.
-ROWS = 64
+# Numbers at a time: a text of some megabytes, whatever the width of the table.
+BLOCK = 2**17
 # What may be looked at behind the last number.
 BEHIND = b"\0" * 8
 # Numbers whose spelling differs between programs.
@@ -23,11 +23,13 @@ PROBES = np.array([[1e-05, -2.5e-05, 9.99e-05, 1e-4, 1e15, 1e16, -1.5e16, 1e21, 
                     -0.0, 5e-324, 1.7976931348623157e308, 1e-7, -1.25e-10, 123456.0]])  # fmt: skip
 
 
-def lines(table: np.ndarray) -> Iterator[str]:
-    """The rows of a table (n, m) as lines, numbers separated by commas."""
-    fast = _orjson() if table.size >= MANY else None
-    for start in range(0, len(table), ROWS):
-        block = table[start : start + ROWS]
+def lines(*tables: np.ndarray) -> Iterator[str]:
+    """The rows of tables (n, m) beside each other as lines, numbers separated by commas."""
+    count, width = len(tables[0]), sum(each.shape[1] for each in tables)
+    fast = _orjson() if count * width >= MANY else None
+    step = max(1, BLOCK // max(1, width))
+    for start in range(0, count, step):
+        block = np.concatenate([each[start : start + step] for each in tables], axis=1)
         if fast and np.isfinite(block).all():
             yield _by_orjson(fast, block)
         else:
