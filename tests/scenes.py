@@ -18,7 +18,7 @@ from adamslite.kernels.groups import Kernels
 from adamslite.native import compiler as code
 from adamslite.native import translate
 from adamslite.native.translate import Record
-from adamslite.native.translate.statements import translate as assembly_of
+from adamslite.native.translate.modules import method_text as assembly_of
 from adamslite.results.results import Results
 
 GROUND = "a scene\nPART/1, GROUND\nMARKER/1, PART=1\n"

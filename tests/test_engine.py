@@ -18,7 +18,8 @@ from adamslite.equations import engine
 from adamslite.errors import UsageError
 from adamslite.kernels.code import lookup
 from adamslite.language.method import AUTO, FIXED, declared
-from adamslite.native.translate import REGISTERED
+from adamslite.native.translate import REGISTERED, symbol
+from adamslite.native.translate.language import SELDOM
 
 ENTRIES = sorted({method.entry for method in declared()} | {engine.OPERATIONS})
 for _entry in ENTRIES:
@@ -235,7 +236,7 @@ def test_the_engine_runs_the_same_interpreted_and_native(name):
 
 def defined(text: str) -> set[str]:
     """Symbols of the functions in a module."""
-    return set(re.findall(r"^define internal \w+ @([\w.]+)\(", text, re.MULTILINE))
+    return set(re.findall(r"^define (?:internal )?\w+ @([\w.]+)\(", text, re.MULTILINE))
 
 
 @pytest.fixture
@@ -263,13 +264,44 @@ def test_those_runs_reach_every_native_function(called):
         interpreted_run_of(name)
     reached = set().union(*(defined(engine.engine_text(name)) for name in ENTRIES))
     assert "integrators.records.write_record" in reached
-    assert reached <= called
+    assert reached - {name.removeprefix(engine.HERE) for name in ENTRIES} <= called
 
 
 @pytest.mark.slow
 def test_the_entries_are_translated_whole():
-    """Every native function is part of one; each has one name that others may call."""
-    texts = [engine.engine_text(name) for name in ENTRIES]
-    entries = {name.removeprefix(engine.HERE) for name in ENTRIES}
-    assert entries.union(*map(defined, texts)) >= ENGINE
-    assert all(t.count("define ") - t.count("define internal") == 1 for t in texts)
+    """Every native function is part of one; a method has one name that others may call."""
+    texts = {name: engine.engine_text(name) for name in ENTRIES}
+    assert set().union(*map(defined, texts.values())) >= ENGINE
+    for name, text in texts.items():
+        public = text.count("define ") - text.count("define internal")
+        assert public == (len(engine._shared()[1]) if name == engine.OPERATIONS else 1), name
+
+
+@pytest.mark.parametrize("entry", sorted({method.entry for method in declared()}))
+def test_what_methods_share_is_compiled_once(entry: str) -> None:
+    """Events, audits, elimination and the equations are called, and not part of a method."""
+    text, shared = engine.engine_text(entry), set(engine._shared()[1])
+    called = set(re.findall(r"^declare .*@(integrators\S+)\(", text, re.MULTILINE))
+    assert "integrators.events.stops.set_pace" in called
+    assert called <= shared
+    assert not defined(text) & shared
+
+
+@pytest.mark.parametrize("entry", sorted({method.entry for method in declared()}))
+def test_what_a_step_waits_for_is_not_compiled_for_size(entry: str) -> None:
+    """A shared function that a method calls at every step is among those named as shared, or is
+    marked as seldom.
+    """
+
+    def functions(text: str) -> dict[str, tuple[str, str]]:
+        found = re.finditer(r"^define .*?@([^(]+)\(.*?\) (.*?) \{\n(.*?)^\}", text, re.M | re.S)
+        return {match[1]: (match[2], match[3]) for match in found}
+
+    small = {
+        name for name, (words, _) in functions(engine._shared()[0]).items() if "optsize" in words
+    }
+    marked = {symbol(function) for function in SELDOM}
+    for name, (words, body) in functions(engine.engine_text(entry)).items():
+        if "optsize" not in words:
+            called = set(re.findall(r"call [^@]*@(integrators[^(]+)\(", body))
+            assert called & small & set(engine._shared()[1]) <= marked, name

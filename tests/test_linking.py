@@ -72,18 +72,47 @@ def values(address: int) -> list[float]:
 @HERE
 def test_links_constants_tables_and_calls() -> None:
     """No tolerance: each branch is one operation, or the same function of the C library."""
-    places = elf_linker.link(compiler.object_code(TEXT.format(name="ours")))
+    places = elf_linker.link(compiler.object_code(TEXT.format(name="ours")), {})
     assert list(places) == ["ours"]
     assert values(places["ours"]) == EXPECTED
 
 
 def test_llvm_links_what_is_foreign(monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(code: bytes) -> None:
+    def refuse(code: bytes, linked: dict[str, int]) -> None:
         raise elf_linker.Foreign
 
     monkeypatch.setattr(elf_linker, "link", refuse)
     code = compiler.object_code(TEXT.format(name="theirs"))
     assert values(compiler.addresses([(code, ["theirs"])])["theirs"]) == EXPECTED
+
+
+CALLED = """define double @{0}.half(double %x) nounwind {{
+  %y = fmul double %x, 5.0e-1
+  ret double %y
+}}
+"""
+CALLER = """declare double @{0}.half(double) nounwind
+define double @{0}.quarter(double %x) nounwind {{
+  %y = call double @{0}.half(double %x)
+  %z = call double @{0}.half(double %y)
+  ret double %z
+}}
+"""
+
+
+@pytest.mark.parametrize("by", [pytest.param("us", marks=HERE), "llvm"])
+def test_code_calls_what_was_linked_before(by: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What integrators share is one object, each integrator another."""
+
+    def refuse(code: bytes, linked: dict[str, int]) -> None:
+        raise elf_linker.Foreign
+
+    if by == "llvm":
+        monkeypatch.setattr(elf_linker, "link", refuse)
+    for text, name in ((CALLED, f"by_{by}.half"), (CALLER, f"by_{by}.quarter")):
+        code = compiler.object_code(text.format(f"by_{by}"))
+        address = compiler.addresses([(code, [name])])[name]
+    assert ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(address)(6.0) == 1.5
 
 
 def spoiled(code: bytes, what: str) -> bytes:
@@ -113,19 +142,19 @@ def spoiled(code: bytes, what: str) -> bytes:
 def test_refuses_what_it_does_not_link(what: str, why: str) -> None:
     code = spoiled(compiler.object_code(TEXT.format(name="spoiled")), what)
     with pytest.raises(elf_linker.Foreign, match=why):
-        elf_linker.link(code)
+        elf_linker.link(code, {})
 
 
 @HERE
 def test_variables_are_refused() -> None:
     text = "@count = global double 1.0\ndefine ptr @where() {\n  ret ptr @count\n}\n"
     with pytest.raises(elf_linker.Foreign, match="has variables"):
-        elf_linker.link(compiler.object_code(text))
+        elf_linker.link(compiler.object_code(text), {})
 
 
 def test_no_elf_at_all_is_refused() -> None:
     with pytest.raises(elf_linker.Foreign):
-        elf_linker.link(b"MZ" + bytes(200))
+        elf_linker.link(b"MZ" + bytes(200), {})
 
 
 DECK = """Falls

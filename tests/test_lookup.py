@@ -20,7 +20,7 @@ from adamslite.language.function import FUNCTIONS, function
 from adamslite.language.statement import STATEMENTS, Statement, choice, statement, vector
 from adamslite.native import compiler
 from adamslite.native.translate import symbol
-from adamslite.native.translate.statements import translate
+from adamslite.native.translate.modules import method_text
 from adamslite.results.outcomes import Outcome
 from adamslite.symbolic.formulas import lookup, lookup_between
 from adamslite.symbolic.interpolant import BEYOND, Interpolant, interpolant
@@ -50,7 +50,7 @@ def table(kind: str, beyond: str = "parabola") -> Interpolant:
 @pytest.fixture(scope="module")
 def in_native_code() -> Callable[..., float]:
     """``lookup`` compiled: f(T, x, z, order, z_order)."""
-    code = compiler.object_code(translate(in_python))
+    code = compiler.object_code(method_text(in_python))
     name = symbol(in_python)
     address = compiler.addresses([(code, [name])])[name]
     real, whole = ctypes.c_double, ctypes.c_int64

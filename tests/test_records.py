@@ -205,7 +205,7 @@ REFUSED = {
 def test_what_a_record_is_not_is_refused_with_its_place(function):
     """The message names the function and, where there is one, the line and the reason."""
     with pytest.raises(Untranslatable, match=REFUSED[function]) as caught:
-        Translator(function).define(internal=False)
+        Translator(function).translate()
     line = function.__code__.co_firstlineno
     place = rf"^test_records.py:({line}|{line + 1}|{line + 2}), {function.__name__}: "
     assert re.match(place, str(caught.value))

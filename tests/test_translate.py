@@ -157,7 +157,7 @@ REFUSED = {
 def test_unsupported_python_is_refused_by_name(function):
     """The message names the function and, where there is one, the line and the reason."""
     with pytest.raises(Untranslatable, match=REFUSED[function]) as caught:
-        Translator(function).define(internal=False)
+        Translator(function).translate()
     line = function.__code__.co_firstlineno
     place = rf"^test_translate.py:({line}|{line + 1}|{line + 2}), {function.__name__}: "
     assert re.match(place, str(caught.value))

@@ -1,30 +1,34 @@
 """Native code of integrators and equations, built once per version and processor.
 
 An entry is a native function that takes tables of addresses, by module and name: ``f(P, L)`` of a
-method of integration, ``run(P, L, operation, phases)`` of the rest.  Each is compiled by itself
-when a run first needs it.
+method of integration, ``run(P, L, operation, phases)`` of the rest.  The latter is compiled first,
+together with all that methods share; each method is compiled when a run first needs it, and calls
+what is shared.
 """
 
 from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Iterable
+from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.caching.entries import recall
+from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
+from adamslite.language.method import declared
 from adamslite.native import compiler
 from adamslite.progress import Progress
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-OPERATIONS = "adamslite.equations.operations.run"
 #: Where modules lie whose sources are known to :mod:`adamslite.caching.sources`.
 HERE = "adamslite."
+OPERATED = "equations.operations"
+OPERATIONS = f"{HERE}{OPERATED}.run"
 
 
 def engine(entry: str = OPERATIONS, progress: Progress | None = None) -> Callable[..., int]:
@@ -48,34 +52,57 @@ _built: dict[str, int] = {}
 
 
 def _build(entry: str, progress: Progress | None) -> int:
-    symbol = entry.removeprefix(HERE)
+    if entry != OPERATIONS:
+        address_of(OPERATIONS)
 
     def compiled() -> bytes:
         if progress is not None:
-            what = "the equations" if entry == OPERATIONS else "the integrator"
-            progress.say(f"compiling {what}, once after installing: takes a few seconds")
+            progress.say(_announced(entry))
         return compiler.object_code(engine_text(entry))
 
-    name = symbol.rpartition(".")[2]
-    code = recall(f"{name}{compiler.digest(entry, _version(entry))}.o", compiled)
+    symbol = entry.removeprefix(HERE)
+    code = recall(f"{entry.rpartition('.')[2]}{_digest(entry)}.o", compiled)
     return compiler.addresses([(code, [symbol])])[symbol]
 
 
-def _version(entry: str) -> str:
+def _announced(entry: str) -> str:
+    if entry == OPERATIONS:
+        return (
+            "compiling the engine, once after installing: what all integrators share, then each "
+            "integrator when it is first used"
+        )
+    names = "/".join(name for each in declared() if each.entry == entry for name in each.names)
+    return f"compiling the integrator {names}"
+
+
+def _digest(entry: str) -> str:
     """Changes whenever what an entry is made from does: a method from elsewhere is its text."""
     module = entry.rpartition(".")[0]
     if not module.startswith(HERE):
-        return engine_text(entry)
-    return version_of("equations.engine", module.removeprefix(HERE))
+        return compiler.digest(entry, engine_text(entry), _digest(OPERATIONS))
+    needed = {"equations.engine", OPERATED, module.removeprefix(HERE)}
+    return compiler.digest(entry, version_of(*sorted(needed)))
 
 
 def engine_text(entry: str) -> str:
     """LLVM assembly of an entry."""
+    if entry == OPERATIONS:
+        return _shared()[0]
     # Only compilation needs the translator.
-    from adamslite.native.translate.statements import translate
+    from adamslite.native.translate.modules import method_text
 
+    shared = recall_json(f"shared{_digest(OPERATIONS)}.json", lambda: _shared()[1])
     module, _, name = entry.rpartition(".")
-    return translate(getattr(import_module(module), name))
+    return method_text(getattr(import_module(module), name), frozenset(shared))
+
+
+@cache
+def _shared() -> tuple[str, list[str]]:
+    """LLVM assembly of the operations and of what methods share, and the symbols in it."""
+    from adamslite.equations.operations import SHARED, run
+    from adamslite.native.translate.modules import shared_text
+
+    return shared_text([run, *SHARED])
 
 
 def ints(values: Iterable[int]) -> np.ndarray:

@@ -1,9 +1,9 @@
-"""The native entry of all operations on equations but integration."""
+"""The native entry of all operations on equations but integration, and what methods share."""
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import accelerations, put_state
-from adamslite.integrators.audit.balance import start_balance
+from adamslite.integrators.accelerations import accelerations, mass_signature, put_state
+from adamslite.integrators.audit.balance import add_leap, add_step, audit_from, start_balance
 from adamslite.integrators.contract import (
     ACCELERATIONS,
     AUDIT,
@@ -23,13 +23,66 @@ from adamslite.integrators.contract import (
     Problem,
 )
 from adamslite.integrators.equilibrium import equilibrium
-from adamslite.integrators.events.stops import sample_clock
+from adamslite.integrators.events.events import change_here, pass_event, start_events
+from adamslite.integrators.events.guards import hold_watch, keep_margins, let_go
+from adamslite.integrators.events.harmless import take_harmless
+from adamslite.integrators.events.search import judge, open_search
+from adamslite.integrators.events.stops import sample_clock, set_clock, set_pace
+from adamslite.integrators.implicit.failures import wildest
+from adamslite.integrators.implicit.step_size import first_step, jerk, retry_factor
+from adamslite.integrators.implicit.tolerance import weighted
+from adamslite.integrators.jolts import note_jolt
 from adamslite.integrators.linalg.blocks import add_to_diagonal, factor, solve
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import jacobian, residual, spread, track
-from adamslite.integrators.records import write_record
+from adamslite.integrators.motion_equations import (
+    jacobian,
+    project_on_constraints,
+    residual,
+    spread,
+    track,
+    vector_rates,
+    velocities,
+)
+from adamslite.integrators.newton import apply_increment, multiplier_change
+from adamslite.integrators.records import note_violation, write_record
+from adamslite.integrators.step_back import before_trouble, make_undoable
+from adamslite.integrators.stepping.accepted import count_from_here
 from adamslite.integrators.unconstrained import spectrum
 from adamslite.native.translate import native
+
+SHARED = (
+    add_leap,
+    add_step,
+    apply_increment,
+    audit_from,
+    before_trouble,
+    change_here,
+    count_from_here,
+    first_step,
+    hold_watch,
+    jerk,
+    judge,
+    keep_margins,
+    let_go,
+    make_undoable,
+    mass_signature,
+    multiplier_change,
+    note_jolt,
+    note_violation,
+    open_search,
+    pass_event,
+    project_on_constraints,
+    retry_factor,
+    set_clock,
+    set_pace,
+    start_events,
+    take_harmless,
+    vector_rates,
+    velocities,
+    weighted,
+    wildest,
+)
+"""What several methods call besides what the operations reach; compiled once, with them."""
 
 
 @native

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import STATE_ORIGIN, Problem
 from adamslite.integrators.motion_equations import PART
-from adamslite.native.translate import Reals, copy, native
+from adamslite.native.translate import Reals, copy, native, seldom
 
 # Accepted steps taken back in one place.
 MOST_BACKS = 24
@@ -47,6 +47,7 @@ def make_undoable(P: Problem, now: float, h: float, clean: bool) -> None:
 
 
 @native
+@seldom
 def before_trouble(P: Problem, tried: float) -> float:
     """Back to the state kept before the trouble, which lies before the time ``tried``; the share of
     its step to take there, 0 when that was done often enough or there is no such state.

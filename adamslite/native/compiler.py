@@ -89,10 +89,9 @@ def _link(code: bytes, names: list[str]) -> dict[str, int]:
     )
 
     try:
-        places = elf_linker.link(code)
+        return elf_linker.link(code, _linked)
     except elf_linker.Foreign:
         return _link_by_llvm(code, names)
-    return {name: places[name] for name in names}
 
 
 def _link_by_llvm(code: bytes, names: list[str]) -> dict[str, int]:

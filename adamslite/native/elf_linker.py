@@ -1,8 +1,8 @@
 """A linker for object code: places it in this process without LLVM.
 
-Compiled for x86-64 under Linux it is ELF in the large code model: code, constants and functions of
-the C library may lie anywhere, so an instruction holds each address as a whole word and one kind of
-relocation is left,
+Compiled for x86-64 under Linux it is ELF in the large code model: code, constants, functions of the
+C library and those linked before may lie anywhere, so an instruction holds each address as a whole
+word and one kind of relocation is left,
 
     word = S + A,      S: address of the symbol,  A: number to add
 
@@ -17,6 +17,7 @@ from __future__ import annotations
 import ctypes
 import mmap
 import sys
+from collections.abc import Mapping
 from functools import cache
 
 import numpy as np
@@ -48,8 +49,9 @@ class Foreign(Exception):
     """Object code that this module does not link; the argument says why."""
 
 
-def link(code: bytes) -> dict[str, int]:
-    """Addresses of the global functions in an object file, valid as long as the process lives.
+def link(code: bytes, linked: Mapping[str, int]) -> dict[str, int]:
+    """Addresses of the global functions in an object file, valid as long as the process lives;
+    it may call functions of object files ``linked`` before, by their addresses.
 
     Raises
     ------
@@ -65,7 +67,7 @@ def link(code: bytes) -> dict[str, int]:
         part = sections[number]
         image[at[number] : at[number] + int(part["size"])] = _table(code, part, np.uint8)
     symbols, names = _symbols(code, sections)
-    values = [_value(s, n, at, base) for s, n in zip(symbols.tolist(), names, strict=True)]
+    values = [_value(s, n, at, base, linked) for s, n in zip(symbols.tolist(), names, strict=True)]
     _relocate(code, sections, at, image, np.array(values, dtype=np.uint64))
     _make_executable(image)
     public = (symbols["section"] != UNDEFINED) & (symbols["info"] >> 4 == GLOBAL)
@@ -111,11 +113,17 @@ def _symbols(code: bytes, sections: np.ndarray) -> tuple[np.ndarray, list[str]]:
     return symbols, [code[first : code.index(b"\0", first)].decode() for first in firsts]
 
 
-def _value(symbol: tuple[int, ...], name: str, at: dict[int, int], base: int) -> int:
-    """Address of a symbol: in a section, or of a function of the C library; else 0."""
+def _value(
+    symbol: tuple[int, ...], name: str, at: dict[int, int], base: int, linked: Mapping[str, int]
+) -> int:
+    """Address of a symbol: in a section, of a function linked before or one of the C library;
+    else 0.
+    """
     section, value = symbol[3], symbol[4]
     if section in at:
         return base + at[section] + value
+    if name in linked:
+        return linked[name]
     return _from_library(name) if section == UNDEFINED and name else 0
 
 

@@ -18,15 +18,21 @@ from adamslite.integrators.audit.work import MOST_PANELS, power_at, work_on_pane
 from adamslite.integrators.contract import STORED_ENERGY, Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART, rotated_inertia, run_groups
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 
 @native
 def audit(P: Problem, L: Plan, t: float) -> None:
-    """Add the step to ``t``, whose accepted end stands in the workspace, to the balance."""
+    """Add the step to ``t``, whose accepted end is in the workspace, to the balance, if any."""
+    if P.audit.on and t > P.audit.now.t:
+        add_step(P, L, t)
+
+
+@native
+@seldom
+def add_step(P: Problem, L: Plan, t: float) -> None:
+    """Add the step to ``t`` to the balance."""
     A, old, new = P.audit.now, P.audit.previous, P.audit.present
-    if not P.audit.on or not t > A.t:
-        return
     for k in range(P.W.size):
         new[k] = P.W[k]
     for k in range(P.sizes.nw, P.W.size):
@@ -56,6 +62,7 @@ def audit(P: Problem, L: Plan, t: float) -> None:
 
 
 @native
+@seldom
 def start_balance(P: Problem) -> None:
     """The workspace's state is the first."""
     audit_from(P, P.settings.t)
@@ -66,6 +73,7 @@ def start_balance(P: Problem) -> None:
 
 
 @native
+@seldom
 def audit_from(P: Problem, t: float) -> None:
     """Go on from the workspace's state: accelerations or velocities have changed there."""
     if not P.audit.on:
@@ -102,8 +110,14 @@ def audit_leap(P: Problem, L: Plan, t: float, h: float) -> None:
     its forces, in ``P.F``, are those of ``t``, the end of a step of size ``h``; the start of the
     first for ``h`` of zero.
     """
-    if not P.audit.on:
-        return
+    if P.audit.on:
+        add_leap(P, L, t, h)
+
+
+@native
+@seldom
+def add_leap(P: Problem, L: Plan, t: float, h: float) -> None:
+    """Add the leap to ``t`` to the balance."""
     W, F, n, spare = P.W, P.x, P.sizes.n, P.audit.vectors
     for b in range(P.sizes.nb):
         i, o = P.body[b].first, P.body[b].at

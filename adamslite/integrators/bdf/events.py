@@ -25,7 +25,7 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import note_signature
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 # The first step behind an event in multiples of (ERROR/|a'|)^(1/2).
 CAREFUL = 0.8
@@ -48,6 +48,7 @@ def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
 
 
 @native
+@seldom
 def end_at_crossing(P: Problem, L: Plan, C: Control) -> int:
     """The step is taken again, to end where the first branch changes, or changes it at once."""
     if starts_there(P):
@@ -72,6 +73,7 @@ def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
 
 
 @native
+@seldom
 def pass_on(P: Problem, L: Plan, C: Control) -> int:
     """After an event: the history continues when nothing jumped, else a new one begins."""
     # A step that is taken back must not lead across an event.

@@ -65,10 +65,11 @@ from adamslite.integrators.events.sensors import sense, start_sensors
 from adamslite.integrators.events.stops import is_stop, next_stop, set_clock, set_pace
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 
 @native
+@seldom
 def start_events(P: Problem, located: bool, tested: bool) -> None:
     """Nothing has happened yet; branches of the clock for the time until the first stop.
 
@@ -157,6 +158,7 @@ def hold_free(P: Problem, old: float, new: float) -> None:
 
 
 @native
+@seldom
 def pass_event(P: Problem, L: Plan, t: float) -> bool:
     """Behind a stop or a crossing at ``t``: branches and accelerations of the other side.
 

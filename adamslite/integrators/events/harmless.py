@@ -20,7 +20,7 @@ from adamslite.integrators.events.sensors import meets_sensor
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import PART, residual, vector_rates
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, native, seldom
 
 # So many groups of changes are tried one after another.
 MOST_GROUPS = 5
@@ -29,6 +29,7 @@ SHORTLY = 0.1
 
 
 @native
+@seldom
 def take_harmless(P: Problem, L: Plan, phases: int, cu: float) -> None:
     """Where the step ends beyond changes that do not matter, and none is being hunted, take them:
     Newton's next increment on the other branches, dq with du = cu dq, is too small.  The converged
@@ -178,6 +179,7 @@ def forget(P: Problem) -> None:
 
 
 @native
+@seldom
 def force_ahead(P: Problem, L: Plan, t: float, time: float) -> float:
     """What the branches that were turned over in the last step add to accelerations and rates of
     states at ``t + time``, against max(1, |u|) and max(1, |s|).
@@ -214,6 +216,7 @@ def force_ahead(P: Problem, L: Plan, t: float, time: float) -> float:
 
 
 @native
+@seldom
 def accelerations_ahead(P: Problem, L: Plan, t: float, time: float, rates: Reals) -> bool:
     """Accelerations of the present branches at ``t + time``, to first order; False without any."""
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv

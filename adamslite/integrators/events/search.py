@@ -41,7 +41,7 @@ from adamslite.integrators.events.windows import (
     open_window,
     rates_at_right,
 )
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 # An event is met when the step ends behind it by less than this share of the step in which it was
 # seen, or this multiple of ERROR.
@@ -53,6 +53,7 @@ NUDGE, LEAST_NUDGE = 0.2, 0.1
 
 
 @native
+@seldom
 def open_search(P: Problem, t: float, h: float) -> None:
     """Look at the end of the step from ``t``, which stands in the workspace."""
     S = P.search
@@ -89,6 +90,7 @@ def ends_beyond(P: Problem) -> bool:
 
 
 @native
+@seldom
 def judge(P: Problem) -> None:
     """Look at the guards at the workspace's state, and choose another share or close the search."""
     S = P.search

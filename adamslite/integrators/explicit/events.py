@@ -24,7 +24,7 @@ from adamslite.integrators.explicit.state import restore_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 
 @native
@@ -39,6 +39,7 @@ def passes_crossing(P: Problem, C: Control) -> bool:
 
 
 @native
+@seldom
 def end_at_crossing(P: Problem, L: Plan, C: Control) -> int:
     """The step is taken again, to end where the first branch changes, or changes it at once."""
     if starts_there(P):
@@ -100,6 +101,7 @@ def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
 
 
 @native
+@seldom
 def pass_on(P: Problem, L: Plan, C: Control) -> int:
     """Behind an event: rates of the new branches, another step when something jumped."""
     if not pass_event(P, L, C.t):

@@ -65,7 +65,7 @@ from adamslite.integrators.stepping.outcome import (
 )
 from adamslite.integrators.stepping.step_size import LONGER
 from adamslite.integrators.unconstrained import invert_inertia, is_free, mass_tables
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 ORDER = 8
 
@@ -85,6 +85,7 @@ def explicit(P: Problem, L: Plan) -> int:
 
 
 @native
+@seldom
 def begin(P: Problem, L: Plan, C: Control) -> int:
     """Rates at the start, first step, first record."""
     C[:] = 0

@@ -20,7 +20,7 @@ from adamslite.integrators.projection import sensitivity
 from adamslite.integrators.step_back import before_trouble
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import OVERFLOW, SINGULAR_RESOLUTION, why_stuck
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 # Tries in vain around one place before the step that led there is taken back: failures of the
 # equations, rejections.
@@ -37,6 +37,7 @@ EPSILON = 2.220446049250313e-16
 
 
 @native
+@seldom
 def after_failure(P: Problem, L: Plan, C: Control) -> int:
     """A stage had no accelerations: without held branches, else a shorter step."""
     start_afresh(P, L, C)
@@ -82,6 +83,7 @@ def shorten(P: Problem, C: Control, factor: float) -> int:
 
 
 @native
+@seldom
 def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
     """The error was too large: a smaller step."""
     P.count.rejected += 1
@@ -99,12 +101,14 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
 
 
 @native
+@seldom
 def near_singularity(P: Problem, C: Control) -> int:
     """The acceleration matrix became singular within the step: approach that, never pass it."""
     return shorten(P, C, CLOSER)
 
 
 @native
+@seldom
 def stuck(P: Problem, L: Plan, C: Control) -> int:
     """Back to the accepted state, and why the step became too small."""
     restore_state(P, C)
@@ -118,6 +122,7 @@ def left_branch(P: Problem, L: Plan, C: Control) -> bool:
 
 
 @native
+@seldom
 def pull_back(P: Problem, L: Plan, C: Control) -> int:
     """The step left its branch, or ended where it may be left: a shorter one, another start."""
     if C.h < TINY * P.settings.h_max:

@@ -22,7 +22,7 @@ from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import note_signature
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 # The first step behind an event: where its estimated error is this share of ERROR.
 CAREFUL = 0.02
@@ -49,6 +49,7 @@ def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
 
 
 @native
+@seldom
 def end_at_crossing(P: Problem, L: Plan, C: Control) -> int:
     """The step is taken again, to end where the first branch changes, or changes it at once."""
     if starts_there(P):
@@ -85,6 +86,7 @@ def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
 
 
 @native
+@seldom
 def pass_on(P: Problem, L: Plan, C: Control) -> int:
     """After an event: continue when nothing jumped, else restart."""
     if not pass_event(P, L, C.t):

@@ -64,7 +64,7 @@ from adamslite.integrators.stepping.outcome import (
     passed_singularity,
 )
 from adamslite.integrators.stepping.output import record_start
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 
 @native
@@ -80,6 +80,7 @@ def hht(P: Problem, L: Plan) -> int:
 
 
 @native
+@seldom
 def begin(P: Problem, L: Plan, C: Control) -> int:
     """Accelerations at the start, the first record, attitudes counted from here."""
     C[:] = 0

@@ -14,7 +14,7 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import OVERFLOW, why_stuck
 from adamslite.integrators.stepping.step_size import cut, too_small
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 # Share of a fixed step below which it is not divided any more.
 LEAST_SHARE = 1e-9
@@ -29,6 +29,7 @@ def is_stuck(P: Problem, C: Control) -> bool:
 
 
 @native
+@seldom
 def after_failure(P: Problem, C: Control) -> int:
     """A shorter step with a new matrix; near a singular posture also longer ones."""
     P.count.failures += 1
@@ -45,6 +46,7 @@ def after_failure(P: Problem, C: Control) -> int:
 
 
 @native
+@seldom
 def after_rejection(P: Problem, C: Control, norm: float) -> int:
     """The error was too large: a smaller step."""
     if not norm < OVERFLOW:
@@ -56,6 +58,7 @@ def after_rejection(P: Problem, C: Control, norm: float) -> int:
 
 
 @native
+@seldom
 def stuck(P: Problem, L: Plan, C: Control) -> int:
     """Back to the accepted state, and why the step became too small."""
     restore_state(P, C)

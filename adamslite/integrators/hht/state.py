@@ -10,7 +10,7 @@ from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.hht.control import Control
 from adamslite.integrators.stepping.accepted import count_from_here, keep_solution
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 
 @native
@@ -52,6 +52,7 @@ def start_from_here(P: Problem) -> None:
 
 
 @native
+@seldom
 def restore_state(P: Problem, C: Control) -> None:
     """The accepted state into the unknowns and the workspace."""
     D, n, ns, first = P.history, P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv

@@ -6,10 +6,11 @@ from adamslite.integrators.contract import (
     Problem,
 )
 from adamslite.integrators.linalg.norms import exceeds
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 
 @native
+@seldom
 def wildest(P: Problem) -> int:
     """The unknown with the largest last increment, numbered as in the error test."""
     n, first, where, top = P.sizes.n, P.sizes.m + P.sizes.nv, 0, -1.0

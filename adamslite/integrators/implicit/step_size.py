@@ -11,7 +11,7 @@ from adamslite.integrators.implicit.formulation import is_stabilised
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.stepping.control import StepControl
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 # Fixed steps begin with this part of the step, because order 1 starts.
 START_PARTS = 1024.0
@@ -26,6 +26,7 @@ ROOT_OF_TENTH = 0.3
 
 
 @native
+@seldom
 def first_step(P: Problem) -> float:
     """A step whose first-order error is a tenth of ERROR, judged by the accelerations."""
     n = P.sizes.n

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from adamslite.integrators.linalg.dense import lu_dense, negative_pivots, solve_dense
 from adamslite.integrators.linalg.plan import FACTOR, REAL, SIGNATURE, SOLVE, TINY, Plan
-from adamslite.native.translate import Ints, Reals, call_address, native
+from adamslite.native.translate import Ints, Reals, call_address, inline, native
 
 
 @native
@@ -33,6 +33,7 @@ def determinant3(A: Reals, o: int) -> float:
 
 
 @native
+@inline
 def invert3(A: Reals, o: int) -> float:
     """Replace the 3 x 3 block at ``o`` with its inverse; returns its determinant."""
     a, b, c = A[o], A[o + 1], A[o + 2]

@@ -43,7 +43,7 @@ from adamslite.integrators.radau.state import (
 from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import note_signature
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 # A step to a crossing that ends before it by less than this share is taken again, longer, but not
 # more often than MOST_LENGTHENED.
@@ -72,6 +72,7 @@ def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
 
 
 @native
+@seldom
 def end_at_crossing(P: Problem, L: Plan, C: Control) -> int:
     """The step is taken again, to end where the first branch changes, or changes it at once."""
     if starts_there(P):
@@ -109,6 +110,7 @@ def falls_short(P: Problem, C: Control) -> bool:
 
 
 @native
+@seldom
 def is_at_crossing(P: Problem, C: Control, error: float) -> bool:
     """Whether the step to a crossing is so short that the last digits of positions make up its
     error, though a longer one from the same start has passed the test: the crossing is here.
@@ -135,6 +137,7 @@ def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
 
 
 @native
+@seldom
 def pass_on(P: Problem, L: Plan, C: Control) -> int:
     """After an event: the prediction continues when nothing jumped, else it restarts."""
     if not pass_event(P, L, C.t):

@@ -17,13 +17,14 @@ from adamslite.integrators.radau.step_size import step_factor
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import OVERFLOW, why_stuck
 from adamslite.integrators.stepping.step_size import cut
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 # Below this share of HMAX the error of a step is round-off, and nobody's.
 BLAMELESS = 1e-9
 
 
 @native
+@seldom
 def after_failure(P: Problem, C: Control) -> int:
     """Newton failed: new derivatives when they were old, else another step."""
     P.count.failures += 1
@@ -39,6 +40,7 @@ def after_failure(P: Problem, C: Control) -> int:
 
 
 @native
+@seldom
 def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
     """The error was too large: a shorter step, with new derivatives where they were old, because
     these may be all that is wrong with the estimate.
@@ -58,6 +60,7 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
 
 
 @native
+@seldom
 def stuck(P: Problem, L: Plan, C: Control) -> int:
     """Back to the accepted state, and why the step became too small."""
     restore_state(P, C)

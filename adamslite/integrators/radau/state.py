@@ -7,10 +7,11 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.history import ORIGIN
 from adamslite.integrators.radau.stages import stage_z
-from adamslite.native.translate import native
+from adamslite.native.translate import native, seldom
 
 
 @native
+@seldom
 def restore_state(P: Problem, C: Control) -> None:
     """The last accepted state into the unknowns and the workspace."""
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv

@@ -10,7 +10,7 @@ from adamslite.kernels.code.jacobian_writer import JacobianWriter
 from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Shape
 from adamslite.native.translate import REGISTERED
-from adamslite.native.translate.statements import definitions
+from adamslite.native.translate.modules import definitions
 from adamslite.native.translate.writer import module_text
 from adamslite.symbolic.guards import guards
 from adamslite.symbolic.scope import Scope

@@ -20,6 +20,10 @@ REGISTERED: dict[str, Native] = {}
 """Every native function by its symbol."""
 AS_WRITTEN: set[Native] = set()
 """Those whose sums are not reordered."""
+SELDOM: set[Native] = set()
+"""Those that steps do not wait for."""
+INLINE: set[Native] = set()
+"""Those that become part of each function that calls them."""
 
 
 class Untranslatable(Exception):
@@ -46,6 +50,20 @@ def is_native(function: object) -> TypeGuard[Native]:
 def as_written(function: F) -> F:
     """Sums and products of this native function are neither reordered nor contracted."""
     AS_WRITTEN.add(function)
+    return function
+
+
+def seldom(function: F) -> F:
+    """Code of this native function, and of what only such functions call, is kept small: a step
+    does not wait for it.
+    """
+    SELDOM.add(function)
+    return function
+
+
+def inline(function: F) -> F:
+    """Wherever this native function is called, its body is there instead of a call."""
+    INLINE.add(function)
     return function
 
 

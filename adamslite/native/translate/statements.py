@@ -5,47 +5,18 @@ from __future__ import annotations
 import ast
 import inspect
 import textwrap
-from collections.abc import Iterable
+from typing import Self
 
 from adamslite.native.translate.expressions import Expressions
-from adamslite.native.translate.language import Native, Untranslatable, signature, symbol
-from adamslite.native.translate.writer import Value, module_text
-
-
-def translate(entry: Native) -> str:
-    """LLVM assembly of ``entry`` and of every native function that it reaches, each under its
-    :func:`symbol`; all but the entry are internal.
-    """
-    declared, texts = definitions([entry], public=entry)
-    return module_text(declared, texts)
-
-
-def definitions(
-    functions: Iterable[Native], public: Native | None = None
-) -> tuple[set[str], list[str]]:
-    """Declarations of the library functions and definitions of all native functions that
-    ``functions`` reach; all but ``public`` are internal to the module they become part of.
-    """
-    pending, done, texts = list(functions), set(), []
-    declared: set[str] = set()
-    while pending:
-        function = pending.pop()
-        if function in done:
-            continue
-        done.add(function)
-        work = Translator(function)
-        texts.append(work.define(internal=function is not public))
-        if public is not None and public in work.called:
-            raise Untranslatable(f"{symbol(function)} calls the entry {public.__name__}")
-        declared |= work.declared
-        pending.extend(work.called)
-    return declared, texts
+from adamslite.native.translate.language import signature, symbol
+from adamslite.native.translate.writer import Value
 
 
 class Translator(Expressions):
     """Translates one function."""
 
-    def define(self, internal: bool) -> str:
+    def translate(self) -> Self:
+        """Write the body."""
         arguments, self.result = signature(self.function)
         tree = ast.parse(textwrap.dedent(inspect.getsource(self.function))).body[0]
         assert isinstance(tree, ast.FunctionDef)
@@ -54,11 +25,21 @@ class Translator(Expressions):
         self.block(tree.body)
         if self.open:
             self.line("ret void" if self.result == "void" else "unreachable")
+        return self
+
+    def define(self, linkage: str = "", attributes: str = "nounwind") -> str:
+        """The function as LLVM assembly, once it is translated."""
+        arguments, _ = signature(self.function)
         head = ", ".join(f"{self.passed(name, kind)} %arg.{name}" for name, kind in arguments)
-        linkage = "internal " if internal else ""
         body = "\n".join(["entry:", *self.allocations, *self.lines])
-        name = f"{linkage}{self.result} @{symbol(self.function)}"
-        return f"define {name}({head}) nounwind {{\n{body}\n}}"
+        name = f"{self.result} @{symbol(self.function)}"
+        return f"define {linkage}{name}({head}) {attributes} {{\n{body}\n}}"
+
+    def declare(self) -> str:
+        """What another module states of the function to call it."""
+        arguments, result = signature(self.function)
+        types = ", ".join(self.passed(name, kind) for name, kind in arguments)
+        return f"declare {result} @{symbol(self.function)}({types}) nounwind"
 
     def block(self, body: list[ast.stmt]) -> None:
         for statement in body:
@@ -134,8 +115,8 @@ class Translator(Expressions):
         self.start(test)
         self.branch(self.truth(node.test), body, after)
         self.start(body)
-        self.loop_body(node.body, test, after)
-        self.jump_back(test)
+        self.jump_back(test, self.loop_body(node.body, test, after))
+        self.lengths += 1
         self.start(after)
 
     def on_For(self, node: ast.For) -> None:
@@ -158,17 +139,21 @@ class Translator(Expressions):
         self.branch(more, body, after)
         self.start(body)
         self.store_local(node.target.id, i)
-        self.loop_body(node.body, following, after)
+        name = self.loop_body(node.body, following, after)
         self.start(following)
         nxt = self.value("i64", f"add nsw i64 {i.text}, {step.text}")
         self.line(f"store i64 {nxt.text}, ptr {counter}")
-        self.jump_back(test)
+        self.jump_back(test, name)
         self.start(after)
+        self.lengths += low.text.startswith("%") or high.text.startswith("%")
 
-    def loop_body(self, body: list[ast.stmt], following: str, after: str) -> None:
+    def loop_body(self, body: list[ast.stmt], following: str, after: str) -> str:
+        """Which of ``LOOPS`` it is: whether there is a loop of any length in it."""
+        before = self.lengths
         self.loops.append((following, after))
         self.block(body)
         self.loops.pop()
+        return "outer" if self.lengths > before else "inner"
 
     def on_Break(self, node: ast.Break) -> None:
         self.jump(self.loops[-1][1])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import itertools
 import re
 from collections.abc import Iterable
 
@@ -28,19 +27,27 @@ METADATA = """!0 = !{!"adamslite"}
 !5 = !{!"integer", !0}
 !6 = !{!"address", !0}
 !7 = !{}
-!8 = !{!"llvm.loop.align", i32 64}"""
-# At the jump back to a loop's start.
-ALIGNED = ", !llvm.loop !loop"
+!8 = !{!"llvm.loop.align", i32 64}
+!9 = !{!"llvm.loop.unroll.disable"}
+!10 = !{!"llvm.loop.unroll.runtime.disable"}"""
+# Properties of a loop, by its name at the jump back to its start.
+LOOPS = {"loop": "!8", "inner": "!8, !10", "outer": "!8, !9"}
 
 
 def module_text(declared: Iterable[str], definitions: Iterable[str]) -> str:
     """LLVM assembly of a module, whose loops start on a line of the processor's cache: elsewhere
     a short loop takes up to a tenth longer, by chance, after any change of the code before it.
+    A loop around loops of any length is not written out three times, with all vectors in it.
     """
+    nodes: list[str] = []
+
+    def numbered(name: re.Match[str]) -> str:
+        number = 11 + len(nodes)
+        nodes.append(f"!{number} = distinct !{{!{number}, {LOOPS[name[1]]}}}")
+        return f"!{number}"
+
     text = "\n".join([*sorted(declared), *definitions, METADATA])
-    number = itertools.count(9)
-    loops = re.sub("!loop$", lambda _: f"!{next(number)}", text, flags=re.MULTILINE)
-    nodes = (f"!{n} = distinct !{{!{n}, !8}}" for n in range(9, next(number)))
+    loops = re.sub(f"!({'|'.join(LOOPS)})$", numbered, text, flags=re.MULTILINE)
     return "\n".join([loops, *nodes])
 
 
@@ -65,6 +72,7 @@ class Writer:
         self.called: list[Native] = []
         self.declared: set[str] = set()
         self.loops: list[tuple[str, str]] = []
+        self.lengths = 0
         self.count = 0
         self.present = 1
         self.open = True
@@ -103,9 +111,9 @@ class Writer:
         self.line(f"br label %{label}")
         self.open = False
 
-    def jump_back(self, label: str) -> None:
-        """To the start of a loop."""
-        self.jump(f"{label}{ALIGNED}")
+    def jump_back(self, label: str, name: str) -> None:
+        """To the start of a loop, which is one of ``LOOPS``."""
+        self.jump(f"{label}, !llvm.loop !{name}")
 
     def branch(self, condition: Value, yes: str, no: str) -> None:
         self.line(f"br i1 {condition.text}, label %{yes}, label %{no}")
