@@ -273,7 +273,7 @@ def _watched(
                 system.settings.stop = True
         code = running.result()
     try:
-        if progress and not system.settings.stop:
+        if progress and not system.settings.stop and progress.is_due():
             progress.watch(look())  # it may be one of many short runs
     except KeyboardInterrupt:
         return contract.INTERRUPTED

@@ -176,10 +176,9 @@ class Session(SessionState):
         settings = self.chosen.settings
 
         def run() -> Outcome:
-            began = clock.process_time()
             make_ready(system, times, apart, settings, self.audited)
-            if not self.history.pieces:
-                self.late_setup += clock.process_time() - began
+            if self.first_step is None and not self.history.pieces:
+                self.first_step, self.late_setup = clock.process_time(), 0.0
             return integrate(system, settings, self.whole)
 
         outcome = run() if "plane" in self.without else in_its_plane(system, run)

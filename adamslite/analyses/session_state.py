@@ -62,8 +62,10 @@ class SessionState:
         Time reached.
     history : History
         What the analyses wrote.
+    first_step : float or None
+        CPU [s] of the process when the first analysis began to step.
     late_setup : float
-        CPU [s] of set-up after the first command: integrators, what the first run needs to begin.
+        CPU [s] of compiling integrators since then, or since the first command.
     outcome, unclosed
         How the last analysis ended; the constraint that stayed open, if one did.
     present : System or None
@@ -96,6 +98,7 @@ class SessionState:
         self.chosen = MethodChoice(self.settings)
         self.statics = StaticSettings()
         self.time = self.late_setup = 0.0
+        self.first_step: float | None = None
         self.history = History()
         self.outcome = Outcome.DONE
         self.unclosed: Unclosed | None = None

@@ -41,10 +41,12 @@ class AnalysisProgress(Progress):
         self._progress, self._start, self._end, self._steps = progress, start, end, steps
         self._now, self._seen = now, now()
 
+    def is_due(self) -> bool:
+        return self._now() >= self._seen + INTERVAL
+
     def watch(self, state: RunState) -> None:
-        at = self._now()
-        if at < self._seen + INTERVAL or state.time >= self._end:
+        if not self.is_due() or state.time >= self._end:
             return
-        self._seen = at
+        self._seen = self._now()
         steps = self._steps() + state.steps
         self._progress.watch(replace(state, start=self._start, end=self._end, steps=steps))

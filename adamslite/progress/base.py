@@ -50,6 +50,10 @@ class RunState:
 class Progress:
     """Reports nothing; the base of those that do."""
 
+    def is_due(self) -> bool:
+        """Whether a look at the run would be shown."""
+        return True
+
     def watch(self, state: RunState) -> None:
         """Take a look at the run."""
 

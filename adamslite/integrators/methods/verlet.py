@@ -41,6 +41,7 @@ register(
         # Near a pole of a force its equal steps would be so many that the run does not end.
         least_step=1e-8,
         by_component=True,
+        pauses=True,
         prepare=prepare,
         arguments={
             "ERROR": "local error of q, unless HINIT is given",

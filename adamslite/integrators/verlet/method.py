@@ -23,6 +23,7 @@ from adamslite.integrators.contract import (
     DONE,
     INTERRUPTED,
     LOADS,
+    PAUSED,
     STABLE,
     STEP_TOO_SMALL,
     UNSTABLE,
@@ -74,7 +75,9 @@ MOST_BLOWN = 8
 def verlet(P: Problem, L: Plan) -> int:
     """Integrate over the output times; returns an outcome."""
     C = Control(P.control)
-    begin(P, C)
+    if not P.settings.begun:
+        P.settings.begun = True
+        begin(P, C)
     while C.row < P.times.size:
         if P.settings.stop:
             return INTERRUPTED
@@ -106,7 +109,7 @@ def begin(P: Problem, C: Control) -> None:
 def advance(P: Problem, L: Plan, C: Control) -> int:
     """From one output time to the next over all stops between; returns an outcome."""
     limit_step(P, C)
-    at, end, outcome = P.times[C.row - 1], P.times[C.row], DONE
+    at, end, outcome = P.report.t, P.times[C.row], DONE
     while at < end and outcome == DONE:
         set_pace(P, at)
         to = min(end, present_stop(P), end_of_pace(P))
@@ -190,9 +193,16 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
         old[i], old[n + i] = P.q[i], P.u[i]
     keep_audit(P)
     wanted, blown = min(C.wanted, longest_step(P)), 0
+    rejected, steps, residuals, since = (
+        P.count.rejected, P.count.steps, P.count.residuals, C.since,
+    )  # fmt: skip
     while not P.settings.stop:
-        if not fixed:
-            wanted = min(wanted, C.limit)
+        wanted = wanted if fixed else min(wanted, C.limit)
+        if P.settings.pause > 0 and steps + (end - t) / wanted > P.settings.pause:
+            # All tries of this interval are made again.
+            P.count.rejected, P.count.steps = rejected, steps
+            P.count.residuals, C.since = residuals, since
+            return PAUSED
         h = (end - t) / max(1.0, 0.0 - floor(WHOLE - (end - t) / wanted))
         P.report.h = h
         if wanted < P.settings.h_min or blown == MOST_BLOWN:
