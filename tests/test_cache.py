@@ -145,7 +145,7 @@ def test_each_kind_of_entry_survives_damage_in_a_real_run(cache, tmp_path) -> No
     assert abs(found["POINT_MASS/2.x"][-1] - 1.0) < 1e-9
     assert abs(found["POINT_MASS/2.y"][-1] + 9.81 / 2) < 1e-9
     names = sorted(os.listdir(cache))
-    assert {each.rpartition(".")[2] for each in names} == {"o", "json", "parser"}
+    assert {each.rpartition(".")[2] for each in names} == {"o", "json", "parser", "kept"}
     kinds = iter(("empty", "zeroed", "cut to half", "a bit of the content"))
     damage = next(kinds)
     for file in map(cache.joinpath, names):

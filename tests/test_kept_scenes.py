@@ -570,3 +570,17 @@ def test_loads_by_component_are_written_of_kept_kernels(deck: Path, counted) -> 
     found = adamslite.simulate(str(deck), integrator="VERLET")
     found.save("fresh.csv")
     assert Path("fresh.csv").read_bytes() == kept
+
+
+def test_a_program_replaced_while_it_is_read_leaves_no_name(sources, tmp_path, monkeypatch) -> None:
+    digest = program.content_digest
+
+    def read(paths):
+        found = digest(paths)
+        replaced(tmp_path / "package/a.py", "1", "2")
+        return found
+
+    monkeypatch.setattr(program, "content_digest", read)
+    assert program.identity_of(sources) == ""
+    monkeypatch.setattr(program, "content_digest", digest)
+    assert program.identity_of(sources) == digest(sorted(program._files(sources)))

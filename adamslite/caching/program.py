@@ -12,18 +12,20 @@ the system has no such time, the files are read.
 from __future__ import annotations
 
 import hashlib
+import marshal
 import os
 import sys
 import time
 from collections.abc import Iterator
 from functools import cache
 from importlib.util import find_spec
+from typing import NamedTuple
 
 import adamslite
 from adamslite import resources
-from adamslite.caching.entries import recall
-from adamslite.caching.sources import PACKAGE
+from adamslite.caching import entries
 
+PACKAGE = os.path.dirname(adamslite.__file__)
 #: Libraries that shape what is kept, and the file of each that holds its version.
 LIBRARIES = {
     "lark": "__init__.py", "llvmlite": "_version.py", "numpy": "version.py", "scipy": "version.py",
@@ -33,6 +35,7 @@ LIBRARIES = {
 SOURCES, WITHOUT = (".py", ".lark"), ("__pycache__", "decks", "node_modules")
 #: Windows has the time of creation instead.
 HAS_CHANGE_TIME = sys.platform != "win32"
+NANO = 1e9
 TICK = 2.0
 """A change within this time of another may have the same time [s]; file systems count in less."""
 
@@ -49,18 +52,40 @@ def program() -> str:
 
 def identity_of(places: list[str]) -> str:
     """What :func:`program` says of the files in some folders."""
-    files = sorted((path, os.stat(path)) for path in _files(places))
-    newest = max((facts.st_ctime for _, facts in files), default=0.0)
+    facts = _facts(places)
+    newest = max((each.changed for each in facts), default=0) / NANO
     if HAS_CHANGE_TIME and newest > adamslite.STARTED:
         return ""
-    paths = [path for path, _ in files]
-    if not HAS_CHANGE_TIME or newest > time.time() - TICK:
-        return content_digest(paths)
-    facts = [
-        (path, s.st_size, s.st_dev, s.st_ino, s.st_mtime_ns, s.st_ctime_ns) for path, s in files
+    name = f"program{hashlib.sha256(marshal.dumps([tuple(each) for each in facts])).hexdigest()[:32]}.kept"
+    lasting = HAS_CHANGE_TIME and newest <= time.time() - TICK
+    kept = entries.find(name) if lasting else None
+    if kept is not None:
+        return kept.decode()
+    found = content_digest([each.path for each in facts])
+    if _facts(places) != facts:  # while they were read
+        return ""
+    if lasting:
+        entries.keep(name, found.encode())
+    return found
+
+
+class Facts(NamedTuple):
+    """A file, its size, where it is kept, when its content and its inode were changed [ns]."""
+
+    path: str
+    size: int
+    device: int
+    inode: int
+    written: int
+    changed: int
+
+
+def _facts(places: list[str]) -> list[Facts]:
+    found = ((path, os.stat(path)) for path in sorted(_files(places)))
+    return [
+        Facts(path, s.st_size, s.st_dev, s.st_ino, s.st_mtime_ns, s.st_ctime_ns)
+        for path, s in found
     ]
-    name = hashlib.sha256(repr(facts).encode()).hexdigest()[:32]
-    return recall(f"program{name}.json", lambda: content_digest(paths).encode()).decode()
 
 
 def content_digest(paths: list[str]) -> str:

@@ -16,9 +16,10 @@ import sys
 from functools import cache
 
 import adamslite
+from adamslite.caching import entries
 from adamslite.caching.folder import warn
+from adamslite.caching.program import PACKAGE, is_unchanged, program
 
-PACKAGE = os.path.dirname(adamslite.__file__)
 #: An import from this package, as ruff formats it: its module, and the names taken from there.
 IMPORT = re.compile(rb"\n *(?:from|import) adamslite\.?([\w.]*)(?: import (\([^)]*\)|.*))?")
 NAME, DOT = re.compile(r"\w+"), re.compile(r"\.")
@@ -28,8 +29,21 @@ SEARCHES = b"iter_modules"
 
 @cache
 def version_of(*modules: str) -> str:
-    """Changes whenever a file that ``modules`` are made of, or the Python that runs them, does."""
-    return digest_of(PACKAGE, *modules)
+    """Changes whenever a file that ``modules`` are made of, or the Python that runs them, does.
+
+    Kept under the identity of the whole program, of which those files are a part.
+    """
+    identity = program()
+    if not identity:
+        return digest_of(PACKAGE, *modules)
+    name = hashlib.sha256(" ".join((identity, *modules)).encode()).hexdigest()[:32]
+    kept = entries.find(f"version{name}.kept")
+    if kept is not None:
+        return kept.decode()
+    found = digest_of(PACKAGE, *modules)
+    if is_unchanged():
+        entries.keep(f"version{name}.kept", found.encode())
+    return found
 
 
 def digest_of(package: str, *modules: str) -> str:
