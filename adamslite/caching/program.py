@@ -56,7 +56,8 @@ def identity_of(places: list[str]) -> str:
     newest = max((each.changed for each in facts), default=0) / NANO
     if HAS_CHANGE_TIME and newest > adamslite.STARTED:
         return ""
-    name = f"program{hashlib.sha256(marshal.dumps([tuple(each) for each in facts])).hexdigest()[:32]}.kept"
+    packed = marshal.dumps([tuple(each) for each in facts])
+    name = f"program{hashlib.sha256(packed).hexdigest()[:32]}.kept"
     lasting = HAS_CHANGE_TIME and newest <= time.time() - TICK
     kept = entries.find(name) if lasting else None
     if kept is not None:
