@@ -8,7 +8,8 @@ from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.dense_output import put_between
 from adamslite.integrators.bdf.order_cap import forget_window
-from adamslite.integrators.bdf.state import forget_multipliers, resize, restore_state, start_values
+from adamslite.integrators.bdf.start import start_history
+from adamslite.integrators.bdf.state import forget_multipliers, resize, restore_state
 from adamslite.integrators.contract import NEWTON_FAILED, Problem
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.harmless import take_harmless
@@ -20,15 +21,12 @@ from adamslite.integrators.events.search import (
     starts_there,
 )
 from adamslite.integrators.implicit.formulation import equations_kept
-from adamslite.integrators.implicit.step_size import LOOK_AHEAD, first_step, jerk, jumped
+from adamslite.integrators.implicit.step_size import jumped
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import note_signature
 from adamslite.native.translate import native, seldom
-
-# The first step behind an event in multiples of (ERROR/|a'|)^(1/2).
-CAREFUL = 0.8
 
 
 @native
@@ -92,22 +90,12 @@ def pass_on(P: Problem, L: Plan, C: Control) -> int:
 
 @native
 def restart(P: Problem, L: Plan, C: Control) -> None:
-    """A history of order 1 from the state and the accelerations in place."""
+    """A history of the state and the accelerations in place."""
     P.count.restarts += 1
     keep_solution(P)
     forget_multipliers(P)
-    C.h = restart_step(P, L, C.t, first_step(P))
-    C.order, C.equal, C.h_last, C.factored = 1, 0, 0.0, 0.0
+    C.h_last, C.factored = 0.0, 0.0
     forget_window(C.cap)
-    start_values(P, C)
+    start_history(P, L, C)
     put_state(P, C.t, P.q, P.u, P.ra, P.z, P.rd)
     note_signature(P, L, C, P.x)
-
-
-@native
-def restart_step(P: Problem, L: Plan, t: float, h: float) -> float:
-    """``h``, or less where a step of order 1 would err too much in the velocities: h^2 |a'|/2."""
-    change = jerk(P, L, t, LOOK_AHEAD * h)
-    if not change > 0.0:
-        return h
-    return min(h, CAREFUL * (P.settings.error / change) ** 0.5)
