@@ -12,7 +12,6 @@ the system has no such time, the files are read.
 from __future__ import annotations
 
 import hashlib
-import marshal
 import os
 import sys
 import time
@@ -56,8 +55,8 @@ def identity_of(places: list[str]) -> str:
     newest = max((each.changed for each in facts), default=0) / NANO
     if HAS_CHANGE_TIME and newest > adamslite.STARTED:
         return ""
-    packed = marshal.dumps([tuple(each) for each in facts])
-    name = f"program{hashlib.sha256(packed).hexdigest()[:32]}.kept"
+    written = repr([tuple(each) for each in facts])
+    name = f"program{hashlib.sha256(written.encode()).hexdigest()[:32]}.kept"
     lasting = HAS_CHANGE_TIME and newest <= time.time() - TICK
     kept = entries.find(name) if lasting else None
     if kept is not None:
