@@ -179,3 +179,19 @@ def test_an_interrupt_within_the_first_tries_is_heeded(
     monkeypatch.setattr(dynamic, "UNWATCHED", unwatched)
     monkeypatch.setattr(System, "integrate", interrupted)
     assert run(SPRING, "ABAM", error=1e-9).outcome is outcome
+
+
+@pytest.mark.parametrize("masses", [1, 2, 3, 4, 5, 9])
+@pytest.mark.parametrize("gravity", [0.0, -9.81])
+def test_masses_on_which_no_force_acts(masses: int, gravity: float) -> None:
+    """y = v t + g/2 t^2; nothing to evaluate, by component or otherwise."""
+    points = "".join(
+        f"POINT_MASS/{k}, MASS={k}, CM={k}, QG={k},0,0, VY=0.1\nMARKER/{k}, POINT_MASS={k}\n"
+        for k in range(2, 2 + masses)
+    )
+    deck = f"masses\nACCGRAV/JGRAV={gravity}\nPART/1, GROUND\nMARKER/1, PART=1\n{points}END\n"
+    found = run(deck, "ABAM", error=1e-8)
+    assert found.outcome is Outcome.DONE
+    for k in range(2, 2 + masses):
+        expected = 0.1 * found.time + 0.5 * gravity * found.time**2
+        np.testing.assert_allclose(found[f"POINT_MASS/{k}.y"], expected, atol=1e-12)

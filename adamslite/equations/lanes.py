@@ -56,7 +56,7 @@ def runs(instances: Instances) -> Runs | None:
         total += count
         for first, end in _spans(ints, n):
             rows.append((k, first, end - first, ints[first:], reals[:, first:]))
-    if WORTH * len(rows) > total:
+    if not rows or WORTH * len(rows) > total:
         return None
     # Only methods that evaluate by component need it.
     from adamslite.kernels.compile import lanes
