@@ -241,6 +241,19 @@ def test_the_oldest_entries_go_first(cache, monkeypatch) -> None:
     assert (cache / "notes.txt").exists()
 
 
+def test_code_of_yesterday_outlives_decks_of_today(cache) -> None:
+    """A study of many decks in one day must not drive out the integrators, compiled the day before
+    and used by every run.
+    """
+    now = 2e9
+    for k, (kind, age) in enumerate([("o", 0.9), ("kept", 0.1), ("o", 3.0), ("kept", 0.0)]):
+        entry = cache / name(k).replace(".o", f".{kind}")
+        entries.store(entry, bytes(1000 - entries.HEAD.size))
+        os.utime(entry, (now - age * entries.DAY,) * 2)
+    order = [int(entry.path.name[1:33], 16) for entry in contents.entries(cache)]
+    assert order == [2, 1, 3, 0]
+
+
 def test_an_entry_in_use_is_not_old(cache) -> None:
     fill(cache, 5)
     recall(name(0), pytest.fail)

@@ -16,6 +16,12 @@ ENTRY = re.compile(r"[a-z_]+[0-9a-f]{32}\.(?:o|json|parser|kept)")
 DRAFT = re.compile(rf"\.{ENTRY.pattern}\.\d+-\d+\.part")
 
 
+DAY = 24 * 3600.0
+"""When an entry was last used is noted to a day [s]."""
+DECKS = ".kept"
+"""The suffix of what is kept of decks."""
+
+
 class CacheEntry(NamedTuple):
     """A file of the folder: its size [bytes] and when it was last used [s since 1970]."""
 
@@ -23,10 +29,17 @@ class CacheEntry(NamedTuple):
     size: int
     used: float
 
+    @property
+    def worth(self) -> float:
+        """By which entries go: compiled code, whose use is noted to the day, outlives decks of that
+        day, which are read again in less time than code is compiled.
+        """
+        return self.used - DAY if self.path.suffix == DECKS else self.used
+
 
 def entries(folder: Path) -> list[CacheEntry]:
-    """What is kept in a folder, unused for longest first."""
-    return sorted(found_files(folder, ENTRY), key=lambda entry: (entry.used, entry.path))
+    """What is kept in a folder, that which goes first before."""
+    return sorted(found_files(folder, ENTRY), key=lambda entry: (entry.worth, entry.path))
 
 
 def clear(folder: Path) -> list[CacheEntry]:

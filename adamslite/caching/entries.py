@@ -22,7 +22,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from adamslite.caching.contents import DRAFT, entries, found_files, remove
+from adamslite.caching.contents import DAY, DRAFT, entries, found_files, remove
 from adamslite.caching.folder import cache_folder, warn
 from adamslite.errors import UsageError
 
@@ -35,8 +35,6 @@ SPARED = 0.9
 """Share of the bound to which a folder that has outgrown it is cut, so that it is not cut often."""
 HOUR = 3600.0
 """A draft older than this was left by a process that has died [s]."""
-DAY = 24 * HOUR
-"""When an entry was last used is noted to a day [s]."""
 
 
 def recall(name: str, make: Callable[[], bytes]) -> bytes:
