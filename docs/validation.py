@@ -107,7 +107,8 @@ def ours(quantity: Quantity, results: al.Results) -> float:
 def rows(case: Case) -> list[str]:
     """Lines of the table."""
     lines, first = [], True
-    place = case.folder.relative_to(ROOT).as_posix()
+    place = next(p for p in (case.folder, *case.folder.parents) if (p / "README.md").exists())
+    place = place.relative_to(ROOT).as_posix()
     decks = {q.deck: run(case, q.deck) for q in case.quantities}
     decks = {deck: run(case, deck) for deck in decks}
     for q in case.quantities:
