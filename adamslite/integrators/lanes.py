@@ -15,8 +15,8 @@ from adamslite.native.translate import Reals, call_address, native
 def run_lanes(P: Problem, S: Reals, row: int, F: Reals) -> None:
     """All loads, with the other sign, into F."""
     for k in range(P.lane_runs.size):
-        run = P.lane_runs[k]
-        call_address(run.function, run.count, run.ints, run.reals, run.of, P.W, S, row, F)
+        run, y, z = P.lane_runs[k], F[row:], F[2 * row :]
+        call_address(run.function, run.count, run.ints, run.reals, run.of, P.W, S, row, F, y, z)
 
 
 @native

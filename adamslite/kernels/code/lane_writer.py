@@ -7,8 +7,9 @@ first, if the places, velocities and forces of all bodies are stored by componen
     S = x of all bodies, y, z, then vx, vy, vz        F = fx, fy, fz
 
 Then there is nothing to gather or scatter, and the loop over a *run* of instances takes as many at
-once as the processor has lanes: in blocks, first all forces into ``T``, then those on the first
-body of every instance, on the second, and so on, since neighbours add to the same body.
+once as the processor has lanes: in blocks, first all forces, which are added to the first body of
+every instance, then, from ``T``, those on the second, and so on, since neighbours add to the same
+body.
 
 Loads of added mass have a second such function, of the derivatives of F by the accelerations of
 their body, nine rows E; their forces are those without acceleration.
@@ -31,8 +32,10 @@ BLOCK = 256
 COMPONENTS = 6
 HEAD = (
     "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias readonly %reals, i64 %m, "
-    "ptr noalias readonly %W, ptr noalias readonly %S, i64 %stride, ptr noalias %F) nounwind"
+    "ptr noalias readonly %W, ptr noalias readonly %S, i64 %stride, {target}) nounwind"
 )
+#: Where values are added: rows that are known not to meet, or one behind the other.
+APART, TOGETHER = "ptr noalias %F0, ptr noalias %F1, ptr noalias %F2", "ptr noalias %F"
 OUTER = """{head} {{
 entry:
   %T = alloca [{room} x double], align 64
@@ -65,7 +68,7 @@ SUM = """sum{n}:
   %a{n}.p = getelementptr double, ptr %a{n}.t, i64 %a{n}
   %a{n}.v = load double, ptr %a{n}.p
   %a{n}.j = add nuw nsw i64 %at, %a{n}
-  %a{n}.q = getelementptr double, ptr %f{body}.{component}, i64 %a{n}.j
+  %a{n}.q = getelementptr double, ptr {row}, i64 %a{n}.j
   %a{n}.o = load double, ptr %a{n}.q
   %a{n}.s = {op} {fast} double %a{n}.o, %a{n}.v
   store double %a{n}.s, ptr %a{n}.q
@@ -123,8 +126,9 @@ class LaneWriter(ResidualWriter):
 
     b: LaneBuilder
 
-    def __init__(self, shape: Shape, scope: Scope) -> None:
+    def __init__(self, shape: Shape, scope: Scope, target: str = APART) -> None:
         super().__init__(shape, scope, LaneBuilder(shape.n_bodies))
+        self.target = target
         self.kept: list[Value] = []
         self.sums: list[tuple[int, int, str, int]] = []
 
@@ -136,10 +140,31 @@ class LaneWriter(ResidualWriter):
         """Add a value to a component of a body."""
         if value == 0.0:
             return
+        op = "fadd" if sign > 0.0 else "fsub"
+        if slot.body == 0 and self.target == APART:
+            self._add(component, op, value)
+            return
         if value not in self.kept:
             self.kept.append(value)
-        op = "fadd" if sign > 0.0 else "fsub"
         self.sums.append((slot.body, component, op, self.kept.index(value)))
+
+    def _add(self, component: int, op: str, value: Value) -> None:
+        """To the first body of every instance: no other instance adds to it meanwhile."""
+        b, row = self.b, self._row(0, component)
+        at, old, new = b.fresh(), b.fresh(), b.fresh()
+        b.lines += [
+            f"  {at} = getelementptr double, ptr {row}, i64 %j",
+            f"  {old} = load double, ptr {at}",
+            f"  {new} = {op} {FAST} double {old}, {b.operand(value)}",
+            f"  store double {new}, ptr {at}",
+        ]
+
+    def _row(self, body: int, component: int) -> str:
+        """Address of a component of what is added to the first instance's body."""
+        if self.target == TOGETHER:
+            return self.b.component("F", body, component)
+        at = f"getelementptr double, ptr %F{component}, i64 {self.b.int_at(body)}"
+        return self.b.first(f"%f{body}.{component}", at)
 
     def masses(self, out: Outputs) -> None:
         """Derivatives of loads by the accelerations of their body: row 3 i + j of component i by
@@ -158,7 +183,7 @@ class LaneWriter(ResidualWriter):
                             self._keep(slot, 3 * i + leaf[3], along, slope)
 
     def text(self, name: str) -> str:
-        """The function, or nothing where no body is loaded."""
+        """The function."""
         b = self.b
         for number, value in enumerate(self.kept):
             row = b.first(f"%t{number}", f"getelementptr double, ptr %T, i64 {number * BLOCK}")
@@ -166,17 +191,16 @@ class LaneWriter(ResidualWriter):
             b.lines.append(f"  store double {b.operand(value)}, ptr %t{number}.p")
         sums = "\n".join(self._sums())
         return OUTER.format(
-            head=HEAD.format(name=name), room=max(1, len(self.kept) * BLOCK),
+            head=HEAD.format(name=name, target=self.target), room=max(1, len(self.kept) * BLOCK),
             prelude="\n".join(b.prelude.values()), block=BLOCK, body="\n".join(b.lines), sums=sums,
             first="sum0" if self.sums else "done", last="done",
         )  # fmt: skip
 
     def _sums(self) -> Iterator[str]:
         for n, (body, component, op, number) in enumerate(self.sums):
-            self.b.component("F", body, component)
             yield SUM.format(
-                n=n, before=f"sum{n - 1}" if n else "forces", first=number * BLOCK, body=body,
-                component=component, op=op, fast=FAST,
+                n=n, before=f"sum{n - 1}" if n else "forces", first=number * BLOCK, op=op,
+                row=self._row(body, component), fast=FAST,
                 after=f"sum{n + 1}" if n + 1 < len(self.sums) else "done",
             )  # fmt: skip
 
@@ -191,7 +215,7 @@ def write_lanes(shape: Shape, name: str, mass: str = "") -> str:
     writer.residual(out)
     texts, declared = [writer.text(name)], writer.b.declared
     if mass:
-        writer = LaneWriter(shape, scope)
+        writer = LaneWriter(shape, scope, TOGETHER)
         writer.masses(out)
         texts.append(writer.text(mass))
         declared |= writer.b.declared
