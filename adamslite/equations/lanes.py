@@ -21,34 +21,44 @@ if TYPE_CHECKING:
     from adamslite.equations.instances import Instances
     from adamslite.kernels.groups import ShapeGroup
 
-#: Instances per run from which runs pay.
+#: Instances per run, and per body with other loads, from which runs pay.
 WORTH = 4
 
 
 @dataclass
 class Runs:
-    """``rows`` for native code, which reads the arrays that are kept here."""
+    """``rows`` for native code, which reads the arrays that are ``kept`` here; ``groups``: the
+    numbers of the groups that they are of, ``bodies``: with loads of other groups.
+    """
 
     rows: Rows[LaneRun]
     kept: list[np.ndarray]
+    groups: list[int]
+    bodies: np.ndarray
 
 
 def runs(instances: Instances) -> Runs | None:
-    """All loads as runs; None where an element has no such loads, or runs would be too short."""
+    """Loads as runs; None where they would be too short, or others too many or of added mass."""
     numbering, kernels = instances.numbering, instances.kernels
     bodies = kernels.model.bodies
     if numbering.n != numbering.nz or numbering.n != 3 * len(bodies):
         return None
     if not all(body.mass > 0.0 for body in bodies):
         return None
-    rows, kept, total = [], [], 0
-    loads = [(k, group) for k, group in enumerate(kernels.groups) if group.face == "loads"]
-    if not all(_is_plain(group) for _, group in loads):
-        return None
-    for k, group in loads:
+    rows, kept, total, groups = [], [], 0, []
+    others = [np.zeros(0, dtype=np.int64)]
+    for k, group in enumerate(kernels.groups):
+        if group.face != "loads":
+            continue
         n, count = group.n_bodies, len(group.instances)
         ints = instances.keep[2 * k].reshape(count, -1)[:, : n + _signals(group)].copy()
         ints[:, :n] = (ints[:, :n] - numbering.n_head) // POINT_SIZE
+        if not _is_plain(group):
+            others.append(ints[:, :n].ravel())
+            if group.meta["mass"]:
+                return None
+            continue
+        groups.append(k)
         order = _as_bodies_follow(ints, n)
         ints, reals = ints[order], instances.keep[2 * k + 1][:-1].reshape(count, -1)
         reals = np.ascontiguousarray(reals[order].T)
@@ -56,7 +66,8 @@ def runs(instances: Instances) -> Runs | None:
         total += count
         for first, end in _spans(ints, n):
             rows.append((k, first, end - first, ints[first:], reals[:, first:]))
-    if not rows or WORTH * len(rows) > total:
+    beside = np.unique(np.concatenate(others))
+    if not rows or WORTH * (len(rows) + len(beside)) > total:
         return None
     # Only methods that evaluate by component need it.
     from adamslite.kernels.compile import lanes
@@ -67,7 +78,7 @@ def runs(instances: Instances) -> Runs | None:
         run.function, run.mass = lanes(kernels, group)
         run.count, run.of = count, len(group.instances)
         run.ints, run.reals = ints.ctypes.data, reals.ctypes.data
-    return Runs(made, kept)
+    return Runs(made, kept, groups, beside)
 
 
 def _is_plain(group: ShapeGroup) -> bool:

@@ -149,6 +149,7 @@ class System:
         self.coef = np.zeros(contract.COEFFICIENTS)
         self.times, self.record, self.undo = np.zeros(1), np.zeros(1), np.zeros(0)
         self.lane_runs, self.lane = Rows(contract.LaneRun, 0), np.zeros(0)
+        self.lane_bodies = ints([])
         self.lanes: Runs | None = None
         self.gravity = np.asarray(self.model.deck.gravity, dtype=float)
 
@@ -290,7 +291,9 @@ class System:
     def lay_lanes(self) -> None:
         """Have loads evaluated by component where that pays, by a method that does."""
         if self.lanes is None and (found := runs(self.instances)):
-            self.lanes, self.lane_runs = found, found.rows
+            self.lanes, self.lane_runs, self.lane_bodies = found, found.rows, found.bodies
+            for k in found.groups:
+                self.group[k].phases |= contract.BY_COMPONENT
 
     @property
     def by_component(self) -> bool:

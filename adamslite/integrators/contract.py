@@ -56,8 +56,8 @@ sensors         of :class:`SensorRow`
 margin zone     how far guards are from changing; where the state is within zones
 stops           times at which guards of the clock change
 paces           of :class:`Pace`
-lane_runs lane  of :class:`LaneRun`: all loads, if they are evaluated by component; numbers of the
-                bodies for that, in rows of equal length
+lane_runs lane  of :class:`LaneRun`: loads that are evaluated by component; numbers of the bodies
+                for that, in rows of equal length;  lane_bodies: those with other loads
 audit           balance of energy (:class:`Audit`);  uncounted: counts before it was drawn up
 pattern         per iteration whether it renews the Newton matrix, repeated; empty: as needed
 ==============  =================================================================================
@@ -83,7 +83,8 @@ from adamslite.native.translate import Ints, Reals, Record, Rows
     STORED_ENERGY,
     ELASTIC,
     ADDED_MASS,
-) = (1 << k for k in range(12))
+    BY_COMPONENT,
+) = (1 << k for k in range(13))
 INDEX3 = LOADS | REACTIONS | POSITION_ROWS | RATE_ROWS | ROWS
 STABILISED = INDEX3 | VELOCITY_ROWS
 STATIC = LOADS | REACTIONS | POSITION_ROWS | ROWS
@@ -397,6 +398,7 @@ class Problem(Record):
     uncounted: Counts
     lane_runs: Rows[LaneRun]
     lane: Reals
+    lane_bodies: Ints
 
 
 # Numbers of ``P.work`` that this module uses.

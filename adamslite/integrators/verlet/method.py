@@ -247,7 +247,7 @@ def take_steps(P: Problem, L: Plan, C: Control, t: float, h: float, count: int) 
     """``count`` steps of half a kick, drift, half a kick, where the two half kicks between steps
     are one; returns the largest local error seen against ERROR, 1e300 for a blow-up.
     """
-    if P.lane_runs.size > 0 and not P.audit.on:
+    if P.lane_runs.size > 0 and P.sizes.watched + P.sizes.zones == 0 and not P.audit.on:
         return take_lane_steps(P, C, t, h, count)
     fixed, n = C.fixed, P.sizes.n
     top, every, C.spent = 0.0, steps_per_estimate(P, C, h), 0.0
