@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.contract import BROKEN_START, SINGULAR_MASS, Problem
+from adamslite.integrators.contract import BROKEN_START, PAUSED, SINGULAR_MASS, Problem
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import hold_watch, keep_margins
 from adamslite.integrators.events.stops import horizon, step_limit
@@ -71,10 +71,14 @@ from adamslite.native.translate import native, seldom
 def hht(P: Problem, L: Plan) -> int:
     """Integrate to the end time; returns an outcome."""
     C = Control(P.control)
-    outcome = begin(P, L, C)
+    outcome = RUNNING
+    if not P.settings.begun:
+        P.settings.begun = True
+        outcome = begin(P, L, C)
     while outcome == RUNNING:
         outcome = advance(P, L, C)
-    restore_state(P, C)
+    if outcome != PAUSED:
+        restore_state(P, C)
     P.report.t = C.t
     return outcome
 

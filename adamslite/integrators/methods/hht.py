@@ -61,6 +61,7 @@ HHT = Method(
     family="Newmark",
     explicit=False,
     tests_velocities=False,
+    pauses=True,
     damping=damping_of_hht,
     unfit=ringing,
     prepare=prepare,

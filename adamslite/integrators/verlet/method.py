@@ -66,6 +66,8 @@ SPIKE, JOLT, STIFFER, IN_CONTACT = 4.0, 0.1, 0.9, 0.3
 SAFETY_DOWN, SAFETY, LEAST_ERROR = 0.8, 0.9, 1e-3
 # What a number of steps may exceed a whole one by without one step more.
 WHOLE = 1e-9
+# Steps that take less than a try of a step by other methods.
+STEPS_PER_TRY = 32
 # Tries of one interval that may blow up: steps 4^8 times as short take every jump of a stiffness
 # that a run can be meant to have; what still blows up has no value there, with any step.
 MOST_BLOWN = 8
@@ -82,6 +84,8 @@ def verlet(P: Problem, L: Plan) -> int:
         if P.settings.stop:
             return INTERRUPTED
         outcome = advance(P, L, C)
+        if outcome == PAUSED:
+            return PAUSED
         if outcome != DONE:
             restore_state(P, P.report.t)
             return outcome
@@ -109,7 +113,9 @@ def begin(P: Problem, C: Control) -> None:
 def advance(P: Problem, L: Plan, C: Control) -> int:
     """From one output time to the next over all stops between; returns an outcome."""
     limit_step(P, C)
-    at, end, outcome = P.report.t, P.times[C.row], DONE
+    at, end, outcome = P.times[C.row - 1], P.times[C.row], DONE
+    if is_time_to_pause(P, (end - at) / (C.wanted if C.fixed else min(C.wanted, C.limit))):
+        return PAUSED
     while at < end and outcome == DONE:
         set_pace(P, at)
         to = min(end, present_stop(P), end_of_pace(P))
@@ -193,16 +199,9 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
         old[i], old[n + i] = P.q[i], P.u[i]
     keep_audit(P)
     wanted, blown = min(C.wanted, longest_step(P)), 0
-    rejected, steps, residuals, since = (
-        P.count.rejected, P.count.steps, P.count.residuals, C.since,
-    )  # fmt: skip
     while not P.settings.stop:
-        wanted = wanted if fixed else min(wanted, C.limit)
-        if P.settings.pause > 0 and steps + (end - t) / wanted > P.settings.pause:
-            # All tries of this interval are made again.
-            P.count.rejected, P.count.steps = rejected, steps
-            P.count.residuals, C.since = residuals, since
-            return PAUSED
+        if not fixed:
+            wanted = min(wanted, C.limit)
         h = (end - t) / max(1.0, 0.0 - floor(WHOLE - (end - t) / wanted))
         P.report.h = h
         if wanted < P.settings.h_min or blown == MOST_BLOWN:
@@ -230,6 +229,13 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
             P.q[i], P.u[i] = old[i], old[n + i]
         bring_audit_back(P)
     return INTERRUPTED
+
+
+@native
+def is_time_to_pause(P: Problem, steps: float) -> bool:
+    """Whether so many more steps would take longer than the tries after which to pause."""
+    most = float(STEPS_PER_TRY * P.settings.pause)
+    return most > 0.0 and float(P.count.steps) + steps > most
 
 
 @native
