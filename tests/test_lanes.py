@@ -98,9 +98,19 @@ def growing(n: int, full: bool = False) -> str:
     return chain(n) + "".join((float_ + laws).format(**pair) for pair in pairs)
 
 
+def pushed(n: int) -> str:
+    """The chain, with one load that changes its law in time and one that is a table."""
+    return chain(n) + (
+        "SPLINE/1, X=0,1,2,5,50, Y=0,1,0,3,30\n"
+        "SFORCE/900, TRANSLATIONAL, I=9, J=9000, FUNCTION=STEP(TIME,0.1,0,0.11,10)\n"
+        "SFORCE/901, TRANSLATIONAL, I=15, J=14, FUNCTION=-CUBSPL(DM(15,14),0,1)\n"
+    )
+
+
 SCENES = {
     "chain": chain(20), "two blocks": chain(300), "one more than lanes": chain(33),
     "net": net(9), "shuffled": shuffled(20), "wind": windy(20),
+    "pushed": pushed(20),
 }  # fmt: skip
 
 
@@ -117,6 +127,8 @@ def count(text: str) -> int | None:
         (chain(20), 2),  # the first spring has another shape: it hangs on the ground
         (shuffled(20), 2),
         (windy(20), 3),
+        (pushed(20), 2),  # with others beside them
+        (pushed(14), None),  # too many of them
         (net(9), 19),  # rows, all columns together, and each of those that hold the net
         (in_turns(20), None),
         (stopped(20), None),

@@ -113,3 +113,14 @@ def ints(values: Iterable[int]) -> np.ndarray:
 def reals(values: ArrayLike) -> np.ndarray:
     """An array of reals as native code reads it."""
     return np.array(values, dtype=float)
+
+
+#: Numbers in a line of the processor's cache.
+LINE = 8
+
+
+def room(size: int, dtype: np.dtype) -> np.ndarray:
+    """Zeros that begin a line of the cache: loops then load whole vectors from one line each."""
+    found = np.zeros(size + LINE, dtype=dtype)
+    first = -found.ctypes.data // found.itemsize % LINE
+    return found[first : first + size]

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.equations.elimination import Elimination
-from adamslite.equations.engine import engine, ints, reals
+from adamslite.equations.engine import engine, ints, reals, room
 from adamslite.equations.instances import Instances
 from adamslite.equations.jacobian_blocks import JacobianBlocks
 from adamslite.equations.lanes import Runs, runs
@@ -306,7 +306,7 @@ class System:
             part = self._keeper(name)
             present = getattr(part, name)
             if present.size < size:
-                setattr(part, name, np.zeros(size, dtype=present.dtype))
+                setattr(part, name, room(size, present.dtype))
 
     def _keeper(self, name: str) -> object:
         return getattr(self, KEPT_BY[name]) if name in KEPT_BY else self
