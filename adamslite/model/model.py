@@ -31,7 +31,6 @@ from adamslite.language.expression import (
     operate,
     walk,
 )
-from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
 from adamslite.language.statement import class_of, expressions
@@ -306,6 +305,8 @@ class Model:
 
 def _has_memory(call: Call) -> bool:
     """Whether a call gives more than a function of its arguments."""
+    from adamslite.language.function import FUNCTIONS  # of a model that is kept all is known
+
     return call.name == USER or FUNCTIONS[call.name].takes_past
 
 
