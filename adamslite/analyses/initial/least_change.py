@@ -19,7 +19,7 @@ from adamslite.equations.system import System
 from adamslite.integrators import contract
 
 # Rows up to which matrices are dense; up to which what stays open is tried once more with them.
-MOST_DENSE, MOST_REPEATED = 120, 1200
+MOST_DENSE, MOST_REPEATED = 120, 600
 # Singular values below this share of the largest are redundant rows.
 RANK = 1e-9
 # Defects below this share of the values are round-off.
