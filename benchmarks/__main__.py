@@ -15,7 +15,7 @@ from benchmarks.mechanisms import WATCHED
 from benchmarks.scenes import parameters, sizes
 from benchmarks.tables import TARGETS
 
-MEASURED = ("accuracy", "steps", "growth", "startup", "reduction")
+MEASURED = ("accuracy", "steps", "growth", "startup", "scenes", "reduction")
 RESULTS = Path(__file__).parent / "results"
 SCENES = (*parameters(), *WATCHED)
 #: What `--quick` looks at: small scenes; no new run is begun after so long [s].
@@ -123,6 +123,10 @@ def measure_all(args: argparse.Namespace) -> None:
         from benchmarks.startup import startup
 
         told += startup(args.repeats)
+    if "scenes" in args.what and not args.quick:
+        from benchmarks.whole_scenes import scenes
+
+        told += scenes(args.repeats)
     if "reduction" in args.what and not args.quick:
         from benchmarks.reduction import reduction
 

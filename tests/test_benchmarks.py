@@ -10,15 +10,26 @@ import pytest
 from figure_checks import illegible
 from tiers import every
 
+import adamslite as al
 from adamslite import read
 from adamslite.verification.variants import Variant, variants
-from benchmarks import charts, conclusions, figures, hard_cases, matrix, points, report, tables
+from benchmarks import (
+    charts,
+    conclusions,
+    counts,
+    figures,
+    hard_cases,
+    matrix,
+    points,
+    report,
+    tables,
+)
 from benchmarks.decks import deck
 from benchmarks.figures import Figure
 from benchmarks.growth import worth_measuring
 from benchmarks.measure import TIME_UP, Effort, point, steps_needed
 from benchmarks.mechanisms import PLANAR, SPATIAL, WATCHED, mechanism, truth, watched
-from benchmarks.peers import PROGRAMS
+from benchmarks.peers import PROGRAMS, numba_chain
 from benchmarks.peers.ours import FIXED_STEPS
 from benchmarks.peers.program import Program
 from benchmarks.planar import Equations, planar
@@ -35,6 +46,7 @@ from benchmarks.scenes import (
     parameters,
     sizes,
 )
+from benchmarks.structures import NET, REVOLUTES, structure
 from benchmarks.torture import CASES
 from benchmarks.worker import answer, error_of
 
@@ -378,3 +390,66 @@ def test_a_chart_says_who_was_tried() -> None:
 def test_every_watched_deck_has_its_channels_in_the_reference() -> None:
     for scene, told in WATCHED.items():
         assert len(truth(scene, 1)) == len(told.channels)
+
+
+def test_counts_that_changed_are_named_with_their_bands() -> None:
+    """Counts of a run have a band, a share of the count or of the steps; code has none."""
+    kept = {"steps": 200, "rejected": 3, "newton": 500, "entries": 90, "instructions": 1000}
+    rows = [("S1 10 HHT", kept, 0.01), ("gone", kept, 0.0)]
+    found = {
+        "S1 10 HHT": {**kept, "steps": 202, "rejected": 6, "newton": 480, "instructions": 1001},
+        "new": kept,
+    }
+    assert counts.differences(rows, found) == [
+        "S1 10 HHT: rejected 3 -> 6 (+100.0 %, 2 allowed)",
+        "S1 10 HHT: newton 500 -> 480 (-4.0 %, 5 allowed)",
+        "S1 10 HHT: instructions 1000 -> 1001 (+0.1 %)",
+        "gone: is kept, but no longer counted",
+        "new: is counted, but not kept",
+    ]
+
+
+def test_a_band_is_twice_what_processors_differ_by() -> None:
+    one = {"steps": 100, "rejected": 2, "newton": 200}
+    other = {"steps": 103, "rejected": 6, "newton": 202}
+    assert counts.band(one, []) == counts.band(one, [one]) == 0.0
+    assert counts.band(one, [one, other]) == pytest.approx(0.08)
+
+
+def test_counts_are_kept_for_every_scene_that_is_counted() -> None:
+    """Matrix and code of a small scene are those of the file, whatever the processor."""
+    rows = {name: kept for name, kept, _ in counts.kept()}
+    names = {counts.name_of(s, n, m) for s, n, methods, _ in counts.SCENES for m in methods}
+    assert names <= set(rows)
+    kernels, *_ = counts.prepared("S1", 10)
+    assert counts.factor_entries(kernels) == rows["S1 10 HHT"]["entries"]
+    assert counts.instructions(kernels) == rows["S1 10 HHT"]["instructions"]
+    assert counts.lines_of("define void @f() {\nentry:\n  %a = add i64 1, 2\n  ret void\n}") == 2
+
+
+@pytest.mark.parametrize(("kind", "size"), [(NET, 4), (REVOLUTES, 4)])
+def test_structures_are_decks(kind: str, size: int) -> None:
+    """A net of n x n knots with its first row held; a chain with one freedom for each rod."""
+    model = al.assemble(al.read(structure(kind, size)))
+    bodies = {NET: size * (size - 1), REVOLUTES: size}[kind]
+    assert sum(s.keyword in ("PART", "POINT_MASS") for s in model.deck.statements) == bodies + 1
+    springs = {NET: 2 * size * (size - 1) - (size - 1), REVOLUTES: 0}[kind]
+    assert sum(s.keyword == "SPRINGDAMPER" for s in model.deck.statements) == springs
+
+
+@pytest.mark.parametrize("scene", CHAINS)
+def test_the_compiled_right_hand_side_is_that_of_numpy(scene: str) -> None:
+    """Every state of a chain in some motion; sums in another order."""
+    pytest.importorskip("numba")
+    c = chain(scene, 10)
+    generator = np.random.default_rng(2)
+    x, v = c.position + 1e-3 * generator.random((10, 3)), generator.random((10, 3))
+    right = np.zeros(3) if c.right is None else c.right
+    out = np.zeros(60)
+    numba_chain.compiled()(
+        0.3, np.hstack((x, v)).ravel(), out, np.concatenate((c.left, right)), c.mass,
+        np.array([c.k, c.d, c.l0, c.gravity, c.rate, float(c.right is not None)]),
+    )  # fmt: skip
+    found, expected = out.reshape(10, 6), acceleration(c)(0.3, x, v)
+    np.testing.assert_array_equal(found[:, :3], v)
+    np.testing.assert_allclose(found[:, 3:], expected, rtol=1e-9, atol=1e-9 * abs(expected).max())

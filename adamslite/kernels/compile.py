@@ -218,7 +218,7 @@ def _compile(group: ShapeGroup, progress: Progress | None) -> bool:
     return bool(made)
 
 
-def _writer(kernels: Kernels, group: ShapeGroup) -> Writer:
+def writer_of(kernels: Kernels, group: ShapeGroup) -> Writer:
     """The writer of a group; of kernels that were kept between runs one instance is bound again."""
     if group.write is None:
         made: dict[Tree, ShapeGroup] = {}
@@ -234,7 +234,7 @@ def lanes(kernels: Kernels, group: ShapeGroup) -> tuple[int, int]:
     symbol, mass = f"{group.name}_lanes", f"{group.name}_mass" if group.meta["mass"] else ""
 
     def compiled() -> bytes:
-        return compiler.object_code(_writer(kernels, group).lanes(symbol, mass))
+        return compiler.object_code(writer_of(kernels, group).lanes(symbol, mass))
 
     if symbol not in kernels.addresses:
         code = recall(f"{symbol}.o", compiled)

@@ -13,6 +13,7 @@ from benchmarks.peers import (
     heyoka_chain,
     limit,
     mujoco_chain,
+    numba_chain,
     ode_mechanism,
     ours,
     scipy_chain,
@@ -24,7 +25,7 @@ PROGRAMS: dict[str, Program] = {
     program.name: program
     for module in (
         ours, exudyn_chain, exudyn_mechanism, exudyn_payout, casadi_chain, sundae_chain,
-        scipy_chain, mujoco_chain, heyoka_chain, ode_mechanism, limit,
+        scipy_chain, mujoco_chain, numba_chain, heyoka_chain, ode_mechanism, limit,
     )
     for program in module.PROGRAMS
 } | {ours.FIXED_STEPS.name: ours.FIXED_STEPS}  # fmt: skip
