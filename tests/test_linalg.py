@@ -19,7 +19,7 @@ PATTERNS = {
     "ladder": [(k, k + 2) for k in range(10)] + [(k, k + 1) for k in range(0, 12, 2)],
     "full": list(itertools.combinations(range(12), 2)),
 }
-WIDTHS = {"points": [3], "parts": [6], "mixed": [1, 3, 5, 6, 2]}
+WIDTHS = {"points": [3], "in a plane": [2], "parts": [6], "mixed": [1, 3, 5, 6, 2, 2]}
 
 
 def starts_of(widths: list[int]) -> list[int]:

@@ -83,6 +83,24 @@ def right_times3(A: Reals, low: int, d: int) -> None:
 
 
 @native
+def times2(A: Reals, low: int, u: int, d: int) -> None:
+    """A[d] -= A[low] A[u] for 2 x 2 blocks."""
+    for i in range(2):
+        x, y = A[low + 2 * i], A[low + 2 * i + 1]
+        for j in range(2):
+            A[d + 2 * i + j] -= x * A[u + j] + y * A[u + 2 + j]
+
+
+@native
+def right_times2(A: Reals, low: int, d: int) -> None:
+    """A[low] = A[low] A[d] for 2 x 2 blocks."""
+    for i in range(2):
+        x, y = A[low + 2 * i], A[low + 2 * i + 1]
+        for j in range(2):
+            A[low + 2 * i + j] = x * A[d + j] + y * A[d + 2 + j]
+
+
+@native
 def times(A: Reals, low: int, u: int, d: int, si: int, sk: int, sj: int) -> None:
     """A[d] -= A[low] A[u], sizes (si, sk) and (sk, sj)."""
     for i in range(si):
@@ -141,12 +159,16 @@ def eliminate(L: Plan, LV: Reals, k: int, at: int, work: Reals) -> int:
         si = L.size[L.node[e]]
         if s == 3 and si == 3:
             right_times3(LV, L.lower[e], o)
+        elif s == 2 and si == 2:
+            right_times2(LV, L.lower[e], o)
         else:
             right_times(LV, L.lower[e], o, si, s, work)
         for f in range(lo, hi):
             sj = L.size[L.node[f]]
             if s == 3 and si == 3 and sj == 3:
                 times3(LV, L.lower[e], L.upper[f], L.target[at])
+            elif s == 2 and si == 2 and sj == 2:
+                times2(LV, L.lower[e], L.upper[f], L.target[at])
             else:
                 times(LV, L.lower[e], L.upper[f], L.target[at], si, s, sj)
             at += 1
@@ -252,6 +274,8 @@ def forward(L: Plan, LV: Reals, x: Reals) -> None:
             i, below = L.node[e], L.lower[e]
             if s == 3 and L.size[i] == 3:
                 subtract3(LV[below:], x[p:], x[L.start[i] :])
+            elif s == 2 and L.size[i] == 2:
+                subtract2(LV[below:], x[p:], x[L.start[i] :])
             else:
                 subtract(LV[below:], L.size[i], s, x[p:], x[L.start[i] :])
 
@@ -267,7 +291,10 @@ def backward(L: Plan, LV: Reals, x: Reals, y: Reals) -> None:
         else:
             for e in range(lo, L.first[k + 1]):
                 j = L.node[e]
-                subtract(LV[L.upper[e] :], s, L.size[j], x[L.start[j] :], x[p:])
+                if s == 2 and L.size[j] == 2:
+                    subtract2(LV[L.upper[e] :], x[L.start[j] :], x[p:])
+                else:
+                    subtract(LV[L.upper[e] :], s, L.size[j], x[L.start[j] :], x[p:])
             if s == 3:
                 replace3(LV[o:], x[p:])
             else:
@@ -284,6 +311,14 @@ def subtract3(A: Reals, x: Reals, y: Reals) -> None:
     y[0] -= p
     y[1] -= q
     y[2] -= r
+
+
+@native
+def subtract2(A: Reals, x: Reals, y: Reals) -> None:
+    """y -= A x for a 2 x 2 block."""
+    a, b = x[0], x[1]
+    y[0] -= A[0] * a + A[1] * b
+    y[1] -= A[2] * a + A[3] * b
 
 
 @native
