@@ -262,8 +262,10 @@ class _Learner:
     def _argument(self, tree: Tree, node: Node, at: Sequence[int]) -> Build:
         if type(node) is not Ref:
             return self._node(tree, at, node)
-        if tree[0] != "number":
+        if tree[0] == "name":
             return _constant(node)
+        if tree[0] != "number":  # a name made of several words, of which one may be a number
+            raise Unfit
         kind, first, ref = node.kind, at[tree[1]], self.patterns.ref
         return lambda found: ref(kind, found[first][1])
 
