@@ -110,6 +110,16 @@ def test_what_does_not_fit_is_read_the_long_way(
     assert said(deck(**changed)) == long_way(monkeypatch, deck(**changed))
 
 
+def test_a_name_of_several_words_is_no_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    """``VARVAL(d(5)/dt)`` is the VARIABLE of that name, where there is one."""
+    text, numbers = "title\nPART/1, GROUND\n", range(2, COUNT + 2)
+    for i in numbers:
+        text += f"! adams_view_name='d({i})/dt'\nVARIABLE/{100 + i}, FUNCTION={i}\n"
+    for i in numbers:
+        text += f"VARIABLE/{i}, FUNCTION=VARVAL(d({i})/dt)\n"
+    assert said(text + "END\n") == long_way(monkeypatch, text + "END\n")
+
+
 def test_an_editor_is_told_of_every_place(monkeypatch: pytest.MonkeyPatch) -> None:
     """Who indexes the places that refer to a statement has all of them read the long way."""
     from adamslite.deck.names import Names
