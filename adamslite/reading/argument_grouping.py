@@ -69,9 +69,11 @@ class Grouping:
         self.unknown_flag = False
         """A word was not understood: it may be the choice that is missing."""
         self.guessed: set[str] = set()
-        """Fields that were meant by words that are none."""
-        self.unclear = not syntax.whole
+        """Fields that were meant by words that are none, or whose values were cut out."""
+        self.unclear = False
         """Any field may have been meant."""
+        for word in syntax.cut:
+            self._guess(self.words.keyed(word) if word else None)
 
     def collect(self, items: tuple[Item, ...]) -> dict[str, Pieces]:
         """The pieces of each argument that is given, by field name."""
@@ -101,19 +103,19 @@ class Grouping:
             self._planned(meaning, token)
             return
         if not isinstance(meaning, Argument):
-            meaning = self._guess(self.words.valued.get(self._unknown(token, meaning, True)))
+            meaning = self.words.valued.get(self._unknown(token, meaning, True))
+            self._guess(meaning)
         pieces = self._open(meaning, token) if isinstance(meaning, Argument) else None
         if pieces:
             pieces.values.append(self.tokens[item.start : item.end])
             self.current, self.skipping = pieces, False
 
-    def _guess(self, meaning: Argument | str | None) -> Argument | str | None:
+    def _guess(self, meaning: object) -> None:
         """Note the argument that a word is taken for."""
         if isinstance(meaning, Argument):
             self.guessed.add(meaning.name)
         else:
             self.unclear = True
-        return meaning
 
     def _open(self, argument: Argument, token: Lexeme) -> Pieces | None:
         if argument.name in self.found and argument.kind == "vectors":

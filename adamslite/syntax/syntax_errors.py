@@ -6,6 +6,7 @@ the others.
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
 from adamslite.language.spelling import spelled
@@ -38,12 +39,15 @@ class Mistake(NamedTuple):
 
 
 class Syntax(NamedTuple):
-    """A statement with its form; ``whole`` is false when faulty items were cut out."""
+    """A statement with its form; ``whole`` is false when faulty items were cut out, ``cut`` are
+    their keywords, empty for one that has none.
+    """
 
     tokens: list[Lexeme]
     items: tuple[Item, ...]
     name: str | None
     whole: bool
+    cut: tuple[str, ...] = ()
 
     @property
     def keyword(self) -> str:
@@ -65,15 +69,17 @@ def statement_syntax(logical: Logical) -> tuple[Syntax | None, Faults]:
     """
     tokens = logical.tokens
     found: Faults = []
+    cut: list[str] = []
     while True:
         form = statement_form(tuple([token[0] for token in tokens]))
         if not isinstance(form, Fault):
-            return Syntax(tokens, form, logical.name, not found), found
+            return Syntax(tokens, form, logical.name, not found, tuple(cut)), found
         mistake = _statement_mistake(tokens, form.at)
         found.append((mistake, tokens))
         if form.at < 2 or len(found) == MOST_MISTAKES:
             return None, found
-        tokens = _without_item(tokens, form.at)
+        tokens, item = _without_item(tokens, form.at)
+        cut += _keywords(item)
 
 
 def _kind(tokens: list[Lexeme], at: int) -> str:
@@ -131,8 +137,14 @@ def _header_mistake(tokens: list[Lexeme], at: int, kind: str) -> Mistake:
     return Mistake("missing-slash", 0, 0, words)
 
 
-def _without_item(tokens: list[Lexeme], at: int) -> list[Lexeme]:
-    """The statement without the item that token number ``at`` spoils."""
+def _keywords(item: list[Lexeme]) -> list[str]:
+    """What the tokens of an item give a value, empty where they do not say; nothing of commas."""
+    keys = [a[1] for a, b in pairwise(item) if (a[0], b[0]) == ("NAME", "EQUAL")]
+    return keys or [""] * any(token[0] not in _SEPARATORS for token in item)
+
+
+def _without_item(tokens: list[Lexeme], at: int) -> tuple[list[Lexeme], list[Lexeme]]:
+    """The statement without the item that token number ``at`` spoils, and that item."""
     opened = _open_brackets(tokens[:at])
     kind = _kind(tokens, at)
     if opened and kind in ("END", "EQUAL", "BACKSLASH"):
@@ -143,14 +155,15 @@ def _without_item(tokens: list[Lexeme], at: int) -> list[Lexeme]:
         end = at
         while end < len(tokens) and tokens[end][0] not in _SEPARATORS:
             end += 1
-    left, right = tokens[:start], tokens[max(end, start + 1) :]
+    end = max(end, start + 1)
+    left, item, right = tokens[:start], tokens[start:end], tokens[end:]
     while len(left) > 2 and left[-1][0] in _SEPARATORS:
         left.pop()
     while right and right[0][0] in _SEPARATORS:
         right = right[1:]
     if len(left) > 2 and right:
         left.append(("COMMA", "", right[0][2]))
-    return left + right
+    return left + right, item
 
 
 def _item_start(tokens: list[Lexeme], at: int) -> int:
