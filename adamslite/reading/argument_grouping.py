@@ -72,8 +72,8 @@ class Grouping:
         """Fields that were meant by words that are none, or whose values were cut out."""
         self.unclear = False
         """Any field may have been meant."""
-        for word in syntax.cut:
-            self._guess(self.words.keyed(word) if word else None)
+        for word in filter(None, syntax.cut):
+            self._guess(self.words.keyed(word))
 
     def collect(self, items: tuple[Item, ...]) -> dict[str, Pieces]:
         """The pieces of each argument that is given, by field name."""
@@ -269,7 +269,9 @@ def read_arguments(
             unread |= {name, *fields}
     if syntax.whole and not partial:
         unread |= set(_missing(grouping, label, syntax.range))
-    if grouping.unclear:
+    if "" in syntax.cut:  # it may belong to any of them
+        unread |= cls.arguments.keys()
+    elif grouping.unclear:
         unread |= cls.arguments.keys() - values.keys()
     return Arguments(values, ranges, found, frozenset(unread))
 

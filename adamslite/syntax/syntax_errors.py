@@ -138,9 +138,8 @@ def _header_mistake(tokens: list[Lexeme], at: int, kind: str) -> Mistake:
 
 
 def _keywords(item: list[Lexeme]) -> list[str]:
-    """What the tokens of an item give a value, empty where they do not say; nothing of commas."""
-    keys = [a[1] for a, b in pairwise(item) if (a[0], b[0]) == ("NAME", "EQUAL")]
-    return keys or [""] * any(token[0] not in _SEPARATORS for token in item)
+    """What the tokens of an item give a value; empty where they do not say."""
+    return [a[1] for a, b in pairwise(item) if (a[0], b[0]) == ("NAME", "EQUAL")] or [""]
 
 
 def _without_item(tokens: list[Lexeme], at: int) -> tuple[list[Lexeme], list[Lexeme]]:
