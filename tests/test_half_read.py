@@ -37,7 +37,7 @@ def test_further_mistakes_are_reported_at_once(broken: str, codes: set[str]) -> 
     ("SFORCE/1, TRANSLATIONAL, I=2, J=77, FUNCTION=1", "missing-reference"),
     # What stands behind the comma has been lost.
     ("PART/4,", "trailing-comma"),
-    ("MATRIX/4, FULL=RORDER, ROWS=1, COLUMNS=3, VALUES=1,?,3", "stray-character"),
+    ("MATRIX/4, FULL=RORDER, ROWS=1, COLUMNS=3, VALUES=1,,3", "empty-item"),
     # IP has not all that is written.
     ("PART/4, MASS=3, CM=4, IP=(1,1\nMARKER/4, PART=4", "unclosed-bracket"),
     # Any argument may be meant by a word that resembles none.
