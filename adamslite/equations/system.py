@@ -194,11 +194,13 @@ class System:
             body += [self.widths[b], self.starts[b], self.w_at["BODY", b], self.blocks.offset(b, b)]
         self.body = Rows(contract.BodyRow, ints(body))
         forces = [g for g in self.kernels.groups if g.face in ("loads", "equation")]
-        massive = [g.meta["added_mass"] for g in forces if g.meta["mass"]]
+        massive = [g.meta for g in forces if g.meta["mass"]]
+        added = bool(massive) and all(meta["added_mass"] for meta in massive)
         facts = {
             "nb": len(self.model.bodies), "n": self.n, "m": self.m, "nv": self.nv, "ns": self.ns,
             "nw": self.nw, "ng": self.group.size, "si2": self.numbering.stabilised,
-            "implicit_mass": bool(massive), "added_mass": bool(massive) and all(massive),
+            "implicit_mass": bool(massive), "added_mass": added,
+            "along_axes": added and all(meta["along_axes"] for meta in massive),
             "n_out": self.instances.n_out, "nz": self.nz,
             "holonomic": self.holonomic, "n_head": self.numbering.n_head,
             "clocks": len(self.guarded["clock"]), "watched": len(self.guarded["watch"]),

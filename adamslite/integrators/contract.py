@@ -142,8 +142,8 @@ class Sizes(Record):
     """How many of what a model has.
 
     ``si2``: the stabilised form; ``implicit_mass``: loads depend on accelerations, as
-    ``added_mass`` linearly on those of their own body alone; ``n_head``: entries of the workspace
-    before those of bodies.
+    ``added_mass`` linearly on those of their own body alone, ``along_axes`` each component on its
+    own; ``n_head``: entries of the workspace before those of bodies.
     """
 
     nb: int
@@ -156,6 +156,7 @@ class Sizes(Record):
     si2: bool
     implicit_mass: bool
     added_mass: bool
+    along_axes: bool
     n_out: int
     nz: int
     holonomic: int

@@ -115,10 +115,12 @@ def local_error(P: Problem, C: Control, h: float) -> float:
     w = C.size
     y, zero, e = P.history[NEXT_STATE * w :], P.history[BETWEEN * w :], P.trial[0:]
     scales = P.history[SCALES * w :]
+    top = 0.0
     for i in range(w):
         zero[i] = 0.0
-        if not abs(y[i]) < LARGE:  # no error is large against it
-            return HUGE
+        top = maximum(top, abs(y[i]))
+    if not top < LARGE:  # no error is large against it
+        return HUGE
     combine(P, C, ERROR3, w, h, zero, e)
     third = distance(P, e, y, scales, w)
     combine(P, C, ERROR5, w, h, zero, e)

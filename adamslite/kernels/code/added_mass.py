@@ -27,6 +27,17 @@ def is_added_mass(shape: Shape, scope: Scope, out: Outputs) -> bool:
     return all(_is_own(shape, scope, load, degrees) for load in out.loads)
 
 
+def is_along_axes(scope: Scope, out: Outputs) -> bool:
+    """Whether every component of a force depends on the same one of an acceleration alone."""
+    found = [
+        (component, scope.leaves[symbol])
+        for load in out.loads
+        for component, force in enumerate(load.force)
+        for symbol in scope.slope.symbols(node(force))
+    ]
+    return all(leaf[-1] == component for component, leaf in found if leaf[0] in ACCELERATIONS)
+
+
 def _is_own(shape: Shape, scope: Scope, load: Load, degrees: Degrees) -> bool:
     parts = [node(e) for e in (*load.force, *load.torque)]
     degree = max(map(degrees, parts))

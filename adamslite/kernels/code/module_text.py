@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from adamslite.kernels.code.added_mass import ACCELERATIONS, is_added_mass
+from adamslite.kernels.code.added_mass import ACCELERATIONS, is_added_mass, is_along_axes
 from adamslite.kernels.code.clock_program import Instruction, clock_programs
 from adamslite.kernels.code.jacobian_writer import JacobianWriter
 from adamslite.kernels.code.residual_writer import ResidualWriter
@@ -64,8 +64,9 @@ def write_kernels(
         and numbers it remembers, ``meta["limits"]``: how many times of leaving its law;
         ``meta["tracks"]``: whether accepted steps concern it;
         ``meta["mass"]``: a force depends on accelerations, ``meta["added_mass"]``: if at all, as
-        the mass of a body does; ``meta["guards"]``: kinds of the guards of the clock and of the
-        watch; ``meta["clock"]``: what depends on time alone.
+        the mass of a body does, ``meta["along_axes"]``: each of its components on its own;
+        ``meta["guards"]``: kinds of the guards of the clock and of the watch; ``meta["clock"]``:
+        what depends on time alone.
     """
     scope = Scope(shape.slots)
     out = shape.outputs(scope)
@@ -107,6 +108,7 @@ def write_kernels(
         "clock": clock,
         "mass": any(leaf[0] in ACCELERATIONS for leaf in scope.symbols),
         "added_mass": is_added_mass(shape, scope, out),
+        "along_axes": is_along_axes(scope, out),
     }
     return _module(bodies, n_ints, shape.n_reals), meta
 
