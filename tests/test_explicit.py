@@ -197,3 +197,10 @@ def test_masses_on_which_no_force_acts(masses: int, gravity: float) -> None:
     for k in range(2, 2 + masses):
         expected = 0.1 * found.time + 0.5 * gravity * found.time**2
         np.testing.assert_allclose(found[f"POINT_MASS/{k}.y"], expected, atol=1e-12)
+
+
+def test_no_error_is_large_against_a_state_beyond_all_numbers() -> None:
+    """x = 5e154 t^2: a share of it says nothing, so no step is taken."""
+    scene = "a push\nPART/1, GROUND\nPOINT_MASS/2, MASS=1, CM=2\nMARKER/2, POINT_MASS=2\n"
+    found = run(scene + "VFORCE/1, I=2, J_PART=1, FX=1E155\nEND\n", "ABAM", error=1e-3)
+    assert found.outcome is Outcome.NOT_FINITE and len(found.time) == 1
