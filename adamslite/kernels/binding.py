@@ -13,6 +13,7 @@ A bound tree is one of
     ("dif", node)         ("dif1", node)         ("sig", n, order) time-only variable
     ("origin", node) value from which a state counts
     ("e", n) element whose load is measured      ("tab", n) table
+    ("var", n) variable that is written out: once, however often it is used
 """
 
 from __future__ import annotations
@@ -51,20 +52,21 @@ class ForceLoop(Exception):
 class Binder:
     """Binds statements of one model; ``model`` answers what a marker or a variable is.
 
-    Time-only variables are read from the workspace, except among themselves (``inline_signals``),
-    so that they need no order.  What a constraint or d( )/dt takes the rate of is written out:
-    variables that are solved for too, unless they depend on themselves.
+    Time-only variables are read from the workspace.  What a constraint or d( )/dt takes the rate of
+    is written out: variables that are solved for too, unless they depend on themselves.
     """
 
-    def __init__(self, model: Model, inline_signals: bool = False) -> None:
+    def __init__(self, model: Model) -> None:
         self.model = model
-        self.inline_signals = inline_signals
         self.takes_rates = False
         self.instance = Binding()
         self.frames: dict[Key | MassCentre, Tree] = {0: ("m", ORIGIN)}
         self.slots: list[Slot] = []
         self.elements: list[tuple[str, Tree, int]] = []
         self.element_at: dict[NodeKey, int] = {}
+        self.variables: list[Tree] = []
+        self.variable_at: dict[tuple[Key, bool], int] = {}
+        self.parts: list[Tree] = []
 
     def marker(self, marker_id: Key | MassCentre) -> Tree:
         """The frame of a marker, of a part's mass centre for ``("PART", id)``."""
@@ -265,16 +267,44 @@ class Binder:
         return self.element(ref)
 
     def variable(self, variable_id: Key) -> Tree:
-        kind = self.model.variable_kind(variable_id)
-        written_out = self.takes_rates and variable_id not in self.model.circular
-        if kind == "loop" and not written_out:
+        if self._is_written_out(variable_id):
+            for each in self._below(variable_id):
+                self._write_out(each)
+            return ("var", self.variable_at[variable_id, self.takes_rates])
+        if self.model.variable_kind(variable_id) == "loop":
             return ("z", self.node_slot(("VARIABLE", variable_id)), 0)
-        if kind == "signal" and not self.inline_signals:
-            signals = self.instance.signals
-            if variable_id not in signals:
-                signals.append(variable_id)
-            return ("sig", signals.index(variable_id), 0)
-        return self.expression(self.model.variable(variable_id).function)
+        signals = self.instance.signals
+        if variable_id not in signals:
+            signals.append(variable_id)
+        return ("sig", signals.index(variable_id), 0)
+
+    def _is_written_out(self, variable_id: Key) -> bool:
+        kind = self.model.variable_kind(variable_id)
+        if kind == "loop":
+            return self.takes_rates and variable_id not in self.model.circular
+        return kind == "inline"
+
+    def _below(self, variable_id: Key) -> list[Key]:
+        """A variable behind all that are written out in it and are not yet: no recursion of the
+        depth of a chain.
+        """
+        found: dict[Key, None] = {}
+        pending = [(variable_id, False)]
+        while pending:
+            key, complete = pending.pop()
+            if complete:
+                found[key] = None
+            elif key not in found and (key, self.takes_rates) not in self.variable_at:
+                pending.append((key, True))
+                used = self.model.variables_of(key)
+                pending += [(each, False) for each in used if self._is_written_out(each)]
+        return list(found)
+
+    def _write_out(self, variable_id: Key) -> None:
+        tree = self.expression(self.model.variable(variable_id).function)
+        self.variables.append(tree)
+        self.variable_at[variable_id, self.takes_rates] = len(self.variables) - 1
+        self.parts.append(("var", len(self.variables) - 1))
 
     def element(self, ref: Ref) -> Tree:
         """Another element whose load is measured: bound into this shape."""
@@ -285,6 +315,7 @@ class Binder:
             tree = (ref.kind, self.statement(statement), self.unknowns(statement))
             self.elements.append(tree)
             self.element_at[key] = len(self.elements) - 1
+            self.parts.append(("e", len(self.elements) - 1))
         if self.element_at[key] < 0:
             raise ForceLoop(f"{ref.kind}/{ref.id}")
         return ("e", self.element_at[key])
@@ -303,4 +334,5 @@ class Binder:
         widths = tuple([self.model.body_width(b) for b in at.bodies])
         scalars = tuple([self.model.node_width(n) for n in at.nodes])
         counts = (len(at.params), len(at.signals), len(at.tables))
-        return (face, body, tuple(self.elements), tuple(self.slots), widths, scalars, counts)
+        shared = (tuple(self.elements), tuple(self.variables), tuple(self.parts))
+        return (face, body, *shared, tuple(self.slots), widths, scalars, counts)

@@ -30,6 +30,7 @@ from adamslite.kernels.groups import (
 from adamslite.kernels.reactions import reactions
 from adamslite.kernels.reader import ExpressionReader, symbolic_view
 from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 from adamslite.model.model import Model
 from adamslite.native import compiler
@@ -50,13 +51,16 @@ def compile_model(
 
     ``audited``: what elastic elements store too.
     """
-    groups: dict[Tree, ShapeGroup] = {}
+    groups = Groups()
     add = partial(_add, groups, model)
     outputs = []
     with without_collection():
+        for variable in model.signals:
+            add(variable, "signal")
         for statement in model.deck.statements:
             for face in faces(statement, model):
-                add(statement, face)
+                if face != "signal":
+                    add(statement, face)
             if audited and hasattr(statement, "stored") and model.acts(statement):
                 add(statement, "stored")
             for face in _output(statement):
@@ -89,8 +93,27 @@ def _output(statement: Statement) -> Iterator[str]:
         yield "output"
 
 
-def _add(groups: dict[Tree, ShapeGroup], model: Model, statement: Statement, face: str) -> None:
-    binder = Binder(model, inline_signals=face == "signal")
+class Groups(dict[Tree, ShapeGroup]):
+    """Groups by their keys; those of signals are evaluated in the order in which they are made."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.order: dict[Tree, int] = {}
+        self.order_of: dict[Key, int] = {}
+
+    def key_of_signal(self, key: Tree, variable: Key, reads: list[Key]) -> Tree:
+        """The key of a group of this shape that is not evaluated before what the instance reads;
+        within a group instances are evaluated in turn.
+        """
+        least = max((self.order_of.get(each, 0) for each in reads), default=0)
+        while self.order.setdefault(key, len(self.order)) < least:
+            key = ("again", key)
+        self.order_of[variable] = self.order[key]
+        return key
+
+
+def _add(groups: Groups, model: Model, statement: Statement, face: str) -> None:
+    binder = Binder(model)
     try:
         fields, own = _bound(binder, statement, face)
     except ForceLoop as loop:
@@ -98,9 +121,12 @@ def _add(groups: dict[Tree, ShapeGroup], model: Model, statement: Statement, fac
     held = (statement.keyword, statement.key) in model.held
     rate = held and isinstance(statement, Constraint) and statement.is_rate(model)
     key = binder.key(face, (statement.keyword, fields, own, rate))
+    name = repr(key)
+    if face == "signal":
+        key = groups.key_of_signal(key, statement.key, binder.instance.signals)
     group = groups.get(key)
     if group is None:
-        name = "k" + compiler.digest(repr(key), version_of("kernels.compile"))
+        name = "k" + compiler.digest(name, version_of("kernels.compile"))
         level = LEVELS.index(face) - 1 if face in LEVELS else 0
         level -= level > 0 and rate
         write = FaceWriter(binder, statement.keyword, face, fields, own, level)
@@ -164,7 +190,12 @@ class FaceWriter:
         scope.read = ExpressionReader(scope, self.n_bodies)
         widths = self.binder.model.node_width
         nodes = self.binder.instance.nodes
-        for keyword, fields, node in self.binder.elements:
+        scope.variables = self.binder.variables
+        for part in self.binder.parts:
+            if part[0] == "var":
+                scope.read(part)
+                continue
+            keyword, fields, node = self.binder.elements[part[1]]
             width = widths(nodes[node]) if node >= 0 else 0
             scope.elements.append(symbolic_view(keyword, fields, node, width, scope, self.n_bodies))
         row = self.n_bodies + self.own
@@ -221,7 +252,7 @@ def _compile(group: ShapeGroup, progress: Progress | None) -> bool:
 def writer_of(kernels: Kernels, group: ShapeGroup) -> Writer:
     """The writer of a group; of kernels that were kept between runs one instance is bound again."""
     if group.write is None:
-        made: dict[Tree, ShapeGroup] = {}
+        made = Groups()
         _add(made, kernels.model, group.instances[0][0], group.face)
         (group.write,) = (each.write for each in made.values() if each.name == group.name)
     return group.writer
@@ -252,7 +283,7 @@ def _kernels(group: ShapeGroup) -> tuple[str, Meta]:
 
 def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnostic]:
     """What there is to say of statements whose equations cannot be formed; nothing is compiled."""
-    groups: dict[Tree, ShapeGroup] = {}
+    groups = Groups()
     for statement in statements:
         try:
             for face in (*faces(statement, model), *_output(statement)):

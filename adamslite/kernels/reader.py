@@ -60,8 +60,8 @@ class ExpressionReader:
                 return number
             case ("v", trees):
                 return tuple(self(t) for t in trees)
-            case ("e", number):
-                return scope.elements[number]
+            case ("e" | "var", number):
+                return scope.elements[number] if tree[0] == "e" else self(scope.variables[number])
             case ("s", keyword, fields):
                 return View(class_of(keyword), {name: self(t) for name, t in fields}, [])
             case ("z" | "dif" | "dif1" | "origin", node, *component):

@@ -28,6 +28,7 @@ from adamslite.language.expression import (
     Op,
     Ref,
     Time,
+    calls,
     operate,
     walk,
 )
@@ -259,12 +260,34 @@ class Model:
         loops = self._plant | self.circular
         if "variables" in self.without:
             loops |= {v.key for v in self.deck.of(Variable)}
+        signals = self._signals(loops)
         return {
-            v.key: "loop"
-            if v.key in loops
-            else ("signal" if self._time_only(v.function, loops) else "inline")
+            v.key: "loop" if v.key in loops else "signal" if v.key in signals else "inline"
             for v in self.deck.of(Variable)
         }
+
+    @cached_property
+    def signals(self) -> list[Variable]:
+        """VARIABLEs that depend on time only, each behind those it takes the values of."""
+        found: dict[Key, None] = {}
+        own = [v.key for v in self.deck.of(Variable) if self.variable_kind(v.key) == "signal"]
+        pending = [(key, False) for key in own[::-1]]
+        while pending:
+            key, complete = pending.pop()
+            if complete:
+                found[key] = None
+            elif key not in found:
+                pending.append((key, True))
+                pending += [(each, False) for each in self.variables_of(key)]
+        return [self.variable(key) for key in found]
+
+    def variables_of(self, variable_id: Key) -> list[Key]:
+        """The VARIABLEs whose values the FUNCTION of one takes."""
+        function = self.variable(variable_id).function
+        return self.once(("VARIABLES", variable_id), lambda: list(dict.fromkeys(
+            each.id for call in calls(function, "VARVAL") for each in call.args
+            if isinstance(each, Ref)
+        )))  # fmt: skip
 
     def _uses(self, node: Node) -> Iterator[Key]:
         """Variables an expression depends on, through the elements it measures too."""
@@ -286,21 +309,36 @@ class Model:
                 elif each.kind not in ("MARKER", "DIFF"):
                     pending += expressions(self.element(each.kind, each.id))
 
-    def _time_only(self, node: Node, loops: set[Key]) -> bool:
-        for each in walk(node):
-            if isinstance(each, Mode) or (isinstance(each, Call) and _has_memory(each)):
-                return False
-            if isinstance(each, Ref) and not class_of(each.kind).data:
-                if each.kind != "VARIABLE" or each.id in loops:
-                    return False
-                if not self._time_only(self.variable(each.id).function, loops):
-                    return False
-        return any(isinstance(each, Time | Ref) for each in walk(node))
+    def _signals(self, loops: set[Key]) -> set[Key]:
+        """VARIABLEs that depend on time and on nothing else."""
+        used = {
+            v.key: _taken_by_signal(v.function)
+            for v in self.deck.of(Variable)
+            if v.key not in loops
+        }
+        found = {key for key, names in used.items() if names is not None}
+        while others := {key for key in found if not (used[key] or set()) <= found}:
+            found -= others
+        return found
 
     @property
     def dof(self) -> int:
         """Unknowns of the bodies less constraint rows."""
         return sum(b.width for b in self.bodies) - sum(c.n_rows for c in self.constraints)
+
+
+def _taken_by_signal(node: Node) -> set[Key] | None:
+    """The VARIABLEs in an expression of time and of those alone; None for any other."""
+    taken: set[Key] = set()
+    parts = list(walk(node))
+    for each in parts:
+        if isinstance(each, Mode) or (isinstance(each, Call) and _has_memory(each)):
+            return None
+        if isinstance(each, Ref) and not class_of(each.kind).data:
+            if each.kind != "VARIABLE":
+                return None
+            taken.add(each.id)
+    return taken if any(isinstance(each, Time | Ref) for each in parts) else None
 
 
 def _has_memory(call: Call) -> bool:

@@ -118,6 +118,7 @@ class Scope:
         graph.forget()
         self.slope = Derivatives(lambda symbol: self.leaves[symbol][0] in GIVEN)
         self.elements: list[Seen] = []
+        self.variables: list[Tree] = []
         self._everything_moves = False
         self.read: Callable[[Tree], Read] = _unbound
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import partial
-from operator import add
 from typing import TYPE_CHECKING
 
 from adamslite.analyses.clock.enclosures import Instruction
@@ -57,27 +55,30 @@ class Clock:
 
     def _bound(self, code: list[Written], binding: Binding) -> Program:
         """A program with numbers for parameters and the expressions of VARIABLEs put in."""
-        found: list[Instruction] = []
+        found: dict[Instruction, int] = {}
         place: list[int] = []
         for name, *given in code:
             if name == "p":
-                found.append(("number", binding.params[given[0]]))
+                instruction: Instruction = ("number", binding.params[given[0]])
             elif name in LOOKUPS:
                 table = binding.tables[given[0]]
-                found.append(_moved((name, table, *given[1:]), place.__getitem__))
+                instruction = _moved((name, table, *given[1:]), place.__getitem__)
             elif name == "sig":
-                inner = self._rate(binding.signals[given[0]], given[1])
-                shift = len(found)
-                found += [_moved(each, partial(add, shift)) for each in inner]
+                inner: list[int] = []
+                for each in self._rate(binding.signals[given[0]], given[1]):
+                    instruction = _moved(each, inner.__getitem__)
+                    inner.append(found.setdefault(instruction, len(found)))
             else:
-                found.append(_moved((name, *given), place.__getitem__))
-            place.append(len(found) - 1)
-        return tuple(found)
+                instruction = _moved((name, *given), place.__getitem__)
+            place.append(found.setdefault(instruction, len(found)))
+        return tuple(found)[: place[-1] + 1]
 
     def _rate(self, variable: Key, order: int) -> Program:
-        if (variable, order) not in self._rates:
-            rows, binding = self._signals[variable]
-            self._rates[variable, order] = self._bound(rows[order], binding)
+        """A derivative of a VARIABLE; those that it is made of are known, they stand before it."""
+        if not self._rates:
+            for key, (rows, binding) in self._signals.items():
+                for number, row in enumerate(rows):
+                    self._rates[key, number] = self._bound(row, binding)
         return self._rates[variable, order]
 
 

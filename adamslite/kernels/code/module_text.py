@@ -23,6 +23,11 @@ TRACK_HEAD = (
     "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias %reals, ptr %W, ptr %F) "
     "nounwind"
 )
+# Signals are read where they are written: each behind those that it takes.
+SIGNAL_HEAD = (
+    "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias readonly %reals, ptr %W, "
+    "ptr %F) nounwind"
+)
 JACOBIAN_HEAD = (
     "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias readonly %reals, "
     "ptr noalias readonly %W, ptr noalias readonly %c, ptr noalias %F) nounwind"
@@ -84,7 +89,7 @@ def write_kernels(
         bodies.append((f"{name}_jacobian", JACOBIAN_HEAD, jacobian))
     writer = ResidualWriter(shape, scope)
     writer.residual(out)
-    bodies.append((f"{name}_residual", RESIDUAL_HEAD, writer))
+    bodies.append((f"{name}_residual", SIGNAL_HEAD if face == "signal" else RESIDUAL_HEAD, writer))
     tracks = bool(shape.n_angles or shape.n_limits or scope.origins)
     if tracks:
         writer = ResidualWriter(shape, scope)
