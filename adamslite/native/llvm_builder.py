@@ -51,6 +51,7 @@ class Builder:
         self.declared: set[str] = set()
         self.called: set[str] = set()
         self.count = 0
+        self.sums: dict[tuple[str, str, int], Value] = {}
 
     def fresh(self) -> str:
         self.count += 1
@@ -220,13 +221,20 @@ class Builder:
         )
 
     def accumulate(self, array: str, base: str, shift: int, value: Value) -> None:
-        """``array[base + shift] += value``."""
-        if value == 0.0:
-            return
-        address, old, new = self.address(array, base, shift), self.fresh(), self.fresh()
-        self.lines.append(f"  {old} = load double, ptr {address}")
-        self.lines.append(f"  {new} = fadd {FAST} double {old}, {self.operand(value)}")
-        self.lines.append(f"  store double {new}, ptr {address}")
+        """``array[base + shift] += value``, once for all that is added there."""
+        if value != 0.0:
+            place = (array, base, shift)
+            self.sums[place] = self.add(self.sums.get(place, 0.0), value)
+
+    def finished(self) -> list[str]:
+        """All instructions, those that write the sums at the end."""
+        for (array, base, shift), value in self.sums.items():
+            address, old, new = self.address(array, base, shift), self.fresh(), self.fresh()
+            self.lines.append(f"  {old} = load double, ptr {address}")
+            self.lines.append(f"  {new} = fadd {FAST} double {old}, {self.operand(value)}")
+            self.lines.append(f"  store double {new}, ptr {address}")
+        self.sums.clear()
+        return self.lines
 
     def store(self, array: str, base: str, shift: int, value: Value) -> None:
         """``array[base + shift] = value``."""

@@ -133,7 +133,7 @@ def _module(bodies: list[tuple[str, str, ResidualWriter]], n_ints: int, n_reals:
                 prelude=prelude if head is JACOBIAN_HEAD else "",
                 n_ints=n_ints,
                 n_reals=n_reals,
-                body="\n".join(writer.b.lines),
+                body="\n".join(writer.b.finished()),
             )
         )
         declared |= writer.b.declared
