@@ -102,29 +102,26 @@ class Elimination:
         """The order of elimination and where blocks are copied to."""
         counts = [len(live) for live in self.live]
         nodes = [k for k, count in enumerate(counts) if count]
-        at = {node: k for k, node in enumerate(nodes)}
-        mu = [k for k in nodes if self.nodes[k][0] == "MU"]
-        late = {
-            at[k]: {at[b] for b in before if b in at}
-            for k, before in self._late_nodes(counts).items()
-            if k in at
-        }
-        for k in mu:
-            late[at[k]] = {at[self.node_at[self.nodes[k][1]]]}
         number = np.full(len(self.nodes), -1)
         number[nodes] = np.arange(len(nodes))
+        mu = [k for k in nodes if self.nodes[k][0] == "MU"]
+        late = {
+            int(number[k]): {int(number[b]) for b in before if number[b] >= 0}
+            for k, before in self._late_nodes(counts).items()
+            if number[k] >= 0
+        }
+        for k in mu:
+            late[int(number[k])] = {int(number[self.node_at[self.nodes[k][1]]])}
         rows, columns, _ = self._entries()
         kept = (number[rows] >= 0) & (number[columns] >= 0)
-        own = np.arange(len(nodes))
-        pairs = np.stack([np.append(number[each[kept]], own) for each in (rows, columns)])
+        pairs = np.stack([number[each[kept]] for each in (rows, columns)])
         found = analyse([counts[k] for k in nodes], pairs, late, self.pivoting)
         self.plan = {**found.plan, "place": self._places(found.plan["place"])}
-        where = found.places.locate(*pairs)
-        self.copies = self._copies(kept, *(each[: kept.sum()] for each in where))
-        own_places = zip(*(each[kept.sum() :].tolist() for each in where), strict=True)
-        diagonal = dict(zip(nodes, own_places, strict=True))
+        self.copies = self._copies(kept, *found.places.locate(*pairs))
+        own = number[mu]
+        at, lead = (each.tolist() for each in found.places.locate(own, own))
         self.unit = ints(
-            [diagonal[k][0] + c * (diagonal[k][1] + 1) for k in mu for c in range(counts[k])]
+            [at[k] + c * (lead[k] + 1) for k, node in enumerate(mu) for c in range(counts[node])]
         )
         self._make_room(found.size, found.room)
 

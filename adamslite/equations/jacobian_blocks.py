@@ -32,16 +32,20 @@ class JacobianBlocks:
 
     def offsets_of(self, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
         """Where each of many blocks begins; those not met before are made, in this order."""
-        pairs = [*zip(rows.tolist(), columns.tolist(), strict=True)]
-        fresh = [pair for pair in dict.fromkeys(pairs) if pair not in self.offsets]
-        if fresh:
-            wide = np.array(self.widths, dtype=np.int64)
-            row, column = np.array(fresh).T
-            sizes = wide[row] * wide[column]
-            begins = self.size + np.cumsum(sizes) - sizes
-            self.offsets.update(zip(fresh, begins.tolist(), strict=True))
-            self.size += int(sizes.sum())
-        return ints([self.offsets[pair] for pair in pairs])
+        keys = rows * len(self.widths) + columns
+        _, first, which = np.unique(keys, return_index=True, return_inverse=True)
+        row, column = rows[first], columns[first]
+        pairs = zip(row.tolist(), column.tolist(), strict=True)
+        found = np.array([self.offsets.get(pair, -1) for pair in pairs], dtype=np.int64)
+        fresh = np.flatnonzero(found < 0)
+        fresh = fresh[np.argsort(first[fresh])]
+        wide = np.array(self.widths, dtype=np.int64)
+        sizes = wide[row[fresh]] * wide[column[fresh]]
+        found[fresh] = self.size + np.cumsum(sizes) - sizes
+        made = (each[fresh].tolist() for each in (row, column, found))
+        self.offsets.update(((r, c), at) for r, c, at in zip(*made, strict=True))
+        self.size += int(sizes.sum())
+        return found[which]
 
     def dense(self, entries: np.ndarray) -> np.ndarray:
         """Their entries (size,) as one matrix (nz, nz)."""
