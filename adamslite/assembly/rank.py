@@ -22,8 +22,10 @@ if TYPE_CHECKING:  # only large models need sparse matrices
     from scipy.sparse import csr_array
 
 RANK = 1e-9
-# Decimals of rows that choose between them: those that are alike but for round-off stay in order.
-ALIKE = 12
+# Lengths that differ by less than this share are alike.
+ALIKE = 1e-6
+# Rows up to which they are made orthogonal one by one.
+MOST_ORTHOGONALISED = 120
 # Rows up to which matrices are dense.
 MOST_DENSE = 800
 # What is added to the diagonal of G G^T, vectors at first, and iterations: singular values above
@@ -41,12 +43,34 @@ def dependent_rows(scaled: np.ndarray) -> list[int]:
     """Numbers of the rows, each of unit length, that are combinations of the others."""
     if np.linalg.matrix_rank(scaled, tol=RANK) == len(scaled):
         return []
-    from scipy.linalg import qr
+    if len(scaled) > MOST_ORTHOGONALISED:
+        from scipy.linalg import qr
 
-    r, order = qr(np.round(scaled, ALIKE).T, mode="r", pivoting=True)
-    pivots = np.abs(np.diag(r))
-    rank = int((pivots > RANK * pivots[0]).sum())
-    return sorted(int(row) for row in order[rank:])
+        r, order = qr(scaled.T, mode="r", pivoting=True)
+        pivots = np.abs(np.diag(r))
+        rank = int((pivots > RANK * pivots[0]).sum())
+        return sorted(int(row) for row in order[rank:])
+    return _orthogonalised(scaled)
+
+
+def _orthogonalised(rows: np.ndarray) -> list[int]:
+    """The same by Gram and Schmidt's process: of rows that are longest but for round-off, the
+    first comes next, whatever a processor makes of their last digits.
+    """
+    rest, open_ = rows.copy(), np.ones(len(rows), dtype=bool)
+    largest = 0.0
+    while open_.any():
+        sizes = np.where(open_, np.linalg.norm(rest, axis=1), -1.0)
+        longest = float(sizes.max())
+        largest = max(largest, longest)
+        if longest <= RANK * largest:
+            break
+        row = int(np.argmax(sizes >= (1.0 - ALIKE) * longest))
+        open_[row] = False
+        unit = rest[row] / sizes[row]
+        for _ in range(2):  # once more for what rounding left
+            rest -= np.outer(rest @ unit, unit)
+    return np.flatnonzero(open_).tolist()
 
 
 def dependent_of_many(rows: csr_array) -> list[int]:
