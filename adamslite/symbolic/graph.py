@@ -47,12 +47,6 @@ class Node:
         self.value = value
         self.order = order
 
-    def __hash__(self) -> int:
-        return hash(self.value) if self.kind == "number" else id(self) >> 4
-
-    def __eq__(self, other: object) -> bool:
-        return self is other or (self.kind == "number" and self.value == _plain(other))
-
     def __bool__(self) -> bool:
         if self.kind in OPPOSITE or self.kind in ("and", "or", "not"):
             raise TypeError(f"whether {self} holds is not known yet")
@@ -128,6 +122,25 @@ class Node:
         return zip(self.args[:-1:2], self.args[1::2], strict=True)
 
 
+class Part(Node):
+    """A node that is no number; it equals itself alone, which dicts find out fastest."""
+
+    __slots__ = ()
+
+
+class Number(Node):
+    """A node that equals numbers of its value."""
+
+    __slots__ = ()
+
+    def __hash__(self) -> int:
+        return hash(self.value)
+
+    def __eq__(self, other: object) -> bool:
+        plain = other.value if isinstance(other, Number) else other
+        return self is other or bool(self.value == plain)
+
+
 _known: dict[tuple[Any, ...], Node] = {}
 """The nodes of the expressions that are being written."""
 
@@ -144,7 +157,8 @@ def made(kind: str, *args: Node, value: Any = None, order: int | None = None) ->
     key = (kind, value, order, *args)
     found = _known.get(key)
     if found is None:
-        found = _known[key] = Node(kind, args, value, order)
+        of = Number if kind == "number" else Part
+        found = _known[key] = of(kind, args, value, order)
     return found
 
 
@@ -156,8 +170,11 @@ def number(value: float) -> Node:
     return made("number", value=value)
 
 
-NAN, ZERO, ONE = (Node("number", (), value, None) for value in (math.nan, 0.0, 1.0))
-TRUE, FALSE = Node("true", (), True, None), Node("false", (), False, None)
+NAN: Node
+ZERO: Node
+ONE: Node
+NAN, ZERO, ONE = (Number("number", (), value, None) for value in (math.nan, 0.0, 1.0))
+TRUE, FALSE = Part("true", (), True, None), Part("false", (), False, None)
 forget()
 
 
@@ -168,15 +185,11 @@ def symbol(name: str) -> Node:
 
 def node(given: Given) -> Node:
     """A node of itself, of a number or of a truth."""
-    if type(given) is Node:
+    if isinstance(given, Node):
         return given
     if isinstance(given, bool):
         return TRUE if given else FALSE
     return number(given)
-
-
-def _plain(given: object) -> object:
-    return given.value if isinstance(given, Node) and given.kind == "number" else given
 
 
 def _numbers(*args: Node) -> bool:
