@@ -10,3 +10,8 @@ K_NEW, LATE_STAGES = 12, 3
 OLD = K_NEW + LATE_STAGES + 1
 NEXT_STATE, BETWEEN, SCALES, SLOPE = OLD + 1, OLD + 2, OLD + 3, OLD + 4
 INVERSE = HISTORY_ROWS = SLOPE + 1
+
+# By component: numbers that processors take at once, and rows of the tables: 1/m, accelerations of
+# gravity and forces by component, masses, and the effective masses.
+LINE = 4
+TABLES = 3 + 3 + 3 + 1 + 9

@@ -2,7 +2,7 @@
 
     y = x of all bodies, y, z, then vx, vy, vz        k = their accelerations, the same way
 
-in rows of equal length, a multiple of ``LINE``; what is beyond the bodies stays zero.  Loads come
+in rows of equal length, a multiple of ``history.LINE``; what is beyond the bodies stays zero.  Loads come
 from :mod:`adamslite.kernels.code.lane_writer`.
 """
 
@@ -15,12 +15,6 @@ from adamslite.integrators.lanes import run_lanes, run_masses
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.integrators.motion_equations import put_time
 from adamslite.native.translate import Alone, Reals, native
-
-# Numbers that processors take at once.
-LINE = 4
-# Rows of the tables: 1/m, accelerations of gravity and forces by component, masses, and the
-# effective masses.
-TABLES = 3 + 3 + 3 + 1 + 9
 
 
 @native

@@ -18,8 +18,7 @@ def prepare(system: Equations, settings: Settings) -> None:
     """
     from adamslite.integrators.explicit.control import Control
     from adamslite.integrators.explicit.dop853 import tableau
-    from adamslite.integrators.explicit.history import HISTORY_ROWS, SCALES
-    from adamslite.integrators.explicit.lanes import LINE, TABLES
+    from adamslite.integrators.explicit.history import HISTORY_ROWS, LINE, SCALES, TABLES
 
     scales, bodies = error_scales(system, settings.scale), len(system.model.bodies)
     inverse = 9 * bodies
