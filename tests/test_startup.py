@@ -18,7 +18,7 @@ print(*sorted(name.removeprefix("adamslite.") for name in sys.modules if "adamsl
 
 
 @pytest.mark.slow  # it may have to compile the method
-@pytest.mark.parametrize("method", ["GSTIFF", "HHT", "RADAU", "ABAM"])
+@pytest.mark.parametrize("method", ["GSTIFF", "HHT", "RADAU", "ABAM", "VERLET"])
 def test_a_run_whose_code_is_compiled_loads_no_translator(tmp_path: Path, method: str) -> None:
     deck = tmp_path / "spring.adm"
     deck.write_text(SPRING)

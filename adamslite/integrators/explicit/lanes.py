@@ -2,7 +2,8 @@
 
     y = x of all bodies, y, z, then vx, vy, vz        k = their accelerations, the same way
 
-in rows of equal length, a multiple of ``history.LINE``; what is beyond the bodies stays zero.  Loads come
+in rows of equal length, a multiple of ``history.LINE``; what is beyond the bodies stays
+zero.  Loads come
 from :mod:`adamslite.kernels.code.lane_writer`.
 """
 

@@ -38,8 +38,8 @@ from adamslite.integrators.explicit.error import (
     local_error,
 )
 from adamslite.integrators.explicit.events import end_at_crossing, pass_on, passes_crossing
-from adamslite.integrators.explicit.history import INVERSE, K_NEW, NEXT_STATE, OLD
-from adamslite.integrators.explicit.lanes import LINE, into_lanes, lane_tables
+from adamslite.integrators.explicit.history import INVERSE, K_NEW, LINE, NEXT_STATE, OLD
+from adamslite.integrators.explicit.lanes import into_lanes, lane_tables
 from adamslite.integrators.explicit.recovery import (
     after_failure,
     after_rejection,

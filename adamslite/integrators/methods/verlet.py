@@ -14,8 +14,7 @@ from adamslite.language.method import (
 
 def prepare(system: Equations, settings: Settings) -> None:
     """Room for the numbers of the method, inverse inertias, two states, two vectors."""
-    from adamslite.integrators.verlet.control import Control
-    from adamslite.integrators.verlet.lanes import NUMBERS
+    from adamslite.integrators.verlet.control import NUMBERS, Control
 
     bodies = len(system.model.bodies)
     # Rows are whole lines of the cache, an odd number: those of 4 KB would share places in it.

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from adamslite.native.translate import Record
 
+# By component, of a body: place, velocity, force, acceleration before, each of three, and 1/m.
+NUMBERS = 13
+
 
 class Control(Record):
     """The numbers of VERLET.

@@ -12,12 +12,10 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.lanes import run_lanes
 from adamslite.integrators.linalg.plan import HUGE
 from adamslite.integrators.motion_equations import put_time
-from adamslite.integrators.verlet.control import Control
+from adamslite.integrators.verlet.control import NUMBERS, Control
 from adamslite.integrators.verlet.sampling import HOPELESS, LARGE, note_steps, steps_per_estimate
 from adamslite.native.translate import Alone, maximum, native
 
-# Numbers of a body: place, velocity, force, acceleration before, each by component; 1/m.
-NUMBERS = 13
 # Numbers of the workspace's head where no VARIABLE depends on time alone.
 HEAD = 6
 
