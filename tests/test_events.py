@@ -357,9 +357,12 @@ def test_a_smooth_scene_has_no_guards_but_a_zone():
 
 @pytest.mark.parametrize("formula", ("GSTIFF", "GSTIFF I3", "HHT", "RADAU", "RKF45"))
 def test_a_branch_that_round_off_decides_is_no_chatter(formula):
-    """A hinge that a MOTION keeps at zero: the damper behind the IF has nothing to damp."""
-    free, damped = (
-        done(GROUND + TEETER + law + "END\n", 0.5, **options(formula, 1e-3))["PART/3.phi"]
-        for law in ("", DAMPER)
-    )
-    assert damped == approx(free, abs=5e-3)
+    """A hinge that a MOTION keeps at zero: the damper behind the IF has nothing to damp.
+
+    The body turns about z; with theta = 0 only the sum of psi and phi is known, and but for turns.
+    """
+    runs = [
+        done(GROUND + TEETER + law + "END\n", 0.5, **options(formula, 1e-3)) for law in ("", DAMPER)
+    ]
+    free, damped = (np.exp(1j * (run["PART/3.psi"] + run["PART/3.phi"])) for run in runs)
+    assert np.abs(damped - free).max() < 5e-3
