@@ -196,3 +196,26 @@ def test_rounding_of_a_place_is_no_way(way: float, moves: bool) -> None:
     """A body 100 m from the origin, whose place has 14 digits."""
     found, _ = longest_way(("PART/2.x",), np.array([[100.0], [100.0 + way]]))
     assert found == pytest.approx(way if moves else 0.0, abs=2e-14)
+
+
+def test_bodies_that_only_turn_have_no_way_to_compare_with() -> None:
+    """Rounding moves their centres by 1e-60; a share of that would be a number of fifty digits."""
+    deck = """\
+two drums on one clutch, 300 apart
+ACCGRAV/KGRAV=-9806.65
+PART/1, GROUND
+MARKER/1, PART=1, REULER=90D,90D,0
+MARKER/2, PART=1, QP=0,300,0, REULER=90D,90D,0
+PART/7, MASS=3.3, CM=70, IP=41000,23000,23000
+MARKER/70, PART=7
+MARKER/71, PART=7, REULER=90D,90D,0
+PART/8, MASS=2.1, CM=80, IP=17000,9000,9000, QG=0,300,0, WX=23
+MARKER/80, PART=8
+MARKER/81, PART=8, REULER=90D,90D,0
+JOINT/1, REVOLUTE, I=71, J=1
+JOINT/2, REVOLUTE, I=81, J=2
+SFORCE/1, ROTATIONAL, I=81, J=2, FUNCTION=-1300*WZ(81,2)
+END
+"""
+    results = al.simulate(al.read(deck), end=1.5, steps=150, integrator="RADAU", error=1e-8)
+    assert "longest way" not in results.meta.get("accuracy", "")

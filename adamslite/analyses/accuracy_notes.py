@@ -93,8 +93,9 @@ def longest_way(names: tuple[str, ...], values: np.ndarray) -> tuple[float, floa
         return 0.0, 0.0
     ways = most - least
     way, moving = float(ways.max()), ways >= MOVING * ways.max()
-    reach = float(np.maximum(np.abs(least), np.abs(most))[moving].max())
-    return (way if way > ROUNDING * reach else 0.0), reach
+    sizes = np.maximum(np.abs(least), np.abs(most))
+    # In a model of bodies that only turn, ways are the rounding of the places of any of them.
+    return (way if way > ROUNDING * float(sizes.max()) else 0.0), float(sizes[moving].max())
 
 
 def _of_method(
