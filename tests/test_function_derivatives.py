@@ -25,7 +25,8 @@ from adamslite.language.function import FUNCTIONS, Function
 from adamslite.language.routines import USER
 from adamslite.native.llvm_builder import LIBRARY
 from adamslite.symbolic.derivatives import Derivatives, along
-from adamslite.symbolic.graph import ZERO, node, ordered, symbol
+from adamslite.symbolic.graph import ZERO, node, symbol
+from adamslite.symbolic.structure import ordered
 
 # What native code can be made of; anything else would only be noticed when a deck uses it.
 PRINTABLE = {*LIBRARY, *NAMES, *CONDITIONS, "number", "symbol", "neg", "choice", *TABLES}

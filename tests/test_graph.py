@@ -10,7 +10,7 @@ import mpmath as mp
 import pytest
 from graph_values import value
 
-from adamslite.symbolic import by_sympy, graph, slopes_by_sympy
+from adamslite.symbolic import by_sympy, graph, slopes_by_sympy, structure
 from adamslite.symbolic.algebra import And, Eq, Not, Or, atan2, chosen, cos, exp, log, sin, sqrt
 from adamslite.symbolic.derivatives import Derivatives, along
 from adamslite.symbolic.graph import FALSE, NAN, ONE, TRUE, ZERO, node, number, symbol
@@ -100,10 +100,10 @@ def test_a_chain_of_a_thousand_parts_grows_by_as_many() -> None:
     expr = x
     for _ in range(1000):
         expr = expr * sin(expr)
-    assert len(graph.ordered([expr])) == 2001
+    assert len(structure.ordered([expr])) == 2001
     slope, rate = Derivatives().gradient(expr)[x], along(expr, {x: ONE})
-    assert len(graph.ordered([slope])) < 10000
-    assert len(graph.ordered([rate])) < 10000
+    assert len(structure.ordered([slope])) < 10000
+    assert len(structure.ordered([rate])) < 10000
     expr = x
     for _ in range(5):
         expr = expr * sin(expr)

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from replacing import replaced
 
 import adamslite
 from adamslite import resources
@@ -61,14 +62,6 @@ def counts(printed: str) -> list[int]:
     return [int(word) for word in printed.splitlines()[-1].split()]
 
 
-def changed(file: Path, old: str, new: str) -> None:
-    """Change a source, keep its size and its times."""
-    facts, text = file.stat(), file.read_text(encoding="utf-8")
-    assert old in text and len(old) == len(new)
-    file.write_text(text.replace(old, new), encoding="utf-8")
-    os.utime(file, ns=(facts.st_atime_ns, facts.st_mtime_ns))
-
-
 @pytest.mark.parametrize("written", ("", "1"))
 def test_a_second_run_compiles_nothing_and_a_changed_source_is_seen(package, written) -> None:
     """Whether Python writes its own files or not; these it takes for current by size and time."""
@@ -79,7 +72,7 @@ def test_a_second_run_compiles_nothing_and_a_changed_source_is_seen(package, wri
     # The text of the check is kept by now, so that less is imported.
     some, fresh = counts(again)
     assert fresh == 0 and again.splitlines()[:-1] == first.splitlines()[:-1]
-    changed(package / "api" / "contents.py", "degree", "DEGREE")
+    replaced(package / "api" / "contents.py", "degree", "DEGREE")
     third = run(package, LOADED, PYTHONDONTWRITEBYTECODE=written)
     assert "3 DEGREEs of freedom" in third and counts(third)[1] > 100
 

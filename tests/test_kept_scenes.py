@@ -10,39 +10,24 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
-from tiers import every
+from falling_mass import falling_mass, solve
+from replacing import replaced
 
 import adamslite
 from adamslite import kept_scene, resources, scene
 from adamslite.analyses import kept_kernels, subject
 from adamslite.api import inputs
-from adamslite.caching import contents, entries, objects, program
+from adamslite.caching import objects
 from adamslite.caching.folder import cache_folder
 from adamslite.cli.main import main
 from adamslite.kept_scene import origin_of
-from adamslite.language.diagnostics import DeckError, render
-from adamslite.language.statement import Statement
 from adamslite.native import processor
 from adamslite.results.results import Results
 
 DECKS = resources.find("decks")
-FALL = """a mass that falls {now}
-UNITS/SYSTEM=MKS
-PART/1, GROUND
-MARKER/1, PART=1
-POINT_MASS/2, MASS=2
-MARKER/2, POINT_MASS=2
-VFORCE/1, I=2, J_PART=1, FX=0\\, FY=-10.0\\, FZ=0
-INTEGRATOR/GSTIFF, ERROR=1E-6
-SIMULATE/DYNAMIC, END=2, STEPS=4
-END
-"""
 
 
 class Counted:
@@ -72,27 +57,13 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> Counted:
 
 @pytest.fixture
 def deck(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """FALL in the current folder."""
+    """A deck of its own in the current folder."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "fall.adm").write_text(FALL.format(now=time.time_ns()))
-    return Path("fall.adm")
-
-
-def solve(path: Path, *words: str) -> float:
-    """y at the end of a run: F t^2 / 2 m."""
-    assert main(["solve", str(path), "-o", "out.csv", *words]) == 0
-    return float(Results.load("out.csv")["POINT_MASS/2.y"][-1])
-
-
-def replaced(path: Path, old: str, new: str) -> None:
-    """Change a file, keep its size and its times."""
-    facts, text = path.stat(), path.read_text()
-    assert old in text and len(old) == len(new)
-    path.write_text(text.replace(old, new))
-    os.utime(path, ns=(facts.st_atime_ns, facts.st_mtime_ns))
+    return falling_mass()
 
 
 # ---- the same as a first run --------------------------------------------------------------------
+
 
 #: One of each kind of what a deck may hold; those with warnings, notes and command files first.
 SAMPLE = """
@@ -347,111 +318,7 @@ def test_every_processor_has_kernels_of_its_own(deck: Path, monkeypatch, counted
     assert main(["solve", str(deck)]) == 2
 
 
-# ---- the identity of the program ----------------------------------------------------------------
-
-
-@pytest.fixture
-def sources(tmp_path: Path, cache: Path, monkeypatch) -> Iterator[list[str]]:
-    """Folders like those of the program, and a library, written long before this process began."""
-    for name in ("package/a.py", "package/room/b.py", "grammar/deck.lark", "numpy/version.py"):
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text(f"# {name} 1")
-    monkeypatch.setattr(adamslite, "STARTED", float("inf"))
-    monkeypatch.setattr(program, "TICK", 0.0)
-    yield [str(tmp_path / name) for name in ("package", "grammar", "numpy/version.py")]
-
-
-CHANGES: dict[str, Callable[[Path], object]] = {
-    "content": lambda at: replaced(at / "package/a.py", "1", "2"),
-    "content deeper": lambda at: replaced(at / "package/room/b.py", "1", "2"),
-    "grammar": lambda at: replaced(at / "grammar/deck.lark", "1", "2"),
-    "library": lambda at: replaced(at / "numpy/version.py", "1", "2"),
-    "new module": lambda at: (at / "package/room/c.py").write_text(""),
-    "module gone": lambda at: (at / "package/room/b.py").unlink(),
-    "module renamed": lambda at: (at / "package/a.py").rename(at / "package/b.py"),
-    "file swapped": lambda at: (
-        (at / "new").write_text("# package/a.py 3"), (at / "new").rename(at / "package/a.py"),
-    ),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("change", CHANGES)
-def test_any_change_of_the_program_gives_it_another_name(change, sources, tmp_path) -> None:
-    """Also one that keeps size and time of a file, as some tools do that install."""
-    before = program.identity_of(sources)
-    assert before and program.identity_of(sources) == before
-    CHANGES[change](tmp_path)
-    assert program.identity_of(sources) != before
-
-
-def test_what_is_no_source_does_not_count(sources, tmp_path) -> None:
-    before = program.identity_of(sources)
-    (tmp_path / "package/__pycache__").mkdir()
-    (tmp_path / "package/__pycache__/a.py").write_text("")
-    (tmp_path / "package/notes.txt").write_text("")
-    assert program.identity_of(sources) == before
-
-
-def test_the_name_is_that_of_the_contents_whatever_their_times(sources, tmp_path) -> None:
-    before = program.identity_of(sources)
-    os.utime(tmp_path / "package/a.py", (1e9, 1e9))
-    assert program.identity_of(sources) == before
-
-
-def test_a_file_newer_than_the_process_leaves_no_name(sources, monkeypatch) -> None:
-    monkeypatch.setattr(adamslite, "STARTED", time.time() - 60.0)
-    assert program.identity_of(sources) == ""
-
-
-def test_files_that_have_just_changed_are_read_each_time(sources, tmp_path, monkeypatch) -> None:
-    """Two changes within a tick of the clock may have equal times."""
-    monkeypatch.setattr(program, "TICK", 60.0)
-    facts = os.stat(tmp_path / "package/a.py")
-    before = program.identity_of(sources)
-    replaced(tmp_path / "package/a.py", "1", "2")
-    stat = os.stat
-    monkeypatch.setattr(os, "stat", lambda p: facts if str(p).endswith("a.py") else stat(p))
-    assert program.identity_of(sources) != before
-
-
-def test_the_program_covers_every_module_that_is_loaded(tmp_path: Path) -> None:
-    places = [program.PACKAGE, str(resources.find("grammar"))]
-    covered = {*program._files(places)}
-    loaded = [getattr(m, "__file__", None) for n, m in sys.modules.items() if "adamslite" in n]
-    assert {f for f in loaded if f and Path(f).is_relative_to(program.PACKAGE)} <= covered
-    assert {*map(str, Path(places[1]).glob("*.lark"))} <= covered
-    assert all(Path(file).is_file() for file in program.library_files())
-    assert len(program.library_files()) == len(program.LIBRARIES)
-
-
 # ---- entries ------------------------------------------------------------------------------------
-
-
-def test_an_object_refers_to_what_is_known(cache) -> None:
-    known = [["a"], {"b": 1}]
-    objects.keep("scene" + "0" * 32 + ".kept", {"x": known[0], "y": [known[1]]}, known)
-    found = objects.find("scene" + "0" * 32 + ".kept", known)
-    assert found["x"] is known[0] and found["y"][0] is known[1]
-    assert [entry.path.name for entry in contents.entries(cache)] == ["scene" + "0" * 32 + ".kept"]
-
-
-@pytest.mark.parametrize("thing", [lambda: 1, sys, Path.open])
-def test_what_cannot_be_kept_is_not(thing, cache) -> None:
-    objects.keep("scene" + "0" * 32 + ".kept", [thing] if thing is not sys else thing)
-    assert thing is Path.open or not os.listdir(cache)
-
-
-def test_a_large_object_is_not_kept(cache, monkeypatch) -> None:
-    monkeypatch.setattr(objects, "MOST", 1000)
-    objects.keep("scene" + "0" * 32 + ".kept", bytes(1000))
-    assert not os.listdir(cache)
-
-
-def test_an_object_that_its_class_no_longer_takes_is_rebuilt(cache, caplog) -> None:
-    entries.keep("scene" + "0" * 32 + ".kept", b"\x80\x05cadamslite.errors\nGone\n.")
-    assert objects.find("scene" + "0" * 32 + ".kept") is None
-    (line,) = caplog.messages
-    assert "is rebuilt" in line
 
 
 def test_damaged_entries_of_a_deck_are_rebuilt(deck: Path, counted, caplog) -> None:
@@ -484,74 +351,6 @@ def test_kernels_whose_code_has_gone_are_made_again(deck: Path, counted) -> None
 
 
 @pytest.mark.slow
-def test_a_folder_that_goes_away_or_takes_nothing(deck: Path, tmp_path: Path) -> None:
-    """A run in a folder for the cache that is removed, or read-only, is a run all the same."""
-    folder = tmp_path / "kept"
-    env = {**os.environ, "ADAMSLITE_CACHE": str(folder)}
-    env["PYTHONPATH"] = str(Path(adamslite.__file__).parents[1])
-    words = [sys.executable, "-m", "adamslite", "solve", "fall.adm", "-o", "out.csv"]
-    found = []
-    for state in ("new", "kept", "removed", "read-only"):
-        if state == "removed":
-            shutil.rmtree(folder)
-        if state == "read-only":
-            folder.chmod(0o500)
-        run = subprocess.run(words, env=env, capture_output=True, text=True)
-        assert run.returncode == 0, run.stderr
-        found.append(Path("out.csv").read_bytes())
-    folder.chmod(0o700)
-    assert len({*found}) == 1
-
-
-@pytest.mark.slow
-def test_processes_at_once_agree(deck: Path, tmp_path: Path) -> None:
-    """Six runs of a deck that nothing is kept of, two of them of other numbers."""
-    shutil.copy(deck, "heavy.adm")
-    replaced(Path("heavy.adm"), "-10.0", "-30.0")
-    env = {**os.environ, "PYTHONPATH": str(Path(adamslite.__file__).parents[1])}
-    words = [sys.executable, "-m", "adamslite", "solve"]
-    runs = [
-        subprocess.Popen([*words, f"{name}.adm", "-o", f"{k}.csv", "--quiet"], env=env)
-        for k, name in enumerate(["fall", "heavy", "fall", "fall", "heavy", "fall"])
-    ]
-    assert [run.wait() for run in runs] == [0] * 6
-    ends = [Results.load(f"{k}.csv")["POINT_MASS/2.y"][-1] for k in range(6)]
-    assert np.allclose(ends, [-10.0, -30.0, -10.0, -10.0, -30.0, -10.0])
-
-
-# ---- decks at large -----------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("path", every(12, sorted(DECKS.rglob("*.adm"))), ids=lambda p: p.stem)
-def test_a_copy_of_a_scene_is_the_scene(path: Path, cache, monkeypatch) -> None:
-    """Statements, messages with their places and carets, names of columns."""
-    try:
-        first = scene.load_scene(path)
-    except DeckError:
-        return
-    if any(kept_scene.tables_of(first.deck, first.commands)) or first.deck.user.called:
-        return
-    monkeypatch.setattr(scene, "read_together", pytest.fail)
-    second = scene.load_scene(path)
-    assert second.deck.statements is not first.deck.statements
-    assert render(second.warnings) == render(first.warnings)
-    assert second.deck.source.text == first.deck.source.text
-    assert (second.title, second.stem) == (first.title, first.stem)
-    for one, other in zip(
-        (*first.deck.statements, *first.commands),
-        (*second.deck.statements, *second.commands),
-        strict=True,
-    ):
-        assert type(one) is type(other) and one.label == other.label and one.span == other.span
-        assert values(one) == values(other)
-
-
-def values(statement: Any) -> str:
-    names = sorted(statement.field_names - {"spans"} if isinstance(statement, Statement) else ())
-    return repr([(name, getattr(statement, name)) for name in names])
-
-
-@pytest.mark.slow
 def test_loads_by_component_are_written_of_kept_kernels(deck: Path, counted) -> None:
     """VERLET evaluates a row of springs by component; the kernels were kept by another method."""
     masses = 12
@@ -570,17 +369,3 @@ def test_loads_by_component_are_written_of_kept_kernels(deck: Path, counted) -> 
     found = adamslite.simulate(str(deck), integrator="VERLET")
     found.save("fresh.csv")
     assert Path("fresh.csv").read_bytes() == kept
-
-
-def test_a_program_replaced_while_it_is_read_leaves_no_name(sources, tmp_path, monkeypatch) -> None:
-    digest = program.content_digest
-
-    def read(paths):
-        found = digest(paths)
-        replaced(tmp_path / "package/a.py", "1", "2")
-        return found
-
-    monkeypatch.setattr(program, "content_digest", read)
-    assert program.identity_of(sources) == ""
-    monkeypatch.setattr(program, "content_digest", digest)
-    assert program.identity_of(sources) == digest(sorted(program._files(sources)))

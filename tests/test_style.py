@@ -42,6 +42,11 @@ def test_only_the_command_line_leaves_and_nothing_is_caught_unnamed(
             assert "exit" not in names, file
 
 
+def test_a_file_has_at_most_400_lines() -> None:
+    for file in [*FILES, *Path(__file__).parent.glob("*.py")]:
+        assert len(file.read_text(encoding="utf-8").splitlines()) <= 400, file
+
+
 def test_the_readme_opens_with_the_pipeline_of_the_package() -> None:
     diagram = adamslite.__doc__.strip().partition("\n\n")[0]
     readme = PACKAGE.parent / "README.md"

@@ -20,7 +20,7 @@ from adamslite.equations.lanes import Runs, runs
 from adamslite.equations.numbering import Numbering
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
-from adamslite.integrators.event_rows import MARGIN_ROWS
+from adamslite.integrators.event_rows import MARGIN_ROWS, SensorRow
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.model.model import PART
 from adamslite.model.scaling import rotation_weights
@@ -131,7 +131,7 @@ class System:
         if self.numbering.kind.size:
             self.W = np.zeros(self.nw + self.numbering.kind.size)
         self.guard = np.zeros(self.W.size)
-        self.sensors = Rows(contract.SensorRow, len(self.numbering.sensors))
+        self.sensors = Rows(SensorRow, len(self.numbering.sensors))
         for k, (_, first, second) in enumerate(self.numbering.sensors):
             self.sensors[k].first, self.sensors[k].second = first, second
         self.margin = np.zeros(MARGIN_ROWS * len(self.guarded["watch"]))

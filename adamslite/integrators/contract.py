@@ -66,7 +66,7 @@ pattern         per iteration whether it renews the Newton matrix, repeated; emp
 from __future__ import annotations
 
 from adamslite.integrators.audit_record import Audit
-from adamslite.integrators.event_rows import Search
+from adamslite.integrators.event_rows import Search, SensorRow
 from adamslite.native.translate import Ints, Reals, Record, Rows
 
 # What the groups of kernels contribute, one bit each.
@@ -301,21 +301,6 @@ class Pace(Record):
     fence: float
 
 
-class SensorRow(Record):
-    """A sensor: workspace offsets of the branches of its one or two relations, what they were (1
-    true, -1 false, 0 not known), whether it has triggered; whether it has before and has not been
-    false since (``asleep``), and the time up to which it does not do so again.
-    """
-
-    first: int
-    second: int
-    first_was: int
-    second_was: int
-    triggered: int
-    asleep: int
-    quiet: float
-
-
 class Undoing(Record):
     """What is known of the state that is kept (:mod:`adamslite.integrators.step_back`).
 
@@ -402,5 +387,5 @@ class Problem(Record):
     lane_bodies: Ints
 
 
-# Numbers of ``P.work`` that this module uses.
+# Least length of ``P.work``.
 WORK = 54

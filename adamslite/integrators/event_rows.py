@@ -1,4 +1,4 @@
-"""The rows of ``P.margin`` and the slots of ``P.search`` that events use."""
+"""The rows of ``P.margin``, the slots of ``P.search`` and the rows of sensors that events use."""
 
 from __future__ import annotations
 
@@ -78,3 +78,18 @@ class Search(Record):
     window_high: float
     past_size: float
     ahead: float
+
+
+class SensorRow(Record):
+    """A sensor: workspace offsets of the branches of its one or two relations, what they were (1
+    true, -1 false, 0 not known), whether it has triggered; whether it has before and has not been
+    false since (``asleep``), and the time up to which it does not do so again.
+    """
+
+    first: int
+    second: int
+    first_was: int
+    second_was: int
+    triggered: int
+    asleep: int
+    quiet: float

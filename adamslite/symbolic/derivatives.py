@@ -17,8 +17,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
-from adamslite.symbolic.graph import ONE, TRUE, ZERO, Given, Node, add, choice, mul, node, ordered
+from adamslite.symbolic.graph import ONE, TRUE, ZERO, Given, Node, add, choice, mul, node
 from adamslite.symbolic.slopes import slopes
+from adamslite.symbolic.structure import ordered
 
 NONE: frozenset[Node] = frozenset()
 

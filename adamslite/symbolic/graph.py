@@ -1,24 +1,9 @@
 """Expressions as graphs: a part that occurs many times is one node.
 
-A node is a kind and its arguments.  Equal nodes are the same object, so that they are compared,
-found and differentiated once.  The operations below fold numbers and what cannot matter (zeros,
-ones, double signs, powers of one base); they never multiply out and never rearrange: what was
-written with shared parts keeps them.
-
-====================  =============================================================
-number                ``value``
-symbol                ``value``, its name
-+  -  *  /            of two
-neg                   of one
-**                    base, exponent
-sin, atan2, ...       of their arguments
-floor                 of one; ``order`` as in :func:`choice`
-choice                value, condition, value, condition, ..., value where none holds
-< <= > >= == !=       conditions of two sides
-and, or, not          conditions of conditions
-true, false           decided conditions
-others                functions with a slope of their own (:mod:`adamslite.symbolic.slopes`)
-====================  =============================================================
+A node is a kind and its arguments (:mod:`adamslite.symbolic.structure`).  Equal nodes are the same
+object, so that they are compared, found and differentiated once.  The operations below fold numbers
+and what cannot matter (zeros, ones, double signs, powers of one base); they never multiply out and
+never rearrange: what was written with shared parts keeps them.
 
 All numbers are real.  What has no value (a pole, the root of a negative number) is not a number,
 and so is everything that is made of it.
@@ -27,45 +12,20 @@ and so is everything that is made of it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from typing import Any
+
+from adamslite.symbolic.structure import OPPOSITE, Vertex, factors, holds, least, raised
 
 Given = Any
 """A node, or a number or a truth in its place."""
-OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "==": "!=", "!=": "=="}
 EVEN, ODD = ("cos", "cosh"), ("sin", "tan", "asin", "atan", "sinh", "tanh")
 
 
-class Node:
+class Node(Vertex):
     """A part of an expression; made by the functions of this module only."""
 
-    __slots__ = ("kind", "args", "value", "order")
-
-    def __init__(self, kind: str, args: tuple[Node, ...], value: Any, order: int | None) -> None:
-        self.kind = kind
-        self.args = args
-        self.value = value
-        self.order = order
-
-    def __bool__(self) -> bool:
-        if self.kind in OPPOSITE or self.kind in ("and", "or", "not"):
-            raise TypeError(f"whether {self} holds is not known yet")
-        return self.kind != "false" and self.value != 0.0
-
-    def __str__(self) -> str:
-        if self.kind in ("number", "symbol"):
-            return str(self.value)
-        return f"{self.kind}({', '.join(map(str, self.args))})"
-
-    __repr__ = __str__
-
-    def __float__(self) -> float:
-        if self.kind != "number":
-            raise TypeError(f"{self} is not a number")
-        return float(self.value)
-
-    def __int__(self) -> int:
-        return int(float(self))
+    __slots__ = ()
 
     def __add__(self, other: Given) -> Node:
         return add(self, node(other))
@@ -111,15 +71,6 @@ class Node:
 
     def __ge__(self, other: Given) -> Node:
         return relation(">=", self, node(other))
-
-    @property
-    def is_relation(self) -> bool:
-        return self.kind in OPPOSITE
-
-    @property
-    def pieces(self) -> Iterator[tuple[Node, Node]]:
-        """Value and condition of each piece of a choice but the last one."""
-        return zip(self.args[:-1:2], self.args[1::2], strict=True)
 
 
 class Part(Node):
@@ -257,7 +208,7 @@ def mul(a: Node, b: Node) -> Node:
         return neg(mul(a.args[0], b))
     if b.kind == "neg":
         return neg(mul(a, b.args[0]))
-    (base, m), (other_base, n) = _raised(a), _raised(b)
+    (base, m), (other_base, n) = raised(a), raised(b)
     if base is other_base and m is not None and n is not None:
         return power(base, number(m + n))
     return _either("*", a, b)
@@ -280,13 +231,6 @@ def _multiple(factor: Node, b: Node) -> Node:
     return made("*", factor, b)
 
 
-def _raised(a: Node) -> tuple[Node, float | None]:
-    """Base and exponent, where that is a number."""
-    if a.kind == "**":
-        return a.args[0], a.args[1].value if a.args[1].kind == "number" else None
-    return a, 1.0
-
-
 def div(a: Node, b: Node) -> Node:
     if a is NAN or b is NAN or b is ZERO:
         return NAN
@@ -300,7 +244,7 @@ def div(a: Node, b: Node) -> Node:
         return neg(div(a.args[0], b))
     if b.kind == "neg":
         return neg(div(a, b.args[0]))
-    (base, m), (other_base, n) = _raised(a), _raised(b)
+    (base, m), (other_base, n) = raised(a), raised(b)
     if base is other_base and m is not None and n is not None:
         return power(base, number(m - n))
     return made("/", a, b)
@@ -329,9 +273,9 @@ def power(base: Node, exponent: Node) -> Node:
 
 def _whole_power(base: Node, n: float) -> Node:
     if base.kind == "neg":
-        raised = power(base.args[0], number(n))
-        return neg(raised) if n % 2.0 else raised
-    inner, m = _raised(base)
+        positive = power(base.args[0], number(n))
+        return neg(positive) if n % 2.0 else positive
+    inner, m = raised(base)
     if base.kind == "**" and m is not None:
         return power(inner, number(m * n))
     return made("**", base, number(n))
@@ -342,8 +286,8 @@ def _without_squares(base: Node, n: float) -> tuple[Node, Node]:
     rest of the base: a root alone of a square has no slope where that is zero.
     """
     taken = rest = ONE
-    for factor in _factors(base):
-        inner, m = _raised(factor)
+    for factor in factors(base):
+        inner, m = raised(factor)
         if factor.kind == "number" and factor.value > 0.0:
             taken = mul(taken, number(factor.value**n))
         elif factor.kind == "**" and m is not None and m % 2.0 == 0.0:
@@ -351,16 +295,6 @@ def _without_squares(base: Node, n: float) -> tuple[Node, Node]:
         else:
             rest = mul(rest, factor)
     return taken, rest
-
-
-def _factors(a: Node) -> Iterator[Node]:
-    pending = [a]
-    while pending:
-        top = pending.pop()
-        if top.kind == "*":
-            pending += reversed(top.args)
-        else:
-            yield top
 
 
 def magnitude(x: Node, order: int | None = 0) -> Node:
@@ -397,46 +331,22 @@ def _floor(x: Node, order: int | None) -> Node:
     return x if x is NAN else made("floor", x, order=order)
 
 
-# ---- conditions --------------------------------------------------------------------------------
-
-
 def relation(kind: str, a: Node, b: Node) -> Node:
     """A comparison, decided where numbers or squares decide it."""
     if _numbers(a, b):
-        return node(_holds(kind, a.value - b.value))
+        return node(holds(kind, a.value - b.value))
     if a is b:
-        return node(_holds(kind, 0.0))
+        return node(holds(kind, 0.0))
     for sign, gap in ((1.0, sub(a, b)), (-1.0, sub(b, a))):
         if gap.kind == "number" and gap is not NAN:
-            return node(_holds(kind, sign * gap.value))
+            return node(holds(kind, sign * gap.value))
         if least(gap) > 0.0:
-            return node(_holds(kind, sign))
+            return node(holds(kind, sign))
         if least(gap) == 0.0 and kind in ("<", ">=") and sign > 0.0:
             return node(kind == ">=")
         if least(gap) == 0.0 and kind in (">", "<=") and sign < 0.0:
             return node(kind == "<=")
     return made(kind, a, b)
-
-
-def _holds(kind: str, gap: float) -> bool:
-    below, equal = gap < 0.0, gap == 0.0
-    holds = {"<": below, "<=": below or equal, "==": equal}
-    return holds[kind] if kind in holds else gap == gap and not holds[OPPOSITE[kind]]
-
-
-def least(a: Node) -> float:
-    """A bound that a node does not fall below, as far as squares and numbers tell it."""
-    if a.kind == "number":
-        return a.value if a is not NAN else -math.inf
-    if a.kind == "+":
-        return least(a.args[0]) + least(a.args[1])
-    if a.kind == "**":
-        n = _raised(a)[1]
-        return 0.0 if n is not None and (n % 2.0 == 0.0 or n % 1.0 != 0.0) else -math.inf
-    if a.kind in ("*", "/"):
-        both = a.args[0] is a.args[1] or min(map(least, a.args)) >= 0.0
-        return 0.0 if both else -math.inf
-    return {"exp": 0.0, "cosh": 1.0}.get(a.kind, -math.inf)
 
 
 def joined(kind: str, conditions: Iterable[Given]) -> Node:
@@ -481,19 +391,3 @@ def choice(pieces: Iterable[tuple[Given, Given]], order: int | None) -> Node:
     if all(each is kept[-1] for each in kept[:-1:2]):
         return kept[-1]
     return made("choice", *kept, order=order)
-
-
-def ordered(
-    roots: Iterable[Node], below: Callable[[Node], Iterable[Node]] = lambda top: top.args
-) -> list[Node]:
-    """The nodes that ``roots`` are made of, each once and behind its own; ``below``: these."""
-    found: dict[Node, None] = {}
-    pending = [(root, False) for root in roots][::-1]
-    while pending:
-        top, complete = pending.pop()
-        if complete:
-            found[top] = None
-        elif top not in found:
-            pending.append((top, True))
-            pending += [(each, False) for each in below(top) if each not in found][::-1]
-    return list(found)

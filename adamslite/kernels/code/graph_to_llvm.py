@@ -15,9 +15,9 @@ from adamslite.kernels.code.lookup import (
 from adamslite.kernels.code.routine_call import routine_answer
 from adamslite.native.llvm_builder import LIBRARY, Builder, Value
 from adamslite.native.translate import symbol
-from adamslite.symbolic.graph import ordered
 from adamslite.symbolic.routines import FIRST as ROUTINE_FIRST
 from adamslite.symbolic.routines import INPUTS
+from adamslite.symbolic.structure import ordered
 from adamslite.symbolic.types import Expr, Symbol
 
 CONDITIONS = frozenset(("<", "<=", ">", ">=", "==", "!=", "and", "or", "not", "true", "false"))
