@@ -12,6 +12,7 @@ from adamslite.language.interfaces import Key
 from adamslite.language.spelling import spelled
 from adamslite.reading.argument_values import to_id
 from adamslite.syntax.tokens import scan
+from adamslite.syntax.typeset import is_typeset
 
 
 def rename(texts: Sequence[Content], at: Content, offset: int, new: str) -> list[list[Use]]:
@@ -36,6 +37,8 @@ def rename(texts: Sequence[Content], at: Content, offset: int, new: str) -> list
     written = _canonical(at.text[symbol.start : symbol.end])
     for text in texts:
         _need_readable(text)
+        if is_typeset(text.text):
+            raise UsageError("names are not replaced in a text that is typeset in LaTeX")
     _need_free(at, symbol.kind, written == symbol.key, new)
     found = []
     for text in texts:

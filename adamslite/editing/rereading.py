@@ -22,6 +22,7 @@ from adamslite.reading.statement_reader import Entry, Reading, gives_values
 from adamslite.syntax.lines import join, view_name
 from adamslite.syntax.syntax_errors import Faults, Syntax, statement_syntax
 from adamslite.syntax.tokens import NEW_STATEMENT, Lexeme, scan
+from adamslite.syntax.typeset import is_typeset
 
 Found = Key | list[Key] | None
 """What looking up a name has given."""
@@ -101,6 +102,9 @@ class Rereading(Reading):
 
     def _syntax(self, start: int) -> Iterator[tuple[Syntax | None, Faults]]:
         text, name = self.log.source.text, None
+        if is_typeset(text):
+            yield from super()._syntax(start)
+            return
         while start < len(text):
             cut = NEW_STATEMENT.search(text, start)
             end = cut.end() if cut else len(text)

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+_SIGNS = str.maketrans("", "", "\\{} \t")
+
 
 def spelled(name: str) -> str:
-    """A name in plain letters: ``\\Delta L`` and a Greek letter followed by L are ``DeltaL``."""
-    if name.isascii() and name[0] != "\\":
+    """A name in plain letters: ``\\Delta L`` and a Greek letter followed by L are ``DeltaL``,
+    ``L\\_0`` and ``L_{0}`` are ``L_0``.
+    """
+    if name.isascii() and "\\" not in name and "{" not in name:
         return name
     return _spelled(name)
 
@@ -27,4 +31,4 @@ def _spelled(name: str) -> str:
             return spelling.capitalize() if "CAPITAL" in words else spelling
         return letter
 
-    return "".join(map(plain, name.removeprefix("\\").replace(" ", "").replace("\t", "")))
+    return "".join(map(plain, name.translate(_SIGNS)))

@@ -23,6 +23,7 @@ WRITTEN = {
     ">": "IF(x: a, b, c) is a below, b at and c above x = 0",
     "<": "IF(x: a, b, c) is a below, b at and c above x = 0",
     "{": "brackets are ( ) and [ ]",
+    "$": "LaTeX is read from a $ or $$ as far as the next one",
 }
 """What stands for characters that other languages have."""
 

@@ -12,6 +12,7 @@ from itertools import accumulate
 from sys import intern
 
 from adamslite.syntax.forms import terminals
+from adamslite.syntax.typeset import Plain, is_typeset
 
 Lexeme = tuple[str, str, int]
 """Kind, text and offset of a token."""
@@ -58,6 +59,15 @@ def scan(text: str, start: int = 0) -> Iterator[list[Lexeme]]:
 
     They come in stretches that end where a statement ends, so that they need not all be in memory.
     """
+    if is_typeset(text):
+        plain = Plain(text, start)
+        for stretch in _scan(plain.text, 0):
+            yield [plain.written(token) for token in stretch]
+    else:
+        yield from _scan(text, start)
+
+
+def _scan(text: str, start: int) -> Iterator[list[Lexeme]]:
     kinds = _Kinds()
     while start < len(text):
         cut = NEW_STATEMENT.search(text, start + STRETCH)
