@@ -89,27 +89,15 @@ def channels(block: Block, time: np.ndarray, late: float = 0.0) -> dict[str, Any
     return {"times": block.f32(time), "list": named}
 
 
-def everything() -> dict[str, Any]:
-    """Plain data of the scene, without its block."""
-    return _everything(Block())
+KINDS = (
+    "REVOLUTE", "TRANSLATIONAL", "CYLINDRICAL", "SPHERICAL", "FIXED", "UNIVERSAL", "HOOKE",
+    "CONVEL", "PLANAR", "SCREW", "RACKPIN",
+)  # fmt: skip
 
 
-def _everything(block: Block, every: int = 1) -> dict[str, Any]:
-    time = np.linspace(0, END, FRAMES)
-    fewer = time[::every]
-    pull = (40 + 10 * np.sin(np.pi * time))[:, None] * np.array([[1.0, 0.9]])
-    force = np.stack([0 * time, -20 + 0 * time, 0 * time], axis=-1)
+def solids() -> dict[str, Any]:
+    """Shapes of every kind on the bodies, and an outline."""
     return {
-        "version": VERSION,
-        "title": "A crank, a sheave & a <weight>",
-        "name": "sample",
-        "deck": "sample.adm",
-        "outcome": "The run reached its end.",
-        "units": {"length": "m", "mass": "kg", "time": "s", "force": "N", "angle": "rad"},
-        "times": block.f32(time),
-        "gravity": [0.0, -9.81, 0.0],
-        "up": "y",
-        "bodies": bodies(block, time),
         "shapes": [
             solid("rod", 1, (-ARM, 0, 0), to=[2 * ARM, 0.0, 0.0]),
             solid("sphere", 1, radius=0.08),
@@ -133,6 +121,12 @@ def _everything(block: Block, every: int = 1) -> dict[str, Any]:
                 "closed": True,
             }
         ],
+    }
+
+
+def connections() -> dict[str, Any]:
+    """Springs, joints of every kind, a link."""
+    return {
         "springs": [
             {
                 "statement": "SPRINGDAMPER/1",
@@ -158,23 +152,17 @@ def _everything(block: Block, every: int = 1) -> dict[str, Any]:
                 "i": [0, -1.2 + 0.2 * k, 1.0, 0, *UPRIGHT],
                 "j": [0, 0, 0, 0, *UPRIGHT],
             }
-            for k, kind in enumerate(
-                [
-                    "REVOLUTE",
-                    "TRANSLATIONAL",
-                    "CYLINDRICAL",
-                    "SPHERICAL",
-                    "FIXED",
-                    "UNIVERSAL",
-                    "HOOKE",
-                    "CONVEL",
-                    "PLANAR",
-                    "SCREW",
-                    "RACKPIN",
-                ]
-            )
+            for k, kind in enumerate(KINDS)
         ],
         "links": [{"statement": "SFORCE/2", "i": [1, -ARM, 0, 0], "j": [0, -1, 0.6, 0]}],
+    }
+
+
+def forces(block: Block, time: np.ndarray) -> dict[str, Any]:
+    """A cable with its tensions, and arrows."""
+    pull = (40 + 10 * np.sin(np.pi * time))[:, None] * np.array([[1.0, 0.9]])
+    force = np.stack([0 * time, -20 + 0 * time, 0 * time], axis=-1)
+    return {
         "cables": [
             {
                 "name": "weight to ground",
@@ -210,6 +198,27 @@ def _everything(block: Block, every: int = 1) -> dict[str, Any]:
                 "kind": "reaction",
             },
         ],
+    }
+
+
+def everything(block: Block, every: int = 1) -> dict[str, Any]:
+    """Plain data of the scene; the second result has one in ``every`` times."""
+    time = np.linspace(0, END, FRAMES)
+    fewer = time[::every]
+    return {
+        "version": VERSION,
+        "title": "A crank, a sheave & a <weight>",
+        "name": "sample",
+        "deck": "sample.adm",
+        "outcome": "The run reached its end.",
+        "units": {"length": "m", "mass": "kg", "time": "s", "force": "N", "angle": "rad"},
+        "times": block.f32(time),
+        "gravity": [0.0, -9.81, 0.0],
+        "up": "y",
+        "bodies": bodies(block, time),
+        **solids(),
+        **connections(),
+        **forces(block, time),
         "channels": channels(block, time),
         "events": [{"time": 1.0, "text": "SENSOR/1: the crank is half round"}],
         "notes": ["A note."],
@@ -233,16 +242,16 @@ def _everything(block: Block, every: int = 1) -> dict[str, Any]:
 
 @cache
 def sample(every: int = 1) -> str:
-    """The page of the scene with everything; the second result has every so-manieth time."""
+    """The page of the scene with everything; the second result has one in ``every`` times."""
     block = Block()
-    plain = _everything(block, every)
+    plain = everything(block, every)
     return page_of_scene(Scene(plain, block.text()))
 
 
 def bare(**changed: Any) -> str:
     """A page of a scene with a ground alone, and what is said otherwise."""
     block = Block()
-    plain = _everything(block)
+    plain = everything(block)
     empty = {key: [] for key, value in plain.items() if isinstance(value, list)}
     kept = {"bodies": plain["bodies"][:1], "gravity": [0.0, 0.0, 0.0], "against": None}
     none = {"times": {"at": 0, "shape": [0], "coding": "f32"}, "list": []}
@@ -255,7 +264,7 @@ def swarm(count: int) -> str:
     """A page of so many masses that all move, joined by a cable."""
     block = Block()
     time = np.linspace(0, 4, 201)
-    plain = _everything(block)
+    plain = everything(block)
     side = int(np.ceil(np.sqrt(count)))
     found = [plain["bodies"][0]]
     for k in range(count):

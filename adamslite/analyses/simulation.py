@@ -75,31 +75,9 @@ def simulate(
     files: SavedFiles | None = None,
     outputs: Iterable[str] = (),
 ) -> Results:
-    """Run a deck, a model or its kernels.
+    """Run a deck, a model or its kernels; ``commands`` are statements.
 
-    Parameters
-    ----------
-    scene : Deck, Model or Kernels
-        What to simulate.
-    end, steps : float, int
-        End time and number of output steps; instead of SIMULATE.
-    integrator, formulation, error, hmax
-        Win over INTEGRATOR in ``commands``, which wins over the deck.
-    commands : iterable of Statement
-        Statements of a command file.
-    progress : callable
-        ``progress(time, end)`` from time to time; ``progress.say(sentence)`` before a long wait.
-    no_reduction : iterable of str
-        Rules of :mod:`adamslite.model.reduction` not to apply; ``points`` and ``variables`` of a
-        model are settled when it is assembled.
-    audit : bool
-        Follow the balance of energy; elastic elements of ready kernels are not followed.
-    confirm : bool
-        Run again, more tightly and by another method, and say how far the results agree.
-    files : SavedFiles
-        Where the files of SAVE and RELOAD are; in memory unless given.
-    outputs : iterable of str
-        Patterns of the columns to keep, ``REQUEST/*``, ``PART/2``; all unless given.
+    The other arguments are those of :func:`adamslite.simulate`.
 
     Raises
     ------

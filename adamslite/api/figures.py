@@ -146,16 +146,21 @@ def view(
     need_its_bodies(deck_of(found), found, "the given table")
     other = None if against is None else results_of(against, None)
     name = other.source.name if other is not None and other.source else "the others"
-    if along not in (None, *DIRECTIONS):
-        raise UsageError(f"--along {along}: there are {', '.join(DIRECTIONS)}")
+    look = Look(time, size, _look(along, dark))
     if output is None and show is not True and in_notebook():
         return Frame(page(found, None, other, name))
     path = Path(output or f"{found.source.stem if found.source else 'results'}.html")
-    asked = {"theme": "dark" if dark else "light", **({"view": along} if along else {})}
-    write_motion(path, deck_of(found), found, other, name, Look(time, size, asked))
+    write_motion(path, deck_of(found), found, other, name, look)
     if (show or (show is None and output is None)) and not open_page(path):
         warnings.warn(f"no browser could be opened; open {path} yourself", stacklevel=2)
     return path
+
+
+def _look(along: str | None, dark: bool) -> dict[str, str]:
+    """The words of a page for a direction and a ground."""
+    if along not in (None, *DIRECTIONS):
+        raise UsageError(f"--along {along}: there are {', '.join(DIRECTIONS)}")
+    return {"theme": "dark" if dark else "light", **({"view": along} if along else {})}
 
 
 def results_of(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -80,14 +81,11 @@ def simulate(
     """
     given = inputs(scene, commands, user)
     kept = SavedFiles(Path(files)) if isinstance(files, str | os.PathLike) else files
-    shown = progress_of(progress)
-    try:
+    with closing(progress_of(progress)) as shown:
         return simulation.simulate(
             given.subject, end, steps, integrator, formulation, error, hmax, given.commands,
             shown, no_reduction, audit, confirm, kept, outputs,
         )  # fmt: skip
-    finally:
-        shown.close()
 
 
 def linearize(

@@ -10,9 +10,8 @@ Nothing else describes or validates the arguments; readers, checkers and manuals
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import FrozenInstanceError, dataclass, field
+from dataclasses import FrozenInstanceError, dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, TypeAlias, TypedDict, TypeVar, Unpack
@@ -332,6 +331,19 @@ def expressions(statement: Statement) -> list[Node]:
     return [value for value in values if value is not None]
 
 
+def _with_fields(cls: type[S]) -> type[S]:
+    """A class as a dataclass, with what is known of its fields."""
+    made = dataclass(init=False, repr=False, eq=False)(cls)
+    made.arguments = {
+        f.name: replace(f.metadata["argument"], name=f.name)
+        for f in fields(made)
+        if "argument" in f.metadata
+    }
+    made.field_names = frozenset(f.name for f in fields(made))
+    made.inert_fields = tuple(name for name, each in made.arguments.items() if each.inert)
+    return made
+
+
 def statement(
     keyword: str,
     *,
@@ -375,18 +387,10 @@ def statement(
     """
 
     def register(cls: type[S]) -> type[S]:
-        made = dataclass(init=False, repr=False, eq=False)(cls)
-        made.keyword = keyword
-        made.arguments = {
-            f.name: dataclasses.replace(f.metadata["argument"], name=f.name)
-            for f in dataclasses.fields(made)
-            if "argument" in f.metadata
-        }
-        made.field_names = frozenset(f.name for f in dataclasses.fields(made))
-        made.singleton, made.repeatable, made.place = singleton, repeatable, place
+        made = _with_fields(cls)
+        made.keyword, made.place, made.data, made.inert = keyword, place, data, inert
+        made.singleton, made.repeatable = singleton, repeatable
         made.ends, made.ignored, made.planned, made.body = ends, ignored, planned, body
-        made.data, made.inert = data, inert
-        made.inert_fields = tuple(name for name, each in made.arguments.items() if each.inert)
         if internal:
             INTERNAL[keyword] = made
         else:

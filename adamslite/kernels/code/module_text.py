@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from adamslite.kernels.code.added_mass import ACCELERATIONS, is_added_mass, is_along_axes
@@ -15,6 +16,8 @@ from adamslite.native.translate.writer import module_text
 from adamslite.symbolic.guards import guards
 from adamslite.symbolic.scope import Scope
 
+Body = tuple[str, str, ResidualWriter]
+"""A kernel: its name, its head, what has written it."""
 RESIDUAL_HEAD = (
     "define void @{name}(i64 %n, ptr noalias readonly %ints, ptr noalias readonly %reals, "
     "ptr noalias readonly %W, ptr noalias %F) nounwind"
@@ -81,7 +84,7 @@ def write_kernels(
         shape.guards = guards(out.expressions, scope.leaves)
         clock = clock_programs(face, out.expressions, shape.guards.clock, scope.leaves)
     blocks: list[tuple[int, int]] = []
-    bodies: list[tuple[str, str, ResidualWriter]] = []
+    bodies: list[Body] = []
     if with_jacobian:
         jacobian = JacobianWriter(shape, scope)
         jacobian.jacobian(out)
@@ -95,13 +98,7 @@ def write_kernels(
         writer = ResidualWriter(shape, scope)
         writer.track()
         bodies.append((f"{name}_track", TRACK_HEAD, writer))
-    kinds = shape.guards.kinds
-    evaluated = {"clock": kinds["clock"], "watch": kinds["watch"] + kinds["zone"]}
-    for place, (kind, found) in enumerate(evaluated.items()):
-        if found:
-            writer = ResidualWriter(shape, scope)
-            writer.guard_values(place)
-            bodies.append((f"{name}_{kind}", RESIDUAL_HEAD, writer))
+    bodies += _of_guards(shape, scope, name)
     n_ints = shape.blocks_at + len(blocks)
     meta = {
         "n_ints": n_ints,
@@ -109,7 +106,7 @@ def write_kernels(
         "angles": shape.n_angles,
         "limits": len(scope.limits),
         "tracks": tracks,
-        "guards": kinds,
+        "guards": shape.guards.kinds,
         "clock": clock,
         "mass": any(leaf[0] in ACCELERATIONS for leaf in scope.symbols),
         "added_mass": is_added_mass(shape, scope, out),
@@ -118,7 +115,18 @@ def write_kernels(
     return _module(bodies, n_ints, shape.n_reals), meta
 
 
-def _module(bodies: list[tuple[str, str, ResidualWriter]], n_ints: int, n_reals: int) -> str:
+def _of_guards(shape: Shape, scope: Scope, name: str) -> Iterator[Body]:
+    """The kernels that evaluate the guards of the clock, and those of the state."""
+    kinds = shape.guards.kinds
+    evaluated = {"clock": kinds["clock"], "watch": kinds["watch"] + kinds["zone"]}
+    for place, (kind, found) in enumerate(evaluated.items()):
+        if found:
+            writer = ResidualWriter(shape, scope)
+            writer.guard_values(place)
+            yield f"{name}_{kind}", RESIDUAL_HEAD, writer
+
+
+def _module(bodies: list[Body], n_ints: int, n_reals: int) -> str:
     declared, parts = definitions(
         REGISTERED[name] for name in sorted({name for *_, w in bodies for name in w.b.called})
     )
