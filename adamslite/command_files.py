@@ -31,19 +31,8 @@ def files_of_commands(
 ) -> tuple[list[Path], list[Path]]:
     """The files that LINEAR commands will fill, in their order, and all that commands write.
 
-    Parameters
-    ----------
-    output : Path
-        The file of the time histories.
-    beside : sequence of Path
-        Other files of the results.
-
-    Raises
-    ------
-    DeckError
-        When a FILE is a file of this run already.
-    UsageError
-        When the FILE of a RELOAD does not exist.
+    ``output`` is the file of the time histories, ``beside`` are other files of the results. What is
+    raised is what :func:`adamslite.result_files.plan` raises.
     """
     commands = [each for each in scene.commands if isinstance(each, Linear)]
     paths = list(_places(commands, output))

@@ -6,6 +6,7 @@ Only argparse is imported here, so that building the parser costs no start-up ti
 import argparse
 from collections.abc import Sequence
 from math import inf
+from pathlib import Path
 from typing import Any, NoReturn
 
 from adamslite.errors import UsageError
@@ -47,6 +48,16 @@ def add_user_flag(parser: argparse.ArgumentParser) -> None:
         help="what FUNCTION=USER means: VARIABLE/1=0, or VARSUB=module:function for all VARIABLEs; "
         "may be repeated",
     )  # fmt: skip
+
+
+def add_deck(parser: argparse.ArgumentParser) -> None:
+    """Declare a deck, its command file, and what stands in for routines."""
+    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    parser.add_argument(
+        "commands", metavar="COMMANDS.acf", type=Path, nargs="?",
+        help="command file; without it the .acf beside the deck",
+    )  # fmt: skip
+    add_user_flag(parser)
 
 
 def add_run_flags(parser: argparse.ArgumentParser) -> None:

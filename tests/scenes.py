@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
 import numpy as np
+from scipy.special import ellipk
 
 import adamslite as al
 from adamslite.equations import operations
@@ -48,6 +50,9 @@ MOTION/2, JOINT=2, ROTATION, FUNCTION=0.0
 """
 DAMPER = "SFORCE/1, ROTATION, I=3, J=23, FUNCTION=IF(ABS(AZ(3,23)): 0, 0, -40*WZ(3,23,23))\n"
 LENGTH, GRAVITY, MASS, INERTIA = 1.0, 9.81, 2.0, 0.3
+# theta'' = -m g L/(m L^2 + J) cos(theta), J about z.
+RATE = MASS * GRAVITY * LENGTH / (MASS * LENGTH**2 + INERTIA)
+PERIOD = 4.0 * ellipk(0.5) / math.sqrt(RATE)
 #: m x'' = -k (x - 1) with m = 2, k = 8, let go at x = 2.
 SPRING = (
     GROUND

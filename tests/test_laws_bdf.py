@@ -7,27 +7,22 @@ import math
 import numpy as np
 import pytest
 from scenes import (
-    GRAVITY,
     GROUND,
-    INERTIA,
     LENGTH,
-    MASS,
     PENDULUM,
+    PERIOD,
+    RATE,
     SPRING,
     added_mass,
     done,
     spring_energy,
 )
 from scipy.integrate import solve_ivp
-from scipy.special import ellipk
 
 from adamslite.integrators.bdf import differences as past
 from adamslite.integrators.bdf.dense_output import interpolate
 
 FORMULATIONS = ("SI2", "I3")
-# theta'' = -m g L/(m L^2 + J) cos(theta), J about z.
-RATE = MASS * GRAVITY * LENGTH / (MASS * LENGTH**2 + INERTIA)
-PERIOD = 4.0 * ellipk(0.5) / math.sqrt(RATE)
 
 
 def swing(error: float, formulation: str = "SI2", **options) -> float:

@@ -9,10 +9,11 @@ import pytest
 from scenes import (
     GRAVITY,
     GROUND,
-    INERTIA,
     LENGTH,
     MASS,
     PENDULUM,
+    PERIOD,
+    RATE,
     SPRING,
     added_mass,
     done,
@@ -20,17 +21,12 @@ from scenes import (
     spring_energy,
 )
 from scipy.integrate import solve_ivp
-from scipy.special import ellipk
 
 import adamslite as al
 from adamslite.equations.elimination_order import analyse
 from adamslite.integrators.linalg import complex_blocks
 from adamslite.integrators.radau import coefficients
 from adamslite.results.outcomes import Outcome
-
-# theta'' = -m g L/(m L^2 + J) cos(theta), J about z.
-RATE = MASS * GRAVITY * LENGTH / (MASS * LENGTH**2 + INERTIA)
-PERIOD = 4.0 * ellipk(0.5) / math.sqrt(RATE)
 
 
 def radau(deck: str, end: float, steps: int = 10, **options):

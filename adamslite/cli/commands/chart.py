@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
-from adamslite.run_flags import add_user_flag, count, positive
+from adamslite.run_flags import add_deck, count, positive
 
 if TYPE_CHECKING:
     from adamslite.scene import Scene
@@ -29,12 +29,7 @@ COLUMNS = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite chart`."""
-    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
-    parser.add_argument(
-        "commands", metavar="COMMANDS.acf", type=Path, nargs="?",
-        help="command file; without it the .acf beside the deck",
-    )  # fmt: skip
-    add_user_flag(parser)
+    add_deck(parser)
     parser.add_argument(
         "-o", "--output", metavar="NAME", help="of the files, without suffix (DECK's name-chart)"
     )

@@ -12,20 +12,14 @@ A comment `! adamslite: ignore CODE` takes warnings and notes with that code awa
 
 import argparse
 import sys
-from pathlib import Path
 
 from adamslite.cli.commands.codes import DECK_ERRORS, DONE
-from adamslite.run_flags import add_user_flag
+from adamslite.run_flags import add_deck
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite check`."""
-    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
-    parser.add_argument(
-        "commands", metavar="COMMANDS.acf", type=Path, nargs="?",
-        help="command file; without it the .acf beside the deck",
-    )  # fmt: skip
-    add_user_flag(parser)
+    add_deck(parser)
     parser.add_argument(
         "--format",
         choices=("text", "json", "sarif", "gcc"),

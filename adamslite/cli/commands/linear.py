@@ -11,20 +11,14 @@ state matrix too.
 
 import argparse
 import sys
-from pathlib import Path
 
 from adamslite.cli.commands.codes import DONE
-from adamslite.run_flags import add_user_flag, instant
+from adamslite.run_flags import add_deck, instant
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite linear`."""
-    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
-    parser.add_argument(
-        "commands", metavar="COMMANDS.acf", type=Path, nargs="?",
-        help="command file; without it the .acf beside the deck",
-    )  # fmt: skip
-    add_user_flag(parser)
+    add_deck(parser)
     parser.add_argument("--time", type=instant, metavar="T", help="linearise at this time")
     parser.add_argument("--rm", metavar="MARKER", help="marker of the body of the observer")
     parser.add_argument("-o", "--output", metavar="FILE", help="result file, .csv or .json")

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
-from adamslite.run_flags import add_run_flags, add_user_flag, run_options
+from adamslite.run_flags import add_deck, add_run_flags, run_options
 
 if TYPE_CHECKING:
     import numpy as np
@@ -37,12 +37,7 @@ UNWRITTEN = "not written: it goes beside the results, and they went to no file"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite solve`."""
-    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
-    parser.add_argument(
-        "commands", metavar="COMMANDS.acf", type=Path, nargs="?",
-        help="command file; without it the .acf beside the deck",
-    )  # fmt: skip
-    add_user_flag(parser)
+    add_deck(parser)
     parser.add_argument("-o", "--output", metavar="OUT", help="result file, or - for stdout")
     parser.add_argument(
         "--outputs", metavar="PATTERN", nargs="+", default=[],

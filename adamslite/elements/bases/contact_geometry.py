@@ -24,19 +24,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from adamslite.symbolic.formulas import fn, magnitude, norm, piecewise, root
-from adamslite.symbolic.scope import (
-    along_axes,
-    dot,
-    minus,
-    plus,
-    scale,
-)
+from adamslite.symbolic.scope import along_axes, dot, minus, plus, scale
 
 if TYPE_CHECKING:
-    from adamslite.symbolic.scope import (
-        Scope,
-        Vector,
-    )
+    from adamslite.symbolic.scope import Scope, Vector
     from adamslite.symbolic.types import Expr, Seen
 
 # Slant of an end from which on its edge alone touches: the contact moves there from its centre.

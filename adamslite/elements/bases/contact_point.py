@@ -17,24 +17,12 @@ from adamslite.language.expression import Call, Num, Ref
 from adamslite.language.function import PRODUCTS, function
 from adamslite.language.statement import STATEMENTS, Statement, statement
 from adamslite.symbolic.formulas import fn, piecewise
-from adamslite.symbolic.scope import (
-    ZERO,
-    Load,
-    along_axes,
-    cross,
-    dot,
-    minus,
-    plus,
-    scale,
-)
+from adamslite.symbolic.scope import ZERO, Load, along_axes, cross, dot, minus, plus, scale
 
 if TYPE_CHECKING:
     from adamslite.elements.bases.contact_geometry import Touch
     from adamslite.language.interfaces import DrawnModel, Key, Lookup
-    from adamslite.symbolic.scope import (
-        Scope,
-        Vector,
-    )
+    from adamslite.symbolic.scope import Scope, Vector
     from adamslite.symbolic.types import Expr, Seen, Tree
 
 POINT = "CONTACT_POINT"

@@ -6,6 +6,7 @@ Entry k of an array is (A[2k], A[2k + 1]).  The diagonal of U is left inverted.
 from __future__ import annotations
 
 from adamslite.integrators.linalg.complex_blocks import subtract_product, take_entry
+from adamslite.integrators.linalg.fronts import add_update
 from adamslite.integrators.linalg.plan import SOLVE, TINY, Front, Plan
 from adamslite.native.translate import Ints, Reals, native
 
@@ -37,7 +38,7 @@ def factor(L: Plan, A: Reals, pivots: Ints, work: Reals) -> bool:
             work[2 * top + i] = 0.0
         child = k - 1
         while child >= F.before:
-            add_update(L, L.fronts[child], F, A, work, top)
+            add_update(L, L.fronts[child], F, A, work, top, 2)
             child = L.fronts[child].before - 1
         if not factor_rows(F, A, pivots):
             return False
@@ -47,25 +48,6 @@ def factor(L: Plan, A: Reals, pivots: Ints, work: Reals) -> bool:
                 work[2 * F.keep + i] = work[2 * top + i]
         top = F.keep + r * r
     return True
-
-
-@native
-def add_update(L: Plan, child: Front, F: Front, A: Reals, work: Reals, top: int) -> None:
-    """Add what a child leaves to the front F, whose own S is at ``top``."""
-    s, r, row = F.size, F.rest, child.keep
-    for e in range(child.first_run, child.last_run):
-        to = L.runs[e].to
-        for i in range(to, to + L.runs[e].count):
-            for f in range(child.first_run, child.last_run):
-                at, count = L.runs[f].to, L.runs[f].count
-                if i < s:
-                    subtract_product(A, F.panel + i * (s + r) + at, -1.0, 0.0, work, row, count)
-                elif at < s:
-                    subtract_product(A, F.lower + (i - s) * s + at, -1.0, 0.0, work, row, count)
-                else:
-                    place = top + (i - s) * r + at - s
-                    subtract_product(work, place, -1.0, 0.0, work, row, count)
-                row += count
 
 
 @native

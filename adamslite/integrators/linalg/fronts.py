@@ -58,7 +58,7 @@ def factor(
             work[top + i] = 0.0
         child = k - 1
         while child >= F.before:
-            add_update(L, L.fronts[child], F, LV, work, top)
+            add_update(L, L.fronts[child], F, LV, work, top, 1)
             child = L.fronts[child].before - 1
         if signs:
             copy_square(LV[F.panel :], s + r, work[top + r * r :], s)
@@ -84,20 +84,25 @@ def copy_square(a: Reals, lead: int, target: Reals, size: int) -> None:
 
 
 @native
-def add_update(L: Plan, child: Front, F: Front, LV: Reals, work: Reals, top: int) -> None:
-    """Add what a child leaves to the front F, whose own S is at ``top``."""
+def add_update(
+    L: Plan, child: Front, F: Front, LV: Reals, work: Reals, top: int, parts: int
+) -> None:
+    """Add what a child leaves to the front F, whose own S is at ``top``; numbers have one part, or
+    a real and an imaginary one.
+    """
     s, r, row = F.size, F.rest, child.keep
     for e in range(child.first_run, child.last_run):
         to = L.runs[e].to
         for i in range(to, to + L.runs[e].count):
             for f in range(child.first_run, child.last_run):
                 at, count = L.runs[f].to, L.runs[f].count
+                many, added = parts * count, work[parts * row :]
                 if i < s:
-                    add(count, work[row:], LV[F.panel + i * (s + r) + at :])
+                    add(many, added, LV[parts * (F.panel + i * (s + r) + at) :])
                 elif at < s:
-                    add(count, work[row:], LV[F.lower + (i - s) * s + at :])
+                    add(many, added, LV[parts * (F.lower + (i - s) * s + at) :])
                 else:
-                    add(count, work[row:], work[top + (i - s) * r + at - s :])
+                    add(many, added, work[parts * (top + (i - s) * r + at - s) :])
                 row += count
 
 
