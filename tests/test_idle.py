@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import itertools
 
+import numpy as np
 import pytest
+from graph_values import DOUBLES, value
+from scenes import GROUND, run
 
-from adamslite.kernels.code.idle import IdleTest
+from adamslite import Outcome
+from adamslite.kernels.code.idle import IdleTest, StrictIdleTest
 from adamslite.symbolic import algebra, graph
 from adamslite.symbolic.formulas import piecewise
 
@@ -22,11 +26,21 @@ class Logic:
     """A builder that computes at once."""
 
     def compare(self, relation: str, a: float, b: float) -> bool:
-        return {"<": a < b, ">": a > b}[relation]
+        return bool({"<": a < b, ">": a > b, ">=": a >= b}[relation])
 
 
-def idle(expressions, a: float, b: float, c: float) -> bool:
-    return IdleTest(Logic(), {A: a, B: b, C: c})(map(graph.node, expressions))
+def idle(expressions, a: float, b: float, c: float, **numbers: float) -> bool:
+    """Whether all vanish: where the branches are held as given, at numbers for x, y and v."""
+    state = {x: numbers.get("x", 0.5), y: numbers.get("y", 0.5), v: numbers.get("v", 0.5)}
+
+    def value_of(expression):
+        with np.errstate(all="ignore"):
+            return value(expression, state, DOUBLES)
+
+    held, nodes = {A: a, B: b, C: c}, [*map(graph.node, expressions)]
+    found = StrictIdleTest(Logic(), held, value_of)(nodes)
+    assert IdleTest(Logic(), held)(nodes) or not found
+    return found
 
 
 @pytest.mark.parametrize(
@@ -52,3 +66,58 @@ def idle(expressions, a: float, b: float, c: float) -> bool:
 def test_what_vanishes_on_held_branches(expressions, expected):
     for branches in itertools.product((TRUE, FALSE, OPEN), repeat=3):
         assert idle(expressions, *branches) == expected(*branches), branches
+
+
+SHUT = piecewise((x, A), otherwise=0, order=0)
+DISTANCE = (x * x + y * y + v**2) ** 0.5
+
+
+@pytest.mark.parametrize(
+    "factor, with_a_value, without",
+    [
+        (1 / y, {"y": -1}, {"y": 0}),
+        (1 / (y - v), {"y": 1, "v": 2}, {"y": 2, "v": 2}),
+        (y / (2.0 * DISTANCE), {"v": 1e-9}, {"x": 0, "y": 0, "v": 0}),
+        (y / DISTANCE, {"v": 1e-9}, {"x": 0, "y": 0, "v": 0}),
+        (DISTANCE**-3, {"v": 1e-9}, {"x": 0, "y": 0, "v": 0}),
+        (y**-2, {"y": -1}, {"y": 0}),
+        (y**0.5, {"y": 0}, {"y": -1}),
+        (y**1.5, {"y": 0}, {"y": -1}),
+        (y**-0.5, {"y": 1}, {"y": 0}),
+        (y**v, {"y": 2, "v": 0.3}, {"y": -2, "v": 0.3}),
+        (v**y, {"y": 2, "v": 0}, {"y": -2, "v": 0}),
+        (algebra.log(y), {"y": 1e-300}, {"y": 0}),
+        (algebra.asin(y), {"y": 1}, {"y": 1.1}),
+        (algebra.exp(y), {"y": 1}, {"y": 1e4}),
+        (algebra.sin(algebra.log(y)) * 3 + v, {"y": 1}, {"y": -1}),
+        (piecewise((1 / y, v > 0), otherwise=2), {"y": 1}, {"y": 0}),
+    ],
+)
+def test_zero_times_what_has_no_value_does_not_vanish(factor, with_a_value, without):
+    for product in (SHUT * factor, factor * SHUT, 3 * SHUT * factor - SHUT):
+        assert idle([product], FALSE, OPEN, OPEN, **with_a_value)
+        assert not idle([product], FALSE, OPEN, OPEN, **without)
+        assert not idle([product], TRUE, OPEN, OPEN, **with_a_value)
+
+
+def test_what_always_has_a_value_is_not_computed():
+    def never(expression):
+        raise AssertionError(expression)
+
+    free = SHUT * (x * v - 3) * algebra.sin(y) * algebra.atan2(y, v) * (x * x + y**2) ** 0.5
+    assert StrictIdleTest(Logic(), {A: FALSE}, never)([free / 4]) is True
+    assert StrictIdleTest(Logic(), {A: FALSE}, never)([x / y]) is False
+
+
+@pytest.mark.parametrize("method", ("GSTIFF", "HHT", "RADAU", "ABAM"))
+def test_an_idle_contact_that_is_divided_by_zero_ends_the_run(method):
+    """A contact 1.5 away, over what is zero for doubles while 0.25 < t < 0.75, between outputs."""
+    idle_force = "IMPACT(DX(2)+2,VX(2),0.5,1E3,1.5,1,0.1)"
+    deck = GROUND + (
+        "POINT_MASS/2, MASS=2, CM=2\nMARKER/2, POINT_MASS=2\n"
+        f"VFORCE/3, I=2, J_PART=1, FX={idle_force}/EXP(1E3*((2*TIME-1)**2-1))\n"
+        f"INTEGRATOR/{method}\nEND\n"
+    )
+    results = run(deck, 1.0, 1)
+    assert results.outcome in (Outcome.NOT_FINITE, Outcome.NEWTON_FAILED)
+    assert results.summary["t_end"] == pytest.approx(0.25, abs=0.02)

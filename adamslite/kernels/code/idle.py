@@ -3,16 +3,21 @@
 Most pairs that may touch do not.  Where the held branches say so, the loop goes on to the next
 instance before a root, a power or an angle is computed.  A value vanishes
 
-    a product      where one of its factors does
+    a product      where one of its factors does and the other has a value
+    a quotient     where its first part does and the other is not zero
     a sum          where all of its terms do
     a choice       where each piece that its held conditions leave open vanishes
 
-A condition that is not held leaves both sides open.
+A condition that is not held leaves both sides open.  Zero times what has no value (a quotient by
+zero, the root of a negative number) has none either, and a run must not go on as if it were zero.
+Denominators and arguments of roots are computed for the test; what else may lack a value is
+computed itself.  Only a sum or product that is too large for a double is taken for a number.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Callable, Iterable
 from functools import reduce
 
 from adamslite.native.llvm_builder import Builder, Value
@@ -22,10 +27,15 @@ Truth = bool | str
 """Known now, or the name of an ``i1``."""
 ALWAYS: Truth = True
 NEVER: Truth = False
+#: Functions that have a value wherever their arguments have one.
+TOTAL = frozenset("+ - * neg sin cos tan atan atan2 tanh floor".split())
 
 
 class IdleTest:
-    """Writes the test; ``branches``: the value that holds the branch of each guard."""
+    """Writes the test, for derivatives: factors beside one that vanishes are taken for numbers.
+
+    ``branches``: the value that holds the branch of each guard.
+    """
 
     def __init__(self, builder: Builder, branches: dict[Expr, Value]) -> None:
         self.b = builder
@@ -44,13 +54,29 @@ class IdleTest:
     def _found(self, expr: Expr) -> Truth:
         if expr.kind == "number":
             return bool(expr == 0)
-        if expr.kind in ("neg", "/"):
+        if expr.kind == "neg":
             return self._vanishes(expr.args[0])
+        if expr.kind == "/":
+            return self._beside(expr.args[0], self._divides, expr.args[1])
         if expr.kind == "*":
-            return reduce(self._either, map(self._vanishes, expr.args), NEVER)
+            a, b = expr.args
+            return self._either(self._beside(a, self._finite, b), self._beside(b, self._finite, a))
         if expr.kind in ("+", "-"):
             return reduce(self._both, map(self._vanishes, expr.args), ALWAYS)
         return expr.kind == "choice" and expr.order is not None and self._choice(expr)
+
+    def _beside(self, factor: Expr, rule: Callable[[Expr], Truth], other: Expr) -> Truth:
+        """Whether a factor vanishes, and the other part of the product is as the rule says."""
+        found = self._vanishes(factor)
+        return found and self._both(found, rule(other))
+
+    def _finite(self, expr: Expr) -> Truth:
+        """Whether an expression has a value."""
+        return ALWAYS
+
+    def _divides(self, expr: Expr) -> Truth:
+        """Whether an expression has a value that is not zero."""
+        return ALWAYS
 
     def _choice(self, expr: Expr) -> Truth:
         """From the last piece back to the first: what the conditions before it leave open."""
@@ -93,3 +119,62 @@ class IdleTest:
         if a == b or b is False:
             return a
         return True if b is True else self.b.logic("or", a, b)
+
+
+class StrictIdleTest(IdleTest):
+    """Writes the test for values: the factors beside one that vanishes must have a value.
+
+    ``value`` writes an expression.
+    """
+
+    def __init__(
+        self, builder: Builder, branches: dict[Expr, Value], value: Callable[[Expr], Value]
+    ) -> None:
+        super().__init__(builder, branches)
+        self.value = value
+        self.valued: dict[Expr, Truth] = {}
+
+    def _finite(self, expr: Expr) -> Truth:
+        if expr not in self.valued:
+            self.valued[expr] = self._has_value(expr)
+        return self.valued[expr]
+
+    def _has_value(self, expr: Expr) -> Truth:
+        if expr.kind == "number":
+            return math.isfinite(expr.value)
+        if expr.kind == "symbol":
+            return expr.value != "nan"
+        if expr.kind == "/":
+            return self._both(self._finite(expr.args[0]), self._divides(expr.args[1]))
+        if expr.kind == "**" and expr.args[1].kind == "number":
+            return self._power(expr.args[0], expr.args[1].value)
+        if expr.kind in TOTAL:
+            return reduce(self._both, map(self._finite, expr.args), ALWAYS)
+        if expr.kind == "choice":
+            pieces = [*(piece for piece, _ in expr.pieces), expr.args[-1]]
+            return reduce(self._both, map(self._finite, pieces), ALWAYS)
+        value = self.value(expr)
+        return self._both(
+            self.b.compare("<", value, math.inf), self.b.compare(">", value, -math.inf)
+        )
+
+    def _power(self, base: Expr, exponent: float) -> Truth:
+        """Whether a power has a value."""
+        if exponent % 1.0 != 0.0 and not _is_sum_of_squares(base):
+            return self.b.compare(">=" if exponent > 0.0 else ">", self.value(base), 0.0)
+        return self._finite(base) if exponent > 0.0 else self._divides(base)
+
+    def _divides(self, expr: Expr) -> Truth:
+        if expr.kind == "number":
+            return bool(expr.value != 0.0)
+        if expr.kind == "**" and expr.args[1] == 0.5:
+            return self.b.compare(">", self.value(expr.args[0]), 0.0)
+        value = self.value(expr)
+        return self._either(self.b.compare("<", value, 0.0), self.b.compare(">", value, 0.0))
+
+
+def _is_sum_of_squares(expr: Expr) -> bool:
+    """Whether an expression is never negative, by its form."""
+    if expr.kind == "+":
+        return all(map(_is_sum_of_squares, expr.args))
+    return expr.kind == "**" and expr.args[1].kind == "number" and expr.args[1].value % 2.0 == 0.0

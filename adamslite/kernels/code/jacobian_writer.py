@@ -6,6 +6,7 @@ row of six numbers for a part, force rows and torque rows about its mass centre.
 
 from __future__ import annotations
 
+from adamslite.kernels.code.idle import IdleTest
 from adamslite.kernels.code.kinematics import Columns, Vec
 from adamslite.kernels.code.residual_writer import ResidualWriter
 from adamslite.kernels.code.shape import Outputs, Shape
@@ -31,7 +32,7 @@ class JacobianWriter(ResidualWriter):
         if out.rates_only:
             given = (*GIVEN, "d", "v", "x", "w", "dif")
             self.slope = Derivatives(lambda symbol: self.scope.leaves[symbol][0] in given)
-        self.unless_idle(out)
+        self.unless_idle(out, IdleTest(self.b, self.lower.branches))
         for load in out.loads:
             force = [(self.value(f), self.columns(f)) for f in load.force]
             torque = [self.columns(t) for t in load.torque]

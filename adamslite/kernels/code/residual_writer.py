@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from adamslite.kernels.code.graph_to_llvm import Lowering
-from adamslite.kernels.code.idle import IdleTest
+from adamslite.kernels.code.idle import IdleTest, StrictIdleTest
 from adamslite.kernels.code.kinematics import Geometry, Vec
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.kernels.code.workspace import HEAD, MODE, RUN, TIME
@@ -76,14 +76,14 @@ class ResidualWriter:
         turns = b.call("floor", b.add(b.mul(gap, 0.5 / math.pi), 0.5))
         return b.mul(turns, 2 * math.pi)
 
-    def unless_idle(self, out: Outputs) -> None:
+    def unless_idle(self, out: Outputs, test: IdleTest) -> None:
         """Go on to the next instance where all that is evaluated vanishes."""
-        idle = IdleTest(self.b, self.lower.branches)(out.expressions)
+        idle = test(out.expressions)
         if isinstance(idle, str):
             self.b.lines += [f"  br i1 {idle}, label %latch, label %work", "work:"]
 
     def residual(self, out: Outputs) -> None:
-        self.unless_idle(out)
+        self.unless_idle(out, StrictIdleTest(self.b, self.lower.branches, self.value))
         for load in out.loads:
             force = [self.value(f) for f in load.force]
             torque = [self.value(t) for t in load.torque]
