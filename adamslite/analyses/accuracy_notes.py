@@ -41,7 +41,7 @@ SHIFTED = 30.0
 MOVING = 0.1
 # A way below this share of a coordinate is its rounding: the body is at rest.
 ROUNDING = 1e-12
-# Columns of results that are looked at together.
+# Columns of results that are evaluated together.
 COLUMNS = 1024
 
 

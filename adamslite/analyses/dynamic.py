@@ -30,10 +30,8 @@ if TYPE_CHECKING:
 STEPS_PER_OUTPUT = 20.0
 # Share of a time that its round-off may be.
 ROUND_OFF = 1e-14
-# Unknowns times tries of a step that take less than that.
-UNWATCHED = 50_000.0
-# Time between two looks at a run [s].
-WATCH_INTERVAL = 0.1
+# Time between two looks at a run [s], and unknowns times tries of a step that take less.
+WATCH_INTERVAL, UNWATCHED = 0.1, 50_000.0
 # How a run may end before a motion that jumps, or gets ever faster.
 CLOSE = (Outcome.DONE, Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED)
 # Error estimates from here on stand for not-a-number.

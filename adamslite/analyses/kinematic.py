@@ -20,9 +20,7 @@ from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
-    from adamslite.analyses.initial.conditions import (
-        Unclosed,
-    )
+    from adamslite.analyses.initial.conditions import Unclosed
     from adamslite.equations.system import System
 
 # Angles are counted by the nearest one to the last: no part turns further in a step, and two may

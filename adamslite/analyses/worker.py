@@ -9,9 +9,9 @@ from collections.abc import Callable
 class Worker:
     """A call that has begun.
 
-    A thread of ``threading`` costs twice as much, a pool of one five times, and what a short run
-    takes.  A lock is waited for because ``Thread.join``, when it is interrupted in Python 3.11,
-    takes a running thread for finished.
+    A thread of ``threading`` costs twice as much and a pool of one thread five times, which is as
+    much as a short run takes.  A lock is waited for because ``Thread.join``, when it is interrupted
+    in Python 3.11, takes a running thread for finished.
     """
 
     def __init__(self, call: Callable[[], int]) -> None:

@@ -38,7 +38,7 @@ class CacheEntry(NamedTuple):
 
 
 def entries(folder: Path) -> list[CacheEntry]:
-    """What is kept in a folder, that which goes first before."""
+    """The entries of a folder, in the order in which they are removed."""
     return sorted(found_files(folder, ENTRY), key=lambda entry: (entry.worth, entry.path))
 
 

@@ -50,9 +50,7 @@ from adamslite.elements.bases.wrench import (
 from adamslite.language.statement import Statement, choice, number, reference, statement, vector
 
 if TYPE_CHECKING:
-    from adamslite.elements.bases.wrench import (
-        Row,
-    )
+    from adamslite.elements.bases.wrench import Row
     from adamslite.language.interfaces import DrawnModel
     from adamslite.symbolic.scope import Load, Scope
     from adamslite.symbolic.types import Expr, Seen

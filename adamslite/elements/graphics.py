@@ -32,9 +32,7 @@ from adamslite.language.statement import (
 )
 
 if TYPE_CHECKING:
-    from adamslite.language.statement import (
-        Field,
-    )
+    from adamslite.language.statement import Field
 
 
 def _length(key: str, help: str, *aliases: str) -> Field:

@@ -17,15 +17,12 @@ from __future__ import annotations
 import heapq
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from adamslite.integrators.linalg.plan import Front, Run
 from adamslite.native.translate import Rows
-
-if TYPE_CHECKING:  # few models need them
-    pass
 
 # With constraints, up to this many unknowns ordinary dense elimination with pivoting is as quick
 # and safer, unless it takes so many times the multiplications of the blocks, as on a chain;

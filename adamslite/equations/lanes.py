@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.equations.numbering import POINT_SIZE
 from adamslite.integrators.contract import LaneRun
+from adamslite.kernels.code.workspace import POINT_SIZE
 from adamslite.native.translate import Rows
 
 if TYPE_CHECKING:

@@ -10,6 +10,7 @@ import numpy as np
 from adamslite.elements.variable import Variable
 from adamslite.equations.engine import ints
 from adamslite.integrators.contract import STATE_SIZE
+from adamslite.kernels.code.workspace import HEAD, PART_SIZE, POINT_SIZE
 from adamslite.model.model import PART
 
 if TYPE_CHECKING:
@@ -17,9 +18,6 @@ if TYPE_CHECKING:
     from adamslite.kernels.groups import Kernels
     from adamslite.language.statement import Statement
     from adamslite.model.model import NodeKey
-
-HEAD = 6
-POINT_SIZE, PART_SIZE = 9, 24
 
 
 class Numbering:

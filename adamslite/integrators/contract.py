@@ -12,7 +12,7 @@ converge to;
 :mod:`adamslite.integrators.events.events` says;
 6. counts what it does in ``P.count``;
 7. leaves the last accepted state behind, whatever the outcome;
-8. returns one of ``OUTCOMES``;
+8. returns an outcome, one of ``DONE`` to ``PAUSED``;
 9. where it declares so, pauses after ``settings.pause`` tries of a step, to be called again.
 
 Fields of :class:`Problem`; arrays have one dimension; nb bodies, n body unknowns, m multipliers, nv

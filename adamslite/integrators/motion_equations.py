@@ -14,11 +14,10 @@ Reference: O. A. Bauchau, Flexible Multibody Dynamics, 2011, section 13.6.
 from __future__ import annotations
 
 from adamslite.integrators.contract import REACTIONS, SIGNALS, Problem
+from adamslite.kernels.code.workspace import POINT_SIZE
 from adamslite.native.translate import Alone, Reals, call_address, native
 
 POINT, PART = 3, 6
-# Numbers of a point mass in the workspace.
-POINT_SIZE = 9
 # Guards of the clock and of the watch.
 CLOCK, WATCH = 0, 1
 

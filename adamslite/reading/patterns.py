@@ -70,7 +70,7 @@ class Patterns:
 
     def __init__(self, names: Names) -> None:
         self.ids = names.ids
-        # Who is told of every place that refers to a statement has them read the long way.
+        # An editor notes every place that refers to a statement: all are read the long way.
         self.useful = type(names).used is Names.used
         self.known: dict[Key, Pattern | int | None] = {}
         """By the words between numbers: the pattern, how often there was none, None: not ever."""

@@ -41,9 +41,7 @@ from adamslite.results.part_frames import (
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
     from adamslite.language.interfaces import Key
-    from adamslite.results.part_frames import (
-        MarkerInPart,
-    )
+    from adamslite.results.part_frames import MarkerInPart
     from adamslite.results.results import Results
 
 BCS = "bcs_"

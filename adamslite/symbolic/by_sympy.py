@@ -1,9 +1,9 @@
 """What sympy knows of the slopes of functions, written down as a module.
 
 ``python -m adamslite.symbolic.by_sympy`` writes :mod:`adamslite.symbolic.slopes_by_sympy`, which
-``ruff format`` brings into form.  Sympy
-takes longer to import than a deck takes to compile; the slopes of a dozen functions of one or two
-arguments are all that is needed of it, and they do not change.
+``ruff format`` brings into form.  Sympy takes longer to import than a deck takes to compile; the
+slopes of a dozen functions of one or two arguments are all that is needed of it, and they do not
+change.
 """
 
 from __future__ import annotations

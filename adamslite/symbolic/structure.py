@@ -7,7 +7,7 @@ symbol                ``value``, its name
 neg                   of one
 **                    base, exponent
 sin, atan2, ...       of their arguments
-floor                 of one; ``order`` as in :func:`choice`
+floor                 of one; ``order`` as in :func:`~adamslite.symbolic.graph.choice`
 choice                value, condition, value, condition, ..., value where none holds
 < <= > >= == !=       conditions of two sides
 and, or, not          conditions of conditions

@@ -2,9 +2,8 @@
 
     y = x of all bodies, y, z, then vx, vy, vz        k = their accelerations, the same way
 
-in rows of equal length, a multiple of ``history.LINE``; what is beyond the bodies stays
-zero.  Loads come
-from :mod:`adamslite.kernels.code.lane_writer`.
+in rows of equal length, a multiple of ``history.LINE``; what is beyond the bodies stays zero.
+Loads come from :mod:`adamslite.kernels.code.lane_writer`.
 """
 
 from __future__ import annotations

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import (
-    Problem,
-)
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.native.translate import native, seldom
 

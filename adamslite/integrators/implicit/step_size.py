@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations
-from adamslite.integrators.contract import (
-    Problem,
-)
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.implicit.formulation import is_stabilised
 from adamslite.integrators.linalg.plan import Plan

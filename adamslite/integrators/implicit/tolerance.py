@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import (
-    Problem,
-)
+from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.norms import largest_share, place_of
 from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.native.translate import Reals, maximum, native

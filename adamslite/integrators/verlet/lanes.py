@@ -14,10 +14,8 @@ from adamslite.integrators.linalg.plan import HUGE
 from adamslite.integrators.motion_equations import put_time
 from adamslite.integrators.verlet.control import NUMBERS, Control
 from adamslite.integrators.verlet.sampling import HOPELESS, LARGE, note_steps, steps_per_estimate
+from adamslite.kernels.code.workspace import HEAD
 from adamslite.native.translate import Alone, maximum, native
-
-# Numbers of the workspace's head where no VARIABLE depends on time alone.
-HEAD = 6
 
 
 @native
