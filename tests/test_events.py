@@ -210,6 +210,21 @@ def test_equal_steps_that_leave_a_wall_have_felt_it(stiffness, mass):
 
 
 @pytest.mark.parametrize(
+    ("place", "speed", "contact"),
+    [(10, 18, 5e-5), (30, 18, 5e-5), (300, 50, 1e-6), (10, 2e-4, 1.0), (300, 0.08, 4e-3)],
+)
+def test_equal_steps_that_leave_a_wall_far_away_or_slowly_have_felt_it(place, speed, contact):
+    """1.5 there and back, in contact for a time that is far shorter than what ERROR allows.  The
+    step that leaves the wall has the largest error against the place, and ends out of contact.
+    """
+    stiffness, way = (pi / contact) ** 2, 3 / speed
+    wall = moved_by(f"-{stiffness}*DIM(DX(2),{place})", x=place - 1.5, v=speed)
+    for steps in (1, 4, 9):
+        last = done(wall, way + contact, steps, **options("VERLET", 1e-3))
+        assert last["POINT_MASS/2.vx"][-1] == approx(-speed, rel=0.03)
+
+
+@pytest.mark.parametrize(
     ("formula", "error"), [("GSTIFF", 1e-7), ("HHT", 1e-8), ("RADAU", 1e-6), ("RKF45", 1e-5)]
 )
 def test_a_spring_that_is_stiffer_on_one_side(formula, error):

@@ -57,7 +57,8 @@ POWERS_AGAIN = 8
 WORTH, WORTH_SMOOTH = 200, 1000
 SHRINK, GROW = 0.25, 2.0
 # A law may have changed where the local error comes to this many times its mean, and where the
-# change of an acceleration moves a velocity by this share of the largest within a step.  Where the
+# change of an acceleration moves a velocity by this share of the largest within a step, and enough
+# to move a position by the error that is allowed within the run.  Where the
 # scene is then stiffer than it was (stable steps are below STIFFER times the longest so far), steps
 # are at most the last share of a stable one: w h < 0.6 returns the speed to a wall within 3 %.
 SPIKE, JOLT, STIFFER, IN_CONTACT = 4.0, 0.1, 0.9, 0.3
@@ -173,13 +174,14 @@ def stable_in_contact(P: Problem, C: Control, t: float, h: float) -> float:
     """The longest stable step at both ends of the step with the largest local error in the interval
     from ``t``, if a force that changes with the state has made the scene stiffer there.
     """
-    n, speed = P.sizes.n, 1.0
+    n, speed, weight = P.sizes.n, 0.0, 1.0
     if P.sizes.watched == 0 or not C.top > SPIKE * C.mean:
         return HUGE
     hard = P.history[9 * P.sizes.nb + 2 * n :]
     for i in range(n):
-        speed = max(speed, abs(hard[n + i]))
-    if 6.0 * P.settings.error * C.top < JOLT * speed * h:
+        speed, weight = max(speed, abs(hard[n + i])), max(weight, abs(hard[i]))
+    felt = P.settings.error / (P.times[P.times.size - 1] - P.times[0])
+    if 6.0 * P.settings.error * C.top * weight < max(JOLT * speed, felt) * h:
         return HUGE
     put_free(P, t, hard, hard[n:])
     stable = stable_step(P, False)
