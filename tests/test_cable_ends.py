@@ -100,3 +100,33 @@ def test_an_end_that_a_law_moves() -> None:
     w2, t = 2e4 / 2 / (10 + 1e-4), results.time
     expected = 1.5 * t**2 - 3 / w2 * (1 - np.cos(np.sqrt(w2) * t))
     np.testing.assert_allclose(results["POINT_MASS/20.x"], expected, atol=1e-5)
+
+
+@pytest.mark.parametrize("elements", [1, 3])
+@pytest.mark.parametrize("support", ["fixed", "winch"])
+def test_both_ends_of_a_hanging_cable_have_its_tension(elements: int, support: str) -> None:
+    """M g at the weight and (M + rho l) g above, with any number of sections."""
+    drum = 'radius = 0.5\ninertia = 25\nturn = -1\npayout = "0*TIME"'
+    place = "at = [-0.5, 0, 0]" if support == "winch" else "at = [0, 0, 0]"
+    results = solve(
+        f"""
+        end = 0.1
+        steps = 4
+        [cable]
+        EA = 1e7
+        rho = 2
+        [[route]]
+        kind = "{support}"
+        {place}
+        {drum if support == "winch" else ""}
+        [[route]]
+        kind = "mass"
+        at = [0, -20, 0]
+        mass = 10
+        [model]
+        level = {2 if support == "fixed" else 3}
+        elements = {elements}
+        """
+    )
+    np.testing.assert_allclose(results["REQUEST/1.F3"], 10 * G, rtol=1e-4)
+    np.testing.assert_allclose(results["REQUEST/1.F2"], 50 * G, rtol=1e-4)

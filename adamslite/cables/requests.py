@@ -1,9 +1,18 @@
 """The requests in the decks of levels 1 to 3."""
 
+from adamslite.cables import sliders
 from adamslite.cables.geometry import FreeSpan, wrap
 from adamslite.cables.links import wrapped
 from adamslite.cables.model_choice import CableModel
-from adamslite.cables.span_statements import Piece, pieces
+from adamslite.cables.span_statements import (
+    Piece,
+    half_section,
+    is_between,
+    pieces,
+    root_marker,
+    side_of,
+    spring,
+)
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import marker, mount_request, travel
 
@@ -14,17 +23,40 @@ def write_requests(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
     found = pieces(spec, spans)
     text = "\n! ---- results ----\n"
     if model.level > 1:
-        text += "".join(
-            f"REQUEST/{p.number}, F2=T{p.number}\\, COMMENT=tension of span {p.number}, "
-            'CUNITS="","N"\n'
-            for p in found
-        )
+        text += "".join(_tensions(spec, model, piece) for piece in found)
     for i, each in enumerate(spec.route):
         if each.is_wheel:
             text += _over(spec, spans, found, i) + mount_request(spec, i)
         elif each.slides and model.level > 1:
             text += _over(spec, spans, found, i)
     return text
+
+
+def _tensions(spec: Spec, model: CableModel, piece: Piece) -> str:
+    """F2, F3: tension at the root and at the tip of a piece.
+
+    A section has the tension of its middle; at an end of the cable half a section more, or less,
+    hangs and is accelerated: T = T_section + rho H/2 e.(g - x"), e along the cable from the end.
+    """
+    p, n = piece.number, model.elements
+    root, tip = spec.route[piece.root], spec.route[piece.tip]
+    parts = [f"F2=T{p}"]
+    if not (is_between(spec, piece) or tip.kind == "run"):
+        side = side_of(piece, model)
+        if not root.feeds and root.kind != "run":
+            i, j = root_marker(spec, piece), side.node(1)
+            parts[0] += f"+rho*{half_section(model, piece, spec)}*{sliders.lean(i, j)}"
+        if tip.kind != "free":
+            grows = model.level == 3 and root.feeds
+            free = f"H{p}" if grows else f"L{p}_0" if n == 1 else f"L{p}"
+            i, j = side.node(n), side.node(n - 1) if n > 1 else root_marker(spec, piece)
+            pull = spring(spec, p, i, j, free)
+            parts.append(f"F3={pull}\n, +rho*{free}/2*{sliders.lean(i, j)}")
+    words = "tension at its root and tip" if len(parts) > 1 else "tension"
+    return (
+        f"REQUEST/{p}, " + "\\\n, ".join(parts)
+        + f'\\, COMMENT=span {p}: {words}, CUNITS="","N"' + ',"N"' * (len(parts) > 1) + "\n"
+    )  # fmt: skip
 
 
 def _over(spec: Spec, spans: list[FreeSpan], found: list[Piece], i: int) -> str:

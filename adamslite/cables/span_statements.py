@@ -102,7 +102,7 @@ def is_between(spec: Spec, piece: Piece) -> bool:
     return spec.route[piece.root].is_wheel and spec.route[piece.tip].is_wheel
 
 
-def _root_marker(spec: Spec, piece: Piece) -> int:
+def root_marker(spec: Spec, piece: Piece) -> int:
     return piece.first if spec.route[piece.root].feeds else marker(piece.root)
 
 
@@ -132,7 +132,7 @@ def _next(spec: Spec, model: CableModel, piece: Piece) -> int:
     if is_between(spec, piece):
         return piece.first + 1
     whole = model.level == 1 or spec.route[piece.tip].kind == "run"
-    return marker(piece.tip) if whole else _side(piece, model).node(1)
+    return marker(piece.tip) if whole else side_of(piece, model).node(1)
 
 
 def _touches(spec: Spec, piece: Piece, m: int, to: int) -> str:
@@ -179,7 +179,7 @@ def _rigid(spec: Spec, piece: Piece) -> str:
     if not is_kept(spec, piece):
         return "! Held at both ends: nothing moves.\n"
     feed = f"-({_feed(spec, piece)})" if spec.route[piece.root].is_wheel else ""
-    i, j = marker(piece.tip), _root_marker(spec, piece)
+    i, j = marker(piece.tip), root_marker(spec, piece)
     return f"GCON/{p}, FUNCTION=DM({i},{j})-{number(piece.span.length)}{feed}\n"
 
 
@@ -257,7 +257,7 @@ def _axes(spec: Spec) -> str:
     return "".join(a for i, a in enumerate(AXES) if laws[i] or any(abs(v[i]) > 0 for v in vectors))
 
 
-def _side(piece: Piece, model: CableModel) -> Side:
+def side_of(piece: Piece, model: CableModel) -> Side:
     return Side(
         str(piece.number), piece.first, marker(piece.root), (model.elements, marker(piece.tip))
     )
@@ -267,7 +267,7 @@ def _chain(spec: Spec, model: CableModel, piece: Piece) -> str:
     """Nodes and sections."""
     n, p, cable = model.elements, piece.number, spec.cable
     free, places = _hanging(spec, model, piece)
-    side, axes = _side(piece, model), _axes(spec)
+    side, axes = side_of(piece, model), _axes(spec)
     grows = model.level == 3 and spec.route[piece.root].feeds
     mass = cable.density * free / n
     # Nodes go with a weight that slides; the cable runs the other way through both.
@@ -279,7 +279,7 @@ def _chain(spec: Spec, model: CableModel, piece: Piece) -> str:
     if grows and spec.route[piece.tip].is_free:
         text += grown_tip(model.form, side.first + n, n, axes, side)
     for k in range(1, n + 1):
-        i = _root_marker(spec, piece) if k == 1 else side.node(k - 1)
+        i = root_marker(spec, piece) if k == 1 else side.node(k - 1)
         name = f"H{p}" if grows else f"L{p}_0" if k == 1 else f"L{p}"
         text += section(side.first + k, i, side.node(k), name, cable.damping, cable.pulls_only)
     if spec.route[piece.root].slides:
@@ -302,7 +302,7 @@ def _lengths(spec: Spec, model: CableModel, piece: Piece, free: float) -> str:
     )
 
 
-def _half(model: CableModel, piece: Piece, spec: Spec) -> str:
+def half_section(model: CableModel, piece: Piece, spec: Spec) -> str:
     """Free length of the half section at the root."""
     grows = model.level == 3 and spec.route[piece.root].feeds
     return f"H{piece.number}/2" if grows else f"L{piece.number}_0/2"
@@ -310,16 +310,12 @@ def _half(model: CableModel, piece: Piece, spec: Spec) -> str:
 
 def _pull(spec: Spec, model: CableModel, piece: Piece, grows: bool) -> str:
     """Tension at the root, with the half section that lies there."""
-    p, damping = piece.number, spec.cable.damping
-    i, j = _root_marker(spec, piece), _side(piece, model).node(1)
-    free = f"H{p}" if grows else f"L{p}_0"
-    pull = f"EA*(DM({i},{j})/{free}-1)"
-    if damping:
-        rate = f"-SD{p}*DM({i},{j})/LT{p}" if grows else ""
-        pull += f"+damper*(VR({i},{j}){rate})"
-    text, root = f"VARIABLE/T{p}, FUNCTION={_law(spec, pull)}", spec.route[piece.root]
+    p = piece.number
+    i, j = root_marker(spec, piece), side_of(piece, model).node(1)
+    pull = spring(spec, p, i, j, f"H{p}" if grows else f"L{p}_0")
+    text, root = f"VARIABLE/T{p}, FUNCTION={pull}", spec.route[piece.root]
     if root.leans or root.mount:
-        text = f"VARIABLE/P{p}, FUNCTION={_law(spec, pull)}\n"
+        text = f"VARIABLE/P{p}, FUNCTION={pull}\n"
         text += borne(spec, piece.root, i, j, piece.sense, f"P{p}", f"T{p}-P{p}")
         text += f"VARIABLE/T{p}, FUNCTION=P{p}"
     weight = dot(spec.gravity, piece.along)
@@ -328,10 +324,19 @@ def _pull(spec: Spec, model: CableModel, piece: Piece, grows: bool) -> str:
         feeds = f"-({_feed(spec, piece, 2)})"
         feeds = "" if slipping(piece.root, spec) or grows and model.form == "paper" else feeds
         if weight or feeds:
-            text += f"\n, +rho*{_half(model, piece, spec)}*({number(weight)}{feeds})"
+            text += f"\n, +rho*{half_section(model, piece, spec)}*({number(weight)}{feeds})"
     elif spec.route[piece.root].slides:
-        text += f"\n, +rho*{_half(model, piece, spec)}*{sliders.lean(i, j)}"
+        text += f"\n, +rho*{half_section(model, piece, spec)}*{sliders.lean(i, j)}"
     return f"! Tension at the {'wheel' if spec.route[piece.root].is_wheel else 'start'}.\n{text}\n"
+
+
+def spring(spec: Spec, p: int, i: int, j: int, free: str) -> str:
+    """Tension of a section between two markers, of the free length H or L of its span."""
+    pull = f"EA*(DM({i},{j})/{free}-1)"
+    if spec.cable.damping:
+        rate = f"-SD{p}*DM({i},{j})/LT{p}" if free[0] == "H" else ""
+        pull += f"+damper*(VR({i},{j}){rate})"
+    return _law(spec, pull)
 
 
 def _ends(spec: Spec, model: CableModel, found: list[Piece]) -> str:
@@ -362,7 +367,7 @@ def _turned(spec: Spec, spans: list[FreeSpan], model: CableModel, i: int) -> str
         for p in spec.beside(i):
             if found[p].root == i and not is_between(spec, found[p]):
                 if spec.route[found[p].tip].kind != "run":
-                    rim += f"+rho*{_half(model, found[p], spec)}"
+                    rim += f"+rho*{half_section(model, found[p], spec)}"
         text = (
             f"\n! Friction of the cable on the wheel of station {i + 1}, mu times wrap"
             f" {each.mu * angle:.4g}: at most a ratio of {2.718281828 ** (each.mu * angle):.4g}.\n"
