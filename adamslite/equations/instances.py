@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -18,7 +18,6 @@ from adamslite.native.translate import Rows
 if TYPE_CHECKING:
     from adamslite.equations.jacobian_blocks import JacobianBlocks
     from adamslite.equations.numbering import Numbering
-    from adamslite.kernels.binding import Binding
     from adamslite.kernels.groups import ShapeGroup
     from adamslite.language.statement import Statement
     from adamslite.model.model import MassCentre, NodeKey
@@ -65,24 +64,23 @@ class Instances:
         self.groups = Rows(KernelGroup, ints(rows))
 
     def _is_rate(self, group: ShapeGroup) -> bool:
-        first = group.instances[0][0]
+        first = group.instances.statements[0]
         return isinstance(first, Constraint) and first.is_rate(self.model)
 
     def _group(self, group: ShapeGroup) -> list[int]:
         phase = PHASES[group.face]
         if group.face == "velocity" and self._is_rate(group):
             phase = contract.RATE_ROWS
-        if group.face == "loads" and hasattr(group.instances[0][0], "stored"):
+        if group.face == "loads" and hasattr(group.instances.statements[0], "stored"):
             phase |= contract.ELASTIC
         if group.face == "loads" and group.meta["mass"] and group.meta["added_mass"]:
             phase |= contract.ADDED_MASS
-        bindings = [binding for _, binding in group.instances]
-        integers, reals = self._integers(group, bindings), self._reals(group, bindings)
+        integers, reals = self._integers(group), self._reals(group)
         self.keep += [integers, reals]
         at = self.kernels.addresses
         kinds = ("residual", "jacobian", "track", "clock", "watch")
         entry = [at.get(f"{group.name}_{kind}", 0) for kind in kinds]
-        data = [len(bindings), integers.ctypes.data, reals.ctypes.data]
+        data = [len(group.instances), integers.ctypes.data, reals.ctypes.data]
         return [phase, *entry[:3], *data, *entry[3:]]
 
     def one_instance(self, groups: Rows[KernelGroup], k: int, instance: int) -> Rows[KernelGroup]:
@@ -101,8 +99,8 @@ class Instances:
         for group, reals in zip(self.kernels.groups, self.keep[1::2], strict=True):
             count = group.meta["angles"] + group.meta["limits"]
             rows = reals[:-1].reshape(len(group.instances), -1) if count else ()
-            for (statement, binding), row in zip(group.instances, rows, strict=False):
-                first = len(binding.params)
+            first = len(group.instances.columns.params)
+            for statement, row in zip(group.instances.statements, rows, strict=False):
                 yield (group.name, statement.keyword, statement.key), row[first : first + count]
 
     def remember(self, known: Iterable[tuple[Owner, np.ndarray]]) -> None:
@@ -123,21 +121,18 @@ class Instances:
                 found[statement.label] = f"{statement.beyond}, first at t = {time:.6g}"
         return found
 
-    def _integers(self, group: ShapeGroup, bindings: list[Binding]) -> np.ndarray:
+    def _integers(self, group: ShapeGroup) -> np.ndarray:
         """What each instance of a group reads and writes, one instance behind the other: offsets
         in the workspace, first rows, addresses of tables, guards, blocks of the Jacobian.
         """
-        count, w_at = len(bindings), self.numbering.w_at
-        bodies = np.array([each.bodies for each in bindings], dtype=np.int64).reshape(count, -1).T
-        others = [*zip(*(each.nodes for each in bindings), strict=True)]
-        signals = zip(*(each.signals for each in bindings), strict=True)
-        tables = zip(*(each.tables for each in bindings), strict=True)
+        count, at, w_at = len(group.instances), group.instances.columns, self.numbering.w_at
+        bodies = [ints(column) for column in at.bodies]
         columns: list[np.ndarray] = [self.body_w[each] for each in bodies]
-        columns += [ints([w_at.get(node, 0) for node in nodes]) for nodes in others]
-        columns += [ints([w_at["SIGNAL", each] for each in signal]) for signal in signals]
+        columns += [ints([w_at.get(node, 0) for node in nodes]) for nodes in at.nodes]
+        columns += [ints([w_at["SIGNAL", each] for each in signal]) for signal in at.signals]
         columns += [self.starts[each] for each in bodies]
-        columns += [ints([self._row(group, node) for node in nodes]) for nodes in others]
-        columns += [ints([each.data.ctypes.data for each in table]) for table in tables]
+        columns += [ints([self._row(group, node) for node in nodes]) for nodes in at.nodes]
+        columns += [ints([each.data.ctypes.data for each in table]) for table in at.tables]
         guards = group.meta["guards"]
         if any(guards.values()):
             columns += [
@@ -145,11 +140,11 @@ class Instances:
                 for place, each in guards.items()
             ]
         if group.meta["blocks"]:
-            columns += self._blocks(group, bodies, others)
+            columns += self._blocks(group, bodies, at.nodes)
         return np.column_stack(columns).ravel() if columns else ints([])
 
     def _blocks(
-        self, group: ShapeGroup, bodies: np.ndarray, others: list[tuple[NodeKey, ...]]
+        self, group: ShapeGroup, bodies: list[np.ndarray], others: list[Sequence[NodeKey]]
     ) -> list[np.ndarray]:
         """Where the blocks that each instance writes begin."""
         node_at = self.numbering.node_at
@@ -176,15 +171,16 @@ class Instances:
             return 0  # all add up in one number, or are guards alone
         return self.numbering.starts[self._row_node(group, node)]
 
-    def _reals(self, group: ShapeGroup, bindings: list[Binding]) -> np.ndarray:
+    def _reals(self, group: ShapeGroup) -> np.ndarray:
         """Parameters, what is remembered, and places of markers, one instance behind the other."""
+        count, at = len(group.instances), group.instances.columns
         memory = [0.0] * group.meta["angles"] + [inf] * group.meta["limits"]
-        fixed = [k for k, each in enumerate(bindings[0].markers) if self._placed(each)]
-        rows = [
-            [*each.params, *memory, *(x for k in fixed for x in self._placed(each.markers[k]))]
-            for each in bindings
-        ]
-        return np.append(np.array(rows, dtype=float).ravel(), 0.0)
+        columns: list[np.ndarray] = [np.asarray(column, dtype=float) for column in at.params]
+        columns += [np.full(count, number) for number in memory]
+        for markers in at.markers:
+            if self._placed(markers[0]):
+                columns += [*np.array([self._placed(each) for each in markers]).T]
+        return np.append(np.column_stack(columns).ravel() if columns else [], 0.0)
 
     def _placed(self, marker: Key | MassCentre) -> list[float]:
         """Where a marker is on its body, and its axes, unless these are those of the body."""

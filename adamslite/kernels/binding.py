@@ -5,6 +5,10 @@ a slot. What remains, written as text, is the *key* of the shape; what was taken
 instance.  The walk writes no expressions, so a deck whose shapes are cached compiles nothing.
 :mod:`adamslite.kernels.reader` does the reverse.
 
+Many statements are walked at once, as columns of values: thousands of springs take as many steps as
+one.  Where they turn out to differ in more than numbers and ids, :class:`Split` says which belong
+together, and each part is walked again by itself.
+
 A bound tree is one of
 
     ("p", n) parameter    ("c", value) constant of the shape    ("t",) ("mode",)    ("m", frame)
@@ -18,7 +22,9 @@ A bound tree is one of
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Sequence
 from fractions import Fraction
+from operator import eq
 from typing import TYPE_CHECKING, Any
 
 from adamslite.functions.forces import NET
@@ -26,6 +32,7 @@ from adamslite.kernels.groups import Binding
 from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.language.function import PRODUCTS, find_function
 from adamslite.language.routines import USER
+from adamslite.language.statement import Statement
 from adamslite.model.model import folded
 from adamslite.model.net_force import written_out
 from adamslite.model.past import past_of
@@ -36,7 +43,7 @@ if TYPE_CHECKING:  # few decks call routines
     from adamslite.deck.python_routine import Routine
     from adamslite.language.function import Function
     from adamslite.language.interfaces import Key
-    from adamslite.language.statement import Argument, Statement
+    from adamslite.language.statement import Argument
     from adamslite.model.model import MassCentre, Model, NodeKey
     from adamslite.symbolic.types import Tree
 
@@ -49,18 +56,55 @@ class ForceLoop(Exception):
     """An element's force depends on itself without a VARIABLE between."""
 
 
+class Split(Exception):
+    """Statements that are not of one shape; ``labels`` are equal for those that may be."""
+
+    def __init__(self, labels: Sequence[Hashable]) -> None:
+        super().__init__(labels)
+        self.labels = labels
+
+
+def same(values: Sequence[Any]) -> Any:
+    """The value that all have in common; raises :class:`Split`."""
+    if values.count(values[0]) < len(values):
+        raise Split(values)
+    return values[0]
+
+
+def transposed(rows: Sequence[Sequence[Any]]) -> list[Sequence[Any]]:
+    """Columns of rows of equal length."""
+    same([len(row) for row in rows])
+    return [*zip(*rows, strict=True)]
+
+
+def slot(columns: list[Sequence[Any]], values: Sequence[Any]) -> int:
+    """The column with these values; a new one where there is none."""
+    for number, column in enumerate(columns):
+        equal = [*map(eq, column, values)]
+        if same(equal):
+            return number
+    columns.append(values)
+    return len(columns) - 1
+
+
 class Binder:
-    """Binds statements of one model; ``model`` answers what a marker or a variable is.
+    """Binds statements of one class and model; ``model`` answers what a marker or a variable is.
 
     Time-only variables are read from the workspace.  What a constraint or d( )/dt takes the rate of
     is written out: variables that are solved for too, unless they depend on themselves.
+
+    Parameters
+    ----------
+    model : Model
+    count : int
+        How many statements are bound.
     """
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, count: int) -> None:
         self.model = model
+        self.count = count
         self.takes_rates = False
-        self.instance = Binding()
-        self.frames: dict[Key | MassCentre, Tree] = {0: ("m", ORIGIN)}
+        self.columns = Binding()
         self.slots: list[Slot] = []
         self.elements: list[tuple[str, Tree, int]] = []
         self.element_at: dict[NodeKey, int] = {}
@@ -68,215 +112,232 @@ class Binder:
         self.variable_at: dict[tuple[Key, bool], int] = {}
         self.parts: list[Tree] = []
 
-    def marker(self, marker_id: Key | MassCentre) -> Tree:
+    @property
+    def instance(self) -> Binding:
+        """The first one."""
+        return self.columns.row(0)
+
+    def marker(self, ids: Sequence[Key | MassCentre]) -> Tree:
         """The frame of a marker, of a part's mass centre for ``("PART", id)``."""
-        frame = self.frames.get(marker_id)
-        if frame is None:
-            frame = self.frames[marker_id] = self._frame(marker_id)
-        return frame
+        if same([marker == 0 for marker in ids]):
+            return ("m", ORIGIN)
+        at = self.columns
+        number = slot(at.markers, ids)
+        if number == len(self.slots):  # a new one
+            places = [self.model.marker(marker) for marker in ids]
+            found = [place for place in places if place is not None]
+            if not same([place is None for place in places]):
+                kind, offset, turned = same([(at.kind, at.offset, at.turned) for at in found])
+                body = -1 if kind == "ground" else slot(at.bodies, [place.body for place in found])
+                self.slots.append(Slot(kind, body, offset, turned))
+            else:
+                at.markers.pop()
+                return ("c", None)
+        return ("m", number)
 
-    def _frame(self, marker_id: Key | MassCentre) -> Tree:
-        place, at = self.model.marker(marker_id), self.instance
-        if place is None:
-            return ("c", None)
-        body = -1
-        if place.kind != "ground":
-            if place.body not in at.bodies:
-                at.bodies.append(place.body)
-            body = at.bodies.index(place.body)
-        at.markers.append(marker_id)
-        self.slots.append(Slot(place.kind, body, place.offset, place.turned))
-        return ("m", len(at.markers) - 1)
-
-    def node_slot(self, node: NodeKey) -> int:
+    def node_slot(self, nodes: Sequence[NodeKey]) -> int:
         """Slot of a scalar node, counted after the bodies once binding is finished."""
-        if node not in self.instance.nodes:
-            self.instance.nodes.append(node)
-        return self.instance.nodes.index(node)
+        return slot(self.columns.nodes, nodes)
 
-    def number(self, value: float) -> Tree:
-        if value == 0.0:
+    def number(self, values: Sequence[float]) -> Tree:
+        if same([value == 0.0 for value in values]):
             return ("c", 0.0)
-        self.instance.params.append(value)
-        return ("p", len(self.instance.params) - 1)
+        self.columns.params.append(values)
+        return ("p", len(self.columns.params) - 1)
 
-    def statement(self, statement: Statement) -> Tree:
-        """Arguments of a statement, none of data, and what it derives: (("field", tree), ..)."""
-        before = self.takes_rates
-        self.takes_rates = before or hasattr(statement, "constraints")
+    def statement(self, statements: Sequence[Statement]) -> Tree:
+        """Arguments of statements of one class, none of data, and what they derive: (("field",
+        tree), ..).
+        """
+        cls, before = same([*map(type, statements)]), self.takes_rates
+        self.takes_rates = before or hasattr(cls, "constraints")
         fields = []
-        for name, argument in statement.arguments.items():
-            if statement.data or argument.inert or argument.kind in IGNORED:
+        for name, argument in cls.arguments.items():
+            if cls.data or argument.inert or argument.kind in IGNORED:
                 continue
-            fields.append((name, self._argument(argument, getattr(statement, name))))
-        for name, value in statement.derived(self.model).items():
-            fields.append((name, self._derived(value)))
+            fields.append((name, self._argument(argument, [getattr(s, name) for s in statements])))
+        if cls.derived is not Statement.derived:
+            fields += self._further(statements)
         self.takes_rates = before
         return tuple(fields)
 
-    def _derived(self, value: object) -> Tree:
-        if value is None or isinstance(value, str):
-            return ("c", value)
-        if isinstance(value, tuple):
-            return ("v", tuple(self._derived(v) for v in value))
-        if isinstance(value, Ref):
-            return self.reference(value)
-        if isinstance(value, Interpolant):
-            return self.table(value)
-        if isinstance(value, Fraction):  # part of the shape
-            return ("c", float(value))
-        if isinstance(value, float):
-            return self.number(value)
-        assert isinstance(value, Node)
-        return self.expression(value)
+    def _further(self, statements: Sequence[Statement]) -> list[tuple[str, Tree]]:
+        """What statements derive."""
+        found = [statement.derived(self.model) for statement in statements]
+        names = same([(*each,) for each in found])
+        return [(name, self._derived([each[name] for each in found])) for name in names]
 
-    def table(self, value: Interpolant | Routine) -> Tree:
+    def _derived(self, values: Sequence[Any]) -> Tree:
+        kind = same([*map(type, values)])
+        if kind is type(None) or issubclass(kind, str):
+            return ("c", same(values))
+        if issubclass(kind, tuple):
+            return ("v", tuple([self._derived(column) for column in transposed(values)]))
+        if kind is Ref:
+            return self.reference(values)
+        if issubclass(kind, Interpolant):
+            return self.table(values)
+        if issubclass(kind, Fraction):  # part of the shape
+            return ("c", float(same(values)))
+        if issubclass(kind, float):
+            return self.number(values)
+        assert issubclass(kind, Node)
+        return self.expression(values)
+
+    def table(self, values: Sequence[Interpolant | Routine]) -> Tree:
         """Its number among those of the instance; nothing in it shapes the code."""
-        tables = self.instance.tables
-        if value not in tables:
-            tables.append(value)
-        return ("tab", tables.index(value))
+        return ("tab", slot(self.columns.tables, values))
 
-    def _argument(self, argument: Argument, value: Any) -> Tree:
-        if value is None:
+    def _argument(self, argument: Argument, values: Sequence[Any]) -> Tree:
+        if same([value is None for value in values]):
             return ("c", None)
         if argument.kind == "expression":
-            return self.expression(value)
+            return self.expression(values)
         if argument.kind == "number":
-            return self.number(value)
+            return self.number(values)
         if argument.kind == "vector":
-            return ("v", tuple(self.number(v) for v in value))
+            return ("v", tuple([self.number(column) for column in transposed(values)]))
         if argument.kind == "reference":
-            return self._referred(argument.to, value)
+            return self._referred(argument.to, values)
         if argument.kind == "references":
-            return ("v", tuple(self._referred(argument.to, v) for v in value))
-        return ("c", value)
+            columns = transposed(values)
+            return ("v", tuple([self._referred(argument.to, column) for column in columns]))
+        return ("c", same(values))
 
-    def _referred(self, keyword: str, value: Key) -> Tree:
+    def _referred(self, keyword: str, ids: Sequence[Key]) -> Tree:
         """A marker or part as a frame; any other statement with its own arguments."""
         if keyword == "MARKER":
-            return self.marker(value)
+            return self.marker(ids)
         if keyword == "PART":
-            return self.marker(("PART", value))
-        return ("s", keyword, self.statement(self.model.element(keyword, value)))
+            return self.marker([("PART", each) for each in ids])
+        return ("s", keyword, self.statement([self.model.element(keyword, each) for each in ids]))
 
-    def expression(self, node: Node) -> Tree:
-        return self._bound(node)[0]
+    def expression(self, nodes: Sequence[Node]) -> Tree:
+        return self._bound(nodes)[0]
 
-    def _bound(self, node: Node) -> tuple[Tree, float | None]:
-        """An expression, with its value if nothing in it changes."""
-        if type(node) is Num:
-            return self.number(node.value), node.value
-        if type(node) is Op:
-            return self._operation(node)
-        if type(node) is Call:
-            constant = self.model.constant(node)
-            return (
-                (self.call(node), None) if constant is None else (self.number(constant), constant)
-            )
-        if isinstance(node, Time | Mode):
-            return ("t",) if isinstance(node, Time) else ("mode",), None
-        raise TypeError(f"not an expression: {node!r}")
+    def _bound(self, nodes: Sequence[Any]) -> tuple[Tree, Sequence[float] | None]:
+        """An expression, with its values if nothing in it changes."""
+        kind = same([*map(type, nodes)])
+        if kind is Num:
+            values = [node.value for node in nodes]
+            return self.number(values), values
+        if kind is Op:
+            return self._operation(nodes)
+        if kind is Call:
+            found = [*map(self.model.constant, nodes)]
+            values = [value for value in found if value is not None]
+            if same([value is None for value in found]):
+                return self.call(nodes), None
+            return self.number(values), values
+        if issubclass(kind, Time | Mode):
+            return ("t",) if issubclass(kind, Time) else ("mode",), None
+        raise TypeError(f"not an expression: {nodes[0]!r}")
 
-    def _operation(self, node: Op) -> tuple[Tree, float | None]:
+    def _operation(self, nodes: Sequence[Op]) -> tuple[Tree, Sequence[float] | None]:
         """Numbers are parameters, except what they are folded from, and constant exponents."""
-        params = self.instance.params
+        op, params = same([node.op for node in nodes]), self.columns.params
         mark = len(params)
-        trees, values = zip(*[self._bound(each) for each in node.args], strict=True)
+        columns = transposed([node.args for node in nodes])
+        trees, values = zip(*[self._bound(each) for each in columns], strict=True)
         if None not in values:
             del params[mark:]
-            value = folded(node.op, values)
-            return self.number(value), value
-        if node.op == "**" and values[1] is not None:
+            found = [folded(op, each) for each in zip(*values, strict=True)]
+            return self.number(found), found
+        if op == "**" and values[1] is not None:
             if trees[1][0] == "p":
                 params.pop()
-            trees = (trees[0], ("c", values[1]))
-        return ("o", node.op, trees), None
+            trees = (trees[0], ("c", same(values[1])))
+        return ("o", op, trees), None
 
-    def output(self, node: Node, statement: Statement) -> Tree:
+    def output(self, nodes: Sequence[Node], statements: Sequence[Statement]) -> Tree:
         """A value to write: zero for an element that is switched off."""
-        return self.expression(node) if self.model.acts(statement) else ("c", 0.0)
+        acts = same([self.model.acts(statement) for statement in statements])
+        return self.expression(nodes) if acts else ("c", 0.0)
 
-    def call(self, node: Call) -> Tree:
-        if node.name in NET:
-            return self.expression(written_out(node, self.model))
-        for arg in node.args:
-            if type(arg) is Ref and arg.kind not in LASTING and self._is_off(arg):
-                return ("c", 0.0)
-        if node.name == USER:
-            return self._routine(node)
-        function = find_function(node.name)
-        if node.name == "GCON" and node.args[2] == Num(0.0):  # its multiplier
-            own = ("s", "GCON", (("multiplier", self._multiplier(node.args[0])),))
-            return ("f", "GCON", (own, ("c", 0), ("c", 0), self.marker(0)))
+    def call(self, nodes: Sequence[Call]) -> Tree:
+        name = same([node.name for node in nodes])
+        if name in NET:
+            return self.expression([written_out(node, self.model) for node in nodes])
+        columns = transposed([node.args for node in nodes])
+        if any(same([self._is_off(each) for each in column]) for column in columns):
+            return ("c", 0.0)
+        if name == USER:
+            return self._routine(columns)
+        function = find_function(name)
+        if name == "GCON" and same([each == Num(0.0) for each in columns[2]]):  # its multiplier
+            own = ("s", "GCON", (("multiplier", self._multiplier(columns[0])),))
+            return ("f", "GCON", (own, ("c", 0), ("c", 0), ("m", ORIGIN)))
         before = self.takes_rates
-        self.takes_rates = before or node.name == "DDT"
-        taken = tuple([self._taken(function, n, node) for n in range(len(node.args))])
+        self.takes_rates = before or name == "DDT"
+        taken = tuple([self._taken(function, n, columns[n], nodes) for n in range(len(columns))])
         self.takes_rates = before
-        return ("f", node.name, taken)
+        return ("f", name, taken)
 
-    def _routine(self, node: Call) -> Tree:
+    def _routine(self, columns: Sequence[Sequence[Any]]) -> Tree:
         """A value of a function of Python: its number, which value, what it reads."""
-        number, component, *inputs = node.args
-        assert isinstance(number, Num) and isinstance(component, Num)
-        called = self.table(self.model.deck.user.made[int(number.value)])
-        read = tuple(map(self.expression, inputs))
-        return ("f", USER, (called, ("c", int(component.value)), *read))
+        numbers, components, *inputs = columns
+        made = self.model.deck.user.made
+        called = self.table([made[int(number.value)] for number in numbers])
+        read = tuple([self.expression(column) for column in inputs])
+        return ("f", USER, (called, ("c", same([int(each.value) for each in components])), *read))
 
-    def _multiplier(self, gcon: Node) -> Tree:
-        assert isinstance(gcon, Ref)
-        return ("z", self.node_slot(("GCON", gcon.id)), 0)
+    def _multiplier(self, gcons: Sequence[Ref]) -> Tree:
+        return ("z", self.node_slot([("GCON", gcon.id) for gcon in gcons]), 0)
 
-    def _is_off(self, ref: Ref) -> bool:
+    def _is_off(self, node: Node) -> bool:
         """A reference to an element that is switched off: whatever it measures is zero."""
-        return not self.model.acts(self.model.element(ref.kind, ref.id))
+        if type(node) is not Ref or node.kind in LASTING:
+            return False
+        return not self.model.acts(self.model.element(node.kind, node.id))
 
-    def _taken(self, function: Function, n: int, call: Call) -> Tree:
-        """Argument number ``n`` of a call."""
-        node, kind = call.args[n], function.parameter(n).kind
+    def _taken(self, function: Function, n: int, nodes: Sequence[Any], of: Sequence[Call]) -> Tree:
+        """Argument number ``n`` of calls."""
+        kind, made_of = function.parameter(n).kind, same([*map(type, nodes)])
         if kind == "past":
-            return self.table(past_of(self.model, call).table)
-        if type(node) is Ref:
-            return self.reference(node)
-        if type(node) is Num and kind == "constant":
-            return ("c", int(node.value))
-        return self._exponent(node) if kind == "exponent" else self.expression(node)
+            return self.table([past_of(self.model, call).table for call in of])
+        if made_of is Ref:
+            return self.reference(nodes)
+        if made_of is Num and kind == "constant":
+            return ("c", same([int(node.value) for node in nodes]))
+        return self._exponent(nodes) if kind == "exponent" else self.expression(nodes)
 
-    def _exponent(self, node: Node) -> Tree:
+    def _exponent(self, nodes: Sequence[Node]) -> Tree:
         """An exponent: part of the shape where it needs no power."""
-        tree, value = self._bound(node)
-        if value not in PRODUCTS:
+        tree, values = self._bound(nodes)
+        if values is None or not same([value in PRODUCTS for value in values]):
             return tree
-        self.instance.params.pop()
-        return ("c", value)
+        self.columns.params.pop()
+        return ("c", same(values))
 
-    def reference(self, ref: Ref) -> Tree:
-        if ref.kind == "MARKER":
-            return self.marker(ref.id)
-        if ref.kind == "VARIABLE":
-            return ("s", "VARIABLE", (("value", self.variable(ref.id)),))
-        if ref.kind == "DIFF":
-            node = self.node_slot(("DIFF", ref.id))
-            state: Tree = ("dif", node)
-            if self.model.element("DIFF", ref.id).restarts:
-                state = ("o", "-", (state, ("origin", node)))
-            return ("s", "DIFF", (("state", state), ("rate", ("dif1", node))))
-        if ref.kind == "SENSOR":
-            kept = self.number(self.model.deck.senvals.get(ref.id, 0.0))
-            return ("s", "SENSOR", (("kept", kept),))
-        return self.element(ref)
+    def reference(self, refs: Sequence[Ref]) -> Tree:
+        kind, ids = same([ref.kind for ref in refs]), [ref.id for ref in refs]
+        if kind == "MARKER":
+            return self.marker(ids)
+        if kind == "VARIABLE":
+            return ("s", "VARIABLE", (("value", self.variable(ids)),))
+        if kind == "DIFF":
+            return self._state(ids)
+        if kind == "SENSOR":
+            kept = [self.model.deck.senvals.get(each, 0.0) for each in ids]
+            return ("s", "SENSOR", (("kept", self.number(kept)),))
+        return self.element(same(refs))
 
-    def variable(self, variable_id: Key) -> Tree:
-        if self._is_written_out(variable_id):
+    def _state(self, ids: Sequence[Key]) -> Tree:
+        node = self.node_slot([("DIFF", each) for each in ids])
+        state: Tree = ("dif", node)
+        if same([self.model.element("DIFF", each).restarts for each in ids]):
+            state = ("o", "-", (state, ("origin", node)))
+        return ("s", "DIFF", (("state", state), ("rate", ("dif1", node))))
+
+    def variable(self, ids: Sequence[Key]) -> Tree:
+        if same([self._is_written_out(each) for each in ids]):
+            variable_id = same(ids)
             for each in self._below(variable_id):
                 self._write_out(each)
             return ("var", self.variable_at[variable_id, self.takes_rates])
-        if self.model.variable_kind(variable_id) == "loop":
-            return ("z", self.node_slot(("VARIABLE", variable_id)), 0)
-        signals = self.instance.signals
-        if variable_id not in signals:
-            signals.append(variable_id)
-        return ("sig", signals.index(variable_id), 0)
+        if same([self.model.variable_kind(each) for each in ids]) == "loop":
+            return ("z", self.node_slot([("VARIABLE", each) for each in ids]), 0)
+        return ("sig", slot(self.columns.signals, ids), 0)
 
     def _is_written_out(self, variable_id: Key) -> bool:
         kind = self.model.variable_kind(variable_id)
@@ -301,7 +362,7 @@ class Binder:
         return list(found)
 
     def _write_out(self, variable_id: Key) -> None:
-        tree = self.expression(self.model.variable(variable_id).function)
+        tree = self.expression([self.model.variable(variable_id).function] * self.count)
         self.variables.append(tree)
         self.variable_at[variable_id, self.takes_rates] = len(self.variables) - 1
         self.parts.append(("var", len(self.variables) - 1))
@@ -312,7 +373,8 @@ class Binder:
         if key not in self.element_at:
             self.element_at[key] = -1
             statement = self.model.element(ref.kind, ref.id)
-            tree = (ref.kind, self.statement(statement), self.unknowns(statement))
+            many = [statement] * self.count
+            tree = (ref.kind, self.statement(many), self.unknowns(many))
             self.elements.append(tree)
             self.element_at[key] = len(self.elements) - 1
             self.parts.append(("e", len(self.elements) - 1))
@@ -320,19 +382,19 @@ class Binder:
             raise ForceLoop(f"{ref.kind}/{ref.id}")
         return ("e", self.element_at[key])
 
-    def unknowns(self, statement: Statement) -> int:
+    def unknowns(self, statements: Sequence[Statement]) -> int:
         """Node slot of a statement's own unknowns (multipliers, V, s), -1 for a force."""
-        node = (statement.keyword, statement.key)
-        return self.node_slot(node) if self.model.has_unknowns(node) else -1
+        nodes = [(statement.keyword, statement.key) for statement in statements]
+        return self.node_slot(nodes) if same([*map(self.model.has_unknowns, nodes)]) else -1
 
     def key(self, face: str, body: Tree) -> Tree:
         """Everything that decides the native code.
 
         Equal constants at the same place are of the same type, which field or parameter decides.
         """
-        at = self.instance
-        widths = tuple([self.model.body_width(b) for b in at.bodies])
-        scalars = tuple([self.model.node_width(n) for n in at.nodes])
+        at, model = self.columns, self.model
+        widths = tuple([same([*map(model.body_width, column)]) for column in at.bodies])
+        scalars = tuple([same([*map(model.node_width, column)]) for column in at.nodes])
         counts = (len(at.params), len(at.signals), len(at.tables))
         shared = (tuple(self.elements), tuple(self.variables), tuple(self.parts))
         return (face, body, *shared, tuple(self.slots), widths, scalars, counts)

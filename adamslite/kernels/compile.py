@@ -7,20 +7,23 @@ instances of one face with one shape form a :class:`ShapeGroup`, run by one kern
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import itertools
+from collections.abc import Hashable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import partial
-from typing import TYPE_CHECKING
+from itertools import chain
+from typing import TYPE_CHECKING, Any
 
 from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
 from adamslite.deck.statement_diagnostics import diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
-from adamslite.kernels.binding import Binder, ForceLoop
+from adamslite.kernels.binding import Binder, ForceLoop, Split, same, transposed
 from adamslite.kernels.groups import (
     LEVELS,
     WITH_JACOBIAN,
+    Binding,
+    Instances,
     Kernels,
     Meta,
     ShapeGroup,
@@ -39,7 +42,11 @@ from adamslite.symbolic.scope import Scope, UndefinedRate
 from adamslite.symbolic.types import Expr, Tree
 
 if TYPE_CHECKING:  # a deck whose shapes are cached needs no expressions
+    from adamslite.deck.deck import Deck
     from adamslite.kernels.code.shape import Outputs, Shape
+
+Numbered = tuple[int, Statement]
+"""A statement with its number in the order of groups and instances."""
 
 
 def compile_model(
@@ -52,11 +59,16 @@ def compile_model(
     ``audited``: what elastic elements store too.
     """
     groups = Groups()
-    add = partial(_add, groups, model)
     outputs = []
+    batches: dict[tuple[type[Statement], str], list[Numbered]] = {}
+    count = itertools.count()
+
+    def add(statement: Statement, face: str) -> None:
+        batches.setdefault((type(statement), face), []).append((next(count), statement))
+
     with without_collection():
-        for variable in model.signals:
-            add(variable, "signal")
+        for variable in model.signals:  # the group of each hangs on those of others
+            _add(groups, model, "signal", [(next(count), variable)])
         for statement in model.deck.statements:
             for face in faces(statement, model):
                 if face != "signal":
@@ -66,8 +78,10 @@ def compile_model(
             for face in _output(statement):
                 outputs.append((statement, statement.result_names))
                 add(statement, face)
-    fresh = sum(_compile(group, progress) for group in groups.values())
-    made = list(groups.values())
+        for (_, face), found in batches.items():
+            _add(groups, model, face, found)
+        made = groups.made(model.deck)
+    fresh = sum(_compile(group, progress) for group in made)
     return Kernels(model, made, outputs, linked(made), fresh)
 
 
@@ -93,13 +107,48 @@ def _output(statement: Statement) -> Iterator[str]:
         yield "output"
 
 
-class Groups(dict[Tree, ShapeGroup]):
+@dataclass
+class Collected:
+    """A group while statements are bound: their numbers in the order of groups, and their columns,
+    part by part.
+    """
+
+    face: str
+    name: str
+    write: FaceWriter
+    parts: list[tuple[list[Numbered], Binding]]
+
+    @property
+    def first(self) -> int:
+        """The least number."""
+        return min(part[0][0] for part, _ in self.parts)
+
+    def group(self) -> ShapeGroup:
+        """The group, its instances in order."""
+        numbered = [each for part, _ in self.parts for each in part]
+        order = sorted(range(len(numbered)), key=lambda k: numbered[k][0])
+        columns = Binding(*(
+            [in_order([*chain(*parts)], order) for parts in zip(*slots, strict=True)]
+            for slots in zip(*(found.fields() for _, found in self.parts), strict=True)
+        ))  # fmt: skip
+        statements = [numbered[k][1] for k in order]
+        return ShapeGroup(self.face, self.name, self.write, Instances(statements, columns))
+
+
+def in_order(column: list[Any], order: list[int]) -> list[Any]:
+    """A column with its rows in another order."""
+    return [column[k] for k in order]
+
+
+class Groups(dict[Tree, Collected]):
     """Groups by their keys; those of signals are evaluated in the order in which they are made."""
 
     def __init__(self) -> None:
         super().__init__()
         self.order: dict[Tree, int] = {}
         self.order_of: dict[Key, int] = {}
+        self.loops: dict[int, Diagnostic] = {}
+        """Forces that depend on themselves, by the number of the statement."""
 
     def key_of_signal(self, key: Tree, variable: Key, reads: list[Key]) -> Tree:
         """The key of a group of this shape that is not evaluated before what the instance reads;
@@ -111,38 +160,68 @@ class Groups(dict[Tree, ShapeGroup]):
         self.order_of[variable] = self.order[key]
         return key
 
+    def made(self, deck: Deck) -> list[ShapeGroup]:
+        """The groups in the order of their first statements.
 
-def _add(groups: Groups, model: Model, statement: Statement, face: str) -> None:
-    binder = Binder(model)
-    try:
-        fields, own = _bound(binder, statement, face)
-    except ForceLoop as loop:
-        raise DeckError([_loop(statement, str(loop))], model.deck) from None
-    held = (statement.keyword, statement.key) in model.held
-    rate = held and isinstance(statement, Constraint) and statement.is_rate(model)
+        Raises
+        ------
+        DeckError
+            When a force depends on itself.
+        """
+        if self.loops:
+            raise DeckError([self.loops[min(self.loops)]], deck)
+        return [each.group() for each in sorted(self.values(), key=lambda each: each.first)]
+
+
+def _add(groups: Groups, model: Model, face: str, statements: list[Numbered]) -> None:
+    """Bind one face of statements of one class, those of one shape together."""
+    pending = [statements]
+    while pending:
+        part = pending.pop()
+        try:
+            _bind(groups, model, face, part)
+        except Split as split:
+            parts: dict[Hashable, list[Numbered]] = {}
+            for label, each in zip(split.labels, part, strict=True):
+                parts.setdefault(label, []).append(each)
+            pending += parts.values()
+        except ForceLoop as loop:
+            for number, statement in part:
+                groups.loops[number] = _loop(statement, str(loop))
+
+
+def _bind(groups: Groups, model: Model, face: str, numbered: list[Numbered]) -> None:
+    """Enter statements of one shape; raises :class:`Split` where they are not."""
+    statements = [statement for _, statement in numbered]
+    binder, statement = Binder(model, len(statements)), statements[0]
+    fields, own = _bound(binder, statements, face)
+    held = (((each.keyword, each.key) in model.held, each) for each in statements)
+    rate = same([on and isinstance(s, Constraint) and s.is_rate(model) for on, s in held])
     key = binder.key(face, (statement.keyword, fields, own, rate))
     name = repr(key)
     if face == "signal":
         key = groups.key_of_signal(key, statement.key, binder.instance.signals)
-    group = groups.get(key)
-    if group is None:
+    found = groups.get(key)
+    if found is None:
         name = "k" + compiler.digest(name, version_of("kernels.compile"))
         level = LEVELS.index(face) - 1 if face in LEVELS else 0
         level -= level > 0 and rate
         write = FaceWriter(binder, statement.keyword, face, fields, own, level)
-        group = groups[key] = ShapeGroup(face, name, write)
-    group.instances.append((statement, binder.instance))
+        found = groups[key] = Collected(face, name, write, [])
+    found.parts.append((numbered, binder.columns))
+    binder.columns = binder.columns.row(slice(1))
 
 
-def _bound(binder: Binder, statement: Statement, face: str) -> tuple[Tree, int]:
+def _bound(binder: Binder, statements: list[Statement], face: str) -> tuple[Tree, int]:
     """What a face is made of, and the slot of its own unknowns."""
     if face == "output":
-        values = tuple(binder.output(node, statement) for node in statement.outputs(binder.model))
-        return values, binder.node_slot(("OUTPUT", statement))
-    fields = binder.statement(statement)
+        found = transposed([each.outputs(binder.model) for each in statements])
+        values = tuple([binder.output(nodes, statements) for nodes in found])
+        return values, binder.node_slot([("OUTPUT", each) for each in statements])
+    fields = binder.statement(statements)
     if face in ("signal", "stored", "sensor"):
-        return fields, binder.node_slot((face.upper(), statement.key))
-    return fields, binder.unknowns(statement)
+        return fields, binder.node_slot([(face.upper(), each.key) for each in statements])
+    return fields, binder.unknowns(statements)
 
 
 @dataclass
@@ -238,9 +317,8 @@ def _compile(group: ShapeGroup, progress: Progress | None) -> bool:
     def text_and_meta() -> tuple[str, Meta]:
         if not made:
             if progress is not None and group.face == "loads":
-                progress.say(
-                    f"compiling the expressions of {group.instances[0][0].label} (kept for later)"
-                )
+                label = group.instances.statements[0].label
+                progress.say(f"compiling the expressions of {label} (kept for later)")
             made.append(_kernels(group))
         return made[0]
 
@@ -253,7 +331,7 @@ def writer_of(kernels: Kernels, group: ShapeGroup) -> Writer:
     """The writer of a group; of kernels that were kept between runs one instance is bound again."""
     if group.write is None:
         made = Groups()
-        _add(made, kernels.model, group.instances[0][0], group.face)
+        _add(made, kernels.model, group.face, [(0, group.instances.statements[0])])
         (group.write,) = (each.write for each in made.values() if each.name == group.name)
     return group.writer
 
@@ -285,12 +363,13 @@ def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnost
     """What there is to say of statements whose equations cannot be formed; nothing is compiled."""
     groups = Groups()
     for statement in statements:
-        try:
-            for face in (*faces(statement, model), *_output(statement)):
-                _add(groups, model, statement, face)
-        except DeckError as fault:
-            yield from fault.diagnostics
-    for group in groups.values():
+        for face in (*faces(statement, model), *_output(statement)):
+            _add(groups, model, face, [(0, statement)])
+            if groups.loops:
+                yield groups.loops.pop(0)
+                break
+    for found in groups.values():
+        group = found.group()
         try:
             group.writer(Scope(group.writer.binder.slots))
         except UndefinedRate as fault:
@@ -312,4 +391,4 @@ def _no_rate(group: ShapeGroup, fault: UndefinedRate) -> Diagnostic:
         circular = label.startswith("VARIABLE")
         what = f"{label}, which depends on itself" if circular else f"a reaction of {label}"
         what = f"the rate of {label}" if kind == "dif1" else what
-    return diagnose_inside(group.instances[0][0], label, "no-rate", what=what)
+    return diagnose_inside(group.instances.statements[0], label, "no-rate", what=what)

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+from array import array
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from adamslite.native import compiler
 
 if TYPE_CHECKING:  # kernels that are kept between runs were written earlier
-    from adamslite.deck.python_routine import Routine
     from adamslite.kernels.code.shape import Outputs
-    from adamslite.language.interfaces import Key
     from adamslite.language.statement import Statement
-    from adamslite.model.model import MassCentre, Model, NodeKey
-    from adamslite.symbolic.interpolant import Interpolant
+    from adamslite.model.model import Model
     from adamslite.symbolic.scope import Scope
 
 
@@ -24,16 +24,56 @@ LEVELS = ("reactions", "position", "velocity", "acceleration")
 WITH_JACOBIAN = ("loads", "equation", *LEVELS)
 
 
-@dataclass
+@dataclass(slots=True)
 class Binding:
-    """One instance: what fills the slots of its shape."""
+    """What fills the slots of a shape: of one instance, or of all of them, column by column."""
 
-    markers: list[Key | MassCentre] = field(default_factory=list)
-    bodies: list[int] = field(default_factory=list)
-    nodes: list[NodeKey] = field(default_factory=list)
-    params: list[float] = field(default_factory=list)
-    signals: list[Key] = field(default_factory=list)
-    tables: list[Interpolant | Routine] = field(default_factory=list)
+    markers: list[Any] = field(default_factory=list)
+    """Markers, ``("PART", id)`` for a mass centre: :data:`Key` or :data:`MassCentre`."""
+    bodies: list[Any] = field(default_factory=list)
+    """Numbers of bodies."""
+    nodes: list[Any] = field(default_factory=list)
+    """:data:`NodeKey`"""
+    params: list[Any] = field(default_factory=list)
+    """Numbers."""
+    signals: list[Any] = field(default_factory=list)
+    """Ids of VARIABLEs."""
+    tables: list[Any] = field(default_factory=list)
+    """:class:`Interpolant` or :class:`Routine`"""
+
+    def fields(self) -> Iterator[list[Any]]:
+        """Its lists of slots."""
+        return (getattr(self, name) for name in self.__slots__)
+
+    def row(self, number: int | slice) -> Binding:
+        """One instance of many, or some."""
+        return Binding(*([column[number] for column in columns] for columns in self.fields()))
+
+
+class Instances(Sequence[tuple["Statement", Binding]]):
+    """The instances of a shape: statements, and in ``columns`` what fills each slot in all of them.
+
+    Numbers and ids are arrays: objects for each instance would take ten times the memory.
+    """
+
+    def __init__(self, statements: Sequence[Statement], columns: Binding) -> None:
+        self.statements = statements
+        self.columns = Binding(*([*map(compact, found)] for found in columns.fields()))
+
+    def __len__(self) -> int:
+        return len(self.statements)
+
+    def __getitem__(self, number: Any) -> Any:
+        return self.statements[number], self.columns.row(number)
+
+
+def compact(column: Sequence[Any]) -> Sequence[Any]:
+    """A column as an array where it has nothing but whole numbers, or nothing but others."""
+    kinds = set(map(type, column))
+    with suppress(OverflowError):
+        if kinds == {int}:
+            return array("q", column)
+    return array("d", column) if all(issubclass(kind, float) for kind in kinds) else column
 
 
 class Writer(Protocol):
@@ -58,7 +98,7 @@ class ShapeGroup:
     face: str
     name: str
     write: Writer | None
-    instances: list[tuple[Statement, Binding]] = field(default_factory=list)
+    instances: Instances
     code: bytes = b""
     meta: Meta = field(default_factory=dict)
 
@@ -71,7 +111,7 @@ class ShapeGroup:
     @property
     def n_bodies(self) -> int:
         """Bodies of each instance."""
-        return len(self.instances[0][1].bodies)
+        return len(self.instances.columns.bodies)
 
     @property
     def entry(self) -> str:
