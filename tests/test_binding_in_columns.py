@@ -12,8 +12,9 @@ itself.
 
 from pathlib import Path
 
-import adamslite as al
 import pytest
+
+import adamslite as al
 from adamslite.kernels import compile as compiling
 
 DECKS = Path(__file__).parents[1] / "decks"

@@ -19,7 +19,7 @@ DECKS = resources.find("decks")
 
 
 def test_an_object_refers_to_what_is_known(cache) -> None:
-    known = [["a"], {"b": 1}]
+    known = [Path("a"), Path("b")]
     objects.keep("scene" + "0" * 32 + ".kept", {"x": known[0], "y": [known[1]]}, known)
     found = objects.find("scene" + "0" * 32 + ".kept", known)
     assert found["x"] is known[0] and found["y"][0] is known[1]

@@ -1,7 +1,8 @@
 """Objects of Python as entries of the cache, unpickled only when verified.
 
-What is known to both sides is left out of an entry: it is given as a list of objects, and an entry
-refers to them by number, so that they are the same objects again.
+What is known to both sides is left out of an entry: it is given as a list of objects (no numbers,
+texts, tuples, lists or dictionaries), and an entry refers to them by number, so that they are the
+same objects again.
 """
 
 from __future__ import annotations

@@ -148,6 +148,8 @@ class Deck:
 
     def is_active(self, statement: Statement) -> bool:
         """Whether an element acts; everything does that DEACTIVATE has not named."""
+        if not self.inactive:
+            return True
         own = statement.keyword, statement.key
         if self._acts_for.get(own, own) in self.inactive:
             return False
