@@ -224,7 +224,10 @@ def compare() -> int:
 
 def main() -> int:
     """Compare, renew, or print the counts of this process."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.counts", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.counts", description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )  # fmt: skip
     parser.add_argument("--renew", action="store_true", help="write counts.csv again")
     parser.add_argument("--print", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()

@@ -152,11 +152,24 @@ def measure(cases: Sequence[Case], tried: Sequence[Variant], folder: Path, secon
 
 def main() -> int:
     """Measure what the command line requests."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.matrix", description=__doc__)
-    parser.add_argument("--case", nargs="+", default=[""], metavar="PART")
-    parser.add_argument("--only", nargs="+", default=[""], metavar="PART")
-    parser.add_argument("--seconds", type=float, default=SECONDS)
-    parser.add_argument("--out", type=Path, default=report.FOLDER)
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.matrix", description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )  # fmt: skip
+    parser.add_argument(
+        "--case", nargs="+", default=[""], metavar="PART", help="cases with this in their name"
+    )
+    parser.add_argument(
+        "--only", nargs="+", default=[""], metavar="PART",
+        help="integrators with this in their name",
+    )  # fmt: skip
+    parser.add_argument(
+        "--seconds", type=float, default=SECONDS, help=f"CPU of a cell ({SECONDS:g})"
+    )
+    parser.add_argument(
+        "--out", type=Path, default=report.FOLDER,
+        help="folder of the table; the page is written unless it is another one",
+    )  # fmt: skip
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     cases = [case for case in CASES if any(part in case.name for part in args.case)]

@@ -109,7 +109,7 @@ def test_results_and_messages_are_those_of_a_first_run(
             runs.append((code, said(capsys), written(tmp_path)))
         assert runs[0] == runs[1]
     kept = name not in ("user-routine/user-routine", "replay/pendulum")
-    assert counted.read == 2 if kept and runs[0][0] == 0 else 4
+    assert counted.read == (2 if kept and runs[0][0] == 0 else 4)
 
 
 def test_a_second_run_reads_and_compiles_nothing(deck: Path, counted: Counted) -> None:
