@@ -220,10 +220,9 @@ def elevator(draw: Draw) -> Table:
     pulley = _pulley(draw, rope, 0.0, 0.0, 0.0)
     r = pulley["radius"]
     winch = _winch(draw, rope, {"payout": text}) | {
-        "at": [-r, -float(f"{rope.length * draw.between(0.3, 1.0):.4g}"), 0.0], "radius": r / 2,
-        "turn": -1,
+        "at": [-1.5 * r, -float(f"{rope.length * draw.between(0.3, 1.0):.4g}"), 0.0],
+        "radius": r / 2, "turn": -1,
     }  # fmt: skip
-    winch["at"][0] = -1.5 * r
     return rope.scene(end, [winch, pulley, _mass(rope.mass, r, -rope.length, 0.0)])
 
 
@@ -316,7 +315,7 @@ KINDS: dict[str, Callable[[Draw], Table]] = {
     each.__name__: each
     for each in (
         along, across, heavy, hoist, crane, trolley, heave, atwood, elevator, engine, struck,
-        slider, tackle, kink, mixed, slip, hoist, hoist,
+        slider, tackle, kink, mixed, slip,
     )
 }  # fmt: skip
 #: As often as users describe them: a winch with a law is the usual scene.

@@ -29,3 +29,10 @@ def test_a_library_has_one_bound() -> None:
 def test_the_oldest_python_is_a_classifier() -> None:
     oldest = PROJECT["requires-python"].removeprefix(">=")
     assert f"Programming Language :: Python :: {oldest}" in PROJECT["classifiers"]
+
+
+def test_all_tests_with_the_oldest_libraries_are_there() -> None:
+    script = (ROOT / ".ci" / "oldest").read_text(encoding="utf-8")
+    names = ",".join(re.findall(r"test_\{([\w,]+)\}\.py", script)).split(",")
+    missing = [n for n in names if not (ROOT / "tests" / f"test_{n}.py").is_file()]
+    assert names != [""] and missing == []

@@ -68,7 +68,7 @@ class Instances(Sequence[tuple["Statement", Binding]]):
 
 
 def compact(column: Sequence[Any]) -> Sequence[Any]:
-    """A column as an array where it has nothing but whole numbers, or nothing but others."""
+    """A column as an array where it has nothing but whole numbers, or nothing but reals."""
     kinds = set(map(type, column))
     with suppress(OverflowError):
         if kinds == {int}:
