@@ -22,6 +22,7 @@ from benchmarks.tables import (
     milliseconds,
     named,
     short,
+    tried,
 )
 
 GROWTH = "growth"
@@ -94,11 +95,11 @@ def result(scene: str, mine: Sequence[Row]) -> str:
 
 def _nobody(mine: Sequence[Row]) -> str:
     """That no other program is as accurate; whom that is said of."""
-    tried = {short(r.program).partition(" ")[0] for r in mine if r.kind in PEERS and not r.missed}
-    if not tried:
+    names = {short(r.program).partition(" ")[0] for r in tried(mine, PEERS)}
+    if not names:
         return "no other program was tried"
-    if len(tried) == 1:
-        return f"{tried.pop()}, the only other program that was tried, does not get there"
+    if len(names) == 1:
+        return f"{names.pop()}, the only other program that was tried, does not get there"
     return "no other program gets there"
 
 

@@ -12,7 +12,17 @@ from benchmarks.growth import FROM, exponent
 from benchmarks.points import Row
 from benchmarks.same_method import NAMES, SUFFIX
 from benchmarks.scenes import SCALING
-from benchmarks.tables import PEERS, TARGETS, by_scene, cheapest, milliseconds, named, short, table
+from benchmarks.tables import (
+    PEERS,
+    TARGETS,
+    by_scene,
+    cheapest,
+    milliseconds,
+    named,
+    short,
+    table,
+    tried,
+)
 
 #: The accuracy of the one-line comparison of each scene [m or rad].
 MIDDLE = 1e-5
@@ -39,7 +49,7 @@ def _contests(rows: Iterable[Row]) -> Iterator[tuple[Row | None, Row | None, Row
 def _peers(rows: Sequence[Row]) -> Iterator[str]:
     """How ours compares with the best of the others."""
     contests = list(_contests(rows))
-    if not contests:
+    if not contests or not tried(rows, PEERS):
         return
     reached = sum(own is not None for own, _, _ in contests)
     alone = sum(own is not None and best is None for own, _, best in contests)
@@ -125,7 +135,8 @@ def scenes(rows: Sequence[Row], target: float = MIDDLE) -> str:
         own, best = cheapest(mine, target, ("ours",)), cheapest(mine, target, PEERS)
         if own or best:
             ratio = f"{best.cpu_median / own.cpu_median:.2g}" if own and best else "-"
-            body.append([named(scene, n), *_cost(own), *_cost(best), ratio])
+            others = _cost(best) if tried(mine, PEERS) else ("not measured", "-")
+            body.append([named(scene, n), *_cost(own), *others, ratio])
     head = ("scene", "adamslite", "CPU ms", "best other program", "CPU ms", "ratio")
     return table(head, body) if body else ""
 

@@ -82,10 +82,14 @@ def _against(
     """The best of some kinds and its CPU over ours; a program without a turn did not fail."""
     rival = cheapest(mine, target, kinds)
     if rival is None:
-        tried = [r for r in mine if r.kind in kinds and not r.missed]
-        return ("none got there" if tried else "not measured"), "-"
+        return ("none got there" if tried(mine, kinds) else "not measured"), "-"
     shown = f"{short(rival.program)} {milliseconds(rival.cpu_median)} ms"
     return shown, f"{rival.cpu_median / own.cpu_median:.2g}" if own else "-"
+
+
+def tried(rows: Iterable[Row], kinds: Sequence[str]) -> list[Row]:
+    """The rows of programs of some kinds that had a turn."""
+    return [r for r in rows if r.kind in kinds and not r.missed]
 
 
 def short(program: str) -> str:

@@ -58,6 +58,12 @@ def test_a_program_without_a_turn_has_not_failed() -> None:
     assert "none got there" in tables.summary(failed, [1e-3])
 
 
+def test_of_ours_alone_no_other_program_is_said_to_have_failed() -> None:
+    assert "no other program" not in conclusions.conclusions(ROWS[:1], [], [])
+    assert "| S1 N=10 | HHT | 2 | not measured | - | - |" in conclusions.scenes(ROWS[:1], 1e-3)
+    assert "| S1 N=10 | HHT | 2 | none | - | - |" in conclusions.scenes(ROWS, 1.5e-4)
+
+
 def test_tables_come_back_as_they_were_written(tmp_path: Path) -> None:
     points.write(ROWS, tmp_path)
     assert points.read(tmp_path) == ROWS
