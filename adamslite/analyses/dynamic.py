@@ -16,6 +16,7 @@ from adamslite.analyses.step_limits import StepLimits
 from adamslite.analyses.worker import Worker
 from adamslite.equations.engine import ints
 from adamslite.integrators import contract
+from adamslite.integrators.contract import SPECTRUM
 from adamslite.language.method import FIXED, FIXED_BY_HINIT, USUAL, method_of
 from adamslite.native.translate import Rows
 from adamslite.progress import RunState
@@ -32,6 +33,11 @@ STEPS_PER_OUTPUT = 20.0
 ROUND_OFF = 1e-14
 # Time between two looks at a run [s], and unknowns times tries of a step that take less.
 WATCH_INTERVAL, UNWATCHED = 0.1, 50_000.0
+# Tries of a step after which a run is judged; each later judgement is at twice as many.
+JUDGED, LATER = 4_000, 2
+# A decay within so much less than a mean step holds steps of an explicit formula down: it is stable
+# up to 6 or so, and steps between contacts are longer.
+HELD_DOWN = 2.0
 # How a run may end before a motion that jumps, or gets ever faster.
 CLOSE = (Outcome.DONE, Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED)
 # Error estimates from here on stand for not-a-number.
@@ -179,11 +185,18 @@ def make_ready(
     system.start_record(times)
 
 
-def integrate(system: System, settings: Settings, progress: Progress | None) -> Outcome:
-    """Run what was made ready; how it ended."""
+def integrate(
+    system: System, settings: Settings, progress: Progress | None, judged: bool = False
+) -> Outcome:
+    """Run what was made ready; how it ended.
+
+    ``judged``: a method that pauses ends with STEP_TOO_SMALL when a decay holds its steps down.
+    """
     run = system.settings
     start, end, hmax = float(run.t), float(run.t_end), float(run.h_max)
-    code = _watched(system, settings.formula, progress, start, end)
+    code = _watched(system, settings.formula, progress, start, end, judged)
+    if code == contract.PAUSED:
+        return Outcome.STEP_TOO_SMALL
     system.release_guards()
     if system.search.loose:
         require_none(system, EQUAL)
@@ -237,12 +250,13 @@ def _named(system: System, code: int) -> Outcome:
     return OUTCOMES[code]
 
 
-def _first_tries(system: System, method: Method) -> int:
+def _first_tries(system: System, method: Method, judged: bool) -> int:
     """So many tries of a step as take no longer than a run goes unwatched, without a thread; PAUSED
     where there are more. Routines of the user may take any time.
     """
     run = system.settings
     run.begun, run.pause = False, int(UNWATCHED / max(system.nz, 1))
+    run.pause = min(run.pause, JUDGED) if judged else run.pause
     if not method.pauses or run.pause == 0 or system.model.deck.user.used:
         return contract.PAUSED
     try:
@@ -252,16 +266,42 @@ def _first_tries(system: System, method: Method) -> int:
     return contract.PAUSED
 
 
+def _resumed(system: System, method: Method, start: float, judged: bool) -> int:
+    """Run until there is an outcome; PAUSED when it is given up as :func:`integrate` says."""
+    run, count = system.settings, system.count
+    run.pause = max(run.pause, JUDGED) if judged and method.pauses else 0
+    while (code := system.integrate(method.entry)) == contract.PAUSED:
+        mean = (float(system.report.t) - start) / max(int(count.steps), 1)
+        if is_held_down(system, mean):
+            return code
+        run.pause *= LATER
+    return code
+
+
+def is_held_down(system: System, step: float) -> bool:
+    """Whether forces decay within much less than a step, and faster than anything vibrates: what an
+    explicit formula follows in vain and an implicit one steps over.
+    """
+    if system.run(SPECTRUM) != contract.DONE:
+        return False
+    decay, squared = float(system.report.damping), float(system.report.stiffness)
+    return decay * step > HELD_DOWN and decay * decay > squared
+
+
 def _watched(
-    system: System, method: Method, progress: Progress | None, start: float, end: float
+    system: System,
+    method: Method,
+    progress: Progress | None,
+    start: float,
+    end: float,
+    judged: bool,
 ) -> int:
     """Run; what is not over soon in a thread of its own, with a look at it from time to time."""
     limits = StepLimits(system)
     look = partial(_state, system, limits, start, end)
-    code = _first_tries(system, method)
+    code = _first_tries(system, method, judged)
     if code == contract.PAUSED:
-        system.settings.pause = 0
-        running = Worker(partial(system.integrate, method.entry))
+        running = Worker(partial(_resumed, system, method, start, judged))
         while running.works:
             try:
                 running.wait(WATCH_INTERVAL)

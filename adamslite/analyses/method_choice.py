@@ -4,9 +4,16 @@ AUTO, with rho the largest circular frequency of the linearised scene and dt the
 
 1. variables that are solved for, DIFF states, forces of accelerations other than added mass, and
    bodies without inertia may be as fast as they like: implicit;
-2. otherwise, tied by constraints or not, explicit while rho dt stays below ``STEPS_WORTH`` radians:
-   VERLET for free point masses with ERROR of ``COARSE`` and above, RKF45 for the rest;
-3. implicit: RADAU below ``COARSE``, GSTIFF for bodies without inertia; from ``COARSE`` on HHT for
+2. tied by constraints, with forces that set in or break off (contacts, stops, slack lines): RADAU.
+   Events cut the steps of every formula, so that order 8 finds no use, while each of its 12 stages
+   eliminates the constraints once; RADAU does so once in real and once in complex numbers.  And a
+   stiff contact limits explicit steps only once it is closed, which rho does not know at the start;
+3. otherwise, tied by constraints or not, explicit while rho dt stays below ``STEPS_WORTH`` radians:
+   VERLET for free point masses with ERROR of ``COARSE`` and above, unless a few contacts, which it
+   does not locate, decide on its error; RKF45 for the rest.  Where a contact, once closed, decays
+   so fast that it holds the steps of RKF45 down, the run begins again with RADAU, as one that
+   RADAU does not get through begins again with RKF45;
+4. implicit: RADAU below ``COARSE``, GSTIFF for bodies without inertia; from ``COARSE`` on HHT for
    free scenes that are stiff, else GSTIFF.
 """
 
@@ -29,12 +36,16 @@ from adamslite.symbolic.guards import JUMPS
 if TYPE_CHECKING:
     from adamslite.analyses.dynamic import Settings
     from adamslite.equations.system import System
+    from adamslite.kernels.groups import ShapeGroup
 
 # An explicit step costs a few residuals and covers a few radians of the fastest oscillation; an
 # implicit one costs some ten, and motion worth recording takes some ten steps per output step.
 STEPS_WORTH = 3000.0
 # Formulas of second order pay from here on.
 COARSE = 1e-4
+# Up to so many guards of contacts RKF45, which ends a step at each change, costs some times what
+# VERLET does and has a thousandth of its error; with hundreds it costs a hundred times as much.
+FEW_GUARDS = 20
 # A jump felt for a step too long is within ERROR from here on.
 ROUGH = 1e-3
 # Unknowns of their own, and what to say of them.
@@ -43,10 +54,20 @@ SOLVED = {"VARIABLE": "is solved for", "DIFF": "is a state"}
 
 @dataclass(frozen=True)
 class MethodChoice:
-    """``settings`` with a method that exists; ``reason`` why, empty when it was asked for."""
+    """``settings`` with a method that exists; ``reason`` why, empty when it was asked for;
+    ``instead``: the method that begins again where that one stalls.
+    """
 
     settings: Settings
     reason: str = ""
+    instead: str = ""
+
+    @property
+    def other(self) -> MethodChoice:
+        """The choice of that method."""
+        settings = replace(self.settings, method=self.instead)
+        way = "explicit" if settings.formula.explicit else "implicit"
+        return MethodChoice(settings, f"{way}, because {self.settings.method} stalled")
 
 
 def choose_method(system: System, times: np.ndarray, settings: Settings) -> MethodChoice:
@@ -64,8 +85,8 @@ def choose_method(system: System, times: np.ndarray, settings: Settings) -> Meth
     if settings.method != AUTO:
         known = ", ".join([*methods(), AUTO])
         raise UsageError(f"There is no integrator {settings.method}. Known are {known}.")
-    method, reason = _picked(system, times, settings.error)
-    return MethodChoice(replace(settings, method=method), reason)
+    method, reason, *instead = _picked(system, times, settings.error)
+    return MethodChoice(replace(settings, method=method), reason, *instead)
 
 
 def what_is_unfit(system: System, settings: Settings) -> str:
@@ -155,6 +176,21 @@ _OBSTACLES: dict[str, Callable[[System, float], str]] = {
 }
 
 
+def what_meets(system: System) -> str:
+    """A force that sets in or breaks off as bodies meet or lines come taut, without a jump of its
+    value, as words; empty when there is none.
+    """
+    bent = next((group for group in system.kernels.groups if _bends(group)), None)
+    if bent is None:
+        return ""
+    return f"{bent.instances[0][0].label} sets in and breaks off with the state (IMPACT, MAX)"
+
+
+def _bends(group: ShapeGroup) -> bool:
+    kinds = group.meta["guards"]["watch"] if group.face == "loads" else ()
+    return any(kind < JUMPS for kind in kinds)
+
+
 def fastest(system: System, time: float) -> float:
     """Largest circular frequency or rate [rad/time] of the linearised scene, damping included."""
     system.settings.t = time
@@ -164,20 +200,24 @@ def fastest(system: System, time: float) -> float:
     return max(sqrt(stiff), damp)
 
 
-def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, str]:
-    """Method and reason."""
+def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, ...]:
+    """Method, reason, and the method that begins again where that one stalls."""
     implicit = "GSTIFF" if error >= COARSE else "RADAU"
     obstacle = what_is_solved(system)
     if obstacle and not has_effective_masses(system):
         return implicit, f"implicit, because {obstacle}"
     if obstacle := what_is_light(system):
         return "GSTIFF", f"implicit, because {obstacle}"
-    tied = what_ties(system)
+    tied, meeting = what_ties(system), what_meets(system)
+    if tied and meeting:
+        return "RADAU", f"implicit, because {meeting}, and {tied}", "RKF45"
     pace = float(np.diff(times).max()) if len(times) > 1 else 0.0
     radians = fastest(system, float(times[0])) * pace
     reason = f"its fastest oscillation turns {radians:.3g} rad in an output step"
     if not radians <= STEPS_WORTH:
         return "HHT" if error >= COARSE and not tied else implicit, f"implicit, because {reason}"
-    if error >= COARSE and not (tied or what_turns(system) or what_changes(system, 0.0)):
+    unfit = tied or what_turns(system) or what_changes(system, 0.0)
+    few = meeting and len(system.guarded["watch"]) <= FEW_GUARDS
+    if error >= COARSE and not (unfit or few):
         return "VERLET", f"explicit, because nothing ties the masses together and {reason}"
-    return "RKF45", f"explicit, because {reason}"
+    return "RKF45", f"explicit, because {reason}", "RADAU" if meeting else ""

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.analyses.begun_again import Beginning
 from adamslite.analyses.initial.least_change import VELOCITIES
 from adamslite.analyses.initial.sparse_rows import Pattern, evaluated
 from adamslite.integrators import contract
@@ -29,22 +30,17 @@ if TYPE_CHECKING:
 NOTHING = 1e-11
 # Of the largest force, or 1 in the units of the deck.
 LOOSE = 1e-10
-STATE = ("q", "u", "a", "z", "rd", "mu", "ra", "rz", "base", "W")
 
 
 def in_its_plane(system: System, run: Callable[[], Outcome]) -> Outcome:
     """Run in the plane of a model that has one; in space when it has none or leaves it."""
     if not reduce_to_plane(system):
         return run()
-    before = {name: getattr(system, name).copy() for name in STATE}
-    memories = [(whose, values.copy()) for whose, values in system.instances.memories()]
+    beginning = Beginning(system)
     outcome = run()
     if not system.report.left_plane:
         return outcome
-    for name, values in before.items():
-        getattr(system, name)[:] = values
-    system.instances.remember(memories)
-    system.elimination.unfold()
+    beginning.return_to()
     return run()
 
 

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.analyses.begun_again import Beginning
 from adamslite.analyses.delays import NO_PAST, require_no_delay
 from adamslite.analyses.dynamic import integrate, largest_step, make_ready, run_dynamic
 from adamslite.analyses.initial.conditions import consistent_velocities
@@ -40,6 +41,7 @@ from adamslite.progress import AnalysisProgress
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
+    from adamslite.analyses.method_choice import MethodChoice
     from adamslite.deck.redefinition import Command
     from adamslite.elements.equilibrium import Equilibrium
     from adamslite.elements.info import Info
@@ -122,15 +124,7 @@ class Session(SessionState):
             if self.unclosed:
                 self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
                 return
-        began = clock.process_time()
-        self.chosen = choose_method(system, times, self.settings)
-        if system.sizes.si2 and system.holonomic and self.chosen.settings.form != "SI2":
-            system = self.present = self.renumbered(system, system.elimination.pivoting)
-        formula = self.chosen.settings.formula
-        engine(formula.entry, self.progress)
-        if formula.by_component:
-            system.lay_lanes()
-        self.late_setup += clock.process_time() - began
+        self._take(choose_method(system, times, self.settings))
         if self.progress:
             start, end = float(times[0]), float(times[-1])
             self.whole = AnalysisProgress(self.progress, start, end, self._steps_before)
@@ -141,6 +135,17 @@ class Session(SessionState):
             self._after_sensors()
             self._run_over(times, np.arange(len(times)) > 0)
 
+    def _take(self, choice: MethodChoice) -> None:
+        """The method from here on, compiled, and the equations in its formulation."""
+        began, system = clock.process_time(), self.system
+        self.chosen, formula = choice, choice.settings.formula
+        if system.sizes.si2 and system.holonomic and choice.settings.form != "SI2":
+            system = self.present = self.renumbered(system, system.elimination.pivoting)
+        engine(formula.entry, self.progress)
+        if formula.by_component:
+            system.lay_lanes()
+        self.late_setup += clock.process_time() - began
+
     def _steps_before(self) -> int:
         """Steps of the runs that are over."""
         return int(self.counts.steps)
@@ -149,8 +154,8 @@ class Session(SessionState):
         """Integrate over output times (nt,), of which those ``wanted`` were requested."""
         system, apart, error = self.system, largest_step(times), self.settings.error
         for span, kept in self.delays.spans(self.kernels, system, times, wanted, error):
-            self.sensors.arm(system)
-            self.outcome = self._integrated(system, span, apart)
+            self.outcome = self._tried(span, apart)
+            system = self.system
             self.keep(system, *self._sensed(system, span, kept, apart))
             if not self.deck.delays:  # which look into it
                 system.record = np.zeros(1)
@@ -172,6 +177,22 @@ class Session(SessionState):
         self.chosen = replace(self.chosen, settings=started)
         self.sensors.continuing = []
 
+    def _tried(self, times: np.ndarray, apart: float) -> Outcome:
+        """Integrate; where the method that AUTO took stalls, from the beginning by that which it
+        has in reserve.  What is delayed was written for one run.
+        """
+        reserve = bool(self.chosen.instead) and not self.deck.delays
+        beginning = Beginning(self.system) if reserve else None
+        drawn_up = len(self.balances)
+        self.sensors.arm(self.system)
+        outcome = self._integrated(self.system, times, apart)
+        if beginning is None or outcome not in STALLED:
+            return outcome
+        beginning.return_to()
+        del self.balances[drawn_up:]
+        self._take(self.chosen.other)
+        return self._tried(times, apart)
+
     def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
         settings = self.chosen.settings
 
@@ -179,7 +200,7 @@ class Session(SessionState):
             make_ready(system, times, apart, settings, self.audited)
             if self.first_step is None and not self.history.pieces:
                 self.first_step, self.late_setup = clock.process_time(), 0.0
-            return integrate(system, settings, self.whole)
+            return integrate(system, settings, self.whole, bool(self.chosen.instead))
 
         outcome = run() if "plane" in self.without else in_its_plane(system, run)
         self._note_balance(system)
