@@ -11,9 +11,11 @@ class Control(ImplicitControl):
 
     width                numbers of a row of the history: q, u and s
     cu                   gamma_k / h: how y' follows from y
+    caution              what the next step aims at is divided by this
     cap                  on the order
     """
 
     width: int
     cu: float
+    caution: float
     cap: OrderCap

@@ -7,6 +7,7 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.dense_output import put_between
+from adamslite.integrators.bdf.order import CAUTIOUS
 from adamslite.integrators.bdf.order_cap import forget_window
 from adamslite.integrators.bdf.start import start_history
 from adamslite.integrators.bdf.state import forget_multipliers, resize, restore_state
@@ -94,7 +95,7 @@ def restart(P: Problem, L: Plan, C: Control) -> None:
     P.count.restarts += 1
     keep_solution(P)
     forget_multipliers(P)
-    C.h_last, C.factored = 0.0, 0.0
+    C.h_last, C.factored, C.caution = 0.0, 0.0, CAUTIOUS
     forget_window(C.cap)
     start_history(P, L, C)
     put_state(P, C.t, P.q, P.u, P.ra, P.z, P.rd)

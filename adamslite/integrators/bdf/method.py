@@ -92,6 +92,7 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     C[:] = 0
     P.undoing[:] = 0
     C.t, C.rate, C.order, C.blamed = P.settings.t, 1.0, 1, NOBODY
+    C.caution = 1.0
     C.width, C.highest = 2 * P.sizes.n + P.sizes.ns, most_order(P)
     start_watch(C.cap)
     P.report.order_capped = False

@@ -21,6 +21,11 @@ from adamslite.native.translate import native
 # The next step aims at an estimated error below ERROR by these factors (at a higher order: more
 # caution).
 SAFETY, SAFETY_UP = 3.0, 4.5
+# ... and behind an event, while the order still rises, by so much more: what such a step errs by
+# stays until the next event.
+CAUTIOUS = 1.5
+# Past values on a cubic have no D_4: of the first d behind them it is this many times as much.
+CUBIC_PAST = 11.0
 # A step changes only when that pays for a new matrix, and never grows by more than this at once.
 LEAST_GROWTH, LEAST_SHRINK, MOST_GROWTH = 1.2, 0.9, 10.0
 # Steps that double again and again amplify the noise of higher orders.
@@ -51,7 +56,8 @@ def local_error(P: Problem, C: Control) -> float:
     tested = tests_velocities(P)
     size = weighted(d, y, n, ns, tested)
     P.report.where = most_wrong(size, d, y, n, ns, tested)
-    P.report.error = size / ((C.order + 1.0) * P.settings.error)
+    share = CUBIC_PAST if C.order == 3 and C.h_last == 0.0 else 1.0
+    P.report.error = share * size / ((C.order + 1.0) * P.settings.error)
     return P.report.error
 
 
@@ -114,19 +120,21 @@ def take_longest_step(P: Problem, C: Control, norm: float) -> None:
     "largest step" would always pick the lowest.
     """
     k, tol, room = C.order, P.settings.error, longest_step(P) / C.h
-    same = step_ratio(SAFETY * norm, k)
+    same = step_ratio(SAFETY * C.caution * norm, k)
     best, factor = k, same
     if k > 1:
         low = difference(P, C, k)
         suspect(C.cap, k, low, norm * (k + 1) * tol, tol, C.equal)
-        f = step_ratio(SAFETY * low / (k * tol), k - 1)
+        f = step_ratio(SAFETY * C.caution * low / (k * tol), k - 1)
         if f > factor and min(f, same) < room:
             best, factor = k - 1, f
     if k < C.highest:
         high = difference(P, C, k + 2) / ((k + 2) * tol)
-        f = step_ratio(SAFETY_UP * high, k + 1)
+        f = step_ratio(SAFETY_UP * C.caution * high, k + 1)
         if f > factor or (min(f, factor) >= room and high < norm):
             best, factor = k + 1, f
+    if best <= k:
+        C.caution = 1.0
     factor = min(factor, min(room, MOST_GROWTH))
     if best != k or factor >= LEAST_GROWTH or factor < LEAST_SHRINK:
         C.order = best

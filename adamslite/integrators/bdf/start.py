@@ -10,7 +10,8 @@ Differences of the cubic with these derivatives, on steps of h, are the history:
     D_1 = h y' - h^2 y''/2 + h^3 y'''/6,    D_2 = h^2 y'' - h^3 y''',    D_3 = h^3 y'''
 
 Its order is the one that promises the longest step.  What a step then errs by, D_(k+1)/(k + 1), is
-known for k = 1 and 2; y'''' is taken to be as much larger than y''' as that is than y''.
+known for k = 1 and 2.  y'''' is taken to be as much larger than y''' as that is than y'', or than
+y'' as y''' is than y', whichever is more: of a vibration that is at its middle y''' may be nothing.
 
 Reference: Gear, ACM Trans. Math. Softw. 6 (1980) 3, "Runge-Kutta starters for multistep methods"
 (why: a start of order 1 costs some twenty steps).
@@ -107,7 +108,10 @@ def choose_start(P: Problem, C: Control, longest: float) -> None:
     """The order from 1 to 3 with the longest step, from the derivatives in their rows."""
     top, error = min(longest, longest_step(P)), P.settings.error
     second, third = difference(P, C, SECOND), difference(P, C, THIRD)
+    first = difference(P, C, RATE)
     fourth = third * third / second if second > 0.0 else 0.0
+    if first > 0.0:
+        fourth = max(fourth, second * third / first)
     h = top
     if third > 0.0:
         h = min(top, (3.0 * error / (GENTLE * third)) ** (1.0 / 3.0))
