@@ -45,8 +45,8 @@ class Routine:
         The statement, with its place.
     name : str
         The function as the user names it.
-    function, derivatives : callable
-        As above; ``derivatives`` may be None.
+    function : callable
+        As above; it may have ``derivatives``.
     parameters : sequence of float
         Numbers of the call in the deck.
     inputs : int

@@ -4,7 +4,7 @@
 ADAMS                       this program
 ==========================  ==================================================================
 Part X .. PHI, VX, ACCX     ``PART/2.bcs_x`` ...: of origin and axes of the part; the results
-                            of a run are of its centre of mass (:mod:`..results.part_frames`)
+                            of a run are of its centre of mass (:mod:`.part_frames`)
 Part WX, WDX                ``PART/2.wx``, ``PART/2.alx``
 Joint, Motion FX .. TZ      ``JOINT/3.fx``: reaction on I, ground axes
 Single_Component_Force      ``SFORCE/5.f`` along the line between the markers, or about z of J;

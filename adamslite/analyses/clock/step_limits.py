@@ -51,8 +51,8 @@ class Timetable:
     """What is known of time before a run.
 
     ``stops`` (k,): where steps end and branches may change, the end last.  ``paces`` (3 n,): see
-    :class:`base.Pace`.  ``paced``: statements that change within less than the longest step;
-    ``overfull``: those that change too often to follow all of it.
+    :class:`adamslite.integrators.contract.Pace`.  ``paced``: statements that change within less
+    than the longest step;  ``overfull``: those that change too often to follow all of it.
     """
 
     stops: np.ndarray

@@ -2,8 +2,8 @@
 
     gap = T - T_0 - sum m g . (x - x_0) - W,      T = sum m v.v/2 + w.J w/2
 
-with W the work of all loads, motions and constraints that move (:mod:`audit_work`) along the path
-of each step (:mod:`audit_path`), evaluated again: the audit may see what a step did not.  Elastic
+with W the work of all loads, motions and constraints that move (:mod:`.work`) along the path
+of each step (:mod:`.path`), evaluated again: the audit may see what a step did not.  Elastic
 elements with a law of small angles (BUSHING, FIELD, BEAM) are watched on their own: their work and
 the growth of what they store add up to what they created, which is never above zero.
 
