@@ -20,7 +20,6 @@ from adamslite.language.statement import STATEMENTS
 Array = np.ndarray
 ZERO = np.zeros(3)
 SEEDS = (0, 1, 3)
-UNIT = Marker(-1, ZERO, np.eye(3), ZERO, ZERO)
 
 
 def agree(flight: Flight, statements: list[str], loads: list) -> None:

@@ -91,7 +91,7 @@ def _body(deck: Deck, marker: Key | None) -> Body | None:
     return GROUND if getattr(deck.find(*found.owner), "ground", False) else found.owner
 
 
-def worst_gap(model: Model, closing: Closing) -> tuple[Constraint, str, float, list[str]] | None:
+def worst_gap(closing: Closing) -> tuple[Constraint, str, float, list[str]] | None:
     """The constraint that stays open most, its row, by how much, and what it contradicts.
 
     At the least sum of squares the gaps are a combination of rows that cancels: rows that stay open

@@ -70,7 +70,7 @@ def demand_on(chain: Chain, posture: Posture, end: float) -> ChainDemand:
         bounces=abs(drawn - hung) > 0.5 * weight + FELT * hung and not chain.is_ring, end=end,
         tied=_is_tied(deck),
     )  # fmt: skip
-    return ChainDemand(chain, demand, _form(chain, posture, travel), gained)
+    return ChainDemand(chain, demand, _form(chain, posture), gained)
 
 
 def _tips(chain: Chain) -> list[Body]:
@@ -176,7 +176,7 @@ def _grows(posture: Posture, node: Body) -> Iterator[Vforce]:
     return (f for f in posture.deck.of(Vforce) if posture.body(f.i) == node)
 
 
-def _form(chain: Chain, posture: Posture, travel: Travel) -> str:
+def _form(chain: Chain, posture: Posture) -> str:
     """What feeds mass into the nodes: nothing, the paper's term, or the flow through them."""
     node = chain.inner[len(chain.inner) // 2]
     near = {posture.body(k.i) for k in chain.links} | {posture.body(k.j) for k in chain.links}

@@ -61,10 +61,10 @@ def stays_open(deck: Deck) -> Iterator[Diagnostic]:
     if is_closed_as_drawn(deck, OPEN):
         return
 
-    model, closing = closing_of(deck)
+    _, closing = closing_of(deck)
     if closing.closed:
         return
-    worst = worst_gap(model, closing)
+    worst = worst_gap(closing)
     if worst is None:
         return
     statement, row, size, others = worst

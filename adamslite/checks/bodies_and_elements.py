@@ -43,7 +43,6 @@ POINT = "POINT_MASS"
 Following = Vforce | Vtorque | Gforce
 Compliant = Bushing | Field | Beam
 Between = Sforce | Springdamper | Joint | Compliant | Following
-FOLLOWING = ("VFORCE", "VTORQUE", "GFORCE")
 
 
 # ---- bodies -----------------------------------------------------------------------------------

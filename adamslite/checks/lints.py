@@ -156,7 +156,7 @@ SMOOTH = {"DISPLACEMENT": 1, "VELOCITY": 0, "ACCELERATION": -1}
 def kinks(deck: Deck) -> Iterator[Diagnostic]:
     """Functions with corners in what a constraint prescribes: velocities jump there."""
     held: list[Motion | Gcon] = [*deck.of(Motion), *deck.of(Gcon)]
-    if not any(_may_jump(deck, each.function) for each in held):
+    if not any(_may_jump(each.function) for each in held):
         return
     from adamslite.assembly.corners import suspects
     from adamslite.model.model import Model
@@ -185,7 +185,7 @@ def _corner(model: Model, node: Node, least: int, until: float) -> tuple[str, st
     return (at[0], f" at {at[1]:.4g}") if at else ("", "")
 
 
-def _may_jump(deck: Deck, node: Node) -> bool:
+def _may_jump(node: Node) -> bool:
     """Whether it has, or VARIABLEs may have, a function that is not smooth."""
     return any(call.name == "VARVAL" or not FUNCTIONS[call.name].smooth for call in calls(node))
 

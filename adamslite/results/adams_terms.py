@@ -70,11 +70,6 @@ def grouped(results: Results) -> Groups:
     return found
 
 
-def is_of_adams(results: Results) -> bool:
-    """Whether columns are of the origins of parts."""
-    return any(f".{BCS}" in name for name in results.names)
-
-
 class Directions:
     """Where markers are during a run, from columns of centres of mass.
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 RADIUS, E, MASS, GRAVITY = 0.05, 0.02, 0.8, 9.80665
-CAM, CAM_INERTIA = 2.0, 2.0e-3
+CAM_INERTIA = 2.0e-3
 HEAD = """# An eccentric cam under a flat follower: see README.md
 # written by make_reference.py
 # tolerance: abs 2e-8
