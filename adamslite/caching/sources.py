@@ -2,9 +2,8 @@
 
 The files are found from the import graph: those of a module, of all it imports from this package,
 and so on. Importing a module runs the packages that it lies in; a package that imports what it
-finds in its folder covers all of its modules. The graph is read from the files themselves each
-time, so nothing about it can be out of date; that takes a few milliseconds and only what needs
-compiled code pays them.
+finds in its folder covers all of its modules. The graph is read from the files themselves, once for
+each state that the program is in, so nothing about it can be out of date.
 """
 
 from __future__ import annotations
