@@ -183,6 +183,7 @@ def make_ready(
 
         start_audit(system)
     system.start_record(times)
+    system.records()
 
 
 def integrate(
@@ -297,9 +298,8 @@ def _watched(
     judged: bool,
 ) -> int:
     """Run; what is not over soon in a thread of its own, with a look at it from time to time."""
-    limits = StepLimits(system)
-    look = partial(_state, system, limits, start, end)
     code = _first_tries(system, method, judged)
+    look = partial(_state, system, StepLimits(system), start, end)
     if code == contract.PAUSED:
         running = Worker(partial(_resumed, system, method, start, judged))
         while running.works:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from operator import attrgetter, is_
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -47,6 +48,14 @@ KEPT_BY = {
     **dict.fromkeys("copies product turning mixed unit dead held loose".split(), "elimination"),
     **dict.fromkeys("LV LA work pivots pivots_a".split(), "elimination"),
 }
+
+#: All arrays of ``Problem``, in its order.
+OF_PROBLEM = attrgetter(
+    *(
+        f"{KEPT_BY[name]}.{name}" if name in KEPT_BY else name
+        for name in contract.Problem.references
+    )
+)
 
 
 class System:
@@ -101,7 +110,7 @@ class System:
         self._bodies()
         self._scalars()
         self._tables()
-        self._parts = [(name, self._keeper(name)) for name in contract.Problem.references]
+        self._referred: tuple[object, ...] = ()
 
     def drop(self, rows: list[int]) -> None:
         """Leave out redundant constraint rows (counted from the first multiplier): lam = mu = 0."""
@@ -353,9 +362,13 @@ class System:
         return engine(entry)(problem.address, plan.address)
 
     def records(self) -> tuple[contract.Problem, Plan]:
-        """The arrays as native code takes them."""
-        self.problem.refer(getattr(part, name) for name, part in self._parts)
-        self.order.refer(map(self.elimination.plan.__getitem__, Plan.references))
+        """The arrays as native code takes them; most often they are those of the last time."""
+        arrays, plan = OF_PROBLEM(self), self.elimination.plan
+        found = (*arrays, *map(plan.__getitem__, Plan.references))
+        if not (self._referred and all(map(is_, found, self._referred))):
+            self._referred = found
+            self.problem.refer(arrays)
+            self.order.refer(found[len(arrays) :])
         return self.problem, self.order
 
 
