@@ -299,6 +299,8 @@ def _watched(
 ) -> int:
     """Run; what is not over soon in a thread of its own, with a look at it from time to time."""
     code = _first_tries(system, method, judged)
+    if code != contract.PAUSED and not progress:
+        return code
     look = partial(_state, system, StepLimits(system), start, end)
     if code == contract.PAUSED:
         running = Worker(partial(_resumed, system, method, start, judged))

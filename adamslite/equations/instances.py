@@ -98,7 +98,9 @@ class Instances:
         """Whose it is and what it remembers: angles, then times of leaving its law."""
         for group, reals in zip(self.kernels.groups, self.keep[1::2], strict=True):
             count = group.meta["angles"] + group.meta["limits"]
-            rows = reals[:-1].reshape(len(group.instances), -1) if count else ()
+            if not count:
+                continue
+            rows = reals[:-1].reshape(len(group.instances), -1)
             first = len(group.instances.columns.params)
             for statement, row in zip(group.instances.statements, rows, strict=False):
                 yield (group.name, statement.keyword, statement.key), row[first : first + count]

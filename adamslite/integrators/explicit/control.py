@@ -23,6 +23,11 @@ class Control(StepControl):
     tries                in vain since the last accepted step
     pulled               how often tiny steps left their branch
     firmest              the least sensitivity to constraints so far (0: none)
+    quick                whether the formula of four stages is in use
+    lazy                 whether the workspace follows the state at records only
+    fastest, looked      circular frequency of the fastest vibration, steps since the last look
+    third                the third order's error of the last step, against ERROR
+    steady, patience     steps since the last change of the formula, steps before the next one
     """
 
     kind: int
@@ -36,3 +41,10 @@ class Control(StepControl):
     tries: int
     pulled: int
     firmest: float
+    quick: bool
+    lazy: bool
+    fastest: float
+    looked: int
+    third: float
+    steady: int
+    patience: int

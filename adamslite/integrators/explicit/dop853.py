@@ -11,6 +11,8 @@ from functools import cache
 
 import numpy as np
 
+from adamslite.integrators.explicit import nystrom
+
 NODES = (
     0.0, 0.05260015195876773, 0.0789002279381516, 0.1183503419072274, 0.2816496580927726,
     0.3333333333333333, 0.25, 0.3076923076923077, 0.6512820512820513, 0.6, 0.8571428571428571,
@@ -82,7 +84,11 @@ DENSE = (
 # weight, and weight of the stage's part in the second integral, w A.
 TERMS = 16
 ROW = 2 + 3 * TERMS
-RESULT, LATE, ERROR5, ERROR3, POWERS, TIMES = 11, 12, 15, 16, 17, 21
+RESULT, LATE, ERROR5, ERROR3, POWERS = 11, 12, 15, 16, 17
+# Behind them the formula of four stages (:mod:`adamslite.integrators.explicit.nystrom`): stages
+# and result; then the nodes of both.
+QUICK, QUICK_RESULT, TIMES = 21, 3, 25
+QUICK_TIMES = ROW * TIMES + len(NODES)
 
 
 @cache
@@ -90,15 +96,21 @@ def tableau() -> np.ndarray:
     """The native table: stages, result, late stages, both errors, interpolation, nodes."""
     result = STAGES[RESULT]
     third = {j: result.get(j, 0.0) - THIRD.get(j, 0.0) for j in {**result, **THIRD}}
-    rows = [_row(terms) for terms in (*STAGES, FIFTH, third, *DENSE)]
-    return np.concatenate([*rows, NODES])
+    rows = [_row(terms, _twice(terms)) for terms in (*STAGES, FIFTH, third, *DENSE)]
+    quick = [_row(*({j: w[k] for j, w in row.items()} for k in (0, 1))) for row in nystrom.STAGES]
+    return np.concatenate([*rows, *quick, NODES, nystrom.NODES])
 
 
-def _row(terms: dict[int, float]) -> list[float]:
+def _twice(terms: dict[int, float]) -> dict[int, float]:
+    """Weights of the second integral, w A."""
     twice: dict[int, float] = {}
     for stage, weight in terms.items():
         for j, inner in STAGES[stage - 1].items() if stage else ():
             twice[j] = twice.get(j, 0.0) + weight * inner
+    return twice
+
+
+def _row(terms: dict[int, float], twice: dict[int, float]) -> list[float]:
     triples = [(j, terms.get(j, 0.0), twice.get(j, 0.0)) for j in sorted({**terms, **twice})]
     triples += [(0, 0.0, 0.0)] * (-len(triples) % 4)
     flat = [float(x) for triple in triples for x in triple]

@@ -11,8 +11,9 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.explicit.control import LANES, Control
 from adamslite.integrators.explicit.dop853 import ERROR3, ERROR5
-from adamslite.integrators.explicit.history import BETWEEN, NEXT_STATE, OLD, SCALES
+from adamslite.integrators.explicit.history import BETWEEN, K_NEW, NEXT_STATE, OLD, SCALES
 from adamslite.integrators.explicit.lanes import unknown_of
+from adamslite.integrators.explicit.nystrom import Q_SCALE, U_SCALE
 from adamslite.integrators.explicit.stages import combine, rates_at
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE, Plan
@@ -23,6 +24,7 @@ from adamslite.native.translate import Reals, maximum, native
 # last error (section IV.2 of the second volume: steadier at the limit of stability).
 SAFETY = 0.9
 NOW_POWER, LAST_POWER = -0.125 + 0.03, 0.04
+QUICK_POWER, QUICK_LAST_POWER = -0.25 + 0.06, 0.08
 SHRINK, GROW = 0.2, 6.0
 # An error estimate below this counts as this for the next step.
 LEAST_ERROR = 1e-4
@@ -86,7 +88,7 @@ def first_step(P: Problem, L: Plan, C: Control) -> float:
     for i in range(w - n):
         k[i] = k[width - w + n + i] - P.history[width - w + n + i]
     d2 = max(d2, distance(P, k, y[n:], scales[n:], w - n) / h)
-    later = (TRIAL / d2) ** 0.125 if d2 > STRAIGHT else max(SHORT, 1e-3 * h)
+    later = (TRIAL / d2) ** (0.25 if C.quick else 0.125) if d2 > STRAIGHT else max(SHORT, 1e-3 * h)
     return min(room, max(P.settings.h_min, min(100.0 * h, later)))
 
 
@@ -127,6 +129,7 @@ def local_error(P: Problem, C: Control, h: float) -> float:
     fifth = distance(P, e, y, scales, w)
     if not fifth <= 1.0 or P.count.steps % NOTED == 0:
         note_worst(P, C)
+    C.third = third
     if not third < LARGE or not fifth < LARGE:
         return HUGE
     if fifth < NOTHING:  # whose square may be nothing
@@ -135,11 +138,37 @@ def local_error(P: Problem, C: Control, h: float) -> float:
 
 
 @native
+def quick_error(P: Problem, C: Control, h: float) -> float:
+    """Error of a step of the formula of four stages against ERROR, from the rates at its end."""
+    w, n = C.size, C.width
+    K, y, scales = P.history, P.history[NEXT_STATE * w :], P.history[SCALES * w :]
+    a, b, c, d, e = K[0:], K[n:], K[2 * n :], K[3 * n :], K[K_NEW * n :]
+    top, of_u, of_q = 0.0, h / U_SCALE, h * h / Q_SCALE
+    for i in range(n):
+        u = of_u * abs(4.0 * e[i] - a[i] + 3.0 * (b[i] - c[i] - d[i]))
+        q = of_q * abs(2.0 * b[i] - a[i] - c[i])
+        P.trial[i], P.trial[n + i] = q, u
+        top = maximum(top, q / (scales[i] * max(1.0, abs(y[i]))))
+        top = maximum(top, u / (scales[n + i] * max(1.0, abs(y[n + i]))))
+    error = top / P.settings.error
+    if not error <= 1.0 or P.count.steps % NOTED == 0:
+        note_worst(P, C)
+    return error if error < LARGE else HUGE
+
+
+@native
+def smaller(C: Control, error: float) -> float:
+    """The share of the step that its error allows."""
+    return SAFETY * error ** (QUICK_POWER if C.quick else NOW_POWER)
+
+
+@native
 def choose_step(P: Problem, C: Control, error: float) -> None:
     """The next step from the errors of this and the last one."""
     factor = GROW
     if error > 0.0:
-        factor = min(GROW, SAFETY * error**NOW_POWER * C.last_error**LAST_POWER)
+        last_power = QUICK_LAST_POWER if C.quick else LAST_POWER
+        factor = min(GROW, smaller(C, error) * C.last_error**last_power)
     if C.cautious:
         factor = min(1.0, factor)
     C.cautious, C.last_error = False, max(error, LEAST_ERROR)

@@ -16,6 +16,9 @@ from adamslite.integrators.linalg.plan import TINY
 from adamslite.integrators.motion_equations import put_time
 from adamslite.native.translate import Alone, Reals, native
 
+# Of the mass, its square and its third power: minors above this share are not round-off.
+CLEAR = 1e-6
+
 
 @native
 def lane_tables(P: Problem, C: Control) -> None:
@@ -49,6 +52,26 @@ def lane_accelerations(P: Problem, C: Control, t: float, y: Reals, k: Reals) -> 
             return divide_along_axes(E, F, fall, mass, C.lane, k) < 1.0 / TINY
         return divide_by_masses(E, F, fall, mass, C.lane, k) < 1.0 / TINY
     divide(F, inverse, fall, C.half, k)
+    return True
+
+
+@native
+def lane_masses_clear(P: Problem, C: Control) -> bool:
+    """Whether all effective masses of the state evaluated last are clearly above zero: three
+    pivots each, by leading minors.
+    """
+    n = C.lane
+    mass = P.history[INVERSE * C.size + 3 * C.half :]
+    E = mass[n:]
+    for b in range(P.sizes.nb):
+        m, first = mass[b], E[b]
+        second = first * E[4 * n + b] - E[n + b] * E[3 * n + b]
+        third = second * E[8 * n + b]
+        if not P.sizes.along_axes:
+            c, f, g, h = E[2 * n + b], E[5 * n + b], E[6 * n + b], E[7 * n + b]
+            third += c * (E[3 * n + b] * h - E[4 * n + b] * g) - f * (first * h - E[n + b] * g)
+        if not (first > CLEAR * m and second > CLEAR * m * m and third > CLEAR * m * m * m):
+            return False
     return True
 
 

@@ -29,6 +29,7 @@ from adamslite.integrators.events.stops import (
     set_pace,
     step_limit,
 )
+from adamslite.integrators.explicit.choice import begin_with_formula, choose_formula
 from adamslite.integrators.explicit.control import BODIES, LANES, MASSES, TIED, Control
 from adamslite.integrators.explicit.dense_output import record
 from adamslite.integrators.explicit.error import (
@@ -36,10 +37,11 @@ from adamslite.integrators.explicit.error import (
     choose_step,
     first_step,
     local_error,
+    quick_error,
 )
 from adamslite.integrators.explicit.events import end_at_crossing, pass_on, passes_crossing
 from adamslite.integrators.explicit.history import INVERSE, K_NEW, LINE, NEXT_STATE, OLD
-from adamslite.integrators.explicit.lanes import into_lanes, lane_tables
+from adamslite.integrators.explicit.lanes import into_lanes, lane_masses_clear, lane_tables
 from adamslite.integrators.explicit.recovery import (
     after_failure,
     after_rejection,
@@ -48,7 +50,13 @@ from adamslite.integrators.explicit.recovery import (
     pull_back,
     stuck,
 )
-from adamslite.integrators.explicit.stages import exact_rates, stages
+from adamslite.integrators.explicit.stages import (
+    end_rates,
+    exact_rates,
+    put_free_state,
+    rates_at,
+    stages,
+)
 from adamslite.integrators.explicit.state import base_here, restore_state, take_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
@@ -65,9 +73,9 @@ from adamslite.integrators.stepping.outcome import (
 )
 from adamslite.integrators.stepping.step_size import LONGER
 from adamslite.integrators.unconstrained import invert_inertia, is_free, mass_tables
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import Reals, native, seldom
 
-ORDER = 8
+ORDER, QUICK_ORDER = 8, 4
 
 
 @native
@@ -80,6 +88,8 @@ def explicit(P: Problem, L: Plan) -> int:
         outcome = begin(P, L, C)
     while outcome == RUNNING:
         outcome = advance(P, L, C)
+    if C.lazy:
+        restore_state(P, C)
     P.report.t = C.t
     return outcome
 
@@ -102,6 +112,8 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
         return BROKEN_START
     hold_watch(P)
     P.report.order = ORDER
+    if C.kind == LANES:
+        begin_with_formula(P, C)
     C.h = first_step(P, L, C)
     if not exact_rates(P, L, C, C.t, y, k):
         return BROKEN_START
@@ -125,10 +137,20 @@ def choose_kind(P: Problem, C: Control) -> None:
         C.half = 3 * C.lane
         C.size, C.width = 2 * C.half, C.half
         lane_tables(P, C)
+        C.lazy = follows_at_records(P)
     elif is_free(P) and mass_tables(P, inverse, inverse[P.sizes.n :]):
         C.kind, C.width = MASSES, P.sizes.n
     elif is_free(P) and invert_inertia(P, inverse):
         C.kind = BODIES
+
+
+@native
+def follows_at_records(P: Problem) -> bool:
+    """Whether nobody looks at the workspace between two records."""
+    for k in range(P.sizes.ng):
+        if P.group[k].track:
+            return False
+    return not P.audit.on
 
 
 @native
@@ -155,28 +177,53 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
     limit_step(P, C)
     if C.h < (P.settings.h_min if C.cautious else least_step(P)) or crawls(P, C.h):
         return stuck(P, L, C)
-    note_try(P, C, ORDER)
+    note_try(P, C, QUICK_ORDER if C.quick else ORDER)
     if not stages(P, L, C, C.h):
         return after_failure(P, L, C)
-    error = local_error(P, C, C.h)
+    t = end_of_step(C, step_limit(P, C.row))
+    y, k = P.history[NEXT_STATE * C.size :], P.history[K_NEW * C.width :]
+    if C.quick and not rates_at(P, L, C, t, y, k):
+        return near_singularity(P, C)
+    error = quick_error(P, C, C.h) if C.quick else local_error(P, C, C.h)
     P.report.error = error
     if not error <= 1.0:
         return after_rejection(P, L, C, error)
-    t, n = end_of_step(C, step_limit(P, C.row)), P.sizes.n
-    y, k = P.history[NEXT_STATE * C.size :], P.history[K_NEW * C.width :]
-    if P.sizes.implicit_mass:
-        take_state(P, C, y, P.trial, P.trial[n:])
-        put_state(P, t, P.trial, P.trial[n:], P.a, P.z, P.rd)
-    if passed_singularity(P, L, C):
-        return near_singularity(P, C)
     P.report.moved = 0.0
-    if not exact_rates(P, L, C, t, y, k):
+    if not finish(P, L, C, t, y, k):
         return near_singularity(P, C)
     if left_branch(P, L, C):
         return pull_back(P, L, C)
     if passes_crossing(P, C):
         return end_at_crossing(P, L, C)
     return accept(P, L, C, t, error)
+
+
+@native
+def finish(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -> bool:
+    """Rates at the end of the step; False where an effective mass vanishes within it."""
+    if C.kind == LANES:
+        return end_rates(P, L, C, t, y, k) and keeps_masses(P, L, C, t, y, k)
+    return keeps_signature(P, L, C, t, y) and exact_rates(P, L, C, t, y, k)
+
+
+@native
+def keeps_masses(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -> bool:
+    """The same of masses by component, of which those at the end are known."""
+    if not P.sizes.implicit_mass or (C.signature == 0 and lane_masses_clear(P, C)):
+        return True
+    good = keeps_signature(P, L, C, t, y)
+    put_free_state(P, C, t, y, k)
+    return good
+
+
+@native
+def keeps_signature(P: Problem, L: Plan, C: Control, t: float, y: Reals) -> bool:
+    """Whether the matrix of accelerations at the end has the signs of before."""
+    n = P.sizes.n
+    if P.sizes.implicit_mass:
+        take_state(P, C, y, P.trial, P.trial[n:])
+        put_state(P, t, P.trial, P.trial[n:], P.a, P.z, P.rd)
+    return not passed_singularity(P, L, C)
 
 
 @native
@@ -201,18 +248,24 @@ def accept(P: Problem, L: Plan, C: Control, t: float, error: float) -> int:
     note_violation(P, t)
     audit(P, L, t)
     keep_solution(P)
+    row = C.row
     if not record(P, L, C, t):
         return SINGULAR_MASS
-    move_on(P, C, t)
+    move_on(P, C, t, C.row > row)
     if happened(P, t):
+        if C.lazy:
+            restore_state(P, C)
         return pass_on(P, L, C)
     keep_margins(P)
+    C.h_last = C.h
     choose_step(P, C, error)
+    if C.kind == LANES:
+        choose_formula(P, C, error)
     return RUNNING
 
 
 @native
-def move_on(P: Problem, C: Control, t: float) -> None:
+def move_on(P: Problem, C: Control, t: float, recorded: bool) -> None:
     """The end of the step is the accepted state, its last stage the first of the next."""
     K = P.history
     C.t = t
@@ -220,6 +273,7 @@ def move_on(P: Problem, C: Control, t: float) -> None:
         K[OLD * C.size + i] = K[NEXT_STATE * C.size + i]
     for i in range(C.width):
         K[i] = K[K_NEW * C.width + i]
-    restore_state(P, C)
+    if recorded or not C.lazy:
+        restore_state(P, C)
     track(P)
     base_here(P, C)

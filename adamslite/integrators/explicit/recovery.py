@@ -11,7 +11,7 @@ from __future__ import annotations
 from adamslite.integrators.contract import SINGULAR_MASS, Problem
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.explicit.control import TIED, Control
-from adamslite.integrators.explicit.error import LARGE, NOW_POWER, SAFETY, SHRINK, cut_step
+from adamslite.integrators.explicit.error import LARGE, SHRINK, cut_step, smaller
 from adamslite.integrators.explicit.history import OLD
 from adamslite.integrators.explicit.stages import exact_rates
 from adamslite.integrators.explicit.state import restore_state
@@ -96,7 +96,7 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
     if P.sizes.m > 0 and P.undoing.trouble >= FEW_REJECTIONS and start_elsewhere(P, C):
         return RUNNING
     C.cautious = True
-    cut_step(P, C, max(SHRINK, SAFETY * error**NOW_POWER) if error < OVERFLOW else SHRINK)
+    cut_step(P, C, max(SHRINK, smaller(C, error)) if error < OVERFLOW else SHRINK)
     return RUNNING
 
 

@@ -15,13 +15,21 @@ from adamslite.integrators.accelerations import (
 )
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.explicit.control import BODIES, LANES, MASSES, TIED, Control
-from adamslite.integrators.explicit.dop853 import RESULT, ROW, TIMES
+from adamslite.integrators.explicit.dop853 import (
+    QUICK,
+    QUICK_RESULT,
+    QUICK_TIMES,
+    RESULT,
+    ROW,
+    TIMES,
+)
 from adamslite.integrators.explicit.history import INVERSE, NEXT_STATE, OLD
 from adamslite.integrators.explicit.lanes import from_lanes, lane_accelerations
 from adamslite.integrators.explicit.state import take_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.projection import project
+from adamslite.integrators.stepping.output import WITHIN
 from adamslite.integrators.unconstrained import free_accelerations, mass_accelerations
 from adamslite.native.translate import Alone, Reals, native
 
@@ -148,9 +156,7 @@ def exact_rates(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     if C.kind != TIED:
         good = rates_at(P, L, C, t, y, k)
-        put_rates(P, C, k)
-        take_state(P, C, y, P.q, P.u)
-        put_state(P, t, P.q, P.u, P.a, P.z, P.rd)
+        put_free_state(P, C, t, y, k)
         return good
     for i in range(P.sizes.ns):
         P.z[first + i] = y[2 * n + i]
@@ -164,6 +170,24 @@ def exact_rates(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -
     keep_rates(P, y, k)
     take_state(P, C, y, P.q, P.u)
     return good
+
+
+@native
+def end_rates(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -> bool:
+    """Rates at the end of a step, which the formula of four stages knows already."""
+    if not C.quick:
+        return exact_rates(P, L, C, t, y, k)
+    if not C.lazy or (C.row < P.times.size and P.times[C.row] <= t + WITHIN * C.h):
+        put_free_state(P, C, t, y, k)
+    return True
+
+
+@native
+def put_free_state(P: Problem, C: Control, t: float, y: Reals, k: Reals) -> None:
+    """A state of free bodies and its rates into q, u, a and the workspace."""
+    put_rates(P, C, k)
+    take_state(P, C, y, P.q, P.u)
+    put_state(P, t, P.q, P.u, P.a, P.z, P.rd)
 
 
 @native
@@ -189,10 +213,12 @@ def stages(P: Problem, L: Plan, C: Control, h: float) -> bool:
     y, new = K[OLD * w :], K[NEXT_STATE * w :]
     C.stale = False
     projected = P.sizes.m > 0 and P.undoing.backs > 0
-    for i in range(1, RESULT + 1):
-        combine(P, C, i - 1, w, h, y, new)
-        at, k = t + h * P.tableau[ROW * TIMES + i], K[i * C.width :]
+    first, last = QUICK if C.quick else 0, QUICK_RESULT if C.quick else RESULT
+    nodes = P.tableau[QUICK_TIMES if C.quick else ROW * TIMES :]
+    for i in range(1, last + 1):
+        combine(P, C, first + i - 1, w, h, y, new)
+        at, k = t + h * nodes[i], K[i * C.width :]
         if not (exact_rates(P, L, C, at, new, k) if projected else rates_at(P, L, C, at, new, k)):
             return False
-    combine(P, C, RESULT, w, h, y, new)
+    combine(P, C, first + last, w, h, y, new)
     return True

@@ -19,8 +19,11 @@ def restore_state(P: Problem, C: Control) -> None:
     n, first = P.sizes.n, P.sizes.m + P.sizes.nv
     y = P.history[OLD * w :]
     take_state(P, C, y, P.q, P.u)
-    for i in range(n):
-        P.a[i] = P.ra[i]
+    if C.kind == LANES:
+        from_lanes(P, C.lane, P.history, P.a)
+    else:
+        for i in range(n):
+            P.a[i] = P.ra[i]
     for i in range(first):
         P.z[i] = P.rz[i]
     for i in range(P.sizes.ns):

@@ -11,14 +11,17 @@ from adamslite.language.method import (
     register,
 )
 
+# Bodies up to which rows are a few whole vectors; numbers that processors take at once.
+SHORT, LINE = 64, 4
+
 
 def prepare(system: Equations, settings: Settings) -> None:
     """Room for the numbers of the method, inverse inertias, two states, two vectors."""
     from adamslite.integrators.verlet.control import NUMBERS, Control
 
     bodies = len(system.model.bodies)
-    # Rows are whole lines of the cache, an odd number: those of 4 KB would share places in it.
-    row = 8 * ((bodies + 7) // 8 | 1)
+    # Long rows are whole lines of the cache, an odd number: those of 4 KB would share places in it.
+    row = 8 * ((bodies + 7) // 8 | 1) if bodies > SHORT else LINE * -(-bodies // LINE)
     system.make_room(control=Control.slots, history=(9 + 3 * 6) * bodies, lane=NUMBERS * row)
 
 
