@@ -58,7 +58,7 @@ def close(
 def _closed(model: Model, kept: list[Constraint], start: Posture, closed: float) -> Closing:
     scale = 1.0 / coordinate_weights(model).ravel()
     size = max(1.0, float(np.abs(start.x).max(initial=0.0)))
-    at, first = start, _all_values(model, start, kept)
+    at, first = start, rows_of(model, start, kept)
     g = first
     for _ in range(MAX_ITERATIONS):
         if not np.isfinite(g).all() or np.abs(g).max(initial=0.0) <= closed * size:
@@ -76,7 +76,8 @@ def _closed(model: Model, kept: list[Constraint], start: Posture, closed: float)
     return Closing(at, kept, drawn, gaps, bool(off <= OPEN * size))
 
 
-def _all_values(model: Model, at: Posture, constraints: Sequence[Constraint]) -> np.ndarray:
+def rows_of(model: Model, at: Posture, constraints: Sequence[Constraint]) -> np.ndarray:
+    """The rows of some constraints, one after the other."""
     return np.concatenate([np.zeros(0), *(values(model, at, each) for each in constraints)])
 
 
@@ -106,7 +107,7 @@ def _damped(
     share = min(1.0, MOST_TURN / max(1e-300, float(turns.max(initial=0.0))))
     for _ in range(HALVINGS):
         new = moved(at, share * step)
-        value = _all_values(model, new, kept)
+        value = rows_of(model, new, kept)
         if np.linalg.norm(value) < np.linalg.norm(g):
             return new, value
         share *= 0.5

@@ -68,7 +68,7 @@ class _Follower:
 
     def __init__(self, model: Model) -> None:
         self.model = model
-        self.posture = Posture.drawn(model)
+        self.posture = Posture.start(model)
 
     def _reader(self, time: float) -> NumberReader:
         reader = NumberReader(self.model, self.posture, True, rates=True, room=0)

@@ -47,12 +47,13 @@ class Posture:
     speed: np.ndarray
 
     @classmethod
-    def drawn(cls, model: Model) -> Posture:
-        """As the deck has it."""
+    def start(cls, model: Model) -> Posture:
+        """Where an assembly starts: as the deck draws it, or where its joints close."""
         bodies = model.bodies
+        places = [model.start_of(body) for body in range(len(bodies))]
         return cls(
-            np.array([body.x for body in bodies]).reshape(-1, 3),
-            np.array([body.attitude for body in bodies]).reshape(-1, 3, 3),
+            np.array([x for x, _ in places]).reshape(-1, 3),
+            np.array([attitude for _, attitude in places]).reshape(-1, 3, 3),
             np.array([[*body.v, *body.w] for body in bodies]).reshape(-1, WIDTH),
         )
 

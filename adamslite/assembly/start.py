@@ -18,6 +18,7 @@ from adamslite.assembly.rank import (
 from adamslite.assembly.rows import gradient, sparse_gradient
 from adamslite.assembly.scope import WIDTH, Posture
 from adamslite.assembly.start_conditions import conditions
+from adamslite.assembly.start_posture import settle_start
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.joint import Joint
@@ -40,7 +41,8 @@ def closing_of(deck: Deck) -> tuple[Model, Closing]:
     active = [s for s in deck.statements if isinstance(s, Joint | Motion) and deck.is_active(s)]
     extra = [c for s in active for c in conditions(s) if c.level == "DISPLACEMENT"]
     model = Model(deck.with_more(extra) if extra else deck)
-    return model, close(model, model.constraints, Posture.drawn(model), OPEN)
+    settle_start(model)
+    return model, close(model, model.constraints, Posture.start(model), OPEN)
 
 
 def redundant_rows(deck: Deck) -> list[str]:

@@ -74,6 +74,11 @@ class Coupler(Constraint, Statement):
         return self.function is not None and measures_rates(self.function, model)
 
     @property
+    def counts_from_start(self) -> bool:
+        """Whether it holds what has been turned and travelled since the start."""
+        return True
+
+    @property
     def row_names(self) -> tuple[str, ...]:
         """What the row keeps at zero."""
         return ("sum of the scaled freedoms",)

@@ -47,6 +47,11 @@ class Gear(Constraint, Statement):
     )
 
     @property
+    def counts_from_start(self) -> bool:
+        """Whether it holds what has been turned and travelled since the start."""
+        return True
+
+    @property
     def row_names(self) -> tuple[str, ...]:
         """What the row keeps at zero."""
         return ("travel of one gear past the other along z of CV",)

@@ -139,6 +139,11 @@ class Joint(Constraint, Statement):
         return self.rows[self.kind]
 
     @property
+    def counts_from_start(self) -> bool:
+        """Whether it holds what has been turned and travelled since the start."""
+        return self.kind in ("SCREW", "RACKPIN")
+
+    @property
     def row_names(self) -> tuple[str, ...]:
         """What each row keeps at zero."""
         return {

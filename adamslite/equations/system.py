@@ -167,11 +167,12 @@ class System:
         self.mass = reals([b.mass for b in bodies])
         inertia = reals([b.inertia for b in bodies]).reshape(-1, 3, 3)
         self.inertia = inertia.ravel()
-        self.base = reals([b.attitude for b in bodies]).ravel()
+        start = [self.model.start_of(b) for b in range(len(bodies))]
+        self.base = reals([attitude for _, attitude in start]).ravel()
         self.weight = rotation_weights(self.model)
         if bodies:
             at = self.places
-            self.q[at], self.u[at] = [b.x for b in bodies], [b.v for b in bodies]
+            self.q[at], self.u[at] = [x for x, _ in start], [b.v for b in bodies]
         for b, body in enumerate(bodies):
             if body.width == PART:
                 i = self.starts[b]

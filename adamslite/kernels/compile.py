@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
+from adamslite.assembly.start_posture import settle_start
 from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
 from adamslite.deck.statement_diagnostics import diagnose_inside
@@ -58,6 +59,7 @@ def compile_model(
 
     ``audited``: what elastic elements store too.
     """
+    settle_start(model)
     groups = Groups()
     outputs = []
     batches: dict[tuple[type[Statement], str], list[Numbered]] = {}

@@ -56,6 +56,9 @@ class DrawnModel(Protocol):
     @property
     def folder(self) -> Path: ...
 
+    def start_of(self, body: int) -> tuple[np.ndarray, np.ndarray]:
+        """Place and attitude of a body from which turns and travels count."""
+
     def marker(self, marker_id: Key) -> DrawnPlace:
         """Where a marker sits."""
 

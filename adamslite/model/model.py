@@ -77,6 +77,8 @@ class Model:
         Parts and point masses that can move, in deck order.
     constraints : list of Statement
         Statements with constraint rows, holonomic ones first.
+    start : list of (place, attitude), optional
+        The posture from which turns and travels count, where it is not the one that is drawn.
     without : frozenset of str
         Rules of :mod:`adamslite.model.reduction` that are not applied.
     """
@@ -87,6 +89,7 @@ class Model:
         self.places: dict[Key | MassCentre, Place | None] = {}
         self.folded: dict[Key, float | None] = {}
         self.known: dict[Hashable, Any] = {}
+        self.start: list[tuple[np.ndarray, np.ndarray]] | None = None
         self.body_index: dict[tuple[str, Key], int] = {}
         self.bodies: list[Body] = []
         for statement in deck.statements:
@@ -106,6 +109,12 @@ class Model:
         return self.known[what]
 
     # bodies and markers
+
+    def start_of(self, body: int) -> tuple[np.ndarray, np.ndarray]:
+        """Place and attitude of a body at the start: as drawn, or where the joints close."""
+        if self.start is not None:
+            return self.start[body]
+        return self.bodies[body].x, self.bodies[body].attitude
 
     def _body(self, statement: Part | PointMass) -> Body:
         origin = np.asarray(statement.qg, dtype=float)

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 LEVER = 0.1
 # Weight of a coordinate that the deck calls EXACT.
 EXACT = 1e4
+# A radian counts as this share of the model's size: what is drawn roughly is off by a tenth of that
+# and by 20 degrees.
+ROUGH = 0.1 / np.deg2rad(20.0)
 # What has no mass follows what has: it carries no state of its own worth keeping.
 MASSLESS = 1e-4
 
@@ -42,13 +45,16 @@ def rotation_weights(model: Model) -> np.ndarray:
 def coordinate_weights(model: Model, speeds: bool = False) -> np.ndarray:
     """(n, 6) weights w of place and rotation of each body in sum w^2 (change)^2.
 
-    That of a rotation is the part's radius of gyration, that of an EXACT coordinate ``EXACT``.
-    ``speeds``: of changes of velocities, which what has no mass does not resist in any case.
+    That of an EXACT coordinate is ``EXACT``, that of a rotation the part's radius of gyration, or a
+    share of the model: or else small parts would be turned right round to close a gap.
+    ``speeds``: of changes of velocities, which what has no mass does not resist in any case, and
+    which are kinetic energy.
     """
     table = np.ones((len(model.bodies), 6))
+    lever = 0.0 if speeds else ROUGH * extent(model)
     for w, body, rotation in zip(table, model.bodies, rotation_weights(model), strict=True):
         if body.width == PART:
-            w[3:] = rotation**-0.5
+            w[3:] = max(rotation**-0.5, lever)
         if body.mass == 0.0:
             w *= MASSLESS
         exact = () if speeds and body.mass == 0.0 else body.statement.exact
@@ -57,6 +63,12 @@ def coordinate_weights(model: Model, speeds: bool = False) -> np.ndarray:
             if any(word in exact for word in words):
                 w[c if c < 3 else slice(3, 6)] *= kept
     return table
+
+
+def extent(model: Model) -> float:
+    """The largest distance along an axis between bodies."""
+    places = np.array([body.x for body in model.bodies]).reshape(-1, 3)
+    return float(np.ptp(places, axis=0).max()) if len(places) else 0.0
 
 
 def turned(attitude: np.ndarray, rotation: np.ndarray) -> np.ndarray:

@@ -48,6 +48,11 @@ class Constraint(Statement, ABC):
         return False
 
     @property
+    def counts_from_start(self) -> bool:
+        """Whether the rows hold a change since the start: any posture will do to start from."""
+        return False
+
+    @property
     def row_names(self) -> tuple[str, ...]:
         """What each row keeps at zero."""
         return tuple(f"condition {n + 1}" for n in range(self.n_rows))

@@ -8,8 +8,9 @@ Equations (``d = r_I - r_J``)::
             a rack J along its own z, and the turn of a pinion I about its own z seen from the rack
 
 A turn is carried as (sine, cosine), which may be scaled by one positive factor: it has no branch to
-choose until it becomes an angle.  An angle that has to count full turns counts from the posture in
-which the deck draws the model, so that it starts near zero and never on the edge of a branch.
+choose until it becomes an angle.  An angle that has to count full turns counts from the posture at
+the start, so that it starts near zero and never on the edge of a branch: as the deck draws the
+model, or where its joints are closed if it draws them apart.
 """
 
 from __future__ import annotations
@@ -80,14 +81,14 @@ def relative_velocity(scope: Scope, i: Frame, j: Frame, axis: int) -> Expr:
 
 
 def pose(model: DrawnModel, marker: Key) -> tuple[np.ndarray, np.ndarray]:
-    """Origin (3,) and axes (3, 3) in ground of a marker, as the deck draws it."""
+    """Origin (3,) and axes (3, 3) in ground of a marker at the start."""
     place = model.marker(marker)
     if place.kind == "ground":
         return place.p, place.axes
-    body = model.bodies[place.body]
+    x, attitude = model.start_of(place.body)
     if place.kind == "point":
-        return body.x + place.p, place.axes
-    return body.x + body.attitude @ place.p, body.attitude @ place.axes
+        return x + place.p, place.axes
+    return x + attitude @ place.p, attitude @ place.axes
 
 
 def built_slide(model: DrawnModel, i: Key, j: Key) -> float:
