@@ -38,7 +38,7 @@ def test_derivatives_are_those_of_finite_differences(name: str) -> None:
     """
     model = Model(al.read(deck(name)))
     kept = [each for each in model.constraints if not each.is_rate(model)]
-    at = Posture.drawn(model)
+    at = Posture.start(model)
     rows = gradient(model, at, kept)
     for column in range(WIDTH * len(model.bodies)):
         step = np.zeros(WIDTH * len(model.bodies))
@@ -64,7 +64,7 @@ def test_derivatives_are_those_of_native_code(name: str) -> None:
     for b, body in enumerate(model.bodies):
         here += range(WIDTH * b, WIDTH * b + body.width)
         there += range(system.starts[b], system.starts[b] + body.width)
-    rows = gradient(model, Posture.drawn(model), model.constraints)
+    rows = gradient(model, Posture.start(model), model.constraints)
     np.testing.assert_allclose(rows[:, here], constraint_gradient(system)[:, there], atol=1e-14)
 
 
@@ -192,7 +192,7 @@ def test_closing_moves_as_a_run_does() -> None:
 def test_a_row_that_no_posture_decides_is_left_alone() -> None:
     deck = "VARIABLE/1, FUNCTION=DM(21,40)\nGCON/1, FUNCTION=VARVAL(d(1)/dt)-DX(21,31)\nEND\n"
     of = al.read(BODIES + deck)
-    assert not np.isfinite(values(Model(of), Posture.drawn(Model(of)), of.of("GCON")[0])).any()
+    assert not np.isfinite(values(Model(of), Posture.start(Model(of)), of.of("GCON")[0])).any()
     assert "no-rate" in {each.code for each in al.check(of)} and redundant_rows(of) == []
 
 

@@ -116,7 +116,7 @@ def test_slopes_of_measures_are_those_of_central_differences(function: str) -> N
         f"GCON/1, FUNCTION={function}\nEND\n"
     )
     model = Model(deck)
-    at, (gcon,) = Posture.drawn(model), model.constraints
+    at, (gcon,) = Posture.start(model), model.constraints
     (row,) = gradient(model, at, [gcon])
     for column in range(WIDTH * len(model.bodies)):
         if model.bodies[column // WIDTH].width < WIDTH and column % WIDTH >= 3:

@@ -18,7 +18,7 @@ LINTS = {
     "ends-coincide", "massless",
 }  # fmt: skip
 #: Drawn apart on purpose: their runs begin with the assembly.
-APART = {"four-bar", "one-stage", "three-stage", "rest"}
+APART = {"four-bar", "one-stage", "three-stage", "rough", "rest"}
 DECKS = sorted(find("decks").rglob("*.adm"))
 
 

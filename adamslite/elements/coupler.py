@@ -5,7 +5,8 @@ Equation (q the translation or rotation of I relative to J of each joint)::
     r1 (q1 - q1_0) + r2 (q2 - q2_0) [+ r3 (q3 - q3_0)] = 0         or  FUNCTION = 0
 
 Sign: q is positive along and about z of J; rotations count full turns.  q_0 is the
-value in the posture of the deck, in which the joints are coupled.
+value in the posture of the deck, or where it draws joints apart in the one in which these are
+closed: there the joints are coupled.
 The reaction reported acts on I of the first joint.
 
 FUNCTION=USER(...) is a routine of the user that vanishes where the joints are as they should be; a

@@ -9,7 +9,8 @@ Equation (P the origin of CV, z_CV the direction of the common velocity, seen fr
 
 The carrier holds the J markers of both joints and CV, so the factors s are constants of the deck
 and the speeds ds1/dt = s1 dq1/dt, ds2/dt of the two gears at P along z_CV are equal.  A cylindrical
-joint counts with both its freedoms.  The q count from the posture of the deck, with full turns.
+joint counts with both its freedoms.  The q count from the start, with full turns: from
+the posture of the deck, or where it draws joints apart from the one in which these are closed.
 Sign: the reaction reported acts on I of the first joint.
 """
 

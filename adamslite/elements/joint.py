@@ -20,8 +20,9 @@ Sign: the reaction reported is the force and torque on I; the free coordinate is
 to J along or about z of J.  A positive PITCH is a right-handed screw.  RACKPIN: I is on the pinion,
 z its axis; J is on the rack, z along it.  A positive PD drives the rack along +z of J when the
 pinion turns about +z of I, and only the rotation **relative to the rack** counts: a rack that is
-carried round the pinion winds up.  SCREW and RACKPIN start from the posture of the deck (d0, s0,
-theta 0) and count full turns.  The shafts of a CONVEL turn equally fast, in one sense seen along
+carried round the pinion winds up.  SCREW and RACKPIN start from the posture of the deck, or where
+it draws other joints apart from the one in which these are closed (d0, s0, theta 0), and count full
+turns.  The shafts of a CONVEL turn equally fast, in one sense seen along
 the line of shafts; which of its two forms applies is decided by the drawn z axes::
 
           z_I (out of the page)

@@ -29,6 +29,8 @@ from tackle import (  # noqa: E402
     strand_length,
 )  # fmt: skip
 
+#: A tenth of the size [m] and 20 degrees.
+ROUGH = (0.36, 20.0)
 G, CARGO, EFFORT, HEAD = 9.81, 100.0, 20.0, 5.0
 REST = """
 Rest, rope forces halved by each stage: see README.md
@@ -50,15 +52,21 @@ def anchors(stages):
     return places, (9, centre(stages) + RADIUS, 3.8 if stages == 3 else 1.4, "fall")
 
 
-def standing(stages):
-    """A tackle of `stages` stages, built misaligned, its fall tied to the ground."""
+def drawn(stages, sloppy=(0.02, 3.0), seed=1):
+    """The deck of a tackle of `stages` stages, drawn apart by up to `sloppy` metres and degrees,
+    its fall tied to the ground.
+    """
     words = {1: "One stage", 3: "Three stages"}[stages]
+    shift, turn = sloppy
+    how = "built misaligned" if shift < 0.1 else "roughly drawn"
     deck = Deck(
-        f"{words} of block and tackle, built misaligned, at rest",
+        f"{words} of block and tackle, {how}, at rest",
         f"{LOAD:g} N hang on the hook of stage 1; the parts weigh nothing (no gravity):\n"
-        "the ropes carry halves of it. Every part is up to 2 cm and 3 degrees off its place.\n"
+        "the ropes carry halves of it. "
+        f"Every part is up to {100 * shift:g} cm and {turn:g} degrees off its place.\n"
         "Level 1 pulleys. Written by make_reference.py",
-        sloppy=(0.02, 3.0),
+        sloppy=sloppy,
+        seed=seed,
     )  # fmt: skip
     beckets, fall = anchors(stages)
     deck.ground(*beckets, fall)
@@ -70,13 +78,19 @@ def standing(stages):
         deck.add(f"JOINT/{100 * k + 11}, SPHERICAL, I={100 * k + 70}, J={above}", "")
     deck.add(f"VFORCE/1, I=101, JFLOAT=8, RM=7, FX=0\\FY=-{LOAD:g}\\FZ=0")
     deck.add("MARKER/7, PART=1", "MARKER/8, PART=1, FLOATING", "")
-    name = {1: "one-stage", 3: "three-stage"}[stages]
-    (HERE / f"{name}.adm").write_text(deck.text(STATIC))
-    columns = {}
-    for k in range(1, stages + 1):
-        for joint in (10, 11):
-            columns |= {f"JOINT/{100 * k + joint}.f{c}": 0.0 for c in "xz"}
-            columns[f"JOINT/{100 * k + joint}.fy"] = LOAD / 2**k
+    return deck.text(STATIC)
+
+
+def strands(stages):
+    """The reactions on beckets and hooks: name and force [N]."""
+    return {f"JOINT/{100 * k + joint}.f{c}": LOAD / 2**k if c == "y" else 0.0
+            for k in range(1, stages + 1) for joint in (10, 11) for c in "xzy"}  # fmt: skip
+
+
+def standing(name, stages, **how):
+    """A tackle drawn apart, and its rest."""
+    (HERE / f"{name}.adm").write_text(drawn(stages, **how))
+    columns = strands(stages)
     write(HERE / f"{name}.reference.csv", REST, list(columns), [[0.0], *columns.values()])
 
 
@@ -141,6 +155,7 @@ def closed_form():
 
 
 if __name__ == "__main__":
-    standing(1)
-    standing(3)
+    standing("one-stage", 1)
+    standing("three-stage", 3)
+    standing("rough", 3, sloppy=ROUGH, seed=6)
     hoisting()
