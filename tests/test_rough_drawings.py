@@ -104,4 +104,4 @@ def test_what_cannot_be_closed_is_named(tackle) -> None:
     text = tackle.drawn(3, tackle.ROUGH, 2).replace("EQUILIBRIUM", f"{fixed}EQUILIBRIUM")
     results = al.simulate(al.read(text))
     assert results.outcome is Outcome.INITIAL_CONDITIONS_FAILED
-    assert "JOINT/98" in results.message and "JOINT/99" in results.message
+    assert results.message.startswith(("JOINT/98 ", "JOINT/99 "))
