@@ -132,6 +132,14 @@ def test_a_stiff_stop_costs_no_more_than_a_soft_one() -> None:
     assert max(tries) < 1.5 * min(tries)
 
 
+def test_radau_is_as_exact_as_the_explicit_formula_in_its_place() -> None:
+    """At ERROR of 1e-3 the steps are those of 1e-4; others keep theirs."""
+    coarse, fine = (auto(pendulum(), error=error) for error in (1e-3, 1e-4))
+    np.testing.assert_array_equal(coarse.values, fine.values)
+    assert "ERROR=0.0001" in coarse.meta["integrator"]
+    assert "ERROR=1e-05" in auto(pendulum(), error=1e-5).meta["integrator"]
+
+
 @pytest.mark.parametrize("deck", [CONVEL, pendulum(torque="-5*AZ(3,1)")])
 def test_where_nothing_meets_the_explicit_formula_stays(deck: str) -> None:
     assert taken(auto(deck)) == "RKF45"

@@ -34,9 +34,9 @@ ROUND_OFF = 1e-14
 # Time between two looks at a run [s], and unknowns times tries of a step that take less.
 WATCH_INTERVAL, UNWATCHED = 0.1, 50_000.0
 # Tries of a step after which a run is judged; each later judgement is at twice as many.
-JUDGED, LATER = 4_000, 2
-# A decay within so much less than a mean step holds steps of an explicit formula down: it is stable
-# up to 6 or so, and steps between contacts are longer.
+JUDGED, LATER = 1_000, 2
+# A decay in so much less time than a step holds steps of an explicit formula down, which is stable
+# up to 6 or so; where accuracy limits steps they are shorter than a decay.
 HELD_DOWN = 2.0
 # How a run may end before a motion that jumps, or gets ever faster.
 CLOSE = (Outcome.DONE, Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED)
@@ -267,22 +267,22 @@ def _first_tries(system: System, method: Method, judged: bool) -> int:
     return contract.PAUSED
 
 
-def _resumed(system: System, method: Method, start: float, judged: bool) -> int:
+def _resumed(system: System, method: Method, judged: bool) -> int:
     """Run until there is an outcome; PAUSED when it is given up as :func:`integrate` says."""
-    run, count = system.settings, system.count
+    run = system.settings
     run.pause = max(run.pause, JUDGED) if judged and method.pauses else 0
     while (code := system.integrate(method.entry)) == contract.PAUSED:
-        mean = (float(system.report.t) - start) / max(int(count.steps), 1)
-        if is_held_down(system, mean):
+        if is_held_down(system):
             return code
         run.pause *= LATER
     return code
 
 
-def is_held_down(system: System, step: float) -> bool:
-    """Whether forces decay within much less than a step, and faster than anything vibrates: what an
-    explicit formula follows in vain and an implicit one steps over.
+def is_held_down(system: System) -> bool:
+    """Whether forces decay within less than the last step, and faster than anything vibrates: what
+    an explicit formula follows in vain and an implicit one steps over.
     """
+    step = float(system.report.h)
     if system.run(SPECTRUM) != contract.DONE:
         return False
     decay, squared = float(system.report.damping), float(system.report.stiffness)
@@ -303,7 +303,7 @@ def _watched(
         return code
     look = partial(_state, system, StepLimits(system), start, end)
     if code == contract.PAUSED:
-        running = Worker(partial(_resumed, system, method, start, judged))
+        running = Worker(partial(_resumed, system, method, judged))
         while running.works:
             try:
                 running.wait(WATCH_INTERVAL)

@@ -4,10 +4,11 @@ AUTO, with rho the largest circular frequency of the linearised scene and dt the
 
 1. variables that are solved for, DIFF states, forces of accelerations other than added mass, and
    bodies without inertia may be as fast as they like: implicit;
-2. tied by constraints, with forces that set in or break off (contacts, stops, slack lines): RADAU.
-   Events cut the steps of every formula, so that order 8 finds no use, while each of its 12 stages
-   eliminates the constraints once; RADAU does so once in real and once in complex numbers.  And a
-   stiff contact limits explicit steps only once it is closed, which rho does not know at the start;
+2. tied by constraints, with forces that set in or break off (contacts, stops, slack lines): RADAU,
+   with ERROR of ``COARSE`` at most.  Events cut the steps of every formula, so that order 8 finds
+   no use, while each of its 12 stages eliminates the constraints once; RADAU does so once in real
+   and once in complex numbers.  And a stiff contact limits explicit steps only once it is closed,
+   which rho does not know at the start;
 3. otherwise, tied by constraints or not, explicit while rho dt stays below ``STEPS_WORTH`` radians:
    VERLET for free point masses with ERROR of ``COARSE`` and above, unless a few contacts, which it
    does not locate, decide on its error; RKF45 for the rest.  Where a contact, once closed, decays
@@ -86,7 +87,9 @@ def choose_method(system: System, times: np.ndarray, settings: Settings) -> Meth
         known = ", ".join([*methods(), AUTO])
         raise UsageError(f"There is no integrator {settings.method}. Known are {known}.")
     method, reason, *instead = _picked(system, times, settings.error)
-    return MethodChoice(replace(settings, method=method), reason, *instead)
+    # RKF45, whose place RADAU takes here, is far below an ERROR above that.
+    error = min(settings.error, COARSE) if method == "RADAU" and instead else settings.error
+    return MethodChoice(replace(settings, method=method, error=error), reason, *instead)
 
 
 def what_is_unfit(system: System, settings: Settings) -> str:
