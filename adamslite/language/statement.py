@@ -25,6 +25,8 @@ STATEMENTS: Register[type[Statement]] = Register("adamslite.elements")
 INTERNAL: dict[str, type[Statement]] = {}
 """Statements that only others bring with them: no deck has them."""
 NO_SPANS = Spans()
+CALLED: dict[frozenset[str], frozenset[str]] = {}
+"""Names of functions that statements call: one object where they are the same."""
 S = TypeVar("S", bound="Statement")
 Field: TypeAlias = Any
 """What declares a field in the body of a class stands for the value that the field will have."""
@@ -255,7 +257,8 @@ class Statement:
     @cached_property
     def called(self) -> frozenset[str]:
         """Names of the functions that its expressions call."""
-        return frozenset(call.name for node in expressions(self) for call in calls(node))
+        found = frozenset(call.name for node in expressions(self) for call in calls(node))
+        return CALLED.setdefault(found, found)
 
     @classmethod
     def completed(

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from adamslite.language.abbreviations import Ambiguous, vocabulary
+from adamslite.language.diagnostics import Spans
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import Log
 from adamslite.language.messages.fixes import fix
@@ -20,7 +21,7 @@ from adamslite.syntax.forms import Item
 from adamslite.syntax.syntax_errors import Syntax
 from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
 
-Read = tuple[dict[str, object], dict[str, tuple[int, int]]]
+Read = tuple[dict[str, object], Spans]
 """The field values of a statement and where they are written."""
 _LISTS = ("vector", "vectors", "references", "ids", "texts")
 

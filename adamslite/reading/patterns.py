@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 from adamslite.deck.names import Names, to_number
 from adamslite.functions.arrays import NUMBERED
 from adamslite.functions.vectors import VECTORS
+from adamslite.language.diagnostics import Source, Spans, packed
 from adamslite.language.expression import NEGATE, Call, Node, Num, Op, Ref
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.routines import USER
@@ -22,7 +23,7 @@ from adamslite.reading.argument_grouping import Pieces, Read
 from adamslite.reading.expression_names import ID_DIGITS
 from adamslite.syntax.forms import Fault, Tree, expression_form
 from adamslite.syntax.syntax_errors import Syntax
-from adamslite.syntax.tokens import OPERATORS, Lexeme
+from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
 
 Build = Callable[[Sequence[Lexeme]], Any]
 """A value from the tokens of a statement; raises :class:`Unfit`."""
@@ -48,16 +49,18 @@ class Place(NamedTuple):
 class Pattern(NamedTuple):
     """How the arguments of a statement are read."""
 
-    values: tuple[tuple[str, Build], ...]
-    places: tuple[tuple[str, Place], ...]
+    fields: tuple[str, ...]
+    builds: tuple[Build, ...]
+    places: tuple[Place, ...]
 
-    def read(self, tokens: Sequence[Lexeme]) -> Read:
+    def read(self, source: Source, tokens: Sequence[Lexeme]) -> Read:
         """What it reads; raises :class:`Unfit`."""
-        ranges = {}
-        for name, (first, last, width) in self.places:
+        offsets = [tokens[0][2], end_of(tokens[-1])]
+        for first, last, width in self.places:
             _, text, at = tokens[last]
-            ranges[name] = tokens[first][2], at + (width or len(text))
-        return {name: build(tokens) for name, build in self.values}, ranges
+            offsets += tokens[first][2], at + (width or len(text))
+        values = {name: build(tokens) for name, build in zip(self.fields, self.builds, strict=True)}
+        return values, Spans.at(source, self.fields, packed(offsets))
 
 
 class Patterns:
@@ -66,10 +69,11 @@ class Patterns:
     Parameters
     ----------
     names : Names
+    source : Source
     """
 
-    def __init__(self, names: Names) -> None:
-        self.ids = names.ids
+    def __init__(self, names: Names, source: Source) -> None:
+        self.ids, self.source = names.ids, source
         # An editor notes every place that refers to a statement: all are read the long way.
         self.useful = type(names).used is Names.used
         self.known: dict[Key, Pattern | int | None] = {}
@@ -91,7 +95,7 @@ class Patterns:
         if not isinstance(pattern, Pattern):
             return None
         try:
-            return pattern.read(tokens)
+            return pattern.read(self.source, tokens)
         except Unfit:
             return None
 
@@ -179,9 +183,9 @@ class _Learner:
             last = pieces.values[-1][-1]
             at = self.number_of[last[2]]
             width = 0 if last is self.tokens[at] else len(last[1])
-            places.append((name, Place(self.number_of[pieces.start], at, width)))
-            builds.append((name, self._value(pieces, values[name])))
-        return Pattern(tuple(builds), tuple(places))
+            places.append(Place(self.number_of[pieces.start], at, width))
+            builds.append(self._value(pieces, values[name]))
+        return Pattern(tuple(found), tuple(builds), tuple(places))
 
     def _value(self, pieces: Pieces, value: Any) -> Build:
         argument, tokens = pieces.argument, pieces.values

@@ -106,7 +106,7 @@ class Reading:
         """Keywords of statements that could not be read, or not wholly."""
         self.half_read: list[Statement] = []
         self.resolver = Resolver(names, self.log)
-        self.patterns = Patterns(names)
+        self.patterns = Patterns(names, source)
         self.prefix = ""
         """Of output files, at the top of a command file."""
         self._body: Body | None = None
@@ -365,22 +365,20 @@ class Reading:
         if read is None:
             return None
         if entry.changes:
-            spans = Spans(self.log.source, entry.syntax.range, read[1])
-            return Redefinition(of=cls, key=entry.id, changes=read[0], spans=spans)
+            return Redefinition(of=cls, key=entry.id, changes=read[0], spans=read[1])
         return cls(**self._fields(entry, read))
 
     def _fields(self, entry: Entry, read: Read) -> dict[str, object]:
         """Everything that a statement is made from."""
-        (values, ranges), syntax = read, entry.syntax
-        spans = Spans(self.log.source, syntax.range, ranges)
-        own = {"id": entry.id, "name": syntax.name, "spans": spans}
+        values, spans = read
+        own = {"id": entry.id, "name": entry.syntax.name, "spans": spans}
         return {**values, **entry.cls.completed(values, entry.body), **own}
 
     def _arguments(self, entry: Entry, reader: ValueReader) -> Read | None:
         """The arguments of a statement and where they are written; None when something is wrong."""
         cls, syntax, patterns = entry.cls, entry.syntax, self.patterns
         if cls.ignored or cls.ends:
-            return self._as_written(entry), {}
+            return self._as_written(entry), Spans(self.log.source, syntax.range)
         common = syntax.whole and not entry.again and not entry.changes
         key = patterns.key(syntax, cls.singleton)
         fitted = patterns.fitted(key, syntax.tokens) if common else None
@@ -389,12 +387,13 @@ class Reading:
         errors, messages = self.log.errors, len(self.log.diagnostics)
         items = syntax.items if cls.singleton else syntax.items[1:]
         read = read_arguments(cls, syntax, items, reader, entry.label, entry.changes)
+        spans = Spans(self.log.source, syntax.range, read.ranges)
         if self.log.errors != errors or entry.again or not syntax.whole:
             self.broken.add(cls.keyword)
             if not (entry.again or entry.changes):
-                fields = self._fields(entry, (read.values, read.ranges))
+                fields = self._fields(entry, (read.values, spans))
                 self.half_read.append(half_read(cls, fields, read.unread))
             return None
         if common and messages == len(self.log.diagnostics) and patterns.wanted(key):
             patterns.learn(key, syntax.tokens, read.found, read.values)
-        return read.values, read.ranges
+        return read.values, spans
