@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from array import array
 from pathlib import Path
 
 import pytest
 
 import adamslite as al
-from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.language.diagnostics import DeckError, Diagnostic, Source
 from adamslite.language.statement import Statement
 from adamslite.reading import patterns
 from adamslite.reading.patterns import Pattern, Patterns
 from adamslite.resources import find
+from adamslite.syntax.syntax_errors import Waiting
 
 HEAD = """masses in a row
 UNITS/SYSTEM=MKS
@@ -127,7 +129,7 @@ def test_an_editor_is_told_of_every_place(monkeypatch: pytest.MonkeyPatch) -> No
     class Index(Names):
         def used(self, kind: str, key: object, start: int, end: int) -> None: ...
 
-    assert Patterns(Names()).useful and not Patterns(Index()).useful
+    assert Patterns(Names(), Source("")).useful and not Patterns(Index(), Source("")).useful
 
 
 @pytest.mark.slow
@@ -140,4 +142,7 @@ def test_all_decks_are_read_as_before(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_pattern_is_made_of_plain_values() -> None:
-    assert Pattern((), ()).read([]) == ({}, {})
+    source = Source("END")
+    waiting = Waiting(("NAME",), ("END",), array("I", [0]), ((), None, True, ()))
+    values, spans = Pattern((), (), ()).read(source, waiting)
+    assert values == {} and [*spans] == [] and spans.whole_range == (0, 3)

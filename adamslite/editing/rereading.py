@@ -18,7 +18,8 @@ from adamslite.language.expression import Node
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 from adamslite.reading.argument_values import ValueReader
-from adamslite.reading.statement_reader import Entry, Reading, gives_values
+from adamslite.reading.entries import Entry, gives_values
+from adamslite.reading.statement_reader import Reading
 from adamslite.syntax.lines import join, view_name
 from adamslite.syntax.syntax_errors import Faults, Syntax, statement_syntax
 from adamslite.syntax.tokens import NEW_STATEMENT, Lexeme, scan

@@ -22,11 +22,11 @@ from adamslite.language.routines import USER
 from adamslite.reading.argument_grouping import Pieces, Read
 from adamslite.reading.expression_names import ID_DIGITS
 from adamslite.syntax.forms import Fault, Tree, expression_form
-from adamslite.syntax.syntax_errors import Syntax
-from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
+from adamslite.syntax.syntax_errors import Waiting
+from adamslite.syntax.tokens import OPERATORS, Lexeme
 
-Build = Callable[[Sequence[Lexeme]], Any]
-"""A value from the tokens of a statement; raises :class:`Unfit`."""
+Build = Callable[[Sequence[str]], Any]
+"""A value from the texts of the tokens of a statement; raises :class:`Unfit`."""
 Key = tuple[str | None, ...]
 # Statements of one kind that are read the long way before the next ones have a pattern.
 COMMON = 3
@@ -53,13 +53,13 @@ class Pattern(NamedTuple):
     builds: tuple[Build, ...]
     places: tuple[Place, ...]
 
-    def read(self, source: Source, tokens: Sequence[Lexeme]) -> Read:
+    def read(self, source: Source, waiting: Waiting) -> Read:
         """What it reads; raises :class:`Unfit`."""
-        offsets = [tokens[0][2], end_of(tokens[-1])]
+        texts, at = waiting.texts, waiting.offsets
+        offsets = [*waiting.range]
         for first, last, width in self.places:
-            _, text, at = tokens[last]
-            offsets += tokens[first][2], at + (width or len(text))
-        values = {name: build(tokens) for name, build in zip(self.fields, self.builds, strict=True)}
+            offsets += at[first], at[last] + (width or len(texts[last]))
+        values = {name: build(texts) for name, build in zip(self.fields, self.builds, strict=True)}
         return values, Spans.at(source, self.fields, packed(offsets))
 
 
@@ -78,24 +78,35 @@ class Patterns:
         self.useful = type(names).used is Names.used
         self.known: dict[Key, Pattern | int | None] = {}
         """By the words between numbers: the pattern, how often there was none, None: not ever."""
+        self._numbered: dict[tuple[str, ...], tuple[int, ...]] = {}
         self._numbers: dict[str, Num] = {}
         self._negatives: dict[str, Num] = {}
         self._refs: dict[tuple[str, str], Ref] = {}
 
-    def key(self, syntax: Syntax, singleton: bool) -> Key:
+    def key(self, waiting: Waiting, singleton: bool) -> Key:
         """The words of a statement but for its id, and where there are numbers."""
-        words = [None if kind == "NUMBER" else text for kind, text, _ in syntax.tokens]
+        words: list[str | None] = [*waiting.texts]
+        for number in self._numbers_in(waiting.kinds):
+            words[number] = None
         if not singleton:
-            words[syntax.items[0].start] = None
+            words[waiting.rest[0][0].start] = None
         return tuple(words)
 
-    def fitted(self, key: Key, tokens: Sequence[Lexeme]) -> Read | None:
+    def _numbers_in(self, kinds: tuple[str, ...]) -> tuple[int, ...]:
+        """Which tokens are numbers."""
+        found = self._numbered.get(kinds)
+        if found is None:
+            numbers = tuple([n for n, kind in enumerate(kinds) if kind == "NUMBER"])
+            found = self._numbered[kinds] = numbers
+        return found
+
+    def fitted(self, key: Key, waiting: Waiting) -> Read | None:
         """What the pattern of a statement reads; None where it has none or does not fit it."""
         pattern = self.known.get(key)
         if not isinstance(pattern, Pattern):
             return None
         try:
-            return pattern.read(self.source, tokens)
+            return pattern.read(self.source, waiting)
         except Unfit:
             return None
 
@@ -210,18 +221,18 @@ class _Learner:
         kinds = [token[0] for token in tokens]
         at = self.number_of[tokens[-1][2]]
         if kinds == ["NUMBER"]:
-            return lambda found: plain(found[at][1])
+            return lambda found: plain(found[at])
         if kinds == ["PLUS", "NUMBER"]:
-            return lambda found: plain(found[at][1])
+            return lambda found: plain(found[at])
         if kinds == ["MINUS", "NUMBER"]:
-            return lambda found: -plain(found[at][1])
+            return lambda found: -plain(found[at])
         raise Unfit
 
     def _reference(self, kind: str, tokens: list[Lexeme]) -> Build:
         if len(tokens) != 1 or tokens[0][0] != "NUMBER":
             raise Unfit
         at, id_of = self.number_of[tokens[0][2]], self.patterns.id
-        return lambda found: id_of(kind, found[at][1])
+        return lambda found: id_of(kind, found[at])
 
     # ---- expressions --------------------------------------------------------------------------
 
@@ -239,10 +250,10 @@ class _Learner:
                 return _constant(node)
             case "number", Num(name=""):
                 number = self.patterns.number
-                return lambda found: number(found[first][1])
+                return lambda found: number(found[first])
             case "negation", Num(name="") if tree[2][0] == "number":
                 inside, negative = at[tree[2][1]], self.patterns.negative
-                return lambda found: negative(found[inside][1])
+                return lambda found: negative(found[inside])
             case "negation", Op(op, (inner,)) if op == NEGATE:
                 build = self._node(tree[2], at, inner)
                 return lambda found: Op(NEGATE, (build(found),))
@@ -271,7 +282,7 @@ class _Learner:
         if tree[0] != "number":  # a name made of several words, of which one may be a number
             raise Unfit
         kind, first, ref = node.kind, at[tree[1]], self.patterns.ref
-        return lambda found: ref(kind, found[first][1])
+        return lambda found: ref(kind, found[first])
 
 
 def _constant(value: object) -> Build:
@@ -279,7 +290,7 @@ def _constant(value: object) -> Build:
 
 
 def _whole(build: Build) -> Build:
-    def value(found: Sequence[Lexeme]) -> int:
+    def value(found: Sequence[str]) -> int:
         number = build(found)
         if not number.is_integer():
             raise Unfit

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from adamslite.deck.deck import Deck
 from adamslite.deck.names import Names
@@ -25,15 +24,14 @@ from adamslite.language.not_supported import STATEMENTS as PLANNED_STATEMENTS
 from adamslite.language.statement import STATEMENTS, Statement
 from adamslite.reading.argument_grouping import Read, read_arguments
 from adamslite.reading.argument_values import ValueReader, to_id
+from adamslite.reading.entries import Body, Entry, canonical, gives_values
 from adamslite.reading.half_read import half_read
 from adamslite.reading.patterns import Patterns
 from adamslite.reading.resolver import Resolver
 from adamslite.syntax.lines import join
-from adamslite.syntax.syntax_errors import Faults, Syntax, statement_syntax
+from adamslite.syntax.syntax_errors import Faults, Syntax, Waiting, statement_syntax
 from adamslite.syntax.tokens import end_of, scan
 
-Body = tuple[str, Key | None]
-"""Keyword and id of a body; the id is None where it could not be read."""
 # A line that begins as a statement does.
 BEGINNING = re.compile(r"^[ \t]*(\w+)[ \t]*/", re.MULTILINE)
 
@@ -46,40 +44,12 @@ MOST_NAMES = 2
 MARKS = re.compile(r"[/=,;]")
 
 
-class Entry(NamedTuple):
-    """A statement after the first pass; ``body`` is the nearest body before it."""
-
-    cls: type[Statement]
-    syntax: Syntax
-    id: Key
-    body: Body | None
-    again: bool = False
-    """Another one has its id already."""
-    changes: bool = False
-    """It is a command that changes the statement of this id."""
-
-    @property
-    def label(self) -> str:
-        return self.cls.keyword if self.cls.singleton else f"{self.cls.keyword}/{self.id}"
-
-
-def canonical(id: Key) -> Key:
-    """The id as references hold it: names in capitals."""
-    return id.upper() if isinstance(id, str) else id
-
-
 def known_keywords(place: str) -> dict[str, type[Statement] | str]:
     """What may be written in a deck or a command file; those that cannot be read as words."""
     commands = place == "command"
     here = {k: c for k, c in STATEMENTS.items() if commands or c.place != "command"}
     planned = PLANNED_STATEMENTS | PLANNED_COMMANDS if commands else PLANNED_STATEMENTS
     return {name: name for name in planned} | here
-
-
-def gives_values(cls: type[Statement]) -> bool:
-    """Whether expressions take values of such a statement when they are read."""
-    own = cls.constants, cls.numbered
-    return own != (Statement.constants, Statement.numbered)
 
 
 class Reading:
@@ -112,6 +82,7 @@ class Reading:
         self._body: Body | None = None
         self._guesses: list[tuple[str, Syntax]] = []
         self._started: dict[str, int] = {}
+        self._kinds: dict[tuple[str, ...], tuple[str, ...]] = {}
         self._meanings: dict[str, type[Statement] | str | Ambiguous | None] = {}
         self._table = known_keywords(place)
 
@@ -192,7 +163,7 @@ class Reading:
         named = [item for item in bare if syntax.tokens[item.start][1].upper() == "LIST"]
         for item in named:
             word = syntax._replace(tokens=[syntax.tokens[item.start]], items=())
-            self.entries.append(Entry(STATEMENTS["LIST"], word, 0, None))
+            self.entries.append(Entry(STATEMENTS["LIST"], self._waiting(word), 0, None))
         return syntax._replace(items=tuple(each for each in syntax.items if each not in named))
 
     def _behind_end(self, start: int) -> None:
@@ -264,7 +235,7 @@ class Reading:
                 line, _ = self.log.source.place(first)
                 words, end = {"word": cls.keyword, "line": line}, first + len(cls.keyword)
                 self.log.say("duplicate-statement", syntax.range, words, first=(first, end))
-            self.entries.append(Entry(cls, syntax, 0, None, again))
+            self.entries.append(Entry(cls, self._waiting(syntax), 0, None, again))
             return
         id = self._id(cls, syntax)
         if id is None:
@@ -272,7 +243,7 @@ class Reading:
             return
         key = canonical(id)
         again = not self.names.add(cls.keyword, key, syntax.name, start)
-        entry = Entry(cls, syntax, id, self._body, again)
+        entry = Entry(cls, self._waiting(syntax), id, self._body, again)
         if again:
             line, _ = self.log.source.place(self.names.ids[cls.keyword][key])
             end = end_of(syntax.tokens[syntax.items[0].end - 1])
@@ -280,6 +251,11 @@ class Reading:
         if cls.body:
             self._body = (cls.keyword, key)
         self.entries.append(entry)
+
+    def _waiting(self, syntax: Syntax) -> Waiting:
+        """The syntax until the second pass; kinds of tokens are one object where they are equal."""
+        found = Waiting.of(syntax)
+        return found._replace(kinds=self._kinds.setdefault(found.kinds, found.kinds))
 
     def _enter_change(self, cls: type[Statement], syntax: Syntax) -> None:
         """A command that changes the statement of its id, which must exist."""
@@ -297,7 +273,7 @@ class Reading:
                 first = syntax.items[0]
                 place = tokens[first.start][2], end_of(tokens[first.end - 1])
                 self.names.used(cls.keyword, found, *place)
-            self.entries.append(Entry(cls, syntax, found, None, changes=True))
+            self.entries.append(Entry(cls, self._waiting(syntax), found, None, changes=True))
         elif self.deck and cls.keyword not in self.deck.incomplete:
             end = end_of(tokens[syntax.items[0].end - 1])
             self.log.missing(self.names, cls.keyword, id, tokens[0][2], end)
@@ -345,8 +321,9 @@ class Reading:
         for entry in self.entries:
             if entry.cls.body and "ground" in entry.cls.arguments:
                 words = vocabulary(entry.cls)
-                for item in entry.syntax.items[1:]:
-                    word = entry.syntax.tokens[item.start][1]
+                syntax = entry.syntax.syntax
+                for item in syntax.items[1:]:
+                    word = syntax.tokens[item.start][1]
                     if item.key < 0 and words.flag(word) == words.bare["GROUND"]:
                         return canonical(entry.id)
         return None
@@ -376,14 +353,15 @@ class Reading:
 
     def _arguments(self, entry: Entry, reader: ValueReader) -> Read | None:
         """The arguments of a statement and where they are written; None when something is wrong."""
-        cls, syntax, patterns = entry.cls, entry.syntax, self.patterns
+        cls, waiting, patterns = entry.cls, entry.syntax, self.patterns
         if cls.ignored or cls.ends:
-            return self._as_written(entry), Spans(self.log.source, syntax.range)
-        common = syntax.whole and not entry.again and not entry.changes
-        key = patterns.key(syntax, cls.singleton)
-        fitted = patterns.fitted(key, syntax.tokens) if common else None
+            return self._as_written(entry), Spans(self.log.source, waiting.range)
+        common = waiting.whole and not entry.again and not entry.changes
+        key = patterns.key(waiting, cls.singleton)
+        fitted = patterns.fitted(key, waiting) if common else None
         if fitted:
             return fitted
+        syntax = waiting.syntax
         errors, messages = self.log.errors, len(self.log.diagnostics)
         items = syntax.items if cls.singleton else syntax.items[1:]
         read = read_arguments(cls, syntax, items, reader, entry.label, entry.changes)

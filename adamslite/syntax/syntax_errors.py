@@ -6,6 +6,7 @@ the others.
 
 from __future__ import annotations
 
+from array import array
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
@@ -57,6 +58,40 @@ class Syntax(NamedTuple):
     @property
     def range(self) -> tuple[int, int]:
         return self.tokens[0][2], end_of(self.tokens[-1])
+
+
+class Waiting(NamedTuple):
+    """A syntax that waits to be read, its tokens column by column: lists of them would take most of
+    the memory of reading.
+    """
+
+    kinds: tuple[str, ...]
+    texts: tuple[str, ...]
+    offsets: array[int]
+    rest: tuple[tuple[Item, ...], str | None, bool, tuple[str, ...]]
+
+    @classmethod
+    def of(cls, syntax: Syntax) -> Waiting:
+        """The same syntax, waiting."""
+        kinds, texts, offsets = zip(*syntax.tokens, strict=True)
+        return cls(kinds, texts, array("I", offsets), syntax[1:])
+
+    @property
+    def syntax(self) -> Syntax:
+        """The syntax as it was."""
+        return Syntax([*zip(self.kinds, self.texts, self.offsets, strict=True)], *self.rest)
+
+    @property
+    def name(self) -> str | None:
+        return self.rest[1]
+
+    @property
+    def whole(self) -> bool:
+        return self.rest[2]
+
+    @property
+    def range(self) -> tuple[int, int]:
+        return self.offsets[0], self.offsets[-1] + len(self.texts[-1])
 
 
 Faults: TypeAlias = list[tuple[Mistake, list[Lexeme]]]
