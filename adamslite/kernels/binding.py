@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from fractions import Fraction
-from operator import eq
+from operator import eq, itemgetter
 from typing import TYPE_CHECKING, Any
 
 from adamslite.functions.forces import NET
@@ -73,8 +73,8 @@ def same(values: Sequence[Any]) -> Any:
 
 def transposed(rows: Sequence[Sequence[Any]]) -> list[Sequence[Any]]:
     """Columns of rows of equal length."""
-    same([len(row) for row in rows])
-    return [*zip(*rows, strict=True)]
+    width = same([*map(len, rows)])
+    return [[*map(itemgetter(number), rows)] for number in range(width)]
 
 
 def slot(columns: list[Sequence[Any]], values: Sequence[Any]) -> int:
@@ -259,7 +259,7 @@ class Binder:
         if name in NET:
             return self.expression([written_out(node, self.model) for node in nodes])
         columns = transposed([node.args for node in nodes])
-        if any(same([self._is_off(each) for each in column]) for column in columns):
+        if any(map(self._are_off, columns)):
             return ("c", 0.0)
         if name == USER:
             return self._routine(columns)
@@ -284,11 +284,13 @@ class Binder:
     def _multiplier(self, gcons: Sequence[Ref]) -> Tree:
         return ("z", self.node_slot([("GCON", gcon.id) for gcon in gcons]), 0)
 
-    def _is_off(self, node: Node) -> bool:
-        """A reference to an element that is switched off: whatever it measures is zero."""
-        if type(node) is not Ref or node.kind in LASTING:
+    def _are_off(self, nodes: Sequence[Node]) -> bool:
+        """References to elements that are switched off: whatever is measured of them is zero."""
+        others = [type(node) is Ref and node.kind not in LASTING for node in nodes]
+        if not same(others):
             return False
-        return not self.model.acts(self.model.element(node.kind, node.id))
+        elements = [self.model.element(node.kind, node.id) for node in nodes if type(node) is Ref]
+        return not same([*map(self.model.acts, elements)])
 
     def _taken(self, function: Function, n: int, nodes: Sequence[Any], of: Sequence[Call]) -> Tree:
         """Argument number ``n`` of calls."""

@@ -185,11 +185,13 @@ class Model:
             part = self.deck.find(*owner)
             shift, base = np.asarray(part.qg, dtype=float), frame_axes(part, np.asarray(part.qg))
             return Place("ground", -1, shift + rotated(base, origin), rotated(base, axes))
-        cm = self.marker_in_body(self.bodies[body].statement.cm)[0]
+        statement = self.bodies[body].statement
+        own = statement.cm == marker_id
+        apart = NOTHING if own else origin - self.marker_in_body(statement.cm)[0]
         if self.bodies[body].width == POINT:
             base = self.bodies[body].attitude
-            return Place("point", body, rotated(base, origin - cm), rotated(base, axes))
-        return Place("part", body, origin - cm, axes)
+            return Place("point", body, rotated(base, apart), rotated(base, axes))
+        return Place("part", body, apart, axes)
 
     def body_width(self, body: int) -> int:
         return self.bodies[body].width
