@@ -110,6 +110,12 @@ def ints(values: Iterable[int]) -> np.ndarray:
     return np.array(values, dtype=np.int64)
 
 
+def distinct(values: np.ndarray) -> np.ndarray:
+    """Different numbers, none below zero, in order; `np.unique` imports masked arrays."""
+    found = np.sort(values)
+    return found[np.diff(found, prepend=-1) > 0]
+
+
 def reals(values: ArrayLike) -> np.ndarray:
     """An array of reals as native code reads it."""
     return np.array(values, dtype=float)

@@ -11,7 +11,7 @@ from itertools import chain
 
 import numpy as np
 
-from adamslite.equations.engine import address_of, ints
+from adamslite.equations.engine import address_of, distinct, ints
 from adamslite.integrators.linalg.elimination_tree import NONE, Tree
 from adamslite.integrators.linalg.minimum_degree import Graph
 from adamslite.integrators.linalg.plan import Front, Run
@@ -43,7 +43,7 @@ class FrontalPlan:
         n = len(widths)
         apart = rows != columns
         pairs = rows[apart] * n + columns[apart], columns[apart] * n + rows[apart]
-        self.row, self.column = np.divmod(np.unique(np.concatenate(pairs)), n)
+        self.row, self.column = np.divmod(distinct(np.concatenate(pairs)), n)
         order = _least_degree(widths, self.row, self.column, late)
         tree = _tree(widths, order, self.row, self.column)
         _call("elimination_tree.find_fronts", tree)

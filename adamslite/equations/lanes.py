@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.equations.engine import distinct
 from adamslite.integrators.contract import LaneRun
 from adamslite.kernels.code.workspace import POINT_SIZE
 from adamslite.native.translate import Rows
@@ -66,7 +67,7 @@ def runs(instances: Instances) -> Runs | None:
         total += count
         for first, end in _spans(ints, n):
             rows.append((k, first, end - first, ints[first:], reals[:, first:]))
-    beside = np.unique(np.concatenate(others))
+    beside = distinct(np.concatenate(others))
     if not rows or WORTH * (len(rows) + len(beside)) > total:
         return None
     # Only methods that evaluate by component need it.

@@ -271,10 +271,10 @@ class System:
 
     def changed_speeds(self) -> list[str]:
         """The five largest changes of velocities that the deck gives, as text."""
-        changed = []
-        for b, body in enumerate(self.model.bodies):
-            if not (body.v.any() or body.w.any()):
-                continue
+        changed, bodies = [], self.model.bodies
+        given_any = np.any([(each.v, each.w) for each in bodies], axis=(1, 2)) if bodies else []
+        for b in np.flatnonzero(given_any).tolist():
+            body = bodies[b]
             i, given = self.starts[b], np.concatenate([body.v, body.w])[: self.widths[b]]
             change = float(np.abs(self.u[i : i + self.widths[b]] - given).max())
             size = float(np.abs(given).max())

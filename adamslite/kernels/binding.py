@@ -6,8 +6,9 @@ instance.  The walk writes no expressions, so a deck whose shapes are cached com
 :mod:`adamslite.kernels.reader` does the reverse.
 
 Many statements are walked at once, as columns of values: thousands of springs take as many steps as
-one.  Where they turn out to differ in more than numbers and ids, :class:`Split` says which belong
-together, and each part is walked again by itself.
+one.  Where they turn out to differ in more than numbers and ids,
+:class:`~adamslite.kernels.columns.Split` says which belong together, and each part is walked again
+by itself.
 
 A bound tree is one of
 
@@ -22,12 +23,12 @@ A bound tree is one of
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
-from operator import eq, itemgetter
 from typing import TYPE_CHECKING, Any
 
 from adamslite.functions.forces import NET
+from adamslite.kernels.columns import same, slot, transposed
 from adamslite.kernels.groups import Binding
 from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.language.function import PRODUCTS, find_function
@@ -54,37 +55,6 @@ LASTING = ("MARKER", "VARIABLE", "DIFF", "SENSOR")
 
 class ForceLoop(Exception):
     """An element's force depends on itself without a VARIABLE between."""
-
-
-class Split(Exception):
-    """Statements that are not of one shape; ``labels`` are equal for those that may be."""
-
-    def __init__(self, labels: Sequence[Hashable]) -> None:
-        super().__init__(labels)
-        self.labels = labels
-
-
-def same(values: Sequence[Any]) -> Any:
-    """The value that all have in common; raises :class:`Split`."""
-    if values.count(values[0]) < len(values):
-        raise Split(values)
-    return values[0]
-
-
-def transposed(rows: Sequence[Sequence[Any]]) -> list[Sequence[Any]]:
-    """Columns of rows of equal length."""
-    width = same([*map(len, rows)])
-    return [[*map(itemgetter(number), rows)] for number in range(width)]
-
-
-def slot(columns: list[Sequence[Any]], values: Sequence[Any]) -> int:
-    """The column with these values; a new one where there is none."""
-    for number, column in enumerate(columns):
-        equal = [*map(eq, column, values)]
-        if same(equal):
-            return number
-    columns.append(values)
-    return len(columns) - 1
 
 
 class Binder:

@@ -19,7 +19,8 @@ from adamslite.caching.sources import version_of
 from adamslite.deck.statement_diagnostics import diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
-from adamslite.kernels.binding import Binder, ForceLoop, Split, same, transposed
+from adamslite.kernels.binding import Binder, ForceLoop
+from adamslite.kernels.columns import Split, same, transposed
 from adamslite.kernels.groups import (
     LEVELS,
     WITH_JACOBIAN,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -123,6 +123,15 @@ def calls(node: Node, *names: str) -> Iterator[Call]:
     for each in walk(node):
         if type(each) is Call and (not names or each.name in names):
             yield each
+
+
+_called: dict[frozenset[str], frozenset[str]] = {}
+
+
+def names_called(nodes: Iterable[Node]) -> frozenset[str]:
+    """Names of the functions that expressions call; equal sets are one object."""
+    found = frozenset(call.name for node in nodes for call in calls(node))
+    return _called.setdefault(found, found)
 
 
 def rebuild(node: Node, change: Callable[[Node], Node]) -> Node:

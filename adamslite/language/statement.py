@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeAlias, TypedDict, TypeVar, Unpack
 
 from adamslite.language.diagnostics import Span, Spans
-from adamslite.language.expression import Node, calls
+from adamslite.language.expression import Node, names_called
 from adamslite.language.interfaces import DrawnModel, Key, Lookup
 from adamslite.language.register import Register
 
@@ -25,8 +25,6 @@ STATEMENTS: Register[type[Statement]] = Register("adamslite.elements")
 INTERNAL: dict[str, type[Statement]] = {}
 """Statements that only others bring with them: no deck has them."""
 NO_SPANS = Spans()
-CALLED: dict[frozenset[str], frozenset[str]] = {}
-"""Names of functions that statements call: one object where they are the same."""
 S = TypeVar("S", bound="Statement")
 Field: TypeAlias = Any
 """What declares a field in the body of a class stands for the value that the field will have."""
@@ -257,8 +255,7 @@ class Statement:
     @cached_property
     def called(self) -> frozenset[str]:
         """Names of the functions that its expressions call."""
-        found = frozenset(call.name for node in expressions(self) for call in calls(node))
-        return CALLED.setdefault(found, found)
+        return names_called(expressions(self))
 
     @classmethod
     def completed(

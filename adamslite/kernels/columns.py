@@ -1,0 +1,39 @@
+"""Columns: what many statements of one class have at the same place."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from operator import eq, itemgetter
+from typing import Any
+
+
+class Split(Exception):
+    """Statements that are not of one shape; ``labels`` are equal for those that may be."""
+
+    def __init__(self, labels: Sequence[Hashable]) -> None:
+        super().__init__(labels)
+        self.labels = labels
+
+
+def same(values: Sequence[Any]) -> Any:
+    """The value that all have in common; raises :class:`Split`."""
+    if values.count(values[0]) < len(values):
+        raise Split(values)
+    return values[0]
+
+
+def transposed(rows: Sequence[Sequence[Any]]) -> list[list[Any]]:
+    """Columns of rows of equal length."""
+    width = same([*map(len, rows)])
+    return [[*map(itemgetter(number), rows)] for number in range(width)]
+
+
+def slot(columns: list[Any], values: Sequence[Any]) -> int:
+    """The column with these values; a new one where there is none."""
+    values = [*values]
+    if values in columns:
+        return columns.index(values)
+    for column in columns if len(values) > 1 else ():
+        same([*map(eq, column, values)])  # equal here and there: not of one shape
+    columns.append(values)
+    return len(columns) - 1
