@@ -36,6 +36,20 @@ def row(n: int, law: str = "-40*(DM({a},{b})-1)", further: str = "") -> str:
     return "\n".join([*lines, further, "END\n"])
 
 
+def measured_row(n: int) -> str:
+    """Forces by VARIABLEs that take the values of others, measured one by one."""
+    lines = []
+    for k in range(1, n + 1):
+        lines += [
+            f"VARIABLE/{k}, FUNCTION=VARVAL({k + n})*VARVAL({k + n})-VARVAL({3 * n + 1})",
+            f"VARIABLE/{k + n}, FUNCTION={k}.5*DX({k + 1})",
+            f"DIFF/{k}, IC=0, FUNCTION=VARVAL({k})*DIF({k})",
+            f"REQUEST/{k}, F2=SFORCE({k},0,2,0)\\F3=SFORCE({k},0,3,0)+DIF({k})+DIF1({k})",
+        ]
+    lines.append(f"VARIABLE/{3 * n + 1}, FUNCTION=TIME")
+    return row(n, "VARVAL({b})+VARVAL({b})*TIME", "\n".join(lines))
+
+
 def compiled(deck):
     return al.compile_model(al.assemble(al.read(deck)))
 
@@ -110,11 +124,18 @@ def test_a_thousand_forces_are_bound_in_as_many_steps_as_ten(monkeypatch):
 
     monkeypatch.setattr(compiling.Binder, "__init__", counted)
     counts = []
-    for n in (10, 1000):
+    for text in (row(10), row(1000), measured_row(10), measured_row(50)):
         made.clear()
-        compiled(row(n))
+        compiled(text)
         counts.append(len(made))
-    assert counts[0] == counts[1] < 12
+    assert counts[0] == counts[1] < 12 and counts[2] == counts[3] < 25
+
+
+def test_variables_and_elements_that_are_written_out(monkeypatch):
+    deck = measured_row(12)
+    deck = deck.replace("FUNCTION=3.5*DX(4)", "FUNCTION=3.5*DX(4)+VARVAL(14)")
+    deck = deck.replace("REQUEST/7, F2=SFORCE(7,", "REQUEST/7, F2=SFORCE(8,")
+    assert described(compiled(deck)) == described(one_by_one(deck, monkeypatch))
 
 
 def test_of_forces_that_depend_on_themselves_the_first_is_named():

@@ -77,9 +77,14 @@ class Binder:
         self.columns = Binding()
         self.slots: list[Slot] = []
         self.elements: list[tuple[str, Tree, int]] = []
-        self.element_at: dict[NodeKey, int] = {}
+        self.element_keys: list[Sequence[NodeKey]] = []
+        self.element_at: list[int] = []
+        """The number of each among ``elements``; -1 while it is bound."""
         self.variables: list[Tree] = []
-        self.variable_at: dict[tuple[Key, bool], int] = {}
+        self.written: dict[bool, tuple[list[Sequence[Key]], list[int]]] = {
+            False: ([], []), True: ([], [])
+        }  # fmt: skip
+        """Ids of variables that are written out, and their numbers; by ``takes_rates``."""
         self.parts: list[Tree] = []
 
     @property
@@ -292,7 +297,7 @@ class Binder:
         if kind == "SENSOR":
             kept = [self.model.deck.senvals.get(each, 0.0) for each in ids]
             return ("s", "SENSOR", (("kept", self.number(kept)),))
-        return self.element(same(refs))
+        return self.element([(kind, each) for each in ids])
 
     def _state(self, ids: Sequence[Key]) -> Tree:
         node = self.node_slot([("DIFF", each) for each in ids])
@@ -303,10 +308,7 @@ class Binder:
 
     def variable(self, ids: Sequence[Key]) -> Tree:
         if same([self._is_written_out(each) for each in ids]):
-            variable_id = same(ids)
-            for each in self._below(variable_id):
-                self._write_out(each)
-            return ("var", self.variable_at[variable_id, self.takes_rates])
+            return ("var", self._number_of(ids))
         if same([self.model.variable_kind(each) for each in ids]) == "loop":
             return ("z", self.node_slot([("VARIABLE", each) for each in ids]), 0)
         return ("sig", slot(self.columns.signals, ids), 0)
@@ -317,7 +319,17 @@ class Binder:
             return self.takes_rates and variable_id not in self.model.circular
         return kind == "inline"
 
-    def _below(self, variable_id: Key) -> list[Key]:
+    def _number_of(self, ids: Sequence[Key]) -> int:
+        """The number of a variable that is written out, which is done when it is first needed."""
+        known, numbers = self.written[self.takes_rates]
+        if ids not in known:
+            rows = [*zip(*known, strict=True)] or [()] * self.count
+            orders = [self._below(*each) for each in zip(ids, rows, strict=True)]
+            for column in transposed(orders):
+                self._write_out(column)
+        return numbers[slot(known, ids)]
+
+    def _below(self, variable_id: Key, known: Sequence[Key]) -> list[Key]:
         """A variable behind all that are written out in it and are not yet: no recursion of the
         depth of a chain.
         """
@@ -327,32 +339,33 @@ class Binder:
             key, complete = pending.pop()
             if complete:
                 found[key] = None
-            elif key not in found and (key, self.takes_rates) not in self.variable_at:
+            elif key not in found and key not in known:
                 pending.append((key, True))
                 used = self.model.variables_of(key)
                 pending += [(each, False) for each in used if self._is_written_out(each)]
         return list(found)
 
-    def _write_out(self, variable_id: Key) -> None:
-        tree = self.expression([self.model.variable(variable_id).function] * self.count)
+    def _write_out(self, ids: Sequence[Key]) -> None:
+        tree = self.expression([self.model.variable(each).function for each in ids])
+        known, numbers = self.written[self.takes_rates]
+        slot(known, ids)
+        numbers.append(len(self.variables))
+        self.parts.append(("var", len(self.variables)))
         self.variables.append(tree)
-        self.variable_at[variable_id, self.takes_rates] = len(self.variables) - 1
-        self.parts.append(("var", len(self.variables) - 1))
 
-    def element(self, ref: Ref) -> Tree:
+    def element(self, keys: Sequence[NodeKey]) -> Tree:
         """Another element whose load is measured: bound into this shape."""
-        key = (ref.kind, ref.id)
-        if key not in self.element_at:
-            self.element_at[key] = -1
-            statement = self.model.element(ref.kind, ref.id)
-            many = [statement] * self.count
-            tree = (ref.kind, self.statement(many), self.unknowns(many))
+        number = slot(self.element_keys, keys)
+        if number == len(self.element_at):
+            self.element_at.append(-1)
+            statements = [self.model.element(*key) for key in keys]
+            tree = (keys[0][0], self.statement(statements), self.unknowns(statements))
             self.elements.append(tree)
-            self.element_at[key] = len(self.elements) - 1
+            self.element_at[number] = len(self.elements) - 1
             self.parts.append(("e", len(self.elements) - 1))
-        if self.element_at[key] < 0:
-            raise ForceLoop(f"{ref.kind}/{ref.id}")
-        return ("e", self.element_at[key])
+        if self.element_at[number] < 0:
+            raise ForceLoop("{}/{}".format(*keys[0]))
+        return ("e", self.element_at[number])
 
     def unknowns(self, statements: Sequence[Statement]) -> int:
         """Node slot of a statement's own unknowns (multipliers, V, s), -1 for a force."""

@@ -17,9 +17,10 @@ class Split(Exception):
 
 def same(values: Sequence[Any]) -> Any:
     """The value that all have in common; raises :class:`Split`."""
-    if values.count(values[0]) < len(values):
+    first = values[0]
+    if len(values) > 1 and values.count(first) < len(values):
         raise Split(values)
-    return values[0]
+    return first
 
 
 def transposed(rows: Sequence[Sequence[Any]]) -> list[list[Any]]:

@@ -189,8 +189,8 @@ def _add(groups: Groups, model: Model, face: str, statements: list[Numbered]) ->
                 parts.setdefault(label, []).append(each)
             pending += parts.values()
         except ForceLoop as loop:
-            for number, statement in part:
-                groups.loops[number] = _loop(statement, str(loop))
+            number, statement = part[0]
+            groups.loops[number] = _loop(statement, str(loop))
 
 
 def _bind(groups: Groups, model: Model, face: str, numbered: list[Numbered]) -> None:
