@@ -41,7 +41,8 @@ class Quantity:
     """A published number, and how a run gives it.
 
     `measure` is one of a reference file without its value, `mode` the number of the
-    oscillation whose frequency [1/time] is meant; `scale` times it is in the published unit.
+    oscillation whose frequency [1/time] is meant, `eigenvalue` a part, real or imag, of the
+    eigenvalue for which it is nearest; `scale` times it is in the published unit.
     """
 
     name: str
@@ -51,6 +52,7 @@ class Quantity:
     exact: float | None = None
     measure: str = ""
     mode: int = 0
+    eigenvalue: str = ""
     scale: float = 1.0
 
     @property
@@ -100,6 +102,10 @@ def ours(quantity: Quantity, results: al.Results) -> float:
         found = results.linearizations[0].model.eigenvalues
         upper = np.sort(np.abs(found[found.imag > 0])) / (2 * np.pi)
         return float(upper[quantity.mode - 1]) * quantity.scale
+    if quantity.eigenvalue:
+        parts = getattr(results.linearizations[0].model.eigenvalues, quantity.eigenvalue)
+        nearest = np.argmin(np.abs(parts * quantity.scale - quantity.expected))
+        return float(parts[nearest]) * quantity.scale
     measure = parse_measure(f"{quantity.measure} = 0 tol abs 1")
     return measure.measured(results, "cubic") * quantity.scale
 

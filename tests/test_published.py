@@ -9,10 +9,13 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from tiers import every, slow
 from written import assert_same_reference, assert_same_text
 
+import adamslite as al
+from adamslite.reading.read import read_commands
 from adamslite.resources import find
 
 ROOT = find("decks").parent
@@ -30,6 +33,20 @@ def test_a_published_number_is_met(name: str) -> None:
     for quantity in case.quantities:
         value = PAGE["ours"](quantity, runs[quantity.deck])
         assert value == pytest.approx(quantity.expected, rel=case.within), quantity.name
+
+
+@pytest.mark.parametrize(("kind", "limit"), (("weave", 4.29238), ("capsize", 6.02426)))
+def test_a_bicycle_balances_itself_between_two_speeds(kind: str, limit: float) -> None:
+    """From 4.292 m/s on the weave dies out, from 6.024 m/s on the capsize grows."""
+    bicycle = runpy.run_path(str(ROOT / "decks" / "published" / "bicycle" / "make_reference.py"))
+    for speed, sign in ((limit - 1e-3, 1), (limit + 1e-3, -1)):
+        deck = al.read(bicycle["deck"](speed))
+        commands = read_commands("SIMULATE/INITIAL\nLINEAR/EIGENSOL\nSTOP\n", deck)
+        found = al.simulate(deck, commands=commands).linearizations[0].model.eigenvalues
+        (way,) = (s for s in bicycle["eigenvalues"](speed) if abs(s.real) < 0.1 and s.imag >= 0)
+        assert way.real * (sign if kind == "weave" else -sign) > 0
+        ours = found[np.abs(found - way).argmin()]
+        assert ours == pytest.approx(way, abs=1e-7)
 
 
 def test_the_page_names_every_quantity_in_order() -> None:
