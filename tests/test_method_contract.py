@@ -142,11 +142,7 @@ class TestContract:
     ) -> None:
         """x" = 1/(t1 - t) has no solution behind t1: a named failure before it."""
         found = solved(method, pushed(f"2/({pole}-TIME)"), end=2.0, steps=200)
-        assert (
-            found.outcome is not Outcome.DONE
-            and found.outcome.name in found.message.upper()
-            or (found.outcome is not Outcome.DONE and found.message)
-        )
+        assert found.outcome is not Outcome.DONE and found.message
         assert 0.0 < found.time[-1] <= pole
         t = found.time[found.time < 0.9 * pole]
         x = (pole - t) * np.log(1.0 - t / pole) + t
