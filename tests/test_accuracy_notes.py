@@ -36,6 +36,12 @@ def test_errors_that_add_up_are_told(method: str, stiffness: float, start: float
     assert off < 1e-3 or "add up to" in results.meta["accuracy"]
 
 
+def test_a_formula_has_one_order():
+    """GAMMA=0.7 of NEWMARK damps at the price of the second order."""
+    note = done(spring(1.0, 1.0), 1.0, 10, integrator="NEWMARK", error=1e-6).meta["accuracy"]
+    assert "the formula is of order 1" in note and "the formula is of order 2" not in note
+
+
 @pytest.mark.parametrize("method", ("GSTIFF", "RADAU", "ABAM"))
 def test_a_short_run_says_nothing(method: str):
     """A period of 2 pi, 1e-6 allowed in a step: some hundred steps at most, 1e-4 of the way."""

@@ -104,7 +104,8 @@ def _of_method(
     """What belongs to a formula."""
     method, (alpha, _, gamma) = settings.formula, settings.damping
     rough, divided = report.rough_steps, report.divided
-    if method.damping and abs(gamma + alpha - 0.5) > FIRST_ORDER:
+    damps_more = bool(method.damping) and abs(gamma + alpha - 0.5) > FIRST_ORDER
+    if damps_more:
         yield (
             f"with GAMMA={gamma:g} the formula is of order 1, and a run is off by the root of ERROR"
             " rather than by ERROR; HHT damps as well and is of order 2"
@@ -132,7 +133,7 @@ def _of_method(
             f"{report.stable_step:.3g} by estimate: above it vibrations grow without "
             f"bound; stay below {most:.3g}"
         )
-    if method.order <= 2 and settings.error <= FINE:
+    if method.order <= 2 and settings.error <= FINE and not damps_more:
         yield (
             f"the formula is of order {method.order}: {steps} steps of ERROR={settings.error:g} "
             f"add up to {off:.1e}; GSTIFF, RADAU or RKF45 get further with fewer"

@@ -157,17 +157,17 @@ def _turning(system: System) -> bool:
 
 def what_changes(system: System, error: float) -> str:
     """A force that equal steps may pass without having felt it, or feel for a step too long: one
-    that jumps with the state, as far as ERROR asks for more than that, or rises within a zone.
+    that may jump with the state, unless ERROR is rough, or rises within a zone.
     """
     jumping = [s for s, kind in system.guarded["watch"] if kind >= JUMPS and error < ROUGH]
     rising = [statement for statement, _ in system.guarded["zone"]]
     if jumping:
         return (
-            f"{jumping[0].label} jumps with the state (IF, SIGN), and its equal steps look past it"
+            f"{jumping[0].label} may jump with the state (IF, SIGN), and equal steps look past that"
         )
     if rising:
         return (
-            f"{rising[0].label} rises within a zone (STEP, IMPACT), and its equal steps may skip it"
+            f"{rising[0].label} rises within a zone (STEP, IMPACT), and equal steps may skip that"
         )
     return ""
 
