@@ -153,7 +153,7 @@ def chosen(text: str) -> dict[str, Any]:
     form = "brute" if "Brute force:" in head else "ale" if "form ale" in head else "auto"
     if "form paper" in head and level == 3:
         form = "paper"
-    count = re.search(r"(\d+) sections", head)
+    count = re.search(r"(\d+) sections?\b", head)
     error = re.search(r"INTEGRATOR/.*ERROR=([\d.eE+-]+)", text)
     return {"level": level, "form": form, "elements": int(count[1]) if count else 0,
             "error": float(error[1])}  # fmt: skip
@@ -278,6 +278,7 @@ def truths(
     exact = Model(level, form if level == 3 else "auto", min(max(used.elements, 12), 450))
     exact = replace(exact, error=min(used.error, base_error(table, p, exact.elements)) / FINER)
     before: Solved | None = None
+    begun = resource.getrusage(resource.RUSAGE_SELF).ru_utime
     while True:
         try:
             run = solve(table, exact, p)
@@ -291,7 +292,7 @@ def truths(
                     return
             before = run
         # Twice the sections and a quarter of ERROR: up to eight times the work.
-        left = budget - resource.getrusage(resource.RUSAGE_SELF).ru_utime
+        left = budget + begun - resource.getrusage(resource.RUSAGE_SELF).ru_utime
         if run is None or 6 * run.cpu > left or exact.elements >= MOST_SECTIONS:
             return
         count = min(2 * exact.elements, MOST_SECTIONS)

@@ -50,6 +50,7 @@ class Rope:
         self.density = float(f"{self.stiffness / speed**2:.4g}")
         self.damping = draw.one(0.0, 0.0, 0.05, 0.2)
         self.pull = pull
+        self.often = draw.one(30, 10)
 
     @property
     def weight(self) -> float:
@@ -73,10 +74,13 @@ class Rope:
         return found | ({"damping": self.damping} if self.damping else {})
 
     def scene(self, end: float, route: list[Table], **top: Any) -> Table:
-        """The description; results often enough to show fronts and bounces."""
-        fine = end / min(self.transit / 6, self.bounce / 30)
-        coarse = end / (self.bounce / 30)
-        steps = fine if fine < MOST_STEPS else coarse
+        """The description; results often enough to show fronts and bounces.
+
+        A run takes a step for every result at least: with few it is ERROR that decides.
+        """
+        coarse = end / (self.bounce / self.often)
+        fine = end / (self.transit / 6)
+        steps = max(fine, coarse) if fine < MOST_STEPS else coarse
         end = float(f"{end:.4g}")
         steps = int(min(max(steps, 200), MOST_STEPS))
         return {"end": end, "steps": steps, **top, "cable": self.cable(), "route": route}

@@ -90,12 +90,12 @@ def chosen(spec: str) -> str:
             [
                 "level 3: cable goes over wheels",
                 "form paper: its estimates are all below 0.01",
-                "sections for half a section at an end",
+                "1 section for tensions and places",
             ],
         ),
         (
             FAST,
-            "GSTIFF",
+            "HHT",
             ["form ale: the paper's misses 0.01 by rho (l s\" + s'^2)/(2 T) ="],
         ),
         (BELT, "HHT", ["form brute: the route is closed", "sections for (h/R)^2/24 on a rim"]),

@@ -14,7 +14,15 @@ decks/cables: right within a factor of three or so.
 from dataclasses import dataclass
 from math import floor, log10, pi, sqrt
 
-from adamslite.cables.demand import Demand, elements, form, is_sudden, level, loaded
+from adamslite.cables.demand import (
+    NEGLIGIBLE,
+    Demand,
+    elements,
+    form,
+    is_lively,
+    level,
+    loaded,
+)
 
 # Of a quotient of decimal numbers.
 ROUND_OFF = 1e-9
@@ -23,6 +31,8 @@ PER_PERIOD, FEWEST_STEPS = 100.0, 400.0
 VERLET_CPU, FIXED_CPU, GROWING_CPU = 0.13e-6, 0.6e-6, 2.4e-6
 # Of the length: below, round-off of the places is in the way.
 TIGHTEST = 1e-9
+# Of the accuracy: what an integrator may use.
+ERROR_SHARE = 1 / 3
 
 
 @dataclass(frozen=True)
@@ -41,20 +51,33 @@ class Advice:
 def advise(of: Demand, p: float) -> Advice:
     """The cheapest model that meets the relative accuracy `p`."""
     chosen, sections = level(of, p), elements(of, p)
-    method = integrator(of, p, chosen)
+    method, _ = integrator(of, p, chosen)
     sections = 0 if chosen == 1 else sections
-    error = p * loaded(of) * of.length / max(sections, 1) / of.stiffness
     return Advice(
         p, chosen, form(of, p) if chosen == 3 else "", sections, method,
-        _rounded(max(error, TIGHTEST * of.longest)), _cost(of, method, chosen, sections),
+        error_bound(of, p, sections), _cost(of, method, chosen, sections),
     )  # fmt: skip
 
 
-def integrator(of: Demand, p: float, chosen: int) -> str:
-    """Its method."""
-    if chosen == 1 or not is_sudden(of, p):
-        return "GSTIFF"
-    return "VERLET" if chosen == 2 and not of.tied else "HHT"
+def error_bound(of: Demand, p: float, sections: int) -> float:
+    """ERROR: the length that changes the least tension by a share of `p`."""
+    left = of.left(p)
+    load = loaded(of) if left is None else max(left.load, NEGLIGIBLE)
+    error = ERROR_SHARE * p * load * of.length / max(sections, 1) / of.stiffness
+    return _rounded(max(error, TIGHTEST * of.longest))
+
+
+def integrator(of: Demand, p: float, chosen: int) -> tuple[str, str]:
+    """Its method, and why."""
+    if chosen == 1:
+        return "GSTIFF", "constraints, and no fast vibration"
+    if of.rubs:
+        return "HHT", "friction that a small sliding speed builds up"
+    if not is_lively(of, p):
+        return "GSTIFF", "slow motion, which long steps of high order follow"
+    if chosen == 2 and not of.tied:
+        return "VERLET", "fronts in masses that nothing ties together"
+    return "HHT", "waves are followed with many small steps"
 
 
 def _cost(of: Demand, method: str, chosen: int, sections: int) -> float:

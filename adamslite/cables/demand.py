@@ -24,8 +24,10 @@ from one time to another is off by x^(-5/4)/(x2 - x1) ~ N^(-3/2). The factors ar
 docs/background/cables.md.
 """
 
-from dataclasses import dataclass
-from math import ceil, pi, sqrt
+from dataclasses import dataclass, field
+from math import ceil, inf, pi, sqrt
+
+from adamslite.cables.response import Errors, Machine, errors
 
 MOST = 900
 FEWEST = 4
@@ -37,8 +39,10 @@ MEASURED_AT = 0.01
 AXIAL_POWER = 0.55
 # Keeps quotients finite where nothing pulls or hangs [N, kg].
 NEGLIGIBLE = 1e-12
-# Of the accuracy: what sections may use, the rest is the integrator's.
+# Of the accuracy: what sections may use, the rest is the integrator's; the same of the linear
+# model, which knows one length of the cable and small slopes.
 SECTIONS_SHARE = 0.9
+LINEAR_SHARE = 0.65
 
 
 @dataclass(frozen=True)
@@ -53,6 +57,8 @@ class Demand:
         Free length at the start.
     tension : float
         Mean over the span of what it carries; not of a moment of slackness.
+    struck : float
+        Tension at the end where a weight starts across it; `tension` where it is 0.
     moved : float
         Mass that hangs on the span or that it drives.
     pull : float
@@ -70,8 +76,16 @@ class Demand:
         It starts out of balance with what it carries.
     tied : bool
         Constraints, turning parts, states or forces of accelerations are about: no VERLET.
+    rubs : bool
+        Friction holds it on a wheel, or lets it slide.
     end : float
         Time of the run, 0 when it is not given.
+    results : int
+        Times at which results are asked for; a run takes a step for each.
+    asked : tuple of str
+        What the accuracy is for: tension, position, arrival (of waves).
+    machine : Machine
+        The linear model of the scene, None where there is none.
     """
 
     stiffness: float
@@ -79,6 +93,7 @@ class Demand:
     length: float
     tension: float
     moved: float = 0.0
+    struck: float = 0.0
     pull: float = 0.0
     least: float = 0.0
     most: float = 0.0
@@ -91,7 +106,15 @@ class Demand:
     wave: float = 0.0
     bounces: bool = False
     tied: bool = False
+    rubs: bool = False
     end: float = 0.0
+    results: int = 0
+    asked: tuple[str, ...] = ("tension", "position")
+    machine: Machine | None = field(default=None, compare=False)
+
+    def left(self, p: float) -> Errors | None:
+        """What models leave out by the linear model; None without one."""
+        return errors(self.machine, LINEAR_SHARE * p, self.asked) if self.machine else None
 
     @property
     def c(self) -> float:
@@ -102,6 +125,11 @@ class Demand:
     def c_t(self) -> float:
         """Transverse wave."""
         return sqrt(max(self.tension, 0.0) / self.density)
+
+    @property
+    def struck_wave(self) -> float:
+        """Transverse wave where a weight starts across."""
+        return sqrt((self.struck or max(self.tension, 0.0)) / self.density)
 
     @property
     def longest(self) -> float:
@@ -171,9 +199,10 @@ def loaded(of: Demand) -> float:
     return tension
 
 
-def is_sudden(of: Demand, p: float) -> bool:
-    """Whether fronts run through the cable."""
-    return bool(fronts(of, p))
+def is_lively(of: Demand, p: float) -> bool:
+    """Whether waves run through the cable that make a share of `p` of its tension."""
+    left = of.left(p)
+    return bool(fronts(of, p)) if left is None else left.ringing > p and elements(of, p) > 1
 
 
 def fronts(of: Demand, p: float) -> list[str]:
@@ -187,6 +216,8 @@ def fronts(of: Demand, p: float) -> list[str]:
 def waves(of: Demand, p: float) -> list[str]:
     """Why the time that waves take matters."""
     found = fronts(of, p)
+    if of.machine and "arrival" not in of.asked:
+        return []
     if of.rushes > p:
         found.append(f"(l/c)/tau = {of.rushes:.2g}")
     return found if of.known else [*found, "the payout is not known before the run"]
@@ -220,6 +251,17 @@ def level(of: Demand, p: float) -> int:
 
 def rigid_fails(of: Demand, p: float) -> list[str]:
     """What speaks against a rigid cable without mass."""
+    left = of.left(p)
+    if left is not None:
+        found = waves(of, p)
+        if of.tension / of.stiffness >= p:
+            found.append(f"T/EA = {of.tension / of.stiffness:.2g}")
+        if left.rigid == inf:
+            found.append("its ends keep a rigid cable from moving")
+        elif left.rigid >= LINEAR_SHARE * p:
+            found += fronts(of, p)
+            found.append(f"tensions or places of a rigid cable are {left.rigid:.2g} off")
+        return found
     weight = of.density * of.longest
     swings = sqrt((of.moved + weight / 3) * of.longest / of.stiffness)
     figures = {
@@ -238,7 +280,13 @@ def elements(of: Demand, p: float) -> int:
 
 def needed(of: Demand, p: float) -> dict[str, float]:
     """Sections of a span that each rule requires."""
-    finer, q = MEASURED_AT / p, SECTIONS_SHARE * p
+    q = SECTIONS_SHARE * p
+    left = of.left(p)
+    if left is not None:
+        found = {"for tensions and places": left.sections(LINEAR_SHARE * p)}
+        if "arrival" in of.asked:
+            found |= _arrivals(of, p)
+        return found
     load = of.density * of.longest * (of.pull + of.acceleration)
     top = of.tension + load - of.density * of.length * of.pull / 2
     found = {
@@ -247,9 +295,15 @@ def needed(of: Demand, p: float) -> dict[str, float]:
     }
     if not of.straight:
         found["for transverse waves"] = max(pi, of.wave * of.length) / sqrt(24 * q)
+    return found | _arrivals(of, p)
+
+
+def _arrivals(of: Demand, p: float) -> dict[str, float]:
+    """Sections in which fronts arrive when they should."""
+    finer, found = MEASURED_AT / p, {}
     if of.jump or not of.known:
         found["for axial fronts"] = AXIAL * finer**AXIAL_POWER
     if of.across:
-        kink = kink_speed(of.stiffness, of.density, of.tension, of.across)
+        kink = kink_speed(of.stiffness, of.density, of.struck or of.tension, of.across)
         found["for a kink, 7 c/U"] = KINK * of.c / kink * finer ** (2 / 3)
     return found

@@ -20,6 +20,8 @@ from adamslite.cables.vocabulary import Spec
 from adamslite.language.expression import Node, Num, Op
 
 INSTANTS = 400
+# Of laws in the order of motions along x, y and z.
+HAUL = 3
 # A law that starts within this is at zero [m].
 AT_ZERO = 1e-9
 # Accelerations that differ by less than this share are equally large.
@@ -105,12 +107,14 @@ class Moves:
 class Laws:
     """The expressions of a description: travel prescribed by laws, by station, and engines.
 
-    A way is None where it depends on what only the run knows.
+    A way is None where it depends on what only the run knows. `nodes` has them as they are read, by
+    station and key, with the axis of a motion.
     """
 
     paid: dict[int, Travel | None]
     moved: list[Travel | None]
     engines: list[Node]
+    nodes: dict[tuple[int, str, int], Node] = field(default_factory=dict)
 
 
 def laws(spec: Spec, faults: Faults) -> Laws:
@@ -120,15 +124,19 @@ def laws(spec: Spec, faults: Faults) -> Laws:
         for key in ("payout", "force", "torque", "pull"):
             if getattr(each, key):
                 law = parse(getattr(each, key), ("route", i, key), faults)
+                if law:
+                    found.nodes[i, key, 0] = law
                 if law and key == "payout":
                     found.paid[i] = _prescribed(spec, law, ("route", i, key), faults)
                 elif law and key == "force":
                     found.engines.append(law)
                 elif law and key == "torque":
                     found.engines.append(Op("/", (law, Num(each.radius))))
-        for key, text in [*(("motion", text) for text in each.motion), ("haul", each.haul)]:
+        for axis, text in enumerate([*each.motion, each.haul]):
+            key = "haul" if axis == HAUL else "motion"
             law = parse(text, ("route", i, key), faults) if text else None
             if law:
+                found.nodes[i, key, axis] = law
                 found.moved.append(_prescribed(spec, law, ("route", i, key), faults))
     return found
 

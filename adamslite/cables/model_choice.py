@@ -6,14 +6,15 @@ Sections that run over a rim of radius R need (h/R)**2/24 < p/50 besides: the pa
 h = R/10, R/14, R/20 and R/28 swings by 1.5, 0.9, 0.25 and 0.12 % of the tension.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, sqrt
 
 from adamslite.cables import demand
-from adamslite.cables.advice import advise
+from adamslite.cables.advice import error_bound, integrator
 from adamslite.cables.demand import Demand
-from adamslite.cables.estimate import Moves, moving_mass
+from adamslite.cables.estimate import Laws, Moves, moving_mass
 from adamslite.cables.geometry import FreeSpan, reaches, wrap
+from adamslite.cables.machine import machine
 from adamslite.cables.messages import Faults
 from adamslite.cables.posture import AXES
 from adamslite.cables.vectors import add, dot, part_across, unit
@@ -28,6 +29,8 @@ RIM_SHARE = 0.02
 SUNK = 80
 # ERROR of a rigid cable, as a share of its length.
 RIGID_ERROR = 1e-7
+# Of the transverse wave: a weight that starts across faster bends its cable by large angles.
+SMALL_SLOPE = 0.3
 # An arc that is long enough to have to be round [rad].
 LIES = 0.1
 
@@ -113,9 +116,14 @@ def _stays_tangent(spec: Spec, spans: list[FreeSpan], i: int) -> bool:
     )  # fmt: skip
 
 
-def choose_model(spec: Spec, spans: list[FreeSpan], moves: Moves, faults: Faults) -> CableModel:
+def choose_model(
+    spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws, faults: Faults
+) -> CableModel:
     """The model that the description requests, or what `accuracy` needs."""
     p, of = spec.accuracy, demand_on_longest(spec, spans, moves)
+    if spec.form != "brute" and not needs_brute(spec, spans):
+        if of.across < SMALL_SLOPE * of.struck_wave:
+            of = replace(of, machine=machine(spec, spans, tensions(spec, spans), prescribed))
     figures = _figures(of, moves)
     level, why = _level(spec, spans, of, moves)
     form, why_form = _form(spec, spans, of, level, moves)
@@ -142,12 +150,15 @@ def demand_on_longest(spec: Spec, spans: list[FreeSpan], moves: Moves) -> Demand
     longest = max(reaches(spec, spans))
     weight = max(abs(dot(spec.gravity, span.along)) for span in spans)
     tied = any(each.feeds or each.is_moved or each.kind == "body" for each in spec.route)
+    rubs = any(slipping(i, spec) for i in range(len(spec.route)))
     return Demand(
         stiffness=cable.stiffness, density=cable.density, length=longest,
         tension=min(tensions(spec, spans)) + cable.density * longest * weight / 2,
+        struck=min(tensions(spec, spans)),
         moved=moving_mass(spec), pull=weight, least=moves.least, most=moves.most,
         speed=moves.speed, acceleration=moves.acceleration, known=moves.known, jump=moves.jump,
         across=moves.across, straight=not (moves.across or spec.bends), end=spec.end, tied=tied,
+        rubs=rubs, results=spec.steps, asked=spec.quantities,
     )  # fmt: skip
 
 
@@ -213,7 +224,7 @@ def _elements(spec: Spec, spans: list[FreeSpan], of: Demand, form: str) -> tuple
         found["for one on a radius of a bend"] = of.length / min(bends)
     why = max(found, key=lambda name: found[name])
     count = min(ceil(found[why]), demand.MOST)
-    return count, f"{count} sections {why}"
+    return count, f"{count} section{'s' * (count > 1)} {why}"
 
 
 def _lies_on(spec: Spec, spans: list[FreeSpan], i: int) -> bool:
@@ -225,25 +236,22 @@ def _lies_on(spec: Spec, spans: list[FreeSpan], i: int) -> bool:
 def _integrator(spec: Spec, of: Demand, level: int, form: str, count: int) -> tuple[str, str]:
     """The INTEGRATOR statement after its keyword, and why."""
     p = spec.accuracy
-    error, says = advise(of, p).error, "p T H/EA"
+    error, says = error_bound(of, p, count), "p T H/(3 EA)"
     if level == 1:
-        method, why = "GSTIFF, SI2", "constraints, and no fast vibration"
+        method, why = integrator(of, p, level)
         error, says = RIGID_ERROR * of.longest, "1e-7 l"
     elif form == "brute":
         method, why = "HHT", "contacts, and sections that vibrate fast"
         radius = min((each.radius for each in spec.route if each.is_wheel), default=1.0)
         error = (of.length / count) ** 2 / (10 * SUNK * radius)
         says = "a tenth of what a node sinks in"
-    elif any(slipping(i, spec) for i in range(len(spec.route))):
-        method, why = "HHT", "friction that a small sliding speed builds up"
     elif spec.bends and not of.tied:
         method, why = "VERLET", "masses that nothing ties together and nothing keeps in place"
-    elif demand.is_sudden(of, p) and not of.tied and not spec.has_run:
-        method, why = "VERLET", "fronts in masses that nothing ties together"
-    elif demand.has_waves(of, p) or spec.has_run:
+    elif spec.has_run:
         method, why = "HHT", "waves are followed with many small steps"
     else:
-        method, why = "GSTIFF, SI2", "slow motion, which long steps of high order follow"
+        method, why = integrator(of, p, level)
+    method = "GSTIFF, SI2" if method == "GSTIFF" else method
     error, says = (spec.error, "as asked") if spec.error else (error, says)
     name = method.split(",")[0]
     return f"{method}, ERROR={error:.1E}", f"{name}: {why}; ERROR {says}"

@@ -2,10 +2,14 @@
 
 import math
 from collections.abc import Callable, Mapping
+from functools import cache
 
 from adamslite.cables.messages import LARGEST, Faults
 from adamslite.cables.toml_places import Path
 from adamslite.language.expression import Call, Node, Num, Op, Ref, Time, operate
+from adamslite.language.function import find_function
+from adamslite.symbolic.duals import Dual
+from adamslite.symbolic.formulas import with_numbers
 
 
 class Unknown(Exception):
@@ -16,24 +20,17 @@ class NoValue(Unknown):
     """There is none, before the run or in it: a division by zero, the root of a negative number."""
 
 
-def _step(shape: Callable[[float], float]) -> Callable[..., float]:
-    def value(x: float, x0: float, h0: float, x1: float, h1: float) -> float:
-        return h0 + (h1 - h0) * shape(min(max((x - x0) / (x1 - x0), 0.0), 1.0))
-
-    return value
-
-
 def _if(x: float, *values: float) -> float:
     return values[1 + (x > 0) - (x < 0)]
 
 
-FUNCTIONS: dict[str, Callable[..., float]] = {
+# What most expressions of springs consist of, as plain arithmetic; all others by their definitions.
+PLAIN: dict[str, Callable[..., float]] = {
     "ABS": abs, "MIN": min, "MAX": max, "IF": _if,
     **{n: getattr(math, n.lower()) for n in ("SIN", "COS", "TAN", "EXP", "SQRT", "TANH", "LOG")},
-    "STEP": _step(lambda d: d * d * (3 - 2 * d)),
-    "STEP5": _step(lambda d: d**3 * (10 - 15 * d + 6 * d * d)),
-    "HAVSIN": _step(lambda d: (1 - math.cos(math.pi * d)) / 2),
 }  # fmt: skip
+# Arguments of functions that depend on these alone.
+NUMBERS = ("number", "exponent", "constant")
 
 
 def parse(text: str, path: Path, faults: Faults) -> Node | None:
@@ -46,7 +43,7 @@ def parse(text: str, path: Path, faults: Faults) -> Node | None:
     names = "VARIABLE/S, FUNCTION=0\nVARIABLE/SD, FUNCTION=0\n" if moved else ""
     deck = f"a law\nPART/1, GROUND\n{names}VARIABLE/1, FUNCTION={text}\n"
     try:
-        return read(deck).of(Variable)[-1].function
+        return read(deck).get(Variable, 1).function
     except DeckError as fault:
         for each in fault.errors:
             faults.add("expression", path, word=path[-1], why=each.message, hint=each.hint)
@@ -78,7 +75,7 @@ def evaluate(node: Node, look: Callable[[Node], float]) -> float:
         return node.value
     if type(node) is Op:
         found = operate(node.op, [evaluate(arg, look) for arg in node.args])
-    elif type(node) is Call and node.name in FUNCTIONS:
+    elif type(node) is Call and (node.name in PLAIN or _is_of_numbers(node.name)):
         found = _called(node.name, [evaluate(arg, look) for arg in node.args])
     else:
         return look(node)
@@ -87,8 +84,26 @@ def evaluate(node: Node, look: Callable[[Node], float]) -> float:
     return found
 
 
+@cache
+def _is_of_numbers(name: str) -> bool:
+    """Whether it is a function that its arguments alone decide."""
+    function = find_function(name)
+    kinds = [parameter.kind for parameter in function.parameters]
+    return bool(kinds) and all(kind in NUMBERS for kind in kinds)
+
+
 def _called(name: str, args: list[float]) -> float | None:
+    """The value of a function, by the definition that a run has; None where there is none."""
     try:
-        return FUNCTIONS[name](*args)
+        if name in PLAIN:
+            return PLAIN[name](*args)
+        function = find_function(name)
+        kinds = (function.parameter(k).kind for k in range(len(args)))
+        given = [int(x) if kind == "constant" else x for x, kind in zip(args, kinds, strict=True)]
+        with with_numbers():
+            found = function.body(None, *(Dual(x) if type(x) is float else x for x in given))
+        return found.value if isinstance(found, Dual) else float(found)
     except (ArithmeticError, ValueError):
         return None
+    except AttributeError:  # it reads something else of the run, by its scope
+        raise Unknown from None

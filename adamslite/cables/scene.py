@@ -37,7 +37,7 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     prescribed = laws(spec, faults)
     _stop(faults, faults.errors)
     moves = estimate_moves(spec, pieces, prescribed)
-    model = choose_model(spec, pieces, moves, faults)
+    model = choose_model(spec, pieces, moves, prescribed, faults)
     _check_form(spec, pieces, model, faults)
     _check_chain(spec, pieces, faults)
     _check_shape(spec, pieces, model, faults)

@@ -11,6 +11,7 @@ from adamslite.cables.vocabulary import (
     CABLE,
     MODEL,
     PLACE,
+    QUANTITIES,
     STATIONS,
     TABLES,
     TOP,
@@ -144,6 +145,8 @@ def _value(faults: Faults, value: Any, takes: Takes, rule: str, path: Path) -> A
         return 1
     if takes == "laws":
         return tuple("" if each in (0, "") else str(each) for each in value)
+    if takes == "quantities":
+        return tuple(value)
     return tuple(map(float, value)) if takes == "vector" else value
 
 
@@ -176,10 +179,15 @@ def _fits(value: Any, takes: str | tuple[str | int, ...]) -> tuple[bool, str]:
         "vector": (_is_three(value, _is_number), "three numbers [x, y, z]"),
         "laws": (_is_three(value, lambda x: _is_number(x) or _is_line(x)),
                  "three expressions of TIME [x, y, z]"),
+        "quantities": (_are_quantities(value), f"a list of {', '.join(QUANTITIES)}"),
         "yes or no": (isinstance(value, bool), "true or false"),
         "whole or auto": (whole or value == "auto", "a whole number, or auto"),
         "whole": (whole, "a whole number"),
     }[takes]  # fmt: skip
+
+
+def _are_quantities(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(each in QUANTITIES for each in value)
 
 
 def _is_number(value: object) -> bool:

@@ -186,6 +186,7 @@ class Spec:
     form: str
     elements: int
     accuracy: float
+    quantities: tuple[str, ...] = ("tension", "position")
     pairs: tuple[tuple[int, int], ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -231,6 +232,8 @@ class Spec:
 
 WHEELS = ("pulley", "winch")
 KINDS = ("fixed", "free", "run", "mass", "body", "bend", *WHEELS)
+# What the accuracy is asked for.
+QUANTITIES = ("tension", "position", "arrival")
 FORMS = ("auto", "paper", "ale", "brute")
 
 Toml = dict[str, Any]
@@ -272,6 +275,7 @@ MODEL: Rules = {
     "form": (FORMS, "", "auto"),
     "elements": ("whole or auto", "not-positive", "auto"),
     "accuracy": ("number", "not-positive not-a-share", 0.01),
+    "quantities": ("quantities", "", ("tension", "position")),
 }
 
 

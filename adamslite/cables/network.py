@@ -1,0 +1,385 @@
+"""A cable scene about its start, as masses and springs: the linear model that advice rests on.
+
+Coordinates are the way of each wheel's rim along the route, the displacements of weights and
+carriages, and of the nodes in the sections of the spans. With B the elongation of all sections,
+
+    M u" + C u' + K u = f - B' k d,     K = B' k B + K_across,     C = B' c B,     k = EA/H
+
+where d are elongations given from outside: what a cable needs that moves across its line. What laws
+prescribe, u_P, has the static shape G = -K_FF^-1 K_FP, and w = u_F - G u_P vibrates in modes:
+
+    q" + 2 z w q' + w^2 q = phi.(f - B' k d - (M_FF G + M_FP) u_P")
+
+which are solved exactly for forces that are linear between instants. A rigid cable without mass
+has the elongation -d in every span instead, and its tensions are what keeps it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import sqrt
+
+import numpy as np
+
+#: Coordinates of a displacement, with their shares.
+Terms = tuple[tuple[int, float], ...]
+# A mode at rest, in periods within the run: drifts like one without stiffness.
+SLOW = 1e-4
+# Of critical damping: beyond it a mode creeps, as it does here.
+CREEPS = 0.99
+ROUND_OFF = 1e-9
+# Radians in the time of a wave along the cable from which a mode is one of waves.
+WAVE = 1.2
+# Radians in a step from which a mode is too fast for the instants.
+FAST = 0.8
+# Of a step in a mode's own time: series are as good as what they stand for.
+SHORT = 1e-3
+
+
+@dataclass(frozen=True)
+class Bar:
+    """A span: the displacements of its start and finish along it; `pull` is the rigidity [force] of
+    its sections at both ends, EA or, across, the tension.
+
+    `light`: one spring without mass, however many sections others have. `points`: whether the half
+    sections at start and finish go with a point in all directions, and not with a rim. `falls`:
+    acceleration along it of what starts out of balance.
+    """
+
+    start: Terms
+    finish: Terms
+    length: float
+    pull: tuple[float, float]
+    light: bool = False
+    points: tuple[bool, bool] = (False, False)
+    falls: float = 0.0
+
+
+@dataclass(frozen=True)
+class Network:
+    """Masses of coordinates, their speeds at the start, spans between them, and what drives them.
+
+    `ways` has what laws prescribe, by coordinate, at equal instants; `forces` what pulls others;
+    `across` rigidities of weights that the tension of their spans holds in place. What lies on a
+    wheel moves with its rim, and not with one of the `carriages`.
+    """
+
+    masses: tuple[float, ...]
+    bars: tuple[Bar, ...]
+    density: float
+    end: float
+    instants: int
+    speeds: tuple[float, ...]
+    damper: float = 0.0
+    ways: Mapping[int, np.ndarray] = field(default_factory=dict)
+    forces: Mapping[int, np.ndarray | float] = field(default_factory=dict)
+    across: tuple[tuple[tuple[int, ...], np.ndarray], ...] = ()
+    carriages: frozenset[int] = frozenset()
+
+    @property
+    def transit(self) -> float:
+        """Of a wave along the longest span."""
+        return max(bar.length * sqrt(self.density / bar.pull[0]) if bar.pull[0] > 0 else 0.0
+                   for bar in self.bars)  # fmt: skip
+
+    @property
+    def step(self) -> float:
+        """Between instants."""
+        return self.end / self.instants
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Displacements of the coordinates of a network, and tensions at the start and finish of every
+    span less those at rest: a row for every instant.
+
+    `stretch` has the elongation of every section, `spread` by how much modes that are too fast for
+    the instants make the tensions larger and smaller in between, `ringing` how much all those do
+    that the waves in the cable are.
+    """
+
+    ways: np.ndarray
+    tensions: np.ndarray
+    stretch: np.ndarray
+    spread: np.ndarray
+    ringing: np.ndarray
+
+
+class Sections:
+    """The matrices of a network with `n` sections in each span; `n` = 0: without mass."""
+
+    def __init__(self, of: Network, n: int) -> None:
+        self.of, self.n = of, n
+        self.counts = [1 if bar.light or not n else n for bar in of.bars]
+        nodes = sum(self.counts) - len(of.bars)
+        size = len(of.masses) + nodes
+        self.size = size
+        self.mass = np.zeros((size, size))
+        self.mass[range(len(of.masses)), range(len(of.masses))] = of.masses
+        self.b = np.zeros((sum(self.counts), size))
+        self.k = np.zeros(sum(self.counts))
+        self.h = np.zeros(sum(self.counts))
+        self.weight = np.zeros(size)
+        self.half: list[float] = []
+        self.first: list[int] = []
+        self._lay()
+        self.across = np.zeros((size, size))
+        for coordinates, rigidity in of.across:
+            self.across[np.ix_(coordinates, coordinates)] += rigidity
+        given = np.array(sorted(of.ways), dtype=int)
+        self.given = given
+        self.free = np.setdiff1d(np.arange(size), given)
+
+    def _lay(self) -> None:
+        row, node = 0, len(self.of.masses)
+        for bar, count in zip(self.of.bars, self.counts, strict=True):
+            h = bar.length / count
+            heavy = 0.0 if bar.light or not self.n else self.of.density * h
+            places = [bar.start, *(((node + i, 1.0),) for i in range(count - 1)), bar.finish]
+            for i in range(count):
+                share = (i + 0.5) / count
+                self.k[row + i] = (bar.pull[0] * (1 - share) + bar.pull[1] * share) / h
+                self.h[row + i] = h
+                for j, c in places[i]:
+                    self.b[row + i, j] -= c
+                for j, c in places[i + 1]:
+                    self.b[row + i, j] += c
+            for i in range(count - 1):
+                self.mass[node + i, node + i] = heavy
+                self.weight[node + i] = heavy * bar.falls
+            for terms, point in zip((bar.start, bar.finish), bar.points, strict=True):
+                self._half(terms, point, heavy / 2)
+                for j, c in terms:
+                    if j not in self.of.carriages:
+                        self.weight[j] += c * heavy / 2 * bar.falls
+            self.half.append(heavy / 2)
+            self.first.append(row)
+            row, node = row + count, node + count - 1
+
+    def _half(self, terms: Terms, point: bool, mass: float) -> None:
+        """A half section on what is at the end of a span."""
+        terms = tuple(each for each in terms if each[0] not in self.of.carriages)
+        for j, c in terms:
+            for i, d in terms:
+                if point and i == j:
+                    self.mass[i, i] += mass
+                elif not point:
+                    self.mass[i, j] += mass * c * d
+
+    @cached_property
+    def stiffness(self) -> np.ndarray:
+        """K of all coordinates."""
+        found: np.ndarray = self.b.T @ (self.k[:, None] * self.b) + self.across
+        return found
+
+    def along(self, terms: Terms, ways: np.ndarray) -> np.ndarray:
+        """The displacement of a half section at an end of a span, of coordinates in columns."""
+        total = np.zeros(len(ways))
+        for j, c in terms:
+            if j not in self.of.carriages:
+                total = total + c * ways[:, j]
+        return total
+
+
+def respond(
+    of: Network, n: int, extra: np.ndarray | None = None, window: float = 0.0, rigid: bool = False
+) -> Motion:
+    """How a network moves in its run.
+
+    Parameters
+    ----------
+    n : int
+        Sections of a span; 0 for a cable without mass.
+    extra : ndarray, (instants + 1, sections)
+        Elongations d.
+    window : float
+        Vibrations are seen through a mean over this time.
+    rigid : bool
+        Whether its spans keep their lengths, but for `extra`.
+    """
+    at = Sections(of, n)
+    ways = _prescribed(of, at)
+    if rigid:
+        return _rigid(of, at, ways, extra)
+    return _elastic(of, at, ways, extra, window)
+
+
+def _prescribed(of: Network, at: Sections) -> np.ndarray:
+    """Ways of the coordinates that laws prescribe, in columns."""
+    ways = np.zeros((of.instants + 1, len(at.given)))
+    for column, j in enumerate(at.given):
+        ways[:, column] = of.ways[j]
+    return ways
+
+
+def _rates(ways: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray]:
+    """First rate at the start, and the second at every instant."""
+    second = np.zeros_like(ways)
+    second[1:-1] = (ways[2:] - 2 * ways[1:-1] + ways[:-2]) / h**2
+    if len(ways) > 3:
+        second[0], second[-1] = second[1], second[-2]
+    start = (ways[1] - ways[0]) / h - second[0] * h / 2
+    return start, second
+
+
+def _loads(of: Network, at: Sections) -> np.ndarray:
+    """Forces on all coordinates at every instant."""
+    found = np.tile(at.weight, (of.instants + 1, 1))
+    for j, force in of.forces.items():
+        found[:, j] += force
+    return found
+
+
+def _elastic(
+    of: Network, at: Sections, ways: np.ndarray, extra: np.ndarray | None, window: float
+) -> Motion:
+    free, given, k = at.free, at.given, at.stiffness
+    loads = _loads(of, at)
+    if extra is not None:
+        loads = loads - extra @ (at.k[:, None] * at.b)
+    if len(given):
+        shape = -np.linalg.pinv(k[np.ix_(free, free)], hermitian=True) @ k[np.ix_(free, given)]
+    else:
+        shape = np.zeros((len(free), 0))
+    starts, rates = _rates(ways, of.step)
+    pushed = at.mass[np.ix_(free, free)] @ shape + at.mass[np.ix_(free, given)]
+    forces = loads[:, free] - rates @ pushed.T
+    speeds = np.zeros(at.size)
+    speeds[: len(of.speeds)] = of.speeds
+    modes = _Modes(of, at, free)
+    w, fast, swings = modes.run(forces, speeds[free] - shape @ starts, window)
+    moved, fastness = np.zeros((len(w), at.size)), np.zeros((len(w), at.size))
+    moved[:, free], moved[:, given] = w + ways @ shape.T, ways
+    fastness[:, free], fastness[:, given] = fast + rates @ shape.T, rates
+    stretch = moved @ at.b.T + (0.0 if extra is None else extra)
+    each = np.zeros((len(modes.rates), at.size))
+    each[:, free] = modes.shapes.T
+    pulls = _at_ends(at, each @ at.b.T * at.k, -(modes.rates**2)[:, None] * each, rests=False)
+    ringing = modes.largest @ np.abs(pulls)
+    tensions = _at_ends(at, stretch * at.k, fastness)
+    return Motion(moved, tensions, stretch, swings @ np.abs(pulls), ringing)
+
+
+class _Modes:
+    """Modes of what is free."""
+
+    def __init__(self, of: Network, at: Sections, free: np.ndarray) -> None:
+        inner = np.ix_(free, free)
+        lower = np.linalg.inv(np.linalg.cholesky(at.mass[inner]))
+        squares, shapes = np.linalg.eigh(lower @ at.stiffness[inner] @ lower.T)
+        self.shapes = lower.T @ shapes
+        self.mass = at.mass[inner]
+        self.rates = np.sqrt(np.maximum(squares, (SLOW / of.end) ** 2))
+        damped = (at.b[:, free] @ self.shapes) ** 2
+        share = of.damper * damped.sum(axis=0) / (2 * self.rates)
+        self.damping = np.minimum(share, CREEPS)
+        self.step, self.transit = of.step, of.transit
+
+    def run(
+        self, forces: np.ndarray, speeds: np.ndarray, window: float
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Ways and accelerations from rest, with `speeds` at the start, and the amplitudes of modes
+        that are too fast for the instants: their ways and accelerations are those at rest.
+        """
+        w, z = self.rates, self.damping
+        pole = -z * w + 1j * w * np.sqrt(1 - z**2)
+        p = forces @ self.shapes
+        rest = p / w**2
+        grown = np.exp(pole * self.step)
+        steady, ramp = _gains(pole * self.step)
+        gains = self.step * (p[:-1] * steady + (p[1:] - p[:-1]) * ramp)
+        state = np.empty((len(p), len(w)), dtype=complex)
+        state[0] = self.shapes.T @ self.mass @ speeds
+        for i in range(len(p) - 1):
+            state[i + 1] = grown * state[i] + gains[i]
+        q = state.imag / pole.imag
+        v = state.real - z * w * q
+        seen = np.sinc(w * window / (2 * np.pi))
+        # What is slow is seen as it is, what vibrates through the window. What is too fast for the
+        # instants keeps the swing of its start: forces are smooth against it.
+        swing = q - rest
+        fast = w * self.step > FAST
+        self.largest = np.where(w * self.transit > WAVE, np.hypot(swing, v / w).max(axis=0), 0.0)
+        start = np.abs(seen) * np.hypot(rest[0], v[0] / w)
+        times = self.step * np.arange(len(p))
+        amplitudes = np.where(fast, start * np.exp(-times[:, None] * (z * w)), 0.0)
+        seen = np.where(fast, 0.0, seen)
+        q = np.where(w * window < ROUND_OFF, q, rest + seen * swing)
+        rates = -(w**2) * seen * swing - 2 * z * w * seen * v
+        return q @ self.shapes.T, rates @ self.shapes.T, amplitudes
+
+
+def _gains(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(e^x - 1)/x and (e^x - 1 - x)/x^2: of a force, and of one that grows over a step."""
+    first = np.expm1(x) / x
+    series = 0.5 + x / 6 + x**2 / 24
+    return first, np.where(np.abs(x) < SHORT, series, (first - 1) / x)
+
+
+def _at_ends(at: Sections, pulls: np.ndarray, fast: np.ndarray, rests: bool = True) -> np.ndarray:
+    """Tensions at the start and finish of every span: with the half sections there."""
+    found = np.zeros((len(pulls), 2 * len(at.of.bars)))
+    for p, (bar, count) in enumerate(zip(at.of.bars, at.counts, strict=True)):
+        row, half, falls = at.first[p], at.half[p], bar.falls if rests else 0.0
+        found[:, 2 * p] = pulls[:, row] - half * (at.along(bar.start, fast) - falls)
+        found[:, 2 * p + 1] = pulls[:, row + count - 1] + half * (
+            at.along(bar.finish, fast) - bar.falls
+        )
+    return found
+
+
+def _rigid(of: Network, at: Sections, ways: np.ndarray, extra: np.ndarray | None) -> Motion:
+    """B u = -d: coordinates along the null space of B, tensions from what they lack."""
+    free, given = at.free, at.given
+    b, fixed = at.b[:, free], at.b[:, given]
+    inverse = np.linalg.pinv(b)
+    forced = -(ways @ fixed.T)
+    if extra is not None:
+        forced = forced - extra
+    if (
+        np.abs(forced @ (np.eye(len(b)) - b @ inverse).T).max()
+        > ROUND_OFF + SLOW * np.abs(forced).max()
+    ):
+        raise np.linalg.LinAlgError("a rigid cable cannot move so")
+    base = forced @ inverse.T
+    _, rates = _rates(base, of.step)
+    kept = _null(b)
+    mass, across = (m[np.ix_(free, free)] for m in (at.mass, at.across))
+    loads = _loads(of, at)[:, free]
+    pushed = loads - rates @ mass.T - base @ across.T
+    speeds = np.zeros(at.size)
+    speeds[: len(of.speeds)] = of.speeds
+    found, fast = base, rates
+    if kept.shape[1]:
+        small = Reduced(kept.T @ mass @ kept, kept.T @ across @ kept, of)
+        start = np.linalg.solve(small.mass, kept.T @ mass @ speeds[free])
+        z, zz, _ = small.run(pushed @ kept, start, 0.0)
+        found, fast = base + z @ kept.T, rates + zz @ kept.T
+    lacks = loads - fast @ mass.T - found @ across.T
+    pulls = lacks @ np.linalg.pinv(b.T).T
+    moved = np.zeros((len(ways), at.size))
+    moved[:, free], moved[:, given] = found, ways
+    ends = np.repeat(pulls, 2, axis=1)
+    nothing = np.zeros_like(ends)
+    return Motion(moved, ends, np.zeros((len(ways), len(b))), nothing, nothing[0])
+
+
+class Reduced(_Modes):
+    """Modes of given matrices without damping."""
+
+    def __init__(self, mass: np.ndarray, stiffness: np.ndarray, of: Network) -> None:
+        lower = np.linalg.inv(np.linalg.cholesky(mass))
+        squares, shapes = np.linalg.eigh(lower @ stiffness @ lower.T)
+        self.shapes, self.mass = lower.T @ shapes, mass
+        self.rates = np.sqrt(np.maximum(squares, (SLOW / of.end) ** 2))
+        self.damping = np.zeros(len(squares))
+        self.step, self.transit = of.step, of.transit
+
+
+def _null(b: np.ndarray) -> np.ndarray:
+    """Columns that span what `b` takes to zero."""
+    _, sizes, rows = np.linalg.svd(b)
+    rank = int((sizes > ROUND_OFF * max(sizes.max(initial=0.0), 1.0)).sum())
+    return rows[rank:].T
