@@ -1,7 +1,7 @@
 """What `auto` picks for a cable scene, and the reasons it writes into the head of the deck."""
 
 import re
-from math import ceil, cos, pi, sqrt, tanh
+from math import atan, ceil, cos, pi, sin, sqrt, tanh
 
 import pytest
 from descriptions import BELT, HOIST, PAYOUT
@@ -145,6 +145,10 @@ def test_a_winch_lets_out_what_its_weight_pulls(reverse: bool, force: float) -> 
 
 
 LAWS = {
+    "SHF(TIME,0,0.5,2,0.1,0.3)": lambda t: 0.5 * sin(2 * t - 0.1) + 0.3,
+    "POLY(TIME,0,1,2,3)": lambda t: 1 + 2 * t + 3 * t * t,
+    "CHEBY(TIME,0,1,2,3)": lambda t: 1 + 2 * t + 3 * (2 * t * t - 1),
+    "MOD(TIME,0.7)+ATAN(TIME)": lambda t: t % 0.7 + atan(t),
     "IF(TIME-1:2,3,5)": lambda t: 2 if t < 1 else 3 if t == 1 else 5,
     "STEP(TIME,0,1,2,4)": lambda t: 1 + 3 * (t / 2) ** 2 * (3 - t),
     "STEP5(TIME,0,1,2,4)": lambda t: 1 + 3 * (t / 2) ** 3 * (10 - 15 * t / 2 + 6 * (t / 2) ** 2),
