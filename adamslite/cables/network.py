@@ -323,10 +323,9 @@ def _at_ends(at: Sections, pulls: np.ndarray, fast: np.ndarray, rests: bool = Tr
     found = np.zeros((len(pulls), 2 * len(at.of.bars)))
     for p, (bar, count) in enumerate(zip(at.of.bars, at.counts, strict=True)):
         row, half, falls = at.first[p], at.half[p], bar.falls if rests else 0.0
-        found[:, 2 * p] = pulls[:, row] - half * (at.along(bar.start, fast) - falls)
-        found[:, 2 * p + 1] = pulls[:, row + count - 1] + half * (
-            at.along(bar.finish, fast) - bar.falls
-        )
+        at_start, at_finish = (at.along(terms, fast) - falls for terms in (bar.start, bar.finish))
+        found[:, 2 * p] = pulls[:, row] - half * at_start
+        found[:, 2 * p + 1] = pulls[:, row + count - 1] + half * at_finish
     return found
 
 
