@@ -184,6 +184,15 @@ def test_a_contact_that_creeps_is_left_to_radau() -> None:
     np.testing.assert_array_equal(found.values, known.values)
 
 
+def test_with_a_delay_the_explicit_formula_gets_through_by_itself() -> None:
+    """The past of a delay is written for one run: nothing is in reserve, and nothing given up."""
+    delayed = "VARIABLE/1, FUNCTION=DELAY(DY(2), 0.1, 0)\nEND\n"
+    found = auto(balls(1, VISCOUS).replace("END\n", delayed), end=0.2, steps=10)
+    assert found.outcome is Outcome.DONE
+    assert taken(found) == "RKF45"
+    assert found.summary["steps"] > 1000
+
+
 def test_a_look_at_a_run_does_not_alter_it() -> None:
     """Balls that come to rest, 20 s: looked at twice, the numbers of the explicit formula alone."""
     deck = balls(3, "IMPACT(DY({i}),VY({i}),0,1E6,1.0,500,0.001)")
@@ -192,3 +201,15 @@ def test_a_look_at_a_run_does_not_alter_it() -> None:
     assert found.summary["steps"] > 4000
     known = al.simulate(al.read(deck), end=20.0, steps=100, integrator="RKF45", error=1e-4)
     np.testing.assert_array_equal(found.values, known.values)
+
+
+def test_the_formulation_of_a_method_holds_after_one_that_has_another() -> None:
+    """The velocity of the rod stays across it, which index 3 alone does not see to."""
+    commands = (
+        "INTEGRATOR/ABAM\nSIMULATE/DYNAMIC, END=0.2, STEPS=10\n"
+        "INTEGRATOR/GSTIFF, SI2, ERROR=1E-3\nSIMULATE/DYNAMIC, END=1, STEPS=40\nSTOP\n"
+    )
+    deck = al.read(pendulum())
+    found = al.simulate(deck, commands=al.read_commands(commands, deck))
+    x, y, vx, vy = (found[f"PART/2.{c}"] for c in ("x", "y", "vx", "vy"))
+    np.testing.assert_allclose(x * vx + y * vy, 0.0, atol=1e-4)

@@ -196,9 +196,9 @@ def integrate(
     run = system.settings
     start, end, hmax = float(run.t), float(run.t_end), float(run.h_max)
     code = _watched(system, settings.formula, progress, start, end, judged)
+    system.release_guards()
     if code == contract.PAUSED:
         return Outcome.STEP_TOO_SMALL
-    system.release_guards()
     if system.search.loose:
         require_none(system, EQUAL)
     outcome = _named(system, code)

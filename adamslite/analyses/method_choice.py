@@ -89,6 +89,8 @@ def choose_method(system: System, times: np.ndarray, settings: Settings) -> Meth
     method, reason, *instead = _picked(system, times, settings.error)
     # RKF45, whose place RADAU takes here, is far below an ERROR above that.
     error = min(settings.error, COARSE) if method == "RADAU" and instead else settings.error
+    if system.model.deck.delays:
+        instead = []  # their past is written for one run
     return MethodChoice(replace(settings, method=method, error=error), reason, *instead)
 
 

@@ -139,7 +139,7 @@ class Session(SessionState):
         """The method from here on, compiled, and the equations in its formulation."""
         began, system = clock.process_time(), self.system
         self.chosen, formula = choice, choice.settings.formula
-        if system.sizes.si2 and system.holonomic and choice.settings.form != "SI2":
+        if system.holonomic and bool(system.sizes.si2) != (choice.settings.form == "SI2"):
             system = self.present = self.renumbered(system, system.elimination.pivoting)
         engine(formula.entry, self.progress)
         if formula.by_component:
@@ -179,10 +179,9 @@ class Session(SessionState):
 
     def _tried(self, times: np.ndarray, apart: float) -> Outcome:
         """Integrate; where the method that AUTO took stalls, from the beginning by that which it
-        has in reserve.  What is delayed was written for one run.
+        has in reserve.
         """
-        reserve = bool(self.chosen.instead) and not self.deck.delays
-        beginning = Beginning(self.system) if reserve else None
+        beginning = Beginning(self.system) if self.chosen.instead else None
         drawn_up = len(self.balances)
         self.sensors.arm(self.system)
         outcome = self._integrated(self.system, times, apart)
