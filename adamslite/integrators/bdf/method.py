@@ -48,6 +48,7 @@ from adamslite.integrators.bdf.state import (
     tests_velocities,
 )
 from adamslite.integrators.contract import BROKEN_START, SINGULAR_MASS, Problem
+from adamslite.integrators.events.dips import expected_share
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
@@ -150,6 +151,9 @@ def limit_step(P: Problem, C: Control) -> None:
         resize(P, C, left / C.h)
     elif 2.0 * C.h > left and horizon(P) < P.settings.t_end:
         resize(P, C, 0.5 * left / C.h)
+    share = expected_share(P, C.h)
+    if share < 1.0:
+        resize(P, C, share)
 
 
 @native

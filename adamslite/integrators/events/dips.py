@@ -142,6 +142,22 @@ def share_into_zones(P: Problem) -> float:
 
 
 @native
+def expected_share(P: Problem, h: float) -> float:
+    """The share of the step ahead that crosses no zone too quickly at the present rates; ``NONE``
+    when the whole does not, or when they are not known.
+    """
+    count, span, least = P.sizes.zones, P.search.span, NONE
+    if count == 0 or P.settings.fixed_step > 0.0 or not P.search.known:
+        return NONE
+    for k in range(count):
+        a, r = P.zone[START * count + k], h * P.zone[ZONE_EARLY * count + k]
+        if abs(r) > span and min(a, a + r) < 1.0 and max(a, a + r) > 0.0 and abs(r) < HUGE:
+            least = min(least, share_into(a, a + r, r, r, span))
+            least = min(least, share_into(1.0 - a, 1.0 - a - r, 0.0 - r, 0.0 - r, span))
+    return least if least * h > LEAST_CUT * P.settings.h_max else NONE
+
+
+@native
 def share_into(a: float, b: float, r: float, s: float, span: float) -> float:
     """The share of the step that moves upwards in a zone by no more than ``span``."""
     top, peak = b, 1.0
