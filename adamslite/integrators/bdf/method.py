@@ -136,7 +136,7 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
 
 @native
 def limit_step(P: Problem, C: Control) -> None:
-    """Keep the step within its pace, the horizon and, when stepped onto, the output times."""
+    """Keep the step within its pace, the horizon, when stepped onto the output times, and zones."""
     set_pace(P, C.t)
     longest = longest_step(P)
     if C.h > longest * LONGER:

@@ -11,6 +11,7 @@ Where p fails to predict what is found inside, the step is examined window by wi
 (:mod:`adamslite.integrators.events.windows`).
 The place D within the zone of a smooth step follows the same cubic: a step that touches the zone
 0 < D < 1 may change D by a share of it, or it would pass a force without having felt it.
+Before it is tried, D is continued by its rate at the start.
 
 Reference: Shampine, Gladwell, Brankin, ACM Trans. Math. Softw. 17 (1991) 11, "Reliable solution of
 special event location problems for ODEs".
