@@ -144,5 +144,5 @@ def test_all_decks_are_read_as_before(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_pattern_is_made_of_plain_values() -> None:
     source = Source("END")
     waiting = Waiting(("NAME",), ("END",), array("I", [0]), ((), None, True, ()))
-    values, spans = Pattern((), (), ()).read(source, waiting)
+    values, spans, _ = Pattern((), (), ()).read(source, waiting)
     assert values == {} and [*spans] == [] and spans.whole_range == (0, 3)

@@ -18,6 +18,7 @@ from adamslite.elements.sforce import Sforce
 from adamslite.elements.springdamper import Springdamper
 from adamslite.elements.units import Units
 from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.interfaces import Key
 
 # Gaps below this share of the size of a model, and angles below this, are digits of numbers.
 APART, ASKEW_DEGREES = 1e-5, 1e-2
@@ -82,7 +83,8 @@ def ends_coincide(deck: Deck) -> Iterator[Diagnostic]:
         if not (isinstance(each, Sforce) and each.actiononly)
     ]
     if not any(isinstance(each, Constraint) for each in deck.statements):
-        forces = [each for each in forces if not _plainly_apart(deck, each)]
+        at = _Origins(deck)
+        forces = [each for each in forces if not _plainly_apart(at[each.i], at[each.j])]
     if not forces:
         return
     import numpy as np
@@ -104,18 +106,30 @@ def ends_coincide(deck: Deck) -> Iterator[Diagnostic]:
             yield diagnose(each, "ends-coincide", "i", i=each.i, j=each.j)
 
 
-def _plainly_apart(deck: Deck, force: Sforce | Springdamper) -> bool:
-    """Whether its ends are on bodies with the axes of ground, in different places: most are, and
-    small decks do without numpy.
+class _Origins(dict[Key, list[float] | None]):
+    """Where markers are whose bodies have the axes of ground, as most do; None for others.  Small
+    decks do without numpy.
     """
-    ends = []
-    for key in (force.i, force.j):
-        marker = deck.get(Marker, key)
-        body = deck.find(*marker.owner) if marker.owner else None
-        if body is None or any(body.given(field) for field in ("reuler", "zg", "xg")):
-            return False
-        ends.append([a + b for a, b in zip(body.qg, marker.qp, strict=True)])
-    return max(abs(a - b) for a, b in zip(*ends, strict=True)) > ROUND_OFF * max(map(abs, ends[0]))
+
+    def __init__(self, deck: Deck) -> None:
+        super().__init__()
+        self.deck = deck
+
+    def __missing__(self, key: Key) -> list[float] | None:
+        marker = self.deck.get(Marker, key)
+        body = self.deck.find(*marker.owner) if marker.owner else None
+        self[key] = None
+        if body is not None and not any(body.given(field) for field in ("reuler", "zg", "xg")):
+            self[key] = [a + b for a, b in zip(body.qg, marker.qp, strict=True)]
+        return self[key]
+
+
+def _plainly_apart(start: list[float] | None, end: list[float] | None) -> bool:
+    """Whether two origins are known and in different places."""
+    if start is None or end is None:
+        return False
+    apart = max(abs(a - b) for a, b in zip(start, end, strict=True))
+    return apart > ROUND_OFF * max(map(abs, start))
 
 
 def massless_freedoms(deck: Deck) -> Iterator[Diagnostic]:

@@ -19,6 +19,13 @@ RATELESS = (
 PLACES = ("DM", "DX", "DY", "DZ", "AX", "AY", "AZ")
 # What they name is solved for.
 PORTS = ("PINPUT", "POUTPUT")
+# What statements may call without being formed: with and without constraint rows, with and without
+# loads.
+SUSPICIOUS = {
+    (rows, loads): ("DDT", *RATELESS * rows, *(*MEASURES.values(), *NET) * loads)
+    for rows in (False, True)
+    for loads in (False, True)
+}
 
 
 def unformed_equations(deck: Deck) -> Iterator[Diagnostic]:
@@ -34,11 +41,8 @@ def unformed_equations(deck: Deck) -> Iterator[Diagnostic]:
 
 def _is_suspect(deck: Deck, statement: Statement, known: dict[Key, bool]) -> bool:
     """Whether it takes rates of more than places and TIME, or measures forces with forces."""
-    names: tuple[str, ...] = ("DDT",)
-    if hasattr(statement, "constraints"):
-        names += RATELESS
-    if hasattr(statement, "loads") or statement.keyword == "GCON":
-        names += (*MEASURES.values(), *NET)
+    loads = hasattr(statement, "loads") or statement.keyword == "GCON"
+    names = SUSPICIOUS[hasattr(statement, "constraints"), loads]
     if statement.called.isdisjoint(names):
         return False
     found = (call for node in expressions(statement) for call in calls(node, *names))

@@ -21,8 +21,17 @@ from adamslite.syntax.forms import Item
 from adamslite.syntax.syntax_errors import Syntax
 from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
 
-Read = tuple[dict[str, object], Spans]
-"""The field values of a statement and where they are written."""
+
+class Read(NamedTuple):
+    """The field values of a statement, where they are written, and the functions that its
+    expressions call, where that is known.
+    """
+
+    values: dict[str, object]
+    spans: Spans
+    called: frozenset[str] | None = None
+
+
 _LISTS = ("vector", "vectors", "references", "ids", "texts")
 
 

@@ -16,7 +16,7 @@ from adamslite.deck.names import Names, to_number
 from adamslite.functions.arrays import NUMBERED
 from adamslite.functions.vectors import VECTORS
 from adamslite.language.diagnostics import Source, Spans, packed
-from adamslite.language.expression import NEGATE, Call, Node, Num, Op, Ref
+from adamslite.language.expression import NEGATE, Call, Node, Num, Op, Ref, names_called
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.routines import USER
 from adamslite.reading.argument_grouping import Pieces, Read
@@ -52,6 +52,7 @@ class Pattern(NamedTuple):
     fields: tuple[str, ...]
     builds: tuple[Build, ...]
     places: tuple[Place, ...]
+    called: frozenset[str] = frozenset()
 
     def read(self, source: Source, waiting: Waiting) -> Read:
         """What it reads; raises :class:`Unfit`."""
@@ -60,7 +61,7 @@ class Pattern(NamedTuple):
         for first, last, width in self.places:
             offsets += at[first], at[last] + (width or len(texts[last]))
         values = {name: build(texts) for name, build in zip(self.fields, self.builds, strict=True)}
-        return values, Spans.at(source, self.fields, packed(offsets))
+        return Read(values, Spans.at(source, self.fields, packed(offsets)), self.called)
 
 
 class Patterns:
@@ -196,7 +197,8 @@ class _Learner:
             width = 0 if last is self.tokens[at] else len(last[1])
             places.append(Place(self.number_of[pieces.start], at, width))
             builds.append(self._value(pieces, values[name]))
-        return Pattern(tuple(found), tuple(builds), tuple(places))
+        called = names_called(each for each in values.values() if isinstance(each, Node))
+        return Pattern(tuple(found), tuple(builds), tuple(places), called)
 
     def _value(self, pieces: Pieces, value: Any) -> Build:
         argument, tokens = pieces.argument, pieces.values

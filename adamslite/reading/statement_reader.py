@@ -342,20 +342,22 @@ class Reading:
         if read is None:
             return None
         if entry.changes:
-            return Redefinition(of=cls, key=entry.id, changes=read[0], spans=read[1])
-        return cls(**self._fields(entry, read))
+            return Redefinition(of=cls, key=entry.id, changes=read.values, spans=read.spans)
+        made = cls(**self._fields(entry, read))
+        if read.called is not None:
+            made.__dict__["called"] = read.called  # what it would find out by itself
+        return made
 
     def _fields(self, entry: Entry, read: Read) -> dict[str, object]:
         """Everything that a statement is made from."""
-        values, spans = read
-        own = {"id": entry.id, "name": entry.syntax.name, "spans": spans}
-        return {**values, **entry.cls.completed(values, entry.body), **own}
+        own = {"id": entry.id, "name": entry.syntax.name, "spans": read.spans}
+        return {**read.values, **entry.cls.completed(read.values, entry.body), **own}
 
     def _arguments(self, entry: Entry, reader: ValueReader) -> Read | None:
         """The arguments of a statement and where they are written; None when something is wrong."""
         cls, waiting, patterns = entry.cls, entry.syntax, self.patterns
         if cls.ignored or cls.ends:
-            return self._as_written(entry), Spans(self.log.source, waiting.range)
+            return Read(self._as_written(entry), Spans(self.log.source, waiting.range))
         common = waiting.whole and not entry.again and not entry.changes
         key = patterns.key(waiting, cls.singleton)
         fitted = patterns.fitted(key, waiting) if common else None
@@ -369,9 +371,9 @@ class Reading:
         if self.log.errors != errors or entry.again or not syntax.whole:
             self.broken.add(cls.keyword)
             if not (entry.again or entry.changes):
-                fields = self._fields(entry, (read.values, spans))
+                fields = self._fields(entry, Read(read.values, spans))
                 self.half_read.append(half_read(cls, fields, read.unread))
             return None
         if common and messages == len(self.log.diagnostics) and patterns.wanted(key):
             patterns.learn(key, syntax.tokens, read.found, read.values)
-        return read.values, spans
+        return Read(read.values, spans)
