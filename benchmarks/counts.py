@@ -122,11 +122,12 @@ def instructions(kernels: Any) -> int:
 
 def engines() -> Iterator[tuple[str, Counts]]:
     """Instructions of the shared part of the engine and of each method."""
-    from adamslite.equations.engine import OPERATIONS, engine_text
+    from adamslite.equations.engine import OPERATIONS, engine_parts
     from adamslite.language.method import declared
 
     for entry in (OPERATIONS, *sorted({method.entry for method in declared()})):
-        yield f"engine {entry.rpartition('.')[2]}", {"instructions": lines_of(engine_text(entry))}
+        written = sum(map(lines_of, engine_parts(entry)))
+        yield f"engine {entry.rpartition('.')[2]}", {"instructions": written}
 
 
 def lines_of(text: str) -> int:

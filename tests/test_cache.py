@@ -92,7 +92,7 @@ def facts() -> object:
 def code() -> object:
     """Object code, linked and called."""
     kept = recall(NAME, lambda: compiler.object_code(TWICE))
-    address = compiler._link(kept, ["twice"])["twice"]
+    address = compiler._link([kept], ["twice"])["twice"]
     return ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(address)(21.0)
 
 

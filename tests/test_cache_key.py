@@ -123,7 +123,7 @@ import adamslite as al
 from adamslite.kernels.compile import compile_model
 compile_model(al.assemble(al.read("{DECK}")))
 """
-TRANSLATED = "from adamslite.equations.engine import engine_text; engine_text({entry!r})"
+TRANSLATED = "from adamslite.equations.engine import engine_parts; engine_parts({entry!r})"
 
 
 @pytest.mark.parametrize("root", every(3, ROOTS))

@@ -17,11 +17,12 @@ from tiers import every
 import adamslite as al
 from adamslite.analyses.worker import Worker
 from adamslite.equations import engine
+from adamslite.equations.engine import engine_parts
 from adamslite.errors import UsageError
 from adamslite.kernels.code import lookup
 from adamslite.language.method import AUTO, FIXED, declared
 from adamslite.native.translate import REGISTERED, symbol
-from adamslite.native.translate.language import SELDOM
+from adamslite.native.translate.language import RARE, SELDOM
 
 ENTRIES = sorted({method.entry for method in declared()} | {engine.OPERATIONS})
 for _entry in ENTRIES:
@@ -247,9 +248,14 @@ def test_the_engine_runs_the_same_interpreted_and_native(name):
     np.testing.assert_allclose(by_python.values, native_run.values, rtol=1e-8, atol=1e-8)
 
 
-def defined(text: str) -> set[str]:
-    """Symbols of the functions in a module."""
-    return set(re.findall(r"^define (?:internal )?\w+ @([\w.]+)\(", text, re.MULTILINE))
+def defined(text: str, internal: str = "(?:internal )?") -> set[str]:
+    """Symbols of the functions in a module; without internal ones, if these are called ""."""
+    return set(re.findall(rf"^define {internal}\w+ @([\w.]+)\(", text, re.MULTILINE))
+
+
+def declared_in(text: str) -> set[str]:
+    """Symbols of the functions of other modules that a module calls."""
+    return set(re.findall(r"^declare .*@((?:integrators|equations)\S+)\(", text, re.MULTILINE))
 
 
 @pytest.fixture
@@ -279,7 +285,7 @@ def test_those_runs_reach_every_native_function(called):
     """All that the registered entries call."""
     for name in RUNS | NOT_COMPARED:
         interpreted_run_of(name)
-    reached = set().union(*(defined(engine.engine_text(name)) for name in ENTRIES))
+    reached = set().union(*(defined(part) for name in ENTRIES for part in engine_parts(name)))
     assert "integrators.records.write_record" in reached
     missed = reached - {name.removeprefix(engine.HERE) for name in ENTRIES} - called
     assert not missed, sorted(missed)
@@ -288,38 +294,44 @@ def test_those_runs_reach_every_native_function(called):
 @pytest.mark.slow
 def test_the_entries_are_translated_whole():
     """Every native function is part of one; a method has one name that others may call."""
-    texts = {name: engine.engine_text(name) for name in ENTRIES}
-    assert set().union(*map(defined, texts.values())) >= ENGINE
-    for name, text in texts.items():
-        public = text.count("define ") - text.count("define internal")
-        assert public == (len(engine._shared()[1]) if name == engine.OPERATIONS else 1), name
+    parts = {name: engine_parts(name) for name in ENTRIES}
+    assert set().union(*(defined(part) for each in parts.values() for part in each)) >= ENGINE
+    for name, each in parts.items():
+        public = {f"adamslite.{found}" for part in each for found in defined(part, "")}
+        called = {f"adamslite.{found}" for part in each for found in declared_in(part)}
+        named = {f"adamslite.{found}" for found in engine._shared()[1]}
+        own = named if name == engine.OPERATIONS else {name}
+        assert own <= public <= own | called, name
 
 
 @pytest.mark.parametrize("entry", sorted({method.entry for method in declared()}))
 def test_what_methods_share_is_compiled_once(entry: str) -> None:
     """Events, audits, elimination and the equations are called, and not part of a method."""
-    text, shared = engine.engine_text(entry), set(engine._shared()[1])
-    called = set(re.findall(r"^declare .*@(integrators\S+)\(", text, re.MULTILINE))
+    parts, shared = engine_parts(entry), set(engine._shared()[1])
+    called = set().union(*map(declared_in, parts))
+    here = set().union(*map(defined, parts))
     assert "integrators.events.stops.set_pace" in called
-    assert called <= shared
-    assert not defined(text) & shared
+    assert called <= shared | here
+    assert not here & shared
 
 
 @pytest.mark.parametrize("entry", sorted({method.entry for method in declared()}))
-def test_what_a_step_waits_for_is_not_compiled_for_size(entry: str) -> None:
+def test_what_a_step_waits_for_is_compiled_with_all_effort(entry: str) -> None:
     """A shared function that a method calls at every step is among those named as shared, or is
-    marked as seldom.
+    marked as seldom or rare.
     """
+    shared = engine._shared()[0]
+    marked = {symbol(function) for function in SELDOM | RARE}
+    called = declared_in(engine_parts(entry).often)
+    assert called & (defined(shared.seldom) | defined(shared.rare)) <= marked
 
-    def functions(text: str) -> dict[str, tuple[str, str]]:
-        found = re.finditer(r"^define .*?@([^(]+)\(.*?\) (.*?) \{\n(.*?)^\}", text, re.M | re.S)
-        return {match[1]: (match[2], match[3]) for match in found}
 
-    small = {
-        name for name, (words, _) in functions(engine._shared()[0]).items() if "optsize" in words
-    }
-    marked = {symbol(function) for function in SELDOM}
-    for name, (words, body) in functions(engine.engine_text(entry)).items():
-        if "optsize" not in words:
-            called = set(re.findall(r"call [^@]*@(integrators[^(]+)\(", body))
-            assert called & small & set(engine._shared()[1]) <= marked, name
+def test_parts_call_each_other_by_names_that_exist() -> None:
+    """Each name is defined once; a short function that parts have in common is in each of them."""
+    for entry in ENTRIES:
+        parts = engine_parts(entry)
+        public = [found for part in parts for found in defined(part, "")]
+        assert len(public) == len(set(public)), entry
+        missing = set().union(*map(declared_in, parts)) - set(public)
+        shared = set() if entry == engine.OPERATIONS else set(engine._shared()[1])
+        assert missing <= shared, entry

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+import math
+import operator
 
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ from adamslite.kernels.code.idle import IdleTest, StrictIdleTest
 from adamslite.symbolic import algebra, graph
 from adamslite.symbolic.formulas import piecewise
 
-x, y, v = map(graph.symbol, "xyv")
+x, y, v, p = map(graph.symbol, "xyvp")
 A, B, C = x > 0, y >= 0, v < 0
 ONE_SIDED = piecewise((x * v, algebra.And(A, B)), otherwise=0, order=0)
 OTHER_SIDE = piecewise((y, C), otherwise=0, order=0)
@@ -28,17 +30,27 @@ class Logic:
     def compare(self, relation: str, a: float, b: float) -> bool:
         return bool({"<": a < b, ">": a > b, ">=": a >= b}[relation])
 
+    add, sub, mul, div = operator.add, operator.sub, operator.mul, operator.truediv
+    neg = operator.neg
+
+    def call(self, name: str, x: float) -> float:
+        return {"sqrt": math.sqrt}[name](x)
+
+    def select(self, condition: bool, a: float, b: float) -> float:
+        return a if condition else b
+
 
 def idle(expressions, a: float, b: float, c: float, **numbers: float) -> bool:
-    """Whether all vanish: where the branches are held as given, at numbers for x, y and v."""
-    state = {x: numbers.get("x", 0.5), y: numbers.get("y", 0.5), v: numbers.get("v", 0.5)}
+    """Whether all vanish: where the branches are held as given, at numbers for x, y, v and p, a
+    parameter."""
+    state = {each: numbers.get(str(each), 0.5) for each in (x, y, v, p)}
 
     def value_of(expression):
         with np.errstate(all="ignore"):
             return value(expression, state, DOUBLES)
 
     held, nodes = {A: a, B: b, C: c}, [*map(graph.node, expressions)]
-    found = StrictIdleTest(Logic(), held, value_of)(nodes)
+    found = StrictIdleTest(Logic(), held, value_of, lambda symbol: symbol is p)(nodes)
     assert IdleTest(Logic(), held)(nodes) or not found
     return found
 
@@ -91,6 +103,11 @@ DISTANCE = (x * x + y * y + v**2) ** 0.5
         (algebra.exp(y), {"y": 1}, {"y": 1e4}),
         (algebra.sin(algebra.log(y)) * 3 + v, {"y": 1}, {"y": -1}),
         (piecewise((1 / y, v > 0), otherwise=2), {"y": 1}, {"y": 0}),
+        (1 / p, {"p": 1e-300}, {"p": 0}),
+        (1 / (p - algebra.cos(x)), {"p": 1.1}, {"p": 1.0}),
+        (1 / (2 - (1 - algebra.sin(y)) / p) ** 0.5, {"p": 1.1}, {"p": 1.0}),
+        (1 / (2 - p * algebra.sin(v)), {"p": -1.9}, {"p": -2.0}),
+        (1 / (2 - algebra.cos(algebra.log(y))), {"y": 1}, {"y": -1}),
     ],
 )
 def test_zero_times_what_has_no_value_does_not_vanish(factor, with_a_value, without):
@@ -100,13 +117,25 @@ def test_zero_times_what_has_no_value_does_not_vanish(factor, with_a_value, with
         assert not idle([product], TRUE, OPEN, OPEN, **with_a_value)
 
 
+def test_a_held_branch_bounds_a_denominator():
+    """Beyond a radius that is positive nothing is divided by zero, whatever the distance."""
+    law = piecewise((x, DISTANCE < p - 1), otherwise=0, order=0) * y / DISTANCE
+    for held, radius, expected in ((FALSE, 2, True), (FALSE, 1, False), (OPEN, 2, False)):
+        numbers = {x: 0.0, y: 0.0, v: 0.0, p: radius}
+        test = StrictIdleTest(
+            Logic(), {DISTANCE < p - 1: held},
+            lambda each, at=numbers: value(each, at, DOUBLES), lambda symbol: symbol is p,
+        )  # fmt: skip
+        assert test([law]) == expected
+
+
 def test_what_always_has_a_value_is_not_computed():
     def never(expression):
         raise AssertionError(expression)
 
     free = SHUT * (x * v - 3) * algebra.sin(y) * algebra.atan2(y, v) * (x * x + y**2) ** 0.5
-    assert StrictIdleTest(Logic(), {A: FALSE}, never)([free / 4]) is True
-    assert StrictIdleTest(Logic(), {A: FALSE}, never)([x / y]) is False
+    assert StrictIdleTest(Logic(), {A: FALSE}, never, never)([free / 4]) is True
+    assert StrictIdleTest(Logic(), {A: FALSE}, never, never)([x / y]) is False
 
 
 @pytest.mark.parametrize("method", ("GSTIFF", "HHT", "RADAU", "ABAM"))

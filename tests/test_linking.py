@@ -72,13 +72,13 @@ def values(address: int) -> list[float]:
 @HERE
 def test_links_constants_tables_and_calls() -> None:
     """No tolerance: each branch is one operation, or the same function of the C library."""
-    places = elf_linker.link(compiler.object_code(TEXT.format(name="ours")), {})
+    places = elf_linker.link([compiler.object_code(TEXT.format(name="ours"))], {})
     assert list(places) == ["ours"]
     assert values(places["ours"]) == EXPECTED
 
 
 def test_llvm_links_what_is_foreign(monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(code: bytes, linked: dict[str, int]) -> None:
+    def refuse(codes: list[bytes], linked: dict[str, int]) -> None:
         raise elf_linker.Foreign
 
     monkeypatch.setattr(elf_linker, "link", refuse)
@@ -104,7 +104,7 @@ define double @{0}.quarter(double %x) nounwind {{
 def test_code_calls_what_was_linked_before(by: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """What integrators share is one object, each integrator another."""
 
-    def refuse(code: bytes, linked: dict[str, int]) -> None:
+    def refuse(codes: list[bytes], linked: dict[str, int]) -> None:
         raise elf_linker.Foreign
 
     if by == "llvm":
@@ -142,19 +142,19 @@ def spoiled(code: bytes, what: str) -> bytes:
 def test_refuses_what_it_does_not_link(what: str, why: str) -> None:
     code = spoiled(compiler.object_code(TEXT.format(name="spoiled")), what)
     with pytest.raises(elf_linker.Foreign, match=why):
-        elf_linker.link(code, {})
+        elf_linker.link([code], {})
 
 
 @HERE
 def test_variables_are_refused() -> None:
     text = "@count = global double 1.0\ndefine ptr @where() {\n  ret ptr @count\n}\n"
     with pytest.raises(elf_linker.Foreign, match="has variables"):
-        elf_linker.link(compiler.object_code(text), {})
+        elf_linker.link([compiler.object_code(text)], {})
 
 
 def test_no_elf_at_all_is_refused() -> None:
     with pytest.raises(elf_linker.Foreign):
-        elf_linker.link(b"MZ" + bytes(200), {})
+        elf_linker.link([b"MZ" + bytes(200)], {})
 
 
 DECK = """Falls

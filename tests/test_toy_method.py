@@ -217,7 +217,7 @@ def test_messages_and_manual_know_it(capsys) -> None:
 def test_its_code_is_kept_under_a_name_that_covers_this_file() -> None:
     """Everything that is compiled is part of the key, wherever it was written."""
     al.simulate(al.read(spring()))
-    assert "test_toy_method.march" in engine.engine_text(TOY.entry)
+    assert "test_toy_method.march" in engine.engine_parts(TOY.entry).often
     assert [*cache_folder().glob("euler*.o")]
 
 

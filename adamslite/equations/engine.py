@@ -25,6 +25,8 @@ from adamslite.progress import Progress
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from adamslite.native.translate.modules import Parts
+
 #: Where modules lie whose sources are known to :mod:`adamslite.caching.sources`.
 HERE = "adamslite."
 OPERATED = "equations.operations"
@@ -55,14 +57,19 @@ def _build(entry: str, progress: Progress | None) -> int:
     if entry != OPERATIONS:
         address_of(OPERATIONS)
 
-    def compiled() -> bytes:
+    @cache
+    def parts() -> Parts:
         if progress is not None:
             progress.say(_announced(entry))
-        return compiler.object_code(engine_text(entry))
+        return engine_parts(entry)
 
-    symbol = entry.removeprefix(HERE)
-    code = recall(f"{entry.rpartition('.')[2]}{_digest(entry)}.o", compiled)
-    return compiler.addresses([(code, [symbol])])[symbol]
+    symbol, kind, digest = entry.removeprefix(HERE), entry.rpartition(".")[2], _digest(entry)
+    codes = (
+        recall(f"{kind}{digest}.o", lambda: compiler.object_code(parts().often)),
+        recall(f"{kind}_seldom{digest}.o", lambda: compiler.plain_code(parts().seldom)),
+        recall(f"{kind}_rare{digest}.o", lambda: compiler.quick_code(parts().rare)),
+    )
+    return compiler.addresses([(codes, [symbol])])[symbol]
 
 
 def _announced(entry: str) -> str:
@@ -79,30 +86,30 @@ def _digest(entry: str) -> str:
     """Changes whenever what an entry is made from does: a method from elsewhere is its text."""
     module = entry.rpartition(".")[0]
     if not module.startswith(HERE):
-        return compiler.digest(entry, engine_text(entry), _digest(OPERATIONS))
+        return compiler.digest(entry, *engine_parts(entry), _digest(OPERATIONS))
     needed = {"equations.engine", OPERATED, module.removeprefix(HERE)}
     return compiler.digest(entry, version_of(*sorted(needed)))
 
 
-def engine_text(entry: str) -> str:
+def engine_parts(entry: str) -> Parts:
     """LLVM assembly of an entry."""
     if entry == OPERATIONS:
         return _shared()[0]
     # Only compilation needs the translator.
-    from adamslite.native.translate.modules import method_text
+    from adamslite.native.translate.modules import method_parts
 
     shared = recall_json(f"shared{_digest(OPERATIONS)}.json", lambda: _shared()[1])
     module, _, name = entry.rpartition(".")
-    return method_text(getattr(import_module(module), name), frozenset(shared))
+    return method_parts(getattr(import_module(module), name), frozenset(shared))
 
 
 @cache
-def _shared() -> tuple[str, list[str]]:
+def _shared() -> tuple[Parts, list[str]]:
     """LLVM assembly of the operations and of what methods share, and the symbols in it."""
     from adamslite.equations.operations import SHARED, run
-    from adamslite.native.translate.modules import shared_text
+    from adamslite.native.translate.modules import shared_parts
 
-    return shared_text([run, *SHARED])
+    return shared_parts([run, *SHARED])
 
 
 def ints(values: Iterable[int]) -> np.ndarray:

@@ -21,7 +21,7 @@ from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE, TINY, Plan
 from adamslite.integrators.motion_equations import PART, jacobian, put_pose, residual, spread
 from adamslite.integrators.newton import apply_increment
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare
 
 RELAXATIONS = 3000
 GROWTH, UPHILL = 1.6, 4.0
@@ -42,7 +42,7 @@ CLOSED = 1e-3
 
 
 @native
-@seldom
+@rare
 def equilibrium(P: Problem, L: Plan) -> int:
     """Move to the nearest equilibrium; DONE or NOT_SETTLED."""
     C = Control(P.control)

@@ -8,11 +8,11 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.motion_equations import residual
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare
 
 
 @native
-@seldom
+@rare
 def note_trouble(P: Problem, phases: int, iteration: int) -> None:
     """Keep the unknown with the largest last increment (in ``P.F``), against max(1, |value|), and
     the equation with the largest residual at the workspace's state; overwrites ``P.F``.

@@ -26,7 +26,7 @@ from adamslite.integrators.motion_equations import (
     put_time,
     run_groups,
 )
-from adamslite.native.translate import Alone, Ints, Reals, copy, native, seldom
+from adamslite.native.translate import Alone, Ints, Reals, copy, native, rare
 
 # A part's inertia below this share of its largest entry is singular.
 SINGULAR = 1e-12
@@ -227,7 +227,7 @@ def turn(P: Problem, b: int, F: Reals, inverse: Reals, turning: float, a: Reals)
 
 
 @native
-@seldom
+@rare
 def spectrum(P: Problem) -> int:
     """Spectral radii of M^-1 K and M^-1 C of the forces at the workspace's state, into the
     report; constraints only lower them.

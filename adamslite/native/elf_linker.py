@@ -17,7 +17,7 @@ from __future__ import annotations
 import ctypes
 import mmap
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 
 import numpy as np
@@ -49,29 +49,57 @@ class Foreign(Exception):
     """Object code that this module does not link; the argument says why."""
 
 
-def link(code: bytes, linked: Mapping[str, int]) -> dict[str, int]:
-    """Addresses of the global functions in an object file, valid as long as the process lives;
-    it may call functions of object files ``linked`` before, by their addresses.
+def link(codes: Sequence[bytes], linked: Mapping[str, int]) -> dict[str, int]:
+    """Addresses of the global functions in object files, valid as long as the process lives; they
+    may call each other's, and those of files ``linked`` before, by their addresses.
 
     Raises
     ------
     Foreign
-        When it is for another machine or system, or needs what is not done here.
+        When one is for another machine or system, or needs what is not done here.
     """
-    sections = sections_of(code)
-    _without_variables(sections)
-    at, size = _places(sections)
-    image = np.frombuffer(mmap.mmap(-1, size, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS), np.uint8)
-    base = image.ctypes.data
-    for number in at:
-        part = sections[number]
-        image[at[number] : at[number] + int(part["size"])] = _table(code, part, np.uint8)
-    symbols, names = _symbols(code, sections)
-    values = [_value(s, n, at, base, linked) for s, n in zip(symbols.tolist(), names, strict=True)]
-    _relocate(code, sections, at, image, np.array(values, dtype=np.uint64))
-    _make_executable(image)
-    public = (symbols["section"] != UNDEFINED) & (symbols["info"] >> 4 == GLOBAL)
-    return {names[n]: values[n] for n in np.flatnonzero(public).tolist()}
+    images = [_Image(code) for code in codes]
+    found = {name: address for each in images for name, address in each.public()}
+    for each in images:
+        each.relocate({**linked, **found})
+    return found
+
+
+class _Image:
+    """An object file in memory; ``at``: where its sections begin."""
+
+    def __init__(self, code: bytes) -> None:
+        self.code, self.sections = code, sections_of(code)
+        _without_variables(self.sections)
+        self.at, size = _places(self.sections)
+        memory = mmap.mmap(-1, size, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+        self.image = np.frombuffer(memory, np.uint8)
+        for number, start in self.at.items():
+            part = self.sections[number]
+            self.image[start : start + int(part["size"])] = _table(code, part, np.uint8)
+        self.symbols, self.names = _symbols(code, self.sections)
+
+    def public(self) -> Iterator[tuple[str, int]]:
+        """The global functions that are here, and their addresses."""
+        for symbol, name in zip(self.symbols.tolist(), self.names, strict=True):
+            if symbol[3] in self.at and symbol[1] >> 4 == GLOBAL:
+                yield name, self._value(symbol, name, {})
+
+    def relocate(self, known: Mapping[str, int]) -> None:
+        """Fill in addresses, and let the code be run and no longer be written."""
+        named = zip(self.symbols.tolist(), self.names, strict=True)
+        values = np.array([self._value(*each, known) for each in named], dtype=np.uint64)
+        _relocate(self.code, self.sections, self.at, self.image, values)
+        _make_executable(self.image)
+
+    def _value(self, symbol: tuple[int, ...], name: str, known: Mapping[str, int]) -> int:
+        """Address of a symbol: here, of a known function or one of the C library; else 0."""
+        section, value = symbol[3], symbol[4]
+        if section in self.at:
+            return self.image.ctypes.data + self.at[section] + value
+        if name in known:
+            return known[name]
+        return _from_library(name) if section == UNDEFINED and name else 0
 
 
 def sections_of(code: bytes) -> np.ndarray:
@@ -111,20 +139,6 @@ def _symbols(code: bytes, sections: np.ndarray) -> tuple[np.ndarray, list[str]]:
     start = int(sections["offset"][table["link"]])
     firsts = [start + name for name in symbols["name"].tolist()]
     return symbols, [code[first : code.index(b"\0", first)].decode() for first in firsts]
-
-
-def _value(
-    symbol: tuple[int, ...], name: str, at: dict[int, int], base: int, linked: Mapping[str, int]
-) -> int:
-    """Address of a symbol: in a section, of a function linked before or one of the C library;
-    else 0.
-    """
-    section, value = symbol[3], symbol[4]
-    if section in at:
-        return base + at[section] + value
-    if name in linked:
-        return linked[name]
-    return _from_library(name) if section == UNDEFINED and name else 0
 
 
 @cache

@@ -88,9 +88,14 @@ def target_machine() -> Any:
     return make_machine(target())
 
 
+def quick_machine() -> Any:
+    """The code generator for the target that does not optimise."""
+    return make_machine(target(), 0)
+
+
 @functools.cache
-def make_machine(name: str) -> Any:
-    """The code generator for one of the targets."""
+def make_machine(name: str, level: int = 3) -> Any:
+    """The code generator for one of the targets; the level 0 does not optimise."""
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()
@@ -103,7 +108,7 @@ def make_machine(name: str) -> Any:
         if missing := lacks(name, host):
             raise UsageError(f"ADAMSLITE_CPU is '{name}', but this processor has no {missing}")
     return llvm.Target.from_default_triple().create_target_machine(
-        cpu=cpu, features=features, opt=3, reloc="static", codemodel="jitdefault"
+        cpu=cpu, features=features, opt=level, reloc="static", codemodel="jitdefault"
     )
 
 

@@ -18,7 +18,7 @@ from adamslite.integrators.audit.work import MOST_PANELS, power_at, work_on_pane
 from adamslite.integrators.contract import STORED_ENERGY, Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART, rotated_inertia, run_groups
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare, seldom
 
 
 @native
@@ -62,7 +62,7 @@ def add_step(P: Problem, L: Plan, t: float) -> None:
 
 
 @native
-@seldom
+@rare
 def start_balance(P: Problem) -> None:
     """The workspace's state is the first."""
     audit_from(P, P.settings.t)
@@ -73,7 +73,7 @@ def start_balance(P: Problem) -> None:
 
 
 @native
-@seldom
+@rare
 def audit_from(P: Problem, t: float) -> None:
     """Go on from the workspace's state: accelerations or velocities have changed there."""
     if not P.audit.on:

@@ -68,7 +68,7 @@ from adamslite.integrators.stepping.outcome import (
     passed_singularity,
 )
 from adamslite.integrators.stepping.step_size import LONGER, has_failed, too_small
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare
 
 # Steps that differ by less than this share are equal.
 EQUAL_STEPS = 1e-9
@@ -87,7 +87,7 @@ def bdf(P: Problem, L: Plan) -> int:
 
 
 @native
-@seldom
+@rare
 def begin(P: Problem, L: Plan, C: Control) -> int:
     """Accelerations at the start, history of order 1, first record."""
     C[:] = 0

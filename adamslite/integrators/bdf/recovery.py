@@ -16,7 +16,7 @@ from adamslite.integrators.step_back import before_trouble
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import NEARER, OVERFLOW, SINGULAR_RESOLUTION, why_stuck
 from adamslite.integrators.stepping.step_size import cut
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare, seldom
 
 # A step is noise, not truncation, when the error estimates of this many tries in turn keep more
 # than this share of the one before, although each was shorter.
@@ -83,7 +83,7 @@ def after_rejection(P: Problem, C: Control, norm: float) -> int:
 
 
 @native
-@seldom
+@rare
 def near_singularity(P: Problem, C: Control) -> int:
     """The acceleration matrix became singular within the step: approach the place, never pass
     it.
@@ -96,7 +96,7 @@ def near_singularity(P: Problem, C: Control) -> int:
 
 
 @native
-@seldom
+@rare
 def stuck(P: Problem, L: Plan, C: Control) -> int:
     """The step became too small: another start, or the end of the run."""
     if land_elsewhere(P, C):

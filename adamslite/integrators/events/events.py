@@ -65,11 +65,11 @@ from adamslite.integrators.events.sensors import sense, start_sensors
 from adamslite.integrators.events.stops import is_stop, next_stop, set_clock, set_pace
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare, seldom
 
 
 @native
-@seldom
+@rare
 def start_events(P: Problem, located: bool, tested: bool) -> None:
     """Nothing has happened yet; branches of the clock for the time until the first stop.
 

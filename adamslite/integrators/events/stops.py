@@ -13,7 +13,7 @@ from math import floor
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.guards import branch_of
 from adamslite.integrators.motion_equations import CLOCK, guard_values, put_time
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare
 
 # Steps below this share of the run are round-off of the time.
 LEAST_STEP = 1e-14
@@ -111,7 +111,7 @@ def next_stop(P: Problem, t: float) -> None:
 
 
 @native
-@seldom
+@rare
 def sample_clock(P: Problem) -> int:
     """Values of the guards of the clock at every output time into the record; their number."""
     first, count = P.sizes.nw, P.sizes.clocks

@@ -73,7 +73,7 @@ from adamslite.integrators.stepping.outcome import (
 )
 from adamslite.integrators.stepping.step_size import LONGER
 from adamslite.integrators.unconstrained import invert_inertia, is_free, mass_tables
-from adamslite.native.translate import Reals, native, seldom
+from adamslite.native.translate import Reals, native, rare
 
 ORDER, QUICK_ORDER = 8, 4
 
@@ -95,7 +95,7 @@ def explicit(P: Problem, L: Plan) -> int:
 
 
 @native
-@seldom
+@rare
 def begin(P: Problem, L: Plan, C: Control) -> int:
     """Rates at the start, first step, first record."""
     C[:] = 0

@@ -20,7 +20,7 @@ from adamslite.integrators.projection import sensitivity
 from adamslite.integrators.step_back import before_trouble
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import OVERFLOW, SINGULAR_RESOLUTION, why_stuck
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare, seldom
 
 # Tries in vain around one place before the step that led there is taken back: failures of the
 # equations, rejections.
@@ -101,14 +101,14 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
 
 
 @native
-@seldom
+@rare
 def near_singularity(P: Problem, C: Control) -> int:
     """The acceleration matrix became singular within the step: approach that, never pass it."""
     return shorten(P, C, CLOSER)
 
 
 @native
-@seldom
+@rare
 def stuck(P: Problem, L: Plan, C: Control) -> int:
     """Back to the accepted state, and why the step became too small."""
     restore_state(P, C)

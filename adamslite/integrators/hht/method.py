@@ -64,7 +64,7 @@ from adamslite.integrators.stepping.outcome import (
     passed_singularity,
 )
 from adamslite.integrators.stepping.output import record_start
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare
 
 
 @native
@@ -84,7 +84,7 @@ def hht(P: Problem, L: Plan) -> int:
 
 
 @native
-@seldom
+@rare
 def begin(P: Problem, L: Plan, C: Control) -> int:
     """Accelerations at the start, the first record, attitudes counted from here."""
     C[:] = 0

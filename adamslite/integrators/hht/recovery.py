@@ -14,7 +14,7 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import OVERFLOW, why_stuck
 from adamslite.integrators.stepping.step_size import cut, too_small
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare, seldom
 
 # Share of a fixed step below which it is not divided any more.
 LEAST_SHARE = 1e-9
@@ -58,7 +58,7 @@ def after_rejection(P: Problem, C: Control, norm: float) -> int:
 
 
 @native
-@seldom
+@rare
 def stuck(P: Problem, L: Plan, C: Control) -> int:
     """Back to the accepted state, and why the step became too small."""
     restore_state(P, C)

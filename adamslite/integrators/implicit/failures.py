@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.norms import exceeds
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare
 
 
 @native
-@seldom
+@rare
 def wildest(P: Problem) -> int:
     """The unknown with the largest last increment, numbered as in the error test."""
     n, first, where, top = P.sizes.n, P.sizes.m + P.sizes.nv, 0, -1.0

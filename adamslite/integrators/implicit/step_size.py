@@ -9,7 +9,7 @@ from adamslite.integrators.implicit.formulation import is_stabilised
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.stepping.control import StepControl
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare
 
 # Fixed steps begin with this part of the step, because order 1 starts.
 START_PARTS = 1024.0
@@ -24,7 +24,7 @@ ROOT_OF_TENTH = 0.3
 
 
 @native
-@seldom
+@rare
 def first_step(P: Problem) -> float:
     """A step whose first-order error is a tenth of ERROR, judged by the accelerations."""
     n = P.sizes.n

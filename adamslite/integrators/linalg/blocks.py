@@ -332,6 +332,7 @@ def subtract(A: Reals, rows: int, columns: int, x: Reals, y: Reals) -> None:
 
 
 @native
+@inline
 def replace3(A: Reals, x: Reals) -> None:
     """x = A x for a 3 x 3 block."""
     a, b, c = x[0], x[1], x[2]

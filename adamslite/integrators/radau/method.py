@@ -62,7 +62,7 @@ from adamslite.integrators.stepping.outcome import (
 )
 from adamslite.integrators.stepping.output import record_start
 from adamslite.integrators.stepping.step_size import too_small
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare
 
 ORDER = 5
 
@@ -80,7 +80,7 @@ def radau(P: Problem, L: Plan) -> int:
 
 
 @native
-@seldom
+@rare
 def begin(P: Problem, L: Plan, C: Control) -> int:
     """Accelerations at the start, the first record, attitudes counted from here."""
     Y, t = P.history, P.settings.t
@@ -135,7 +135,7 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
 
 
 @native
-@seldom
+@rare
 def ends_singular(P: Problem, L: Plan, C: Control) -> bool:
     """Whether the acceleration matrix became singular within the step."""
     if not P.sizes.implicit_mass:

@@ -17,7 +17,7 @@ from adamslite.integrators.radau.step_size import step_factor
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import OVERFLOW, why_stuck
 from adamslite.integrators.stepping.step_size import cut
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import native, rare, seldom
 
 # Below this share of HMAX the error of a step is round-off, and nobody's.
 BLAMELESS = 1e-9
@@ -60,7 +60,7 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
 
 
 @native
-@seldom
+@rare
 def stuck(P: Problem, L: Plan, C: Control) -> int:
     """Back to the accepted state, and why the step became too small."""
     restore_state(P, C)

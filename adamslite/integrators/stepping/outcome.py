@@ -15,7 +15,7 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.stepping.control import RUNNING, StepControl
-from adamslite.native.translate import Reals, native, seldom
+from adamslite.native.translate import Reals, native, rare
 
 # A sign change of the effective mass is approached to this share of HMAX.
 SINGULAR_RESOLUTION = 1e-6
@@ -69,7 +69,7 @@ def passed_singularity(P: Problem, L: Plan, C: StepControl) -> bool:
 
 
 @native
-@seldom
+@rare
 def near_singularity(P: Problem, C: StepControl) -> int:
     """The acceleration matrix became singular within the step: approach that, never pass it."""
     C.h *= NEARER
@@ -77,7 +77,7 @@ def near_singularity(P: Problem, C: StepControl) -> int:
 
 
 @native
-@seldom
+@rare
 def why_stuck(P: Problem, L: Plan, C: StepControl) -> int:
     """Why the step became too small; the accepted state is in the workspace."""
     if mass_vanishes(P, L, C.signature):
@@ -90,7 +90,7 @@ def why_stuck(P: Problem, L: Plan, C: StepControl) -> int:
 
 
 @native
-@seldom
+@rare
 def corrector_failed(C: StepControl) -> bool:
     """Whether the last tries failed for the corrector, not for accuracy."""
     return C.retries > 2 or (C.retries > 0 and C.norm == 0.0)

@@ -48,7 +48,7 @@ from adamslite.integrators.unconstrained import POWERS, clear, divide_by_mass, p
 from adamslite.integrators.verlet.control import Control
 from adamslite.integrators.verlet.lanes import take_lane_steps
 from adamslite.integrators.verlet.sampling import HOPELESS, LARGE, note_steps, steps_per_estimate
-from adamslite.native.translate import Reals, native, seldom
+from adamslite.native.translate import Reals, native, rare
 
 # Turns of the search for an eigenvalue from the vector found before, where laws are smooth.
 POWERS_AGAIN = 8
@@ -96,7 +96,7 @@ def verlet(P: Problem, L: Plan) -> int:
 
 
 @native
-@seldom
+@rare
 def begin(P: Problem, C: Control) -> None:
     """The first record, and the step to begin with."""
     C[:] = 0

@@ -10,14 +10,15 @@ instance before a root, a power or an angle is computed.  A value vanishes
 
 A condition that is not held leaves both sides open.  Zero times what has no value (a quotient by
 zero, the root of a negative number) has none either, and a run must not go on as if it were zero.
-Denominators and arguments of roots are computed for the test; what else may lack a value is
-computed itself.  Only a sum or product that is too large for a double is taken for a number.
+Denominators and arguments of roots are computed for the test, unless parameters alone, or a branch
+that is held, say that they are positive; what else may lack a value is computed itself.  Only a sum
+or product that is too large for a double is taken for a number.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import reduce
 
 from adamslite.native.llvm_builder import Builder, Value
@@ -124,15 +125,21 @@ class IdleTest:
 class StrictIdleTest(IdleTest):
     """Writes the test for values: the factors beside one that vanishes must have a value.
 
-    ``value`` writes an expression.
+    ``value`` writes an expression; ``is_parameter``: of a symbol.
     """
 
     def __init__(
-        self, builder: Builder, branches: dict[Expr, Value], value: Callable[[Expr], Value]
+        self,
+        builder: Builder,
+        branches: dict[Expr, Value],
+        value: Callable[[Expr], Value],
+        is_parameter: Callable[[Expr], bool],
     ) -> None:
         super().__init__(builder, branches)
         self.value = value
+        self.is_parameter = is_parameter
         self.valued: dict[Expr, Truth] = {}
+        self.ranges: dict[Expr, tuple[Value, Value] | None] = {}
 
     def _finite(self, expr: Expr) -> Truth:
         if expr not in self.valued:
@@ -161,16 +168,86 @@ class StrictIdleTest(IdleTest):
     def _power(self, base: Expr, exponent: float) -> Truth:
         """Whether a power has a value."""
         if exponent % 1.0 != 0.0 and not _is_sum_of_squares(base):
+            positive = self._surely_positive(base)
+            if positive is not NEVER:
+                return self._both(positive, self._finite(base))
             return self.b.compare(">=" if exponent > 0.0 else ">", self.value(base), 0.0)
         return self._finite(base) if exponent > 0.0 else self._divides(base)
 
     def _divides(self, expr: Expr) -> Truth:
         if expr.kind == "number":
             return bool(expr.value != 0.0)
+        positive = self._surely_positive(expr)
+        if positive is not NEVER:
+            return self._both(positive, self._finite(expr))
         if expr.kind == "**" and expr.args[1] == 0.5:
             return self.b.compare(">", self.value(expr.args[0]), 0.0)
         value = self.value(expr)
         return self._either(self.b.compare("<", value, 0.0), self.b.compare(">", value, 0.0))
+
+    def _surely_positive(self, expr: Expr) -> Truth:
+        """Whether the least value by parameters is positive, or what a held branch says that an
+        expression exceeds; NEVER where nothing says so.
+        """
+        inside = expr.args[0] if expr.kind == "**" and expr.args[1] == 0.5 else expr
+        if found := self._range(inside):
+            return self._positive(found[0])
+        truths = [NEVER]
+        for low, cond, side in self._below(expr):
+            found = self._range(low)
+            if found and (positive := self._positive(found[0])) is not NEVER:
+                truths.append(self._both(self._known(cond, side), positive))
+        return reduce(self._either, truths)
+
+    def _positive(self, value: Value) -> Truth:
+        return self.b.compare(">", value, 0.0) if isinstance(value, str) else value > 0.0
+
+    def _below(self, expr: Expr) -> Iterator[tuple[Expr, Expr, str]]:
+        """What does not exceed an expression on one side of a condition that may be held."""
+        for cond in self.branches:
+            if cond.is_relation:
+                ends = cond.args if cond.kind in (">", ">=") else cond.args[::-1]
+                for high, low, side in ((*ends, ">"), (*ends[::-1], "<")):
+                    if high is expr:
+                        yield low, cond, side
+
+    def _range(self, expr: Expr) -> tuple[Value, Value] | None:
+        """The least and the largest value that parameters allow, if they say so."""
+        if expr not in self.ranges:
+            self.ranges[expr] = self._range_of(expr)
+        return self.ranges[expr]
+
+    def _range_of(self, expr: Expr) -> tuple[Value, Value] | None:
+        if expr.kind in ("sin", "cos"):
+            return -1.0, 1.0
+        if expr.kind == "number":
+            return expr.value, expr.value
+        if expr.kind == "symbol" and self.is_parameter(expr):
+            return self.value(expr), self.value(expr)
+        parts = [self._range(each) for each in expr.args[: 1 if expr.kind == "**" else None]]
+        known = [each for each in parts if each]
+        if len(known) < len(parts) or expr.kind not in ("+", "-", "*", "/", "neg", "**"):
+            return None
+        return self._combined(expr, known)
+
+    def _combined(self, expr: Expr, parts: list[tuple[Value, Value]]) -> tuple[Value, Value] | None:
+        b, (low, high), other = self.b, parts[0], parts[-1]
+        if expr.kind == "neg":
+            return b.neg(high), b.neg(low)
+        if expr.kind == "+":
+            return b.add(low, other[0]), b.add(high, other[1])
+        if expr.kind == "-":
+            return b.sub(low, other[1]), b.sub(high, other[0])
+        if expr.kind == "**":
+            return (b.call("sqrt", low), b.call("sqrt", high)) if expr.args[1] == 0.5 else None
+        if expr.kind == "*" and low == high:
+            (low, high), other = other, parts[0]
+        if other[0] != other[1]:
+            return None
+        operation = b.div if expr.kind == "/" else b.mul
+        one, two = operation(low, other[0]), operation(high, other[0])
+        less = b.compare("<", one, two)
+        return b.select(less, one, two), b.select(less, two, one)
 
 
 def _is_sum_of_squares(expr: Expr) -> bool:

@@ -76,6 +76,9 @@ class ResidualWriter:
         turns = b.call("floor", b.add(b.mul(gap, 0.5 / math.pi), 0.5))
         return b.mul(turns, 2 * math.pi)
 
+    def _is_parameter(self, symbol: Expr) -> bool:
+        return bool(self.scope.leaves[symbol][0] == "p")
+
     def unless_idle(self, out: Outputs, test: IdleTest) -> None:
         """Go on to the next instance where all that is evaluated vanishes."""
         idle = test(out.expressions)
@@ -83,7 +86,9 @@ class ResidualWriter:
             self.b.lines += [f"  br i1 {idle}, label %latch, label %work", "work:"]
 
     def residual(self, out: Outputs) -> None:
-        self.unless_idle(out, StrictIdleTest(self.b, self.lower.branches, self.value))
+        self.unless_idle(
+            out, StrictIdleTest(self.b, self.lower.branches, self.value, self._is_parameter)
+        )
         for load in out.loads:
             force = [self.value(f) for f in load.force]
             torque = [self.value(t) for t in load.torque]

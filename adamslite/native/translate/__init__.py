@@ -6,9 +6,9 @@ A function marked :func:`native` may use ``int`` (64 bit), ``float``, ``bool``, 
 floor maximum``, slices ``a[k:]`` (a shifted array), calls of other native functions, ``copy`` and
 ``call_address``. Arguments carry annotations; a local variable has the type of its first
 assignment. ``Alone`` is an array of reals that no other argument reaches while the function runs.
-Sums may be reordered except in functions marked :func:`as_written`; those marked :func:`seldom`
-are compiled for size, those marked :func:`inline` are part of their callers. There is no bounds
-check, and division follows the processor.
+Sums may be reordered except in functions marked :func:`as_written`; those marked :func:`seldom` or
+:func:`rare` are compiled with less effort, those marked :func:`inline` are part of their callers.
+There is no bounds check, and division follows the processor.
 
 The same functions run under plain Python on numpy arrays and records, which is how tests compare
 the two. The translator itself is in :mod:`adamslite.native.translate.modules`: what is compiled
@@ -24,6 +24,7 @@ from adamslite.native.translate.language import (
     inline,
     maximum,
     native,
+    rare,
     seldom,
     symbol,
 )
@@ -44,6 +45,7 @@ __all__ = [
     "inline",
     "maximum",
     "native",
+    "rare",
     "seldom",
     "symbol",
 ]

@@ -21,7 +21,9 @@ REGISTERED: dict[str, Native] = {}
 AS_WRITTEN: set[Native] = set()
 """Those whose sums are not reordered."""
 SELDOM: set[Native] = set()
-"""Those that steps do not wait for."""
+"""Those that most steps do not wait for."""
+RARE: set[Native] = set()
+"""Those that no step waits for."""
 INLINE: set[Native] = set()
 """Those that become part of each function that calls them."""
 
@@ -54,10 +56,16 @@ def as_written(function: F) -> F:
 
 
 def seldom(function: F) -> F:
-    """Code of this native function, and of what only such functions call, is kept small: a step
-    does not wait for it.
+    """This native function, and what only such functions call, is compiled with less effort: most
+    steps do not wait for it.
     """
     SELDOM.add(function)
+    return function
+
+
+def rare(function: F) -> F:
+    """The same with least effort: no step waits for it."""
+    RARE.add(function)
     return function
 
 
