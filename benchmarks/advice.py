@@ -121,7 +121,8 @@ def solve(table: Table, model: Model, p: float, method: str = "") -> Solved:
     import adamslite
     from adamslite.cables.scene import deck
 
-    text, _ = deck(described(table, model, p))
+    asked = described(table, model, p)
+    text, _ = deck(asked)
     if method:
         text = re.sub(r"(?m)^INTEGRATOR/[^\n]*(, ERROR=)", f"INTEGRATOR/{method}\\1", text)
     run = adamslite.simulate(adamslite.read(text))
@@ -130,20 +131,22 @@ def solve(table: Table, model: Model, p: float, method: str = "") -> Solved:
     figures, scales = figures_of(table, run)
     used = replace(model, **chosen(text))
     cpu = max(run.summary["solve_cpu_s"], CLOCK)
-    return Solved(figures, scales, cpu, int(run.summary["steps"]), used, told(text, p), text)
+    return Solved(figures, scales, cpu, int(run.summary["steps"]), used, told(asked, p), text)
 
 
 def told(text: str, p: float) -> float:
-    """CPU [s] that the deck, or `check` on it, says; nan without a word."""
-    import adamslite
+    """CPU [s] that the advice on a description tells."""
     from adamslite.cables.advice import advise
-    from adamslite.cables.report import cables
+    from adamslite.cables.estimate import estimate_moves, laws
+    from adamslite.cables.geometry import spans, turned
+    from adamslite.cables.model_choice import demand_of
+    from adamslite.cables.spec import read
 
-    said = re.search(r"about ([\d.e+-]+) s of CPU", " ".join(text.replace("\n! ", " ").split()))
-    if said:
-        return float(said[1])
-    costs = [advise(each.demand, p).cost for each in cables(adamslite.read(text))]
-    return sum(costs) if costs else math.nan
+    spec, faults = read(text)
+    spec = turned(spec)
+    pieces, prescribed = spans(spec, faults), laws(spec, faults)
+    moves = estimate_moves(spec, pieces, prescribed)
+    return advise(demand_of(spec, pieces, moves, prescribed), p).cost
 
 
 def chosen(text: str) -> dict[str, Any]:

@@ -54,6 +54,22 @@ turn = 1
 mu = 1"""
 )
 SLIPPING = ATWOOD.replace("radius = 0.2", "radius = 0.2\nmu = 0.3", 1)
+HANGS = """\
+end = 0.1
+[cable]
+EA = 1e7
+rho = 0.1
+[[route]]
+kind = "fixed"
+at = [0, 0, 0]
+[[route]]
+kind = "mass"
+at = [0, -20, 0]
+mass = 200
+velocity = [0, 0, 0]
+[model]
+level = 2
+"""
 LAST = ATWOOD.index("[[route]]", ATWOOD.index("1.8"))
 # Code: (description, what is replaced, by what, the line and column of the caret).
 WRONG = {
@@ -118,6 +134,8 @@ WRONG = {
     "breaking": (ATWOOD, "rho = 0.01", "rho = 0.01\nbreaking_load = 40", (5, 1)),
     "paper-not-valid": (LOWERS, "level = 3", 'level = 3\nform = "paper"\naccuracy = 1e-4', (18, 1)),
     "faster-than-waves": (LOWERS_ROPE, "0.5*TIME**2", "60*TIME**2", (18, 1)),
+    "slackens": (HANGS, "velocity = [0, 0, 0]", "velocity = [0, 2, 0]", (2, 1)),
+    "pretension": (HANGS, "rho = 0.1", "rho = 0.1\npretension = 2500", (5, 1)),
     "pushed": (LOWERS, "0.5*TIME**2", "6*TIME**2", (11, 1)),
     "pushed-at-once": (LOWERS, "0.5*TIME**2", "2*TIME", (11, 1)),
 }  # fmt: skip

@@ -1,18 +1,25 @@
 """The advised model of a cable for a required accuracy, and its cost.
 
-ERROR is a length: the error e of a place makes one of EA e/H in a tension T, so e = p T H/EA.
+ERROR is a length: the error e of a place makes one of EA e/H in a tension T, and an integrator gets
+a third of the accuracy, e = p T H/(3 EA).
 
-    method  for                          steps in the run   CPU per step and section
-    VERLET  fronts, masses nothing ties  2.5 end c/H        0.13 us
-    HHT     other fronts                 0.7 end c/H        0.6 us fixed, 2.4 us growing sections
-    GSTIFF  no fronts                    100 a period of the span with what it carries, as HHT
+Steps of a run, at least one for every result:
 
-Implicit methods take 400 steps at least. The period is 2 pi sqrt((M + rho l/3) l/EA). Measured with
-decks/cables: right within a factor of three or so.
+    VERLET  1.2 N c/H of a second                    waves in masses that nothing ties together
+    HHT     a fortieth of (A/ERROR)^(1/3) w          other waves, friction
+    GSTIFF  (A/ERROR)^(1/4) w, 2.5 times that with   constraints, no waves
+            several sections, which it follows all
+
+where A sin w t is the vibration of the linear model that needs most; without one 100 a period of
+2 pi sqrt((M + rho l/3) l/EA) for GSTIFF and 0.7 c/H a second for HHT. CPU of a step is a + b N, in
+parts of what this machine takes for a small piece of arithmetic; a, b and the numbers of steps are
+measured on random scenes (benchmarks/advice.py).
 """
 
 from dataclasses import dataclass
+from functools import cache
 from math import floor, log10, pi, sqrt
+from time import process_time
 
 from adamslite.cables.demand import (
     NEGLIGIBLE,
@@ -23,12 +30,29 @@ from adamslite.cables.demand import (
     level,
     loaded,
 )
+from adamslite.cables.response import steps_of
 
 # Of a quotient of decimal numbers.
 ROUND_OFF = 1e-9
-PER_CROSSING = {"VERLET": 2.5, "HHT": 0.7}
-PER_PERIOD, FEWEST_STEPS = 100.0, 400.0
-VERLET_CPU, FIXED_CPU, GROWING_CPU = 0.13e-6, 0.6e-6, 2.4e-6
+# Steps by wave and section without a linear model, and in a period.
+PER_CROSSING = {"VERLET": 1.2, "HHT": 0.7}
+PER_PERIOD = 100.0
+# Steps for a result; order in which the error of a step falls, and the share of its steps.
+PER_RESULT = {"GSTIFF": 1.02, "HHT": 1.15, "VERLET": 1.0}
+ORDERS = {"GSTIFF": 4.0, "HHT": 3.0}
+FOLLOWS = {"GSTIFF": 2.5, "HHT": 1 / 40}
+RESULTS = 200
+# CPU of a step and of a section in it, where the piece of arithmetic takes PIECE [s]: of fixed
+# sections, tied ones, and growing ones.
+STEP_CPU = {
+    "GSTIFF": ((0.6e-6, 0.13e-6), (3e-6, 0.4e-6), (5e-6, 1.6e-6)),
+    "HHT": ((0.3e-6, 0.11e-6), (2.2e-6, 0.17e-6), (4.2e-6, 0.75e-6)),
+    "VERLET": ((0.3e-6, 0.005e-6), (0.3e-6, 0.005e-6), (0.3e-6, 0.005e-6)),
+}  # fmt: skip
+RIGID_CPU = 3e-6
+# Sections of the linear model whose vibrations tell the steps.
+FOLLOWED = 32
+PIECE = 1.25e-3
 # Of the length: below, round-off of the places is in the way.
 TIGHTEST = 1e-9
 # Of the accuracy: what an integrator may use.
@@ -53,17 +77,18 @@ def advise(of: Demand, p: float) -> Advice:
     chosen, sections = level(of, p), elements(of, p)
     method, _ = integrator(of, p, chosen)
     sections = 0 if chosen == 1 else sections
+    error = error_bound(of, p, sections)
     return Advice(
-        p, chosen, form(of, p) if chosen == 3 else "", sections, method,
-        error_bound(of, p, sections), _cost(of, method, chosen, sections),
+        p, chosen, form(of, p) if chosen == 3 else "", sections, method, error,
+        _cost(of, method, chosen, sections, error),
     )  # fmt: skip
 
 
 def error_bound(of: Demand, p: float, sections: int) -> float:
     """ERROR: the length that changes the least tension by a share of `p`."""
     left = of.left(p)
-    load = loaded(of) if left is None else max(left.load, NEGLIGIBLE)
-    error = ERROR_SHARE * p * load * of.length / max(sections, 1) / of.stiffness
+    strain = loaded(of) / of.stiffness if left is None else max(left.load, NEGLIGIBLE)
+    error = ERROR_SHARE * p * strain * of.length / max(sections, 1)
     return _rounded(max(error, TIGHTEST * of.longest))
 
 
@@ -80,17 +105,36 @@ def integrator(of: Demand, p: float, chosen: int) -> tuple[str, str]:
     return "HHT", "waves are followed with many small steps"
 
 
-def _cost(of: Demand, method: str, chosen: int, sections: int) -> float:
+def _cost(of: Demand, method: str, chosen: int, sections: int, error: float) -> float:
     """CPU [s] of a run without set-up."""
-    if method in PER_CROSSING:
+    results = PER_RESULT[method] * (of.results or RESULTS)
+    if chosen == 1:
+        return results * RIGID_CPU * speed()
+    if method == "VERLET" or not of.machines and method == "HHT":
         steps = PER_CROSSING[method] * of.end * of.c * sections / of.length
+    elif of.machines:
+        share = 1.0 if method == "GSTIFF" and sections == 1 else FOLLOWS[method]
+        # The model may be in other units of length than the demand.
+        bound = error * of.machines[0].longest / of.length
+        steps = share * steps_of(of.machines[0], min(sections, FOLLOWED), bound, ORDERS[method])
     else:
         carried = of.moved + of.density * of.length / 3
         steps = PER_PERIOD * of.end / (2 * pi * sqrt(carried * of.length / of.stiffness))
-    if method == "VERLET":
-        return steps * sections * VERLET_CPU
-    each = GROWING_CPU if chosen == 3 else FIXED_CPU
-    return max(steps, FEWEST_STEPS) * max(sections, 1) * each
+    base, each = STEP_CPU[method][2 if chosen == 3 else int(of.tied)]
+    return max(steps, results) * (base + each * max(sections, 1)) * speed()
+
+
+@cache
+def speed() -> float:
+    """CPU of a small piece of arithmetic, in parts of what it took where costs were measured."""
+    taken = []
+    for _ in range(3):
+        start = process_time()
+        total = 0.0
+        for k in range(20000):
+            total += (k % 7) * 1e-3 / (1.0 + total)
+        taken.append(process_time() - start)
+    return min(taken) / PIECE
 
 
 def _rounded(value: float) -> float:

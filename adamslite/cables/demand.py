@@ -27,7 +27,7 @@ docs/background/cables.md.
 from dataclasses import dataclass, field
 from math import ceil, inf, pi, sqrt
 
-from adamslite.cables.response import Errors, Machine, errors
+from adamslite.cables.response import Errors, Machine, errors, worst
 
 MOST = 900
 FEWEST = 4
@@ -37,6 +37,9 @@ KINK = 7
 MEASURED_AT = 0.01
 # Power of the accuracy with which the sections of a front grow.
 AXIAL_POWER = 0.55
+# Of the accuracy: what waves may make of a tension where nobody sees them; sections whose own
+# vibrations are so fast that a method which follows them takes small steps all the same.
+CALM, FEW = 0.3, 12
 # Keeps quotients finite where nothing pulls or hangs [N, kg].
 NEGLIGIBLE = 1e-12
 # Of the accuracy: what sections may use, the rest is the integrator's; the same of the linear
@@ -76,6 +79,8 @@ class Demand:
         It starts out of balance with what it carries.
     tied : bool
         Constraints, turning parts, states or forces of accelerations are about: no VERLET.
+    slackens : bool
+        It pulls only: where it has gone slack it becomes taut with a front.
     rubs : bool
         Friction holds it on a wheel, or lets it slide.
     end : float
@@ -84,8 +89,9 @@ class Demand:
         Times at which results are asked for; a run takes a step for each.
     asked : tuple of str
         What the accuracy is for: tension, position, arrival (of waves).
-    machine : Machine
-        The linear model of the scene, None where there is none.
+    machines : tuple of Machine
+        The linear model of the scene, with the lengths of spans that it has at the start and after
+        its largest payout; empty where there is none.
     """
 
     stiffness: float
@@ -106,15 +112,17 @@ class Demand:
     wave: float = 0.0
     bounces: bool = False
     tied: bool = False
+    slackens: bool = False
     rubs: bool = False
     end: float = 0.0
     results: int = 0
     asked: tuple[str, ...] = ("tension", "position")
-    machine: Machine | None = field(default=None, compare=False)
+    machines: tuple[Machine, ...] = field(default=(), compare=False)
 
     def left(self, p: float) -> Errors | None:
         """What models leave out by the linear model; None without one."""
-        return errors(self.machine, LINEAR_SHARE * p, self.asked) if self.machine else None
+        found = [errors(each, LINEAR_SHARE * p, self.asked) for each in self.machines]
+        return worst(found) if found else None
 
     @property
     def c(self) -> float:
@@ -202,7 +210,10 @@ def loaded(of: Demand) -> float:
 def is_lively(of: Demand, p: float) -> bool:
     """Whether waves run through the cable that make a share of `p` of its tension."""
     left = of.left(p)
-    return bool(fronts(of, p)) if left is None else left.ringing > p and elements(of, p) > 1
+    if left is None:
+        return bool(fronts(of, p))
+    count = elements(of, p)
+    return count > 1 and left.ringing > CALM * p or count > FEW
 
 
 def fronts(of: Demand, p: float) -> list[str]:
@@ -216,7 +227,7 @@ def fronts(of: Demand, p: float) -> list[str]:
 def waves(of: Demand, p: float) -> list[str]:
     """Why the time that waves take matters."""
     found = fronts(of, p)
-    if of.machine and "arrival" not in of.asked:
+    if of.machines and "arrival" not in of.asked:
         return []
     if of.rushes > p:
         found.append(f"(l/c)/tau = {of.rushes:.2g}")
@@ -284,6 +295,8 @@ def needed(of: Demand, p: float) -> dict[str, float]:
     left = of.left(p)
     if left is not None:
         found = {"for tensions and places": left.sections(LINEAR_SHARE * p)}
+        if of.slackens and left.lowest < 0:
+            found["for fronts where it becomes taut"] = AXIAL * (MEASURED_AT / p) ** AXIAL_POWER
         if "arrival" in of.asked:
             found |= _arrivals(of, p)
         return found

@@ -160,6 +160,18 @@ MESSAGES: dict[str, Message] = {
         "pulls_only = true in [cable], at level 2 or 3, or give the load that velocity",
         severity=WARNING,
     ),
+    "slackens": Message(
+        "the tension falls to {least:.4g} N in the run: the cable goes slack, and a slack section"
+        " pushes",
+        "pulls_only = true in [cable], at level 2 or 3: a slack section then carries nothing",
+        severity=WARNING,
+    ),
+    "pretension": Message(
+        "{pretension:.4g} N of pretension where {hung:.4g} N hang: the cable starts out of balance,"
+        " and the weight bounces",
+        "leave pretension out: what hangs on the cable gives its tension",
+        severity=WARNING,
+    ),
     "faster-than-waves": Message(
         "the cable runs at {speed:.4g} m/s, faster than its transverse waves: {wave:.4g} m/s at"
         " {tension:.4g} N; displacements across it grow without bound",

@@ -11,12 +11,14 @@ from math import ceil, sqrt
 
 from adamslite.cables import demand
 from adamslite.cables.advice import error_bound, integrator
+from adamslite.cables.brute_force_layout import stretches
 from adamslite.cables.demand import Demand
 from adamslite.cables.estimate import Laws, Moves, moving_mass
 from adamslite.cables.geometry import FreeSpan, reaches, wrap
 from adamslite.cables.machine import machine
 from adamslite.cables.messages import Faults
 from adamslite.cables.posture import AXES
+from adamslite.cables.response import Errors, Machine
 from adamslite.cables.vectors import add, dot, part_across, unit
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import slipping
@@ -31,6 +33,10 @@ SUNK = 80
 RIGID_ERROR = 1e-7
 # Of the transverse wave: a weight that starts across faster bends its cable by large angles.
 SMALL_SLOPE = 0.3
+# Of the length of a span: changes by less make no difference; it keeps so much at least.
+GROWN, SHORTEST = 0.1, 0.05
+# Of the least load: tensions that fall below zero by less need not.
+SLACK = 0.1
 # An arc that is long enough to have to be round [rad].
 LIES = 0.1
 
@@ -38,7 +44,10 @@ LIES = 0.1
 @dataclass(frozen=True)
 class CableModel:
     """Level, form of level 3, sections of the longest span and integrator; the figures and reasons
-    they rest on."""
+    they rest on.
+
+    `slackens` is the tension below zero that the linear model foresees [N].
+    """
 
     level: int
     form: str
@@ -46,6 +55,7 @@ class CableModel:
     integrator: str
     figures: tuple[str, ...]
     reasons: tuple[str, ...]
+    slackens: float = 0.0
 
 
 def tensions(spec: Spec, spans: list[FreeSpan]) -> list[float]:
@@ -120,10 +130,7 @@ def choose_model(
     spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws, faults: Faults
 ) -> CableModel:
     """The model that the description requests, or what `accuracy` needs."""
-    p, of = spec.accuracy, demand_on_longest(spec, spans, moves)
-    if spec.form != "brute" and not needs_brute(spec, spans):
-        if of.across < SMALL_SLOPE * of.struck_wave:
-            of = replace(of, machine=machine(spec, spans, tensions(spec, spans), prescribed))
+    p, of = spec.accuracy, demand_of(spec, spans, moves, prescribed)
     figures = _figures(of, moves)
     level, why = _level(spec, spans, of, moves)
     form, why_form = _form(spec, spans, of, level, moves)
@@ -139,9 +146,58 @@ def choose_model(
     if level == 3 and form != "brute" and 0.0 < of.tension and of.speed > of.c_t:
         faults.add("faster-than-waves", ("model", "level"), speed=of.speed, wave=of.c_t,
                    tension=of.tension)  # fmt: skip
+    _tell_pretension(spec, spans, level, faults)
     method, why_method = _integrator(spec, of, level, form, count)
     reasons = [*why, *why_form, *([why_count] if level > 1 else []), why_method]
-    return CableModel(level, form, count, method, tuple(figures), tuple(reasons))
+    slackens = _slackens(of.left(p), spec)
+    return CableModel(level, form, count, method, tuple(figures), tuple(reasons), slackens)
+
+
+def _slackens(left: Errors | None, spec: Spec) -> float:
+    """Least tension of a cable that goes slack, else 0 [N]."""
+    if left is None or left.lowest > -SLACK * left.load * spec.cable.stiffness:
+        return 0.0
+    return left.lowest
+
+
+def _tell_pretension(spec: Spec, spans: list[FreeSpan], level: int, faults: Faults) -> None:
+    """Say that the cable starts with another tension than what hangs on it gives."""
+    loose = replace(spec, cable=replace(spec.cable, pretension=0.0))
+    hung = 0.0 if spec.closed else max(tensions(loose, spans))
+    if level > 1 and 0.0 < hung < (1 - spec.accuracy) * spec.cable.pretension:
+        faults.add("pretension", ("cable", "pretension"), hung=hung,
+                   pretension=spec.cable.pretension)  # fmt: skip
+
+
+def _machines(
+    spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws
+) -> tuple[Machine, ...]:
+    """The linear model as it starts and, where payout changes its lengths, at their extremes."""
+    rests = tensions(spec, spans)
+    shapes = [spans]
+    for extreme in ("least", "most"):
+        grown = list(spans)
+        for i, paid in moves.paid.items():
+            if spec.is_end(i):
+                fed = stretches(spec)[0][-1] if i == 0 else stretches(spec)[-1][0]
+                length = spans[fed].length + getattr(paid, extreme)
+                grown[fed] = replace(spans[fed], length=max(length, SHORTEST * spans[fed].length))
+        if any(
+            abs(a.length - b.length) > GROWN * b.length for a, b in zip(grown, spans, strict=True)
+        ):
+            shapes.append(grown)
+    found = [machine(spec, each, rests, prescribed) for each in shapes]
+    return tuple(each for each in found if each)
+
+
+def demand_of(spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws) -> Demand:
+    """The demand of a description, with its linear model where there is one."""
+    of = demand_on_longest(spec, spans, moves)
+    if spec.form == "brute" or needs_brute(spec, spans):
+        return of
+    if of.across >= SMALL_SLOPE * of.struck_wave:
+        return of
+    return replace(of, machines=_machines(spec, spans, moves, prescribed))
 
 
 def demand_on_longest(spec: Spec, spans: list[FreeSpan], moves: Moves) -> Demand:
@@ -158,7 +214,7 @@ def demand_on_longest(spec: Spec, spans: list[FreeSpan], moves: Moves) -> Demand
         moved=moving_mass(spec), pull=weight, least=moves.least, most=moves.most,
         speed=moves.speed, acceleration=moves.acceleration, known=moves.known, jump=moves.jump,
         across=moves.across, straight=not (moves.across or spec.bends), end=spec.end, tied=tied,
-        rubs=rubs, results=spec.steps, asked=spec.quantities,
+        rubs=rubs, slackens=cable.pulls_only, results=spec.steps, asked=spec.quantities,
     )  # fmt: skip
 
 
@@ -175,6 +231,8 @@ def _level(spec: Spec, spans: list[FreeSpan], of: Demand, moves: Moves) -> tuple
     if spec.form == "brute" or needs_brute(spec, spans):
         return 3, []
     against = demand.rigid_fails(of, spec.accuracy)
+    if not spec.bends and not any(each.is_wheel or each.is_free for each in spec.route):
+        against.append("nothing moves in a rigid cable between fixed ends")
     against += ["a long run feeds the cable"] * any(each.kind == "run" for each in spec.route)
     against += ["the cable may slip on its wheels"] * any(
         slipping(i, spec) for i in range(len(spec.route))

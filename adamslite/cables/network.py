@@ -97,7 +97,7 @@ class Motion:
 
     `stretch` has the elongation of every section, `spread` by how much modes that are too fast for
     the instants make the tensions larger and smaller in between, `ringing` how much all those do
-    that the waves in the cable are.
+    that the waves in the cable are. `rates` and `swings` [displacement] are those of every mode.
     """
 
     ways: np.ndarray
@@ -105,6 +105,8 @@ class Motion:
     stretch: np.ndarray
     spread: np.ndarray
     ringing: np.ndarray
+    rates: np.ndarray
+    swings: np.ndarray
 
 
 class Sections:
@@ -259,7 +261,10 @@ def _elastic(
     pulls = _at_ends(at, each @ at.b.T * at.k, -(modes.rates**2)[:, None] * each, rests=False)
     ringing = modes.largest @ np.abs(pulls)
     tensions = _at_ends(at, stretch * at.k, fastness)
-    return Motion(moved, tensions, stretch, swings @ np.abs(pulls), ringing)
+    swung = modes.swings * np.abs(modes.shapes).max(axis=0)
+    return Motion(
+        moved, tensions, stretch, swings @ np.abs(pulls), ringing, modes.rates, swung
+    )  # fmt: skip
 
 
 class _Modes:
@@ -301,10 +306,11 @@ class _Modes:
         # instants keeps the swing of its start: forces are smooth against it.
         swing = q - rest
         fast = w * self.step > FAST
-        self.largest = np.where(w * self.transit > WAVE, np.hypot(swing, v / w).max(axis=0), 0.0)
-        start = np.abs(seen) * np.hypot(rest[0], v[0] / w)
-        times = self.step * np.arange(len(p))
-        amplitudes = np.where(fast, start * np.exp(-times[:, None] * (z * w)), 0.0)
+        times = self.step * np.arange(len(p))[:, None]
+        began = np.hypot(rest[0], v[0] / w) * np.exp(-times * (z * w))
+        self.swings = np.where(fast, began, np.hypot(swing, v / w))
+        self.largest = np.where(w * self.transit > WAVE, self.swings.max(axis=0), 0.0)
+        amplitudes = np.where(fast, np.abs(seen) * began, 0.0)
         seen = np.where(fast, 0.0, seen)
         q = np.where(w * window < ROUND_OFF, q, rest + seen * swing)
         rates = -(w**2) * seen * swing - 2 * z * w * seen * v
@@ -362,7 +368,9 @@ def _rigid(of: Network, at: Sections, ways: np.ndarray, extra: np.ndarray | None
     moved[:, free], moved[:, given] = found, ways
     ends = np.repeat(pulls, 2, axis=1)
     nothing = np.zeros_like(ends)
-    return Motion(moved, ends, np.zeros((len(ways), len(b))), nothing, nothing[0])
+    return Motion(
+        moved, ends, np.zeros((len(ways), len(b))), nothing, nothing[0], nothing[0], nothing
+    )  # fmt: skip
 
 
 class Reduced(_Modes):

@@ -61,6 +61,11 @@ class Machine:
     known: dict[int, Figures] = field(default_factory=dict)
 
     @property
+    def rigidity(self) -> float:
+        """EA [force]."""
+        return self.network.bars[0].pull[0]
+
+    @property
     def longest(self) -> float:
         """Span."""
         return max(bar.length for bar in self.network.bars)
@@ -85,6 +90,23 @@ def instants(end: float, transit: float, bounce: float) -> int:
 
 def figures(of: Machine, n: int, rigid: bool = False) -> Figures:
     """Of a model with n sections, or of a rigid cable without mass."""
+    motion, places = _motion(of, n, rigid)
+    return _read(of, motion, places, rigid)
+
+
+def steps_of(of: Machine, n: int, error: float, order: float) -> float:
+    """Steps that follow the vibrations of a model with n sections.
+
+    A method whose step h makes an error A (w h)^order of a vibration A sin w t takes steps of
+    (ERROR/A)^(1/order)/w.
+    """
+    motion, _ = _motion(of, n, rigid=False)
+    paces = (motion.rates * (motion.swings / error) ** (1 / order)).max(axis=1, initial=0.0)
+    return float(paces.mean() * of.network.end)
+
+
+def _motion(of: Machine, n: int, rigid: bool) -> tuple[Motion, dict[int, list[np.ndarray]]]:
+    """Along the cable, and across it by weight."""
     count = 0 if rigid else n
     at = Sections(of.network, count)
     extra = np.zeros((of.network.instants + 1, sum(at.counts)))
@@ -101,8 +123,7 @@ def figures(of: Machine, n: int, rigid: bool = False) -> Figures:
             extra[:, at.first[p] : at.first[p] + size] += stretch**2 / (2 * own.h[row])
             row += size
         places[string.weight].append(swings.ways[:, 0])
-    motion = respond(of.network, count, extra, SEEN * of.transit, rigid)
-    return _read(of, motion, places, rigid)
+    return respond(of.network, count, extra, SEEN * of.transit, rigid), places
 
 
 def _read(of: Machine, motion: Motion, places: dict[int, list[np.ndarray]], rigid: bool) -> Figures:
@@ -142,7 +163,7 @@ def apart(one: Figures, truth: Figures, asked: tuple[str, ...]) -> float:
 
 @dataclass(frozen=True)
 class Errors:
-    """What models leave out: of a rigid cable, and by sections; least tension and load of the
+    """What models leave out: of a rigid cable, and by sections; least tension, load over EA of the
     cable, what waves in it make of the greatest tension. `power`: with which the errors of many
     sections fall."""
 
@@ -180,9 +201,21 @@ def errors(of: Machine, p: float, asked: tuple[str, ...]) -> Errors:
         rigid = inf
     scales = [scale for _, scale in truth.tension.values()]
     return Errors(
-        rigid, dict(zip((*COUNTS, MANY), found, strict=False)), truth.lowest, min(scales),
+        rigid, dict(zip((*COUNTS, MANY), found, strict=False)), truth.lowest,
+        min(scales) / of.rigidity,
         truth.ringing,
         power,
+    )  # fmt: skip
+
+
+def worst(found: list[Errors]) -> Errors:
+    """The largest errors of several models."""
+    most = max(found, key=lambda each: len(each.of_sections))
+    return Errors(
+        max(each.rigid for each in found),
+        {n: max(e.of_sections.get(n, 0.0) for e in found) for n in most.of_sections},
+        min(each.lowest for each in found), min(each.load for each in found),
+        max(each.ringing for each in found), min(each.power for each in found),
     )  # fmt: skip
 
 

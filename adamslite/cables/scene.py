@@ -78,6 +78,8 @@ def _check_rigid(spec: Spec, faults: Faults) -> None:
     """Whether a rigid cable without mass can do what the description has."""
     for i in spec.bends:
         faults.add("rigid-cannot", ("route", i, "kind"), what="nothing keeps its bends")
+    if not spec.bends and not any(each.is_wheel or each.is_free for each in spec.route):
+        faults.add("rigid-cannot", ("model", "level"), what="nothing moves between fixed ends")
     for i, each in enumerate(spec.route):
         if each.kind == "run":
             faults.add("rigid-cannot", ("route", i, "kind"), what="a long run has waves")
@@ -171,7 +173,14 @@ def _check_slack(
     """Whether a winch pays out faster than a load at the other end comes after by itself."""
     if spec.cable.pulls_only and model.level > 1:
         return
-    last = len(spec.route) - 1
+    pushed = _is_pushed(spec, pieces, moves, faults)
+    if model.slackens and model.level > 1 and not pushed:
+        faults.add("slackens", ("cable",), least=model.slackens)
+
+
+def _is_pushed(spec: Spec, pieces: list[FreeSpan], moves: Moves, faults: Faults) -> bool:
+    """Whether a winch does so; says so."""
+    last, before = len(spec.route) - 1, len(faults.found)
     for i, paid in moves.paid.items():
         load, span, sense = (
             (spec.route[last], pieces[-1], 1) if i == 0 else (spec.route[0], pieces[0], -1)
@@ -184,6 +193,7 @@ def _check_slack(
             faults.add("pushed-at-once", path, speed=paid.start, own=own)
         elif paid.gain > max(fall, 0.0) + FASTER * max(abs(fall), paid.gain):
             faults.add("pushed", path, gain=paid.gain, time=paid.gain_at, fall=max(fall, 0.0))
+    return len(faults.found) > before
 
 
 def _check_fixed(
