@@ -12,7 +12,10 @@ from adamslite.cables.messages import MESSAGES
 from adamslite.cables.scene import deck
 from adamslite.resources import find
 
-DESCRIBED = sorted((find("decks") / "cables" / "described").glob("*.toml"))
+FOLDERS = ("described", "sheaves")
+DESCRIBED = sorted(
+    path for folder in FOLDERS for path in (find("decks") / "cables" / folder).glob("*.toml")
+)
 PAGE = Path(__file__).parent.parent / "docs" / "reference" / "cable-command.md"
 
 

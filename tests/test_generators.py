@@ -55,6 +55,7 @@ QUICK = (
 CHEAP = [
     slow(case) if case == "arrestment" else case for case in sorted(set(generate.CASES) - set(SLOW))
 ]
+SHEAVES = runpy.run_path(str(find("decks") / "cables" / "sheaves" / "make_reference.py"))["CASES"]
 DESCRIBE = runpy.run_path(str(find("decks") / "cables" / "described" / "describe.py"))
 
 
@@ -91,6 +92,12 @@ def test_a_reference_of_a_described_scene_is_what_its_generator_writes(case: str
     folder = find("decks") / "cables" / "described"
     kept = (folder / f"{case}.reference.csv").read_text(encoding="utf-8")
     assert_same_reference(DESCRIBE[case](), kept)
+
+
+@pytest.mark.parametrize("case", SHEAVES)
+def test_a_reference_of_sheaves_is_what_its_generator_writes(case: str) -> None:
+    kept = find("decks") / "cables" / "sheaves" / f"{case}.reference.csv"
+    assert_same_reference(SHEAVES[case](), kept.read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("case", every(3, QUICK))

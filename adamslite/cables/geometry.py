@@ -124,21 +124,49 @@ def _span(a: Station, b: Station, at: tuple[int, int], faults: Faults) -> FreeSp
 
 def _crossings(spec: Spec, found: list[FreeSpan], faults: Faults) -> None:
     """Two pieces that meet, or a piece that runs through a wheel it does not touch."""
-    for p, span in enumerate(found):
-        for q in range(p + 1, len(found)):
-            # Neighbours meet at a point of no size only by turning back onto each other.
-            beside = set(spec.pairs[p]) & set(spec.pairs[q])
-            if apart(span, found[q]) < ROUND_OFF * (span.length + found[q].length) and (
-                len(beside) != 1 or dot(span.along, found[q].along) < -1 + PARALLEL
-            ):
-                what = f"spans {_name(spec, p)} and {_name(spec, q)} meet"
-                faults.add("crossing", ("route", spec.pairs[q][0], "at"), what=what)
-        for j, wheel in enumerate(spec.route):
-            if wheel.is_round and j not in spec.pairs[p]:
+    count = len(found)
+    for p, near in enumerate(_neighbours(spec, found)):
+        span = found[p]
+        for q in near:
+            if q < count:
+                # Neighbours meet at a point of no size only by turning back onto each other.
+                beside = set(spec.pairs[p]) & set(spec.pairs[q])
+                if apart(span, found[q]) < ROUND_OFF * (span.length + found[q].length) and (
+                    len(beside) != 1 or dot(span.along, found[q].along) < -1 + PARALLEL
+                ):
+                    what = f"spans {_name(spec, p)} and {_name(spec, q)} meet"
+                    faults.add("crossing", ("route", spec.pairs[q][0], "at"), what=what)
+            elif q - count not in spec.pairs[p]:
+                j = q - count
+                wheel = spec.route[j]
                 centre = FreeSpan(wheel.at, wheel.at, ZERO, 0.0)
                 if apart(span, centre) < wheel.radius * (1 - ROUND_OFF):
                     what = f"span {_name(spec, p)} runs through the wheel of station {j + 1}"
                     faults.add("crossing", ("route", j, "at"), what=what)
+
+
+def _neighbours(spec: Spec, found: list[FreeSpan]) -> list[list[int]]:
+    """Of every span p the spans q > p, and the wheels j as len(found) + j, whose extents along the
+    longest axis of the scene overlap with its own: a sweep along that axis."""
+    ends = [(span.start, span.finish, 0.0) for span in found]
+    ends += [(each.at, each.at, each.radius if each.is_round else -1.0) for each in spec.route]
+    sizes = [max(max(a[k], b[k]) for a, b, _ in ends) - min(min(a[k], b[k]) for a, b, _ in ends)
+             for k in range(3)]  # fmt: skip
+    k, slack = sizes.index(max(sizes)), ROUND_OFF * max(sizes)
+    extents = sorted(
+        (min(a[k], b[k]) - radius - slack, max(a[k], b[k]) + radius + slack, i)
+        for i, (a, b, radius) in enumerate(ends) if radius >= 0
+    )  # fmt: skip
+    near: list[list[int]] = [[] for _ in found]
+    open_ones: list[tuple[float, int]] = []
+    for least, most, i in extents:
+        open_ones = [each for each in open_ones if each[0] >= least]
+        for _, other in open_ones:
+            p, q = min(i, other), max(i, other)
+            if p < len(found):
+                near[p].append(q)
+        open_ones.append((most, i))
+    return [sorted(each) for each in near]
 
 
 def _name(spec: Spec, p: int) -> str:

@@ -16,8 +16,9 @@ from math import pi
 
 from adamslite.cables.geometry import FreeSpan
 from adamslite.cables.model_choice import CableModel
+from adamslite.cables.pieces import Piece, is_between, pieces
 from adamslite.cables.sliders import is_wire
-from adamslite.cables.span_statements import Piece, is_between, is_kept, pieces
+from adamslite.cables.span_statements import is_kept, is_still
 from adamslite.cables.statements import number
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import marker, triple
@@ -97,8 +98,8 @@ def _tension(spec: Spec, model: CableModel, piece: Piece) -> str:
     if model.level == 1:
         if spec.route[piece.root].slides:
             return "none" if is_wire(spec, piece.root) else f"-GCON/{piece.root}.f"
-        return f"-GCON/{p}.f" if is_kept(spec, piece) else "none"
-    if not _is_chain(spec, piece):
+        return f"-GCON/{piece.label}.f" if is_kept(spec, piece) else "none"
+    if not _is_chain(spec, piece) or is_still(spec, model, piece):
         return f"VARIABLE/T{p}"
     ends = (first + 1, first + model.elements)
     start, end = ends if piece.sense > 0 else ends[::-1]

@@ -23,6 +23,8 @@ from adamslite.language.expression import Node, Num, Op
 Ways = Callable[[np.ndarray], np.ndarray]
 # Of the mass beside it: what the cable that comes through a weight has at least.
 THROUGH = 1e-4
+# Stations whose dense matrices take less than a second.
+MANY = 40
 # Of speeds: one across is none.
 ASIDE = 1e-9
 
@@ -46,8 +48,11 @@ def machine(
     spec: Spec, spans: list[FreeSpan], rests: list[float], prescribed: Laws
 ) -> Machine | None:
     """Of a description whose `rests` are the tensions at the lower ends of its spans; None for one
-    that no linear model is for: a loop, a run, a bend, a law that only the run knows.
+    that no linear model is for: a loop, a run, a bend, wheels that grip, a law that only the run
+    knows; and for one of many stations, for its matrices are dense.
     """
+    if spec.grips or len(spec.route) > MANY or any(e.held for e in spec.route):
+        return None
     if spec.closed or spec.bends or spec.has_run or any(e.mount for e in spec.route):
         return None
     try:

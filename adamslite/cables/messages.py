@@ -23,6 +23,34 @@ MESSAGES: dict[str, Message] = {
         "ends: fixed, free, run, mass, body, winch; between them: pulley, winch, mass, body, bend;"
         " on a loop: pulley, winch, bend",
     ),
+    "no-such-station": Message(
+        "the fall goes to {word}, and no station has that name", "the names are {known}"
+    ),
+    "twice-in-fall": Message(
+        "the fall goes to {word} {times} times", "a wheel for each time the cable passes"
+    ),
+    "not-in-fall": Message(
+        "the fall does not go to {label}", "name it in the fall, or leave it out"
+    ),
+    "same-name": Message("station {i} has the name {name} too", "a name for each station"),
+    "no-pitch": Message(
+        "{count} stations would be at one place", "pitch = [x, y, z], from one to the next"
+    ),
+    "too-many-stations": Message(
+        "{count} stations; a route may have {most}", "a smaller count, or two cables"
+    ),
+    "held-grips": Message(
+        "a wheel that is held, and on which the cable cannot slip, holds the cable",
+        'mu = 0.2, or kind = "fixed"',
+    ),
+    "held-turns": Message("a wheel that is held does not turn: no {word}", "leave {word} out"),
+    "without-mu": Message("{word} is for a wheel on which the cable may slip", "give it a mu"),
+    "static-grip": Message(
+        "friction that is greater at rest needs the displacement before sliding", "grip = 1e-4"
+    ),
+    "static-below": Message(
+        "mu_static is {static:g}, less than mu = {mu:g}", "friction at rest is not the smaller one"
+    ),
     "run-to-run": Message(
         "there is nothing between two long runs", "a pulley or a mass that the cable meets"
     ),
@@ -187,14 +215,23 @@ class Faults:
     def __init__(self, places: Places) -> None:
         self.places = places
         self.found: list[Diagnostic] = []
+        #: Tables of the stations, where these are not in the order of the file.
+        self.tables: list[int] = []
 
     def add(self, code: str, path: Path, **words: object) -> None:
         """Say `code` about the key at `path`; ``hint=`` replaces the hint of the table."""
-        message, span = MESSAGES[code], self.places.span(path)
+        message, span = MESSAGES[code], self.places.span(self._written(path))
         hint = str(words.pop("hint", "") or message.hint.format(**words))
         line = self.places.source.line(span.line)
         text = message.sentence.format(**words)
         self.found.append(Diagnostic(code, message.severity, text, span, hint, line))
+
+    def _written(self, path: Path) -> Path:
+        """The same key of the table that describes a station."""
+        if len(path) < 2 or path[0] != "route" or not self.tables:
+            return path
+        i = int(path[1])
+        return "route", self.tables[i] if i < len(self.tables) else i, *path[2:]
 
     @property
     def errors(self) -> bool:

@@ -1,20 +1,19 @@
 """The requests in the decks of levels 1 to 3."""
 
 from adamslite.cables import sliders
+from adamslite.cables.capstan import at_wheel, half_section
 from adamslite.cables.geometry import FreeSpan, wrap
 from adamslite.cables.links import wrapped
 from adamslite.cables.model_choice import CableModel
-from adamslite.cables.span_statements import (
-    Piece,
-    half_section,
-    is_between,
-    pieces,
-    root_marker,
-    side_of,
-    spring,
-)
+from adamslite.cables.pieces import Piece, is_between, pieces, root_marker
+from adamslite.cables.span_statements import side_of, spring
+from adamslite.cables.statements import number
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import marker, mount_request, travel
+from adamslite.cables.wheel_spans import is_heavy, tension_at
+from adamslite.cables.wheels import marker, mount_request, slipping, travel
+
+# A tension below this strain is none, and no ratio is taken with it.
+SLACK = 1e-12
 
 
 def write_requests(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
@@ -26,9 +25,9 @@ def write_requests(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
         text += "".join(_tensions(spec, model, piece) for piece in found)
     for i, each in enumerate(spec.route):
         if each.is_wheel:
-            text += _over(spec, spans, found, i) + mount_request(spec, i)
+            text += _over(spec, spans, model, found, i) + mount_request(spec, i)
         elif each.slides and model.level > 1:
-            text += _over(spec, spans, found, i)
+            text += _over(spec, spans, model, found, i)
     return text
 
 
@@ -40,8 +39,10 @@ def _tensions(spec: Spec, model: CableModel, piece: Piece) -> str:
     """
     p, n = piece.number, model.elements
     root, tip = spec.route[piece.root], spec.route[piece.tip]
-    parts = [f"F2=T{p}"]
-    if not (is_between(spec, piece) or tip.kind == "run"):
+    parts = [f"F2={at_wheel(spec, model, piece, piece.root)}"]
+    if is_heavy(spec, piece):
+        parts.append(f"F3={tension_at(spec, piece, piece.tip)}")
+    elif not (is_between(spec, piece) or tip.kind == "run"):
         side = side_of(piece, model)
         if not root.feeds and root.kind != "run":
             i, j = root_marker(spec, piece), side.node(1)
@@ -54,12 +55,12 @@ def _tensions(spec: Spec, model: CableModel, piece: Piece) -> str:
             parts.append(f"F3={pull}\n, +rho*{free}/2*{sliders.lean(i, j)}")
     words = "tension at its root and tip" if len(parts) > 1 else "tension"
     return (
-        f"REQUEST/{p}, " + "\\\n, ".join(parts)
+        f"REQUEST/{piece.label}, " + "\\\n, ".join(parts)
         + f'\\, COMMENT=span {p}: {words}, CUNITS="","N"' + ',"N"' * (len(parts) > 1) + "\n"
     )  # fmt: skip
 
 
-def _over(spec: Spec, spans: list[FreeSpan], found: list[Piece], i: int) -> str:
+def _over(spec: Spec, spans: list[FreeSpan], model: CableModel, found: list[Piece], i: int) -> str:
     each, n = spec.route[i], marker(i)
     title = f"cable over station {i + 1}"
     parts = [f"F2={travel(i, spec)}", f"F3={travel(i, spec, 1)}"]
@@ -73,6 +74,10 @@ def _over(spec: Spec, spans: list[FreeSpan], found: list[Piece], i: int) -> str:
         before, behind = (_touch(found[p], i) for p in spec.beside(i))
         parts.append(f"F7={wrapped(spec, i, before, behind, wrap(spec, spans, i))}")
         title += ", wrap angle"
+    if slipping(i, spec) and not spec.closed:
+        t1, t2 = (at_wheel(spec, model, found[p], i) for p in spec.beside(i))
+        parts.append(f"F8=({t2})/MAX({t1},{number(SLACK * spec.cable.stiffness)})")
+        title += ", ratio of its tensions"
     text = "\\ ".join(parts)
     if len(parts) > 3:
         return f"! {title[0].upper()}{title[1:]}.\nREQUEST/{n}, {text}\n"

@@ -24,6 +24,7 @@ def check_route(faults: Faults, route: list[Toml], closed: bool) -> None:
             _winch(faults, each, i, not closed and i in (0, len(route) - 1))
         if each.get("kind") in WHEELS and "slide" in each:
             _carriage(faults, each, i)
+            _rim(faults, each, i)
     _sliders(faults, route)
 
 
@@ -61,6 +62,24 @@ def _winch(faults: Faults, each: Toml, i: int, ends: bool) -> None:
             faults.add("reel-leans", ("route", i, word), word=word)
     if reel and reel.core >= each.get("radius", inf):
         faults.add("reel-core", ("route", i, "reel"), core=reel.core, radius=each["radius"])
+
+
+def _rim(faults: Faults, each: Toml, i: int) -> None:
+    """Which keys of friction on the rim go together; a wheel that is held has no axle."""
+    if each.get("held"):
+        if each["mu"] < 0:
+            faults.add("held-grips", ("route", i, "held"))
+        for word in ("friction", "mount"):
+            if each[word]:
+                faults.add("held-turns", ("route", i, word), word=word)
+    for word in ("grip", "mu_static"):
+        if each[word] and each["mu"] < 0:
+            faults.add("without-mu", ("route", i, word), word=word)
+    if each["mu_static"] and not each["grip"]:
+        faults.add("static-grip", ("route", i, "mu_static"))
+    if 0 < each["mu_static"] < each["mu"]:
+        faults.add("static-below", ("route", i, "mu_static"), static=each["mu_static"],
+                   mu=each["mu"])  # fmt: skip
 
 
 def _carriage(faults: Faults, each: Toml, i: int) -> None:

@@ -151,8 +151,7 @@ def _check(
         if each.reel and paid.most > each.reel.holds(each.radius):
             faults.add("stored-too-little", ("route", i, "reel"), value=paid.most,
                        held=each.reel.holds(each.radius))  # fmt: skip
-        # Over wheels cable comes on: the span at the weight, or the other end, runs out.
-        length = pieces[stretches(spec)[0][-1] if i == 0 else stretches(spec)[-1][0]].length
+        length = _supply(spec, pieces, i)
         key = ("route", i, "payout")
         if length + paid.least <= 0:
             faults.add("payout-too-far-in", key, time=paid.least_at, value=paid.least,
@@ -165,6 +164,18 @@ def _check(
     most = max(tensions(spec, pieces))
     if 0 < spec.cable.breaking < most:
         faults.add("breaking", ("cable", "breaking_load"), tension=most, limit=spec.cable.breaking)
+
+
+def _supply(spec: Spec, pieces: list[FreeSpan], i: int) -> float:
+    """Cable that the winch at an end can wind in [m].
+
+    Over wheels cable comes on: the span at the weight runs out; what is held stretches as a whole.
+    """
+    group = stretches(spec)[0 if i == 0 else -1]
+    last = group[-1] if i == 0 else group[0]
+    if any(spec.route[j].is_free for j in spec.pairs[last]):
+        return pieces[last].length
+    return sum(pieces[p].length for p in group)
 
 
 def _check_slack(

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any, TypeGuard
 
 from adamslite.cables.messages import LARGEST, SMALLEST, Faults
+from adamslite.cables.reeving import along_the_cable
 from adamslite.cables.route import check_route
 from adamslite.cables.toml_places import Path, Places
 from adamslite.cables.vocabulary import (
@@ -46,7 +47,7 @@ def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
     except tomllib.TOMLDecodeError as fault:
         faults.add("toml", _line_of(str(fault), places), why=str(fault))
         raise DeckError(faults.found) from None
-    route = _stations(faults, data.get("route", []))
+    route = along_the_cable(faults, _stations(faults, data.get("route", [])), data.get("fall"))
     check_route(faults, route, data.get("closed") is True)
     readable = not faults.found
     top = _table(faults, {k: v for k, v in data.items() if k not in TABLES}, TOP, (), TABLES)
@@ -54,6 +55,7 @@ def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
     model = _table(faults, _part(faults, data, "model"), MODEL, ("model",))
     if not readable or any(each.code == "missing-key" for each in faults.found):
         raise DeckError(sort_by_place(faults.found))
+    top.pop("fall")
     names = {"EA": "stiffness", "rho": "density", "breaking_load": "breaking"}
     numbers: Toml = {k: 0 if v == "auto" else v for k, v in model.items() if k != "form"}
     spec = Spec(
@@ -91,6 +93,8 @@ def _stations(faults: Faults, route: object) -> list[Toml]:
     for i, each in enumerate(route):
         kind = each.get("kind")
         rules = STATIONS.get(kind) if isinstance(kind, str) else None
+        if rules and each.get("held") is True:  # it does not turn
+            rules = rules | {"inertia": ("number", "not-positive", 0.0)}
         # What a station of no known kind may have is not known either.
         known = each if rules else {k: v for k, v in each.items() if k in PLACE}
         found.append(_table(faults, known, rules or PLACE, ("route", i)))
@@ -175,6 +179,7 @@ def _fits(value: Any, takes: str | tuple[str | int, ...]) -> tuple[bool, str]:
     whole = _is_number(value) and isinstance(value, int)
     return {
         "text": (_is_line(value), "a text in quotes, on one line"),
+        "word": (_is_line(value) and len(value.split()) == 1, "one word in quotes"),
         "number": (_is_number(value), "a number" if not _is_real(value) else NUMBER),
         "vector": (_is_three(value, _is_number), "three numbers [x, y, z]"),
         "laws": (_is_three(value, lambda x: _is_number(x) or _is_line(x)),

@@ -85,7 +85,8 @@ class Station:
     that it has at the start and nothing holds.
 
     `mu` is negative where the cable cannot slip, `stored` where it is not written; `mass` is that
-    of a weight, or of the carriage of a wheel that is free to move.
+    of a weight, or of the carriage of a wheel that is free to move. `grip` is the displacement of
+    the cable on the rim at which friction is full, 0 where a sliding speed builds it up.
     """
 
     kind: str
@@ -112,6 +113,9 @@ class Station:
     leans: bool = False
     mount: Mount | None = None
     wander: Wander | None = None
+    held: bool = False
+    grip: float = 0.0
+    mu_static: float = 0.0
 
     @property
     def is_wheel(self) -> bool:
@@ -199,6 +203,17 @@ class Spec:
         """Stations that are winches."""
         return [i for i, each in enumerate(self.route) if each.kind == "winch"]
 
+    @cached_property
+    def grips(self) -> bool:
+        """Whether the cable grips any wheel before it slips."""
+        return any(each.grip for each in self.route)
+
+    @property
+    def thousands(self) -> int:
+        """Thousands that the statements of stations, ten numbers each, take before those of
+        spans."""
+        return 10 * len(self.route) // 1000
+
     @property
     def has_run(self) -> bool:
         """Whether a long run continues from an end."""
@@ -261,6 +276,7 @@ TOP: Rules = {
     "error": ("number", "not-positive", 0.0),
     "closed": ("yes or no", "", False),
     "speed": ("number", "negative", 0.0),
+    "fall": ("text", "", ""),
 }
 CABLE: Rules = {
     "EA": ("number", "not-positive", None),
@@ -300,7 +316,16 @@ WANDER = NestedTable(
         "damping": ("number", "negative", 0.0),
     },
 )
-PLACE: Rules = {"kind": (KINDS, "", None), "at": ("vector", "", None)}
+PLACE: Rules = {
+    "kind": (KINDS, "", None),
+    "at": ("vector", "", None),
+    "name": ("word", "", ""),
+}
+REPEATED: Rules = {
+    "count": ("whole", "not-positive", 1),
+    "pitch": ("vector", "", ZERO),
+    "stagger": ("vector", "", ZERO),
+}
 MOVED: Rules = {"motion": ("laws", "", ("", "", ""))}
 CARRIED: Rules = {
     "mass": ("number", "not-positive", 0.0),
@@ -313,13 +338,16 @@ ROUND: Rules = {
     "turn": ((1, -1), "", 0),
 }
 WHEEL: Rules = (
-    MOVED
+    REPEATED
+    | MOVED
     | CARRIED
     | ROUND
     | {
         "inertia": ("number", "not-positive", None),
         "friction": ("number", "negative", 0.0),
         "mu": ("number", "negative", -1.0),
+        "grip": ("number", "not-positive", 0.0),
+        "mu_static": ("number", "negative", 0.0),
         "teeth": ("whole", "not-positive", 0),
         "leans": ("yes or no", "", False),
         "mount": (MOUNT, "", None),
@@ -339,7 +367,7 @@ STATIONS: dict[str, Rules] = {
     "mass": PLACE | MASS,
     "body": PLACE | MASS | {"inertia": ("number", "not-positive", None)},
     "bend": PLACE | ROUND,
-    "pulley": PLACE | WHEEL,
+    "pulley": PLACE | WHEEL | {"held": ("yes or no", "", False)},
     "winch": PLACE
     | WHEEL
     | {

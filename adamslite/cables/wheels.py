@@ -13,6 +13,8 @@ from adamslite.cables.statements import AXES, number, rounded
 from adamslite.cables.vectors import Vector, add, cross, dot, unit
 from adamslite.cables.vocabulary import Mount, Spec, Station
 
+# Sliding speed below which what grips does not slip [m/s].
+STICKS = 1e-8
 # Of the sine of the angle between axes that are parallel.
 ROUND_OFF = 1e-9
 
@@ -78,15 +80,14 @@ def slipping(i: int, spec: Spec) -> bool:
 def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
     """A wheel whose rim starts with `speed` along the route [m/s]."""
     each, n = spec.route[i], marker(i)
-    upright = each.axis == (0.0, 0.0, 1.0)
-    own = "" if upright else f", ZP={triple(each.axis)}"
+    own = "" if _is_upright(each) else f", ZP={triple(each.axis)}"
     text = f"\n! The {each.kind} of station {i + 1}, R = {number(each.radius)} m.\n"
     if each.is_mobile:
         text += _mount(each, each.mount, n) if each.mount else _carriage(each, n)
-        text += f"MARKER/{n + 1}, PART={n + 2}{own}\n"
-    else:
-        ground = "" if upright else f", ZP={triple(add(each.at, each.axis))}"
-        text += f"MARKER/{n + 1}, PART=1, QP={triple(each.at)}{ground}\n"
+    if each.leans or not each.held:
+        text += _on_bearing(each, n, n + 1)
+    if each.held:
+        return text + _on_bearing(each, n, n)
     inertia = ",".join([number(each.inertia)] * 3)
     spin = each.turn * speed / each.radius
     start = "".join(f", W{a}={number(spin * x)}" for a, x in zip(AXES, each.axis, strict=True)
@@ -98,6 +99,20 @@ def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
         f"JOINT/{n}, REVOLUTE, I={n}, J={n + 1}\n"
         f"{_pack(spec, i) if each.reel else ''}"
     )
+
+
+def _is_upright(each: Station) -> bool:
+    """Whether its axle lies along z."""
+    return each.axis == (0.0, 0.0, 1.0)
+
+
+def _on_bearing(each: Station, n: int, m: int) -> str:
+    """MARKER/m on the axle, z along it, on what wheel n sits on."""
+    if each.is_mobile:
+        own = "" if _is_upright(each) else f", ZP={triple(each.axis)}"
+        return f"MARKER/{m}, PART={n + 2}{own}\n"
+    ground = "" if _is_upright(each) else f", ZP={triple(add(each.at, each.axis))}"
+    return f"MARKER/{m}, PART=1, QP={triple(each.at)}{ground}\n"
 
 
 def _pack(spec: Spec, i: int) -> str:
@@ -114,6 +129,18 @@ def _pack(spec: Spec, i: int) -> str:
         f"+({number(_growth(i, spec))})*{turning(i, spec)}\n"
         f"VARIABLE/J_{n}, FUNCTION={number(heavy)}*(R_{n}**4-{number(each.reel.core**4)})\n"
     )
+
+
+def _bearing(spec: Spec, i: int) -> tuple[str, str]:
+    """Share of the friction of a bearing that acts, and the state that it needs: the capstan's laws
+    for the speed and the displacement of the rim."""
+    each, n, spin = spec.route[i], marker(i), turning(i, spec, 1)
+    if not each.grip:
+        return "", f"STEP({spin},-0.01,-1,0.01,1)"
+    r = number(each.radius)
+    share = f"DIF(rests_{n})/{number(each.grip)}"
+    rate = f"{r}*{spin}*(1-TANH({r}*{spin}/{STICKS:g})*{share})"
+    return f"DIFF/rests_{n}, FUNCTION={rate}\n", share
 
 
 def carrier(spec: Spec, i: int) -> int:
@@ -223,12 +250,16 @@ def in_plane(spec: Spec) -> bool:
 def drive(spec: Spec, i: int, torques: list[str]) -> str:
     """What turns wheel i: `torques` of the cable, friction, an engine, a payout law."""
     each, n = spec.route[i], marker(i)
+    if each.held:
+        return ""
     torques, text = list(torques), ""
     # Payout is cable that leaves the winch, to whichever side the route goes.
     sense = spec.outwards(i)
     out = arm(i, spec, sense)
     if each.friction:
-        torques.append(f"-{number(each.friction)}*STEP({turning(i, spec, 1)},-0.01,-1,0.01,1)")
+        more, share = _bearing(spec, i)
+        text += more
+        torques.append(f"-{number(each.friction)}*{share}")
     if each.reel:
         text += f"SFORCE/{n + 3}, ROTATIONAL, ACTIONONLY, I={n}, J={n + 1}"
         text += f", FUNCTION=-J_{n}*{turning(i, spec, 2)}\n"

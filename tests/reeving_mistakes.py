@@ -1,0 +1,28 @@
+"""Mistakes in the order of stations and in the friction on wheels: code, description, what is
+replaced, by what, the line and column of the caret."""
+
+from descriptions import ATWOOD
+
+PULLEY = "radius = 0.2"
+MASS = 'kind = "mass"\nat = [0, -5, 0]'
+#: The same with names, and the order of its stations as a text.
+NAMED = (
+    ATWOOD.replace("end = 0.5", 'end = 0.5\nfall = "m1 p1 p2 m2"')
+    .replace("mass = 5", 'mass = 5\nname = "m1"')
+    .replace("inertia = 0.04", 'inertia = 0.04\nname = "p1"', 1)
+    .replace("inertia = 0.04\n[[", 'inertia = 0.04\nname = "p2"\n[[', 1)
+    .replace("mass = 3", 'mass = 3\nname = "m2"')
+)
+MISTAKES = {
+    "no-such-station": (NAMED, '"m1 p1 p2 m2"', '"m1 p1 p2 m2 p3"', (2, 1)),
+    "twice-in-fall": (NAMED, '"m1 p1 p2 m2"', '"m1 p1 p2 p1 m2"', (2, 1)),
+    "not-in-fall": (NAMED, '"m1 p1 p2 m2"', '"m1 p1 m2"', (17, 1)),
+    "same-name": (NAMED.replace("m1 p1 p2 m2", "m1 p1 m2"), 'name = "p2"', 'name = "p1"', (22, 1)),
+    "no-pitch": (ATWOOD, PULLEY, f"{PULLEY}\ncount = 3", (13, 1)),
+    "too-many-stations": (ATWOOD, PULLEY, f"{PULLEY}\ncount = 1000000\npitch = [1, 0, 0]", (13, 1)),
+    "held-grips": (ATWOOD, PULLEY, f"{PULLEY}\nheld = true", (13, 1)),
+    "held-turns": (ATWOOD, PULLEY, f"{PULLEY}\nheld = true\nmu = 0.2\nfriction = 3", (15, 1)),
+    "without-mu": (ATWOOD, PULLEY, f"{PULLEY}\ngrip = 1e-4", (13, 1)),
+    "static-grip": (ATWOOD, PULLEY, f"{PULLEY}\nmu = 0.2\nmu_static = 0.3", (14, 1)),
+    "static-below": (ATWOOD, PULLEY, f"{PULLEY}\nmu = 0.2\ngrip = 1e-4\nmu_static = 0.1", (15, 1)),
+}  # fmt: skip
