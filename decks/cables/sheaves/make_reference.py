@@ -19,7 +19,7 @@ SIGNS = (1, -1)
 
 
 def touching(a, b, turns, radii):
-    """Length and direction of the straight rope from circle a to circle b; a point has no radius."""
+    """Length and direction of the rope from circle a to circle b; a point has no radius."""
     d = np.subtract(b, a)[:2]
     k = turns[1] * radii[1] - turns[0] * radii[0]
     spacing = np.hypot(*d)
