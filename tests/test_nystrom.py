@@ -95,17 +95,18 @@ def test_light_demands_take_as_many_evaluations_as_stability_needs(monkeypatch):
         text += f"POINT_MASS/{i}, MASS=1, CM={i}, QG={i - 1},0,0\nMARKER/{i}, POINT_MASS={i}\n"
         law = f"-10000*(DM({i},{i - 1})-1)-0.1*VR({i},{i - 1})"
         text += f"SFORCE/{i}, TRANSLATIONAL, I={i}, J={i - 1}, FUNCTION={law}\n"
-    found = run(text, "ERROR=1E-2", end=2.0)
-    assert 400 / 4.99 < found.summary["steps"] < 400 / 4.2
+    found = run(text, "ERROR=0.1", end=4.0)
+    assert 800 / 4.99 < found.summary["steps"] < 800 / 4.2
     assert found.summary["rejected"] < 5
     monkeypatch.setattr(equations, "runs", lambda instances: None)  # order 8, of twelve stages
     assert run(text, "ERROR=1E-2", end=2.0).summary["steps"] > 400 / 6.5
 
 
-def test_high_demands_take_order_eight():
-    """1e4 times the accuracy takes 10 times as many steps of order 4, 3.2 times of order 8."""
-    few, many = (run(chain(20), f"ERROR={error}").summary["steps"] for error in (1e-7, 1e-11))
-    assert many < 4.5 * few
+def test_high_demands_take_order_eight(monkeypatch):
+    """... but for the first steps; with order 4 they would be twice as many."""
+    found = run(chain(20), "ERROR=1E-6").summary["steps"]
+    monkeypatch.setattr(equations, "runs", lambda instances: None)
+    assert found < 1.4 * run(chain(20), "ERROR=1E-6").summary["steps"]
 
 
 def test_equal_steps_are_of_order_eight():

@@ -299,7 +299,7 @@ def _watched(
 ) -> int:
     """Run; what is not over soon in a thread of its own, with a look at it from time to time."""
     code = _first_tries(system, method, judged)
-    if code != contract.PAUSED and not progress:
+    if code != contract.PAUSED and not (progress and progress.is_due()):
         return code
     look = partial(_state, system, StepLimits(system), start, end)
     if code == contract.PAUSED:

@@ -208,8 +208,10 @@ class SessionState:
         made = system.count.records
         row = system.nw + system.sizes.n_out
         names, values = columns(system, system.record[: made * row].reshape(made, row))
-        kept = np.ones(made, dtype=bool) if wanted is None else wanted[:made]
-        piece = Piece(times[:made][kept], names, values if kept.all() else values[kept])
+        times = times[:made]
+        if wanted is not None and not wanted[:made].all():
+            times, values = times[wanted[:made]], values[wanted[:made]]
+        piece = Piece(times, names, values)
         self.history.append(piece, static, self.began_static)
         self.began_static = static
         self.counts.add(system.count)

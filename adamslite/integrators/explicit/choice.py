@@ -24,13 +24,15 @@ from adamslite.native.translate import native, seldom
 STABLE_QUICK, STABLE = 4.6, 5.9
 # Evaluations of a step of order 8 against one of order 4; what it must gain to be taken.
 COST, GAIN = 3.0, 1.3
+# Steps above this share of the bound are at it; what their error may be, against ERROR.
+AT_BOUND, CALM = 0.9999, 0.3
 # A step whose error is below this share of ERROR might have been longer.
 SMALL = 0.02
 # Steps before the first change of formula, doubled with each; steps from one look at the fastest
 # vibration to the next, a look costs five.
 PATIENCE, LOOK, NEVER = 8, 200, 1 << 62
 # From this ERROR on a run begins with order 4.
-FINE = 1e-7
+FINE = 1e-6
 
 
 @native
@@ -66,6 +68,13 @@ def choose_formula(P: Problem, C: Control, error: float) -> None:
         C.h = quick_step(C) if C.quick else 2.0 * C.h
     if C.quick and C.h * C.fastest > STABLE_QUICK:
         C.h = max(P.settings.h_min, STABLE_QUICK / C.fastest)
+
+
+@native
+def stays(C: Control, error: float) -> bool:
+    """Whether the next step is as long as this one: stability decides, and errors are small."""
+    at_bound = C.quick and not C.cautious and C.h * C.fastest > AT_BOUND * STABLE_QUICK
+    return at_bound and error < CALM and C.steady > 0
 
 
 @native

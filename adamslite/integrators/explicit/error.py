@@ -30,7 +30,7 @@ SHRINK, GROW = 0.2, 6.0
 LEAST_ERROR = 1e-4
 # Where the error is largest is noted where it is too large, and after so many steps for those who
 # watch the run.
-NOTED = 32
+NOTED = 128
 # Numbers whose squares are still numbers, and still above zero.
 LARGE, NOTHING = 1e150, 1e-100
 # Share of the state that the trial step of the start may change, and its length where nothing moves
@@ -148,8 +148,9 @@ def quick_error(P: Problem, C: Control, h: float) -> float:
         u = of_u * abs(4.0 * e[i] - a[i] + 3.0 * (b[i] - c[i] - d[i]))
         q = of_q * abs(2.0 * b[i] - a[i] - c[i])
         P.trial[i], P.trial[n + i] = q, u
-        top = maximum(top, q / (scales[i] * max(1.0, abs(y[i]))))
-        top = maximum(top, u / (scales[n + i] * max(1.0, abs(y[n + i]))))
+        of, against = scales[i] * max(1.0, abs(y[i])), scales[n + i] * max(1.0, abs(y[n + i]))
+        # The larger of q/of and u/against by one division.
+        top = maximum(top, maximum(q * against, u * of) / (of * against))
     error = top / P.settings.error
     if not error <= 1.0 or P.count.steps % NOTED == 0:
         note_worst(P, C)

@@ -14,7 +14,7 @@ from adamslite.integrators.explicit.history import INVERSE
 from adamslite.integrators.lanes import run_lanes, run_masses
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.integrators.motion_equations import put_time
-from adamslite.native.translate import Alone, Reals, native
+from adamslite.native.translate import Alone, Reals, maximum, native
 
 # Of the mass, its square and its third power: minors above this share are not round-off.
 CLEAR = 1e-6
@@ -46,10 +46,12 @@ def lane_accelerations(P: Problem, C: Control, t: float, y: Reals, k: Reals) -> 
     P.count.residuals += 1
     if P.sizes.added_mass:
         E = mass[C.lane :]
+        if P.sizes.along_axes:  # the other rows are neither written nor read
+            put_diagonal(mass, C.lane, E)
+            run_masses(P, y, C.lane, E)
+            return divide_along_axes(E, F, fall, mass, C.lane, k) < 1.0 / TINY
         put_masses(mass, C.lane, E)
         run_masses(P, y, C.lane, E)
-        if P.sizes.along_axes:
-            return divide_along_axes(E, F, fall, mass, C.lane, k) < 1.0 / TINY
         return divide_by_masses(E, F, fall, mass, C.lane, k) < 1.0 / TINY
     divide(F, inverse, fall, C.half, k)
     return True
@@ -65,7 +67,9 @@ def lane_masses_clear(P: Problem, C: Control) -> bool:
     E = mass[n:]
     for b in range(P.sizes.nb):
         m, first = mass[b], E[b]
-        second = first * E[4 * n + b] - E[n + b] * E[3 * n + b]
+        second = first * E[4 * n + b]
+        if not P.sizes.along_axes:
+            second -= E[n + b] * E[3 * n + b]
         third = second * E[8 * n + b]
         if not P.sizes.along_axes:
             c, f, g, h = E[2 * n + b], E[5 * n + b], E[6 * n + b], E[7 * n + b]
@@ -80,41 +84,47 @@ def put_masses(mass: Alone, row: int, E: Alone) -> None:
     """Masses on the diagonals of nine rows."""
     for i in range(9 * row):
         E[i] = 0.0
+    put_diagonal(mass, row, E)
+
+
+@native
+def put_diagonal(mass: Alone, row: int, E: Alone) -> None:
+    """Masses into the first, fifth and last row."""
     for b in range(row):
         E[b], E[4 * row + b], E[8 * row + b] = mass[b], mass[b], mass[b]
 
 
 @native
 def divide_along_axes(E: Alone, F: Alone, fall: Alone, mass: Alone, row: int, a: Alone) -> float:
-    """a = E^-1 (m fall - F) where E is diagonal, with one division; the sum of 1/|det E|."""
-    total = 0.0
+    """a = E^-1 (m fall - F) where E is diagonal, with one division; the largest 1/|det E|."""
+    top = 0.0
     for i in range(row):
         p, q, r = E[i], E[4 * row + i], E[8 * row + i]
         w = 1.0 / (p * q * r)
-        total += abs(w)
+        top = maximum(top, abs(w))
         a[i] = w * q * r * (mass[i] * fall[i] - F[i])
         a[row + i] = w * r * p * (mass[i] * fall[row + i] - F[row + i])
         a[2 * row + i] = w * p * q * (mass[i] * fall[2 * row + i] - F[2 * row + i])
-    return total
+    return top
 
 
 @native
 def divide_by_masses(E: Alone, F: Alone, fall: Alone, mass: Alone, row: int, a: Alone) -> float:
-    """a = E^-1 (m fall - F) by Cramer's rule; the sum of 1/|det E|."""
-    total = 0.0
+    """a = E^-1 (m fall - F) by Cramer's rule; the largest 1/|det E|."""
+    top = 0.0
     for i in range(row):
         b, c, d, f = E[row + i], E[2 * row + i], E[3 * row + i], E[5 * row + i]
         e, j, g, h = E[4 * row + i], E[8 * row + i], E[6 * row + i], E[7 * row + i]
         p, q, r = e * j - f * h, f * g - d * j, d * h - e * g
         w = 1.0 / (E[i] * p + b * q + c * r)
-        total += abs(w)
+        top = maximum(top, abs(w))
         x = w * (mass[i] * fall[i] - F[i])
         y = w * (mass[i] * fall[row + i] - F[row + i])
         z = w * (mass[i] * fall[2 * row + i] - F[2 * row + i])
         a[i] = p * x + (c * h - b * j) * y + (b * f - c * e) * z
         a[row + i] = q * x + (E[i] * j - c * g) * y + (c * d - E[i] * f) * z
         a[2 * row + i] = r * x + (b * g - E[i] * h) * y + (E[i] * e - b * d) * z
-    return total
+    return top
 
 
 @native

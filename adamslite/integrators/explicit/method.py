@@ -29,7 +29,7 @@ from adamslite.integrators.events.stops import (
     set_pace,
     step_limit,
 )
-from adamslite.integrators.explicit.choice import begin_with_formula, choose_formula
+from adamslite.integrators.explicit.choice import begin_with_formula, choose_formula, stays
 from adamslite.integrators.explicit.control import BODIES, LANES, MASSES, TIED, Control
 from adamslite.integrators.explicit.dense_output import record
 from adamslite.integrators.explicit.error import (
@@ -258,7 +258,10 @@ def accept(P: Problem, L: Plan, C: Control, t: float, error: float) -> int:
         return pass_on(P, L, C)
     keep_margins(P)
     C.h_last = C.h
-    choose_step(P, C, error)
+    if stays(C, error):
+        C.last_error = max(error, LEAST_ERROR)
+    else:
+        choose_step(P, C, error)
     if C.kind == LANES:
         choose_formula(P, C, error)
     return RUNNING

@@ -164,6 +164,8 @@ class Record:
     slots: ClassVar[int] = 0
     #: Names of the arrays and rows that it holds by reference.
     references: ClassVar[tuple[str, ...]] = ()
+    #: Found when first asked for.
+    _address = 0
     #: Whether it holds addresses: such a record is not copied or cleared as a whole.
     refers: ClassVar[bool] = False
 
@@ -251,7 +253,9 @@ class Record:
     @property
     def address(self) -> int:
         """Where it begins, as native code takes it."""
-        return self._ints.ctypes.data
+        if not self._address:
+            self._address = int(self._ints.ctypes.data)
+        return self._address
 
 
 R = TypeVar("R", bound=Record)
