@@ -13,7 +13,9 @@ from tiers import every
 from adamslite.analyses.clock import changes
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.enclosures import enclose
+from adamslite.analyses.clock.kept_scales import all_time_scales
 from adamslite.analyses.clock.step_limits import timetable
+from adamslite.caching import entries
 from adamslite.integrators import contract
 from adamslite.kernels.code.clock_program import ClockWriter
 from adamslite.language.function import FUNCTIONS
@@ -283,3 +285,29 @@ def test_one_enclosure_decides_as_many_do(
     np.testing.assert_array_equal(found.spans, known.spans)
     np.testing.assert_array_equal(found.times, known.times)
     assert found.whole == known.whole
+
+
+def test_a_long_chain_of_variables_is_bisected_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sines of sines and a fast one; for other numbers they are bisected again."""
+    calls = []
+    monkeypatch.setattr(changes, "enclose", lambda *given: calls.append(1) or enclose(*given))
+    kept: dict[str, bytes] = {}
+    monkeypatch.setattr(entries, "find", kept.get)
+    monkeypatch.setattr(entries, "keep", kept.__setitem__)
+
+    def scales(first: float) -> tuple[int, list[changes.Found]]:
+        chain = [("t",), *(("sin", link) for link in range(63))]
+        fast = (("t",), ("number", first), ("Mul", 0, 1), ("sin", 2))
+        calls.clear()
+        programs = [*(tuple(chain[:n]) for n in range(2, 65)), fast]
+        found = all_time_scales(programs, 0.0, 1.0, 0.05)
+        return len(calls), found
+
+    before, found = scales(900.0)
+    again, same = scales(900.0)
+    other, _ = scales(800.0)
+    assert before > 63 and again == 0 and other > 63
+    assert any(len(each.spans) for each in found)
+    for one, two in zip(found, same, strict=True):
+        assert np.array_equal(one.times, two.times) and np.array_equal(one.spans, two.spans)
+        assert one.whole == two.whole

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.clock.changes import time_scales
+from adamslite.analyses.clock.kept_scales import all_time_scales
 from adamslite.analyses.clock.stops import SAME, edges, merged
 from adamslite.integrators import contract
 
@@ -73,16 +73,16 @@ def timetable(
         return Timetable(np.array([end]), np.array(contract.NO_PACE), [], [])
     found, overfull = edges(system, clock, times)
     edged, corners, spans, paced = [found], [], [np.zeros((0, 3))], []
-    for program, statement in clock.programs("curves").items():
-        curve = time_scales(program, start, end, SHORT * longest)
+    curves, slopes = clock.programs("curves"), clock.programs("slopes")
+    known = all_time_scales([*curves, *slopes], start, end, SHORT * longest)
+    for statement, curve in zip(curves.values(), known, strict=False):
         edged.append(curve.times)
         if not curve.whole or _crossings(curve.spans) * SEEN > MOST:
             overfull.append(statement)
         else:
             paced += [statement] if len(curve.spans) else []
             spans.append(curve.spans)
-    for program, statement in clock.programs("slopes").items():
-        slope = time_scales(program, start, end, SHORT * longest)
+    for statement, slope in zip(slopes.values(), known[len(curves) :], strict=True):
         corners.append(slope.times)
         overfull += [statement] if not slope.whole else []
     found = merged(np.concatenate([*edged, *corners]), times)
