@@ -12,8 +12,8 @@ The rates of the new state k_5, the first of the next step, serve an error estim
     h/1.6 (-k_1 + 3 k_2 - 3 k_3 - 3 k_4 + 4 k_5) in u,    h^2/3.2 (-k_1 + 2 k_2 - k_3) in q
 
 References: Nystrom, Acta Soc. Sci. Fennicae 50 (1925) nr. 13; Hairer, Norsett, Wanner, Solving
-ODE I, 1993, section II.14 (conditions of order); divisors ten times as large would leave
-the estimates above the errors of a vibration up to w h = 4; with these, runs at a loose ERROR are as
+ODE I, 1993, section II.14 (conditions of order).  Divisors ten times as large would leave the
+estimates above the errors of a vibration up to w h = 4; with these, runs at a loose ERROR are as
 accurate as by the pair of order 8, whose errors are far below its estimate there.
 """
 
