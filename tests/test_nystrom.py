@@ -63,13 +63,13 @@ def test_vibrations_are_stable_as_far_as_is_said(damping: float, bound: float):
 
 
 @pytest.mark.parametrize("w", [0.1, 0.3, 1.0, 2.0, 3.0, 4.0])
-def test_the_estimate_is_above_the_error_of_a_vibration(w: float):
+def test_the_estimate_is_ten_times_above_the_error_of_a_vibration(w: float):
     worst = np.zeros((2, 2))
     for angle in np.linspace(0, np.pi, 50):
         end, estimate = step(w, 0.0, np.array([np.cos(angle), -w * np.sin(angle)]))
         error = np.abs(end - [np.cos(angle + w), -w * np.sin(angle + w)])
         worst = np.maximum(worst, (error, estimate))
-    assert (worst[0] < worst[1]).all()
+    assert (10 * worst[0] < worst[1]).all()
 
 
 def run(text: str, settings: str, end: float = 0.5):
