@@ -73,7 +73,8 @@ def add_run_flags(parser: argparse.ArgumentParser) -> None:
     flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
     flags.add_argument(
         "--no-reduction", action="append", metavar="RULE",
-        help="do without a reduction of the model: plane, points or variables; may be repeated",
+        help="do without a reduction of the model: fixed, plane, points or variables; may be "
+        "repeated",
     )  # fmt: skip
     flags.add_argument(
         "--audit", action="store_true", default=None, help="follow and report the balance of energy"

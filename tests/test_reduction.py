@@ -147,7 +147,7 @@ def test_the_flag_of_solve(tmp_path, capsys) -> None:
     common = ["solve", deck, "--end", "0.01", "--steps", "1", "-o", str(tmp_path / "out.csv")]
     assert main([*common, "--no-reduction", "plane", "--no-reduction", "points"]) == 0
     assert main([*common, "--no-reduction", "flat"]) == 2
-    assert "There is no reduction flat. There are plane, points, variables." in (
+    assert "There is no reduction flat. There are fixed, plane, points, variables." in (
         capsys.readouterr().err
     )
     with pytest.raises(UsageError):

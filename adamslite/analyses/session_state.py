@@ -21,6 +21,7 @@ from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.history import History, Piece
 from adamslite.analyses.initial.algebraic_states import settle_states
 from adamslite.analyses.initial.conditions import initial_conditions, settle_variables
+from adamslite.analyses.initial.drawn import Drawn
 from adamslite.analyses.initial.redundancy import leave_out_redundant
 from adamslite.analyses.method_choice import MethodChoice
 from adamslite.analyses.saves import Saves
@@ -33,6 +34,7 @@ from adamslite.equations.system import System
 from adamslite.gc_pause import without_collection
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS
+from adamslite.model.merging import RULE, MergedModel, merged
 from adamslite.model.model import assemble
 from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
@@ -130,8 +132,20 @@ class SessionState:
             system = self.present = self.numbered(False)
             if self.is_driven(system):
                 self.unclosed = self._start_of_joints(system)
+                drawn = Drawn.of(system)
                 self.present = self.assembled_of(system)
+                if isinstance(system.model, MergedModel) and drawn.differs(self.present):
+                    return self._taken_apart()
         return self.present
+
+    def _taken_apart(self) -> System:
+        """The equations of every part by itself: the start is not as drawn, and by how much each
+        part is to be moved is another question for one that is part of a body.
+        """
+        self.without |= {RULE}
+        self.outcome, self.unclosed, self.present = Outcome.DONE, None, None
+        self.kernels = kernels_of(self.deck, self.progress, self.without, self.audited)
+        return self.system
 
     def _start_of_joints(self, system: System) -> Unclosed | None:
         if not any(map(self.deck.of, STARTED)):
@@ -150,7 +164,9 @@ class SessionState:
         old = self.present
         from adamslite.kernels.compile import compile_model
 
-        self.kernels = compile_model(assemble(deck, self.without), self.progress, self.audited)
+        self.kernels = compile_model(
+            merged(assemble(deck, self.without)), self.progress, self.audited
+        )
         self.present = None
         if old is not None:
             system = self.present = self.numbered(False)

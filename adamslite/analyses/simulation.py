@@ -27,6 +27,7 @@ from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.language.method import without_effect
+from adamslite.model.merging import RULE, kept_apart
 from adamslite.model.reduction import left_off
 from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
@@ -95,7 +96,8 @@ def simulate(
     flags = {{"integrator": "method"}.get(name, name): each for name, each in options.items()}
     plan = _plan(deck_of(scene), commands, end, steps)
     files = files or SavedFiles()
-    session = Session(scene, progress, flags, left_off(no_reduction), audit, files)
+    without = left_off(no_reduction) | kept_apart(plan, audit)
+    session = Session(scene, progress, flags, without, audit, files)
     wanted = (outputs,) if isinstance(outputs, str) else tuple(outputs)
     if wanted:
         _need_columns(session, wanted)
@@ -181,7 +183,7 @@ def linearize(
     _need_time(time)
     deck = deck_of(scene)
     marker = None if rm is None else _marker(deck, str(rm))
-    session = Session(scene, None, {})
+    session = Session(scene, None, {}, frozenset({RULE}))
     plan = [s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM")]
     session.execute([*plan, *commands, *([_dynamics(time)] if time else [])])
     system = session.system

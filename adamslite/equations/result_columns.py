@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.equations.merged_columns import motion_of, reactions_inside
 from adamslite.kernels.code.workspace import (
     ACCELERATION,
     ALPHA,
@@ -18,11 +19,16 @@ from adamslite.kernels.code.workspace import (
     VELOCITY,
 )
 from adamslite.model.attitude_angles import angles_313
+from adamslite.model.merging import MergedModel
 from adamslite.model.model import PART
 
 if TYPE_CHECKING:
+    from adamslite.elements.part import Part
+    from adamslite.elements.point_mass import PointMass
+    from adamslite.equations.merged_columns import Moving
     from adamslite.equations.system import System
     from adamslite.kernels.groups import Kernels
+    from adamslite.language.interfaces import Key
     from adamslite.model.model import Body
 
 # Below this sine of theta the first and third angle of the 3-1-3 sequence are one angle.
@@ -44,6 +50,8 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
     widths = system.widths[: len(system.model.bodies)]
     if PART not in widths and at + POINT_SIZE * len(widths) == system.nw:
         return names, record[:, at:]
+    if isinstance(system.model, MergedModel):
+        return names, _of_merged(system.model, system, record)
     parts: list[np.ndarray] = []
     for width, bodies in groupby(system.model.bodies, key=lambda body: body.width):
         if width != PART:  # point masses stand in the record as they do here
@@ -53,7 +61,7 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
             continue
         for body in bodies:
             w = record[:, at : at + PART_SIZE]
-            parts.append(_part(system, body, w) if _turns(body) else _point(w))
+            parts.append(_part(system, body, w) if _turns(body.statement) else _point(w))
             at += PART_SIZE
     parts.append(record[:, system.nw :])
     return names, np.concatenate(parts, axis=1)
@@ -63,17 +71,42 @@ def column_names(kernels: Kernels) -> tuple[str, ...]:
     """The names of all columns; found once."""
     if kernels.columns is None:
         names: list[str] = []
-        for body in kernels.model.bodies:
-            label = body.statement.label
-            names += [label + each for each in (OF_PART if _turns(body) else OF_POINT)]
+        for moving in kernels.model.moving:
+            label = moving.label
+            names += [label + each for each in (OF_PART if _turns(moving) else OF_POINT)]
         for statement, suffixes in kernels.outputs:
             names += [f"{statement.label}.{s}" if s else statement.label for s in suffixes]
         kernels.columns = tuple(names)
     return kernels.columns
 
 
-def _turns(body: Body) -> bool:
-    return body.statement.keyword == "PART"
+def _turns(statement: Part | PointMass) -> bool:
+    return statement.keyword == "PART"
+
+
+def _of_merged(model: MergedModel, system: System, record: np.ndarray) -> np.ndarray:
+    """Values of all columns where parts of one body have columns each."""
+    parts = []
+    for statement in model.moving:
+        key = (statement.keyword, statement.key)
+        if key in model.members:
+            parts.append(_member(model, motion_of(model, system, record, key), statement.cm))
+            continue
+        number = model.body_index[key]
+        body, at = model.bodies[number], system.w_at["BODY", number]
+        if body.width != PART:
+            parts.append(record[:, at : at + POINT_SIZE])
+            continue
+        w = record[:, at : at + PART_SIZE]
+        parts.append(_part(system, body, w) if _turns(statement) else _point(w))
+    return np.concatenate([*parts, reactions_inside(model, system, record)], axis=1)
+
+
+def _member(model: MergedModel, moving: Moving, cm: Key | None) -> np.ndarray:
+    attitude = moving.attitude @ model.marker_in_body(cm)[1]
+    angles = angles_313(attitude, ALIGNED)
+    columns = [moving.x, angles, moving.v, moving.omega, moving.a, moving.alpha]
+    return np.concatenate(columns, axis=1)
 
 
 def _point(w: np.ndarray) -> np.ndarray:

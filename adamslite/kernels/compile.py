@@ -90,7 +90,7 @@ def compile_model(
 
 def faces(statement: Statement, model: Model) -> Iterator[str]:
     """What a statement contributes to the equations."""
-    if not model.acts(statement):
+    if not model.acts(statement) or model.merges(statement):
         return
     if hasattr(statement, "loads"):
         yield "loads"
@@ -218,7 +218,7 @@ def _bind(groups: Groups, model: Model, face: str, numbered: list[Numbered]) -> 
 def _bound(binder: Binder, statements: list[Statement], face: str) -> tuple[Tree, int]:
     """What a face is made of, and the slot of its own unknowns."""
     if face == "output":
-        found = transposed([each.outputs(binder.model) for each in statements])
+        found = transposed([binder.model.outputs_of(each) for each in statements])
         values = tuple([binder.output(nodes, statements) for nodes in found])
         return values, binder.node_slot([("OUTPUT", each) for each in statements])
     fields = binder.statement(statements)

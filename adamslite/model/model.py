@@ -196,7 +196,20 @@ class Model:
     def body_width(self, body: int) -> int:
         return self.bodies[body].width
 
+    @property
+    def moving(self) -> list[Part | PointMass]:
+        """The statements of all that moves, in deck order."""
+        return [body.statement for body in self.bodies]
+
     # variables and elements
+
+    def merges(self, statement: Statement) -> bool:
+        """Whether a constraint holds nothing that is not one body already."""
+        return False
+
+    def outputs_of(self, statement: Statement) -> list[Node]:
+        """What a statement writes."""
+        return statement.outputs(self)
 
     @property
     def folder(self) -> Path:

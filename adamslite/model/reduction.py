@@ -1,5 +1,6 @@
 """Reductions of the model to what its scene needs, each a rule with a name.
 
+    fixed      parts that JOINT/FIXED holds together are one body (model/merging.py)
     plane      what moves in a plane is solved in the plane (analyses/planar_reduction.py)
     points     a point mass has three unknowns and no attitude
     variables  a VARIABLE is evaluated where it is used; solved for is only what depends on itself,
@@ -16,7 +17,7 @@ from collections.abc import Iterable
 
 from adamslite.errors import UsageError
 
-RULES = ("plane", "points", "variables")
+RULES = ("fixed", "plane", "points", "variables")
 
 
 def left_off(names: Iterable[str]) -> frozenset[str]:
