@@ -19,7 +19,7 @@ measured on random scenes (benchmarks/advice.py).
 from dataclasses import dataclass
 from functools import cache
 from math import floor, log10, pi, sqrt
-from time import process_time
+from time import perf_counter
 
 from adamslite.cables.demand import (
     NEGLIGIBLE,
@@ -126,14 +126,17 @@ def _cost(of: Demand, method: str, chosen: int, sections: int, error: float) -> 
 
 @cache
 def speed() -> float:
-    """CPU of a small piece of arithmetic, in parts of what it took where costs were measured."""
+    """Time of a small piece of arithmetic, in parts of what it took where costs were measured.
+
+    The clock of CPU ticks too slowly on some machines; the least of some times is hardly disturbed.
+    """
     taken = []
-    for _ in range(3):
-        start = process_time()
+    for _ in range(5):
+        start = perf_counter()
         total = 0.0
         for k in range(20000):
             total += (k % 7) * 1e-3 / (1.0 + total)
-        taken.append(process_time() - start)
+        taken.append(perf_counter() - start)
     return min(taken) / PIECE
 
 

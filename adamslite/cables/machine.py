@@ -49,7 +49,7 @@ def machine(
 ) -> Machine | None:
     """Of a description whose `rests` are the tensions at the lower ends of its spans; None for one
     that no linear model is for: a loop, a run, a bend, wheels that grip, a law that only the run
-    knows; and for one of many stations, for its matrices are dense.
+    knows, nothing free; and for one of many stations, for its matrices are dense.
     """
     if spec.grips or len(spec.route) > MANY or any(e.held for e in spec.route):
         return None
@@ -85,9 +85,13 @@ def _values(law: Node, times: np.ndarray) -> np.ndarray:
     return np.array([value(law, float(t), {"S": 0.0, "SD": 0.0}) for t in times])
 
 
-def _machine(spec: Spec, spans: list[FreeSpan], rests: list[float], drives: Drives) -> Machine:
+def _machine(
+    spec: Spec, spans: list[FreeSpan], rests: list[float], drives: Drives
+) -> Machine | None:
     draft = _Draft()
     rims, places = _coordinates(spec, draft, drives)
+    if len(draft.ways) == len(draft.masses):
+        return None
     rho = spec.cable.density
     ends = [_ends(spec, p, spans[p], rest) for p, rest in enumerate(rests)]
     bars = [_bar(spec, p, span, rims, places) for p, span in enumerate(spans)]
