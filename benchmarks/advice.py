@@ -2,6 +2,8 @@
 
     python -m benchmarks.advice --scenes 60 --seed 1 [--p 0.001] [--jobs 2]
     python -m benchmarks.advice --seed 1 --scene 17             # one of them, with its description
+    python -m benchmarks.advice --sample                        # the sample beside this file
+    python -m benchmarks.advice --renew --seed 1                # write the sample anew
 
 Truth is the model with sections doubled and ERROR a third, again and again, until all figures
 stand still to p/10. Less is half the sections, the next lower level or form, and ten times ERROR.
@@ -22,6 +24,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -38,6 +41,10 @@ MOST_SECTIONS = 900
 #: Speeds below this share of gravity's, over the length of the cable, are round-off.
 NOTHING = 1e-6
 LOOSER = 10.0
+#: Scenes that are solved again and again, with their truth; how many, of which CPU [s] at most, and
+#: how far inside, in p: a change of the advice that leaves less is no mistake yet.
+SAMPLE = Path(__file__).parent / "advice.json"
+SAMPLED, SHORT, ROOM = 40, 0.2, 0.8
 #: A run's CPU is not told from less [s].
 CLOCK = 1e-3
 #: ERROR of a truth, from one to the next.
@@ -84,6 +91,7 @@ class Verdict:
     cpu: float = 0.0
     told: float = 0.0
     less: dict[str, tuple[float, float]] = field(default_factory=dict)
+    truth: list[dict[str, float]] = field(default_factory=list)
     why: str = ""
     warned: list[str] = field(default_factory=list)
 
@@ -253,7 +261,7 @@ def judged(table: Table, found: Verdict, p: float, budget: float) -> Iterator[Ve
     yield found
     truth = None
     for truth, doubt in truths(table, advised, p, budget):
-        found.doubt = doubt
+        found.doubt, found.truth = doubt, [truth.figures, truth.scales]
         found.off, found.worst = apart(advised, truth, p)
         yield found
     if truth is None or not found.is_known:
@@ -389,6 +397,37 @@ def report(found: Sequence[Verdict], p: float) -> list[str]:
     return lines
 
 
+# ---- the sample ------------------------------------------------------------------------------
+
+
+def sample() -> int:
+    """Solve the scenes of the sample as advised, and hold them against what is written there: how
+    many are outside."""
+    outside = 0
+    for each in json.loads(SAMPLE.read_text(encoding="utf-8")):
+        kind, table = scene(each["seed"], each["scene"])
+        truth = Solved(each["figures"], each["scales"], 0.0, 0, Model())
+        off, worst = apart(solve(table, Model(), each["p"]), truth, each["p"])
+        outside += off > 1
+        print(f"{each['seed']:4d} {each['scene']:4d} {kind:9} {off:8.3g}p {worst}", flush=True)
+    print(f"{outside} outside the accuracy that was asked for")
+    return outside
+
+
+def renew(found: Sequence[Verdict], p: float) -> None:
+    """Write the first scenes inside `p` with their truth."""
+    kept = [each for each in found if each.is_known and each.off < ROOM and each.cpu < SHORT]
+    listed = [
+        {"seed": each.seed, "scene": each.scene, "p": p,
+         **{name: {k: float(f"{v:.7g}") for k, v in part.items()}
+            for name, part in zip(("figures", "scales"), each.truth, strict=True)}}
+        for each in kept[:SAMPLED]
+    ]  # fmt: skip
+    text = ",\n".join(json.dumps(each) for each in listed)
+    SAMPLE.write_text(f"[\n{text}\n]\n", encoding="utf-8")
+    print(f"{len(listed)} scenes in {SAMPLE.name}")
+
+
 def arguments() -> argparse.Namespace:
     """What is asked for."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.advice", description=__doc__,
@@ -399,6 +438,8 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--p", type=float, default=0.01, help="relative accuracy (0.01)")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--budget", type=float, default=BUDGET, help="CPU of a scene [s] (90)")
+    parser.add_argument("--sample", action="store_true", help="the kept scenes alone")
+    parser.add_argument("--renew", action="store_true", help="write the kept scenes")
     parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)
     return parser.parse_args()
 
@@ -409,6 +450,8 @@ def main() -> None:
     if asked.worker:
         work(asked)
         return
+    if asked.sample:
+        sys.exit(int(sample() > 0))
     numbers = asked.scene or range(asked.scenes)
     found = []
     with ThreadPoolExecutor(asked.jobs) as pool:
@@ -420,6 +463,8 @@ def main() -> None:
                 print(described(scene(asked.seed, found[-1].scene)[1], Model(), asked.p))
     missed = [each for each in found if each.off > 1]
     print("\n".join(["", *report(found, asked.p)]))
+    if asked.renew:
+        renew(found, asked.p)
     for each in missed:
         print(f"missed: python -m benchmarks.advice --seed {asked.seed} --scene {each.scene}"
               f" --p {asked.p:g}   {each.off:.3g}p in {each.worst}")  # fmt: skip

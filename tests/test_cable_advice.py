@@ -1,17 +1,20 @@
 """What `adamslite check` says about cables, and that its advice holds."""
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from cable_scenes import SCENES, CableScene
+from descriptions import HOIST
 from tiers import every, slow
 
 import adamslite
 from adamslite.cables.advice import Advice, advise
 from adamslite.cables.demand import Demand, elements, level, rigid_fails
 from adamslite.cables.report import about_cables, cables
+from adamslite.cables.scene import deck
 from adamslite.cli.main import main
 
 DECKS = Path(__file__).parent.parent / "decks"
@@ -194,7 +197,7 @@ def test_check_prints_a_few_lines_for_a_cable_and_none_without(capsys) -> None:
         "cable", "waves", "sections", "payout", "paper form", "for 1 %", "for 0.1 %",
     ]  # fmt: skip
     assert "axial 2236 m/s, 8.94 ms along it" in told[2]
-    assert "ale form, 32 of them; GSTIFF ERROR=1E-06" in told[6]
+    assert "ale form, 32 of them; HHT ERROR=1E-06" in told[6]
     assert main(["check", str(DECKS / "pendulum-revolute" / "pendulum-revolute.adm")]) == 0
     assert "cable" not in capsys.readouterr().out
 
@@ -217,3 +220,33 @@ def test_a_rope_with_both_ends_on_one_hook_is_no_ring(hook: str, said: str) -> N
         lines.append(f"SPRINGDAMPER/{k}, I={k % 7 + 1}, J={k}, K=1000, LENGTH=0.86")
     found = about_cables(adamslite.read("\n".join([*lines, "END", ""])))
     assert any(line.strip().startswith(f"cable {said}") for line in found)
+
+
+def test_check_advises_the_model_that_cable_wrote() -> None:
+    """Level, form, sections, integrator and ERROR of a hoist, from the description and from its
+    deck, drawn with one number of sections or another.
+    """
+    asked = re.search(r"level (\d), (\w+) form, (\d+) of them; (\w+) ERROR=(\S+);", told(HOIST, 7))
+    assert (
+        asked
+        and asked.groups()
+        == re.search(
+            r"level (\d), (\w+) form, (\d+) of them; (\w+) ERROR=(\S+);", told(HOIST, 16)
+        ).groups()
+    )  # type: ignore[union-attr]
+    text, _ = deck(HOIST)
+    level, form, count, method, error = asked.groups()
+    assert f"Level {level}:" in text and f"form {form}:" in " ".join(
+        text.replace("\n! ", " ").split()
+    )
+    assert re.search(
+        rf"\b{count} sections? for tensions", " ".join(text.replace("\n! ", " ").split())
+    )
+    written = re.search(r"INTEGRATOR/(\w+).*ERROR=(\S+)", text)
+    assert written and (written[1], float(written[2])) == (method, float(error))
+
+
+def told(description: str, elements: int) -> str:
+    """What check says for 1 % about the deck of a description with a number of sections."""
+    text, _ = deck(description + f"[model]\nelements = {elements}\nlevel = 3\n")
+    return next(line for line in about_cables(adamslite.read(text)) if "for 1 %" in line)

@@ -108,8 +108,9 @@ def integrator(of: Demand, p: float, chosen: int) -> tuple[str, str]:
 def _cost(of: Demand, method: str, chosen: int, sections: int, error: float) -> float:
     """CPU [s] of a run without set-up."""
     results = PER_RESULT[method] * (of.results or RESULTS)
+    spans = len(of.machines[0].network.bars) if of.machines else 1
     if chosen == 1:
-        return results * RIGID_CPU * speed()
+        return results * RIGID_CPU * spans * speed()
     if method == "VERLET" or not of.machines and method == "HHT":
         steps = PER_CROSSING[method] * of.end * of.c * sections / of.length
     elif of.machines:
@@ -121,7 +122,7 @@ def _cost(of: Demand, method: str, chosen: int, sections: int, error: float) -> 
         carried = of.moved + of.density * of.length / 3
         steps = PER_PERIOD * of.end / (2 * pi * sqrt(carried * of.length / of.stiffness))
     base, each = STEP_CPU[method][2 if chosen == 3 else int(of.tied)]
-    return max(steps, results) * (base + each * max(sections, 1)) * speed()
+    return max(steps, results) * spans * (base + each * max(sections, 1)) * speed()
 
 
 @cache

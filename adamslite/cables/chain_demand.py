@@ -1,21 +1,29 @@
 """The :class:`Demand` of a cable that was found in a deck."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
-from dataclasses import dataclass
-from math import sqrt
+from dataclasses import dataclass, replace
+from math import inf, pi, sqrt
 from statistics import mean
 from typing import TypeGuard
+
+import numpy as np
 
 from adamslite.cables.chain_finder import Chain, Link, free_length, law_of
 from adamslite.cables.demand import Demand
 from adamslite.cables.estimate import Travel, from_ways
+from adamslite.cables.network import Bar, Network
 from adamslite.cables.payout_law import Unknown
 from adamslite.cables.posture import Body, Posture
+from adamslite.cables.response import Machine, instants, is_usable
 from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across, unit
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.diff import Diff
 from adamslite.elements.part import Part
+from adamslite.elements.request import COMPONENTS, Request
+from adamslite.elements.simulate import Simulate, output_steps
 from adamslite.elements.vforce import Vforce
 from adamslite.language.expression import Call, Node, Ref, calls
 
@@ -26,6 +34,10 @@ INSTANTS = 100
 SHORT = 1e-6
 # Of what feeds the whole cable a section gets at least this share.
 FED = 1e-5
+# Directions of neighbours in a cable that lies on a line but for its sag.
+BENT = 0.05
+# Of a tension's distance from that of any section: a value so near that of an end is it.
+ALIKE = 0.01
 # Directions that differ by less are the same.
 ASIDE = 1e-6
 
@@ -51,9 +63,10 @@ def demand_on(chain: Chain, posture: Posture, end: float) -> ChainDemand:
     free = sum(link.free for link in chain.links)
     stiffness = mean(link.stiffness * link.free for link in chain.links)
     masses = [deck.find(*node).mass / ucf for node in chain.inner]
-    travel, gained = _travel(chain, posture, end)
     shape = _Shape(chain, posture)
     tips = [deck.find(*node).mass / ucf for node in _tips(chain)]
+    rope = _Rope(stiffness, mean(masses) * n / free, free, sum(tips) - mean(masses) / 2, end)
+    travel, gained, law = _travel(chain, posture, end, rope.instants)
     weight = mean(masses) * n * abs(shape.pull)
     drawn = mean(max(link.pull, 0.0) for link in chain.links)
     hung = (max(tips, default=0.0) + mean(masses) * n / 2) * norm(deck.gravity)
@@ -68,9 +81,92 @@ def demand_on(chain: Chain, posture: Posture, end: float) -> ChainDemand:
         speed=travel.speed, acceleration=travel.acceleration, known=travel.known, jump=jump,
         across=across, straight=shape.straight, wave=shape.wave(across, free),
         bounces=abs(drawn - hung) > 0.5 * weight + FELT * hung and not chain.is_ring, end=end,
-        tied=_is_tied(deck),
+        tied=_is_tied(deck), results=_results(deck, end),
     )  # fmt: skip
+    if travel.known and end > 0 and not jump and not across and _is_plain(chain, shape):
+        found = _machine(chain, shape, rope, law)
+        if rope.tip > 0 and is_usable(found):
+            halves = not _corrects(chain, posture, found)
+            demand = replace(demand, machines=(found,), half_read=halves)
     return ChainDemand(chain, demand, _form(chain, posture), gained)
+
+
+@dataclass(frozen=True)
+class _Rope:
+    """EA, rho, free length of a chain, the mass at its tip, and the time of the run."""
+
+    stiffness: float
+    density: float
+    length: float
+    tip: float
+    end: float
+
+    @property
+    def instants(self) -> int:
+        """Of its linear model."""
+        if not self.end > 0:
+            return 1
+        carried = max(self.tip, 0.0) + self.density * self.length / 3
+        bounce = 2 * pi * sqrt(carried * self.length / self.stiffness)
+        return instants(self.end, self.length * sqrt(self.density / self.stiffness), bounce)
+
+
+def _is_plain(chain: Chain, shape: _Shape) -> bool:
+    """Whether it hangs from the ground along a line, at rest but for the weight at its tip."""
+    ends = chain.nodes[0][0] == "MARKER", chain.nodes[-1][0] == "MARKER"
+    if chain.is_ring or ends[0] == ends[1]:
+        return False
+    fastest = max(map(norm, shape.speeds))
+    still = all(norm(v) <= ASIDE * fastest for v in shape.speeds[1:-1])
+    line = all(norm(part_across(a, shape.line)) < BENT for a in shape.along)
+    aside = norm(part_across(shape.gravity, shape.line)) <= ASIDE * norm(shape.gravity)
+    return still and line and aside
+
+
+def _machine(chain: Chain, shape: _Shape, rope: _Rope, law: np.ndarray | None) -> Machine:
+    """Its linear model: the payout, coordinate 0, and the tip, coordinate 1, along the line from
+    root to tip."""
+    back = chain.nodes[0][0] != "MARKER"
+    links = chain.links[::-1] if back else chain.links
+    line = add(ZERO, shape.line, -1.0 if back else 1.0)
+    speed = shape.speeds[0] if back else shape.speeds[-1]
+    pull, h = dot(shape.gravity, line), rope.length / len(links)
+    # Tensions at the ends, half a section beyond the middles of the outer ones.
+    drop = (links[0].pull - links[-1].pull) / (len(links) - 1)
+    rests = links[0].pull + drop / 2, links[-1].pull - drop / 2
+    falls = pull - drop / (rope.density * h)
+    way = law if law is not None else np.zeros(rope.instants + 1)
+    bar = Bar(((0, 1.0),), ((1, 1.0),), rope.length, (rope.stiffness,) * 2,
+              points=(False, True), falls=falls)  # fmt: skip
+    network = Network(
+        (1.0, rope.tip), (bar,), rope.density, rope.end, len(way) - 1, (0.0, dot(speed, line)),
+        ways={0: way}, forces={1: rope.tip * pull - rests[1]},
+    )  # fmt: skip
+    transit = rope.length * sqrt(rope.density / rope.stiffness)
+    return Machine(network, (), np.array(rests), ((1,),), transit)
+
+
+def _corrects(chain: Chain, posture: Posture, of: Machine) -> bool:
+    """Whether a REQUEST gives the tension at an end of the chain, with the half section there, and
+    not that of the middle of a section."""
+    middles = [link.pull for link in chain.links]
+    for request in posture.deck.of(Request):
+        for name in COMPONENTS:
+            node = getattr(request, name)
+            try:
+                value = posture.value(node) if node is not None else inf
+            except Unknown:
+                continue
+            near = min(abs(value - rest) for rest in of.rests)
+            if near < ALIKE * min(abs(value - middle) for middle in middles):
+                return True
+    return False
+
+
+def _results(deck: Deck, end: float) -> int:
+    """Times at which results are asked for."""
+    runs = [run for run in deck.of(Simulate) if not run.at_once]
+    return round(output_steps(end, runs[-1].steps, runs[-1].dtout)) if runs else 0
 
 
 def _tips(chain: Chain) -> list[Body]:
@@ -90,8 +186,10 @@ def _is_tied(deck: Deck) -> bool:
 # ---- payout ----------------------------------------------------------------------------------
 
 
-def _travel(chain: Chain, posture: Posture, end: float) -> tuple[Travel, tuple[float, float]]:
-    """Payout over the run, and the range of dm/m0."""
+def _travel(
+    chain: Chain, posture: Posture, end: float, count: int
+) -> tuple[Travel, tuple[float, float], np.ndarray | None]:
+    """Payout over the run, the range of dm/m0, and the payout at equal instants if it is known."""
     laws: dict[tuple[Node, ...] | float, list[Link]] = {}
     for link in chain.links:
         laws.setdefault(law_of(link), []).append(link)
@@ -105,21 +203,23 @@ def _travel(chain: Chain, posture: Posture, end: float) -> tuple[Travel, tuple[f
 
     try:
         if not fed or not end > 0:
-            return Travel(known=not fed), (0.0, 0.0)
+            return Travel(known=not fed), (0.0, 0.0), None
         if not known:
             speed = abs(payout(end * SHORT) - payout(0.0)) / (end * SHORT)
             speed = speed if speed * end > SHORT * payout(0.0) else 0.0
             gained = _gained(chain, posture)
-            return Travel(speed=speed, jump=speed, known=False), (gained, gained)
+            return Travel(speed=speed, jump=speed, known=False), (gained, gained), None
         times = [end * i / INSTANTS for i in range(INSTANTS + 1)]
         ways = [payout(time) for time in times]
         posture.at(times[ways.index(min(ways))])
         least = _gained(chain, posture)
         posture.at(times[ways.index(max(ways))])
         gains = least, _gained(chain, posture)
-        return from_ways([way - ways[0] for way in ways], end / INSTANTS, 0.0), gains
+        law = np.array([payout(end * i / count) for i in range(count + 1)])
+        travel = from_ways([way - ways[0] for way in ways], end / INSTANTS, 0.0)
+        return travel, gains, law - law[0]
     except Unknown:
-        return Travel(known=False), (0.0, 0.0)
+        return Travel(known=False), (0.0, 0.0), None
     finally:
         posture.at(0.0)
 

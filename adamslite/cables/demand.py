@@ -83,6 +83,8 @@ class Demand:
         It pulls only: where it has gone slack it becomes taut with a front.
     rubs : bool
         Friction holds it on a wheel, or lets it slide.
+    half_read : bool
+        Tensions are read in the middle of its outer sections, half a section from its ends.
     end : float
         Time of the run, 0 when it is not given.
     results : int
@@ -114,6 +116,7 @@ class Demand:
     tied: bool = False
     slackens: bool = False
     rubs: bool = False
+    half_read: bool = False
     end: float = 0.0
     results: int = 0
     asked: tuple[str, ...] = ("tension", "position")
@@ -299,16 +302,18 @@ def needed(of: Demand, p: float) -> dict[str, float]:
             found["for fronts where it becomes taut"] = AXIAL * (MEASURED_AT / p) ** AXIAL_POWER
         if "arrival" in of.asked:
             found |= _arrivals(of, p)
-        return found
-    load = of.density * of.longest * (of.pull + of.acceleration)
-    top = of.tension + load - of.density * of.length * of.pull / 2
-    found = {
-        "at least": FEWEST,
-        "for half a section at an end": load / max(top, load, NEGLIGIBLE) / (2 * q) + 1,
-    }
+        return found | (_halves(of, q) if of.half_read else {})
+    found = {"at least": FEWEST, **_halves(of, q)}
     if not of.straight:
         found["for transverse waves"] = max(pi, of.wave * of.length) / sqrt(24 * q)
     return found | _arrivals(of, p)
+
+
+def _halves(of: Demand, q: float) -> dict[str, float]:
+    """Sections half of which weighs, at an end, less than a share of the tension there."""
+    load = of.density * of.longest * (of.pull + of.acceleration)
+    top = of.tension + load - of.density * of.length * of.pull / 2
+    return {"for half a section at an end": load / max(top, load, NEGLIGIBLE) / (2 * q) + 1}
 
 
 def _arrivals(of: Demand, p: float) -> dict[str, float]:

@@ -18,7 +18,7 @@ from adamslite.cables.geometry import FreeSpan, reaches, wrap
 from adamslite.cables.machine import machine
 from adamslite.cables.messages import Faults
 from adamslite.cables.posture import AXES
-from adamslite.cables.response import Errors, Machine
+from adamslite.cables.response import Errors, Machine, is_usable
 from adamslite.cables.vectors import add, dot, part_across, unit
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import slipping
@@ -187,7 +187,7 @@ def _machines(
         ):
             shapes.append(grown)
     found = [machine(spec, each, rests, prescribed) for each in shapes]
-    return tuple(each for each in found if each)
+    return tuple(each for each in found if each and is_usable(each))
 
 
 def demand_of(spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws) -> Demand:

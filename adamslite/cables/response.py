@@ -9,7 +9,7 @@ greatest, least and mean place of every weight.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import inf, log2, sqrt
+from math import inf, isfinite, log2, sqrt
 
 import numpy as np
 
@@ -206,6 +206,17 @@ def errors(of: Machine, p: float, asked: tuple[str, ...]) -> Errors:
         truth.ringing,
         power,
     )  # fmt: skip
+
+
+def is_usable(of: Machine) -> bool:
+    """Whether its numbers can be computed: not where sizes are too many decades apart."""
+    try:
+        with np.errstate(all="ignore"):
+            truth = _known(of, MANY)
+    except (np.linalg.LinAlgError, ValueError):
+        return False
+    figures = [*truth.tension.values(), *truth.position.values()]
+    return all(np.isfinite(values).all() and isfinite(scale) for values, scale in figures)
 
 
 def worst(found: list[Errors]) -> Errors:
