@@ -15,6 +15,7 @@ from adamslite.cables.advice import Advice, advise
 from adamslite.cables.demand import Demand, elements, level, rigid_fails
 from adamslite.cables.report import about_cables, cables
 from adamslite.cables.scene import deck
+from adamslite.cables.vocabulary import QUANTITIES
 from adamslite.cli.main import main
 
 DECKS = Path(__file__).parent.parent / "decks"
@@ -23,9 +24,9 @@ FINE = ("axial step", "kink at an anchor", "spinning ring", "taut string")
 
 
 def advised(scene: CableScene, accuracy: float) -> Advice:
-    """For the scene as a user drew it."""
+    """For the scene as a user drew it, who looks at fronts and when they arrive."""
     (cable,) = cables(adamslite.read(scene.draw(*scene.drawn)))
-    return advise(cable.demand, accuracy)
+    return advise(replace(cable.demand, asked=QUANTITIES), accuracy)
 
 
 def less(advice: Advice) -> Advice:

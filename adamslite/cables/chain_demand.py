@@ -11,12 +11,12 @@ from typing import TypeGuard
 import numpy as np
 
 from adamslite.cables.chain_finder import Chain, Link, free_length, law_of
-from adamslite.cables.demand import Demand
+from adamslite.cables.demand import SMALL_SLOPE, Demand
 from adamslite.cables.estimate import Travel, from_ways
 from adamslite.cables.network import Bar, Network
 from adamslite.cables.payout_law import Unknown
 from adamslite.cables.posture import Body, Posture
-from adamslite.cables.response import Machine, instants, is_usable
+from adamslite.cables.response import Machine, String, instants, is_usable
 from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across, unit
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
@@ -83,7 +83,8 @@ def demand_on(chain: Chain, posture: Posture, end: float) -> ChainDemand:
         bounces=abs(drawn - hung) > 0.5 * weight + FELT * hung and not chain.is_ring, end=end,
         tied=_is_tied(deck), results=_results(deck, end),
     )  # fmt: skip
-    if travel.known and end > 0 and not jump and not across and _is_plain(chain, shape):
+    slight = not across or across < SMALL_SLOPE * demand.struck_wave
+    if travel.known and end > 0 and slight and _is_plain(chain, shape):
         found = _machine(chain, shape, rope, law)
         if rope.tip > 0 and is_usable(found):
             halves = not _corrects(chain, posture, found)
@@ -125,7 +126,7 @@ def _is_plain(chain: Chain, shape: _Shape) -> bool:
 
 def _machine(chain: Chain, shape: _Shape, rope: _Rope, law: np.ndarray | None) -> Machine:
     """Its linear model: the payout, coordinate 0, and the tip, coordinate 1, along the line from
-    root to tip."""
+    root to tip; across it a string with the tip alone."""
     back = chain.nodes[0][0] != "MARKER"
     links = chain.links[::-1] if back else chain.links
     line = add(ZERO, shape.line, -1.0 if back else 1.0)
@@ -142,8 +143,14 @@ def _machine(chain: Chain, shape: _Shape, rope: _Rope, law: np.ndarray | None) -
         (1.0, rope.tip), (bar,), rope.density, rope.end, len(way) - 1, (0.0, dot(speed, line)),
         ways={0: way}, forces={1: rope.tip * pull - rests[1]},
     )  # fmt: skip
+    aside = norm(part_across(speed, line))
+    strings: tuple[String, ...] = ()
+    if aside > ASIDE * norm(speed):
+        across = replace(bar, start=(), finish=((0, 1.0),), pull=rests, falls=0.0)
+        string = Network((rope.tip,), (across,), rope.density, rope.end, len(way) - 1, (aside,))
+        strings = (String(string, (0,), 0),)
     transit = rope.length * sqrt(rope.density / rope.stiffness)
-    return Machine(network, (), np.array(rests), ((1,),), transit)
+    return Machine(network, strings, np.array(rests), ((1,),), transit)
 
 
 def _corrects(chain: Chain, posture: Posture, of: Machine) -> bool:

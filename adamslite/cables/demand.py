@@ -40,6 +40,8 @@ AXIAL_POWER = 0.55
 # Of the accuracy: what waves may make of a tension where nobody sees them; sections whose own
 # vibrations are so fast that a method which follows them takes small steps all the same.
 CALM, FEW = 0.3, 12
+# Of the transverse wave: a weight that starts across faster bends its cable by large angles.
+SMALL_SLOPE = 0.3
 # Keeps quotients finite where nothing pulls or hangs [N, kg].
 NEGLIGIBLE = 1e-12
 # Of the accuracy: what sections may use, the rest is the integrator's; the same of the linear

@@ -31,8 +31,6 @@ RIM_SHARE = 0.02
 SUNK = 80
 # ERROR of a rigid cable, as a share of its length.
 RIGID_ERROR = 1e-7
-# Of the transverse wave: a weight that starts across faster bends its cable by large angles.
-SMALL_SLOPE = 0.3
 # Of the length of a span: changes by less make no difference; it keeps so much at least.
 GROWN, SHORTEST = 0.1, 0.05
 # Of the least load: tensions that fall below zero by less need not.
@@ -195,7 +193,7 @@ def demand_of(spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws)
     of = demand_on_longest(spec, spans, moves)
     if spec.form == "brute" or needs_brute(spec, spans):
         return of
-    if of.across >= SMALL_SLOPE * of.struck_wave:
+    if of.across >= demand.SMALL_SLOPE * of.struck_wave:
         return of
     return replace(of, machines=_machines(spec, spans, moves, prescribed))
 

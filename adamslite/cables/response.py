@@ -29,8 +29,8 @@ SEEN = 0.5
 SMOOTH = 4.0
 # Key of the rigid cable among numbers of sections.
 RIGID = 0
-# Errors of twice the sections: between the powers 2 and 1/2 of their number.
-FASTEST, SLOWEST = 0.25, 0.7
+# Errors of twice the sections: between the powers 2 and 1 of their number.
+FASTEST, SLOWEST = 0.25, 0.5
 # Keeps quotients finite [N].
 NOTHING = 1e-12
 
@@ -153,8 +153,8 @@ def _summed(values: np.ndarray, spread: np.ndarray | float = 0.0) -> np.ndarray:
 def apart(one: Figures, truth: Figures, asked: tuple[str, ...]) -> float:
     """The largest difference of an asked figure, as a share of its scale."""
     worst = 0.0
-    for quantity in asked:
-        mine, exact = getattr(one, quantity), getattr(truth, quantity)
+    both = {"tension": (one.tension, truth.tension), "position": (one.position, truth.position)}
+    for mine, exact in (both[each] for each in asked if each in both):
         for key, (values, scale) in exact.items():
             if key in mine and scale > 0:
                 worst = max(worst, float(np.abs(mine[key][0] - values).max()) / scale)
