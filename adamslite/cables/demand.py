@@ -175,6 +175,8 @@ class Demand:
             / (2 * carried),
             "(l/c)/tau": self.rushes,
         }
+        if self.jump and self.way > 0:
+            found["rho c s'(0)/T"] = self.density * self.c * self.jump / carried
         if self.straight:
             del found["s'/(2 c_t)"]
         return found
