@@ -1,7 +1,7 @@
 """Mistakes in the order of stations and in the friction on wheels: code, description, what is
 replaced, by what, the line and column of the caret."""
 
-from descriptions import ATWOOD
+from descriptions import ATWOOD, HOIST
 
 PULLEY = "radius = 0.2"
 MASS = 'kind = "mass"\nat = [0, -5, 0]'
@@ -25,4 +25,21 @@ MISTAKES = {
     "without-mu": (ATWOOD, PULLEY, f"{PULLEY}\ngrip = 1e-4", (13, 1)),
     "static-grip": (ATWOOD, PULLEY, f"{PULLEY}\nmu = 0.2\nmu_static = 0.3", (14, 1)),
     "static-below": (ATWOOD, PULLEY, f"{PULLEY}\nmu = 0.2\ngrip = 1e-4\nmu_static = 0.1", (15, 1)),
+}  # fmt: skip
+
+HOIST_DRIVE = 'payout = "0.5*TIME**2"'
+CURVE = "curve = [[0, 900], [5, 0]]"
+SPEED = 'speed = "TIME"'
+MISTAKES |= {
+    "law-drives": (HOIST, HOIST_DRIVE, f"{HOIST_DRIVE}\nlimit = [-1, 3]", (12, 1)),
+    "motor-force": (HOIST, HOIST_DRIVE, f'force = "9"\nmotor = {{ {CURVE} }}', (12, 1)),
+    "no-gain": (HOIST, HOIST_DRIVE, f"{SPEED}\nmotor = {{ {CURVE} }}", (12, 1)),
+    "needless-gain": (
+        HOIST, HOIST_DRIVE, f'torque = "9"\nmotor = {{ {CURVE}, gain = 5 }}', (12, 1)
+    ),
+    "limit-start": (HOIST, HOIST_DRIVE, 'torque = "9"\nlimit = [1, 3]', (12, 1)),
+    "floor-where": (
+        ATWOOD.replace("end = 0.5", "end = 0.5\ngravity = [0, 0, 0]"),
+        "mass = 5", "mass = 5\nfloor = { depth = 1, stiffness = 1e6 }", (10, 1),
+    ),
 }  # fmt: skip

@@ -24,7 +24,8 @@ from adamslite.cables.pieces import Piece, at_least_nothing, is_between
 from adamslite.cables.statements import number
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheel_spans import at_rest, half, is_heavy, tension_at
-from adamslite.cables.wheels import STICKS, arm, drive, marker, rolled, slipping, travel
+from adamslite.cables.wheels import STICKS, arm, marker, rolled, slipping, travel
+from adamslite.cables.winches import drive
 
 # Sliding speed at which friction is full, or that at rest is no longer greater [m/s].
 CREEP = 1e-3

@@ -9,7 +9,7 @@ with d the direction of the route at each free end.
 """
 
 from dataclasses import dataclass, field, replace
-from math import dist
+from math import dist, inf
 
 from adamslite.cables.geometry import FreeSpan
 from adamslite.cables.messages import Faults
@@ -132,6 +132,7 @@ def laws(spec: Spec, faults: Faults) -> Laws:
                     found.engines.append(law)
                 elif law and key == "torque":
                     found.engines.append(Op("/", (law, Num(each.radius))))
+        _speeds(spec, i, found, faults)
         for axis, text in enumerate([*each.motion, each.haul]):
             key = "haul" if axis == HAUL else "motion"
             law = parse(text, ("route", i, key), faults) if text else None
@@ -139,6 +140,30 @@ def laws(spec: Spec, faults: Faults) -> Laws:
                 found.nodes[i, key, axis] = law
                 found.moved.append(_prescribed(spec, law, ("route", i, key), faults))
     return found
+
+
+def _speeds(spec: Spec, i: int, found: Laws, faults: Faults) -> None:
+    """The law of the speed of a winch, and that of its brake: read, and the travel by the speed."""
+    each = spec.route[i]
+    if each.brake and each.brake.applied:
+        parse(each.brake.applied, ("route", i, "brake"), faults)
+    law = parse(each.speed, ("route", i, "speed"), faults) if each.speed else None
+    if not law:
+        return
+    h, ways = spec.end / INSTANTS, [0.0]
+    low, high = each.limit or (-inf, inf)
+    try:
+        for k in range(INSTANTS):
+            step = h * value(law, (k + 0.5) * h, {})
+            ways.append(ways[-1] + step)
+    except NoValue:
+        faults.add("law-no-value", ("route", i, "speed"), word="speed", time=h * len(ways))
+    except Unknown:
+        found.paid[i] = None
+        return
+    if len(ways) > INSTANTS:
+        way = from_ways(ways, h)
+        found.paid[i] = replace(way, least=max(way.least, low), most=min(way.most, high))
 
 
 def estimate_moves(spec: Spec, spans: list[FreeSpan], prescribed: Laws) -> Moves:

@@ -32,7 +32,8 @@ from adamslite.cables.model_choice import SUNK, CableModel, demand_on_longest, t
 from adamslite.cables.statements import number, point, section
 from adamslite.cables.vectors import Vector, add, dot, unit
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import drive, marker, mount_request, triple, turning
+from adamslite.cables.wheels import marker, mount_request, triple, turning
+from adamslite.cables.winches import drive
 
 # What a wheel without mu has: the cable creeps on it by a fifth of what mu = 1 would let it.
 GRIP = 5.0

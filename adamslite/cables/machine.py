@@ -51,7 +51,11 @@ def machine(
     that no linear model is for: a loop, a run, a bend, wheels that grip, a law that only the run
     knows, nothing free; and for one of many stations, for its matrices are dense.
     """
-    if spec.grips or len(spec.route) > MANY or any(e.held for e in spec.route):
+    if (
+        spec.grips
+        or len(spec.route) > MANY
+        or any(e.held or e.speed or e.has_states or e.floor for e in spec.route)
+    ):
         return None
     if spec.closed or spec.bends or spec.has_run or any(e.mount for e in spec.route):
         return None

@@ -54,7 +54,27 @@ MESSAGES: dict[str, Message] = {
     "run-to-run": Message(
         "there is nothing between two long runs", "a pulley or a mass that the cable meets"
     ),
-    "drive": Message("a winch needs one of payout, force and torque", 'payout = "0.5*TIME**2"'),
+    "drive": Message(
+        "a winch needs one of payout, speed, force and torque", 'payout = "0.5*TIME**2"'
+    ),
+    "law-drives": Message(
+        "the {drive} of this winch is kept whatever acts on it: no {word}",
+        "leave {word} out, or drive it by torque, or by speed with a motor",
+    ),
+    "motor-force": Message(
+        "a characteristic limits a torque, and this winch has a force", "torque = ... for force"
+    ),
+    "no-gain": Message(
+        "the motor has no gain for the error of its speed", "gain = 1e4, in N m per m/s of the rim"
+    ),
+    "needless-gain": Message(
+        "a gain is for a motor that keeps a speed", "speed = ... for torque, or leave gain out"
+    ),
+    "floor-where": Message("without gravity nothing lies on a floor", "gravity = [0, -9.81, 0]"),
+    "limit-start": Message(
+        "the payout starts at 0, outside of the limits {low:.4g} and {high:.4g} m",
+        "limit = [-2, 5]: from the place in the route, in is negative",
+    ),
     "reel-between": Message(
         "a reel holds cable: it must be at an end of the route", "leave reel out, or end here"
     ),

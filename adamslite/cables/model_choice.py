@@ -301,14 +301,14 @@ def _integrator(spec: Spec, of: Demand, level: int, form: str, count: int) -> tu
         radius = min((each.radius for each in spec.route if each.is_wheel), default=1.0)
         error = (of.length / count) ** 2 / (10 * SUNK * radius)
         says = "a tenth of what a node sinks in"
-    elif spec.grips:
-        method, why = "RADAU", "friction that holds and slips, and vibrations that die away"
     elif spec.bends and not of.tied:
         method, why = "VERLET", "masses that nothing ties together and nothing keeps in place"
     elif spec.has_run:
         method, why = "HHT", "waves are followed with many small steps"
     else:
         method, why = integrator(of, p, level)
+    if form != "brute" and (spec.grips or any(each.brake for each in spec.route)):
+        method, why = "RADAU", "friction that holds and slips, and vibrations that die away"
     method = "GSTIFF, SI2" if method == "GSTIFF" else method
     error, says = (spec.error, "as asked") if spec.error else (error, says)
     name = method.split(",")[0]

@@ -39,7 +39,7 @@ def parse(text: str, path: Path, faults: Faults) -> Node | None:
     from adamslite.language.diagnostics import DeckError
     from adamslite.reading.read import read
 
-    moved = path[-1] in ("force", "torque", "pull")
+    moved = path[-1] in ("force", "torque", "pull", "speed", "brake")
     names = "VARIABLE/S, FUNCTION=0\nVARIABLE/SD, FUNCTION=0\n" if moved else ""
     deck = f"a law\nPART/1, GROUND\n{names}VARIABLE/1, FUNCTION={text}\n"
     try:

@@ -52,8 +52,11 @@ def _place(faults: Faults, each: Toml, i: int, count: int, closed: bool) -> None
 
 def _winch(faults: Faults, each: Toml, i: int, ends: bool) -> None:
     """It has one drive; at an end of the route it may be a reel."""
-    if sum(bool(each.get(key)) for key in ("payout", "force", "torque")) != 1:
+    drives = [key for key in ("payout", "force", "torque", "speed") if each.get(key)]
+    if len(drives) != 1:
         faults.add("drive", ("route", i))
+    else:
+        _engine(faults, each, i, drives[0])
     reel = each.get("reel")
     if reel and not ends:
         faults.add("reel-between", ("route", i, "reel"))
@@ -62,6 +65,23 @@ def _winch(faults: Faults, each: Toml, i: int, ends: bool) -> None:
             faults.add("reel-leans", ("route", i, word), word=word)
     if reel and reel.core >= each.get("radius", inf):
         faults.add("reel-core", ("route", i, "reel"), core=reel.core, radius=each["radius"])
+
+
+def _engine(faults: Faults, each: Toml, i: int, drive: str) -> None:
+    """Which keys go with the drive of a winch."""
+    motor, path = each["motor"], ("route", i)
+    for word in ("motor", "brake", "limit"):
+        # A speed without a motor is kept whatever acts against it.
+        if each[word] and (drive == "payout" or drive == "speed" and not motor):
+            faults.add("law-drives", (*path, word), word=word, drive=drive)
+    if drive == "force" and motor:
+        faults.add("motor-force", (*path, "motor"))
+    if motor and bool(motor.gain) != (drive == "speed"):
+        code = "no-gain" if drive == "speed" else "needless-gain"
+        faults.add(code, (*path, "motor"))
+    if each["limit"] and not each["limit"][0] < 0 < each["limit"][1]:
+        low, high = each["limit"]
+        faults.add("limit-start", (*path, "limit"), low=low, high=high)
 
 
 def _rim(faults: Faults, each: Toml, i: int) -> None:

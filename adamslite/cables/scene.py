@@ -70,6 +70,8 @@ def _check_form(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: F
     for i, each in enumerate(spec.route):
         if each.slides and not shows_sliding:
             faults.add("slider-form", ("route", i, "slides"))
+        if each.floor and not any(spec.gravity):
+            faults.add("floor-where", ("route", i, "floor"))
     if model.level == 1:
         _check_rigid(spec, faults)
 

@@ -2,6 +2,7 @@
 
 import tomllib
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any, TypeGuard
 
 from adamslite.cables.messages import LARGEST, SMALLEST, Faults
@@ -151,7 +152,9 @@ def _value(faults: Faults, value: Any, takes: Takes, rule: str, path: Path) -> A
         return tuple("" if each in (0, "") else str(each) for each in value)
     if takes == "quantities":
         return tuple(value)
-    return tuple(map(float, value)) if takes == "vector" else value
+    if takes == "curve":
+        return tuple((float(x), float(y)) for x, y in value)
+    return tuple(map(float, value)) if takes in ("vector", "range") else value
 
 
 def _grouped(faults: Faults, value: Any, takes: NestedTable, path: Path) -> Any:
@@ -186,6 +189,8 @@ def _fits(value: Any, takes: str | tuple[str | int, ...]) -> tuple[bool, str]:
                  "three expressions of TIME [x, y, z]"),
         "quantities": (_are_quantities(value), f"a list of {', '.join(QUANTITIES)}"),
         "yes or no": (isinstance(value, bool), "true or false"),
+        "curve": (_is_curve(value), "pairs [speed, torque] of rising speed, torques of 0 and more"),
+        "range": (_is_range(value), "two numbers [low, high]"),
         "whole or auto": (whole or value == "auto", "a whole number, or auto"),
         "whole": (whole, "a whole number"),
     }[takes]  # fmt: skip
@@ -206,6 +211,23 @@ def _is_real(value: object) -> TypeGuard[float]:
 def _is_line(value: object) -> bool:
     """Whether it is a text that is one line of a deck."""
     return isinstance(value, str) and "\n" not in value and "\r" not in value
+
+
+def _is_range(value: object) -> bool:
+    if not isinstance(value, list) or len(value) != 2 or not all(map(_is_number, value)):
+        return False
+    return bool(value[0] < value[1])
+
+
+def _is_curve(value: object) -> bool:
+    """Whether it is a table of torque over speed from 0 on."""
+    if not isinstance(value, list) or len(value) < 2:
+        return False
+    if not all(isinstance(e, list) and len(e) == 2 and all(map(_is_number, e)) for e in value):
+        return False
+    speeds, torques = zip(*value, strict=True)
+    rises = all(a < b for a, b in pairwise(speeds))
+    return bool(rises and speeds[0] == 0 and min(torques) >= 0)
 
 
 def _is_three(value: object, fits: Callable[[object], bool]) -> bool:

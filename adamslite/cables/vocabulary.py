@@ -80,6 +80,35 @@ class Wander:
 
 
 @dataclass(frozen=True)
+class Motor:
+    """What an engine can do: `curve`, pairs of the speed of the drum [rad/s] and its torque [N m].
+
+    `gain` [N m s/m] is that of a controller of the speed.
+    """
+
+    curve: tuple[tuple[float, float], ...]
+    gain: float = 0.0
+
+
+@dataclass(frozen=True)
+class Brake:
+    """A brake of `torque` [N m], of which `applied` says what share acts at a time."""
+
+    torque: float
+    applied: str = ""
+
+
+@dataclass(frozen=True)
+class Floor:
+    """What a weight lands on, `depth` [m] below its place: a spring and a damper ([N/m], [N s/m])
+    that do not pull."""
+
+    depth: float
+    stiffness: float
+    damping: float = 0.0
+
+
+@dataclass(frozen=True)
 class Station:
     """A point of the route: an end, a weight on the cable, a wheel the cable lies on, or a bend
     that it has at the start and nothing holds.
@@ -116,6 +145,21 @@ class Station:
     held: bool = False
     grip: float = 0.0
     mu_static: float = 0.0
+    speed: str = ""
+    motor: Motor | None = None
+    brake: Brake | None = None
+    limit: tuple[float, ...] = ()
+    floor: Floor | None = None
+
+    @property
+    def has_states(self) -> bool:
+        """Whether an engine has more than a law."""
+        return bool(self.motor or self.brake or self.limit)
+
+    @property
+    def has_engine(self) -> bool:
+        """Whether forces turn it, not a payout."""
+        return bool(self.force or self.torque or self.has_states)
 
     @property
     def is_wheel(self) -> bool:
@@ -316,6 +360,18 @@ WANDER = NestedTable(
         "damping": ("number", "negative", 0.0),
     },
 )
+MOTOR = NestedTable(Motor, {"curve": ("curve", "", None), "gain": ("number", "not-positive", 0.0)})
+BRAKE = NestedTable(
+    Brake, {"torque": ("number", "not-positive", None), "applied": ("text", "", "")}
+)
+FLOOR = NestedTable(
+    Floor,
+    {
+        "depth": ("number", "not-positive", None),
+        "stiffness": ("number", "not-positive", None),
+        "damping": ("number", "negative", 0.0),
+    },
+)
 PLACE: Rules = {
     "kind": (KINDS, "", None),
     "at": ("vector", "", None),
@@ -359,6 +415,7 @@ MASS: Rules = {
     "velocity": ("vector", "", ZERO),
     "slides": ("yes or no", "", False),
     "haul": ("text", "", ""),
+    "floor": (FLOOR, "", None),
 }
 STATIONS: dict[str, Rules] = {
     "fixed": PLACE | MOVED,
@@ -376,6 +433,10 @@ STATIONS: dict[str, Rules] = {
         "torque": ("text", "", ""),
         "stored": ("number", "negative", -1.0),
         "reel": (REEL, "", None),
+        "speed": ("text", "", ""),
+        "motor": (MOTOR, "", None),
+        "brake": (BRAKE, "", None),
+        "limit": ("range", "", ()),
     },
 }
 TABLES = ("cable", "model", "route")

@@ -131,18 +131,6 @@ def _pack(spec: Spec, i: int) -> str:
     )
 
 
-def _bearing(spec: Spec, i: int) -> tuple[str, str]:
-    """Share of the friction of a bearing that acts, and the state that it needs: the capstan's laws
-    for the speed and the displacement of the rim."""
-    each, n, spin = spec.route[i], marker(i), turning(i, spec, 1)
-    if not each.grip:
-        return "", f"STEP({spin},-0.01,-1,0.01,1)"
-    r = number(each.radius)
-    share = f"DIF(rests_{n})/{number(each.grip)}"
-    rate = f"{r}*{spin}*(1-TANH({r}*{spin}/{STICKS:g})*{share})"
-    return f"DIFF/rests_{n}, FUNCTION={rate}\n", share
-
-
 def carrier(spec: Spec, i: int) -> int:
     """The part the bearing of wheel i sits on."""
     return marker(i) + 2 if spec.route[i].is_mobile else 1
@@ -245,36 +233,3 @@ def in_plane(spec: Spec) -> bool:
     return max(across) < ROUND_OFF**2 and all(
         abs(dot(axis, v)) <= ROUND_OFF * dot(v, v) ** 0.5 for v in vectors
     )
-
-
-def drive(spec: Spec, i: int, torques: list[str]) -> str:
-    """What turns wheel i: `torques` of the cable, friction, an engine, a payout law."""
-    each, n = spec.route[i], marker(i)
-    if each.held:
-        return ""
-    torques, text = list(torques), ""
-    # Payout is cable that leaves the winch, to whichever side the route goes.
-    sense = spec.outwards(i)
-    out = arm(i, spec, sense)
-    if each.friction:
-        more, share = _bearing(spec, i)
-        text += more
-        torques.append(f"-{number(each.friction)}*{share}")
-    if each.reel:
-        text += f"SFORCE/{n + 3}, ROTATIONAL, ACTIONONLY, I={n}, J={n + 1}"
-        text += f", FUNCTION=-J_{n}*{turning(i, spec, 2)}\n"
-    if each.force or each.torque:
-        text += (
-            "\n! Payout of the winch and its speed.\n"
-            f"VARIABLE/S_{n}, FUNCTION={rolled(i, spec, 0, sense)}\n"
-            f"VARIABLE/SD_{n}, FUNCTION={rolled(i, spec, 1, sense)}\n"
-        )
-        held = out if each.force else number(sense * each.turn)
-        torques.append(f"-({held})*({own_names(each.force or each.torque, n)})")
-    if torques:
-        only = "" if each.mount else ", ACTIONONLY"
-        text += f"SFORCE/{n}, ROTATIONAL{only}, I={n}, J={n + 1}\n, FUNCTION="
-        text += "\n, +".join(torques) + "\n"
-    if each.payout:
-        text += f"GCON/{n}, FUNCTION={rolled(i, spec, 0, sense)}\n, -({each.payout})\n"
-    return text

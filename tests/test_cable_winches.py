@@ -1,0 +1,65 @@
+"""Winches of `adamslite cable` with motors, brakes and limit switches, and what they lower."""
+
+import numpy as np
+import pytest
+from descriptions import HOIST, PAYOUT
+
+import adamslite
+from adamslite.cables.scene import deck
+
+G = 9.81
+#: Lowers 1000 kg from a drum of 0.5 m and J = 25 kg m^2.
+RIGID = HOIST + "[model]\nlevel = 1\n"
+
+
+def run(spec: str) -> adamslite.Results:
+    found = adamslite.simulate(adamslite.read(deck(spec)[0]))
+    assert found.outcome.name == "DONE"
+    return found
+
+
+@pytest.mark.parametrize("most", [500.0, 4000.0])
+def test_a_motor_has_the_torque_of_its_characteristic(most: float) -> None:
+    """It is asked for 6000 N m, has `most` up to 1e3 rad/s, and the load falls faster."""
+    drive = f'torque = "6000"\nmotor = {{ curve = [[0, {most}], [1000, {most}]] }}'
+    found = run(RIGID.replace(PAYOUT, drive))
+    a = (1000 * G - most / 0.5) / (1000 + 25 / 0.5**2)
+    assert found["VARIABLE/S_10"] == pytest.approx(a * found.time**2 / 2, rel=1e-5, abs=1e-6)
+
+
+def test_a_brake_holds_without_creeping() -> None:
+    """Twice the torque of the load: displaced by half a tenth of a millimetre, and still."""
+    drive = f'torque = "0"\nbrake = {{ torque = {2 * 1000 * G * 0.5}, applied = "1" }}'
+    found = run(RIGID.replace(PAYOUT, drive).replace("end = 2", "end = 20"))
+    late = found["VARIABLE/S_10"][found.time > 5]
+    assert late[0] < 1e-3 and np.ptp(late) < 1e-6
+
+
+def test_a_limit_switch_takes_the_motor_away_for_the_rest_of_the_run() -> None:
+    """The load is lifted with constant acceleration to 0.5 m; then it falls freely with the drum,
+    past the place where the switch acted."""
+    drive = 'torque = "7000"\nlimit = [-0.5, 2]'
+    found = run(RIGID.replace(PAYOUT, drive))
+    masses = 1000 + 25 / 0.5**2
+    up, down = (7000 / 0.5 - 1000 * G) / masses, -1000 * G / masses
+    t0 = np.sqrt(2 * 0.5 / up)
+    t = found.time
+    rises = up * t**2 / 2
+    falls = 0.5 + up * t0 * (t - t0) + down * (t - t0) ** 2 / 2
+    assert -found["VARIABLE/S_10"] == pytest.approx(np.where(t < t0, rises, falls), abs=3e-5)
+
+
+def test_a_speed_without_motor_is_kept() -> None:
+    found = run(RIGID.replace(PAYOUT, 'speed = "1.5*SIN(3*TIME)"'))
+    assert found["REQUEST/10.F2"] == pytest.approx((1 - np.cos(3 * found.time)) / 2, abs=1e-5)
+
+
+def test_stations_follow_the_fall_and_not_the_file() -> None:
+    """The same deck, from tables in another order."""
+    head, winch, weight = RIGID.replace("[model]", "[[route]]\n[model]", 1).split("[[route]]\n")[:3]
+    weight, model = weight.split("[model]")[0], "[model]\nlevel = 1\n"
+    named = (winch + 'name = "drum"\n', weight + 'name = "load"\n')
+    turned = f'fall = "drum load"\n{head}' + "".join(
+        f"[[route]]\n{table}" for table in reversed(named)
+    )
+    assert deck(turned + model)[0] == deck(RIGID)[0]
