@@ -5,6 +5,7 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import Any, TypeGuard
 
+from adamslite.cables.components import Cable
 from adamslite.cables.messages import LARGEST, SMALLEST, Faults
 from adamslite.cables.reeving import along_the_cable
 from adamslite.cables.route import check_route
@@ -17,7 +18,6 @@ from adamslite.cables.vocabulary import (
     STATIONS,
     TABLES,
     TOP,
-    Cable,
     NestedTable,
     Rules,
     Spec,

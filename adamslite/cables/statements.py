@@ -18,8 +18,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from textwrap import wrap
 
+from adamslite.cables.components import Cable
 from adamslite.cables.vectors import Vector
-from adamslite.cables.vocabulary import Cable
 
 # Of a component, as a share of the largest.
 ROUND_OFF = 1e-12

@@ -3,109 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import pi, sin, sqrt
+from math import pi, sin
 from typing import Any, TypeAlias
 
+from adamslite.cables.components import Brake, Cable, Floor, Motor, Mount, Reel, Wander
 from adamslite.cables.vectors import ZERO, Vector
-
-
-@dataclass(frozen=True)
-class Cable:
-    """A cable in SI units: stiffness EA [N], density rho [kg/m] of the unstretched cable.
-
-    `pulls_only` says that a slack section carries nothing; else it pushes.
-    """
-
-    stiffness: float
-    density: float
-    pretension: float = 0.0
-    breaking: float = 0.0
-    damping: float = 0.0
-    pulls_only: bool = False
-
-    @property
-    def speed(self) -> float:
-        """Axial wave speed c = sqrt(EA/rho) [m/s]."""
-        return sqrt(self.stiffness / self.density)
-
-    def running(self, speed: float) -> float:
-        """Tension that keeps the shape of a cable that runs along itself at `speed`: T (1 + T/EA) =
-        rho v^2, the momentum rho v/(1 + T/EA) v that passes a place in a second [N].
-        """
-        half = self.stiffness / 2
-        return sqrt(half**2 + self.stiffness * self.density * speed**2) - half
-
-
-@dataclass(frozen=True)
-class Reel:
-    """A pack of cable, `thickness` [m] from turn to turn, on a core of the radius `core` [m].
-
-    The radius of the pack grows by the thickness with every turn, r = r0 + h a/(2 pi), so that a
-    turn by the angle a winds up s = (r0 + r)/2 a.
-    """
-
-    thickness: float
-    core: float
-
-    def holds(self, radius: float) -> float:
-        """Cable on it when the pack has this radius [m]."""
-        return pi * (radius**2 - self.core**2) / self.thickness
-
-    def inertia(self, radius: float, density: float) -> float:
-        """Of that cable, which has `density` [kg/m], about the axle [kg m^2]."""
-        return density * self.holds(radius) * (radius**2 + self.core**2) / 2
-
-
-@dataclass(frozen=True)
-class Mount:
-    """What the bearing of a wheel sits on: a bracket of `mass` [kg] that stands on the ground.
-
-    It is rigid without `stiffness` [N/m]; else it gives way in all directions and does not turn.
-    """
-
-    foot: Vector
-    mass: float
-    stiffness: float = 0.0
-    damping: float = 0.0
-
-
-@dataclass(frozen=True)
-class Wander:
-    """A guide of `mass` [kg] slides along the axle with the cable, against a spring and a damper
-    ([N/m], [N s/m])."""
-
-    mass: float
-    stiffness: float
-    damping: float = 0.0
-
-
-@dataclass(frozen=True)
-class Motor:
-    """What an engine can do: `curve`, pairs of the speed of the drum [rad/s] and its torque [N m].
-
-    `gain` [N m s/m] is that of a controller of the speed.
-    """
-
-    curve: tuple[tuple[float, float], ...]
-    gain: float = 0.0
-
-
-@dataclass(frozen=True)
-class Brake:
-    """A brake of `torque` [N m], of which `applied` says what share acts at a time."""
-
-    torque: float
-    applied: str = ""
-
-
-@dataclass(frozen=True)
-class Floor:
-    """What a weight lands on, `depth` [m] below its place: a spring and a damper ([N/m], [N s/m])
-    that do not pull."""
-
-    depth: float
-    stiffness: float
-    damping: float = 0.0
 
 
 @dataclass(frozen=True)

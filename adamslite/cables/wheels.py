@@ -9,9 +9,10 @@ MARKER/n+4 floats for contacts.
 import re
 from math import pi
 
+from adamslite.cables.components import Mount
 from adamslite.cables.statements import AXES, number, rounded
 from adamslite.cables.vectors import Vector, add, cross, dot, unit
-from adamslite.cables.vocabulary import Mount, Spec, Station
+from adamslite.cables.vocabulary import Spec, Station
 
 # Sliding speed below which what grips does not slip [m/s].
 STICKS = 1e-8
