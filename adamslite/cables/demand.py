@@ -73,6 +73,8 @@ class Demand:
         tell.
     jump, across : float
         Speeds that start at once, along and across the cable.
+    along : float
+        Speed at which a weight starts along a cable that is held.
     straight : bool
         Everything lies and moves along one line.
     wave : float
@@ -112,6 +114,7 @@ class Demand:
     known: bool = True
     jump: float = 0.0
     across: float = 0.0
+    along: float = 0.0
     straight: bool = False
     wave: float = 0.0
     bounces: bool = False
@@ -228,6 +231,8 @@ def fronts(of: Demand, p: float) -> list[str]:
     found = [f"a weight starts across it at {of.across:.4g} m/s"] if of.across > 0 else []
     if of.density * of.c * of.jump > p * of.tension:
         found.append(f"a speed of {of.jump:.4g} m/s starts at once")
+    if of.density * of.c * of.along > p * of.tension:
+        found.append(f"a weight starts along its held cable at {of.along:.4g} m/s")
     return found
 
 
@@ -323,7 +328,7 @@ def _halves(of: Demand, q: float) -> dict[str, float]:
 def _arrivals(of: Demand, p: float) -> dict[str, float]:
     """Sections in which fronts arrive when they should."""
     finer, found = MEASURED_AT / p, {}
-    if of.jump or not of.known:
+    if of.jump or of.along or not of.known:
         found["for axial fronts"] = AXIAL * finer**AXIAL_POWER
     if of.across:
         kink = kink_speed(of.stiffness, of.density, of.struck or of.tension, of.across)

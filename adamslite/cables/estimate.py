@@ -57,13 +57,15 @@ class Moves:
     """What is known before the run of how the cable moves over its wheels.
 
     `paid` has the ways of winches with laws, by station; `unknown` says what is not known; `across`
-    is the greatest speed of a weight across the cable [m/s], `shaken` the greatest acceleration of
+    is the greatest speed of a weight across the cable [m/s], `along` that along a cable which no
+    wheel lets go, `shaken` the greatest acceleration of
     a station with a law of motion.
     """
 
     ways: tuple[Travel, ...] = ()
     paid: dict[int, Travel] = field(default_factory=dict)
     across: float = 0.0
+    along: float = 0.0
     shaken: float = 0.0
     unknown: str = ""
 
@@ -177,7 +179,7 @@ def estimate_moves(spec: Spec, spans: list[FreeSpan], prescribed: Laws) -> Moves
         unknown = "the payout is not known before the run"
     found = (*ways.values(), *([free] if isinstance(free, Travel) else []))
     shaken = max((way.acceleration for way in prescribed.moved if way), default=0.0)
-    return Moves(found, ways, _across(spec, spans), shaken, unknown)
+    return Moves(found, ways, _across(spec, spans), _along(spec, spans), shaken, unknown)
 
 
 def _prescribed(spec: Spec, law: Node, path: Path, faults: Faults) -> Travel | None:
@@ -229,6 +231,16 @@ def _across(spec: Spec, spans: list[FreeSpan]) -> float:
                 along = spans[p].along
                 found.append(dist(each.velocity, add((0, 0, 0), along, dot(each.velocity, along))))
     return max(found)
+
+
+def _along(spec: Spec, spans: list[FreeSpan]) -> float:
+    """Greatest speed of a weight along a cable that nothing lets go [m/s]."""
+    if spec.closed or any(each.feeds for each in spec.route):
+        return 0.0
+    return max(
+        (abs(dot(spec.route[i].velocity, span.along))
+         for span, pair in zip(spans, spec.pairs, strict=True) for i in pair), default=0.0,
+    )  # fmt: skip
 
 
 def moving_mass(spec: Spec) -> float:

@@ -134,7 +134,7 @@ def choose_model(
     form, why_form = _form(spec, spans, of, level, moves)
     count, why_count = _elements(spec, spans, of, form)
     if spec.level == 1 and demand.fronts(of, p) + (["rushes"] * (of.rushes > p)):
-        text = "; ".join((*demand.waves(of, p), *figures))
+        text = "; ".join((*demand.rigid_fails(of, p), *figures))
         faults.add("rigid-has-waves", ("model", "level"), figures=text,
                    level=demand.elastic_level(of))  # fmt: skip
     bad = demand.paper_fails(of, p)
@@ -211,7 +211,8 @@ def demand_on_longest(spec: Spec, spans: list[FreeSpan], moves: Moves) -> Demand
         struck=min(tensions(spec, spans)),
         moved=moving_mass(spec), pull=weight, least=moves.least, most=moves.most,
         speed=moves.speed, acceleration=moves.acceleration, known=moves.known, jump=moves.jump,
-        across=moves.across, straight=not (moves.across or spec.bends), end=spec.end, tied=tied,
+        across=moves.across, along=moves.along, straight=not (moves.across or spec.bends),
+        end=spec.end, tied=tied,
         rubs=rubs, slackens=cable.pulls_only, results=spec.steps, asked=spec.quantities,
     )  # fmt: skip
 
