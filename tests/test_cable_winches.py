@@ -54,6 +54,32 @@ def test_a_speed_without_motor_is_kept() -> None:
     assert found["REQUEST/10.F2"] == pytest.approx((1 - np.cos(3 * found.time)) / 2, abs=1e-5)
 
 
+def test_a_speed_may_depend_on_the_payout() -> None:
+    """s' = 1 - s."""
+    found = run(RIGID.replace(PAYOUT, 'speed = "1-S"'))
+    assert found["REQUEST/10.F2"] == pytest.approx(1 - np.exp(-found.time), abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("words", "codes"),
+    [
+        ('torque = "5"\nlimit = 3', ["wrong-value"]),
+        ('torque = "5"\nlimit = [3, -3]', ["wrong-value"]),
+        ('torque = "5"\nmotor = { curve = [[0, 1], [0, 2]] }', ["wrong-value"]),
+        ('torque = "5"\nmotor = { curve = [[0, 1], [2, -2]] }', ["wrong-value"]),
+        ('torque = "5"\nbrake = {}', ["missing-key"]),
+        ('torque = "5"\nbrake = { torque = 5, applied = "FOO(3)" }', ["expression"]),
+        ('speed = "SQRT(-1-TIME)"', ["law-no-value"]),
+        ('speed = "1e60"', ["law-no-value"]),
+        ('speed = "2"\nforce = "3"', ["drive"]),
+    ],
+)
+def test_a_drive_that_cannot_be_is_named(words: str, codes: list[str]) -> None:
+    with pytest.raises(adamslite.DeckError) as fault:
+        deck(RIGID.replace(PAYOUT, words))
+    assert [each.code for each in fault.value.diagnostics] == codes
+
+
 def test_stations_follow_the_fall_and_not_the_file() -> None:
     """The same deck, from tables in another order."""
     head, winch, weight = RIGID.replace("[model]", "[[route]]\n[model]", 1).split("[[route]]\n")[:3]

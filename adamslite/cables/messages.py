@@ -43,7 +43,9 @@ MESSAGES: dict[str, Message] = {
         "a wheel that is held, and on which the cable cannot slip, holds the cable",
         'mu = 0.2, or kind = "fixed"',
     ),
-    "held-turns": Message("a wheel that is held does not turn: no {word}", "leave {word} out"),
+    "held-turns": Message(
+        "a wheel that is held stands still on the ground: no {word}", "leave {word} out"
+    ),
     "without-mu": Message("{word} is for a wheel on which the cable may slip", "give it a mu"),
     "static-grip": Message(
         "friction that is greater at rest needs the displacement before sliding", "grip = 1e-4"

@@ -31,9 +31,9 @@ def along_the_cable(faults: Faults, tables: list[Toml], fall: object) -> list[To
 def _order(faults: Faults, tables: list[Toml], fall: object) -> list[int]:
     """Numbers of the tables in the order of the fall, that of the file without one."""
     inherited = list(range(len(tables)))
-    if fall is None:
+    if not isinstance(fall, str):  # which has no order, and is reported with the other keys
         return inherited
-    if not isinstance(fall, str) or not fall.split():
+    if not fall.split():
         expected = "the names of stations in one text"
         faults.add("wrong-value", ("fall",), word="fall", expected=expected, text=repr(fall))
         return inherited

@@ -79,7 +79,11 @@ def _engine(faults: Faults, each: Toml, i: int, drive: str) -> None:
     if motor and bool(motor.gain) != (drive == "speed"):
         code = "no-gain" if drive == "speed" else "needless-gain"
         faults.add(code, (*path, "motor"))
-    if each["limit"] and not each["limit"][0] < 0 < each["limit"][1]:
+    if (
+        isinstance(each["limit"], tuple)
+        and each["limit"]
+        and not each["limit"][0] < 0 < each["limit"][1]
+    ):
         low, high = each["limit"]
         faults.add("limit-start", (*path, "limit"), low=low, high=high)
 
@@ -89,8 +93,8 @@ def _rim(faults: Faults, each: Toml, i: int) -> None:
     if each.get("held"):
         if each["mu"] < 0:
             faults.add("held-grips", ("route", i, "held"))
-        for word in ("friction", "mount"):
-            if each[word]:
+        for word in ("friction", "mount", "leans", "wander", "mass", "motion"):
+            if each[word] and each[word] != ("", "", ""):
                 faults.add("held-turns", ("route", i, word), word=word)
     for word in ("grip", "mu_static"):
         if each[word] and each["mu"] < 0:

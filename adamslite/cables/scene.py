@@ -98,7 +98,7 @@ def _check_brute(spec: Spec, faults: Faults) -> None:
     elif not in_plane(spec):
         faults.add("brute-plane", ("model", "form"))
     for i, each in enumerate(spec.route):
-        for word in ("reel", "wander"):
+        for word in ("reel", "wander", "held", "grip"):
             if getattr(each, word):
                 faults.add("brute-cannot", ("route", i, word), word=word)
 

@@ -66,7 +66,10 @@ def drive(spec: Spec, i: int, torques: list[str]) -> str:
         text += f"SFORCE/{n}, ROTATIONAL{only}, I={n}, J={n + 1}\n, FUNCTION="
         text += "\n, +".join(torques) + "\n"
     if each.speed and not each.motor:
-        text += f"GCON/{n}, FUNCTION={rolled(i, spec, 1, sense)}\n, -({each.speed})\n"
+        speed = rolled(i, spec, 1, sense)
+        text += f"VARIABLE/S_{n}, FUNCTION={rolled(i, spec, 0, sense)}\n"
+        text += f"VARIABLE/SD_{n}, FUNCTION={speed}\n"
+        text += f"GCON/{n}, FUNCTION={speed}\n, -({own_names(each.speed, n)})\n"
     if each.payout:
         text += f"GCON/{n}, FUNCTION={rolled(i, spec, 0, sense)}\n, -({each.payout})\n"
     return text
