@@ -46,7 +46,7 @@ def describe(count: int, scene: str) -> str:
 title = "A rope over {count} bars"
 end = 9.5
 steps = 190
-error = 1e-6
+error = 2e-6
 gravity = [0, 0, 0]
 [cable]
 EA = 1e6
@@ -67,7 +67,7 @@ stagger = [0, {dip}, 0]
 radius = {radius}
 {kind}
 mu = {MU}
-grip = 1e-5
+grip = 2e-5
 [[route]]
 kind = "winch"
 at = [{LENGTH}, {end}, 0]
@@ -93,7 +93,7 @@ def measure(count: int, scene: str) -> dict[str, float]:
     halves = re.findall(r"VARIABLE/h_(\d+), FUNCTION=TANH\(([\d.e-]+)\*", text)
     row = int(np.argmin(abs(found.time - PULLS)))
     ratios = [(found[f"REQUEST/{n}.F8"][row], 2 * float(half)) for n, half in halves]
-    shares = [found[f"DIFF/grip_{n}"][row] / 1e-5 for n, _ in halves]
+    shares = [found[f"DIFF/grip_{n}"][row] / 2e-5 for n, _ in halves]
     slipping = [abs(ratio / exp(most) - 1)
                 for (ratio, most), k in zip(ratios, shares, strict=True) if k > SLIPS]  # fmt: skip
     return {
