@@ -161,7 +161,7 @@ def kinks(deck: Deck) -> Iterator[Diagnostic]:
     from adamslite.assembly.corners import suspects
     from adamslite.model.model import Model
 
-    model, until = Model(deck), _end(deck)
+    model, until = Model(deck), run_end(deck)
     for each in held:
         least = SMOOTH[each.level] if isinstance(each, Motion) else SMOOTH["DISPLACEMENT"]
         whole = (
@@ -190,7 +190,7 @@ def _may_jump(node: Node) -> bool:
     return any(call.name == "VARVAL" or not FUNCTIONS[call.name].smooth for call in calls(node))
 
 
-def _end(deck: Deck) -> float:
+def run_end(deck: Deck) -> float:
     """When the deck stops its last run; 0 where commands decide."""
     time = 0.0
     for each in deck.of(Simulate):

@@ -40,6 +40,7 @@ from adamslite.checks.markers import (
     frames,
     owners,
 )
+from adamslite.checks.needless import NEEDLESS_RULES
 from adamslite.checks.nforces import NFORCE_RULES
 from adamslite.checks.posture import (
     facing_markers,
@@ -112,4 +113,5 @@ ADVICE: list[Rule] = [
     *ASSEMBLY_RULES,
     *LINT_RULES,
     *DIMENSION_RULES,
+    *NEEDLESS_RULES,
 ]

@@ -128,11 +128,11 @@ def _measured_joints(deck: Deck, fixed: list[Joint]) -> set[Joint]:
     at = {marker: joint for joint in fixed for marker in (joint.i, joint.j)}
     found: set[Joint] = set()
     for statement in deck.statements:
-        for keyword, key in _referred(statement):
+        for keyword, key in referred(statement):
             if keyword == "JOINT" and key in by_key:
                 found.add(by_key[key])
         if statement.keyword in ("REQUEST", "MREQUEST") and statement.given("kind"):
-            keys = {key for keyword, key in _referred(statement) if keyword == "MARKER"}
+            keys = {key for keyword, key in referred(statement) if keyword == "MARKER"}
             if statement.kind == "FORCE":  # type: ignore[attr-defined]
                 found |= {at[key] for key in keys & at.keys()}
         for call in (each for node in expressions(statement) for each in walk(node)):
@@ -142,7 +142,7 @@ def _measured_joints(deck: Deck, fixed: list[Joint]) -> set[Joint]:
     return found
 
 
-def _referred(statement: Statement) -> Iterator[tuple[str, Key]]:
+def referred(statement: Statement) -> Iterator[tuple[str, Key]]:
     """Keyword and id of all that a statement names."""
     for field, argument in statement.arguments.items():
         value = getattr(statement, field)
@@ -189,7 +189,7 @@ def _acting_on(deck: Deck, element: Statement) -> Acting:
 
 def _reached(deck: Deck, statement: Statement, seen: set[PartKey]) -> Iterator[PartKey]:
     """The bodies of all markers that a statement names, itself or through others."""
-    for keyword, key in _referred(statement):
+    for keyword, key in referred(statement):
         if (keyword, key) in seen:
             continue
         seen.add((keyword, key))

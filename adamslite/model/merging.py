@@ -242,7 +242,7 @@ def _loads_on(
 
 
 #: Commands that ask nothing of a single part, and change none.
-HARMLESS = ("EQUILIBRIUM", "INTEGRATOR", "KINEMATICS", "SIMULATE", "STOP")
+HARMLESS = ("EQUILIBRIUM", "FILE", "INTEGRATOR", "KINEMATICS", "SIMULATE", "STOP")
 
 
 def kept_apart(commands: Iterable[Command], audited: bool) -> frozenset[str]:

@@ -20,6 +20,7 @@ from adamslite.language.messages.expressions import EXPRESSIONS
 from adamslite.language.messages.fixes import fixes
 from adamslite.language.messages.lints import LINTS
 from adamslite.language.messages.model import MODEL
+from adamslite.language.messages.needless import NEEDLESS
 from adamslite.language.messages.routines import ROUTINES
 from adamslite.language.messages.runs import RUNS
 from adamslite.language.messages.shapes import SHAPES
@@ -37,6 +38,7 @@ MESSAGES: dict[str, Message] = (
     | CONSTRAINTS
     | SHAPES
     | LINTS
+    | NEEDLESS
     | TABLES
     | SYSTEMS
     | ROUTINES
