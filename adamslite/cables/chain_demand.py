@@ -56,8 +56,8 @@ class ChainDemand:
     gained: tuple[float, float]
 
 
-def demand_on(chain: Chain, posture: Posture, end: float) -> ChainDemand:
-    """The figures of a chain in a run from 0 to `end`."""
+def demand_on(chain: Chain, posture: Posture, end: float, linear: bool = True) -> ChainDemand:
+    """The figures of a chain in a run from 0 to `end`; `linear`: with its linear model."""
     deck, ucf = posture.deck, posture.deck.ucf
     n = len(chain.links)
     free = sum(link.free for link in chain.links)
@@ -84,7 +84,7 @@ def demand_on(chain: Chain, posture: Posture, end: float) -> ChainDemand:
         tied=_is_tied(deck), results=_results(deck, end),
     )  # fmt: skip
     slight = not across or across < SMALL_SLOPE * demand.struck_wave
-    if travel.known and end > 0 and slight and _is_plain(chain, shape):
+    if linear and travel.known and end > 0 and slight and _is_plain(chain, shape):
         found = _machine(chain, shape, rope, law)
         if rope.tip > 0 and is_usable(found):
             halves = not _corrects(chain, posture, found)

@@ -19,7 +19,8 @@ from adamslite.language import units
 # Figures below it are shown as 0.
 ROUND_OFF = 1e-9
 ACCURACIES = (0.01, 0.001)
-# Cables that differ are reported one by one; of more than this many the rest is only counted.
+# Cables that differ are reported one by one; of more than this many the rest is only counted, and
+# none has its linear model solved.
 MOST = 6
 
 
@@ -36,7 +37,7 @@ def cables(deck: Deck, commands: Iterable[Command] = ()) -> list[ChainDemand]:
     found = []
     for chain in rows:
         try:
-            each = demand_on(chain, posture, end)
+            each = demand_on(chain, posture, end, linear=len(rows) <= MOST)
         except Unknown:
             continue
         found.append(replace(each, demand=_in_si(each.demand, deck)))
