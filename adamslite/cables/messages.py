@@ -94,6 +94,9 @@ MESSAGES: dict[str, Message] = {
     "reel-leans": Message(
         "the place where the cable leaves a reel does not move", "leave {word} out, or reel"
     ),
+    "block-ways": Message(
+        "station {i} is on the same block, and slides otherwise", "one slide and one pull for both"
+    ),
     "no-carriage": Message("{word} is for a wheel that is free to move", "give it a mass"),
     "no-slide": Message("pull goes along slide", "slide = [1, 0, 0]"),
     "expression": Message(

@@ -19,7 +19,7 @@ from adamslite.cables.machine import machine
 from adamslite.cables.messages import Faults
 from adamslite.cables.posture import AXES
 from adamslite.cables.response import Errors, Machine, is_usable
-from adamslite.cables.vectors import add, dot, part_across, unit
+from adamslite.cables.vectors import ZERO, add, dot, part_across, unit
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import slipping
 
@@ -78,11 +78,13 @@ def _block(spec: Spec, spans: list[FreeSpan], i: int) -> float:
     """Tension that holds the wheel or weight of station i, which is free to move, against gravity,
     with half of the cable beside a weight [N]."""
     before, behind = (spans[p] for p in spec.beside(i))
-    pull = add(behind.along, before.along, -1)
+    pull, mass = ZERO, 0.0
+    for j in spec.on_block(i):
+        before, behind = (spans[p] for p in spec.beside(j))
+        pull, each = add(pull, add(behind.along, before.along, -1)), spec.route[j]
+        # What the mass of a carriage adds to.
+        mass += each.mass + (each.inertia / each.radius**2 if each.is_wheel else 0.0)
     size = dot(pull, pull)
-    mass = spec.route[i].mass
-    if spec.route[i].is_wheel:  # what `mass` adds to
-        mass += spec.route[i].inertia / spec.route[i].radius ** 2
     if spec.route[i].slides:
         mass += spec.cable.density * (before.length + behind.length) / 2
     if spec.route[i].haul:

@@ -26,6 +26,7 @@ def check_route(faults: Faults, route: list[Toml], closed: bool) -> None:
             _carriage(faults, each, i)
             _rim(faults, each, i)
     _sliders(faults, route)
+    _blocks(faults, route)
 
 
 def _sliders(faults: Faults, route: list[Toml]) -> None:
@@ -106,13 +107,23 @@ def _rim(faults: Faults, each: Toml, i: int) -> None:
                    mu=each["mu"])  # fmt: skip
 
 
+def _blocks(faults: Faults, route: list[Toml]) -> None:
+    """All wheels on a block slide as its first one does, which has the pull."""
+    firsts: dict[str, int] = {}
+    for i, each in enumerate(route):
+        name = each.get("block")
+        first = firsts.setdefault(str(name), i) if name else i
+        if first < i and (each["slide"] != route[first]["slide"] or each["pull"]):
+            faults.add("block-ways", ("route", i, "block"), i=first + 1)
+
+
 def _carriage(faults: Faults, each: Toml, i: int) -> None:
     """A wheel that moves has either a law, or a mass that forces move."""
     if each["mass"] and any(each["motion"]):
         faults.add("moved-twice", ("route", i, "motion"))
     if each["mount"] and (each["mass"] or any(each["motion"])):
         faults.add("mount-moves", ("route", i, "mount"))
-    for key in ("slide", "pull"):
+    for key in ("slide", "pull", "block"):
         if not each["mass"] and any(each[key]):
             faults.add("no-carriage", ("route", i, key), word=key)
     if each["pull"] and not any(each["slide"]):

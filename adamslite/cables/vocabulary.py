@@ -52,6 +52,7 @@ class Station:
     brake: Brake | None = None
     limit: tuple[float, ...] = ()
     floor: Floor | None = None
+    block: str = ""
 
     @property
     def has_states(self) -> bool:
@@ -159,6 +160,11 @@ class Spec:
         """Thousands that the statements of stations, ten numbers each, take before those of
         spans."""
         return 10 * len(self.route) // 1000
+
+    def on_block(self, i: int) -> list[int]:
+        """Wheels on the block of station i, itself among them."""
+        name = self.route[i].block
+        return [j for j, each in enumerate(self.route) if each.block == name] if name else [i]
 
     @property
     def has_run(self) -> bool:
@@ -289,6 +295,7 @@ CARRIED: Rules = {
     "mass": ("number", "not-positive", 0.0),
     "slide": ("vector", "", ZERO),
     "pull": ("text", "", ""),
+    "block": ("word", "", ""),
 }
 ROUND: Rules = {
     "radius": ("number", "not-positive", None),

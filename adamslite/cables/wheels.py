@@ -84,7 +84,7 @@ def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
     own = "" if _is_upright(each) else f", ZP={triple(each.axis)}"
     text = f"\n! The {each.kind} of station {i + 1}, R = {number(each.radius)} m.\n"
     if each.is_mobile:
-        text += _mount(each, each.mount, n) if each.mount else _carriage(each, n)
+        text += _mount(each, each.mount, n) if each.mount else _carriage(spec, i)
     if each.leans or not each.held:
         text += _on_bearing(each, n, n + 1)
     if each.held:
@@ -166,8 +166,9 @@ def mount_request(spec: Spec, i: int) -> str:
     return f"{comment}REQUEST/{n + 1}, " + "\\ ".join(parts) + "\n"
 
 
-def _carriage(each: Station, n: int) -> str:
+def _carriage(spec: Spec, i: int) -> str:
     """What the bearing of a wheel sits on, when that moves."""
+    each, n, first = spec.route[i], marker(i), spec.on_block(i)[0]
     mass = each.mass or 1.0
     inertia = ",".join([number(mass * each.radius**2)] * 3)
     text = (
@@ -179,6 +180,12 @@ def _carriage(each: Station, n: int) -> str:
             text
             + f"MARKER/{n + 3}, PART=1, QP={triple(each.at)}\n"
             + (f"JPRIM/{n + 2}, ORIENTATION, I={n + 2}, J={n + 3}\n" + moved(n + 2, n + 3, each))
+        )
+    if first < i:
+        place = add(each.at, spec.route[first].at, -1)
+        return text + (
+            f"MARKER/{n + 3}, PART={marker(first) + 2}, QP={triple(place)}  ! its block\n"
+            f"JOINT/{n + 2}, FIXED, I={n + 2}, J={n + 3}\n"
         )
     way = unit(each.slide)
     if not any(way):

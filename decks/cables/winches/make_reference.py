@@ -171,10 +171,38 @@ def landed(mass, ea, rho, height, depth, floor, sections, paid, back):
     return "".join(f"# {line}\n" for line in lines)
 
 
+def reeved(mass, wheel, drum, torque, radius=0.25):
+    """A block on four falls, drum to anchor: constant accelerations.
+
+    When the drum pays out s, the block of two sheaves sinks by s/4; over the first sheave go 3/4 of
+    s, over the crown sheave 2/4, over the second 1/4.
+    """
+    m = wheel / radius**2
+    moved = mass + 2 * m
+    a = (moved * G / 4 - torque / radius) / (drum / radius**2 + moved / 16 + m * 14 / 16)
+    pulls = [torque / radius + drum / radius**2 * a]
+    for share in (3, 2, 1):
+        pulls.append(pulls[-1] + m * share / 4 * a)
+    t = np.linspace(0, 2, 41)
+    way = a * t**2 / 2
+    columns = {"REQUEST/10.F2": way, "REQUEST/10.F3": a * t, "PART/20.y": -2 - way / 4,
+               "PART/40.y": -2 - way / 4}  # fmt: skip
+    columns |= {f"GCON/{p}.f": np.full_like(t, -pull) for p, pull in enumerate(pulls, 1)}
+    lines = [
+        "Payout, its speed, places of the sheaves, tensions of the falls: README.md",
+        "written by make_reference.py",
+        "tolerance: abs 1e-7",
+        "tolerance GCON/*: rel 1e-6",
+    ]
+    return table(["time", *columns], lines, [t, *columns.values()], 1e-9)
+
+
 MOTOR = Hoist(400, 0.3, 40, ((0, 1500), (2, 1500), (6, 0)), 3000, (-4, 1), 10, 200, gain=2e4)
 REEL = Hoist(150, 0.5, 12, ((0, 900), (3, 700), (8, 300)), 1800, (-99, 99), 8, 160,
              thickness=0.01, core=0.2, rho=0.6)  # fmt: skip
 CASES = {
+    "reeved": lambda: reeved(180, 0.5, 3, 100),
+    "reeved-heavy": lambda: reeved(1100, 2, 9, 850),
     "landing": lambda: landed(600, 4e6, 0.8, 12, 1, 1e6, 4, 1.2, 1.0),
     "landing-heavy": lambda: landed(2000, 2e7, 2.5, 25, 2, 5e6, 6, 2.3, 1.9),
     "hoist": lambda: hoisted(MOTOR, (2e-6, 2e-6, 0.01)),
