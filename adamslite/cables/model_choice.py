@@ -77,7 +77,6 @@ def tensions(spec: Spec, spans: list[FreeSpan]) -> list[float]:
 def _block(spec: Spec, spans: list[FreeSpan], i: int) -> float:
     """Tension that holds the wheel or weight of station i, which is free to move, against gravity,
     with half of the cable beside a weight [N]."""
-    before, behind = (spans[p] for p in spec.beside(i))
     pull, mass = ZERO, 0.0
     for j in spec.on_block(i):
         before, behind = (spans[p] for p in spec.beside(j))
