@@ -3,8 +3,9 @@
 from pathlib import Path
 
 import pytest
+import reeving_mistakes
+import water_mistakes
 from descriptions import ATWOOD, BELT, HOIST, PAYOUT, folded
-from reeving_mistakes import MISTAKES
 
 import adamslite
 from adamslite.cables.messages import MESSAGES
@@ -73,7 +74,7 @@ level = 2
 """
 LAST = ATWOOD.index("[[route]]", ATWOOD.index("1.8"))
 # Code: (description, what is replaced, by what, the line and column of the caret).
-WRONG = MISTAKES | {
+WRONG = reeving_mistakes.MISTAKES | water_mistakes.MISTAKES | {
     "toml": (ATWOOD, "EA = 1e7", "EA = ", (3, 1)),
     "unknown-key": (ATWOOD, "rho = 0.01", "rho = 0.01\nrhu = 2", (5, 1)),
     "missing-key": (ATWOOD, "mass = 5\n", "", (5, 1)),

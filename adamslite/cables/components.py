@@ -11,7 +11,9 @@ from adamslite.cables.vectors import Vector
 class Cable:
     """A cable in SI units: stiffness EA [N], density rho [kg/m] of the unstretched cable.
 
-    `pulls_only` says that a slack section carries nothing; else it pushes.
+    `pulls_only` says that a slack section carries nothing; else it pushes. `length` is that of the
+    unstretched cable between two ends, 0 where it follows from the tension [m]. `bending` is EI
+    [N m^2], and a rate of the curvature counts for `bending_damping` [s] of it.
     """
 
     stiffness: float
@@ -20,6 +22,10 @@ class Cable:
     breaking: float = 0.0
     damping: float = 0.0
     pulls_only: bool = False
+    diameter: float = 0.0
+    length: float = 0.0
+    bending: float = 0.0
+    bending_damping: float = 0.0
 
     @property
     def speed(self) -> float:

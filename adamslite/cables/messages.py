@@ -1,5 +1,6 @@
 """Messages about the description of a cable, each with a description that causes it."""
 
+from adamslite.cables.surroundings_messages import SURROUNDINGS
 from adamslite.cables.toml_places import Path, Places
 from adamslite.language.diagnostics import WARNING, Diagnostic
 from adamslite.language.messages.entry import Message
@@ -7,7 +8,7 @@ from adamslite.language.messages.entry import Message
 #: Sizes of numbers whose products of several are numbers as well, in any units.
 SMALLEST, LARGEST = 1e-50, 1e50
 
-MESSAGES: dict[str, Message] = {
+MESSAGES: dict[str, Message] = SURROUNDINGS | {
     "toml": Message("this is not TOML: {why}", "a key, =, a value; texts in quotes"),
     "unknown-key": Message("there is no key {word} here", "the keys are {known}"),
     "missing-key": Message("{label} needs {word}", "write {word} = ..."),

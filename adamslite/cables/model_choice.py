@@ -9,7 +9,7 @@ h = R/10, R/14, R/20 and R/28 swings by 1.5, 0.9, 0.25 and 0.12 % of the tension
 from dataclasses import dataclass, replace
 from math import ceil, sqrt
 
-from adamslite.cables import demand
+from adamslite.cables import bending_advice, demand
 from adamslite.cables.advice import error_bound, integrator
 from adamslite.cables.brute_force_layout import stretches
 from adamslite.cables.demand import Demand
@@ -194,6 +194,8 @@ def demand_of(spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws)
     of = demand_on_longest(spec, spans, moves)
     if spec.form == "brute" or needs_brute(spec, spans):
         return of
+    if spec.water or spec.bed or spec.cable.length:
+        return of
     if of.across >= demand.SMALL_SLOPE * of.struck_wave:
         return of
     return replace(of, machines=_machines(spec, spans, moves, prescribed))
@@ -205,6 +207,7 @@ def demand_on_longest(spec: Spec, spans: list[FreeSpan], moves: Moves) -> Demand
     longest = max(reaches(spec, spans))
     weight = max(abs(dot(spec.gravity, span.along)) for span in spans)
     tied = any(each.feeds or each.is_moved or each.kind == "body" for each in spec.route)
+    tied = tied or spec.is_surrounded
     rubs = any(slipping(i, spec) for i in range(len(spec.route)))
     return Demand(
         stiffness=cable.stiffness, density=cable.density, length=longest,
@@ -233,6 +236,7 @@ def _level(spec: Spec, spans: list[FreeSpan], of: Demand, moves: Moves) -> tuple
     against = demand.rigid_fails(of, spec.accuracy)
     if not spec.bends and not any(each.is_wheel or each.is_free for each in spec.route):
         against.append("nothing moves in a rigid cable between fixed ends")
+    against += ["more than its tension acts on the cable"] * spec.is_surrounded
     against += ["a long run feeds the cable"] * any(each.kind == "run" for each in spec.route)
     against += ["the cable may slip on its wheels"] * any(
         slipping(i, spec) for i in range(len(spec.route))
@@ -272,6 +276,7 @@ def _elements(spec: Spec, spans: list[FreeSpan], of: Demand, form: str) -> tuple
     if spec.elements:
         return spec.elements, f"{spec.elements} sections as asked"
     found = demand.needed(of, spec.accuracy)
+    found |= bending_advice.sections(spec, spans, min(tensions(spec, spans)))
     radii = [each.radius for i, each in enumerate(spec.route) if _lies_on(spec, spans, i)]
     if form == "brute" and radii:
         found["for (h/R)^2/24 on a rim"] = (
@@ -305,6 +310,8 @@ def _integrator(spec: Spec, of: Demand, level: int, form: str, count: int) -> tu
         says = "a tenth of what a node sinks in"
     elif spec.bends and not of.tied:
         method, why = "VERLET", "masses that nothing ties together and nothing keeps in place"
+    elif spec.bed:
+        method, why = "HHT", "contacts with the bed"
     elif spec.has_run:
         method, why = "HHT", "waves are followed with many small steps"
     else:

@@ -1,6 +1,5 @@
 """The requests in the decks of levels 1 to 3."""
 
-from adamslite.cables import sliders
 from adamslite.cables.capstan import at_wheel, half_section
 from adamslite.cables.geometry import FreeSpan, wrap
 from adamslite.cables.links import wrapped
@@ -8,6 +7,7 @@ from adamslite.cables.model_choice import CableModel
 from adamslite.cables.pieces import Piece, is_between, pieces, root_marker
 from adamslite.cables.span_statements import side_of, spring
 from adamslite.cables.statements import number
+from adamslite.cables.supports import hanging_half, support_request
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheel_spans import is_heavy, tension_at
 from adamslite.cables.wheels import marker, mount_request, slipping, travel
@@ -26,6 +26,8 @@ def write_requests(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
     for i, each in enumerate(spec.route):
         if each.is_wheel:
             text += _over(spec, spans, model, found, i) + mount_request(spec, i)
+        elif each.kind == "fixed" and spec.is_surrounded and model.level > 1:
+            text += support_request(spec, model, found, i)
         elif each.slides and model.level > 1:
             text += _over(spec, spans, model, found, i)
     return text
@@ -46,13 +48,13 @@ def _tensions(spec: Spec, model: CableModel, piece: Piece) -> str:
         side = side_of(piece, model)
         if not root.feeds and root.kind != "run":
             i, j = root_marker(spec, piece), side.node(1)
-            parts[0] += f"+rho*{half_section(model, piece, spec)}*{sliders.lean(i, j)}"
+            parts[0] += hanging_half(spec, piece.root, half_section(model, piece, spec), (i, j))
         if tip.kind != "free":
             grows = model.level == 3 and root.feeds
             free = f"H{p}" if grows else f"L{p}_0" if n == 1 else f"L{p}"
             i, j = side.node(n), side.node(n - 1) if n > 1 else root_marker(spec, piece)
             pull = spring(spec, p, i, j, free)
-            parts.append(f"F3={pull}\n, +rho*{free}/2*{sliders.lean(i, j)}")
+            parts.append(f"F3={pull}{hanging_half(spec, piece.tip, f'{free}/2', (i, j))}")
     words = "tension at its root and tip" if len(parts) > 1 else "tension"
     return (
         f"REQUEST/{piece.label}, " + "\\\n, ".join(parts)

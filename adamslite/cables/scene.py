@@ -1,6 +1,10 @@
 """From the text of a description to the text of a deck."""
 
+from dataclasses import replace
+
+from adamslite.cables import bending_advice
 from adamslite.cables.brute_force_layout import Overstretched, length, stretches, way
+from adamslite.cables.catenary import start
 from adamslite.cables.deck_writer import write
 from adamslite.cables.demand import MOST
 from adamslite.cables.estimate import Moves, estimate_moves, laws
@@ -10,6 +14,7 @@ from adamslite.cables.messages import Faults
 from adamslite.cables.model_choice import CableModel, choose_model, needs_brute, tensions
 from adamslite.cables.sliders import is_straight, is_wire
 from adamslite.cables.spec import read
+from adamslite.cables.surroundings_rules import check_nodes, check_surroundings
 from adamslite.cables.vectors import dot
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import in_plane, slipping
@@ -33,11 +38,18 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     """
     spec, faults = read(text, file)
     spec = turned(spec)
+    check_surroundings(spec, faults)
+    _stop(faults, faults.errors and bool(spec.cable.length))
+    spec = _tensioned(spec)
     pieces = spans(spec, faults)
+    given = spec
     prescribed = laws(spec, faults)
     _stop(faults, faults.errors)
+    given, spec = spec, _essential(spec, pieces)
     moves = estimate_moves(spec, pieces, prescribed)
     model = choose_model(spec, pieces, moves, prescribed, faults)
+    told = bending_advice.told(given, pieces, min(tensions(given, pieces)))
+    model = replace(model, reasons=(*model.reasons, *told))
     _check_form(spec, pieces, model, faults)
     _check_chain(spec, pieces, faults)
     _check_shape(spec, pieces, model, faults)
@@ -48,6 +60,21 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     except Overstretched:
         faults.add("overstretched", ("cable", "EA"), stiffness=spec.cable.stiffness)
         raise DeckError(sort_by_place(faults.found)) from None
+
+
+def _tensioned(spec: Spec) -> Spec:
+    """With the tension that a cable of given length has, on which the choice of a model rests."""
+    if not spec.cable.length:
+        return spec
+    return replace(spec, cable=replace(spec.cable, pretension=start(spec, 1).tension))
+
+
+def _essential(spec: Spec, pieces: list[FreeSpan]) -> Spec:
+    """Without bending where the level is not given and less than the accuracy is lost."""
+    if not spec.cable.bending or spec.level:
+        return spec
+    needed = bending_advice.needs_bending(spec, pieces, min(tensions(spec, pieces)))
+    return spec if needed else bending_advice.without(spec)
 
 
 def _stop(faults: Faults, wrong: bool) -> None:
@@ -72,6 +99,7 @@ def _check_form(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: F
             faults.add("slider-form", ("route", i, "slides"))
         if each.floor and not any(spec.gravity):
             faults.add("floor-where", ("route", i, "floor"))
+    check_nodes(spec, model.level, model.form, faults)
     if model.level == 1:
         _check_rigid(spec, faults)
 

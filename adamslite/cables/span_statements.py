@@ -4,8 +4,12 @@ Node k of span p is MARKER/1000 p + k, counted from the wheel, from the start of
 one. A span between two wheels is one spring; a run that continues pulls with T0 + rho c v.
 """
 
+from dataclasses import replace
+
 from adamslite.cables import sliders
+from adamslite.cables.around import Row, lightness, write_around, write_clamp
 from adamslite.cables.capstan import half_section, turned
+from adamslite.cables.catenary import start
 from adamslite.cables.ends import end
 from adamslite.cables.geometry import FreeSpan
 from adamslite.cables.links import borne
@@ -123,7 +127,11 @@ def _on_axle(spec: Spec, piece: Piece) -> str:
 
 def _hanging(spec: Spec, model: CableModel, piece: Piece) -> tuple[float, list[Vector]]:
     """Free length at rest [m], and the places of the nodes from root to tip."""
+    if spec.cable.length:
+        places = start(spec, model.elements).places
+        return spec.cable.length, places[1:]
     held = spec.route[piece.tip].kind == "fixed"
+    spec = replace(spec, gravity=add(ZERO, spec.gravity, lightness(spec, piece.place)))
     return hanging(spec, model.elements, piece.span.length, (piece.place, piece.along),
                    piece.tension, held)  # fmt: skip
 
@@ -131,8 +139,11 @@ def _hanging(spec: Spec, model: CableModel, piece: Piece) -> tuple[float, list[V
 def _axes(spec: Spec) -> str:
     """The axes along which anything lies, moves or pulls."""
     vectors = [spec.gravity, *(each.velocity for each in spec.route)]
+    vectors += [each.clamped for each in spec.route]
     vectors += [add(each.at, spec.route[0].at, -1) for each in spec.route]
     laws = [any(each.motion[i] for each in spec.route) for i in range(3)]
+    if spec.water:
+        laws = [a or bool(b) for a, b in zip(laws, spec.water.current, strict=True)]
     return "".join(a for i, a in enumerate(AXES) if laws[i] or any(abs(v[i]) > 0 for v in vectors))
 
 
@@ -162,9 +173,30 @@ def _chain(spec: Spec, model: CableModel, piece: Piece) -> str:
         name = f"H{p}" if grows else f"L{p}_0" if k == 1 else f"L{p}"
         if not is_still(spec, model, piece):
             text += section(side.first + k, i, side.node(k), name, cable.damping, cable.pulls_only)
+    text += write_around(spec, row_of(spec, model, piece), axes) + _clamps(spec, model, piece)
     if spec.route[piece.root].slides:
         text += sliders.through(p, side.node(0), side.node(1), axes)
     return text + _pull(spec, model, piece, grows)
+
+
+def row_of(spec: Spec, model: CableModel, piece: Piece) -> Row:
+    """The nodes of a span and what they are held by."""
+    side, ends = side_of(piece, model), [spec.route[i] for i in (piece.root, piece.tip)]
+    grows = model.level == 3 and ends[0].feeds
+    nodes = root_marker(spec, piece), *(side.node(k) for k in range(1, model.elements + 1))
+    free = [each.is_free and not each.slides for each in ends]
+    held = [each.kind == "fixed" or each.is_wheel and not (each.is_mobile or each.leans)
+            for each in ends]  # fmt: skip
+    length = f"{'H' if grows else 'L'}{piece.number}"
+    return Row(nodes, length, (free[0], free[1]), (held[0], held[1]))
+
+
+def _clamps(spec: Spec, model: CableModel, piece: Piece) -> str:
+    """What turns the cable at its ends."""
+    row = row_of(spec, model, piece)
+    beside = (piece.root, row.nodes[1]), (piece.tip, row.nodes[-2])
+    held = [(i, node) for i, node in beside if any(spec.route[i].clamped)]
+    return "".join(write_clamp(spec, i, node, row.length) for i, node in held)
 
 
 def is_still(spec: Spec, model: CableModel, piece: Piece) -> bool:
@@ -200,7 +232,7 @@ def _pull(spec: Spec, model: CableModel, piece: Piece, grows: bool) -> str:
         text = f"VARIABLE/P{p}, FUNCTION={pull}\n"
         text += borne(spec, piece.root, i, j, piece.sense, f"P{p}", f"T{p}-P{p}")
         text += f"VARIABLE/T{p}, FUNCTION=P{p}"
-    weight = dot(spec.gravity, piece.along)
+    weight = dot(spec.gravity, piece.along) * lightness(spec, piece.place)
     if spec.route[piece.root].is_wheel:
         # A cable that slips has the half section among the mass on its wheel instead.
         feeds = f"-({feed(spec, piece, 2)})"

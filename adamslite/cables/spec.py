@@ -5,6 +5,7 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import Any, TypeGuard
 
+from adamslite.cables import surroundings_rules
 from adamslite.cables.components import Cable
 from adamslite.cables.messages import LARGEST, SMALLEST, Faults
 from adamslite.cables.reeving import along_the_cable
@@ -51,8 +52,16 @@ def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
     route = along_the_cable(faults, _stations(faults, data.get("route", [])), data.get("fall"))
     check_route(faults, route, data.get("closed") is True)
     readable = not faults.found
-    top = _table(faults, {k: v for k, v in data.items() if k not in TABLES}, TOP, (), TABLES)
-    cable = _table(faults, _part(faults, data, "cable"), CABLE, ("cable",))
+    top = _table(
+        faults,
+        {k: v for k, v in data.items() if k not in TABLES},
+        TOP | surroundings_rules.TOP,
+        (),
+        TABLES,
+    )
+    cable = _table(
+        faults, _part(faults, data, "cable"), CABLE | surroundings_rules.CABLE, ("cable",)
+    )
     model = _table(faults, _part(faults, data, "model"), MODEL, ("model",))
     if not readable or any(each.code == "missing-key" for each in faults.found):
         raise DeckError(sort_by_place(faults.found))
@@ -96,6 +105,8 @@ def _stations(faults: Faults, route: object) -> list[Toml]:
         rules = STATIONS.get(kind) if isinstance(kind, str) else None
         if rules and each.get("held") is True:  # it does not turn
             rules = rules | {"inertia": ("number", "not-positive", 0.0)}
+        if rules and kind == "fixed":
+            rules = rules | surroundings_rules.FIXED
         # What a station of no known kind may have is not known either.
         known = each if rules else {k: v for k, v in each.items() if k in PLACE}
         found.append(_table(faults, known, rules or PLACE, ("route", i)))

@@ -7,6 +7,7 @@ from math import pi, sin
 from typing import Any, TypeAlias
 
 from adamslite.cables.components import Brake, Cable, Floor, Motor, Mount, Reel, Wander
+from adamslite.cables.surroundings import Bed, Water
 from adamslite.cables.vectors import ZERO, Vector
 
 
@@ -47,6 +48,7 @@ class Station:
     held: bool = False
     grip: float = 0.0
     mu_static: float = 0.0
+    clamped: Vector = ZERO
     speed: str = ""
     motor: Motor | None = None
     brake: Brake | None = None
@@ -138,6 +140,9 @@ class Spec:
     elements: int
     accuracy: float
     quantities: tuple[str, ...] = ("tension", "position")
+    statics: bool = False
+    water: Water | None = None
+    bed: Bed | None = None
     pairs: tuple[tuple[int, int], ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -180,6 +185,11 @@ class Spec:
     def pitch(self) -> float:
         """Of a chain, 0 for a cable [m]."""
         return next((each.pitch for each in self.route if each.teeth), 0.0)
+
+    @property
+    def is_surrounded(self) -> bool:
+        """Whether anything but tension and gravity acts on the nodes of the cable."""
+        return bool(self.water or self.bed or self.cable.bending)
 
     def is_end(self, i: int) -> bool:
         """Whether the route begins or ends at station i."""
