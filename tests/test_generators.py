@@ -56,6 +56,7 @@ CHEAP = [
     slow(case) if case == "arrestment" else case for case in sorted(set(generate.CASES) - set(SLOW))
 ]
 SHEAVES = runpy.run_path(str(find("decks") / "cables" / "sheaves" / "make_reference.py"))["CASES"]
+WATER = runpy.run_path(str(find("decks") / "cables" / "water" / "make_reference.py"))["CASES"]
 DESCRIBE = runpy.run_path(str(find("decks") / "cables" / "described" / "describe.py"))
 
 
@@ -98,6 +99,12 @@ def test_a_reference_of_a_described_scene_is_what_its_generator_writes(case: str
 def test_a_reference_of_sheaves_is_what_its_generator_writes(case: str) -> None:
     kept = find("decks") / "cables" / "sheaves" / f"{case}.reference.csv"
     assert_same_reference(SHEAVES[case](), kept.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("case", WATER)
+def test_a_reference_of_cables_in_water_is_what_its_generator_writes(case: str) -> None:
+    kept = find("decks") / "cables" / "water" / f"{case}.reference.csv"
+    assert_same_reference(WATER[case](), kept.read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("case", every(3, QUICK))

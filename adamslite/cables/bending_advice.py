@@ -23,6 +23,8 @@ from adamslite.cables.vocabulary import Spec
 LONG = 50.0
 # A solid rod has EI = EA D^2/16.
 ROD = 16
+# Sections that bend; n of them sag by LUMPED/n^2 too much.
+FEWEST, LUMPED = 4, 0.8
 # More sections where a cable comes to lie on a bed: it does so within a section.
 TOUCH_DOWN = 1.5
 
@@ -88,6 +90,9 @@ def sections(spec: Spec, spans: list[FreeSpan], tension: float) -> dict[str, flo
         turns = weight * length / least if least else 0.0
         finer = TOUCH_DOWN if spec.bed else 1.0
         found["for the curve of the cable"] = finer * turns / sqrt(2 * spec.accuracy)
+    if spec.cable.bending:
+        lost = max(losses(spec, spans, tension, spec.cable.bending).values())
+        found["for bending"] = max(FEWEST, sqrt(LUMPED * lost / spec.accuracy))
     if any(any(each.clamped) for each in spec.route) and tension > 0:
         b = sqrt(spec.cable.bending / tension)
         found["for the bending length at a clamp"] = length / b / sqrt(24 * spec.accuracy)

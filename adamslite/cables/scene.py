@@ -99,7 +99,7 @@ def _check_form(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: F
             faults.add("slider-form", ("route", i, "slides"))
         if each.floor and not any(spec.gravity):
             faults.add("floor-where", ("route", i, "floor"))
-    check_nodes(spec, model.level, model.form, faults)
+    check_nodes(spec, model, faults)
     if model.level == 1:
         _check_rigid(spec, faults)
 
