@@ -77,6 +77,7 @@ ERROR = Diagnostic("E1", "error", "there is no MARKER/7", Span("cable.adm", 2, 4
 class FakeDeck:
     statements: tuple[Any, ...]
     source: Source = Source("")
+    incomplete: frozenset[str] = frozenset()
 
     @property
     def own(self) -> tuple[Any, ...]:

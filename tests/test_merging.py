@@ -201,3 +201,46 @@ def test_a_sensor_stops_both_at_the_same_time() -> None:
     )
     assert one.outcome == other.outcome
     np.testing.assert_allclose(one.time, other.time, rtol=1e-9)
+
+
+EXTRAS = {
+    "driven": "MOTION/1, JOINT=1, ROTATION, FUNCTION=SIN(3*TIME)",
+    "a speed is driven": "MOTION/1, JOINT=1, ROTATION, VELOCITY, FUNCTION=3",
+    "an expression jumps": "SFORCE/1, ROTATIONAL, I=6, J=1, FUNCTION=STEP(TIME,0.1,0,0.2,9)"
+    "+IF(TIME-0.3:0,0,20)",
+    "an impact": "VFORCE/2, I=6, J_PART=1, FX=0\\ "
+    "FY=IMPACT(DY(6,1),VY(6,1),-0.3,1E4,1.5,10,0.01)\\ FZ=0",
+    "a spring inside": "SPRINGDAMPER/1, I=6, J=3, K=100, C=1, LENGTH=1",
+    "a beam to ground": "MARKER/9, PART=1, QP=3.5,0,0\nBEAM/1, I=9, J=6, LENGTH=1, IXX=1E-6, "
+    "IYY=1E-6, IZZ=1E-6, AREA=1E-4, EMODULUS=1E9, GMODULUS=1E9, CRATIO=0.01",
+    "a reaction that follows": "MARKER/9, PART=3, FLOATING\n"
+    "VFORCE/3, I=3, JFLOAT=9, FX=5\\ FY=1\\ FZ=0",
+    "added mass": "VFORCE/3, I=6, J_PART=1, FX=0\\ FY=-0.5*ACCY(6)\\ FZ=0",
+    "a variable of itself": "VARIABLE/1, IC=1, FUNCTION=0.5*VARVAL(1)+ACCY(6)*0.01\n"
+    "REQUEST/1, F1=VARVAL(1)",
+    "friction": "FRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2, PIN_RADIUS=0.1",
+    "a coupler": "PART/8, MASS=1, CM=81, IP=1,1,1, QG=0,2,0\nMARKER/81, PART=8\n"
+    "MARKER/82, PART=1, QP=0,2,0\nJOINT/5, REVOLUTE, I=81, J=82\n"
+    "COUPLER/1, JOINTS=1,5, TYPE=R:R, SCALES=1,2",
+    "a general constraint": "PART/8, MASS=1, CM=81, IP=1,1,1, QG=1,2,0\nMARKER/81, PART=8\n"
+    "GCON/1, FUNCTION=DM(6,81)-2.5",
+    "a redundant hinge": "MARKER/9, PART=3, QP=-2,0,1\nMARKER/19, PART=1, QP=0,0,1\n"
+    "JOINT/3, REVOLUTE, I=9, J=19",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", every(3, EXTRAS))
+def test_whatever_else_acts(name: str) -> None:
+    """To 1e-9; what a redundant hinge carries is shared out as with every part by itself."""
+    found = deck(EXTRAS[name])
+    assert is_merged(found)
+    assert difference(found, error=1e-10, integrator="RADAU") < 1e-9
+
+
+def test_turns_are_counted() -> None:
+    """Whirled round more than twice against a torsion spring that takes hold of the second part."""
+    extra = "SFORCE/1, ROTATIONAL, I=6, J=1, FUNCTION=-3*AZ(6,1)\nREQUEST/1, F1=AZ(6,1)"
+    found = deck(extra, speeds=", VY=30, WZ=30", more=", VY=75, WZ=30")
+    assert is_merged(found)
+    assert difference(found, error=1e-10, integrator="RADAU") < 1e-9
+    assert adamslite.simulate(found)["REQUEST/1.F1"].max() > 4 * np.pi

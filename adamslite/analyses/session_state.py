@@ -21,7 +21,7 @@ from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.history import History, Piece
 from adamslite.analyses.initial.algebraic_states import settle_states
 from adamslite.analyses.initial.conditions import initial_conditions, settle_variables
-from adamslite.analyses.initial.drawn import Drawn
+from adamslite.analyses.initial.drawn import Drawn, other_rows_left_out
 from adamslite.analyses.initial.redundancy import leave_out_redundant
 from adamslite.analyses.method_choice import MethodChoice
 from adamslite.analyses.saves import Saves
@@ -134,13 +134,16 @@ class SessionState:
                 self.unclosed = self._start_of_joints(system)
                 drawn = Drawn.of(system)
                 self.present = self.assembled_of(system)
-                if isinstance(system.model, MergedModel) and drawn.differs(self.present):
+                if isinstance(system.model, MergedModel) and (
+                    drawn.differs(self.present) or other_rows_left_out(self.present)
+                ):
                     return self._taken_apart()
         return self.present
 
     def _taken_apart(self) -> System:
         """The equations of every part by itself: the start is not as drawn, and by how much each
-        part is to be moved is another question for one that is part of a body.
+        part is to be moved is another question for one that is part of a body; or reactions are
+        not determined, and other rows would be left out.
         """
         self.without |= {RULE}
         self.outcome, self.unclosed, self.present = Outcome.DONE, None, None

@@ -74,7 +74,8 @@ class Check(list[Diagnostic]):
 def check(
     scene: Deck | str | os.PathLike[str], commands: CommandSource = None, user: User = None
 ) -> Check:
-    """Everything to say about a deck: of a file or text errors too, of a Deck warnings and notes.
+    """Everything to say about a deck: of a file or text errors too, and what it can do without;
+    of a Deck warnings and notes.
 
     Parameters
     ----------
@@ -105,7 +106,8 @@ def _of_files(scene: str | os.PathLike[str], commands: CommandSource, user: User
     deck = read.deck
     missing = without_ignored(deck.source, without_run(deck, read.commands))
     title = f"{title} with {read.beside} beside it" if read.beside else title
-    return Check([*read.messages, *missing], deck, read.commands, title)
+    messages = [*read.messages, *missing, *rules.needless(deck)]
+    return Check(messages, deck, read.commands, title)
 
 
 def _title(deck: Deck) -> str:

@@ -55,7 +55,7 @@ from adamslite.checks.tables import TABLE_RULES
 from adamslite.deck.deck import Deck
 from adamslite.deck.named_places import with_named
 from adamslite.language.diagnostics import Diagnostic, sort_by_place
-from adamslite.language.messages.ignoring import judged
+from adamslite.language.messages.ignoring import judged, without_ignored
 
 
 def check(deck: Deck) -> list[Diagnostic]:
@@ -65,6 +65,12 @@ def check(deck: Deck) -> list[Diagnostic]:
     """
     found = [*deck.warnings, *with_named(deck, apply(ADVICE, deck))]
     return sort_by_place(judged(deck.source, found, complete=True))
+
+
+def needless(deck: Deck) -> list[Diagnostic]:
+    """What the scene of a deck can do without; `check` tells it, runs do not."""
+    found = [*with_named(deck, apply(NEEDLESS_RULES, deck))]
+    return sort_by_place(without_ignored(deck.source, found))
 
 
 RULES: list[Rule] = [
@@ -113,5 +119,4 @@ ADVICE: list[Rule] = [
     *ASSEMBLY_RULES,
     *LINT_RULES,
     *DIMENSION_RULES,
-    *NEEDLESS_RULES,
 ]

@@ -1,4 +1,4 @@
-"""Whether a model starts as its deck draws it."""
+"""Whether a model with merged parts starts as drawn, and as it would part by part."""
 
 from __future__ import annotations
 
@@ -38,3 +38,18 @@ class Drawn(NamedTuple):
 def _changed(before: np.ndarray, now: np.ndarray) -> bool:
     size = max(float(np.abs(each).max(initial=0.0)) for each in (before, now))
     return not float(np.abs(now - before).max(initial=0.0)) <= NOTHING * size
+
+
+def other_rows_left_out(system: System) -> bool:
+    """Whether other redundant rows are left out than with every part by itself: what they carry is
+    then shared out in another way.
+    """
+    dropped = system.elimination.dropped
+    if not dropped:
+        return False
+    # Few models have redundant rows.
+    from adamslite.assembly.rank import name_of_row
+    from adamslite.assembly.start import redundant_rows
+
+    own = {name_of_row(system.model.constraints, row) for row in dropped}
+    return own != set(redundant_rows(system.model.deck))

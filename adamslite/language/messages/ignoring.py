@@ -15,11 +15,12 @@ from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import MESSAGES, compose
 from adamslite.language.messages.fixes import fixes
+from adamslite.language.messages.needless import NEEDLESS
 
 COMMENT = re.compile(r"adamslite:[ \t]*ignore\b([^\n]*)", re.IGNORECASE)
 CODES = re.compile(r"[ \t]*[\w-]+(?:[ \t]*,[ \t]*[\w-]+)*")
-# What is known only when deck and commands have been read.
-WHOLE = "no-run"
+# What is known only when deck and commands have been read, or is told by `check` alone.
+WHOLE = ("no-run", *NEEDLESS)
 CODE = re.compile(r"[\w-]+")
 
 
@@ -75,7 +76,7 @@ def judged(source: Source, diagnostics: Iterable[Diagnostic], complete: bool) ->
         entry = MESSAGES.get(each.code)
         if entry and entry.severity == ERROR:
             left.append(_about(source, each, "ignored-error"))
-        elif complete and each.code != WHOLE and (each.code, each.line) not in used:
+        elif complete and each.code not in WHOLE and (each.code, each.line) not in used:
             hint = "" if entry else _meant(each.code)
             left.append(_about(source, each, "ignores-nothing", hint))
     return left
