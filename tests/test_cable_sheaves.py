@@ -87,8 +87,8 @@ def test_spans_between_wheels_have_mass() -> None:
 
 def test_a_rope_sticks_and_slips_where_friction_is_greater_at_rest() -> None:
     """The same equations of one bar, integrated by scipy."""
-    law = "-0.001*TIME"
-    text, _ = deck(bars(1, law, "mu_static = 0.5", end=0.5).replace("error = 1e-7", "error = 1e-9"))
+    law = "-0.002*TIME"
+    text, _ = deck(bars(1, law, "mu_static = 0.5", end=0.25).replace("error = 1e-7", "error = 1e-9"))
     found = adamslite.simulate(adamslite.read(text))
     half = float(re.search(r"FUNCTION=TANH\(([\d.]+)\*", text)[1])
     wrap = half / 0.1
@@ -99,7 +99,7 @@ def test_a_rope_sticks_and_slips_where_friction_is_greater_at_rest() -> None:
     def rates(t: float, y: np.ndarray) -> list[float]:
         s, v, z = y
         # The rope comes off the first span; what the winch takes comes off the second.
-        l1, l2 = free[0] - s, free[1] + s - 0.001 * t
+        l1, l2 = free[0] - s, free[1] + s - 0.002 * t
         t1, t2 = (1e6 * (x / now - 1) for x, now in zip(long, (l1, l2), strict=True))
         k = z / 2e-5
         h = np.tanh(half * k)
@@ -108,6 +108,6 @@ def test_a_rope_sticks_and_slips_where_friction_is_greater_at_rest() -> None:
         a = (t2 - t1 - h * (t1 + t2 - v**2)) / (rim + m1 + m2 + h * (m1 - m2))
         return [v, a, v * (1 - np.tanh(v / 1e-8) * k / full)]
 
-    exact = solve_ivp(rates, (0, 0.5), [0, 0, 0], "Radau", found.time, rtol=1e-6, atol=1e-10)
+    exact = solve_ivp(rates, (0, 0.25), [0, 0, 0], "Radau", found.time, rtol=1e-6, atol=1e-10)
     assert found["REQUEST/20.F2"] == pytest.approx(exact.y[0], abs=2e-5)
-    assert found["REQUEST/20.F8"].max() > exp(2 * half) * 1.05  # it sticks above mu
+    assert found["REQUEST/20.F8"].max() > exp(2 * half) * 1.02  # it sticks above mu
