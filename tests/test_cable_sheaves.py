@@ -88,7 +88,8 @@ def test_spans_between_wheels_have_mass() -> None:
 def test_a_rope_sticks_and_slips_where_friction_is_greater_at_rest() -> None:
     """The same equations of one bar, integrated by scipy."""
     law = "-0.002*TIME"
-    text, _ = deck(bars(1, law, "mu_static = 0.5", end=0.25).replace("error = 1e-7", "error = 1e-9"))
+    spec = bars(1, law, "mu_static = 0.5", end=0.25)
+    text, _ = deck(spec.replace("error = 1e-7", "error = 1e-9"))
     found = adamslite.simulate(adamslite.read(text))
     half = float(re.search(r"FUNCTION=TANH\(([\d.]+)\*", text)[1])
     wrap = half / 0.1
