@@ -22,7 +22,7 @@ def lines(*measures: tuple[str, float, str]) -> str:
     return "\n".join(rows) + "\n"
 
 
-def chain(length: float, away: float, depth: float, n: int) -> str:
+def chain(length: float, away: float, depth: float, n: int, lumps: float = 1) -> str:
     """Elastic catenary from the fairlead to where it lies; nothing rubs on the bed."""
     size = 0.252
     weight = (390 - 1025 * np.pi / 4 * size**2) * 9.8
@@ -37,7 +37,7 @@ def chain(length: float, away: float, depth: float, n: int) -> str:
 
     u = fsolve(misses, [np.log(2 * weight * length), 0.5 * weight * length], xtol=1e-13)
     assert np.abs(misses(u)).max() < 1e-10 and u[1] < weight * length
-    within = f"rel {2 / n**2:.2g}"
+    within = f"rel {lumps / n**2:.2g}"
     return lines(
         ("last REQUEST/10.F6", float(np.hypot(np.exp(u[0]), u[1])), within),
         ("last REQUEST/20.F6", float(np.exp(u[0])), within),
@@ -45,7 +45,7 @@ def chain(length: float, away: float, depth: float, n: int) -> str:
 
 
 def moored() -> str:
-    return chain(410, 400, 50, 82)
+    return chain(410, 400, 50, 164, 4)
 
 
 def moored_deep() -> str:
