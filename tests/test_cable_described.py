@@ -14,7 +14,10 @@ from adamslite.resources import find
 
 FOLDERS = ("described", "sheaves", "water", "winches")
 DESCRIBED = sorted(
-    path for folder in FOLDERS for path in (find("decks") / "cables" / folder).glob("*.toml")
+    path
+    for folder in FOLDERS
+    for path in (find("decks") / "cables" / folder).glob("*.toml")
+    if path.stem != "published"
 )
 PAGE = Path(__file__).parent.parent / "docs" / "reference" / "cable-command.md"
 
