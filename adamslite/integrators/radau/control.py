@@ -16,6 +16,7 @@ class Control(ImplicitControl):
                          taken again, shorter, to end at a crossing
     lengthened           how often that one then was taken again, longer, because it ended before
                          the crossing
+    firmest              the sensitivity to constraints at the start of the run
     """
 
     theta: float
@@ -27,3 +28,4 @@ class Control(ImplicitControl):
     to_target: float
     passed: float
     lengthened: int
+    firmest: float
