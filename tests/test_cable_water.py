@@ -165,3 +165,13 @@ def test_bending_keeps_the_energy_of_a_cantilever() -> None:
     kinetic = masses @ (vx**2 + vy**2) / 2
     weight = 5 * masses @ y
     assert np.ptp(kinetic + stored + weight) < 1e-4 * np.max(kinetic)
+
+
+def test_a_weight_bends_a_cantilever_to_the_elastica() -> None:
+    """P l^2/EI = 1: 0.30172 l down, 0.05643 l back (K. Mattiasson, Int. J. Numer. Methods Eng. 17
+    (1981) 145); its own weight is a thousandth of P and adds 3/8 of that."""
+    text = CANTILEVER.format(end=12, gravity=-10, damping=0.15).replace("rho = 0.5", "rho = 1e-3")
+    text = text.replace('kind = "free"', 'kind = "mass"\nmass = 1').replace("steps = 800\n", "")
+    run = solve(text.replace("elements = 20", "elements = 40").replace("error = 1e-9\n", ""))
+    assert run["POINT_MASS/20.y"][-1] == pytest.approx(-0.30172, rel=2e-3)
+    assert 1 - run["POINT_MASS/20.x"][-1] == pytest.approx(0.05643, rel=3e-3)
