@@ -158,6 +158,19 @@ def test_a_state_that_is_small_against_error_is_told(size: float, told: bool):
     assert ("largest DIFF/1" in results.meta.get("accuracy", "")) is told
 
 
+def test_of_many_small_states_the_worst_are_named_and_all_counted():
+    """Thirty filters of the same signal, of amplitudes of 0.001 to 0.03: the smallest are worst."""
+    filters = "".join(
+        f"DIFF/{k}, FUNCTION=20*({k}E-3*SIN(14*TIME)-DIF({k}))\n" for k in range(1, 31)
+    )
+    deck = GROUND + f"POINT_MASS/2, MASS=1, CM=2, VX=1\nMARKER/2, POINT_MASS=2\n{filters}END\n"
+    note = done(deck, 2.0, 40, integrator="GSTIFF", error=1e-4).meta["accuracy"]
+    assert note.count("largest DIFF") == 1
+    assert note.index("largest DIFF/1 ") < note.index("DIFF/2 ") < note.index("DIFF/3 ")
+    assert "DIFF/4" not in note
+    assert "30 states in all" in note
+
+
 def at_a_wall(force: str) -> str:
     """1.5 kg that flies at 2 m/s against a wall at x = 0, 0.31 m away."""
     return (

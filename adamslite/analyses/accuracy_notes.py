@@ -43,6 +43,8 @@ MOVING = 0.1
 ROUNDING = 1e-12
 # Columns of results that are evaluated together.
 COLUMNS = 1024
+# So many of the states that are small against ERROR are named, the worst first.
+WORST_STATES = 3
 
 
 def accuracy_notes(
@@ -156,13 +158,21 @@ def _added_up(settings: Settings, steps: int, off: float, way: float) -> Iterato
 def _of_small_states(
     settings: Settings, spent: float, names: tuple[str, ...], values: np.ndarray
 ) -> Iterator[str]:
-    """DIFF states so small that ERROR, which is absolute below 1, is a share of them."""
+    """DIFF states so small that ERROR, which is absolute below 1, is a share of them: the worst."""
+    found = []
     for k, name in enumerate(names):
         if name.startswith("DIFF/") and np.isfinite(values[:, k]).all():
             size = float(np.abs(values[:, k]).max())
             off = spent * max(1.0, size)
             if off > FELT * size > 0.0:
-                yield (
-                    f"the estimated errors add up to {off:.1e}, {off / size:.1%} of the largest "
-                    f"{name}: a smaller ERROR than {settings.error:g}, or another unit of the state"
-                )
+                found.append((off / size, off, name))
+    if not found:
+        return
+    found.sort(key=lambda state: -state[0])
+    share, off, name = found[0]
+    others = ", ".join(f"{each} {part:.1%}" for part, _, each in found[1:WORST_STATES])
+    worst = f" ({others}, {len(found)} states in all)" if others else ""
+    yield (
+        f"the estimated errors add up to {off:.1e}, {share:.1%} of the largest {name}{worst}: "
+        f"a smaller ERROR than {settings.error:g}, or another unit of the state"
+    )
