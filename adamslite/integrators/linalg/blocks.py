@@ -49,6 +49,23 @@ def invert3(A: Reals, o: int) -> float:
 
 
 @native
+@inline
+def invert2(A: Reals, o: int, s: int) -> float:
+    """Replace the block of one or 2 x 2 entries at ``o`` with its inverse; returns its
+    determinant.
+    """
+    a = A[o]
+    if s == 1:
+        A[o] = 1.0 / a
+        return a
+    b, c, d = A[o + 1], A[o + 2], A[o + 3]
+    det = a * d - b * c
+    w = 1.0 / det
+    A[o], A[o + 1], A[o + 2], A[o + 3] = d * w, -b * w, -c * w, a * w
+    return det
+
+
+@native
 def invert(A: Reals, o: int, s: int, pivots: Ints, po: int, work: Reals) -> bool:
     """Replace the s x s block at ``o`` with its inverse (Gauss-Jordan, row pivoting)."""
     if not lu_dense(A, o, s, pivots, po):
@@ -212,6 +229,9 @@ def factor(L: Plan, LV: Reals, pivots: Ints, work: Reals) -> bool:
             det = invert3(LV, o)
             if not abs(det) > TINY:
                 return False
+        elif s <= 2:
+            if not abs(invert2(LV, o, s)) > TINY:
+                return False
         elif not invert(LV, o, s, pivots, L.start[k], work):
             return False
         at = eliminate(L, LV, k, at, work)
@@ -274,8 +294,8 @@ def forward(L: Plan, LV: Reals, x: Reals) -> None:
             i, below = L.node[e], L.lower[e]
             if s == 3 and L.size[i] == 3:
                 subtract3(LV[below:], x[p:], x[L.start[i] :])
-            elif s == 2 and L.size[i] == 2:
-                subtract2(LV[below:], x[p:], x[L.start[i] :])
+            elif s == 2:
+                subtract2(LV[below:], L.size[i], x[p:], x[L.start[i] :])
             else:
                 subtract(LV[below:], L.size[i], s, x[p:], x[L.start[i] :])
 
@@ -291,12 +311,14 @@ def backward(L: Plan, LV: Reals, x: Reals, y: Reals) -> None:
         else:
             for e in range(lo, L.first[k + 1]):
                 j = L.node[e]
-                if s == 2 and L.size[j] == 2:
-                    subtract2(LV[L.upper[e] :], x[L.start[j] :], x[p:])
+                if L.size[j] == 2:
+                    subtract2(LV[L.upper[e] :], s, x[L.start[j] :], x[p:])
                 else:
                     subtract(LV[L.upper[e] :], s, L.size[j], x[L.start[j] :], x[p:])
             if s == 3:
                 replace3(LV[o:], x[p:])
+            elif s <= 2:
+                replace2(LV[o:], s, x[p:])
             else:
                 replace(LV[o:], s, x[p:], y)
 
@@ -314,11 +336,11 @@ def subtract3(A: Reals, x: Reals, y: Reals) -> None:
 
 
 @native
-def subtract2(A: Reals, x: Reals, y: Reals) -> None:
-    """y -= A x for a 2 x 2 block."""
+def subtract2(A: Reals, rows: int, x: Reals, y: Reals) -> None:
+    """y -= A x for a block of two columns."""
     a, b = x[0], x[1]
-    y[0] -= A[0] * a + A[1] * b
-    y[1] -= A[2] * a + A[3] * b
+    for i in range(rows):
+        y[i] -= A[2 * i] * a + A[2 * i + 1] * b
 
 
 @native
@@ -339,6 +361,18 @@ def replace3(A: Reals, x: Reals) -> None:
     x[0] = A[0] * a + A[1] * b + A[2] * c
     x[1] = A[3] * a + A[4] * b + A[5] * c
     x[2] = A[6] * a + A[7] * b + A[8] * c
+
+
+@native
+@inline
+def replace2(A: Reals, size: int, x: Reals) -> None:
+    """x = A x for a block of one or 2 x 2 entries."""
+    a = x[0]
+    if size == 1:
+        x[0] = A[0] * a
+    else:
+        b = x[1]
+        x[0], x[1] = A[0] * a + A[1] * b, A[2] * a + A[3] * b
 
 
 @native
