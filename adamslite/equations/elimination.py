@@ -82,8 +82,8 @@ class Elimination:
 
     def _derive(self) -> None:
         """Blocks made of others, and room for all."""
-        self.mixed = ints(self._mixed_products() if self.numbering.stabilised else [])
-        self.turning = ints(self._turning_blocks())
+        self._products = self._mixed_products() if self.numbering.stabilised else []
+        self._turns = self._turning_blocks()
         rows, columns, at = self._entries()
         inner = np.maximum(rows, columns) < self.n_bodies
         rows, columns, at = rows[inner], columns[inner], at[inner]
@@ -124,6 +124,8 @@ class Elimination:
             [at[k] + c * (lead[k] + 1) for k, node in enumerate(mu) for c in range(counts[node])]
         )
         self._make_room(found.size, found.room)
+        self.mixed = ints([*chain.from_iterable(self._live_products())])
+        self.turning = ints([*chain.from_iterable(self._live_turns())])
 
     def _make_room(self, size: int, room: int) -> None:
         """Arrays of the factors, and workspace."""
@@ -190,8 +192,10 @@ class Elimination:
         held, nb = self.numbering.model.held, self.n_bodies
         return np.array([False] * nb + [node in held for node in self.nodes[nb:]], dtype=bool)
 
-    def _mixed_products(self) -> list[int]:
-        """Columns of mu: D[row, body] W G[constraint, body]^T for every block of D."""
+    def _mixed_products(self) -> list[tuple[int, int, int, int, int, int]]:
+        """Columns of mu: D[row, body] W G[constraint, body]^T for every block of D; the nodes of
+        the row and of mu, where target, D and G begin, the body.
+        """
         touched: dict[int, list[int]] = {}
         rows, columns, at = self._entries()
         with_mu = [("MU", node) in self.node_at for node in self.nodes]
@@ -208,16 +212,34 @@ class Elimination:
                 mu = self.node_at["MU", self.nodes[constraint]]
                 target = self.blocks.offset(row, mu)
                 gradient = self.blocks.offsets[constraint, body]
-                products += [target, self.widths[mu], offset, self.widths[row]]
-                products += [self.widths[body], gradient, body]
+                products.append((row, mu, target, offset, gradient, body))
         return products
 
-    def _turning_blocks(self) -> np.ndarray:
-        """Per block with a rotating column: where it begins, its rows, the body."""
+    def _live_products(self) -> Iterator[tuple[int, ...]]:
+        """Entries of ``Problem.mixed`` without rows and columns that are left out."""
+        for row, mu, target, source, gradient, body in self._products:
+            lead, width = self.widths[mu], self.widths[body]
+            for first, rows in _runs(self.live[row]):
+                r = self.live[row][first]
+                for begin, count in _runs(self.live[mu]):
+                    j = self.live[mu][begin]
+                    place = (target + r * lead + j, lead, count, source + r * width, rows)
+                    yield (*place, width, gradient + j * width, body)
+
+    def _turning_blocks(self) -> list[tuple[int, int, int]]:
+        """Per block with a rotating column: the node of its rows, the body, where it begins."""
         rows, columns, at = self._entries()
         wide = np.array(self.widths, dtype=np.int64)
         turns = (columns < self.n_bodies) & (wide[columns] == PART)
-        return np.column_stack([at, wide[rows], columns])[turns].ravel()
+        found = (each[turns].tolist() for each in (rows, columns, at))
+        return list(zip(*found, strict=True))
+
+    def _live_turns(self) -> Iterator[tuple[int, int, int, int]]:
+        """Entries of ``Problem.turning`` without rows and columns that are left out."""
+        for row, body, at in self._turns:
+            columns = sum(1 << k - 3 for k in self.live[body] if k >= 3)
+            for first, rows in _runs(self.live[row] if columns else []):
+                yield at + PART * self.live[row][first], rows, body, columns
 
 
 def _runs(numbers: Sequence[int]) -> Iterator[tuple[int, int]]:

@@ -32,8 +32,8 @@ scalar          workspace offset of each multiplier, variable and DIFF state
 group           (ng,) of :class:`KernelGroup`
 copies          per block: Jacobian offset, rows, columns, factor offset, leading dimension
 product         per block between bodies: Jacobian offset, rows, columns, first row, first column
-turning         per block with a rotating column: Jacobian offset, rows, body
-mixed           per product D W G^T: target, its width, D, rows, columns, G, body
+turning         per block with a rotating column: Jacobian offset, rows, body, live columns (bits)
+mixed           per product D W G^T: target, its lead, columns, D, rows, width, G, body
 unit            places of the diagonal of mu, one in the acceleration matrix
 dead            unknowns left out of the matrix, whose equations are not solved
 held loose      those among them that hold a model in its plane, and what they may be off by

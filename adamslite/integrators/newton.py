@@ -36,9 +36,9 @@ def newton_matrix(
     if P.turning.size or P.mixed.size:
         c[0], c[1], c[2], c[3], c[4] = 0.0, 1.0, cu, 0.0, 0.0
         jacobian(P, phases, c, P.D)
-        for k in range(0, P.turning.size, 3):
+        for k in range(0, P.turning.size, 4):
             add_attitude_part(P, k, P.J, P.D, q, v, u)
-        for k in range(0, P.mixed.size, 7):
+        for k in range(0, P.mixed.size, 8):
             add_mixed_product(P, k, P.J, P.D, P.J)
     spread(P, P.LV)
     P.count.factorizations += 1
@@ -49,7 +49,7 @@ def newton_matrix(
 def add_attitude_part(
     P: Problem, entry: int, J: Reals, D: Reals, q: Reals, v: Reals, u: Reals
 ) -> None:
-    """J[:, 3:6] += D[:, 3:6] E on the block of an entry of ``P.turning``.
+    """J[:, 3:6] += D[:, 3:6] E on the rows and columns of an entry of ``P.turning``.
 
     From w = (c' + c x c'/2)/sigma, sigma = 1 + c.c/4:  dw = (dc x c'/2 - w (c.dc)/2)/sigma at
     fixed c', and dc = (I - [c]/2 + c c^T/4) dphi.
@@ -60,36 +60,42 @@ def add_attitude_part(
     d0, d1, d2 = v[i + 3], v[i + 4], v[i + 5]
     w0, w1, w2 = u[i + 3], u[i + 4], u[i + 5]
     half = 0.5 / (1.0 + 0.25 * (c0 * c0 + c1 * c1 + c2 * c2))
+    bit, live = 1, P.turning[entry + 3]
     for column in range(3):
-        e0 = 1.0 if column == 0 else 0.0
-        e1 = 1.0 if column == 1 else 0.0
-        e2 = 1.0 if column == 2 else 0.0
-        k = 0.25 * (c0 * e0 + c1 * e1 + c2 * e2)
-        p0 = e0 - 0.5 * (c1 * e2 - c2 * e1) + k * c0
-        p1 = e1 - 0.5 * (c2 * e0 - c0 * e2) + k * c1
-        p2 = e2 - 0.5 * (c0 * e1 - c1 * e0) + k * c2
-        along = c0 * p0 + c1 * p1 + c2 * p2
-        x0 = half * (p1 * d2 - p2 * d1 - w0 * along)
-        x1 = half * (p2 * d0 - p0 * d2 - w1 * along)
-        x2 = half * (p0 * d1 - p1 * d0 - w2 * along)
-        for r in range(rows):
-            o = at + 6 * r
-            J[o + 3 + column] += D[o + 3] * x0 + D[o + 4] * x1 + D[o + 5] * x2
+        if live & bit:
+            e0 = 1.0 if column == 0 else 0.0
+            e1 = 1.0 if column == 1 else 0.0
+            e2 = 1.0 if column == 2 else 0.0
+            k = 0.25 * (c0 * e0 + c1 * e1 + c2 * e2)
+            p0 = e0 - 0.5 * (c1 * e2 - c2 * e1) + k * c0
+            p1 = e1 - 0.5 * (c2 * e0 - c0 * e2) + k * c1
+            p2 = e2 - 0.5 * (c0 * e1 - c1 * e0) + k * c2
+            along = c0 * p0 + c1 * p1 + c2 * p2
+            x0 = half * (p1 * d2 - p2 * d1 - w0 * along)
+            x1 = half * (p2 * d0 - p0 * d2 - w1 * along)
+            x2 = half * (p0 * d1 - p1 * d0 - w2 * along)
+            for r in range(rows):
+                o = at + 6 * r
+                J[o + 3 + column] += D[o + 3] * x0 + D[o + 4] * x1 + D[o + 5] * x2
+        bit += bit
 
 
 @native
 def add_mixed_product(P: Problem, k: int, J: Reals, D: Reals, G: Reals) -> None:
     """J[row, mu_j] += D[row, body] W G[j, body]^T for the entry ``k`` of ``P.mixed``."""
     mixed = P.mixed
-    target, m, source, rows = mixed[k], mixed[k + 1], mixed[k + 2], mixed[k + 3]
-    width, gradient, b = mixed[k + 4], mixed[k + 5], mixed[k + 6]
+    target, lead, m, source = mixed[k], mixed[k + 1], mixed[k + 2], mixed[k + 3]
+    rows, width, gradient, weight = mixed[k + 4], mixed[k + 5], mixed[k + 6], 0.0
+    if width == PART:
+        weight = P.weight[mixed[k + 7]]
     for r in range(rows):
         for j in range(m):
-            total = 0.0
-            for c in range(width):
-                value = D[source + r * width + c] * G[gradient + j * width + c]
-                total += value * P.weight[b] if c > 2 else value
-            J[target + r * m + j] += total
+            d, g = source + r * width, gradient + j * width
+            total = D[d] * G[g] + D[d + 1] * G[g + 1] + D[d + 2] * G[g + 2]
+            if width == PART:
+                turn = D[d + 3] * G[g + 3] + D[d + 4] * G[g + 4] + D[d + 5] * G[g + 5]
+                total += turn * weight
+            J[target + r * lead + j] += total
 
 
 @native

@@ -128,7 +128,7 @@ def newton_matrix(P: Problem, L: Plan, C: Control) -> bool:
     if P.turning.size > 0 and largest_turn(P) > SMALL_TURN:
         c[0], c[3], c[4] = 0.0, 0.0, 0.0
         jacobian(P, INDEX3, c, P.D)
-        for k in range(0, P.turning.size, 3):
+        for k in range(0, P.turning.size, 4):
             turn_columns(P, P.turning[k], P.turning[k + 1], P.turning[k + 2])
     spread(P, P.LV)
     for k in range(P.unit.size):

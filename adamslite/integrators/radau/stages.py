@@ -90,10 +90,10 @@ def radau_jacobian(P: Problem, L: Plan, h: float) -> None:
     # Products with F_u and F_a as they are: of each pair of blocks the lower power comes first, and
     # the columns of mu before those of the attitude change F_u.
     for part in range(2):
-        for k in range(0, P.mixed.size, 7):
+        for k in range(0, P.mixed.size, 8):
             add_mixed_product(P, k, K[part * size :], K[(part + 1) * size :], K)
     for part in range(2):
-        for k in range(0, P.turning.size, 3):
+        for k in range(0, P.turning.size, 4):
             add_attitude_part(P, k, K[part * size :], K[(part + 1) * size :], y, d, y[n:])
 
 
