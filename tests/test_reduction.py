@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scenes
+from newton_matrix import Newton
 from tiers import every
 
 import adamslite
@@ -99,6 +101,20 @@ def test_a_planar_mechanism_is_folded_and_others_are_not() -> None:
     assert folded("heavy-top/heavy-top") == 0
     assert folded("bricard/bricard") == 0
     assert folded("swinging-cable-n10/swinging-cable-n10") == 0
+
+
+def test_a_plane_leaves_products_out_of_the_newton_matrix() -> None:
+    """Two hinged rods: what is left of the matrix is as in space, from a third of the products."""
+    space, flat = (scenes.system(scenes.links(2)) for _ in range(2))
+    assert all(planar_reduction.reduce_to_plane(each) for each in (space, flat))
+    space.elimination.unfold()
+    left = np.ix_(*(2 * [flat.elimination.unknowns()]))
+    matrices = [Newton(each).exact()[left] for each in (space, flat)]
+    np.testing.assert_allclose(*matrices, rtol=1e-14, atol=1e-14)
+    assert np.abs(matrices[0]).max() > 1.0
+    products = [each.elimination.mixed.reshape(-1, 8) for each in (space, flat)]
+    whole, rest = (int((each[:, 2] * each[:, 4]).sum()) for each in products)
+    assert 0 < 3 * rest < whole
 
 
 KICKED = """A pendulum in a plane, on a ball joint, until something pushes it aside
