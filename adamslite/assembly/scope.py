@@ -21,7 +21,7 @@ from adamslite.language.interfaces import Key
 from adamslite.model.model import Model
 from adamslite.symbolic.duals import Dual, Number, atan2
 from adamslite.symbolic.scope import ORIGIN
-from adamslite.symbolic.types import Expr
+from adamslite.symbolic.types import Expr, Measure
 
 # Coordinates of a body: three of its place, three of a rotation.
 WIDTH = 6
@@ -216,11 +216,11 @@ class NumberScope:
         """Dynamics."""
         return Dual(DYNAMICS)
 
-    def angle(self, sine: Number, cosine: Number) -> Dual:
+    def angle(self, sine: Number, cosine: Number, of: Measure) -> Dual:
         """Before the first step there are no turns to count."""
         return atan2(sine, cosine)
 
-    def side(self, normal: Vector, clear: bool) -> float:
+    def side(self, normal: Vector, clear: bool, of: Measure) -> float:
         """Before the first step there is no other side."""
         return 1.0
 

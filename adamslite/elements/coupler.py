@@ -110,7 +110,8 @@ class Coupler(Constraint, Statement):
             self.joints, self.chosen, self.since, self.factors, strict=True
         ):
             if name == "ROTATION":
-                moved = angle_since(scope, turn(scope, joint.i, joint.j), since)
+                rotation, of = turn(scope, joint.i, joint.j), ("turn", joint.i, joint.j)
+                moved = angle_since(scope, rotation, since, of)
             else:
                 moved = slide(scope, joint.i, joint.j) - since
             row = row + factor * moved

@@ -82,8 +82,8 @@ class Gear(Constraint, Statement):
             if shift != 0:
                 row = row + sign * shift * (slide(scope, joint.i, joint.j) - slid)
             if lever != 0:
-                rotation = turn(scope, joint.i, joint.j)
-                row = row + sign * lever * angle_since(scope, rotation, tuple(turned))
+                rotation, of = turn(scope, joint.i, joint.j), ("turn", joint.i, joint.j)
+                row = row + sign * lever * angle_since(scope, rotation, tuple(turned), of)
         return [row]
 
 

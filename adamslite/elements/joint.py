@@ -189,10 +189,11 @@ class Joint(Constraint, Statement):
         """Rows that vanish: positions first, then directions."""
         i, j = self.i, self.j
         if self.kind == "SCREW":
-            angle = angle_since(scope, turn(scope, i, j), self.turned)
+            angle = angle_since(scope, turn(scope, i, j), self.turned, ("turn", i, j))
             return [slide(scope, i, j) - self.slid - self.pitch / (2 * fn.pi) * angle]
         if self.kind == "RACKPIN":
-            angle = angle_since(scope, turn_on_rack(scope, i, j), self.turned)
+            rotation = turn_on_rack(scope, i, j)
+            angle = angle_since(scope, rotation, self.turned, ("turn on rack", i, j))
             return [self.slid - slide(scope, i, j) - self.pd / 2 * angle]
         together = scope.position(i, j)
         (xi, _, zi), (xj, yj, zj) = scope.axes(i), scope.axes(j)

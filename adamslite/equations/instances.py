@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import repeat
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -35,6 +36,9 @@ PHASES = {
     "sensor": 0,
 }
 
+
+Measured = tuple[Any, ...]
+"""A measure of an angle and its markers."""
 
 Owner = tuple[str, str, Key]
 """Name of a kernel, keyword and id of the statement that it belongs to."""
@@ -104,6 +108,24 @@ class Instances:
             first = len(group.instances.columns.params)
             for statement, row in zip(group.instances.statements, rows, strict=False):
                 yield (group.name, statement.keyword, statement.key), row[first : first + count]
+
+    def counted(self) -> Iterator[tuple[Measured, np.ndarray]]:
+        """Angles that are counted: what each is of, and where it is remembered."""
+        for group, reals in zip(self.kernels.groups, self.keep[1::2], strict=True):
+            at, rows = group.instances.columns, reals[:-1].reshape(len(group.instances), -1)
+            for n, (kind, *slots) in group.meta["counted"]:
+                markers = [at.markers[k] if k >= 0 else repeat(0) for k in slots]  # 0: global frame
+                values = rows[:, len(at.params) + n :][:, :1]
+                for row, *names in zip(values, *markers, strict=False):
+                    yield (kind, *names), row
+
+    def count_on(self, other: Instances) -> None:
+        """Take over what another model counts: angles belong to their markers, whichever expression
+        they are part of.
+        """
+        known = {of: float(row[0]) for of, row in other.counted()}
+        for of, row in self.counted():
+            row[:] = known.get(of, row)
 
     def remember(self, known: Iterable[tuple[Owner, np.ndarray]]) -> None:
         """Take memories over, of instances that are known."""

@@ -221,6 +221,8 @@ class System:
 
     def adopt(self, other: System) -> None:
         """Take over the state of another system of (almost) the same model."""
+        if self.kernels is not other.kernels:
+            self.instances.count_on(other.instances)
         self.instances.remember(other.instances.memories())
         other.count_states_from_here()
         self.count_states_from_here()

@@ -102,7 +102,7 @@ def ax(scope: Scope, i: Frame, j: Frame) -> Expr:
     Source: Adams/Solver function AX.
     """
     z, (_, yj, zj) = scope.axes(i)[2], scope.axes(j)
-    return scope.angle(-dot(z, yj), dot(z, zj))
+    return scope.angle(-dot(z, yj), dot(z, zj), ("AX", i, j))
 
 
 @function("AY", "i:marker j:marker=0")
@@ -113,7 +113,7 @@ def ay(scope: Scope, i: Frame, j: Frame) -> Expr:
     Source: Adams/Solver function AY.
     """
     z, (xj, _, zj) = scope.axes(i)[2], scope.axes(j)
-    return scope.angle(dot(z, xj), dot(z, zj))
+    return scope.angle(dot(z, xj), dot(z, zj), ("AY", i, j))
 
 
 @function("AZ", "i:marker j:marker=0")
@@ -124,7 +124,7 @@ def az(scope: Scope, i: Frame, j: Frame) -> Expr:
     Source: Adams/Solver function AZ.
     """
     x, (xj, yj, _) = scope.axes(i)[0], scope.axes(j)
-    return scope.angle(dot(x, yj), dot(x, xj))
+    return scope.angle(dot(x, yj), dot(x, xj), ("AZ", i, j))
 
 
 @function("INCANG", "i:marker j:marker k:marker")
@@ -140,7 +140,9 @@ def incang(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
     normal = cross(a, b)
     clear = dot(normal, normal) > IN_LINE * dot(a, a) * dot(b, b)
     # Counted from a right angle: at the start both 0 and pi are then far from a change of turns.
-    from_square = scope.angle(-dot(a, b), scope.side(normal, clear) * norm(normal))
+    of = ("INCANG", i, j, k)
+    sine = scope.side(normal, clear, of) * norm(normal)
+    from_square = scope.angle(-dot(a, b), sine, of)
     return from_square + math.pi / 2
 
 

@@ -29,7 +29,7 @@ from adamslite.symbolic import graph
 from adamslite.symbolic.derivatives import Derivatives, along
 from adamslite.symbolic.formulas import fn, piecewise, root
 from adamslite.symbolic.guards import CLOCK_LEAVES, FIXED_LEAVES
-from adamslite.symbolic.types import Expr, Frame, Leaf, Read, Seen, Symbol, Tree
+from adamslite.symbolic.types import Expr, Frame, Leaf, Measure, Read, Seen, Symbol, Tree
 
 ORIGIN = -1
 Vector = tuple[Expr, Expr, Expr]
@@ -113,6 +113,7 @@ class Scope:
         self.symbols: dict[Leaf, Symbol] = {}
         self.angles: list[Expr] = []
         self.kept: list[Expr] = []
+        self.measures: dict[tuple[str, int], list[Measure]] = {}
         self.origins: dict[int, Expr] = {}
         self.limits: list[Expr] = []
         graph.forget()
@@ -208,17 +209,20 @@ class Scope:
     def mode(self) -> Expr:
         return self.symbol("mode")
 
-    def angle(self, sine: Expr, cosine: Expr) -> Expr:
+    def angle(self, sine: Expr, cosine: Expr, of: Measure) -> Expr:
         """atan2 counted over full turns: the branch nearest to the angle at the last accepted step.
 
+        ``of`` names it: whatever else changes, what is counted belongs to its markers.
         The number of turns to add is locally constant, so the derivative is that of atan2.
         """
         wrapped = fn.atan2(sine, cosine)
         if wrapped not in self.angles:
             self.angles.append(wrapped)
-        return wrapped + self.symbol("turn", self.angles.index(wrapped))
+        n = self.angles.index(wrapped)
+        self._name("angles", n, of)
+        return wrapped + self.symbol("turn", n)
 
-    def side(self, normal: Vector, clear: Expr) -> Expr:
+    def side(self, normal: Vector, clear: Expr, of: Measure) -> Expr:
         """1 or -1: whether ``normal`` points as it did, taken by its side, at the last accepted
         step, or against that; 1 as long as there is none.
 
@@ -229,7 +233,21 @@ class Scope:
         side = piecewise((1, dot(normal, before) >= 0), otherwise=-1)
         now = scale(side / root(dot(normal, normal)), normal)
         self.kept += [piecewise((n, clear), otherwise=b) for n, b in zip(now, before, strict=True)]
+        for c, axis in enumerate("xyz"):
+            self._name("kept", first + c, (f"{of[0]} {axis}", *of[1:]))
         return side
+
+    def _name(self, memory: str, n: int, of: Measure) -> None:
+        """Name what is remembered under number ``n``: of equal expressions every one."""
+        names = self.measures.setdefault((memory, n), [])
+        if of not in names:
+            names.append(of)
+
+    def counted(self) -> list[tuple[int, Measure]]:
+        """Numbers among those remembered of angles, and what each belongs to."""
+        first = {"angles": 0, "kept": len(self.angles)}
+        found = self.measures.items()
+        return [(first[memory] + n, of) for (memory, n), names in found for of in names]
 
     def of_time(self, expr: Expr) -> bool:
         """Whether an expression depends on TIME alone, or on nothing that changes in a run."""

@@ -11,6 +11,8 @@ Symbol: TypeAlias = Any
 """A node that is a symbol."""
 Frame: TypeAlias = int
 """A marker as a scope knows it, see :mod:`adamslite.symbolic.scope`."""
+Measure: TypeAlias = tuple[Any, ...]
+"""What an angle is of: the name of a measure and its frames."""
 Leaf: TypeAlias = tuple[Any, ...]
 """What a symbol stands for: a kind, then numbers that depend on the kind."""
 Tree: TypeAlias = tuple[Any, ...]

@@ -26,7 +26,7 @@ if TYPE_CHECKING:  # reading a deck does without numpy
 
     from adamslite.language.interfaces import DrawnModel, Key
     from adamslite.symbolic.scope import Scope
-    from adamslite.symbolic.types import Frame
+    from adamslite.symbolic.types import Frame, Measure
 
 Turn = tuple[Expr, Expr]
 # Sines below this are the round-off of markers that are drawn aligned.
@@ -63,9 +63,9 @@ def angle_to(rotation: Turn, target: Expr) -> Expr:
     return fn.atan2(*less(rotation, (fn.sin(target), fn.cos(target))))
 
 
-def angle_since(scope: Scope, rotation: Turn, built: Turn) -> Expr:
-    """The angle turned since ``built``, full turns counted."""
-    return scope.angle(*less(rotation, built))
+def angle_since(scope: Scope, rotation: Turn, built: Turn, of: Measure) -> Expr:
+    """The angle turned since ``built``, full turns counted; ``of`` names it."""
+    return scope.angle(*less(rotation, built), of)
 
 
 def spin(scope: Scope, i: Frame, j: Frame) -> Expr:

@@ -69,7 +69,8 @@ def write_kernels(
     text, meta
         ``meta["blocks"]``: pairs (row node, column node) of Jacobian blocks in the order of the
         integers; ``meta["n_ints"]``: integers of an instance; ``meta["angles"]``: how many angles
-        and numbers it remembers, ``meta["limits"]``: how many times of leaving its law;
+        and numbers it remembers, ``meta["counted"]``: (number, (measure, slots of its markers))
+        of each; ``meta["limits"]``: how many times of leaving its law;
         ``meta["tracks"]``: whether accepted steps concern it;
         ``meta["mass"]``: a force depends on accelerations, ``meta["added_mass"]``: if at all, as
         the mass of a body does, ``meta["along_axes"]``: each of its components on its own;
@@ -104,6 +105,7 @@ def write_kernels(
         "n_ints": n_ints,
         "blocks": blocks,
         "angles": shape.n_angles,
+        "counted": scope.counted(),
         "limits": len(scope.limits),
         "tracks": tracks,
         "guards": shape.guards.kinds,

@@ -1,0 +1,121 @@
+"""Whole turns of AX, AY and AZ belong to the markers, whatever becomes of the expressions.
+
+A wheel turns at a constant rate w; its angle is w t, beyond half a turn, before and after sensors
+and commands have changed what depends on it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from adamslite import Results, read, simulate
+from adamslite.reading.read import read_commands
+
+METHODS = ("GSTIFF", "GSTIFF, I3", "WSTIFF", "HHT", "NEWMARK", "RADAU", "RKF45", "ABAM")
+RATES = (12.0, -12.0, 5.0)
+
+
+def wheel(lines: str, rate: float, method: str = "RADAU", commands: str = "") -> Results:
+    """A wheel on the ground with a few more lines, over 2 s or by commands."""
+    deck = read(
+        f"""A wheel
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=1, CM=2, IP=1,1,1, WZ={rate}
+MARKER/2, PART=2
+PART/3, MASS=1, CM=3, IP=1,1,1
+MARKER/3, PART=3
+JOINT/1, REVOLUTE, I=2, J=1
+JOINT/2, REVOLUTE, I=3, J=1
+{lines}
+INTEGRATOR/{method}, ERROR=1E-8
+{"" if commands else "SIMULATE/DYNAMIC, END=2, STEPS=4"}
+END
+"""
+    )
+    return simulate(deck, commands=read_commands(commands, deck) if commands else None)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    "watched", ["FUNCTION=TIME\\, VALUE=1.5", "FUNCTION=ABS(AZ(2,1))\\, VALUE={}"]
+)
+@pytest.mark.parametrize("rate", RATES)
+def test_an_angle_times_senval(method: str, watched: str, rate: float) -> None:
+    """SENVAL is 1 from t = 1.5 on: the integral of SENVAL w t to 2 is w (2^2 - 1.5^2)/2.
+
+    NEWMARK integrates the angle itself over 2 s, without a sensor, to 2e-5 of the integral.
+    """
+    sensor = watched.format(abs(rate) * 1.5)
+    results = wheel(
+        f"SENSOR/1, {sensor}, ERROR=0, GE, EVALUATE=1\n"
+        "VARIABLE/1, FUNCTION=AZ(2,1)\nVARIABLE/2, FUNCTION=SENVAL(1)\n"
+        "VARIABLE/3, FUNCTION=SENVAL(1)*AZ(1,2)\n"
+        "DIFF/1, FUNCTION=SENVAL(1)*AZ(2,1)\nDIFF/2, FUNCTION=VARVAL(2)*VARVAL(1)\n"
+        "DIFF/3, FUNCTION=IF(SENVAL(1): 0, 0, AZ(2,1))\n"
+        "SFORCE/1, ROTATIONAL, ACTIONONLY, I=3, J=1, FUNCTION=SENVAL(1)*AZ(2,1)",
+        rate,
+        method,
+    )
+    expected = rate * (2**2 - 1.5**2) / 2
+    error = 2e-5 * abs(expected) if method == "NEWMARK" else 1e-5
+    for name in ("DIFF/1", "DIFF/2", "DIFF/3", "PART/3.wz"):
+        assert abs(results[name][-1] - expected) < error, name
+    assert abs(results["VARIABLE/3"][-1] + 2 * rate) < 1e-5
+
+
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize(
+    "after",
+    ["AZ(2,1)+0*TIME", "2*AZ(2,1)-AZ(2,1)", "-AZ(1,2)+SIN(0*WZ(2,1))", "AZ(2,1)*COS(0*AX(2,1))"],
+)
+def test_a_redefined_expression_goes_on_with_its_turns(after: str, rate: float) -> None:
+    """The same angle in other words, as a value and as a torque on a second wheel."""
+    results = wheel(
+        "VARIABLE/1, FUNCTION=AZ(2,1)\nVARIABLE/2, FUNCTION=AZ(1,2)\n"
+        "SFORCE/1, ROTATIONAL, ACTIONONLY, I=3, J=1, FUNCTION=AZ(2,1)",
+        rate,
+        commands="SIM/DYN, END=1.5, STEPS=2\n"
+        f"VARIABLE/1, FUNCTION={after}\nSFORCE/1, FUNCTION={after}\nSIM/DYN, END=2, STEPS=2\n",
+    )
+    np.testing.assert_allclose(results["VARIABLE/1"], rate * results.time, atol=1e-6)
+    np.testing.assert_allclose(results["PART/3.wz"], rate * results.time**2 / 2, atol=1e-6)
+
+
+def test_a_new_expression_shares_the_turns_of_an_old_one() -> None:
+    """What a request already counts a torque that is new finds."""
+    results = wheel(
+        "REQUEST/1, F1=AZ(2,1)\\\nVARIABLE/1, FUNCTION=0\n"
+        "SFORCE/1, ROTATIONAL, ACTIONONLY, I=3, J=1, FUNCTION=0",
+        12.0,
+        commands="SIM/DYN, END=1.5, STEPS=2\nVARIABLE/1, FUNCTION=AZ(2,1)\n"
+        "SFORCE/1, FUNCTION=AZ(2,1)\nSIM/DYN, END=2, STEPS=2\n",
+    )
+    assert abs(results["VARIABLE/1"][-1] - 24) < 1e-6
+    assert abs(results["PART/3.wz"][-1] - 10.5) < 1e-6
+
+
+def test_states_put_into_a_changed_model_bring_their_turns() -> None:
+    """From 48 rad at 4 s back to 18 rad at 1.5 s, in a model that has another expression."""
+    results = wheel(
+        "VARIABLE/1, FUNCTION=AZ(2,1)",
+        12.0,
+        commands="SIM/DYN, END=1.5, STEPS=2\nSAVE/STATES, BUFFER=1\nSIM/DYN, END=4, STEPS=2\n"
+        "VARIABLE/1, FUNCTION=AZ(2,1)+0*TIME\nRELOAD/STATES, BUFFER=1\nSIM/DYN, END=2, STEPS=2\n",
+    )
+    assert results.time[-1] == 2.0
+    assert abs(results["VARIABLE/1"][-1] - 24) < 1e-6
+
+
+def test_inclination_followed_past_pi_goes_on() -> None:
+    """INCANG counts on where the product with SENVAL comes to be."""
+    results = wheel(
+        "MARKER/4, PART=1, QP=1,0,0\nMARKER/5, PART=2, QP=1,0,0\n"
+        "SENSOR/1, FUNCTION=TIME\\, VALUE=1.5, ERROR=0, GE, EVALUATE=1\n"
+        "VARIABLE/1, FUNCTION=INCANG(5,1,4)\nVARIABLE/2, FUNCTION=SENVAL(1)*INCANG(5,1,4)",
+        3.0,
+    )
+    assert abs(abs(results["VARIABLE/2"][-1]) - 6) < 1e-6
+    assert results["VARIABLE/1"][-1] == results["VARIABLE/2"][-1]
