@@ -23,7 +23,6 @@ from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.bases.joint_coordinates import pose
 from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
-from adamslite.functions.forces import NET
 from adamslite.language.expression import Call, Ref, walk
 from adamslite.language.statement import expressions
 from adamslite.model.net_force import ends
@@ -124,6 +123,8 @@ def _connected(deck: Deck, fixed: list[Joint]) -> Iterator[tuple[Joint, ...]]:
 
 def _measured_joints(deck: Deck, fixed: list[Joint]) -> set[Joint]:
     """Joints whose force or whose statement something else takes."""
+    from adamslite.functions.forces import NET
+
     by_key = {joint.key: joint for joint in fixed}
     at = {marker: joint for joint in fixed for marker in (joint.i, joint.j)}
     found: set[Joint] = set()

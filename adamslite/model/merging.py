@@ -23,7 +23,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.elements.joint import Joint
-from adamslite.functions.forces import MEASURES
 from adamslite.language.expression import COMPONENTS, GROUND_FRAME, Call, Op, Ref, measure
 from adamslite.model.geometry import IDENTITY, Place, frame_axes
 from adamslite.model.mergeable import GROUND, Group, found_groups, is_ground, owner_of
@@ -152,6 +151,8 @@ class MergedModel(Model):
     @cached_property
     def _acting(self) -> list[tuple[Statement, list[PartKey | None]]]:
         """Elements that act, with the bodies of their markers."""
+        from adamslite.functions.forces import MEASURES
+
         found = (each for each in self.deck.statements if each.keyword in MEASURES)
         return [
             (
@@ -221,6 +222,8 @@ def _loads_on(
     """Force and torque about a marker, along ground axes, of the elements between parts and the
     rest.
     """
+    from adamslite.functions.forces import MEASURES
+
     forces: list[list[Node]] = [[] for _ in COMPONENTS]
     for element, owners in acting:
         on = [owner in parts for owner in owners]

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Protocol
 
 from adamslite.elements.gcon import Gcon
 from adamslite.elements.joint import Joint
-from adamslite.functions.forces import MEASURES, NET
 from adamslite.language.expression import GROUND_FRAME, Call, Num, Op, Ref, measure
 from adamslite.language.interfaces import DrawnModel
 
@@ -36,6 +35,8 @@ def written_out(call: Call, model: WithDeck) -> Node:
     """One of the functions of the net force as a sum of the elements' own."""
     if call.name == "NFORCE":
         return _of_nforce(call, model)
+    from adamslite.functions.forces import NET
+
     i, j, k = (*(ref.id for ref in call.args if isinstance(ref, Ref)), 0)[:3]
     return _component(NET[call.name], lambda n: _sum_of(model, i, j, n, k))
 
@@ -69,6 +70,8 @@ def _of_nforce(call: Call, model: WithDeck) -> Node:
 
 
 def _sum_of(model: WithDeck, i: Key, j: Key, component: int, k: Key) -> Node:
+    from adamslite.functions.forces import MEASURES
+
     axes = Ref("MARKER", k) if k else GROUND_FRAME
     return total(
         [
