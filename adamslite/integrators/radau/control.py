@@ -16,7 +16,6 @@ class Control(ImplicitControl):
                          taken again, shorter, to end at a crossing
     lengthened           how often that one then was taken again, longer, because it ended before
                          the crossing
-    firmest              the sensitivity to constraints at the start of the run
     """
 
     theta: float
@@ -28,4 +27,3 @@ class Control(ImplicitControl):
     to_target: float
     passed: float
     lengthened: int
-    firmest: float

@@ -36,9 +36,6 @@ LEAST_RATE = 0.01
 AGED = 0.8
 # Increments that shrink by less than this do not converge; what 1 - RATE counts at least.
 STALLED, LEAST_REST = 0.99, 0.01
-# Near a posture in which constraints lose rank increments below this share of ERROR are as good as
-# can be had.
-LOST = 0.2
 # Factors made for a step that differs by this share serve.
 SAME_STEP = 1e-6
 
@@ -73,23 +70,15 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         if turn > 0 and last > 0.0:
             C.theta = size / last
             if C.theta > (DIVERGING if turn == 1 else STALLED):
-                return size <= round_off(P, C) or is_lost(P, C, size)
+                return size <= round_off(P, C)
             rest = max(LEAST_REST, 1.0 - C.theta)
             C.rate = max(LEAST_RATE, C.theta / rest)
             if turn > 1 and C.theta ** (most - 1.0 - turn) / rest * size > tolerance:
-                return is_lost(P, C, size)
+                return False
         if C.rate * size <= tolerance:
             return True
         last = size
     return False
-
-
-@native
-def is_lost(P: Problem, C: Control, size: float) -> bool:
-    """Whether increments that do not shrink with a new matrix are what round-off leaves behind a
-    step back.
-    """
-    return P.undoing.backs > 0 and C.fresh and size <= LOST * P.settings.error
 
 
 @native

@@ -27,7 +27,6 @@ from adamslite.integrators.implicit.step_size import first_step
 from adamslite.integrators.jolts import note_jolt, start_jolts
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
-from adamslite.integrators.projection import sensitivity
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.corrector import correct
 from adamslite.integrators.radau.dense_output import record
@@ -50,7 +49,6 @@ from adamslite.integrators.radau.stages import keep_stages
 from adamslite.integrators.radau.state import put_end, restore_state
 from adamslite.integrators.radau.step_size import choose_step, limit_step
 from adamslite.integrators.records import note_violation
-from adamslite.integrators.step_back import make_undoable
 from adamslite.integrators.stepping.accepted import count_from_here, keep_solution
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
@@ -63,7 +61,7 @@ from adamslite.integrators.stepping.outcome import (
     passed_singularity,
 )
 from adamslite.integrators.stepping.output import record_start
-from adamslite.integrators.stepping.step_size import has_failed, too_small
+from adamslite.integrators.stepping.step_size import too_small
 from adamslite.native.translate import native, rare
 
 ORDER = 5
@@ -99,7 +97,6 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     C.h = first_step(P)
     if good:
         note_signature(P, L, C, P.pivot0)
-        C.firmest = sensitivity(P, L)
         record_start(P, C)
         track(P)
         count_from_here(P)
@@ -124,7 +121,7 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
     note_try(P, C, ORDER)
     predict(P, C)
     if not correct(P, L, C):
-        return after_failure(P, L, C)
+        return after_failure(P, C)
     error = local_error(P, L, C)
     if not error <= 1.0:
         return after_rejection(P, L, C, error)
@@ -158,7 +155,6 @@ def accept(P: Problem, L: Plan, C: Control, error: float) -> int:
     if row < P.times.size and abs(P.times[row] - t) < ALMOST * h:
         t = P.times[row]
     put_end(P, C)
-    make_undoable(P, C.t, h, not has_failed(C))
     note_jolt(P, P.history[P.sizes.n :], h, True)
     keep_solution(P)
     note_violation(P, t)

@@ -2,78 +2,41 @@
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.contract import NOT_FINITE, Problem
 from adamslite.integrators.events.guards import let_go
 from adamslite.integrators.failure_notes import note_trouble
 from adamslite.integrators.implicit.failures import wildest
 from adamslite.integrators.implicit.formulation import equations_kept
-from adamslite.integrators.implicit.step_size import CUTS, retry_factor
+from adamslite.integrators.implicit.step_size import retry_factor
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.projection import sensitivity
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.events import is_at_crossing, switch_at_start
 from adamslite.integrators.radau.stages import put_stage
 from adamslite.integrators.radau.state import restore_state
 from adamslite.integrators.radau.step_size import step_factor
-from adamslite.integrators.step_back import before_trouble
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import OVERFLOW, why_stuck
 from adamslite.integrators.stepping.step_size import cut
 from adamslite.native.translate import native, rare, seldom
 
-# A posture is near one in which constraints lose rank when its sensitivity to them is larger than
-# that of the start by this.
-LOOSE = 3.0
 # Below this share of HMAX the error of a step is round-off, and nobody's.
 BLAMELESS = 1e-9
 
 
 @native
 @seldom
-def after_failure(P: Problem, L: Plan, C: Control) -> int:
+def after_failure(P: Problem, C: Control) -> int:
     """Newton failed: new derivatives when they were old, else another step."""
     P.count.failures += 1
     old = not C.fresh and C.known
     C.known, C.factored, C.rate, C.cautious = False, 0.0, 1.0, True
     if not old and not let_go(P):
         C.retries += 1
-        P.undoing.trouble += 1.0
         C.blamed = wildest(P)
         put_stage(P, 3, C.h)
         note_trouble(P, equations_kept(P), C.turns)
-        if C.retries != CUTS or not land_elsewhere(P, L, C):
-            C.h *= cut(P, C, retry_factor(C))
+        C.h *= cut(P, C, retry_factor(C))
     return RUNNING
-
-
-@native
-@seldom
-def land_elsewhere(P: Problem, L: Plan, C: Control) -> bool:
-    """Back to before a posture in which constraints lose rank, with another step; False elsewhere,
-    and when that was tried enough.
-    """
-    share = before_trouble(P, C.t + C.h) if is_loose(P, L, C) else 0.0
-    if share == 0.0:
-        return False
-    C.known, C.factored, C.rate, C.cautious = False, 0.0, 1.0, True
-    C.retries, C.norm, C.passed, C.lengthened = 0, 0.0, 0.0, 0
-    restore_state(P, C)
-    C.h *= share
-    return True
-
-
-@native
-@seldom
-def is_loose(P: Problem, L: Plan, C: Control) -> bool:
-    """Whether constraints hold the accepted state on a shorter lever than the start of the run."""
-    if P.sizes.m == 0 or not P.undoing.undoable:
-        return False
-    restore_state(P, C)
-    good = accelerations(P, L, C.t, P.q, P.u, P.a, P.z, P.rd)
-    loose = not good or sensitivity(P, L) > LOOSE * C.firmest
-    restore_state(P, C)
-    return loose
 
 
 @native
@@ -87,7 +50,6 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
     if is_at_crossing(P, C, error):
         return switch_at_start(P, L, C)
     P.count.rejected += 1
-    P.undoing.trouble += 1.0
     C.cautious, C.norm = True, error
     if not C.fresh:
         C.known = False
@@ -100,8 +62,6 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
 @native
 @rare
 def stuck(P: Problem, L: Plan, C: Control) -> int:
-    """The step became too small: another start, or the end of the run."""
-    if land_elsewhere(P, L, C):
-        return RUNNING
+    """Back to the accepted state, and why the step became too small."""
     restore_state(P, C)
     return why_stuck(P, L, C)
