@@ -202,6 +202,7 @@ NOT_COMPARED = {
     "in lanes": (lanes.windy(9) + "END\n", "VERLET"),
     "pushed in lanes": (lanes.pushed(20) + "END\n", "VERLET"),
     "in lanes, explicit": (lanes.windy(9) + "END\n", "ABAM"),
+    "fine in lanes, explicit": (lanes.windy(9) + "END\n", "ABAM"),
     "grows": (lanes.growing(9) + "END\n", "ABAM"),
     "two grow": (lanes.growing(2, True) + "END\n", "ABAM"),
     "grows beside a body": (lanes.growing(2) + BODY + "END\n", "ABAM"),
@@ -217,7 +218,8 @@ def run_of(name: str):
         return al.simulate(al.read(deck))
     try:
         audit = name.startswith("audited")
-        return run(deck, 0.4, 4, error=1e-4, integrator=method, audit=audit)
+        error = 1e-8 if name.startswith("fine") else 1e-4
+        return run(deck, 0.4, 4, error=error, integrator=method, audit=audit)
     except UsageError:
         return None
 
