@@ -12,7 +12,9 @@ from tiers import every, slow
 
 import adamslite
 from adamslite.cables.advice import Advice, advise
+from adamslite.cables.chain_finder import chains, damper
 from adamslite.cables.demand import Demand, elements, level, rigid_fails
+from adamslite.cables.posture import Posture
 from adamslite.cables.report import about_cables, cables
 from adamslite.cables.scene import deck
 from adamslite.cables.vocabulary import QUANTITIES
@@ -126,6 +128,23 @@ def test_a_row_of_masses_on_springs_is_a_cable(spring: str) -> None:
     assert cable.form == "fixed" and of.known and of.way == 0
 
 
+@pytest.mark.parametrize(
+    ("spring", "damping"),
+    [
+        ("SPRINGDAMPER/{s}, I={i}, J={j}, K={k!r}, LENGTH={free!r}, C=300", 300),
+        ("SFORCE/{s}, I={i}, J={j}, FUNCTION=-{k!r}*(DM({i},{j})-{free!r})-300*VR({i},{j})", 300),
+        ("SFORCE/{s}, I={i}, J={j}, FUNCTION=-{k!r}*(DM({j},{i})-{free!r})-300*VR({j},{i})", 300),
+        (SPRINGS["SFORCE"], 0),
+    ],
+)
+def test_the_damper_of_a_section(spring: str, damping: float) -> None:
+    """Its pull grows by 300 N for every m/s."""
+    read = adamslite.read(pendulum(50.0, spring))
+    (chain,) = chains(read, posture := Posture(read))
+    assert damper(chain.links[2], posture) == pytest.approx(damping, abs=1e-6)
+    assert not posture.given
+
+
 def test_figures_are_in_si_units() -> None:
     metres, millimetres = (
         about_cables(adamslite.read(pendulum(50.0, SPRINGS["SFORCE"], metre)))
@@ -223,19 +242,19 @@ def test_a_rope_with_both_ends_on_one_hook_is_no_ring(hook: str, said: str) -> N
     assert any(line.strip().startswith(f"cable {said}") for line in found)
 
 
-def test_check_advises_the_model_that_cable_wrote() -> None:
+#: The hoist of the tutorial: its sections damp, each as much as one of another length.
+DAMPED = (DECKS.parent / "docs" / "tutorials" / "hoist.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("hoist", [HOIST, DAMPED.partition("[model]")[0]], ids=["free", "damped"])
+def test_check_advises_the_model_that_cable_wrote(hoist: str) -> None:
     """Level, form, sections, integrator and ERROR of a hoist, from the description and from its
     deck, drawn with one number of sections or another.
     """
-    asked = re.search(r"level (\d), (\w+) form, (\d+) of them; (\w+) ERROR=(\S+);", told(HOIST, 7))
-    assert (
-        asked
-        and asked.groups()
-        == re.search(
-            r"level (\d), (\w+) form, (\d+) of them; (\w+) ERROR=(\S+);", told(HOIST, 16)
-        ).groups()
-    )  # type: ignore[union-attr]
-    text, _ = deck(HOIST)
+    advice = r"level (\d), (\w+) form, (\d+) of them; (\w+) ERROR=(\S+);"
+    asked, other = (re.search(advice, told(hoist, n)) for n in (7, 16))
+    assert asked and other and asked.groups() == other.groups()
+    text, _ = deck(hoist)
     level, form, count, method, error = asked.groups()
     assert f"Level {level}:" in text and f"form {form}:" in " ".join(
         text.replace("\n! ", " ").split()

@@ -10,7 +10,7 @@ from typing import TypeGuard
 
 import numpy as np
 
-from adamslite.cables.chain_finder import Chain, Link, free_length, law_of
+from adamslite.cables.chain_finder import Chain, Link, damper, free_length, law_of
 from adamslite.cables.demand import SMALL_SLOPE, Demand
 from adamslite.cables.estimate import Travel, from_ways
 from adamslite.cables.network import Bar, Network
@@ -65,7 +65,10 @@ def demand_on(chain: Chain, posture: Posture, end: float, linear: bool = True) -
     masses = [deck.find(*node).mass / ucf for node in chain.inner]
     shape = _Shape(chain, posture)
     tips = [deck.find(*node).mass / ucf for node in _tips(chain)]
-    rope = _Rope(stiffness, mean(masses) * n / free, free, sum(tips) - mean(masses) / 2, end)
+    rope = _Rope(
+        stiffness, mean(masses) * n / free, free, sum(tips) - mean(masses) / 2, end,
+        mean(damper(link, posture) for link in chain.links),
+    )  # fmt: skip
     travel, gained, law = _travel(chain, posture, end, rope.instants)
     weight = mean(masses) * n * abs(shape.pull)
     drawn = mean(max(link.pull, 0.0) for link in chain.links)
@@ -94,13 +97,15 @@ def demand_on(chain: Chain, posture: Posture, end: float, linear: bool = True) -
 
 @dataclass(frozen=True)
 class _Rope:
-    """EA, rho, free length of a chain, the mass at its tip, and the time of the run."""
+    """EA, rho, free length of a chain, the mass at its tip, the time of the run, and the damper of
+    a section, which one of another length has, too."""
 
     stiffness: float
     density: float
     length: float
     tip: float
     end: float
+    damper: float
 
     @property
     def instants(self) -> int:
@@ -141,7 +146,7 @@ def _machine(chain: Chain, shape: _Shape, rope: _Rope, law: np.ndarray | None) -
               points=(False, True), falls=falls)  # fmt: skip
     network = Network(
         (1.0, rope.tip), (bar,), rope.density, rope.end, len(way) - 1, (0.0, dot(speed, line)),
-        ways={0: way}, forces={1: rope.tip * pull - rests[1]},
+        damper=rope.damper, ways={0: way}, forces={1: rope.tip * pull - rests[1]},
     )  # fmt: skip
     aside = norm(part_across(speed, line))
     strings: tuple[String, ...] = ()

@@ -17,7 +17,7 @@ from adamslite.deck.deck import Deck
 from adamslite.elements.sforce import Sforce
 from adamslite.elements.springdamper import Springdamper
 from adamslite.elements.vforce import Vforce
-from adamslite.language.expression import Call, Node, Num, Op, Ref, rebuild
+from adamslite.language.expression import Call, Node, Num, Op, Ref, calls, rebuild
 from adamslite.language.interfaces import Key
 
 Spring = Sforce | Vforce | Springdamper
@@ -253,6 +253,30 @@ def free_length(link: Link, posture: Posture) -> float:
     if found is None:
         raise Unknown
     return found[1]
+
+
+def damper(link: Link, posture: Posture) -> float:
+    """Force of a link by the rate of its length [force time/length]; 0 where only components in
+    ground have it.
+    """
+    if isinstance(link.statement, Springdamper):
+        return link.statement.c
+    if len(link.components) != 1:
+        return 0.0
+    (law,) = link.components
+    ends = link.i, link.j
+    rates = {c for c in calls(law, "VR") if len(c.args) > 1 and _joins(c.args[:2], ends)}
+    pulls = []
+    try:
+        for rate in (0.0, 1.0):
+            posture.given.update(dict.fromkeys(rates, rate))
+            posture.forget()
+            pulls.append(-posture.value(law))
+    finally:
+        for call in rates:
+            del posture.given[call]
+        posture.forget()
+    return max(pulls[1] - pulls[0], 0.0)
 
 
 def law_of(link: Link) -> tuple[Node, ...] | float:
