@@ -179,10 +179,10 @@ class SampleScope:
         matrix = state("x", k)
         return tuple(self.vector(f"x_{k}_{c}", matrix[:, c]) for c in range(3))
 
-    def side(self, normal, clear):
+    def side(self, normal, clear, of):
         return self.symbol("side", 1)
 
-    def angle(self, sine, cosine):
+    def angle(self, sine, cosine, of):
         return atan2(sine, cosine) + self.symbol("turns", 2 * mp.pi)
 
     def load(self, id, jflag: int) -> tuple:

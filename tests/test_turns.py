@@ -97,6 +97,45 @@ def test_a_new_expression_shares_the_turns_of_an_old_one() -> None:
     assert abs(results["PART/3.wz"][-1] - 10.5) < 1e-6
 
 
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize(
+    ("first", "factor"), [("", 0), ("SIM/DYN, END=0.5, STEPS=2\n", 0.5**2 / 2)]
+)
+def test_what_is_switched_off_counts_on(first: str, factor: float, rate: float) -> None:
+    """A torque w t acts up to 0.5 s or not at all, and again from 1.5 s to 2 s."""
+    results = wheel(
+        "SFORCE/1, ROTATIONAL, ACTIONONLY, I=3, J=1, FUNCTION=AZ(2,1)",
+        rate,
+        commands=f"{first}DEACTIVATE/SFORCE, ID=1\nSIM/DYN, END=1.5, STEPS=2\n"
+        "ACTIVATE/SFORCE, ID=1\nSIM/DYN, END=2, STEPS=2\n",
+    )
+    expected = rate * (factor + (2**2 - 1.5**2) / 2)
+    assert abs(results["PART/3.wz"][-1] - expected) < 1e-6
+
+
+def test_a_sensor_switched_off_counts_on() -> None:
+    """21 rad at 12 rad/s are reached at 1.75 s."""
+    results = wheel(
+        "SENSOR/1, FUNCTION=AZ(2,1)\\, VALUE=21, ERROR=0, GE, HALT",
+        12.0,
+        commands="DEACTIVATE/SENSOR, ID=1\nSIM/DYN, END=1.5, STEPS=2\n"
+        "ACTIVATE/SENSOR, ID=1\nSIM/DYN, END=2, STEPS=2\n",
+    )
+    assert abs(results.time[-1] - 1.75) < 1e-8
+
+
+def test_turns_counted_while_switched_off_come_back_with_a_state() -> None:
+    """RELOAD into the model as it is now, where the torque acts: 10.5 once more."""
+    again = "ACTIVATE/SFORCE, ID=1\nSIM/DYN, END=2, STEPS=2\n"
+    results = wheel(
+        "SFORCE/1, ROTATIONAL, ACTIONONLY, I=3, J=1, FUNCTION=AZ(2,1)",
+        12.0,
+        commands="DEACTIVATE/SFORCE, ID=1\nSIM/DYN, END=1.5, STEPS=2\nSAVE/STATES, BUFFER=1\n"
+        f"{again}RELOAD/STATES, BUFFER=1\n{again}",
+    )
+    assert abs(results["PART/3.wz"][-1] - 10.5) < 1e-6
+
+
 def test_states_put_into_a_changed_model_bring_their_turns() -> None:
     """From 48 rad at 4 s back to 18 rad at 1.5 s, in a model that has another expression."""
     results = wheel(

@@ -34,6 +34,7 @@ PHASES = {
     "output": contract.OUTPUTS,
     "stored": contract.STORED_ENERGY,
     "sensor": 0,
+    "counted": 0,
 }
 
 

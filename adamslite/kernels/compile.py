@@ -21,6 +21,7 @@ from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
 from adamslite.kernels.binding import Binder, ForceLoop
 from adamslite.kernels.columns import Split, same, transposed
+from adamslite.kernels.faces import counted, faces, output_face
 from adamslite.kernels.groups import (
     LEVELS,
     WITH_JACOBIAN,
@@ -46,6 +47,9 @@ from adamslite.symbolic.types import Expr, Tree
 if TYPE_CHECKING:  # a deck whose shapes are cached needs no expressions
     from adamslite.deck.deck import Deck
     from adamslite.kernels.code.shape import Outputs, Shape
+
+SCALARS = {"stored": "stored", "sensor": "relation", "equation": "equation"}
+"""Faces of one number, and the method that writes it."""
 
 Numbered = tuple[int, Statement]
 """A statement with its number in the order of groups and instances."""
@@ -78,7 +82,7 @@ def compile_model(
                     add(statement, face)
             if audited and hasattr(statement, "stored") and model.acts(statement):
                 add(statement, "stored")
-            for face in _output(statement):
+            for face in output_face(statement):
                 outputs.append((statement, statement.result_names))
                 add(statement, face)
         for (_, face), found in batches.items():
@@ -86,28 +90,6 @@ def compile_model(
         made = groups.made(model.deck)
     fresh = sum(_compile(group, progress) for group in made)
     return Kernels(model, made, outputs, linked(made), fresh)
-
-
-def faces(statement: Statement, model: Model) -> Iterator[str]:
-    """What a statement contributes to the equations."""
-    if not model.acts(statement) or model.merges(statement):
-        return
-    if hasattr(statement, "loads"):
-        yield "loads"
-    if isinstance(statement, Constraint):
-        rate = statement.is_rate(model)
-        yield from ("reactions", "velocity", "acceleration") if rate else LEVELS
-    if hasattr(statement, "relation"):
-        yield "sensor"
-    if hasattr(statement, "equation"):
-        kind = model.variable_kind(statement.key) if statement.keyword == "VARIABLE" else "loop"
-        if kind != "inline":
-            yield "equation" if kind == "loop" else "signal"
-
-
-def _output(statement: Statement) -> Iterator[str]:
-    if statement.result_names:
-        yield "output"
 
 
 @dataclass
@@ -221,6 +203,9 @@ def _bound(binder: Binder, statements: list[Statement], face: str) -> tuple[Tree
         found = transposed([binder.model.outputs_of(each) for each in statements])
         values = tuple([binder.output(nodes, statements) for nodes in found])
         return values, binder.node_slot([("OUTPUT", each) for each in statements])
+    if face == "counted":
+        found = transposed([counted(each) for each in statements])
+        return tuple([binder.expression(nodes) for nodes in found]), -1
     fields = binder.statement(statements)
     if face in ("signal", "stored", "sensor"):
         return fields, binder.node_slot([(face.upper(), each.key) for each in statements])
@@ -281,8 +266,9 @@ class FaceWriter:
             width = widths(nodes[node]) if node >= 0 else 0
             scope.elements.append(symbolic_view(keyword, fields, node, width, scope, self.n_bodies))
         row = self.n_bodies + self.own
-        if self.face == "output":
-            return Outputs(rows=[(row, n, scope.read(t)) for n, t in enumerate(self.fields)])
+        if self.face in ("output", "counted"):
+            values = [(row, n, scope.read(tree)) for n, tree in enumerate(self.fields)]
+            return Outputs(rows=values if self.face == "output" else [])
         width = widths(nodes[self.own]) if self.own >= 0 else 0
         view = symbolic_view(self.keyword, self.fields, self.own, width, scope, self.n_bodies)
         if self.face == "loads":
@@ -290,12 +276,8 @@ class FaceWriter:
         if self.face == "reactions":
             rows = view.cls.constraints(view, scope)
             return Outputs(loads=reactions(rows, view.unknowns, scope))
-        if self.face == "stored":
-            return Outputs(rows=[(row, 0, view.cls.stored(view, scope))])
-        if self.face == "sensor":
-            return Outputs(rows=[(row, 0, view.cls.relation(view, scope))])
-        if self.face == "equation":
-            return Outputs(rows=[(row, 0, view.cls.equation(view, scope))])
+        if self.face in SCALARS:
+            return Outputs(rows=[(row, 0, getattr(view.cls, SCALARS[self.face])(view, scope))])
         if self.face == "signal":
             return Outputs(
                 rows=[(row, n, e) for n, e in enumerate(_rates(scope, view.function, 2))]
@@ -366,7 +348,7 @@ def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnost
     """What there is to say of statements whose equations cannot be formed; nothing is compiled."""
     groups = Groups()
     for statement in statements:
-        for face in (*faces(statement, model), *_output(statement)):
+        for face in (*faces(statement, model), *output_face(statement)):
             _add(groups, model, face, [(0, statement)])
             if groups.loops:
                 yield groups.loops.pop(0)
