@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.begun_again import Beginning
 from adamslite.analyses.initial.least_change import VELOCITIES
 from adamslite.analyses.initial.sparse_rows import Pattern, evaluated
 from adamslite.integrators import contract
@@ -36,6 +35,8 @@ def in_its_plane(system: System, run: Callable[[], Outcome]) -> Outcome:
     """Run in the plane of a model that has one; in space when it has none or leaves it."""
     if not reduce_to_plane(system):
         return run()
+    from adamslite.analyses.begun_again import Beginning
+
     beginning = Beginning(system)
     outcome = run()
     if not system.report.left_plane:

@@ -21,7 +21,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.begun_again import Beginning
 from adamslite.analyses.delays import NO_PAST, require_no_delay
 from adamslite.analyses.dynamic import integrate, largest_step, make_ready, run_dynamic
 from adamslite.analyses.initial.conditions import consistent_velocities
@@ -41,6 +40,7 @@ from adamslite.progress import AnalysisProgress
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
+    from adamslite.analyses.begun_again import Beginning
     from adamslite.analyses.method_choice import MethodChoice
     from adamslite.deck.redefinition import Command
     from adamslite.elements.equilibrium import Equilibrium
@@ -181,7 +181,7 @@ class Session(SessionState):
         """Integrate; where the method that AUTO took stalls, from the beginning by that which it
         has in reserve.
         """
-        beginning = Beginning(self.system) if self.chosen.instead else None
+        beginning = self._beginning() if self.chosen.instead else None
         drawn_up = len(self.balances)
         self.sensors.arm(self.system)
         outcome = self._integrated(self.system, times, apart)
@@ -191,6 +191,12 @@ class Session(SessionState):
         del self.balances[drawn_up:]
         self._take(self.chosen.other)
         return self._tried(times, apart)
+
+    def _beginning(self) -> Beginning:
+        # Only a run that may begin again needs it.
+        from adamslite.analyses.begun_again import Beginning
+
+        return Beginning(self.system)
 
     def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
         settings = self.chosen.settings

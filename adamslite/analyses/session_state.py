@@ -21,7 +21,6 @@ from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.history import History, Piece
 from adamslite.analyses.initial.algebraic_states import settle_states
 from adamslite.analyses.initial.conditions import initial_conditions, settle_variables
-from adamslite.analyses.initial.drawn import Drawn, other_rows_left_out
 from adamslite.analyses.initial.redundancy import leave_out_redundant
 from adamslite.analyses.method_choice import MethodChoice
 from adamslite.analyses.saves import Saves
@@ -34,8 +33,8 @@ from adamslite.equations.system import System
 from adamslite.gc_pause import without_collection
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS
-from adamslite.model.merging import RULE, MergedModel, merged
 from adamslite.model.model import assemble
+from adamslite.model.reduction import MERGED
 from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
 
@@ -132,12 +131,19 @@ class SessionState:
             system = self.present = self.numbered(False)
             if self.is_driven(system):
                 self.unclosed = self._start_of_joints(system)
-                drawn = Drawn.of(system)
+                if system.model.merges_parts:
+                    return self._merged_start(system)
                 self.present = self.assembled_of(system)
-                if isinstance(system.model, MergedModel) and (
-                    drawn.differs(self.present) or other_rows_left_out(self.present)
-                ):
-                    return self._taken_apart()
+        return self.present
+
+    def _merged_start(self, system: System) -> System:
+        """The equations of bodies made of parts, where each part would start alike by itself."""
+        from adamslite.analyses.initial.drawn import Drawn, other_rows_left_out
+
+        drawn = Drawn.of(system)
+        self.present = self.assembled_of(system)
+        if drawn.differs(self.present) or other_rows_left_out(self.present):
+            return self._taken_apart()
         return self.present
 
     def _taken_apart(self) -> System:
@@ -145,7 +151,7 @@ class SessionState:
         part is to be moved is another question for one that is part of a body; or reactions are
         not determined, and other rows would be left out.
         """
-        self.without |= {RULE}
+        self.without |= {MERGED}
         self.outcome, self.unclosed, self.present = Outcome.DONE, None, None
         self.kernels = kernels_of(self.deck, self.progress, self.without, self.audited)
         return self.system
@@ -166,6 +172,7 @@ class SessionState:
         """Go on with another deck from the present state."""
         old = self.present
         from adamslite.kernels.compile import compile_model
+        from adamslite.model.merging import merged
 
         self.kernels = compile_model(
             merged(assemble(deck, self.without)), self.progress, self.audited

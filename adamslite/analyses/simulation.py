@@ -27,8 +27,7 @@ from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.language.method import without_effect
-from adamslite.model.merging import RULE, kept_apart
-from adamslite.model.reduction import left_off
+from adamslite.model.reduction import MERGED, kept_apart, left_off
 from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
@@ -183,7 +182,7 @@ def linearize(
     _need_time(time)
     deck = deck_of(scene)
     marker = None if rm is None else _marker(deck, str(rm))
-    session = Session(scene, None, {}, frozenset({RULE}))
+    session = Session(scene, None, {}, frozenset({MERGED}))
     plan = [s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM")]
     session.execute([*plan, *commands, *([_dynamics(time)] if time else [])])
     system = session.system

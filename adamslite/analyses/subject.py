@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, TypeAlias
 from adamslite.analyses import kept_kernels
 from adamslite.deck.deck import Deck
 from adamslite.kernels.groups import Kernels
-from adamslite.model.merging import merged
 from adamslite.model.model import Model, assemble
 
 if TYPE_CHECKING:
@@ -34,6 +33,8 @@ def kernels_of(
     name = kept_kernels.name_of(subject, without, audited)
     kernels = kept_kernels.find(name, subject)
     if kernels is None:
+        from adamslite.model.merging import merged
+
         kernels = _compiled(merged(assemble(subject, without)), progress, audited)
         kept_kernels.keep(name, kernels)
     return kernels

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from adamslite.equations.merged_columns import motion_of, reactions_inside
 from adamslite.kernels.code.workspace import (
     ACCELERATION,
     ALPHA,
@@ -19,7 +18,6 @@ from adamslite.kernels.code.workspace import (
     VELOCITY,
 )
 from adamslite.model.attitude_angles import angles_313
-from adamslite.model.merging import MergedModel
 from adamslite.model.model import PART
 
 if TYPE_CHECKING:
@@ -29,6 +27,7 @@ if TYPE_CHECKING:
     from adamslite.equations.system import System
     from adamslite.kernels.groups import Kernels
     from adamslite.language.interfaces import Key
+    from adamslite.model.merging import MergedModel
     from adamslite.model.model import Body
 
 # Below this sine of theta the first and third angle of the 3-1-3 sequence are one angle.
@@ -50,8 +49,8 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
     widths = system.widths[: len(system.model.bodies)]
     if PART not in widths and at + POINT_SIZE * len(widths) == system.nw:
         return names, record[:, at:]
-    if isinstance(system.model, MergedModel):
-        return names, _of_merged(system.model, system, record)
+    if system.model.merges_parts:
+        return names, _of_merged(cast("MergedModel", system.model), system, record)
     parts: list[np.ndarray] = []
     for width, bodies in groupby(system.model.bodies, key=lambda body: body.width):
         if width != PART:  # point masses stand in the record as they do here
@@ -86,6 +85,8 @@ def _turns(statement: Part | PointMass) -> bool:
 
 def _of_merged(model: MergedModel, system: System, record: np.ndarray) -> np.ndarray:
     """Values of all columns where parts of one body have columns each."""
+    from adamslite.equations.merged_columns import motion_of, reactions_inside
+
     parts = []
     for statement in model.moving:
         key = (statement.keyword, statement.key)

@@ -28,10 +28,10 @@ from adamslite.model.geometry import IDENTITY, Place, frame_axes
 from adamslite.model.mergeable import GROUND, Group, found_groups, is_ground, owner_of
 from adamslite.model.model import Body, Model
 from adamslite.model.net_force import ends, total
+from adamslite.model.reduction import MERGED
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
-    from adamslite.deck.redefinition import Command
     from adamslite.elements.part import Part
     from adamslite.elements.point_mass import PointMass
     from adamslite.language.expression import Node
@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from adamslite.language.statement import Statement
     from adamslite.model.model import MassCentre
 
-RULE = "fixed"
 PartKey = tuple[str, "Key"]
 
 
@@ -80,6 +79,8 @@ class MergedModel(Model):
     alone : dict
         Every part with its own mass, inertia and posture, as if nothing held it.
     """
+
+    merges_parts = True
 
     def __init__(self, drawn: Model, groups: list[Group]) -> None:
         super().__init__(drawn.deck, drawn.without)
@@ -244,18 +245,8 @@ def _loads_on(
     return [total(terms) for terms in forces]
 
 
-#: Commands that ask nothing of a single part, and change none.
-HARMLESS = ("EQUILIBRIUM", "FILE", "INTEGRATOR", "KINEMATICS", "SIMULATE", "STOP")
-
-
-def kept_apart(commands: Iterable[Command], audited: bool) -> frozenset[str]:
-    """The rule, where commands change statements or look into the model, or the run is audited."""
-    others = any(each.keyword not in HARMLESS for each in commands)
-    return frozenset({RULE} if others or audited else ())
-
-
 def merged(model: Model) -> Model:
     """A model with the parts that FIXED holds together as one body, where results stay the same."""
-    groups = [] if RULE in model.without else found_groups(model)
+    groups = [] if MERGED in model.without else found_groups(model)
     held = sum(len(g.parts) - 1 for g in groups)
     return MergedModel(model, groups) if groups and held < len(model.bodies) else model

@@ -83,6 +83,9 @@ class Model:
         Rules of :mod:`adamslite.model.reduction` that are not applied.
     """
 
+    merges_parts = False
+    """Whether parts that are held together are one body."""
+
     def __init__(self, deck: Deck, without: frozenset[str] = frozenset()) -> None:
         self.deck = deck
         self.without = without

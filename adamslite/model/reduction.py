@@ -14,10 +14,17 @@ are no part of the matrix, requests are evaluated at output times.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from adamslite.errors import UsageError
 
-RULES = ("fixed", "plane", "points", "variables")
+if TYPE_CHECKING:
+    from adamslite.deck.redefinition import Command
+
+MERGED = "fixed"
+RULES = (MERGED, "plane", "points", "variables")
+#: Commands that ask nothing of a single part, and change none.
+HARMLESS = ("EQUILIBRIUM", "FILE", "INTEGRATOR", "KINEMATICS", "SIMULATE", "STOP")
 
 
 def left_off(names: Iterable[str]) -> frozenset[str]:
@@ -32,3 +39,9 @@ def left_off(names: Iterable[str]) -> frozenset[str]:
     for name in found.difference(RULES):
         raise UsageError(f"There is no reduction {name}. There are {', '.join(RULES)}.")
     return found
+
+
+def kept_apart(commands: Iterable[Command], audited: bool) -> frozenset[str]:
+    """The rule, where commands change statements or look into the model, or the run is audited."""
+    others = any(each.keyword not in HARMLESS for each in commands)
+    return frozenset({MERGED} if others or audited else ())
