@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 from decklets import told
 
+from adamslite.language.messages import START
+
 HEAD = """title
 PART/1, GROUND
 MARKER/1, PART=1
@@ -53,3 +55,11 @@ def test_what_is_said_of_others_is_said_once() -> None:
     markers = "MARKER/4, PART=4\nMARKER/5, PART=5\nEND\n"
     found = [each.code for each in told(HEAD + broken + markers)]
     assert sorted(found) == ["no-mass", "no-mass", "value-count", "value-count"]
+
+
+def test_a_shortened_flag_ends_where_it_is_written() -> None:
+    """GROUN at the end of a statement that is read in part is inside of it, as GROUND is."""
+    for flag in ("GROUND", "GROUN"):
+        found = told(f"{START}PART/20, CM=999, {flag}\n")
+        (second,) = (each for each in found if each.code == "two-grounds")
+        assert second.span.end_column - second.span.column == len(flag)

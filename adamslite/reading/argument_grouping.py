@@ -49,12 +49,14 @@ class Arguments(NamedTuple):
 class Pieces:
     """What is written for one argument: the tokens of each value."""
 
-    __slots__ = ("argument", "values", "start", "closed", "before")
+    __slots__ = ("argument", "values", "start", "end", "closed", "before")
 
     def __init__(self, argument: Argument, start: int) -> None:
         self.argument = argument
         self.values: list[list[Lexeme]] = []
         self.start = start
+        self.end = 0
+        """Where a flag ends, which may be shortened; 0: where its last value does."""
         self.closed = False
         self.before: list[list[list[Lexeme]]] = []
         """The values of the same keyword where it was given before."""
@@ -62,7 +64,7 @@ class Pieces:
     @property
     def range(self) -> tuple[int, int]:
         """Offsets of the argument, from its keyword to its last value."""
-        return self.start, end_of(self.values[-1][-1])
+        return self.start, self.end or end_of(self.values[-1][-1])
 
 
 class Grouping:
@@ -168,6 +170,7 @@ class Grouping:
             pieces = self._open(argument, token)
             if pieces:
                 pieces.values.append([("NAME", option, token[2])])
+                pieces.end = end_of(token)
         return True
 
     def _inside_expression(self) -> bool:

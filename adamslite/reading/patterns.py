@@ -194,7 +194,7 @@ class _Learner:
                 raise Unfit
             last = pieces.values[-1][-1]
             at = self.number_of[last[2]]
-            width = 0 if last is self.tokens[at] else len(last[1])
+            width = 0 if pieces.end or last is self.tokens[at] else len(last[1])
             places.append(Place(self.number_of[pieces.start], at, width))
             builds.append(self._value(pieces, values[name]))
         called = names_called(each for each in values.values() if isinstance(each, Node))
