@@ -34,7 +34,7 @@ from adamslite.integrators.explicit.stages import (
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.records import write_record
 from adamslite.integrators.stepping.output import WITHIN
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, inline, native
 
 # An error e of the polynomial leaves a defect of about e times its order, or e times what the
 # stiffest component changes in a step, which is as much at the bound of stability.
@@ -151,6 +151,29 @@ def slope(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
 
 
 @native
+@inline
+def third(way: float, v0: float, v1: float, a0: float, a1: float) -> float:
+    """Coefficient of x^3 in the polynomial p that covers ``way`` from x = 0 to 1, with p' = v0 and
+    v1, p''/2 = a0 and a1 there; those of lower powers are v0 and a0.
+    """
+    return 10.0 * way - 6.0 * v0 - 4.0 * v1 - 3.0 * a0 + a1
+
+
+@native
+@inline
+def fourth(way: float, v0: float, v1: float, a0: float, a1: float) -> float:
+    """The same of x^4."""
+    return 7.0 * v1 + 8.0 * v0 + 3.0 * a0 - 2.0 * a1 - 15.0 * way
+
+
+@native
+@inline
+def fifth(way: float, v0: float, v1: float, a0: float, a1: float) -> float:
+    """The same of x^5."""
+    return 6.0 * way - 3.0 * (v0 + v1) - a0 + a1
+
+
+@native
 def quick_interpolated(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
     """q and u at t + x h from the polynomial of order 5 through both ends: p and p'/h."""
     n, w = C.width, C.size
@@ -163,9 +186,8 @@ def quick_interpolated(P: Problem, C: Control, h: float, x: float, y: Reals) -> 
     for i in range(n):
         way, v0, v1 = new[i] - old[i], h * old[n + i], h * new[n + i]
         a0, a1 = 0.5 * h * h * a[i], 0.5 * h * h * b[i]
-        c3 = 10.0 * way - 6.0 * v0 - 4.0 * v1 - 3.0 * a0 + a1
-        c4 = 7.0 * v1 + 8.0 * v0 + 3.0 * a0 - 2.0 * a1 - 15.0 * way
-        c5 = 6.0 * way - 3.0 * (v0 + v1) - a0 + a1
+        c3, c4 = third(way, v0, v1, a0, a1), fourth(way, v0, v1, a0, a1)
+        c5 = fifth(way, v0, v1, a0, a1)
         y[i] = old[i] + x * (v0 + x * (a0 + x * (c3 + x * (c4 + x * c5))))
         y[n + i] = (v0 + x * (2.0 * a0 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))) / h
 
@@ -183,9 +205,8 @@ def quick_slope(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
     for i in range(n):
         way, v0, v1 = new[i] - old[i], h * old[n + i], h * new[n + i]
         a0, a1 = 0.5 * h * h * a[i], 0.5 * h * h * b[i]
-        c3 = 10.0 * way - 6.0 * v0 - 4.0 * v1 - 3.0 * a0 + a1
-        c4 = 7.0 * v1 + 8.0 * v0 + 3.0 * a0 - 2.0 * a1 - 15.0 * way
-        c5 = 6.0 * way - 3.0 * (v0 + v1) - a0 + a1
+        c3, c4 = third(way, v0, v1, a0, a1), fourth(way, v0, v1, a0, a1)
+        c5 = fifth(way, v0, v1, a0, a1)
         y[n + i] = (2.0 * a0 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5))) / h
 
 
