@@ -19,14 +19,13 @@ ERROR = 1e-8
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import arrest  # noqa: E402
+from described_cases import write  # noqa: E402
 from formulas import G, Winch, sliding_ratio  # noqa: E402
 from laws import Move  # noqa: E402
 from leaning import mount, wander  # noqa: E402
 from sliding import bead, ropeway  # noqa: E402
 from spans import table  # noqa: E402
 from wound import reels  # noqa: E402
-
-from adamslite.cables.scene import deck  # noqa: E402
 
 
 def drum() -> str:
@@ -179,11 +178,7 @@ def folded() -> str:
 
 def main() -> None:
     cases = (drum, belt, slip, crane, arrestment, reels, mount, wander, ring, folded, bead, ropeway)
-    for case in cases:
-        name = case.__name__
-        text, _ = deck((HERE / f"{name}.toml").read_text(encoding="utf-8"))
-        (HERE / f"{name}.adm").write_text(text, encoding="utf-8")
-        (HERE / f"{name}.reference.csv").write_text(case(), encoding="utf-8")
+    write(HERE, {case.__name__: case for case in cases})
 
 
 if __name__ == "__main__":

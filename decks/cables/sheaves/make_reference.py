@@ -10,10 +10,9 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE)]
 
 from bars import Bars  # noqa: E402
+from described_cases import write  # noqa: E402
 from formulas import G  # noqa: E402
 from spans import table  # noqa: E402
-
-from adamslite.cables.scene import deck  # noqa: E402
 
 SIGNS = (1, -1)
 
@@ -169,12 +168,5 @@ CASES = {
 }
 
 
-def main():
-    for name, case in CASES.items():
-        text, _ = deck((HERE / f"{name}.toml").read_text(encoding="utf-8"))
-        (HERE / f"{name}.adm").write_text(text, encoding="utf-8")
-        (HERE / f"{name}.reference.csv").write_text(case(), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write(HERE, CASES)

@@ -6,13 +6,12 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import fsolve
 
-from adamslite.cables.scene import deck
-
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "published"))
+sys.path[:0] = [str(HERE.parent), str(HERE.parents[1] / "published")]
 
 import catenary  # noqa: E402  (it lies beside the published cases)
 import elastica  # noqa: E402
+from described_cases import write  # noqa: E402
 
 
 def lines(*measures: tuple[str, float, str]) -> str:
@@ -119,12 +118,5 @@ CASES = {"moored": moored, "moored-deep": moored_deep, "jumper": jumper, "held":
          "sinking": sinking, "towed": towed}  # fmt: skip
 
 
-def main() -> None:
-    for name, case in CASES.items():
-        text, _ = deck((HERE / f"{name}.toml").read_text(encoding="utf-8"))
-        (HERE / f"{name}.adm").write_text(text, encoding="utf-8")
-        (HERE / f"{name}.reference.csv").write_text(case(), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write(HERE, CASES)

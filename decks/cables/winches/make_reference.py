@@ -11,10 +11,9 @@ from scipy.optimize import brentq
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent)]
 
+from described_cases import write  # noqa: E402
 from formulas import G  # noqa: E402
 from spans import table  # noqa: E402
-
-from adamslite.cables.scene import deck  # noqa: E402
 
 #: Displacement of a rim at which its brake holds, time in which it lets go, speed it smooths over.
 GRIP, LETS_GO, STICKS = 1e-4, 0.01, 1e-8
@@ -210,12 +209,5 @@ CASES = {
 }
 
 
-def main():
-    for name, case in CASES.items():
-        text, _ = deck((HERE / f"{name}.toml").read_text(encoding="utf-8"))
-        (HERE / f"{name}.adm").write_text(text, encoding="utf-8")
-        (HERE / f"{name}.reference.csv").write_text(case(), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write(HERE, CASES)
