@@ -72,6 +72,30 @@ at = [0.3, 0, 0]
 radius = 0.1
 inertia = 0.1
 """
+#: A weight, or a body, on a straight wire.
+WIRE = """\
+end = 1
+steps = 20
+error = 1e-8
+[cable]
+EA = 1e7
+rho = 0.1
+[[route]]
+kind = "fixed"
+at = [0, 0, 0]
+[[route]]
+kind = {kind}
+at = [1.6, 1.2, 0]
+mass = 20
+velocity = [0.8, 0.6, 0]
+slides = true
+{haul}
+[[route]]
+kind = "fixed"
+at = [8, 6, 0]
+[model]
+level = 1
+"""
 
 # A block of 50 kg and a wheel of J/R^2 = 2 kg on a vertical slide, and the first of its two legs.
 BLOCK = """\

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 import reeving_mistakes
 import water_mistakes
-from descriptions import ATWOOD, BELT, HOIST, PAYOUT, folded
+from descriptions import ATWOOD, BELT, HOIST, PAYOUT, WIRE, folded
 
 import adamslite
 from adamslite.cables.messages import MESSAGES
@@ -26,25 +26,11 @@ radius = 0.1
 teeth = 12""",
 ).replace("radius = 0.1\ninertia = 0.1\npay", "radius = 0.1\nteeth = 12\ninertia = 0.1\npay")
 FOLD = folded(0.49, 0.01, "free", end=1)
-BEAD = """\
-end = 1
-[cable]
-EA = 1e6
-rho = 0.01
-[[route]]
-kind = "fixed"
-at = [0, 0, 0]
-[[route]]
-kind = "mass"
-at = [2, -1, 0]
-mass = 20
-slides = true
-[[route]]
-kind = "fixed"
-at = [6, 0, 0]
-[model]
-level = 1
-"""
+BEAD = (
+    WIRE.format(kind='"mass"', haul="")
+    .replace("[1.6, 1.2, 0]", "[3, 1, 0]")
+    .replace("velocity = [0.8, 0.6, 0]\n", "")
+)
 ZERO = "at = [0, 0, 0]"
 WOUND = (
     ZERO
@@ -122,9 +108,9 @@ WRONG = reeving_mistakes.MISTAKES | water_mistakes.MISTAKES | {
     "overstretched": (LOWERS, "EA = 2e7", "EA = 2e3", (3, 1)),
     "bend-too-tight": (FOLD, "radius = 0.01", "radius = 0.005", (13, 1)),
     "speed-on-a-route": (FOLD, "end = 1", "end = 1\nspeed = 3", (2, 1)),
-    "slides-between": (BEAD.replace("fixed", "winch", 1).replace(ZERO, WOUND, 1), "", "", (17, 1)),
-    "no-slider": (BEAD, "slides = true", 'haul = "TIME"', (12, 1)),
-    "slider-form": (BEAD, "level = 1", "level = 2", (12, 1)),
+    "slides-between": (BEAD.replace("fixed", "winch", 1).replace(ZERO, WOUND, 1), "", "", (19, 1)),
+    "no-slider": (BEAD, "slides = true", 'haul = "TIME"', (14, 1)),
+    "slider-form": (BEAD, "level = 1", "level = 2", (14, 1)),
     "pitches": (CHAIN, "teeth = 12\ninertia = 0.1\n[model]", "teeth = 13\ninertia = 0.1\n[model]",
                 (18, 1)),
     "loop-of-links": (CHAIN, "[0.52, 0, 0]", "[0.53, 0, 0]", (17, 1)),

@@ -7,52 +7,42 @@ import pytest
 from adamslite.cables.scene import deck
 from adamslite.language.diagnostics import DeckError
 
-HUNG = """\
+SCENE = """\
 end = {end}
 [cable]
 EA = {EA}
 rho = {rho}
 {more}
 [[route]]
-kind = "fixed"
-at = [0, 0, 0]
+{top}
 [[route]]
 kind = "mass"
 at = [0, -{length}, 0]
 mass = {mass}
 velocity = [{across}, {along}, 0]
 """
-HOISTED = """\
-end = {end}
-[cable]
-EA = {EA}
-rho = {rho}
-{more}
-[[route]]
+HOOK = """\
+kind = "fixed"
+at = [0, 0, 0]"""
+WINCH = """\
 kind = "winch"
 at = [-0.3, 0, 0]
 radius = 0.3
 inertia = 5
 turn = -1
-payout = "{law}"
-[[route]]
-kind = "mass"
-at = [0, -{length}, 0]
-mass = {mass}
-velocity = [{across}, 0, 0]
-"""
+payout = "{law}\""""
 
 
 def hung(mass: float, length: float, EA: float, rho: float, **more: object) -> str:  # noqa: N803
     """A weight on a held cable."""
-    values = {"end": 1, "more": "", "across": 0, "along": 0, **more}
-    return HUNG.format(mass=mass, length=length, EA=EA, rho=rho, **values)
+    values = {"end": 1, "more": "", "across": 0, "along": 0, "top": HOOK, **more}
+    return SCENE.format(mass=mass, length=length, EA=EA, rho=rho, **values)
 
 
 def hoisted(law: str, mass: float, length: float, EA: float, rho: float, **more: object) -> str:  # noqa: N803
     """A weight on a winch that pays out by a law."""
-    values = {"end": 4, "more": "", "across": 0, **more}
-    return HOISTED.format(law=law, mass=mass, length=length, EA=EA, rho=rho, **values)
+    values = {"end": 4, "top": WINCH.format(law=law), **more}
+    return hung(mass, length, EA, rho, **values)
 
 
 def chosen(description: str, model: str = "") -> tuple[int, int, str, list[str]]:

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from descriptions import WIRE
 
 import adamslite
 from adamslite.cables.scene import deck
@@ -18,29 +19,6 @@ def solve(spec: str) -> tuple[str, adamslite.Results]:
     return text, results
 
 
-WIRE = """
-end = 1
-steps = 20
-error = 1e-8
-[cable]
-EA = 1e7
-rho = 0.1
-[[route]]
-kind = "fixed"
-at = [0, 0, 0]
-[[route]]
-kind = {kind}
-at = [1.6, 1.2, 0]
-mass = 20
-velocity = [0.8, 0.6, 0]
-slides = true
-{haul}
-[[route]]
-kind = "fixed"
-at = [8, 6, 0]
-[model]
-level = 1
-"""
 KINDS = {"mass": '"mass"', "body": '"body"\ninertia = 0.3'}
 
 
