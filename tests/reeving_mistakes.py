@@ -41,10 +41,6 @@ MISTAKES |= {
         ATWOOD.replace(PULLEY, f'{PULLEY}\nmass = 2\nslide = [0, 1, 0]\nblock = "b"'),
         "slide = [0, 1, 0]", "slide = [1, 0, 0]", (23, 1),
     ),
-    "limit-reel": (
-        HOIST, HOIST_DRIVE,
-        'torque = "9"\nlimit = [-1, 3]\nreel = { thickness = 0.01, core = 0.2 }', (12, 1),
-    ),
     "limit-start": (HOIST, HOIST_DRIVE, 'torque = "9"\nlimit = [1, 3]', (12, 1)),
     "floor-where": (
         ATWOOD.replace("end = 0.5", "end = 0.5\ngravity = [0, 0, 0]"),

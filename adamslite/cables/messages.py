@@ -74,9 +74,6 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
         "a gain is for a motor that keeps a speed", "speed = ... for torque, or leave gain out"
     ),
     "floor-where": Message("without gravity nothing lies on a floor", "gravity = [0, -9.81, 0]"),
-    "limit-reel": Message(
-        "a limit switch needs a drum of constant radius", "leave limit out, or reel"
-    ),
     "limit-start": Message(
         "the payout starts at 0, outside of the limits {low:.4g} and {high:.4g} m",
         "limit = [-2, 5]: from the place in the route, in is negative",

@@ -71,8 +71,6 @@ def _winch(faults: Faults, each: Toml, i: int, ends: bool) -> None:
 def _engine(faults: Faults, each: Toml, i: int, drive: str) -> None:
     """Which keys go with the drive of a winch."""
     motor, path = each["motor"], ("route", i)
-    if each["limit"] and each["reel"]:
-        faults.add("limit-reel", (*path, "limit"))
     for word in ("motor", "brake", "limit"):
         # A speed without a motor is kept whatever acts against it.
         if each[word] and (drive == "payout" or drive == "speed" and not motor):

@@ -1,7 +1,7 @@
 """Write the decks of this folder from their descriptions, and their references."""
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -42,6 +42,7 @@ class Hoist:
     end: float
     rows: int
     gain: float = 0.0
+    brakes: bool = True
     thickness: float = 0.0
     core: float = 0.0
     rho: float = 0.0
@@ -54,7 +55,7 @@ class Hoist:
 
     def applied(self, t, stopped):
         """Share of the brake."""
-        own = 1 - step(t, 0.1, 0.2) if self.gain else step(t, 4, 4.2)
+        own = 1 - step(t, 0.1, 0.2) if self.gain else step(t, 4, 4.2) * self.brakes
         return 1 - (1 - own) * (1 - stopped)
 
     def drum(self, s):
@@ -131,7 +132,7 @@ def hoisted(hoist, noise):
         "VARIABLE/S_10": y[:, 0], "VARIABLE/SD_10": y[:, 1], "VARIABLE/engine_10": torques[:, 0],
         "VARIABLE/brake_10": torques[:, 1], "GCON/1.f": -np.array(pull),
     }  # fmt: skip
-    if hoist.gain:
+    if abs(hoist.limits[0]) < 99:
         columns["VARIABLE/stopped_10"] = stopped
     way, speed, torque = noise
     lines = [
@@ -199,6 +200,8 @@ def reeved(mass, wheel, drum, torque, radius=0.25):
 MOTOR = Hoist(400, 0.3, 40, ((0, 1500), (2, 1500), (6, 0)), 3000, (-4, 1), 10, 200, gain=2e4)
 REEL = Hoist(150, 0.5, 12, ((0, 900), (3, 700), (8, 300)), 1800, (-99, 99), 8, 160,
              thickness=0.01, core=0.2, rho=0.6)  # fmt: skip
+GROWS = replace(MOTOR, thickness=0.012, core=0.12, rho=1.5)
+LOWERS = replace(REEL, limits=(-0.5, 2.4), brakes=False)
 CASES = {
     "reeved": lambda: reeved(180, 0.5, 3, 100),
     "reeved-heavy": lambda: reeved(1100, 2, 9, 850),
@@ -206,6 +209,8 @@ CASES = {
     "landing-heavy": lambda: landed(2000, 2e7, 2.5, 25, 2, 5e6, 6, 2.3, 1.9),
     "hoist": lambda: hoisted(MOTOR, (2e-6, 2e-6, 0.01)),
     "hoist-reel": lambda: hoisted(REEL, (2e-6, 2e-6, 0.01)),
+    "reel-hoist": lambda: hoisted(GROWS, (2e-6, 2e-6, 0.01)),
+    "reel-lowers": lambda: hoisted(LOWERS, (2e-6, 2e-6, 0.01)),
 }
 
 
