@@ -58,7 +58,7 @@ def rigid(spec: Spec, i: int) -> str:
 
 def lean(i: int, j: int) -> str:
     """e.(g - x_0") of the side that goes from MARKER/i on the weight to MARKER/j [m/s^2]."""
-    parts = "+".join(f"({g}-ACC{a}({i}))*D{a}({j},{i})" for a, g in _gravity(AXES))
+    parts = "+".join(f"({g}-ACC{a}({i}))*D{a}({j},{i})" for a, g in gravity(AXES))
     return f"({parts})/DM({j},{i})"
 
 
@@ -81,7 +81,7 @@ def through(p: int, i: int, j: int, axes: str) -> str:
     components = [
         f"-rho*(H{p}/2*(ACC{a}({i})-{g})+SD{p}*(V{a}({j},{i})-SD{p}/LT{p}*D{a}({j},{i}))\n"
         f",  +(SDD{p}/2+SD{p}**2/H{p})*D{a}({j},{i}))"
-        for a, g in _gravity(axes)
+        for a, g in gravity(axes)
     ]
     return vforce(i, i, axes, components)
 
@@ -102,5 +102,6 @@ def slider(spec: Spec, i: int) -> str:
     return text
 
 
-def _gravity(axes: str) -> list[tuple[str, str]]:
+def gravity(axes: str) -> list[tuple[str, str]]:
+    """Each axis with the name of gravity along it."""
     return [(a, f"{'IJK'[AXES.index(a)]}GRAV") for a in axes]

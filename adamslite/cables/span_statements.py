@@ -9,6 +9,7 @@ from dataclasses import replace
 from adamslite.cables import sliders
 from adamslite.cables.around import Row, lightness, write_around, write_clamp
 from adamslite.cables.capstan import half_section, turned
+from adamslite.cables.carriages import along_axle, carried_half
 from adamslite.cables.catenary import start
 from adamslite.cables.ends import end
 from adamslite.cables.geometry import FreeSpan
@@ -176,6 +177,8 @@ def _chain(spec: Spec, model: CableModel, piece: Piece) -> str:
     text += write_around(spec, row_of(spec, model, piece), axes) + _clamps(spec, model, piece)
     if spec.route[piece.root].slides:
         text += sliders.through(p, side.node(0), side.node(1), axes)
+    if spec.route[piece.root].is_carried:
+        text += carried_half(spec, model, piece, side.node(1), axes)
     return text + _pull(spec, model, piece, grows)
 
 
@@ -237,6 +240,7 @@ def _pull(spec: Spec, model: CableModel, piece: Piece, grows: bool) -> str:
         # A cable that slips has the half section among the mass on its wheel instead.
         feeds = f"-({feed(spec, piece, 2)})"
         feeds = "" if slipping(piece.root, spec) or grows and model.form == "paper" else feeds
+        feeds += f"-{along_axle(spec, piece.root, i, j)}" if root.is_mobile else ""
         if weight or feeds:
             text += f"\n, +rho*{half_section(model, piece, spec)}*({number(weight)}{feeds})"
     elif spec.route[piece.root].slides:
