@@ -6,17 +6,24 @@ and commands have changed what depends on it.
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 import pytest
 
-from adamslite import Results, read, simulate
+from adamslite import Results, read
+from adamslite.analyses.simulation import simulate
+from adamslite.outputs.saved_files import SavedFiles
 from adamslite.reading.read import read_commands
 
 METHODS = ("GSTIFF", "GSTIFF, I3", "WSTIFF", "HHT", "NEWMARK", "RADAU", "RKF45", "ABAM")
 RATES = (12.0, -12.0, 5.0)
 
 
-def wheel(lines: str, rate: float, method: str = "RADAU", commands: str = "") -> Results:
+def wheel(
+    lines: str, rate: float, method: str = "RADAU", commands: str = "", files: Any = None
+) -> Results:
     """A wheel on the ground with a few more lines, over 2 s or by commands."""
     deck = read(
         f"""A wheel
@@ -35,7 +42,9 @@ INTEGRATOR/{method}, ERROR=1E-8
 END
 """
     )
-    return simulate(deck, commands=read_commands(commands, deck) if commands else None)
+    if not commands:
+        return simulate(deck)
+    return simulate(deck, commands=read_commands(commands, deck), files=files)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -122,6 +131,82 @@ def test_a_sensor_switched_off_counts_on() -> None:
         "ACTIVATE/SENSOR, ID=1\nSIM/DYN, END=2, STEPS=2\n",
     )
     assert abs(results.time[-1] - 1.75) < 1e-8
+
+
+AWAY = (
+    ("AZ(2,1)", "0", "AZ(2,1)"),
+    ("AZ(2,1)", "AZ(3,1)", "-AZ(1,2)"),
+    ("ORIENT(26,3,2,1)", "SIN(TIME)", "AZ(2,1)"),
+    ("2*AZ(2,1)", "AZ(1,3)", "AZ(2,1)+0*WZ(2,1)"),
+)
+
+
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize(("before", "between", "after"), AWAY)
+def test_an_angle_that_is_taken_away_comes_back_with_its_turns(
+    before: str, between: str, after: str, rate: float
+) -> None:
+    """Nothing but VARIABLE/1 has the angle, and from 1.5 s to 1.7 s not even that."""
+    function = "VARIABLE/1, FUNCTION="
+    results = wheel(
+        f"{function}{before}", rate,
+        commands=f"SIM/DYN, END=1.5, STEPS=2\n{function}{between}\nSIM/DYN, END=1.6, STEPS=1\n"
+        f"{function}{between}+0\nSIM/DYN, END=1.7, STEPS=1\n{function}{after}\n"
+        "SIM/DYN, END=2, STEPS=2\n",
+    )  # fmt: skip
+    assert abs(results["VARIABLE/1"][-1] - 2 * rate) < 1e-6
+
+
+@pytest.mark.parametrize("request_", ["", "REQUEST/1, F1=AZ({new},1)\\\n"])
+@pytest.mark.parametrize(("old", "new", "value"), [(2, 3, 0.0), (3, 2, 24.0)])
+def test_another_angle_has_turns_of_its_own(
+    old: int, new: int, value: float, request_: str
+) -> None:
+    """What takes the place of another angle neither takes its turns nor begins anew."""
+    function = "VARIABLE/1, FUNCTION=AZ({},1)\n"
+    results = wheel(
+        function.format(old) + request_.format(new=new), 12.0,
+        commands=f"SIM/DYN, END=1.5, STEPS=2\n{function.format(new)}SIM/DYN, END=2, STEPS=2\n",
+    )  # fmt: skip
+    assert abs(results["VARIABLE/1"][-1] - value) < 1e-6
+
+
+def test_turns_of_two_angles_that_are_taken_away_come_back_with_a_file(tmp_path: Path) -> None:
+    """Both are saved while no statement has either, 18 rad and -18 rad, and used in another run."""
+    function = "VARIABLE/1, FUNCTION="
+    lines = f"{function}AZ(2,1)\nVARIABLE/2, FUNCTION=AZ(1,2)"
+    first = (
+        f"SIM/DYN, END=1.5, STEPS=2\n{function}0\nVARIABLE/2, FUNCTION=0\n"
+        "SAVE/SYSTEM, FILE=turns\nSIM/DYN, END=2, STEPS=2\n"
+    )
+    again = f"RELOAD/SYSTEM, FILE=turns\nVARIABLE/2, FUNCTION=AZ(2,1)\n{function}AZ(1,2)\n"
+    again += "SIM/DYN, END=1.6, STEPS=2\n"
+    for commands in (first + again, again):
+        results = wheel(lines, 12.0, commands=commands, files=SavedFiles(tmp_path))
+        assert abs(results["VARIABLE/1"][-1] + 19.2) < 1e-6
+        assert abs(results["VARIABLE/2"][-1] - 19.2) < 1e-6
+
+
+@pytest.mark.parametrize("element", ["JOINT, ID=5", "COUPLER, ID=1", "GEAR, ID=1"])
+def test_constraints_that_count_turns_count_on_while_they_are_switched_off(element: str) -> None:
+    """A nut on a screw, and two pairs of wheels, move as if they were held; nothing is to be moved
+    when they are held again, after five turns.
+    """
+    speed = 3.0 / np.pi
+    results = wheel(
+        f"PART/4, MASS=1, CM=4, IP=1,1,1, WZ=6, VZ={speed}\nMARKER/4, PART=4\n"
+        "JOINT/4, CYLINDRICAL, I=4, J=1\nJOINT/5, SCREW, I=4, J=1, PITCH=1\n"
+        "MARKER/6, PART=1, QP=-0.5,0,0, REULER=0,90D,0\nMARKER/7, PART=1, QP=-1.5,0,0\n"
+        "PART/7, MASS=1, CM=8, IP=1,1,1, QG=-1.5,0,0, WZ=-6\nMARKER/8, PART=7\n"
+        "JOINT/7, REVOLUTE, I=8, J=7\nCOUPLER/1, JOINTS=1,7, TYPE=R:R, SCALES=2\n"
+        "GEAR/1, JOINTS=1,7, CV=9\nMARKER/9, PART=1, QP=-0.5,0,0, REULER=0,90D,0",
+        12.0,
+        commands="DEACTIVATE/JOINT, ID=5\nDEACTIVATE/COUPLER, ID=1\nDEACTIVATE/GEAR, ID=1\n"
+        f"SIM/DYN, END=2.6, STEPS=2\nACTIVATE/{element}\nSIM/DYN, END=3, STEPS=2\n",
+    )
+    np.testing.assert_allclose(results["PART/4.z"], speed * results.time, atol=1e-6)
+    turned = np.unwrap(results["PART/7.psi"], period=2 * np.pi)
+    np.testing.assert_allclose(np.cos(turned + 6 * results.time), 1, atol=1e-9)
 
 
 def test_turns_counted_while_switched_off_come_back_with_a_state() -> None:

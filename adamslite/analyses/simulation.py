@@ -18,7 +18,7 @@ from adamslite.analyses.output_times import spread_times
 from adamslite.analyses.run_options import checked
 from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
-from adamslite.analyses.subject import deck_of
+from adamslite.analyses.subject import deck_of, prepared_for
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition
 from adamslite.elements.simulate import Simulate
@@ -96,7 +96,7 @@ def simulate(
     plan = _plan(deck_of(scene), commands, end, steps)
     files = files or SavedFiles()
     without = left_off(no_reduction) | kept_apart(plan, audit)
-    session = Session(scene, progress, flags, without, audit, files)
+    session = Session(prepared_for(scene, commands), progress, flags, without, audit, files)
     wanted = (outputs,) if isinstance(outputs, str) else tuple(outputs)
     if wanted:
         _need_columns(session, wanted)
@@ -182,9 +182,10 @@ def linearize(
     _need_time(time)
     deck = deck_of(scene)
     marker = None if rm is None else _marker(deck, str(rm))
-    session = Session(scene, None, {}, frozenset({MERGED}))
-    plan = [s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM")]
-    session.execute([*plan, *commands, *([_dynamics(time)] if time else [])])
+    settings = (s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM"))
+    plan: list[Command] = [*settings, *commands, *([_dynamics(time)] if time else [])]
+    session = Session(prepared_for(scene, plan), None, {}, frozenset({MERGED}))
+    session.execute(plan)
     system = session.system
     if not session.outcome.is_requested:
         raise RunFailed(_explained(session))

@@ -5,11 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeAlias
 
 from adamslite.analyses import kept_kernels
+from adamslite.deck.counted_turns import brought
 from adamslite.deck.deck import Deck
 from adamslite.kernels.groups import Kernels
 from adamslite.model.model import Model, assemble
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from adamslite.deck.redefinition import Command
     from adamslite.progress import Progress
 
 Subject: TypeAlias = Deck | Model | Kernels
@@ -20,6 +24,13 @@ def deck_of(subject: Subject) -> Deck:
     if isinstance(subject, Kernels):
         return subject.model.deck
     return subject.deck if isinstance(subject, Model) else subject
+
+
+def prepared_for(subject: Subject, commands: Iterable[Command]) -> Subject:
+    """A deck that counts from the start the turns of angles that commands bring into it."""
+    if not isinstance(subject, Deck):
+        return subject
+    return subject.counting(brought(commands, subject.statements))
 
 
 def kernels_of(

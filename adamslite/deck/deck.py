@@ -15,6 +15,7 @@ from pathlib import Path, PureWindowsPath
 from typing import TYPE_CHECKING, Any, overload
 
 import adamslite
+from adamslite.deck.counted_turns import counted
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition, settled
 from adamslite.deck.user_bindings import Bindings
@@ -70,6 +71,8 @@ class Deck:
         self.warnings: tuple[Diagnostic, ...] = ()
         self.senvals: dict[Key, float] = {}
         """Of sensors that have triggered, the value of their EVALUATE then, by key."""
+        self.turns: tuple[Call, ...] = ()
+        """Measures whose full turns count before and after commands have them in statements."""
         self.user = Bindings()
         """What runs in place of routines of the user."""
         self.origin = ""
@@ -194,7 +197,17 @@ class Deck:
         constants = {name: v for each in own for name, v in each.constants().items()}
         renewed = own if new.constants() else (new,)
         fresh = {id(each): _with_constants(each, constants) for each in renewed}
-        return self._but(own=tuple(fresh.get(id(each), each) for each in own))
+        deck = self._but(own=tuple(fresh.get(id(each), each) for each in own))
+        return deck.counting(counted(old)) if old is not None else deck
+
+    def counting(self, turns: Iterable[Call]) -> Deck:
+        """The deck, with measures whose full turns are counted whether it has them or not."""
+        found = tuple(dict.fromkeys((*self.turns, *turns)))
+        if found == self.turns:
+            return self
+        deck = self._but()
+        deck.turns = found
+        return deck
 
     def with_more(self, extra: Iterable[Statement]) -> Deck:
         """The deck with further statements."""
@@ -219,7 +232,7 @@ class Deck:
         switched_off = self.inactive if inactive is None else inactive
         deck = Deck(self.source, self.title, statements, self.names, self.path, switched_off)
         deck.warnings, deck.incomplete = self.warnings, self.incomplete
-        deck.senvals, deck.user = self.senvals, self.user
+        deck.senvals, deck.user, deck.turns = self.senvals, self.user, self.turns
         return deck
 
     def with_senvals(self, values: dict[Key, float]) -> Deck:

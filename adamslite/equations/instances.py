@@ -35,6 +35,7 @@ PHASES = {
     "stored": contract.STORED_ENERGY,
     "sensor": 0,
     "counted": 0,
+    "since start": 0,
 }
 
 
@@ -103,12 +104,14 @@ class Instances:
         """Whose it is and what it remembers: angles, then times of leaving its law."""
         for group, reals in zip(self.kernels.groups, self.keep[1::2], strict=True):
             count = group.meta["angles"] + group.meta["limits"]
-            if not count:
-                continue
-            rows = reals[:-1].reshape(len(group.instances), -1)
-            first = len(group.instances.columns.params)
-            for statement, row in zip(group.instances.statements, rows, strict=False):
-                yield (group.name, statement.keyword, statement.key), row[first : first + count]
+            if count:
+                yield from _remembered(group, reals, 0, count)
+
+    def times_of_leaving(self) -> Iterator[tuple[Owner, np.ndarray]]:
+        """Whose they are, and times of leaving its law."""
+        for group, reals in zip(self.kernels.groups, self.keep[1::2], strict=True):
+            if group.meta["limits"]:
+                yield from _remembered(group, reals, group.meta["angles"], group.meta["limits"])
 
     def counted(self) -> Iterator[tuple[Measured, np.ndarray]]:
         """Angles that are counted: what each is of, and where it is remembered."""
@@ -120,28 +123,30 @@ class Instances:
                 for row, *names in zip(values, *markers, strict=False):
                     yield (kind, *names), row
 
-    def count_on(self, other: Instances) -> None:
-        """Take over what another model counts: angles belong to their markers, whichever expression
-        they are part of.
+    def take_over(self, other: Instances) -> None:
+        """Take over what another model remembers: angles belong to their markers, whichever
+        expression they are part of, and times to their statements.
         """
         known = {of: float(row[0]) for of, row in other.counted()}
         for of, row in self.counted():
             row[:] = known.get(of, row)
+        left = dict(other.times_of_leaving())
+        for whose, times in self.times_of_leaving():
+            times[:] = left.get(whose, times)
 
     def remember(self, known: Iterable[tuple[Owner, np.ndarray]]) -> None:
-        """Take memories over, of instances that are known."""
+        """Take memories of the same model over."""
         found = dict(known)
         for whose, values in self.memories():
             values[:] = found.get(whose, values)
 
     def out_of_law(self) -> dict[str, str]:
         """Elements that were beyond what their law is meant for: how, and when first."""
-        limited = {g.name: g.meta["limits"] for g in self.kernels.groups if g.face == "loads"}
+        loads = {group.name for group in self.kernels.groups if group.face == "loads"}
         found = {}
-        for (name, keyword, key), values in self.memories():
+        for (name, keyword, key), times in self.times_of_leaving():
             statement = self.model.element(keyword, key)
-            limits = limited.get(name, 0)
-            time = min(values[len(values) - limits :], default=inf)
+            time = min(times) if name in loads else inf
             if hasattr(statement, "beyond") and time < inf:
                 found[statement.label] = f"{statement.beyond}, first at t = {time:.6g}"
         return found
@@ -214,3 +219,13 @@ class Instances:
             return []
         offset = place.p.tolist() if place.offset else []
         return [*offset, *place.axes.ravel().tolist()] if place.turned else offset
+
+
+def _remembered(
+    group: ShapeGroup, reals: np.ndarray, first: int, count: int
+) -> Iterator[tuple[Owner, np.ndarray]]:
+    """Whose it is, and ``count`` of the numbers that each instance of a group remembers."""
+    rows = reals[:-1].reshape(len(group.instances), -1)
+    at = len(group.instances.columns.params) + first
+    for statement, row in zip(group.instances.statements, rows, strict=False):
+        yield (group.name, statement.keyword, statement.key), row[at : at + count]

@@ -221,9 +221,10 @@ class System:
 
     def adopt(self, other: System) -> None:
         """Take over the state of another system of (almost) the same model."""
-        if self.kernels is not other.kernels:
-            self.instances.count_on(other.instances)
-        self.instances.remember(other.instances.memories())
+        if self.kernels is other.kernels:
+            self.instances.remember(other.instances.memories())
+        else:
+            self.instances.take_over(other.instances)
         other.count_states_from_here()
         self.count_states_from_here()
         for node, k in self.node_at.items():

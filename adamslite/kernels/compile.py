@@ -16,12 +16,13 @@ from typing import TYPE_CHECKING, Any
 from adamslite.assembly.start_posture import settle_start
 from adamslite.caching.entries import recall, recall_json
 from adamslite.caching.sources import version_of
+from adamslite.deck.counted_turns import counted, counting
 from adamslite.deck.statement_diagnostics import diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
 from adamslite.kernels.binding import Binder, ForceLoop
 from adamslite.kernels.columns import Split, same, transposed
-from adamslite.kernels.faces import counted, faces, output_face
+from adamslite.kernels.faces import faces, output_face
 from adamslite.kernels.groups import (
     LEVELS,
     WITH_JACOBIAN,
@@ -85,6 +86,8 @@ def compile_model(
             for face in output_face(statement):
                 outputs.append((statement, statement.result_names))
                 add(statement, face)
+        for each in counting(model.deck.turns, model.deck.statements):
+            add(each, "counted")
         for (_, face), found in batches.items():
             _add(groups, model, face, found)
         made = groups.made(model.deck)
@@ -207,6 +210,8 @@ def _bound(binder: Binder, statements: list[Statement], face: str) -> tuple[Tree
         found = transposed([counted(each) for each in statements])
         return tuple([binder.expression(nodes) for nodes in found]), -1
     fields = binder.statement(statements)
+    if face == "since start":
+        return fields, -1
     if face in ("signal", "stored", "sensor"):
         return fields, binder.node_slot([(face.upper(), each.key) for each in statements])
     return fields, binder.unknowns(statements)
@@ -278,6 +283,9 @@ class FaceWriter:
             return Outputs(loads=reactions(rows, view.unknowns, scope))
         if self.face in SCALARS:
             return Outputs(rows=[(row, 0, getattr(view.cls, SCALARS[self.face])(view, scope))])
+        if self.face == "since start":
+            view.cls.constraints(view, scope)
+            return Outputs()
         if self.face == "signal":
             return Outputs(
                 rows=[(row, n, e) for n, e in enumerate(_rates(scope, view.function, 2))]

@@ -5,18 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from adamslite.deck.counted_turns import counted
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.kernels.groups import LEVELS
-from adamslite.language.expression import calls
-from adamslite.language.statement import expressions
 
 if TYPE_CHECKING:
-    from adamslite.language.expression import Call
     from adamslite.language.statement import Statement
     from adamslite.model.model import Model
-
-ANGLES = ("AX", "AY", "AZ", "INCANG")
-"""Functions that count full turns."""
 
 
 def faces(statement: Statement, model: Model) -> Iterator[str]:
@@ -24,6 +19,8 @@ def faces(statement: Statement, model: Model) -> Iterator[str]:
     if not model.acts(statement):
         if counted(statement):
             yield "counted"
+        if isinstance(statement, Constraint) and statement.counts_from_start:
+            yield "since start"
         return
     if model.merges(statement):
         return
@@ -44,8 +41,3 @@ def output_face(statement: Statement) -> Iterator[str]:
     """The values that it writes, if there are any."""
     if statement.result_names:
         yield "output"
-
-
-def counted(statement: Statement) -> list[Call]:
-    """The measures in its expressions that count full turns."""
-    return [call for each in expressions(statement) for call in calls(each, *ANGLES)]
