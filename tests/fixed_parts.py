@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 from frame_constraints import any_rotation, euler_313
 
@@ -86,6 +88,26 @@ class Machine:
     def fix(self, a: int, b: int) -> None:
         self.fixed += 1
         self.join("FIXED", a, b)
+
+    def watched(self) -> str:
+        """The deck, with every reaction of a FIXED joint in a REQUEST: by its own function on I or
+        J, as net force, or by a VARIABLE, along the axes of any marker.
+        """
+        rng = np.random.default_rng(self.marker)
+        found = re.findall(r"JOINT/(\d+), FIXED, I=(\d+), J=(\d+)", "".join(self.lines))
+        markers = re.findall(r"MARKER/(\d+)", "".join(self.lines))
+        lines = []
+        for joint, i, j in found:
+            rm, flag, of = rng.choice(markers), rng.integers(2), ((i, j), (j, i))[rng.integers(2)]
+            comps = (2, 3, 4, 6, 7, 8)
+            calls = [f"F{c}=JOINT({joint},{flag},{c},{rm})" for c in comps]
+            lines.append((
+                f"REQUEST/j{joint}, " + "\\ ".join([*calls, f"F5=JOINT({joint},{flag},5,0)"]),
+                f"REQUEST/j{joint}, FORCE, I={of[0]}, J={of[1]}, RM={rm}",
+                f"VARIABLE/j{joint}, FUNCTION=JOINT({joint},{flag},7,{rm})+FX({i},0,{rm})\n"
+                f"REQUEST/j{joint}, F1=VARVAL(j{joint})",
+            )[rng.integers(3)])  # fmt: skip
+        return self.text(0.05).replace("SIMULATE", "\n".join(lines) + "\nSIMULATE")
 
     def hang(self, a: int, b: int) -> None:
         kinds = ("SPHERICAL", "REVOLUTE", "HOOKE", "CYLINDRICAL", "TRANSLATIONAL")

@@ -27,7 +27,6 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from adamslite.functions.forces import NET
 from adamslite.kernels.columns import same, slot, transposed
 from adamslite.kernels.groups import Binding
 from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
@@ -35,7 +34,6 @@ from adamslite.language.function import PRODUCTS, find_function
 from adamslite.language.routines import USER
 from adamslite.language.statement import Statement
 from adamslite.model.model import folded
-from adamslite.model.net_force import written_out
 from adamslite.model.past import past_of
 from adamslite.symbolic.interpolant import Interpolant
 from adamslite.symbolic.scope import ORIGIN, Slot
@@ -231,8 +229,9 @@ class Binder:
 
     def call(self, nodes: Sequence[Call]) -> Tree:
         name = same([node.name for node in nodes])
-        if name in NET:
-            return self.expression([written_out(node, self.model) for node in nodes])
+        written = [self.model.written_out(node) for node in nodes]
+        if not same([each is None for each in written]):
+            return self.expression([each for each in written if each is not None])
         columns = transposed([node.args for node in nodes])
         if any(map(self._are_off, columns)):
             return ("c", 0.0)

@@ -4,9 +4,10 @@ Left apart are parts
 
     that are drawn or start apart          a run closes the joint first and changes speeds
     in a loop, or joined in another way    what each joint carries is not determined
-    whose joint is measured or changed     by a force, a sensor, a REQUEST: it is an unknown there
-    of which two have loads that cannot    gears, curves, frictions, general constraints; where it
-    be measured                            is one, that part leads
+    whose joint's reaction acts            on a force, a motion, a state: it is an unknown there.
+                                           One that is only watched (REQUEST, SENSOR) is written out
+    of which two have loads that cannot    curves, frictions; where it is one, that part leads
+    be measured
     that touch others                      the law of a CONTACT may know the mass of a part
     on which very many elements act        their sum is one expression
 """
@@ -42,7 +43,12 @@ MEASURED = frozenset({
     "BEAM", "BUSHING", "FIELD", "GFORCE", "JOINT", "JPRIM", "MOTION", "SFORCE", "SPRINGDAMPER",
     "VFORCE", "VTORQUE",
 })  # fmt: skip
-#: Elements on parts that are one body: what a joint carries is the sum of their expressions.
+#: Constraints measured at every marker that they name, themselves or through others.
+AT_MARKERS = frozenset({"COUPLER", "GCON", "GEAR"})
+#: What acts on nothing, of which VARIABLEs are another kind.
+WATCHING = frozenset({"GRAPHICS", "MREQUEST", "REQUEST", "SENSOR"})
+#: Elements on parts that are one body, and parts behind a joint that is watched: what a joint
+#: carries is the sum of their expressions.
 MOST = 40
 STARTS = {"JOINT": ("ic", "ictran", "icrot"), "MOTION": ("icdisp", "icvel"), "PTCV": ("velocity",)}
 
@@ -62,12 +68,13 @@ def found_groups(model: Model) -> list[Group]:
     fixed = [j for j in deck.of(Joint) if j.kind == "FIXED" and model.acts(j)]
     if not fixed or deck.user.called or any(map(_starts_with_conditions, deck.statements)):
         return []
-    measured = _measured_joints(deck, fixed)
+    acted_on, watched = _measured_joints(model, fixed)
     acting = [_acting_on(deck, s) for s in deck.statements if _exerts(s) and model.acts(s)]
     found = []
     for joints in _connected(deck, fixed):
         parts = frozenset(_end(deck, m) for j in joints for m in (j.i, j.j))
-        free = not measured.intersection(joints) and len(parts) == len(joints) + 1
+        free = not acted_on.intersection(joints) and len(parts) == len(joints) + 1
+        free &= len(parts) <= MOST or not watched.intersection(joints)
         if free and _is_one_posture(model, parts, joints):
             leader = _leader(model, parts, joints, acting)
             found += [Group(parts, joints, leader)] if leader else []
@@ -121,26 +128,49 @@ def _connected(deck: Deck, fixed: list[Joint]) -> Iterator[tuple[Joint, ...]]:
 # ---- what is asked of a joint ------------------------------------------------------------------
 
 
-def _measured_joints(deck: Deck, fixed: list[Joint]) -> set[Joint]:
-    """Joints whose force or whose statement something else takes."""
-    from adamslite.functions.forces import NET
-
+def _measured_joints(model: Model, fixed: list[Joint]) -> tuple[set[Joint], set[Joint]]:
+    """Joints whose reaction or whose statement something takes that acts on the model itself, and
+    those of which it is only looked at.
+    """
+    deck = model.deck
     by_key = {joint.key: joint for joint in fixed}
     at = {marker: joint for joint in fixed for marker in (joint.i, joint.j)}
-    found: set[Joint] = set()
+    acted_on: set[Joint] = set()
+    watched: set[Joint] = set()
     for statement in deck.statements:
-        for keyword, key in referred(statement):
-            if keyword == "JOINT" and key in by_key:
-                found.add(by_key[key])
-        if statement.keyword in ("REQUEST", "MREQUEST") and statement.given("kind"):
-            keys = {key for keyword, key in referred(statement) if keyword == "MARKER"}
-            if statement.kind == "FORCE":  # type: ignore[attr-defined]
-                found |= {at[key] for key in keys & at.keys()}
-        for call in (each for node in expressions(statement) for each in walk(node)):
-            if isinstance(call, Call) and call.name in NET:
-                refs = {ref.id for ref in call.args if isinstance(ref, Ref)}
-                found |= {at[key] for key in refs & at.keys()}
-    return found
+        found = set(_joints_of(statement, by_key, at))
+        if found:
+            (watched if _only_watches(model, statement) else acted_on).update(found)
+    return acted_on, watched
+
+
+def _joints_of(
+    statement: Statement, by_key: dict[Key, Joint], at: dict[Key, Joint]
+) -> Iterator[Joint]:
+    """The joints that a statement names, and those whose reaction is part of the net force at a
+    marker.
+    """
+    from adamslite.functions.forces import NET
+
+    named = list(referred(statement))
+    yield from (by_key[key] for keyword, key in named if keyword == "JOINT" and key in by_key)
+    if statement.keyword in ("REQUEST", "MREQUEST") and getattr(statement, "kind", "") == "FORCE":
+        yield from (at[key] for keyword, key in named if keyword == "MARKER" and key in at)
+    for call in (each for node in expressions(statement) for each in walk(node)):
+        if isinstance(call, Call) and call.name in NET:
+            refs = {ref.id for ref in call.args if isinstance(ref, Ref)}
+            yield from (at[key] for key in refs & at.keys())
+
+
+def _only_watches(model: Model, statement: Statement) -> bool:
+    """Whether nothing of the model depends on a statement, through VARIABLEs neither."""
+    if statement.keyword in WATCHING:
+        return True
+    if statement.keyword != "VARIABLE" or model.variable_kind(statement.key) != "inline":
+        return False
+    own = ("VARIABLE", statement.key)
+    users = [each for each in model.deck.statements if own in set(referred(each))]
+    return all(_only_watches(model, each) for each in users)
 
 
 def referred(statement: Statement) -> Iterator[tuple[str, Key]]:
@@ -174,6 +204,9 @@ def _exerts(statement: Statement) -> bool:
 
 
 def _acting_on(deck: Deck, element: Statement) -> Acting:
+    if element.keyword in AT_MARKERS and not _names_parts(deck, element):
+        owners = frozenset(_end(deck, key) for key in markers_of(deck, element))
+        return Acting(element, owners, frozenset())
     if element.keyword not in MEASURED:
         reached = frozenset(_reached(deck, element, set()))
         return Acting(element, reached, reached)
@@ -190,16 +223,33 @@ def _acting_on(deck: Deck, element: Statement) -> Acting:
 
 def _reached(deck: Deck, statement: Statement, seen: set[PartKey]) -> Iterator[PartKey]:
     """The bodies of all markers that a statement names, itself or through others."""
-    for keyword, key in referred(statement):
-        if (keyword, key) in seen:
-            continue
-        seen.add((keyword, key))
+    for keyword, key in _named(deck, statement, seen):
         if keyword == "MARKER":
             yield _end(deck, key)
         elif keyword in ("PART", "POINT_MASS"):
             yield GROUND if is_ground(deck, (keyword, key)) else (keyword, key)
-        elif (other := deck.find(keyword, key)) is not None:
-            yield from _reached(deck, other, seen)
+
+
+def _named(deck: Deck, statement: Statement, seen: set[PartKey]) -> Iterator[PartKey]:
+    """Keyword and id of all that a statement names, itself or through others but markers."""
+    for each in referred(statement):
+        if each in seen:
+            continue
+        seen.add(each)
+        yield each
+        other = None if each[0] in ("MARKER", "PART", "POINT_MASS") else deck.find(*each)
+        if other is not None:
+            yield from _named(deck, other, seen)
+
+
+def markers_of(deck: Deck, constraint: Statement) -> list[Key]:
+    """The markers that a constraint names, itself or through others, in the order of the deck."""
+    return [key for keyword, key in _named(deck, constraint, set()) if keyword == "MARKER"]
+
+
+def _names_parts(deck: Deck, constraint: Statement) -> bool:
+    names = _named(deck, constraint, set())
+    return any(keyword in ("PART", "POINT_MASS") for keyword, _ in names)
 
 
 def _leader(
@@ -213,7 +263,7 @@ def _leader(
     if len(others) > MOST:
         return None
     for each in others:
-        if isinstance(each.element, Constraint) and len(each.bodies & parts) > 1:
+        if isinstance(each.element, Constraint) and _holds_inside(each, parts):
             return None
         if each.element.keyword == "CONTACT" and each.bodies & parts - {GROUND}:
             return None  # its law may depend on the masses of the parts
@@ -221,9 +271,16 @@ def _leader(
     if len(leaders) > 1:
         return None
     masses = {part: model.bodies[model.body_index[part]].mass for part in parts - {GROUND}}
-    if not sum(masses.values()) > 0.0:
+    if GROUND not in parts and not sum(masses.values()) > 0.0:
         return None
     return leaders.pop() if leaders else max(masses, key=lambda part: masses[part])
+
+
+def _holds_inside(acting: Acting, parts: frozenset[PartKey]) -> bool:
+    """Whether a constraint holds parts of one body, or ties it in a way that cannot be measured."""
+    if acting.element.keyword in AT_MARKERS:
+        return acting.bodies <= parts
+    return len(acting.bodies & parts) > 1
 
 
 # ---- posture and speeds ------------------------------------------------------------------------

@@ -10,12 +10,14 @@ follows from the equations of the parts S that hang on it (d'Alembert), about th
     on S    force  = sum m_p (a_p - g) - sum F,    torque = sum (dL_p/dt + r m_p (a_p - g)) - sum T
 
 F and T are the loads of all elements between S and the rest.  Here these are written out as
-expressions; :mod:`adamslite.equations.merged_columns` adds the inertia.
+expressions; :mod:`adamslite.equations.merged_columns` adds the inertia to what the joint itself
+writes.  Where a REQUEST or a SENSOR takes the reaction, the inertia is written out with it
+(:mod:`adamslite.functions.held`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -23,11 +25,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.elements.joint import Joint
-from adamslite.language.expression import COMPONENTS, GROUND_FRAME, Call, Op, Ref, measure
+from adamslite.functions.held import AT, HELD
+from adamslite.language.expression import COMPONENTS, GROUND_FRAME, Call, Num, Op, Ref, measure
 from adamslite.model.geometry import IDENTITY, Place, frame_axes
-from adamslite.model.mergeable import GROUND, Group, found_groups, is_ground, owner_of
+from adamslite.model.mergeable import (
+    AT_MARKERS,
+    GROUND,
+    Group,
+    found_groups,
+    is_ground,
+    markers_of,
+    owner_of,
+)
 from adamslite.model.model import Body, Model
-from adamslite.model.net_force import ends, total
+from adamslite.model.net_force import component_of, ends, total
 from adamslite.model.reduction import MERGED
 
 if TYPE_CHECKING:
@@ -40,6 +51,8 @@ if TYPE_CHECKING:
     from adamslite.model.model import MassCentre
 
 PartKey = tuple[str, "Key"]
+#: Numbers of the first components of a force and of a torque.
+FX, TX = COMPONENTS[0], COMPONENTS[3]
 
 
 @dataclass(frozen=True)
@@ -128,10 +141,12 @@ class MergedModel(Model):
     def _place(self, marker_id: Key | MassCentre) -> Place | None:
         part = marker_id if isinstance(marker_id, tuple) else owner_of(self.deck, marker_id)
         member = self.members.get(part)
-        if member is None or member.body < 0:
+        if member is None or (member.body < 0 and not isinstance(marker_id, tuple)):
             return super()._place(marker_id)
         at = self.mass_centre_in_part(part) if isinstance(marker_id, tuple) else None
         origin, axes = at or self.marker_in_body(marker_id)  # type: ignore[arg-type]
+        if member.body < 0:
+            return Place("ground", -1, member.p + member.axes @ origin, member.axes @ axes)
         return Place("part", member.body, member.p + member.axes @ origin, member.axes @ axes)
 
     def mass_centre_in_part(self, part: PartKey) -> tuple[np.ndarray, np.ndarray]:
@@ -147,22 +162,60 @@ class MergedModel(Model):
         if not self.merges(statement):
             return super().outputs_of(statement)
         joint = self.deck.get(Joint, statement.key)
-        return _loads_on(self.deck, self._acting, self.cuts["JOINT", joint.key].parts, joint.i)
+        return [self._load_on(self.cuts["JOINT", joint.key].parts, joint.i, component, GROUND_FRAME)
+                for component in COMPONENTS]  # fmt: skip
+
+    def written_out(self, call: Call) -> Node | None:
+        """The net force at a marker, and the reaction of a joint inside a body."""
+        joint = call.args[0] if call.name == "JOINT" else None
+        if isinstance(joint, Ref) and ("JOINT", joint.id) in self.cuts:
+            return self._reaction(call)
+        return super().written_out(call)
+
+    def _reaction(self, call: Call) -> Node:
+        """JOINT(id, jflag, comp, rm) from the parts behind a joint."""
+        own, jflag, number, axes = call.args
+        assert isinstance(own, Ref) and isinstance(jflag, Num) and isinstance(number, Num)
+        assert isinstance(axes, Ref)
+        joint, cut = self.deck.get(Joint, own.id), self.cuts["JOINT", own.id]
+        turned = cut.sign * (-1 if jflag.value else 1) < 0
+
+        def along(component: int) -> Node:
+            terms = [self._held(part, joint.i, component, axes) for part in sorted(cut.parts)]
+            load = self._load_on(cut.parts, joint.i, component, axes)
+            return Op("-", (load, total(terms)) if turned else (total(terms), load))
+
+        return component_of(int(number.value), along)
+
+    def _held(self, part: PartKey, about: Key, component: int, axes: Ref) -> Node:
+        """What a part needs in order to move as it does."""
+        body = self.alone[part]
+        numbers = (body.mass, *body.inertia[np.triu_indices(3)], *self.deck.gravity, component)
+        frames = (Ref("MARKER", part), Ref("MARKER", about))  # type: ignore[arg-type]
+        return Call(HELD, (*frames, *(Num(float(each)) for each in numbers), axes))
+
+    def _load_on(self, parts: frozenset[PartKey], about: Key, component: int, axes: Ref) -> Node:
+        """A component, along some axes, of the loads of elements between parts and the rest: of
+        their force, or of their torque about a marker.
+        """
+        terms: list[Node] = []
+        for element, ends_of in self._acting:
+            on = [end for end in ends_of if end.owner in parts]
+            if len(on) == len(ends_of):
+                continue
+            for end in on:
+                own = Ref(element.keyword, element.key)
+                terms += _carried_to(about, end.marker, component, axes, end.loads(own, axes))
+        return total(terms)
 
     @cached_property
-    def _acting(self) -> list[tuple[Statement, list[PartKey | None]]]:
-        """Elements that act, with the bodies of their markers."""
+    def _acting(self) -> list[tuple[Statement, list[End]]]:
+        """Elements that act, with their ends."""
         from adamslite.functions.forces import MEASURES
 
         found = (each for each in self.deck.statements if each.keyword in MEASURES)
         return [
-            (
-                each,
-                [
-                    None if key is None else owner_of(self.deck, key)
-                    for key in ends(self.deck, each)
-                ],
-            )
+            (each, list(_ends(self.deck, each)))
             for each in found
             if self.acts(each) and not self.merges(each)
         ]
@@ -214,35 +267,52 @@ def _node(deck: Deck, marker: Key) -> PartKey:
     return GROUND if is_ground(deck, owner) else owner
 
 
-def _loads_on(
-    deck: Deck,
-    acting: Iterable[tuple[Statement, list[PartKey | None]]],
-    parts: frozenset[PartKey],
-    about: Key,
-) -> list[Node]:
-    """Force and torque about a marker, along ground axes, of the elements between parts and the
-    rest.
-    """
-    from adamslite.functions.forces import MEASURES
+@dataclass(frozen=True)
+class End:
+    """A marker at which an element is measured, None for one that is no marker, and its body.
 
-    forces: list[list[Node]] = [[] for _ in COMPONENTS]
-    for element, owners in acting:
-        on = [owner in parts for owner in owners]
-        if on[0] == on[1]:
-            continue
-        jflag = on.index(True)
-        at = ends(deck, element)[jflag]
-        assert at is not None
-        name, own = MEASURES[element.keyword], Ref(element.keyword, element.key)
-        load: list[Node] = [measure(name, own, n, GROUND_FRAME, jflag) for n in COMPONENTS]
-        arm = [Call(f"D{axis}", (Ref("MARKER", at), Ref("MARKER", about), GROUND_FRAME))
-               for axis in "XYZ"]  # fmt: skip
-        for n in range(3):
-            a, b = (n + 1) % 3, (n + 2) % 3
-            moment = Op("-", (Op("*", (arm[a], load[b])), Op("*", (arm[b], load[a]))))
-            forces[n].append(load[n])
-            forces[n + 3].append(Op("+", (load[n + 3], moment)))
-    return [total(terms) for terms in forces]
+    ``jflag``: 0 or 1 of elements between two markers, None of those that have any number.
+    """
+
+    element: Statement
+    marker: Key | None
+    owner: PartKey | None
+    jflag: int | None
+
+    def loads(self, own: Ref, axes: Ref) -> Callable[[int], Node]:
+        """The components of the load there."""
+        from adamslite.functions.forces import MEASURES
+
+        if self.jflag is None:
+            at = Ref("MARKER", self.marker or 0)
+            return lambda n: Call(AT, (own, at, Num(n), axes))
+        flag, name = self.jflag, MEASURES[self.element.keyword]
+        return lambda n: measure(name, own, n, axes, flag)
+
+
+def _ends(deck: Deck, element: Statement) -> Iterator[End]:
+    if element.keyword in AT_MARKERS:
+        for key in markers_of(deck, element):
+            yield End(element, key, owner_of(deck, key), None)
+        return
+    for jflag, marker in enumerate(ends(deck, element)):
+        owner = None if marker is None else owner_of(deck, marker)
+        yield End(element, marker, owner, jflag)
+
+
+def _carried_to(
+    about: Key, at: Key | None, component: int, axes: Ref, load: Callable[[int], Node]
+) -> list[Node]:
+    """A component of a load, of its torque about another marker."""
+    assert at is not None
+    if component <= FX + 2:
+        return [load(component)]
+    n = component - TX
+    a, b = (n + 1) % 3, (n + 2) % 3
+    arm: list[Node] = [Call(f"D{axis}", (Ref("MARKER", at), Ref("MARKER", about), axes))
+                       for axis in "XYZ"]  # fmt: skip
+    moment = Op("-", (Op("*", (arm[a], load(FX + b))), Op("*", (arm[b], load(FX + a)))))
+    return [load(component), moment]
 
 
 def merged(model: Model) -> Model:

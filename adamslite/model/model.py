@@ -35,6 +35,7 @@ from adamslite.language.expression import (
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
 from adamslite.language.statement import class_of, expressions
+from adamslite.model.cycles import in_loops
 from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
 
 if TYPE_CHECKING:
@@ -214,6 +215,12 @@ class Model:
         """What a statement writes."""
         return statement.outputs(self)
 
+    def written_out(self, call: Call) -> Node | None:
+        """A call as an expression of others, where that is what it stands for."""
+        from adamslite.model.net_force import written_out
+
+        return written_out(call, self)
+
     @property
     def folder(self) -> Path:
         """Where the files are that the deck names."""
@@ -280,7 +287,7 @@ class Model:
     @cached_property
     def circular(self) -> set[Key]:
         """VARIABLEs that depend on themselves."""
-        return _in_loops({v.key: set(self._uses(v.function)) for v in self.deck.of(Variable)})
+        return in_loops({v.key: set(self._uses(v.function)) for v in self.deck.of(Variable)})
 
     @cached_property
     def _kinds(self) -> dict[Key, str]:
@@ -318,16 +325,14 @@ class Model:
 
     def _uses(self, node: Node) -> Iterator[Key]:
         """Variables an expression depends on, through the elements it measures too."""
-        from adamslite.functions.forces import NET
-        from adamslite.model.net_force import written_out
-
         seen: set[Node] = set()
         pending = [node]
         while pending:
             for each in walk(pending.pop()):
-                if isinstance(each, Call) and each.name in NET and each not in seen:
+                written = self.written_out(each) if isinstance(each, Call) else None
+                if written is not None and each not in seen:
                     seen.add(each)
-                    pending.append(written_out(each, self))
+                    pending.append(written)
                 if not isinstance(each, Ref) or each in seen:
                     continue
                 seen.add(each)
@@ -379,20 +384,6 @@ def folded(op: str, values: Sequence[float]) -> float:
     """The value of an operation on numbers; not a number where it has none."""
     value = operate(op, values)
     return float("nan") if value is None else value
-
-
-def _in_loops(uses: dict[Key, set[Key]]) -> set[Key]:
-    """Members of dependency cycles."""
-    reach = {key: set(direct) for key, direct in uses.items()}
-    changed = True
-    while changed:
-        changed = False
-        for direct in reach.values():
-            more = set().union(*(reach.get(k, set()) for k in direct)) - direct
-            if more:
-                direct |= more
-                changed = True
-    return {key for key, all_used in reach.items() if key in all_used}
 
 
 def assemble(deck: Deck, without: frozenset[str] = frozenset()) -> Model:

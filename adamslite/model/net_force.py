@@ -31,17 +31,20 @@ class WithDeck(DrawnModel, Protocol):
     def deck(self) -> Deck: ...
 
 
-def written_out(call: Call, model: WithDeck) -> Node:
-    """One of the functions of the net force as a sum of the elements' own."""
-    if call.name == "NFORCE":
-        return _of_nforce(call, model)
+def written_out(call: Call, model: WithDeck) -> Node | None:
+    """One of the functions of the net force as a sum of the elements' own; None of others."""
     from adamslite.functions.forces import NET
 
+    if call.name not in NET:
+        return None
+    if call.name == "NFORCE":
+        return _of_nforce(call, model)
+
     i, j, k = (*(ref.id for ref in call.args if isinstance(ref, Ref)), 0)[:3]
-    return _component(NET[call.name], lambda n: _sum_of(model, i, j, n, k))
+    return component_of(NET[call.name], lambda n: _sum_of(model, i, j, n, k))
 
 
-def _component(number: int, along: Callable[[int], Node]) -> Node:
+def component_of(number: int, along: Callable[[int], Node]) -> Node:
     """One of three components, or (numbers 1 and 5) the size of what they are of."""
     if number not in (1, 5):
         return along(number)
@@ -66,7 +69,7 @@ def _of_nforce(call: Call, model: WithDeck) -> Node:
             ]
         )
 
-    return _component(int(component.value), along)
+    return component_of(int(component.value), along)
 
 
 def _sum_of(model: WithDeck, i: Key, j: Key, component: int, k: Key) -> Node:

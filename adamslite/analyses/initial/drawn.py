@@ -29,7 +29,8 @@ class Drawn(NamedTuple):
         """Whether a system was moved since, or got other speeds where these were not the only ones
         that its constraints allow.
         """
-        if system.q.size != self.q.size or system.broken:
+        closed_before = system.model.start is not None
+        if system.q.size != self.q.size or system.broken or closed_before:
             return True
         moved = _changed(self.q, system.q) or _changed(self.base, system.base)
         return moved or (system.dof > 0 and _changed(self.u, system.u))
