@@ -299,6 +299,32 @@ def test_the_command_line_takes_one_thread_unless_told(given: dict[str, str], se
     assert run.stdout.splitlines()[1::2] == [before, seen]
 
 
+@pytest.mark.parametrize(
+    ("given", "shown"), [({}, "ΔL"), ({"PYTHONIOENCODING": "cp1252"}, r"\u0394L")]
+)
+def test_letters_that_the_system_has_no_code_for(
+    tmp_path: Path, given: dict[str, str], shown: str
+) -> None:
+    """Standard output to a file is UTF-8, also where the system writes in another code, unless the
+    user has chosen that one; no letter is a fault of the program.
+    """
+    deck = tmp_path / "a.adm"
+    deck.write_text("a cable\nPART/1, GROUND\nVARIABLE/ΔL, FUNCTION=TIME(\nEND\n", encoding="utf-8")
+    program = (
+        "import sys\n"
+        "from io import TextIOWrapper\n"
+        "from adamslite.cli.main import main\n"
+        "sys.stdout, sys.stderr = (TextIOWrapper(s.detach(), encoding='cp1252')\n"
+        "                          for s in (sys.stdout, sys.stderr))\n"
+        f"sys.argv = ['adamslite', 'check', {str(deck)!r}]\n"
+        "sys.exit(main())\n"
+    )
+    clean = {name: text for name, text in os.environ.items() if name != "PYTHONIOENCODING"}
+    run = subprocess.run([sys.executable, "-c", program], env=clean | given, capture_output=True)
+    assert run.returncode == 3
+    assert f"VARIABLE/{shown}" in (run.stdout + run.stderr).decode("utf-8")
+
+
 def test_a_reader_that_goes_away_is_no_fault(tmp_path: Path) -> None:
     fall(2000).save(tmp_path / "a.csv")
     file = tmp_path / "a.csv"

@@ -30,6 +30,7 @@ import sys
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from importlib import import_module
+from io import TextIOWrapper
 from typing import TypeAlias
 
 from adamslite import __version__
@@ -85,6 +86,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line `argv` (default: of the process) and return the exit code."""
     own, argv = argv is None, sys.argv[1:] if argv is None else argv
     if own:
+        _write_every_letter()
         _take_one_thread()
         gc.set_threshold(GARBAGE)
     with notation(COMMAND_LINE):
@@ -92,6 +94,19 @@ def main(argv: Sequence[str] | None = None) -> int:
     if own:
         gc.freeze()  # nothing is looked through while the process ends
     return code
+
+
+def _write_every_letter() -> None:
+    """Let standard output be UTF-8, as all files of the program are, where it goes to a file or to
+    another program, unless the user has chosen an encoding; letters that a stream lacks are written
+    as their numbers.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            chosen = stream.isatty() or "PYTHONIOENCODING" in os.environ
+            encoding = stream.encoding if chosen else "utf-8"
+            errors = "backslashreplace" if stream.errors == "strict" else stream.errors
+            stream.reconfigure(encoding=encoding, errors=errors)
 
 
 def _take_one_thread() -> None:
