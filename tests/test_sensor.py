@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 from adamslite import Outcome, Results, read, simulate
+from adamslite.analyses import sensors
+from adamslite.analyses.session_state import SessionState
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.reading.read import read_commands
@@ -276,3 +278,47 @@ def test_one_that_ends_and_one_that_continues() -> None:
 def test_one_that_is_true_from_the_start_acts_once() -> None:
     results = fall("SENSOR/1, PRINT, GE, VALUE=-1, ERROR=0, FUNCTION=TIME")
     assert results.time.tolist() == [0, 0.5, 1, 1.5, 2, 2.25, 2.5, 2.75, 3]
+
+
+ENDLESS = r"""A mass that two sensors push to and fro
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/5, PART=1, FLOATING
+POINT_MASS/2, MASS=1
+MARKER/2, POINT_MASS=2
+VFORCE/1, I=2, JFLOAT=5, RM=1, FX=0\ FY=IF(SENVAL(1)-SENVAL(2)-0.5:-1,-1,1)\ FZ=0
+SENSOR/1, LE, VALUE=-0.01, ERROR=0, EVALUATE=1+SENVAL(2)\ FUNCTION=VY(2,1)
+SENSOR/2, GE, VALUE={above}, ERROR=0, EVALUATE=SENVAL(1)\ FUNCTION=VY(2,1)
+SIMULATE/DYNAMICS, END=0.05, STEPS=1
+SIMULATE/DYNAMICS, END=0.1, STEPS=1
+END
+"""
+
+
+def test_sensors_that_act_without_a_pause_end_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    """From -0.01 m/s at 0.01 s on to and fro between speeds that differ by 1e-7 m/s, at 1 m/s^2:
+    a million times in a tenth of a second.  5e-4 m/s apart they act two hundred times.
+    """
+    monkeypatch.setattr(sensors, "ENDLESS", 60)
+    results = simulate(read(ENDLESS.format(above="-0.0099999")))
+    assert results.outcome is Outcome.CHATTERING
+    assert "SENSOR/" in results.message and "acts again at once: at t = 0.01" in results.message
+    assert results.time[-1] == pytest.approx(0.01, abs=1e-4)
+    slow = simulate(read(ENDLESS.format(above="-0.0095")))
+    assert slow.outcome is Outcome.DONE and slow.time[-1] == 0.1
+    assert "SENSOR/1 at t = 0.01" in slow.meta["sensor passed"]
+
+
+def test_a_sensor_whose_value_stays_compiles_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """EVALUATE=0 leaves SENVAL as it is: the same model goes on."""
+    changed: list[object] = []
+    monkeypatch.setattr(SessionState, "change", lambda self, deck: changed.append(deck))
+    results = fall("SENSOR/1, LE, VALUE=-1, ERROR=0, EVALUATE=0\\ FUNCTION=DY(2,1)\n"
+                   "VARIABLE/1, FUNCTION=SENVAL(1)")  # fmt: skip
+    assert results.time[-1] == 3.0 and not changed
+
+
+def test_a_sensor_asks_for_no_more_outputs_than_there_may_be() -> None:
+    with pytest.raises(UsageError, match="SENSOR/1: there may be 1e.08 output steps; a longer DT"):
+        fall("SENSOR/1, LE, VALUE=-1, ERROR=0, DT=1E-9, FUNCTION=DY(2,1)")

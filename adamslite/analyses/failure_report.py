@@ -218,6 +218,8 @@ def _static(system: System) -> str:
 
 
 def _chattering(system: System) -> str:
+    if system.triggered:
+        return f"{' and '.join(map(placed, system.triggered))} acts again at once: {_when(system)}"
     guilty = system.guarded["watch"][system.search.culprit][0]
     return f"{placed(guilty)}: {_when(system)}"
 

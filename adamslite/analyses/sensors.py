@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.elements.simulate import MOST_STEPS
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
@@ -18,6 +20,9 @@ if TYPE_CHECKING:
 
 # A sensor that has triggered does not do so again within this share of the longest step.
 ROUND_OFF = 1e-7
+# Sensors that act so many times in a row, each within this share of the longest step after the one
+# before, would do so for ever: what one of them changes leads back to the other.
+ENDLESS, AT_ONCE = 1_000, 1e-5
 CONSTANT = "its relation is always the same, because FUNCTION does not change"
 EQUAL = "a method with equal steps locates no event; use one with variable steps"
 AT_TIMES = "{kind} analyses of several times locate no event; use SIMULATE/DYNAMICS or DEACTIVATE"
@@ -54,7 +59,8 @@ class SensorLog:
 
     ``notes``: which of them ended an analysis, and when; ``acted``: how often others did, and when
     first; ``values``: of EVALUATE, by key, of those that triggered last; ``asleep``: by key, until
-    when those that the analysis continued from are left out.
+    when those that the analysis continued from are left out; ``rapid``: how often they acted in
+    a row without a pause.
     """
 
     def __init__(self) -> None:
@@ -63,6 +69,7 @@ class SensorLog:
         self.values: dict[Key, float] = {}
         self.asleep: dict[Key, float] = {}
         self.continuing: list[Sensor] = []
+        self.rapid, self.last = 0, -inf
 
     @property
     def meta(self) -> dict[str, str]:
@@ -110,7 +117,16 @@ class SensorLog:
         halted, ended = (any(getattr(s, w) for s in triggered) for w in ("halt", "ends_analysis"))
         self.continuing = [] if ended else triggered
         wanted = output or ended or any(sensor.prints for sensor in triggered)
-        return Outcome.HALTED if halted else Outcome.DONE, np.append(times[:row], time), wanted
+        outcome = Outcome.HALTED if halted else Outcome.DONE
+        if self._is_endless(time, apart) and not ended:
+            outcome, wanted = Outcome.CHATTERING, True
+        return outcome, np.append(times[:row], time), wanted
+
+    def _is_endless(self, time: float, apart: float) -> bool:
+        """Whether sensors, of which some act now, have acted without a pause for too often."""
+        self.rapid = self.rapid + 1 if time - self.last <= AT_ONCE * apart else 0
+        self.last = time
+        return self.rapid >= ENDLESS
 
     def _note(self, sensor: Sensor, time: float) -> None:
         if sensor.ends_analysis:
@@ -120,11 +136,22 @@ class SensorLog:
             self.acted[sensor.label] = count + 1, first
 
     def rest(self, times: np.ndarray, time: float) -> np.ndarray:
-        """Output times after sensors that the analysis continues from; the first is its start."""
+        """Output times after sensors that the analysis continues from; the first is its start.
+
+        Raises
+        ------
+        UsageError
+            When there are more than ``MOST_STEPS`` of them.
+        """
         steps = [sensor.dt for sensor in self.continuing if sensor.dt is not None]
         later, end = times[times > time], float(times[-1])
         if steps and end > time:
             count = int(np.ceil((end - time) / min(steps) * (1.0 - ROUND_OFF)))
+            if count > MOST_STEPS:
+                whose = self.continuing[0].label
+                raise UsageError(
+                    f"{whose}: there may be {MOST_STEPS:.0e} output steps; a longer DT."
+                )
             later = np.append(time + min(steps) * np.arange(1, count), end)
         return np.append(time, later)
 

@@ -129,7 +129,7 @@ class Session(SessionState):
             start, end = float(times[0]), float(times[-1])
             self.whole = AnalysisProgress(self.progress, start, end, self._steps_before)
         self._run_over(times, np.ones(len(times), dtype=bool))
-        while self.sensors.continuing and self.time < times[-1]:
+        while self.outcome is Outcome.DONE and self.sensors.continuing and self.time < times[-1]:
             require_no_delay(self.kernels, "A SENSOR from which the analysis continues", NO_PAST)
             times = self.sensors.rest(times, self.time)
             self._after_sensors()
@@ -166,9 +166,9 @@ class Session(SessionState):
 
     def _keep_senvals(self) -> None:
         """SENVAL from now on, after sensors with EVALUATE have triggered."""
-        if self.sensors.values:
-            self.change(self.deck.with_senvals(self.sensors.values))
-            self.sensors.values = {}
+        found, self.sensors.values = self.sensors.values, {}
+        if any(self.deck.senvals.get(key, 0.0) != value for key, value in found.items()):
+            self.change(self.deck.with_senvals(found))
 
     def _after_sensors(self) -> None:
         """What sensors change before the analysis continues: SENVAL, the first step."""

@@ -32,7 +32,8 @@ class Sensor(Statement):
     where FUNCTION passes the whole window within a step, or jumps over it.
 
     Without RETURN and HALT the analysis continues from there, the integrator with its first step.
-    Such a sensor acts once each time the relation becomes true.
+    Such a sensor acts once each time the relation becomes true, and not again within 1e-7 of the
+    longest step.  Sensors that act a thousand times in a row within next to no time end the run.
     """
 
     function: Node = expression(

@@ -68,8 +68,9 @@ class Outcome(Enum):
     )
     CHATTERING = (
         "An expression keeps changing its branch: on both sides of the change the motion leads "
-        "back to it, as with dry friction written with SIGN or IF. Replace the "
-        "jump by a STEP of some width, or use FRICTION."
+        "back to it, as with dry friction written with SIGN or IF, or with sensors whose SENVAL "
+        "turns the motion round. Replace the jump by a STEP of some width, use FRICTION, or set "
+        "VALUE of such sensors further apart."
     )
     NO_END_TIME = (
         "There is no end time. Give SIMULATE/DYNAMIC, END=..., STEPS=... in a command file "
