@@ -10,6 +10,7 @@ import numpy as np
 
 from adamslite.equations.elimination_order import analyse
 from adamslite.equations.engine import ints
+from adamslite.equations.layout import Derived, Layout, Planned
 from adamslite.equations.spanning_tree import prerequisites
 from adamslite.integrators.contract import WORK
 from adamslite.model.model import PART
@@ -28,13 +29,14 @@ class Elimination:
 
     dead: np.ndarray
 
-    def __init__(self, numbering: Numbering, blocks: JacobianBlocks, pivoting: bool) -> None:
+    def __init__(self, numbering: Numbering, layout: Layout, pivoting: bool) -> None:
         """``pivoting``: eliminate the whole matrix with row pivoting, whatever its size."""
-        self.numbering, self.blocks, self.pivoting = numbering, blocks, pivoting
+        self.numbering, self.layout, self.pivoting = numbering, layout, pivoting
+        self.blocks: JacobianBlocks = layout.blocks
         self.nodes, self.node_at = numbering.nodes, numbering.node_at
         self.starts, self.widths = numbering.starts, numbering.widths
         self.plan: dict[str, Any] = {}
-        self._derive()
+        self._products, self._turns, self.product = layout.derived(self._derive)
         self.drop([])
 
     def drop(self, rows: list[int]) -> None:
@@ -72,24 +74,28 @@ class Elimination:
         if self.plan and np.array_equal(self.dead, dead):
             return
         self.dead = ints(dead)
-        left = set(dead)
+        found = self.layout.plan((self.pivoting, *dead), self._planned)
+        self.live, self.plan, self.copies, self.unit, self.mixed, self.turning, size, room = found
+        self._make_room(size, room)
+
+    def _planned(self) -> Planned:
+        left = set(self.dead.tolist())
         whole = {width: [*range(width)] for width in set(self.widths)}
         self.live = [whole[width] for width in self.widths]
         for k, (start, width) in enumerate(zip(self.starts, self.widths, strict=True)):
             if left and not left.isdisjoint(range(start, start + width)):
                 self.live[k] = [i for i in range(width) if start + i not in left]
-        self._plan()
+        return self._plan()
 
-    def _derive(self) -> None:
+    def _derive(self) -> Derived:
         """Blocks made of others, and room for all."""
-        self._products = self._mixed_products() if self.numbering.stabilised else []
-        self._turns = self._turning_blocks()
+        products = self._mixed_products() if self.numbering.stabilised else []
         rows, columns, at = self._entries()
         inner = np.maximum(rows, columns) < self.n_bodies
         rows, columns, at = rows[inner], columns[inner], at[inner]
         wide, first = np.array(self.widths, dtype=int), np.array(self.starts, dtype=int)
         facts = (at, wide[rows], wide[columns], first[rows], first[columns])
-        self.product = ints(np.column_stack(facts).ravel())
+        return Derived(products, self._turning_blocks(), ints(np.column_stack(facts).ravel()))
 
     def _entries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Of all blocks of the Jacobian: node of the rows, of the columns, and where it begins."""
@@ -98,7 +104,7 @@ class Elimination:
         at = np.fromiter(offsets.values(), np.int64, len(offsets))
         return pairs[::2], pairs[1::2], at
 
-    def _plan(self) -> None:
+    def _plan(self) -> Planned:
         """The order of elimination and where blocks are copied to."""
         counts = [len(live) for live in self.live]
         nodes = [k for k, count in enumerate(counts) if count]
@@ -116,16 +122,16 @@ class Elimination:
         kept = (number[rows] >= 0) & (number[columns] >= 0)
         pairs = np.stack([number[each[kept]] for each in (rows, columns)])
         found = analyse([counts[k] for k in nodes], pairs, late, self.pivoting)
-        self.plan = {**found.plan, "place": self._places(found.plan["place"])}
-        self.copies = self._copies(kept, *found.places.locate(*pairs))
+        plan = {**found.plan, "place": self._places(found.plan["place"])}
+        copies = self._copies(kept, *found.places.locate(*pairs))
         own = number[mu]
         at, lead = (each.tolist() for each in found.places.locate(own, own))
-        self.unit = ints(
+        unit = ints(
             [at[k] + c * (lead[k] + 1) for k, node in enumerate(mu) for c in range(counts[node])]
         )
-        self._make_room(found.size, found.room)
-        self.mixed = ints([*chain.from_iterable(self._live_products())])
-        self.turning = ints([*chain.from_iterable(self._live_turns())])
+        mixed = ints([*chain.from_iterable(self._live_products())])
+        turning = ints([*chain.from_iterable(self._live_turns())])
+        return Planned(self.live, plan, copies, unit, mixed, turning, found.size, found.room)
 
     def _make_room(self, size: int, room: int) -> None:
         """Arrays of the factors, and workspace."""

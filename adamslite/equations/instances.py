@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import repeat
+from itertools import chain, repeat
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +18,7 @@ from adamslite.native.translate import Rows
 
 if TYPE_CHECKING:
     from adamslite.equations.jacobian_blocks import JacobianBlocks
+    from adamslite.equations.layout import Layout
     from adamslite.equations.numbering import Numbering
     from adamslite.kernels.groups import ShapeGroup
     from adamslite.language.statement import Statement
@@ -53,27 +54,28 @@ class Instances:
     statement stand among all ``n_out`` that are written.
     """
 
-    def __init__(self, numbering: Numbering, blocks: JacobianBlocks) -> None:
-        self.numbering, self.blocks = numbering, blocks
+    def __init__(self, numbering: Numbering, layout: Layout) -> None:
+        self.numbering, self.layout = numbering, layout
+        self.blocks: JacobianBlocks = layout.blocks
         self.kernels, self.model = numbering.kernels, numbering.model
         self.keep: list[np.ndarray] = []
         self.outputs: dict[Statement, int] = {}
         self.n_out = 0
         own = np.arange(len(self.model.bodies))
-        blocks.offsets_of(own, own)
+        self.blocks.offsets_of(own, own)
         self.starts = ints(numbering.starts)
         self.body_w = ints([numbering.w_at["BODY", b] for b in own.tolist()])
         for statement, names in self.kernels.outputs:
             self.outputs[statement] = self.n_out
             self.n_out += len(names)
-        rows = [number for group in self.kernels.groups for number in self._group(group)]
-        self.groups = Rows(KernelGroup, ints(rows))
+        rows = [self._group(k, group) for k, group in enumerate(self.kernels.groups)]
+        self.groups = Rows(KernelGroup, ints([*chain.from_iterable(rows)]))
 
     def _is_rate(self, group: ShapeGroup) -> bool:
         first = group.instances.statements[0]
         return isinstance(first, Constraint) and first.is_rate(self.model)
 
-    def _group(self, group: ShapeGroup) -> list[int]:
+    def _group(self, k: int, group: ShapeGroup) -> list[int]:
         phase = PHASES[group.face]
         if group.face == "velocity" and self._is_rate(group):
             phase = contract.RATE_ROWS
@@ -81,7 +83,7 @@ class Instances:
             phase |= contract.ELASTIC
         if group.face == "loads" and group.meta["mass"] and group.meta["added_mass"]:
             phase |= contract.ADDED_MASS
-        integers, reals = self._integers(group), self._reals(group)
+        integers, reals = self._known_integers(k, group), self._reals(group)
         self.keep += [integers, reals]
         at = self.kernels.addresses
         kinds = ("residual", "jacobian", "track", "clock", "watch")
@@ -150,6 +152,12 @@ class Instances:
             if hasattr(statement, "beyond") and time < inf:
                 found[statement.label] = f"{statement.beyond}, first at t = {time:.6g}"
         return found
+
+    def _known_integers(self, k: int, group: ShapeGroup) -> np.ndarray:
+        """The integers of group ``k``; addresses of tables belong to those who read them."""
+        if group.instances.columns.tables:
+            return self._integers(group)
+        return self.layout.integers(k, lambda: self._integers(group))
 
     def _integers(self, group: ShapeGroup) -> np.ndarray:
         """What each instance of a group reads and writes, one instance behind the other: offsets

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
-
-from adamslite.equations.engine import ints
 
 if TYPE_CHECKING:  # few runs need sparse matrices
     from scipy.sparse import csr_array
@@ -49,15 +48,9 @@ class JacobianBlocks:
 
     def dense(self, entries: np.ndarray) -> np.ndarray:
         """Their entries (size,) as one matrix (nz, nz)."""
+        rows, columns, places = self._entries
         full = np.zeros((self.nz, self.nz))
-        for (row, column), at in self.offsets.items():
-            r, c, h, w = (
-                self.starts[row],
-                self.starts[column],
-                self.widths[row],
-                self.widths[column],
-            )
-            full[r : r + h, c : c + w] = entries[at : at + h * w].reshape(h, w)
+        full[rows, columns] = entries[places]
         return full
 
     def sparse(self, entries: np.ndarray) -> csr_array:
@@ -70,11 +63,13 @@ class JacobianBlocks:
     @cached_property
     def _entries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Row, column and place in the array of every entry of every block."""
-        found = [(ints([]), ints([]), ints([]))]
-        for (row, column), at in self.offsets.items():
-            h, w = self.widths[row], self.widths[column]
-            rows, columns = np.divmod(np.arange(h * w), w)
-            places = at + np.arange(h * w)
-            found.append((self.starts[row] + rows, self.starts[column] + columns, places))
-        rows, columns, places = (np.concatenate(each) for each in zip(*found, strict=True))
-        return rows, columns, places
+        pairs = np.fromiter(chain.from_iterable(self.offsets), np.int64, 2 * len(self.offsets))
+        at = np.fromiter(self.offsets.values(), np.int64, len(self.offsets))
+        starts, widths = (np.array(each, dtype=np.int64) for each in (self.starts, self.widths))
+        row, column = pairs[::2], pairs[1::2]
+        sizes = widths[row] * widths[column]
+        within = np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+        down, across = np.divmod(within, np.repeat(widths[column], sizes))
+        rows = np.repeat(starts[row], sizes) + down
+        columns = np.repeat(starts[column], sizes) + across
+        return rows, columns, np.repeat(at, sizes) + within

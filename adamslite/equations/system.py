@@ -16,8 +16,8 @@ import numpy as np
 from adamslite.equations.elimination import Elimination
 from adamslite.equations.engine import engine, ints, reals, room
 from adamslite.equations.instances import Instances
-from adamslite.equations.jacobian_blocks import JacobianBlocks
 from adamslite.equations.lanes import Runs, runs
+from adamslite.equations.layout import Layout
 from adamslite.equations.numbering import Numbering
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
@@ -98,9 +98,11 @@ class System:
         """``pivoting``: eliminate the whole matrix with row pivoting, whatever its size."""
         self.kernels, self.model = kernels, kernels.model
         self.numbering = numbering = Numbering(kernels, stabilised)
-        self.blocks = JacobianBlocks(numbering)
-        self.instances = Instances(numbering, self.blocks)
-        self.elimination = Elimination(numbering, self.blocks, pivoting)
+        layout = kernels.layouts.get(stabilised) or Layout(numbering)
+        self.blocks = layout.blocks
+        self.instances = Instances(numbering, layout)
+        self.elimination = Elimination(numbering, layout, pivoting)
+        kernels.layouts[stabilised] = layout
         self.n, self.m, self.nz = numbering.n, numbering.m, numbering.nz
         self.nv, self.ns, self.holonomic = numbering.nv, numbering.ns, numbering.holonomic
         self.nodes, self.node_at = numbering.nodes, numbering.node_at

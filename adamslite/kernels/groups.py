@@ -146,6 +146,8 @@ class Kernels:
     addresses: dict[str, int]
     compiled: int
     columns: tuple[str, ...] | None = None
+    layouts: dict[bool, Any] = field(default_factory=dict, compare=False, repr=False)
+    """What equations share that are made of these kernels, by their formulation."""
 
 
 def linked(groups: list[ShapeGroup]) -> dict[str, int]:

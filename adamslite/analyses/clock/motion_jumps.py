@@ -10,6 +10,7 @@ counts as a jump.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 # Distances from a stop, as shares of the run, and what must be left of a jump at the smaller one.
 FAR, NEAR, LEFT = 1e-8, 1e-11, 0.5
+# Programs whose jumps are kept: runs that differ in other numbers ask for the same ones.
+KEPT = 256
 WORDS = {"position": "displacement", "velocity": "velocity"}
 
 
@@ -34,18 +37,27 @@ def first_jump(clock: Clock, stops: np.ndarray, start: float, error: float) -> B
         return None
     span = float(stops[-1]) - start
     for face, statement, program in clock.driven():
-        far, near = (_jump(program, inside, share * span) for share in (FAR, NEAR))
-        size = np.maximum(1.0, np.abs(enclose(program, inside, inside)[0]))
-        size = np.where(np.isfinite(size), size, 1.0)
-        jumps = ~(near <= error * size) & ~(near < LEFT * far)
+        jumps = _jumps(program, inside.tobytes(), span, error)
         found += [Break(statement, t, WORDS[face], "jumps") for t in inside[jumps][:1].tolist()]
     return min(found, key=lambda each: each.time, default=None)
 
 
-def _jump(program: Program, times: np.ndarray, e: float) -> np.ndarray:
-    before, behind = (enclose(program, times + side * e, times + side * e) for side in (-1, 1))
+@lru_cache(maxsize=KEPT)
+def _jumps(program: Program, stops: bytes, span: float, error: float) -> np.ndarray:
+    """Which stops are jumps of a program, (k,)."""
+    times = np.frombuffer(stops)
+    around = [times + share * span for share in (-FAR, -NEAR, 0.0, NEAR, FAR)]
+    at = np.concatenate(around)
+    bounds = enclose(program, at, at).reshape(4, len(around), -1)
+    value, rate = bounds[0], bounds[2]
     with np.errstate(all="ignore"):
-        return np.abs((behind[0] - e * behind[2]) - (before[0] + e * before[2]))
+        far, near = (
+            np.abs((value[behind] - e * rate[behind]) - (value[before] + e * rate[before]))
+            for e, before, behind in ((FAR * span, 0, 4), (NEAR * span, 1, 3))
+        )
+    size = np.maximum(1.0, np.abs(value[2]))
+    size = np.where(np.isfinite(size), size, 1.0)
+    return ~(near <= error * size) & ~(near < LEFT * far)
 
 
 def without_value(clock: Clock, time: float) -> Break | None:
