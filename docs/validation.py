@@ -29,7 +29,8 @@ all digits that are printed; where it is missing, the published number is itself
 deviation is ours from the exact value (from the published one where there is no other). A value may
 be published with few digits, or be off itself: then ours follows the exact one. Each name leads to
 the deck with its equations and its source. CPU is that of the second run on one core: what is
-compiled is kept.
+compiled is kept. What programs for moorings and for reeving give on some of these scenes is on
+[another page](background/ropes-beside.md).
 
 | case | quantity | published | exact | ours | deviation | CPU [s] |
 |---|---|---|---|---|---|---|

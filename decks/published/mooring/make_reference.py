@@ -73,5 +73,6 @@ def write(name: str, length: float, away: float, depth: float, n: int) -> None:
     (HERE / f"{name}.reference.csv").write_text("\n".join(lines) + "\n")
 
 
-write("fifty", 410, 400, 50, 82)
-write("two-hundred", 760, 700, 200, 76)
+if __name__ == "__main__":
+    write("fifty", 410, 400, 50, 82)
+    write("two-hundred", 760, 700, 200, 76)
