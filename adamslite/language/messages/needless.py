@@ -26,7 +26,7 @@ NEEDLESS: dict[str, Message] = {
             TWO + "MARKER/5, PART=4, QP=0,0,1\nMARKER/6, PART=2, QP=1,0,1\nMARKER/7, PART=4, "
             "QP=0,1,0\nMARKER/8, PART=2, QP=1,1,0\nJOINT/1, SPHERICAL, I=4, J=3\nJOINT/2, "
             "SPHERICAL, I=5, J=6\nJOINT/3, SPHERICAL, I=7, J=8" + RUN,
-            TWO + "JOINT/1, FIXED, I=4, J=3\nREQUEST/1, F1=JOINT(1,0,2,0)" + RUN,
+            TWO + "JOINT/1, FIXED, I=4, J=3\nDIFF/1, IC=0, FUNCTION=JOINT(1,0,2,0)" + RUN,
         ),
         severity=NOTE,
     ),
