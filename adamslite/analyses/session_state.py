@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from adamslite.analyses.apart import Apart
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import without_value
 from adamslite.analyses.delays import Delays
@@ -111,6 +112,7 @@ class SessionState:
         self.sensors = SensorLog()
         self.delays = Delays()
         self.out_of_law: dict[str, str] = {}
+        self.apart = Apart()
         self.printed: list[str] = []
         self.assembled: list[str] = []
         self.speeds: list[str] = []
@@ -231,6 +233,7 @@ class SessionState:
     ) -> None:
         """Keep the records made, of which only those ``wanted`` were requested."""
         self.out_of_law = system.instances.out_of_law() | self.out_of_law
+        self.apart.look(system)
         made = system.count.records
         row = system.nw + system.sizes.n_out
         names, values = columns(system, system.record[: made * row].reshape(made, row))

@@ -299,6 +299,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         **({"integrator chosen": session.chosen.reason} if session.chosen.reason else {}),
         **_notes(session),
         **_beyond(session),
+        **session.apart.meta,
         **session.sensors.meta,
         **({"info": "; ".join(session.printed)} if session.printed else {}),
         **_past(session),

@@ -231,6 +231,10 @@ class NumberScope:
     def limit(self, value: Expr) -> None:
         """Nothing is remembered."""
 
+    def touch(self, relation: Any, in_length: bool = True) -> Any:
+        """Nothing is remembered."""
+        return relation
+
     def load(self, id: Any, jflag: int) -> Any:
         """No posture has one."""
         raise Unmeasured

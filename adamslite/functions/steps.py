@@ -82,7 +82,7 @@ def impact(scope: Scope, x: Expr, v: Expr, x1: Expr, k: Expr, e: Expr, cmax: Exp
     v is the time derivative of x; the damping grows to cmax over the depth d.  Never negative: it
     pushes x up and does not pull.  Unit: force.  Source: Adams/Solver function IMPACT.
     """
-    touching = x < x1
+    touching = scope.touch(x < x1)
     force = spring(k, x1 - x, e) - v * step(scope, x, x1 - d, cmax, x1, 0)
     return piecewise((force, fn.And(touching, force > 0)), otherwise=0, order=0)
 

@@ -11,9 +11,10 @@ HUGE = 1e200
 # Rows of P.margin: at the start, at the end and inside of the step; the bracket; how often a guard
 # has changed lately, and since when; branches before they were turned over, and before they were
 # let go for a try; rates at the start and the end; values and rates at both sides of the
-# window within the step that is examined; at the start of the step before.
+# window within the step that is examined; at the start of the step before; the least distance of
+# relations that do not hold at the end of a step so far, 0 without a step, -1 once one has held.
 START, END, INSIDE, LOW_ROW, HIGH_ROW, CHANGES, SINCE, BEFORE, HELD, EARLY, LATE = range(11)
-LEFT, RIGHT, LEFT_RATE, RIGHT_RATE, PAST, PAST_RATE, MARGIN_ROWS = range(11, 18)
+LEFT, RIGHT, LEFT_RATE, RIGHT_RATE, PAST, PAST_RATE, CLOSEST, MARGIN_ROWS = range(11, 19)
 # Rows of P.zone: the first three as above, and rates at the start and the end.
 ZONE_EARLY, ZONE_LATE = 3, 4
 # A share of the step that says that there is none.

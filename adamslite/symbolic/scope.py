@@ -116,6 +116,7 @@ class Scope:
         self.measures: dict[tuple[str, int], list[Measure]] = {}
         self.origins: dict[int, Expr] = {}
         self.limits: list[Expr] = []
+        self.touches: dict[Expr, bool] = {}
         graph.forget()
         self.slope = Derivatives(lambda symbol: self.leaves[symbol][0] in GIVEN)
         self.elements: list[Seen] = []
@@ -269,6 +270,13 @@ class Scope:
         """
         if expr not in self.limits:
             self.limits.append(expr)
+
+    def touch(self, relation: Expr, in_length: bool = True) -> Expr:
+        """A relation that holds where something is touched; its gap is the distance from that, or
+        (not ``in_length``) has the sign of it.
+        """
+        self.touches[relation] = in_length
+        return relation
 
     def statement(self, id: Tree) -> Seen:
         """The statement that an ``id`` argument of a function means, as its physics sees it.

@@ -122,6 +122,7 @@ class ContactPoint(Statement):
         """The force on I at the common point; the opposite on J at the same place."""
         found = touch(scope, self)
         speed = _relative_velocity(scope, self, found)
+        scope.touch(found.overlap > 0, found.overlap is found.depth)
         load = normal_force(self, found, -dot(speed, found.normal))
         force, torque = scale(load, found.normal), ZERO
         if self.rubs:

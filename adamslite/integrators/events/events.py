@@ -49,7 +49,7 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.audit.balance import audit_from
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.event_rows import CHANGES, END, HIGH_ROW, HUGE, NONE
+from adamslite.integrators.event_rows import CHANGES, CLOSEST, END, HIGH_ROW, HUGE, NONE
 from adamslite.integrators.events.dips import share_of_zone
 from adamslite.integrators.events.guards import (
     HARMLESS,
@@ -80,7 +80,8 @@ def start_events(P: Problem, located: bool, tested: bool) -> None:
     P.search.found, P.search.loose = NONE, not (located)
     P.search.span = share_of_zone(P, tested)
     for k in range(P.margin.size):
-        P.margin[k] = 0.0
+        if k // max(P.sizes.watched, 1) != CLOSEST:
+            P.margin[k] = 0.0
     start_sensors(P)
     if P.search.loose and P.sensors.size > 0:
         P.settings.stop = True  # they cannot be watched

@@ -13,6 +13,7 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.event_rows import (
     BEFORE,
     CHANGES,
+    CLOSEST,
     EARLY,
     END,
     HELD,
@@ -28,7 +29,7 @@ from adamslite.integrators.event_rows import (
     ZONE_EARLY,
     ZONE_LATE,
 )
-from adamslite.integrators.events.dips import LITTLE
+from adamslite.integrators.events.dips import LITTLE, cubic, lowest
 from adamslite.integrators.events.sensors import sense
 from adamslite.integrators.motion_equations import WATCH, guard_values
 from adamslite.native.translate import native
@@ -42,6 +43,8 @@ SLIDING_SPAN = 1e-4
 CRAWLING, MOST_CRAWLED = 1e-4, 500
 # Branches that change the end of a step by less than this share of ERROR need no event.
 HARMLESS = 0.02
+# A distance that is none, and is not taken for that of no step.
+SMALLEST = 1e-300
 # Changes nearer than this share of a step are one.
 SAME_TIME = 1e-6
 
@@ -184,6 +187,7 @@ def keep_margins(P: Problem) -> None:
     S, zones = P.search, P.sizes.zones
     if P.sizes.watched + zones == 0:
         return
+    keep_closest(P)
     copy_margins(P, START, PAST)
     copy_margins(P, EARLY, PAST_RATE)
     S.past_size = S.size if S.known else 0.0
@@ -193,6 +197,28 @@ def keep_margins(P: Problem) -> None:
         P.zone[START * zones + k] = P.zone[END * zones + k]
         P.zone[ZONE_EARLY * zones + k] = P.zone[ZONE_LATE * zones + k]
     S.known, S.rated, S.ahead = S.rated, False, 0.0 - LITTLE * S.size
+
+
+@native
+def keep_closest(P: Problem) -> None:
+    """How near relations have come that have never held: at the ends of the step, and inside of it
+    by the cubic through values and rates, where these are known.
+    """
+    first, count, S = P.sizes.nw + P.sizes.clocks, P.sizes.watched, P.search
+    for k in range(count):
+        at, a, b = CLOSEST * count + k, P.margin[START * count + k], P.margin[END * count + k]
+        if P.W[first + k] >= 0.0 or a < 0.0 or b < 0.0:
+            P.margin[at] = -1.0
+        elif P.margin[at] >= 0.0:
+            margin = min(a, b)
+            if S.known and S.rated:
+                r = S.size * P.margin[EARLY * count + k]
+                s = S.size * P.margin[LATE * count + k]
+                share = lowest(a, b, r, s)
+                if share < 1.0:
+                    margin = min(margin, cubic(a, b, r, s, share))
+            if P.margin[at] == 0.0 or margin < P.margin[at]:
+                P.margin[at] = max(margin, SMALLEST)
 
 
 @native
@@ -216,6 +242,7 @@ def turn_over(P: Problem, row: int, share: float) -> None:
         if P.margin[row * count + k] < 0.0 and (
             share >= 1.0 or crossing_share(P, k) <= share + SAME_TIME
         ):
+            P.margin[CLOSEST * count + k] = -1.0
             if is_relation(P.kind[clocks + k]):
                 P.W[first + k] = 0.0 - branch
             else:

@@ -74,6 +74,8 @@ def write_kernels(
         ``meta["tracks"]``: whether accepted steps concern it;
         ``meta["mass"]``: a force depends on accelerations, ``meta["added_mass"]``: if at all, as
         the mass of a body does, ``meta["along_axes"]``: each of its components on its own;
+        ``meta["touches"]``: of guards of the watch that tell whether something is touched their
+        numbers, and whether their gap is the distance;
         ``meta["guards"]``: kinds of the guards of the clock and of the watch; ``meta["clock"]``:
         what depends on time alone.
     """
@@ -100,7 +102,7 @@ def write_kernels(
         writer.track()
         bodies.append((f"{name}_track", TRACK_HEAD, writer))
     bodies += _of_guards(shape, scope, name)
-    n_ints = shape.blocks_at + len(blocks)
+    n_ints, watch = shape.blocks_at + len(blocks), shape.guards.watch
     meta = {
         "n_ints": n_ints,
         "blocks": blocks,
@@ -109,6 +111,11 @@ def write_kernels(
         "limits": len(scope.limits),
         "tracks": tracks,
         "guards": shape.guards.kinds,
+        "touches": [
+            (watch.index(relation), in_length)
+            for relation, in_length in scope.touches.items()
+            if relation in watch
+        ],
         "clock": clock,
         "mass": any(leaf[0] in ACCELERATIONS for leaf in scope.symbols),
         "added_mass": is_added_mass(shape, scope, out),
