@@ -7,13 +7,16 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import replace
+from math import inf
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from adamslite.deck.deck import Deck
 from adamslite.errors import DeckWarning, FormatError, UsageError
 from adamslite.language.diagnostics import WARNING
+from adamslite.progress import Progress, progress_of
 from adamslite.reading.read import read
 from adamslite.results.comparison import INTERPOLATIONS, Comparison, Tolerance
 from adamslite.results.results import Results
@@ -114,7 +117,11 @@ def verify(*paths: str | os.PathLike[str], jobs: int = 1) -> list[Verdict]:
     return list(verify_cases(cases, jobs=jobs))
 
 
-def cable(description: str | os.PathLike[str]) -> str:
+def cable(
+    description: str | os.PathLike[str],
+    trial: float | None = None,
+    progress: Progress | Callable[[float, float], Any] | bool | None = None,
+) -> str:
     """The deck of a cable scene, written from a short description of the cable and its route.
 
     Parameters
@@ -122,6 +129,11 @@ def cable(description: str | os.PathLike[str]) -> str:
     description : str or Path
         A file, or the text of a description (TOML, more than one line), as
         docs/reference/cable-command.md has it.
+    trial : float
+        What runs that try models may cost, in seconds of a usual machine; 0: none is made, the
+        linear model chooses.  By default what the description says.
+    progress : bool, callable or Progress
+        As for :func:`simulate`; it says when an engine is compiled.
 
     Returns
     -------
@@ -138,8 +150,10 @@ def cable(description: str | os.PathLike[str]) -> str:
     DeckError
         With every mistake of the description.
     """
-    from adamslite.cables.scene import deck
+    from adamslite.api.trials import described
 
+    if trial is not None and not 0 <= trial < inf:
+        raise UsageError(f"trial={trial!r}: it is a number of seconds, zero or above")
     text, place = description, "<text>"
     if isinstance(text, os.PathLike) or "\n" not in text:
         path = Path(text)
@@ -147,11 +161,12 @@ def cable(description: str | os.PathLike[str]) -> str:
             text, place = path.read_text(encoding="utf-8-sig"), str(path)
         except UnicodeDecodeError as fault:
             raise FormatError(f"{path} is not UTF-8 text: {fault.reason}") from None
-    written, messages = deck(text, place)
-    for each in messages:
+    with closing(progress_of(progress)) as shown:
+        written = described(text, place, trial, shown).deck
+    for each in written.messages:
         if each.severity == WARNING:
             warnings.warn(each.render(), DeckWarning, stacklevel=2)
-    return written
+    return written.text
 
 
 def fmt(source: str | os.PathLike[str], write: bool = False) -> str:

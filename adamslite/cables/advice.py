@@ -50,6 +50,8 @@ STEP_CPU = {
     "VERLET": ((0.3e-6, 0.005e-6), (0.3e-6, 0.005e-6), (0.3e-6, 0.005e-6)),
 }  # fmt: skip
 RIGID_CPU = 3e-6
+# Stages of a step of RADAU.
+THREE = 3
 # Sections of the linear model whose vibrations tell the steps.
 FOLLOWED = 32
 PIECE = 1.25e-3
@@ -107,10 +109,30 @@ def integrator(of: Demand, p: float, chosen: int) -> tuple[str, str]:
 
 def _cost(of: Demand, method: str, chosen: int, sections: int, error: float) -> float:
     """CPU [s] of a run without set-up."""
-    results = PER_RESULT[method] * (of.results or RESULTS)
+    return expected(of, method, chosen, sections, error) * speed()
+
+
+def expected(of: Demand, method: str, chosen: int, sections: int, error: float) -> float:
+    """The same where costs were measured."""
+    return work(of, method, chosen, _steps(of, method, chosen, sections, error), sections)
+
+
+def work(of: Demand, method: str, chosen: int, steps: float, sections: int) -> float:
+    """CPU [s] of so many steps where costs were measured."""
     spans = len(of.machines[0].network.bars) if of.machines else 1
     if chosen == 1:
-        return results * RIGID_CPU * spans * speed()
+        return steps * RIGID_CPU * spans
+    if method == "RADAU":
+        return THREE * work(of, "GSTIFF", chosen, steps, sections)
+    base, each = STEP_CPU[method][2 if chosen == 3 else int(of.tied)]
+    return steps * spans * (base + each * max(sections, 1))
+
+
+def _steps(of: Demand, method: str, chosen: int, sections: int, error: float) -> float:
+    """Steps of a run."""
+    results = PER_RESULT[method] * (of.results or RESULTS)
+    if chosen == 1:
+        return results
     if method == "VERLET" or not of.machines and method == "HHT":
         steps = PER_CROSSING[method] * of.end * of.c * sections / of.length
     elif of.machines:
@@ -121,8 +143,7 @@ def _cost(of: Demand, method: str, chosen: int, sections: int, error: float) -> 
     else:
         carried = of.moved + of.density * of.length / 3
         steps = PER_PERIOD * of.end / (2 * pi * sqrt(carried * of.length / of.stiffness))
-    base, each = STEP_CPU[method][2 if chosen == 3 else int(of.tied)]
-    return max(steps, results) * spans * (base + each * max(sections, 1)) * speed()
+    return max(steps, results)
 
 
 @cache
@@ -139,6 +160,14 @@ def speed() -> float:
             total += (k % 7) * 1e-3 / (1.0 + total)
         taken.append(perf_counter() - start)
     return min(taken) / PIECE
+
+
+def notched(value: float, steps: int) -> float:
+    """The size that comes so many steps behind one of 1, 2, 5, 10, 20 ..."""
+    value = _rounded(value)
+    power = floor(log10(value) + ROUND_OFF)
+    at = (1, 2, 5).index(round(value / 10.0**power)) + 3 * power + steps
+    return float(f"{(1, 2, 5)[at % 3]}e{at // 3}")
 
 
 def _rounded(value: float) -> float:

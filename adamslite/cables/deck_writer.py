@@ -42,7 +42,7 @@ def write(spec: Spec, spans: list[FreeSpan], moves: Moves, model: CableModel) ->
     str
     """
     brute = model.form == "brute"
-    notes = f"{BRUTE if brute else NOTES[model.level]} Chosen: {'; '.join(model.reasons)}."
+    notes = f"{BRUTE if brute else NOTES[model.level]} Chosen: {'; '.join(model.reasons.told)}."
     notes += f" Figures: {'; '.join(model.figures)}."
     gravity = ", ".join(
         f"{n}={number(g)}" for n, g in zip(("IGRAV", "JGRAV", "KGRAV"), spec.gravity, strict=True)

@@ -220,6 +220,17 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
         "pulls_only = true in [cable], at level 2 or 3: a slack section then carries nothing",
         severity=WARNING,
     ),
+    "goes-slack": Message(
+        "the tension falls to {least:.4g} N in the run: the cable goes slack, and the sections of"
+        " this deck carry nothing then",
+        "pulls_only = true in [cable] says so in the description",
+        severity=WARNING,
+    ),
+    "unsettled": Message(
+        "runs have not shown that {model} will do for {accuracy:g}: {reached}",
+        "trial = {more:g} in [model], or --trial {more:g}, allows more of them",
+        severity=WARNING,
+    ),
     "pretension": Message(
         "{pretension:.4g} N of pretension where {hung:.4g} N hang: the cable starts out of balance,"
         " and the weight bounces",
@@ -258,6 +269,12 @@ class Faults:
             return path
         i = int(path[1])
         return "route", self.tables[i] if i < len(self.tables) else i, *path[2:]
+
+    def copy(self) -> "Faults":
+        """The same so far, for messages of its own."""
+        other = Faults(self.places)
+        other.found, other.tables = list(self.found), self.tables
+        return other
 
     @property
     def errors(self) -> bool:

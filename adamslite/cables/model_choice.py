@@ -40,9 +40,27 @@ LIES = 0.1
 
 
 @dataclass(frozen=True)
+class Reasons:
+    """Why this level, form, number of sections, method and ERROR; `more` is anything else."""
+
+    level: tuple[str, ...]
+    form: tuple[str, ...]
+    elements: tuple[str, ...]
+    method: str
+    error: str
+    more: tuple[str, ...] = ()
+
+    @property
+    def told(self) -> tuple[str, ...]:
+        """All of them in the order in which they are told."""
+        followed = f"{self.method}; ERROR {self.error}"
+        return (*self.level, *self.form, *self.elements, followed, *self.more)
+
+
+@dataclass(frozen=True)
 class CableModel:
-    """Level, form of level 3, sections of the longest span and integrator; the figures and reasons
-    they rest on.
+    """Level, form of level 3, sections of the longest span, method and ERROR; the figures and
+    reasons they rest on.
 
     `slackens` is the tension below zero that the linear model foresees [N].
     """
@@ -50,10 +68,16 @@ class CableModel:
     level: int
     form: str
     elements: int
-    integrator: str
+    method: str
+    error: float
     figures: tuple[str, ...]
-    reasons: tuple[str, ...]
+    reasons: Reasons
     slackens: float = 0.0
+
+    @property
+    def integrator(self) -> str:
+        """The INTEGRATOR statement after its keyword."""
+        return f"{self.method}, ERROR={self.error:.1E}"
 
 
 def tensions(spec: Spec, spans: list[FreeSpan]) -> list[float]:
@@ -126,10 +150,10 @@ def _stays_tangent(spec: Spec, spans: list[FreeSpan], i: int) -> bool:
 
 
 def choose_model(
-    spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws, faults: Faults
+    spec: Spec, spans: list[FreeSpan], moves: Moves, of: Demand, faults: Faults
 ) -> CableModel:
     """The model that the description requests, or what `accuracy` needs."""
-    p, of = spec.accuracy, demand_of(spec, spans, moves, prescribed)
+    p = spec.accuracy
     figures = _figures(of, moves)
     level, why = _level(spec, spans, of, moves)
     form, why_form = _form(spec, spans, of, level, moves)
@@ -146,10 +170,11 @@ def choose_model(
         faults.add("faster-than-waves", ("model", "level"), speed=of.speed, wave=of.c_t,
                    tension=of.tension)  # fmt: skip
     _tell_pretension(spec, spans, level, faults)
-    method, why_method = _integrator(spec, of, level, form, count)
-    reasons = [*why, *why_form, *([why_count] if level > 1 else []), why_method]
+    method, error, why_method, why_error = _integrator(spec, of, level, form, count)
+    counted = (why_count,) if level > 1 else ()
+    reasons = Reasons(tuple(why), tuple(why_form), counted, why_method, why_error)
     slackens = _slackens(of.left(p), spec)
-    return CableModel(level, form, count, method, tuple(figures), tuple(reasons), slackens)
+    return CableModel(level, form, count, method, error, tuple(figures), reasons, slackens)
 
 
 def _slackens(left: Errors | None, spec: Spec) -> float:
@@ -296,8 +321,10 @@ def _lies_on(spec: Spec, spans: list[FreeSpan], i: int) -> bool:
     return each.is_wheel and (spec.is_end(i) or wrap(spec, spans, i) > LIES)
 
 
-def _integrator(spec: Spec, of: Demand, level: int, form: str, count: int) -> tuple[str, str]:
-    """The INTEGRATOR statement after its keyword, and why."""
+def _integrator(
+    spec: Spec, of: Demand, level: int, form: str, count: int
+) -> tuple[str, float, str, str]:
+    """The method, its ERROR, and why each."""
     p = spec.accuracy
     error, says = error_bound(of, p, count), "p T H/(3 EA)"
     if level == 1:
@@ -321,7 +348,7 @@ def _integrator(spec: Spec, of: Demand, level: int, form: str, count: int) -> tu
     method = "GSTIFF, SI2" if method == "GSTIFF" else method
     error, says = (spec.error, "as asked") if spec.error else (error, says)
     name = method.split(",")[0]
-    return f"{method}, ERROR={error:.1E}", f"{name}: {why}; ERROR {says}"
+    return method, error, f"{name}: {why}", says
 
 
 def _figures(of: Demand, moves: Moves) -> list[str]:

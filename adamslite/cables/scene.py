@@ -1,20 +1,28 @@
 """From the text of a description to the text of a deck."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from adamslite.cables import bending_advice
 from adamslite.cables.brute_force_layout import Overstretched, length, stretches, way
 from adamslite.cables.catenary import start
 from adamslite.cables.deck_writer import write
-from adamslite.cables.demand import MOST
-from adamslite.cables.estimate import Moves, estimate_moves, laws
+from adamslite.cables.demand import MOST, Demand
+from adamslite.cables.estimate import Laws, Moves, estimate_moves, laws
 from adamslite.cables.geometry import FreeSpan, reaches, spans, turned
 from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
-from adamslite.cables.model_choice import CableModel, choose_model, needs_brute, tensions
+from adamslite.cables.model_choice import (
+    CableModel,
+    Reasons,
+    choose_model,
+    demand_of,
+    needs_brute,
+    tensions,
+)
 from adamslite.cables.sliders import is_straight, is_wire
 from adamslite.cables.spec import read
 from adamslite.cables.surroundings_rules import check_nodes, check_surroundings
+from adamslite.cables.toml_places import Path
 from adamslite.cables.vectors import dot
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import in_plane, slipping
@@ -28,13 +36,61 @@ LINK_SHARE = 0.02
 FASTER = 0.01
 
 
+@dataclass(frozen=True)
+class Setting:
+    """A description that is ready to be written by one model or another.
+
+    `given` is it as it was given, `spec` without what no model of it needs.
+    """
+
+    given: Spec
+    spec: Spec
+    pieces: list[FreeSpan]
+    moves: Moves
+    prescribed: Laws
+    demand: Demand
+    faults: Faults
+
+    def telling(self, code: str, path: Path, **words: object) -> "Setting":
+        """With one message more."""
+        faults = self.faults.copy()
+        faults.add(code, path, **words)
+        return replace(self, faults=faults)
+
+    def only_pulling(self) -> "Setting":
+        """With sections that carry nothing where they are slack."""
+        spec = replace(self.spec, cable=replace(self.spec.cable, pulls_only=True))
+        return replace(self, spec=spec, demand=replace(self.demand, slackens=True))
+
+
+@dataclass(frozen=True)
+class Written:
+    """The text of a deck, what there is to say about it, and its model."""
+
+    text: str
+    messages: list[Diagnostic]
+    model: CableModel
+
+
 def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
-    """The deck of a description, and the warnings about it.
+    """The deck of a description by its linear model, and the warnings about it.
 
     Raises
     ------
     DeckError
         With everything that is wrong with the description.
+    """
+    found = written(setting(text, file))
+    return found.text, found.messages
+
+
+def setting(text: str, file: str = "<text>") -> Setting:
+    """What a description says, and its linear model.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong with it before a model is chosen.
     """
     spec, faults = read(text, file)
     spec = turned(spec)
@@ -47,19 +103,34 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     _stop(faults, faults.errors)
     given, spec = spec, _essential(spec, pieces)
     moves = estimate_moves(spec, pieces, prescribed)
-    model = choose_model(spec, pieces, moves, prescribed, faults)
-    told = bending_advice.told(given, pieces, min(tensions(given, pieces)))
-    model = replace(model, reasons=(*model.reasons, *told))
+    of = demand_of(spec, pieces, moves, prescribed)
+    return Setting(given, spec, pieces, moves, prescribed, of, faults)
+
+
+def written(of: Setting, why: Reasons | None = None) -> Written:
+    """The deck by the model that is asked for, or by what the linear model chooses; `why` that one
+    where runs have shown it.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong with the description, or with that model of it.
+    """
+    spec, pieces, moves, faults = of.spec, of.pieces, of.moves, of.faults.copy()
+    model = choose_model(spec, pieces, moves, of.demand, faults)
+    told = bending_advice.told(of.given, pieces, min(tensions(of.given, pieces)))
+    model = replace(model, reasons=replace(why or model.reasons, more=tuple(told)))
     _check_form(spec, pieces, model, faults)
     _check_chain(spec, pieces, faults)
     _check_shape(spec, pieces, model, faults)
     _check(spec, pieces, moves, model, faults)
     _stop(faults, faults.errors)
     try:
-        return write(spec, pieces, moves, model), sort_by_place(faults.found)
+        text = write(spec, pieces, moves, model)
     except Overstretched:
         faults.add("overstretched", ("cable", "EA"), stiffness=spec.cable.stiffness)
         raise DeckError(sort_by_place(faults.found)) from None
+    return Written(text, sort_by_place(faults.found), model)
 
 
 def _tensioned(spec: Spec) -> Spec:

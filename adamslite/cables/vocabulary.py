@@ -10,6 +10,9 @@ from adamslite.cables.components import Brake, Cable, Floor, Motor, Mount, Reel,
 from adamslite.cables.surroundings import Bed, Water
 from adamslite.cables.vectors import ZERO, Vector
 
+# What trying models may take, in seconds of a machine on which costs were measured.
+TRIAL = 10.0
+
 
 @dataclass(frozen=True)
 class Station:
@@ -140,6 +143,7 @@ class Spec:
     elements: int
     accuracy: float
     quantities: tuple[str, ...] = ("tension", "position")
+    trial: float = TRIAL
     statics: bool = False
     water: Water | None = None
     bed: Bed | None = None
@@ -254,6 +258,7 @@ MODEL: Rules = {
     "elements": ("whole or auto", "not-positive", "auto"),
     "accuracy": ("number", "not-positive not-a-share", 0.01),
     "quantities": ("quantities", "", ("tension", "position")),
+    "trial": ("number", "negative", TRIAL),
 }
 
 

@@ -1,8 +1,10 @@
 """write the deck of a cable scene from a short description
 
 SPEC.toml says what the cable is, where it goes and how good the answer has to be; the deck is
-written as plain statements that can be edited. docs/reference/cable-command.md
-has every key. Exit code 3 when the description has mistakes; warnings alone do not count.
+written as plain statements that can be edited. What is not asked for by name is chosen: a linear
+model proposes, and runs of some models show which of them is the cheapest that is good enough.
+docs/reference/cable-command.md has every key. Exit code 3 when the description has mistakes;
+warnings alone do not count.
 """
 
 import argparse
@@ -10,6 +12,7 @@ import sys
 from pathlib import Path
 
 from adamslite.cli.commands.codes import DONE
+from adamslite.run_flags import instant
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,24 +21,40 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="DECK.adm", help="deck to write; without it, standard output"
     )
+    trial = parser.add_mutually_exclusive_group()
+    trial.add_argument(
+        "--trial", type=instant, metavar="S",
+        help="what runs that try models may cost, in seconds of a usual machine: steps are counted,"
+        " so that the deck is the same on every machine (10, or trial in [model])",
+    )  # fmt: skip
+    trial.add_argument(
+        "--no-trial", action="store_const", const=0.0, dest="trial",
+        help="run nothing: the linear model chooses",
+    )  # fmt: skip
 
 
 def run(args: argparse.Namespace) -> int:
     """Write the deck; return the exit code."""
-    from adamslite.cables.scene import deck
     from adamslite.errors import FormatError
     from adamslite.language.diagnostics import render
     from adamslite.outputs.whole_files import need_writable, whole_file
+    from adamslite.progress import SentenceProgress
 
     if args.output:
         need_writable(args.output, [args.spec])
+    # It takes a while to load.
+    from adamslite.api.trials import described
+
     try:
         text = args.spec.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as fault:
         raise FormatError(f"{args.spec} is not UTF-8 text: {fault.reason}") from None
-    written, warnings = deck(text, str(args.spec))
+    found = described(text, str(args.spec), args.trial, SentenceProgress())
+    written, warnings = found.deck.text, found.deck.messages
     if warnings:
         sys.stderr.write(render(warnings) + "\n\n")
+    if told := found.told:
+        sys.stderr.write(f"{args.spec}: {told}\n")
     if args.output:
         with whole_file(Path(args.output)) as stream:
             stream.write(written)

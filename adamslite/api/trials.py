@@ -1,0 +1,77 @@
+"""The deck of a description of a cable scene, by models that are tried."""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+
+from adamslite.analyses import simulation
+from adamslite.cables.readings import Series
+from adamslite.cables.scene import setting
+from adamslite.cables.trial import Found, tried
+from adamslite.cables.trial_runs import Solution, Solver
+from adamslite.errors import RunFailed
+from adamslite.language.diagnostics import DeckError
+from adamslite.progress import Progress, RunState
+from adamslite.reading.read import read
+from adamslite.results.outcomes import Outcome
+
+TOO_LONG = "a run took more steps than the trial may"
+
+
+class _Counted(Progress):
+    """Ends a run after so many steps."""
+
+    def __init__(self, most: float, shown: Progress) -> None:
+        self.most, self.shown = most, shown
+
+    def watch(self, state: RunState) -> None:
+        """Look whether it has to end."""
+        if state.steps > self.most:
+            raise KeyboardInterrupt
+
+    def say(self, sentence: str) -> None:
+        """Say that an engine is compiled."""
+        self.shown.say(sentence)
+
+
+def described(text: str, file: str, allowance: float | None, shown: Progress) -> Found:
+    """The deck of a description, tried as it says itself where `allowance` is None.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong with the description.
+    """
+    of = setting(text, file)
+    return tried(of, solver(shown), of.spec.trial if allowance is None else allowance)
+
+
+def solver(shown: Progress) -> Solver:
+    """Runs decks, and says to `shown` what takes long."""
+
+    def solve(text: str, columns: tuple[str, ...], most: float) -> Solution:
+        try:
+            run = simulation.simulate(read(text), progress=_Counted(most, shown))
+        except (DeckError, RunFailed) as fault:
+            return _ended(" ".join(str(fault).split()))
+        steps = int(run.summary["steps"])
+        if steps > most:
+            return _ended(TOO_LONG, steps)
+        if run.outcome is Outcome.INTERRUPTED:
+            raise KeyboardInterrupt
+        if run.outcome is not Outcome.DONE:
+            return _ended(run.outcome.sentence.partition(". ")[0], steps)
+        names = set(run.names)
+        found = {name: np.asarray(run[name]) for name in columns if name in names}
+        if not all(np.isfinite(each).all() for each in found.values()):
+            return _ended("a tension or a place has no value", steps)
+        cpu = float(run.summary["solve_cpu_s"])
+        return Solution(Series(np.asarray(run.time), found), steps, cpu)
+
+    return solve
+
+
+def _ended(why: str, steps: int = 0) -> Solution:
+    return Solution(Series(np.empty(0), {}), steps, inf, why)

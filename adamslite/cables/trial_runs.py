@@ -1,0 +1,187 @@
+"""Runs of the models of a description: a ladder of finer and finer ones, and single ones.
+
+Every rung has twice the sections of the one before and a smaller ERROR. With d the difference of
+the last two and f how much smaller it is than the one before, the last is d f/(1 - f) off.
+
+Runs are counted, in steps times what a step of so many sections costs, and not timed: what they
+show is the same on every machine.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import inf
+
+from adamslite.cables import advice
+from adamslite.cables.demand import MOST, elastic_level
+from adamslite.cables.model_choice import CableModel
+from adamslite.cables.readings import Readings, Series, apart, columns, named, read_off
+from adamslite.cables.scene import Setting, written
+from adamslite.language.diagnostics import DeckError
+
+# Rungs of a ladder that show how fast differences fall, where there is room for them.
+RUNGS = 3
+# How much smaller a difference may be than the one before it.
+FASTEST, SLOWEST = 0.25, 0.75
+# Of the accuracy: what the last rung may be off.
+SETTLED = 0.2
+# ERROR from rung to rung, in the order 1, 2, 5, 10 ...
+TIGHTER = 2
+# Work of a rung over that of the one before, at least.
+GROWTH = 3.0
+# Of the allowance: what the first rung may be expected to take.
+FIRST = 1 / 30
+# CPU [s] of reading a deck and making it ready, in any case and for each of its letters.
+SETUP, BY_LETTER = 0.03, 2e-6
+# Runs that may fail before others are not tried.
+FAILURES = 2
+# Keeps quotients finite.
+NOTHING = 1e-12
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Columns of a run, or how it ended early; steps, and CPU [s] that this machine took."""
+
+    run: Series
+    steps: int
+    cpu: float
+    ended: str = ""
+
+
+Solver = Callable[[str, tuple[str, ...], float], Solution]
+"""Solves a deck for some columns, in so many steps at most."""
+
+
+@dataclass(frozen=True)
+class Option:
+    """A model: `form` is auto below level 3, `elements` and `error` are 0 where rules decide."""
+
+    level: int
+    form: str
+    elements: int
+    error: float
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A model that was solved: what was read, and its cost where costs were measured [s]."""
+
+    option: Option
+    readings: Readings
+    model: CableModel
+    work: float
+    cpu: float
+
+
+class Runs:
+    """The runs of a description."""
+
+    def __init__(self, of: Setting, solve: Solver, allowance: float, spent: float = 0.0) -> None:
+        self.of, self.solve, self.allowance, self.spent = of, solve, allowance, spent
+        self.known: dict[Option, Tried | None] = {}
+        self.wanted = columns(of.spec, of.pieces)
+        self.ended = ""
+
+    def set_to(self, option: Option) -> Setting:
+        """The description with a model."""
+        spec = self.of.spec
+        return replace(
+            self.of,
+            spec=replace(spec, level=option.level, form=option.form, elements=option.elements,
+                         error=option.error or spec.error),
+        )  # fmt: skip
+
+    def run(self, option: Option) -> Tried | None:
+        """A model that is solved; None where it cannot be, or not in time."""
+        if option not in self.known:
+            self.known[option] = self._solved(option)
+        return self.known[option]
+
+    def _solved(self, option: Option) -> Tried | None:
+        try:
+            deck = written(self.set_to(option))
+        except DeckError:
+            return None
+        self.spent += SETUP + BY_LETTER * len(deck.text)
+        step = self._work(deck.model, 1.0)
+        left = (self.allowance - self.spent) / step
+        if left < 1:
+            return None
+        solution = self.solve(deck.text, self.wanted, left)
+        work = self._work(deck.model, solution.steps)
+        self.spent += work
+        if solution.ended:
+            self.ended = solution.ended
+            return None
+        read = read_off(self.of.spec, self.of.pieces, solution.run)
+        option = replace(option, error=deck.model.error)
+        return Tried(option, read, deck.model, work, solution.cpu)
+
+    def _work(self, model: CableModel, steps: float) -> float:
+        method = model.method.split(",")[0]
+        return advice.work(self.of.demand, method, model.level, steps, model.elements)
+
+    def climb(self, proposed: CableModel) -> list[Tried]:
+        """Models, each finer than the one before, until they stand still."""
+        option: Option | None = self._bottom(proposed)
+        rungs: list[Tried] = []
+        failures = 0
+        while option and failures < FAILURES:
+            before = self.spent
+            rung = self.run(option)
+            taken = self.spent - before
+            if rung:
+                rungs.append(rung)
+            failures += rung is None
+            if len(rungs) >= RUNGS and self.doubt(rungs) <= SETTLED:
+                break
+            if GROWTH * taken > self.allowance - self.spent:
+                break
+            option = self._finer(option)
+        return rungs
+
+    def _bottom(self, proposed: CableModel) -> Option:
+        """The first rung: the elastic model that is proposed, or less where that is expected to
+        take too long."""
+        spec, of = self.of.spec, self.of.demand
+        level = spec.level or elastic_level(of)
+        form = spec.form if spec.form != "auto" else "ale" if level == 3 else "auto"
+        method = advice.integrator(of, spec.accuracy, level)[0]
+        count = proposed.elements
+        while True:
+            error = spec.error or advice.error_bound(of, spec.accuracy, count)
+            taken = advice.expected(of, method, level, count, error)
+            if count == 1 or taken < FIRST * self.allowance:
+                return Option(level, form, count, error)
+            count = (count + 1) // 2
+
+    def _finer(self, option: Option) -> Option | None:
+        if 2 * option.elements > MOST:
+            return None
+        error = option.error
+        if not self.of.spec.error:
+            error = max(advice.notched(error, -TIGHTER), advice.TIGHTEST * self.of.demand.longest)
+        return replace(option, elements=2 * option.elements, error=error)
+
+    def off(self, one: Tried, truth: Tried) -> tuple[float, str]:
+        """How far a model is from a finer one, in parts of the accuracy, and where."""
+        off, key, which = apart(one.readings, truth.readings, self.of.spec.quantities)
+        return off / self.of.spec.accuracy, named(key, which)
+
+    def doubt(self, rungs: list[Tried]) -> float:
+        """How far the last rung is from what they tend to, in parts of the accuracy."""
+        if len(rungs) < 2:
+            return inf
+        last, _ = self.off(rungs[-2], rungs[-1])
+        falls = 0.5
+        if len(rungs) > 2:
+            before, _ = self.off(rungs[-3], rungs[-2])
+            falls = min(max(last / max(before, NOTHING), FASTEST), SLOWEST)
+        return last * falls / (1 - falls)
+
+    def least(self, rungs: list[Tried]) -> float:
+        """Least tension where the cable goes slack, else 0 [N]."""
+        if not rungs:
+            return 0.0
+        share, least = rungs[-1].readings.lowest
+        return least if share < -self.of.spec.accuracy else 0.0

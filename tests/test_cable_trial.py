@@ -1,0 +1,221 @@
+"""Models of a description are tried: what is taken, what is told, and what it costs."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import adamslite as al
+from adamslite.api.trials import described, solver
+from adamslite.cables.advice import notched
+from adamslite.cables.readings import Series
+from adamslite.cables.scene import deck, setting
+from adamslite.cables.trial import Found, tried
+from adamslite.cables.trial_runs import Solution
+from adamslite.cli.main import main
+from adamslite.errors import UsageError
+from adamslite.progress import Progress
+
+HUNG = """\
+end = 1
+[cable]
+EA = 1e6
+rho = 1
+[[route]]
+kind = "fixed"
+at = [0, 0, 0]
+[[route]]
+kind = "mass"
+at = [0, -20, 0]
+mass = 100
+velocity = [0, 0.1, 0]
+"""
+HOIST = """\
+end = 3
+[cable]
+EA = 1e7
+rho = 0.5
+[[route]]
+kind = "winch"
+at = [-0.3, 0, 0]
+radius = 0.3
+inertia = 5
+turn = -1
+payout = "STEP5(TIME,0,0,2,-4)"
+[[route]]
+kind = "mass"
+at = [0, -20, 0]
+mass = 500
+"""
+Error = Callable[[int, float], float]
+
+
+def made_up(error: Error, steps: int = 500, rigid: float = 0.5, slack: float = 0.0) -> Callable:
+    """A solver whose greatest tension, 1000 N, is off by `error` of sections and ERROR; its steps
+    grow with the sections."""
+
+    def solve(text: str, columns: tuple[str, ...], most: float) -> Solution:
+        sections = len(re.findall(r"^SFORCE/", text, re.M))
+        found = re.search(r"ERROR=(\S+)", text)
+        assert found
+        taken = steps * max(sections, 1)
+        if taken > most:
+            return Solution(Series(np.empty(0), {}), taken, 1.0, "too long")
+        off = error(sections, float(found[1])) if sections else rigid
+        pull = np.linspace(500.0 if "MAX(0" in text else 500.0 - slack, 1000.0 * (1 + off), 50)
+        names = ("REQUEST/1.F2", "REQUEST/1.F3") if sections else ("GCON/1.f",)
+        sign = 1 if sections else -1
+        found_columns = {name: sign * pull for name in names}
+        return Solution(Series(np.linspace(0, 1, 50), found_columns), taken, 0.1)
+
+    return solve
+
+
+def with_trial(solve: Callable, text: str = HUNG, allowance: float = 10.0) -> Found:
+    return tried(setting(text + '[model]\nquantities = ["tension"]\n'), solve, allowance)
+
+
+def codes(found: Found) -> list[str]:
+    return [each.code for each in found.deck.messages]
+
+
+@pytest.mark.parametrize(
+    ("share", "power", "fewest"), [(0.1, 1, 11), (0.1, 2, 4), (1.0, 2, 11), (0.001, 1, 1)]
+)
+def test_the_fewest_sections_that_do_are_taken(share: float, power: int, fewest: int) -> None:
+    """An error of share/n^power, n doubled and halved: no half of what is taken would do."""
+    found = with_trial(made_up(lambda n, error: share / n**power))
+    n = found.deck.model.elements
+    assert fewest <= n <= 2 * fewest
+    assert share / n**power < 0.01
+    assert n == 1 or share / ((n + 1) // 2) ** power > 0.007
+    assert found.off == pytest.approx(share / n**power, abs=0.002)
+
+
+def test_a_loose_error_is_taken_where_it_is_cheaper_and_does() -> None:
+    """ERROR 10, 100 times that of the linear model leaves 0.2 and 2 %, and halves the steps."""
+    first = setting(HUNG)
+    base = deck(HUNG)[0]
+    error = float(re.search(r"ERROR=(\S+)", base)[1])  # type: ignore[index]
+
+    def solve(text: str, columns: tuple[str, ...], most: float) -> Solution:
+        loose = float(re.search(r"ERROR=(\S+)", text)[1]) / error  # type: ignore[index]
+        steps = int(1000 / max(loose, 0.1) ** 0.5)
+        return made_up(lambda n, e: 0.0002 * max(loose, 0.0), steps)(text, columns, most)
+
+    found = tried(first, solve, 10.0)
+    assert found.deck.model.error == pytest.approx(10 * error)
+
+
+def test_level_1_is_taken_where_it_does() -> None:
+    """And the warning that its waves matter, which runs refute, is not told."""
+    for off, level in ((0.004, 1), (0.02, 3)):
+        found = with_trial(made_up(lambda n, error: 0.0, rigid=off), HOIST)
+        assert (found.deck.model.level, codes(found)) == (level, [])
+
+
+def test_runs_are_counted_and_what_is_not_shown_is_told() -> None:
+    """An error that falls too slowly: the finest model, what it reached, and how to allow more."""
+    found = with_trial(made_up(lambda n, error: 1 / n**0.1))
+    assert codes(found) == ["unsettled"]
+    (told,) = found.deck.messages
+    assert "the greatest tension of span 1 differs by" in told.message
+    assert "--trial 100" in told.hint
+    slow = with_trial(made_up(lambda n, error: 0.0, steps=10**9), allowance=1.0)
+    assert codes(slow) == ["unsettled"]
+    assert slow.deck.text == deck(HUNG + '[model]\nquantities = ["tension"]\n')[0]
+
+
+def test_a_run_that_fails_spoils_only_its_model() -> None:
+    """Every second rung ends early: the others decide; when all do, the linear model does."""
+    fine = made_up(lambda n, error: 0.05 / n**2)
+
+    def solve(text: str, columns: tuple[str, ...], most: float) -> Solution:
+        if len(re.findall(r"^SFORCE/", text, re.M)) % 8:
+            return Solution(Series(np.empty(0), {}), 10, 1.0, "The corrector did not converge")
+        return fine(text, columns, most)
+
+    assert codes(with_trial(solve)) in ([], ["unsettled"])
+
+    def never(text: str, columns: tuple[str, ...], most: float) -> Solution:
+        return Solution(Series(np.empty(0), {}), 10, 1.0, "The corrector did not converge")
+
+    found = with_trial(never)
+    assert codes(found) == ["unsettled"]
+    assert "The corrector did not converge" in found.deck.messages[0].message
+
+
+def test_a_cable_that_goes_slack_only_pulls() -> None:
+    found = with_trial(made_up(lambda n, error: 0.0, slack=600.0))
+    assert codes(found) == ["goes-slack"]
+    assert "MAX(0," in found.deck.text
+    assert "-100 N" in found.deck.messages[0].message
+
+
+def test_what_is_asked_for_stays() -> None:
+    """Sections, or ERROR, or a level, by name."""
+    solve = made_up(lambda n, error: 0.1 / n)
+    assert with_trial(solve, HUNG).deck.model.level == 2
+    whole = setting(HUNG + "[model]\nelements = 3\n")
+    assert tried(whole, solve, 10.0).deck.model.elements == 3
+    error = setting("error = 3e-7\n" + HUNG)
+    assert tried(error, solve, 10.0).deck.model.error == 3e-7
+
+
+@pytest.mark.parametrize("steps", range(-7, 8))
+def test_sizes_of_error_are_1_2_5(steps: int) -> None:
+    sizes = [10.0**k * m for k in range(-9, 3) for m in (1, 2, 5)]
+    at = sizes.index(0.02) if 0.02 in sizes else 22
+    assert notched(0.02, steps) == pytest.approx(sizes[at + steps])
+
+
+def test_the_command_tries_and_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A deck by trial; without it the one of the linear model; Python gives the same."""
+    path = tmp_path / "hoist.toml"
+    path.write_text(HOIST, encoding="utf-8")
+    assert main(["cable", str(path)]) == 0
+    out, err = capsys.readouterr()
+    head = " ".join(out[: out.index("! Written")].replace("\n! ", " ").split())
+    assert re.search(r"1 section in form paper, ERROR=\S+ by trial: 0\.\d+ % off in the", head)
+    assert re.search(r"level 3, 1 section: 0\.\d+ % off by trial; a run takes about \S+ s", err)
+    assert al.cable(HOIST) == out
+    assert main(["cable", "--no-trial", str(path)]) == 0
+    out, err = capsys.readouterr()
+    assert (out, err) == (deck(HOIST)[0], "")
+    assert al.cable(HOIST, trial=0) == out == al.cable(HOIST + "[model]\ntrial = 0\n")
+    with pytest.raises(UsageError):
+        al.cable(HOIST, trial=-1)
+
+
+def test_what_was_promised_holds() -> None:
+    """The hoist as it is written, against 20 sections of form ale and a hundredth of its ERROR."""
+    text = al.cable(HOIST)
+    fine = deck("error = 1e-7\n" + HOIST + '[model]\nform = "ale"\nlevel = 3\nelements = 20\n')[0]
+    one, truth = (al.simulate(al.read(each)) for each in (text, fine))
+    for name in ("REQUEST/1.F2", "REQUEST/1.F3", "POINT_MASS/20.y"):
+        for word in ("max", "min", "mean"):
+            values = [getattr(run[name] - (run[name][0] if "y" in name else 0), word)()
+                      for run in (one, truth)]  # fmt: skip
+            assert values[0] == pytest.approx(values[1], abs=0.01 * np.abs(truth[name]).max())
+
+
+def test_a_run_ends_at_its_last_step() -> None:
+    """A run of more steps than it may take is none."""
+    text, _ = deck("steps = 3000\n" + HUNG)
+    ended = solver(Progress())(text, ("REQUEST/1.F2",), 100)
+    assert ended.ended and not ended.run.columns
+    done = solver(Progress())(text, ("REQUEST/1.F2", "GCON/1.f"), 1e6)
+    assert not done.ended and list(done.run.columns) == ["REQUEST/1.F2"]
+
+
+def test_a_deck_that_cannot_be_assembled_is_no_fault_of_the_command() -> None:
+    broken = "T\nPART/1, GROUND\nnonsense\nEND\n"
+    assert solver(Progress())(broken, (), 1e6).ended
+
+
+def test_the_same_deck_twice() -> None:
+    """Nothing of the clock is in it."""
+    decks = {described(HOIST, "<text>", None, Progress()).deck.text for _ in range(2)}
+    assert len(decks) == 1
