@@ -66,11 +66,14 @@ def machine(
 
 
 class Drives:
-    """What laws say: payouts and forces of winches by station, displacements of stations."""
+    """What laws say: payouts and forces of winches and pulls of carriages by station, displacements
+    of stations.
+    """
 
     def __init__(self, spec: Spec, prescribed: Laws) -> None:
         self.payouts: dict[int, Ways] = {}
         self.forces: dict[int, Ways] = {}
+        self.pulls: dict[int, Ways] = {}
         self.motions: dict[tuple[int, int], Ways] = {}
         for (i, key, axis), law in prescribed.nodes.items():
             ways = partial(_values, law)
@@ -78,6 +81,8 @@ class Drives:
                 self.payouts[i] = ways
             elif key == "force":
                 self.forces[i] = ways
+            elif key == "pull":
+                self.pulls[i] = ways
             elif key == "torque":
                 self.forces[i] = partial(_values, Op("/", (law, Num(spec.route[i].radius))))
             elif key == "motion":
@@ -219,7 +224,8 @@ def _balance(
             for j, f in zip(own, total, strict=True):
                 draft.forces[j] = f
         else:
-            draft.forces[own[0]] = dot(unit(each.slide), total)
+            carried, pulled = dot(unit(each.slide), total), drives.pulls.get(i, np.zeros_like)
+            draft.forces[own[0]] = lambda t, c=carried, f=pulled: c + f(t)  # type: ignore[misc]
 
 
 def _bounce(spec: Spec, length: float) -> float:
