@@ -5,6 +5,7 @@ import pytest
 from descriptions import HOIST, PAYOUT
 
 import adamslite
+from adamslite.cables.description import below
 from adamslite.cables.scene import deck
 
 G = 9.81
@@ -88,4 +89,4 @@ def test_stations_follow_the_fall_and_not_the_file() -> None:
     turned = f'fall = "drum load"\n{head}' + "".join(
         f"[[route]]\n{table}" for table in reversed(named)
     )
-    assert deck(turned + model)[0] == deck(RIGID)[0]
+    assert below(deck(turned + model)[0]) == below(deck(RIGID)[0])

@@ -23,7 +23,6 @@ from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.diff import Diff
 from adamslite.elements.part import Part
 from adamslite.elements.request import COMPONENTS, Request
-from adamslite.elements.simulate import Simulate, output_steps
 from adamslite.elements.vforce import Vforce
 from adamslite.language.expression import Call, Node, Ref, calls
 
@@ -56,7 +55,9 @@ class ChainDemand:
     gained: tuple[float, float]
 
 
-def demand_on(chain: Chain, posture: Posture, end: float, linear: bool = True) -> ChainDemand:
+def demand_on(
+    chain: Chain, posture: Posture, end: float, results: int = 0, linear: bool = True
+) -> ChainDemand:
     """The figures of a chain in a run from 0 to `end`; `linear`: with its linear model."""
     deck, ucf = posture.deck, posture.deck.ucf
     n = len(chain.links)
@@ -84,7 +85,7 @@ def demand_on(chain: Chain, posture: Posture, end: float, linear: bool = True) -
         speed=travel.speed, acceleration=travel.acceleration, known=travel.known, jump=jump,
         across=across, straight=shape.straight, wave=shape.wave(across, free),
         bounces=abs(drawn - hung) > 0.5 * weight + FELT * hung and not chain.is_ring, end=end,
-        tied=_is_tied(deck), results=_results(deck, end),
+        tied=_is_tied(deck), results=results,
     )  # fmt: skip
     slight = not across or across < SMALL_SLOPE * demand.struck_wave
     if linear and travel.known and end > 0 and slight and _is_plain(chain, shape):
@@ -173,12 +174,6 @@ def _corrects(chain: Chain, posture: Posture, of: Machine) -> bool:
             if near < ALIKE * min(abs(value - middle) for middle in middles):
                 return True
     return False
-
-
-def _results(deck: Deck, end: float) -> int:
-    """Times at which results are asked for."""
-    runs = [run for run in deck.of(Simulate) if not run.at_once]
-    return round(output_steps(end, runs[-1].steps, runs[-1].dtout)) if runs else 0
 
 
 def _tips(chain: Chain) -> list[Body]:

@@ -25,7 +25,9 @@ LEAST_STRAIN = 1e-6
 BRUTE = "Brute force: sections of fixed length run over the rims and off the winches."
 
 
-def write(spec: Spec, spans: list[FreeSpan], moves: Moves, model: CableModel) -> str:
+def write(
+    spec: Spec, spans: list[FreeSpan], moves: Moves, model: CableModel, comments: str = ""
+) -> str:
     """The deck.
 
     Parameters
@@ -36,6 +38,8 @@ def write(spec: Spec, spans: list[FreeSpan], moves: Moves, model: CableModel) ->
         One between every two stations.
     moves : Moves
     model : CableModel
+    comments : str
+        Lines for its head.
 
     Returns
     -------
@@ -49,7 +53,7 @@ def write(spec: Spec, spans: list[FreeSpan], moves: Moves, model: CableModel) ->
         if g
     )  # fmt: skip
     lines = ["", "PART/1, GROUND", *([f"ACCGRAV/{gravity}"] if gravity else [])]
-    text = head(spec.title, notes, *lines, author="adamslite cable")
+    text = head(spec.title, notes, *lines, author="adamslite cable", comments=comments)
     if model.level > 1:
         text += cable_variables(spec.cable, spec.cable.damping) + constants(spec)
     speed = start_speed(spec, moves)

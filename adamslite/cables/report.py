@@ -1,21 +1,31 @@
 """The report of `adamslite check` on cables: their figures, and the model that they need."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import replace
 from math import pi
+from textwrap import wrap
+from typing import TYPE_CHECKING, NamedTuple
 
 from adamslite.cables.advice import Advice, advise
 from adamslite.cables.chain_demand import ChainDemand, demand_on
 from adamslite.cables.chain_finder import Chain, chains
 from adamslite.cables.demand import Demand
+from adamslite.cables.description import is_described
 from adamslite.cables.payout_law import Unknown
 from adamslite.cables.posture import Body, Posture
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
-from adamslite.elements.simulate import Simulate
+from adamslite.elements.simulate import Simulate, output_steps
 from adamslite.elements.units import Units
 from adamslite.language import units
 
+if TYPE_CHECKING:
+    from adamslite.cables.described import Choice, Described
+
+# Of a line of reasons.
+WIDTH = 92
 # Figures below it are shown as 0.
 ROUND_OFF = 1e-9
 ACCURACIES = (0.01, 0.001)
@@ -26,26 +36,54 @@ MOST = 6
 
 def about_cables(deck: Deck, commands: Iterable[Command] = ()) -> list[str]:
     """Lines about every cable; none for a deck without."""
-    return _listed(cables(deck, commands))
+    known = by_description(deck, commands)
+    return _described(known, *_run(deck, commands)) if known else _listed(cables(deck, commands))
+
+
+def advice_on(deck: Deck, p: float, commands: Iterable[Command] = ()) -> Advice | None:
+    """For the accuracy `p` of the longest cable of a deck; None without one."""
+    known = by_description(deck, commands)
+    if known:
+        choices = known.choices([p], *_run(deck, commands))
+        return next(_chosen(each) for each in choices if each.accuracy == p)
+    found = cables(deck, commands)
+    return advise(max(found, key=lambda each: each.demand.length).demand, p) if found else None
+
+
+def by_description(deck: Deck, commands: Iterable[Command] = ()) -> Described | None:
+    """A deck by the description that it carries; None where its statements are not those of it."""
+    if not is_described(deck.source.text):
+        return None
+    from adamslite.cables.described import PASSIVE, described
+
+    settings = {*PASSIVE, "SIMULATE"}
+    if any(getattr(c, "keyword", "") not in settings or _rests(c) for c in commands):
+        return None
+    return described(deck.source.text, deck.title)
+
+
+def _rests(command: Command) -> bool:
+    """Whether it changes where the dynamics begin."""
+    return isinstance(command, Simulate) and command.kind == "STATICS"
 
 
 def cables(deck: Deck, commands: Iterable[Command] = ()) -> list[ChainDemand]:
     """The cables of a deck in its run, in SI units when the deck names its units."""
     posture = Posture(deck)
     rows = chains(deck, posture)
-    end = _end(deck, commands) if rows else 0.0
+    end, results = _run(deck, commands) if rows else (0.0, 0)
     found = []
     for chain in rows:
         try:
-            each = demand_on(chain, posture, end, linear=len(rows) <= MOST)
+            each = demand_on(chain, posture, end, results, len(rows) <= MOST)
         except Unknown:
             continue
         found.append(replace(each, demand=_in_si(each.demand, deck)))
     return found
 
 
-def _end(deck: Deck, commands: Iterable[Command]) -> float:
-    """When the dynamics end, 0 when nothing says so."""
+def _run(deck: Deck, commands: Iterable[Command]) -> tuple[float, int]:
+    """When the dynamics end, 0 when nothing says so; the number of results that are asked for."""
     runs = [c for c in commands if isinstance(c, Simulate)] or deck.of(Simulate)
     time = reached = 0.0
     for run in runs:
@@ -53,7 +91,8 @@ def _end(deck: Deck, commands: Iterable[Command]) -> float:
             continue
         time = run.until(time)
         reached = time if run.kind in ("DYNAMICS", "TRANSIENT") else reached
-    return reached
+    last = [run for run in runs if not run.at_once][-1:]
+    return reached, sum(round(output_steps(reached, run.steps, run.dtout)) for run in last)
 
 
 def _in_si(of: Demand, deck: Deck) -> Demand:
@@ -74,16 +113,57 @@ def _in_si(of: Demand, deck: Deck) -> Demand:
 # ---- the text --------------------------------------------------------------------------------
 
 
+class _Figures(NamedTuple):
+    """What the lines about a cable show of it, besides its demand."""
+
+    demand: Demand
+    sections: int
+    form: str
+    gained: tuple[float, float]
+
+
+def _described(known: Described, end: float, results: int) -> list[str]:
+    """A cable whose description is known, with reasons."""
+    choices = [*known.choices(ACCURACIES, end, results)]
+    of, model = choices[0].demand, known.model
+    form = "rigid" if model.level == 1 else model.form if model.level == 3 else "fixed"
+    shown = _Figures(of, model.elements, form, (of.least / of.length, of.most / of.length))
+    lines = _about(shown)
+    for each in choices:
+        lines += [_advised(_chosen(each)), *_why(each)]
+    count = len(known.drawn.pieces)
+    name = f"the longest of {count} spans" if count > 1 else "as described"
+    return [f"  cable {name}", *(f"    {line}" for line in lines)]
+
+
+def _chosen(of: Choice) -> Advice:
+    """As advice, with the cost where that is known."""
+    p, model = of.accuracy, of.model
+    name, sections = model.method.split(",")[0], model.elements * (model.level > 1)
+    same = advise(of.demand, p)
+    told = (same.level, same.elements, same.integrator) == (model.level, sections, name)
+    form = model.form if model.level == 3 else ""
+    return Advice(p, model.level, form, sections, name, model.error, same.cost if told else 0.0)
+
+
+def _why(of: Choice) -> list[str]:
+    """The reasons of a choice."""
+    text = f"because {'; '.join(of.reasons)}"
+    return wrap(text, WIDTH, initial_indent=" " * 11, subsequent_indent=" " * 11)
+
+
 def _listed(found: list[ChainDemand]) -> list[str]:
     """Equal cables share their lines."""
     groups: dict[tuple[str, ...], list[Chain]] = {}
     for each in found:
-        groups.setdefault(tuple(_figures(each)), []).append(each.chain)
+        shown = _Figures(each.demand, len(each.chain.links), each.form, each.gained)
+        advice = (_advised(advise(each.demand, p)) for p in ACCURACIES)
+        groups.setdefault((*_about(shown), *advice), []).append(each.chain)
     lines = []
     for figures, same in list(groups.items())[:MOST]:
-        shown = ", ".join(_ends(chain) for chain in same[:3])
+        ends = ", ".join(_ends(chain) for chain in same[:3])
         more = f" and {len(same) - 3} more" if len(same) > 3 else ""
-        lines += [f"  cable {shown}{more}", *(f"    {line}" for line in figures)]
+        lines += [f"  cable {ends}{more}", *(f"    {line}" for line in figures)]
     left = len(groups) - MOST
     return [*lines, *([f"  {left} more cables"] if left > 0 else [])]
 
@@ -98,23 +178,27 @@ def _name(node: Body) -> str:
     return f"{node[0]}/{node[1]}"
 
 
-def _figures(each: ChainDemand) -> list[str]:
-    of = each.demand
-    sections = len(each.chain.links)
+def _about(each: _Figures) -> list[str]:
+    of, sections = each.demand, each.sections
+    many = f"{sections} section{'s' * (sections > 1)}"
+    vibrate = f"sections   vibrate with up to {_frequency(of, sections)}"
     return [
-        f"cable      {sections} sections of {of.length / sections:.4g} m, EA = {of.stiffness:.4g} N"
+        f"cable      {many} of {of.length / sections:.4g} m, EA = {of.stiffness:.4g} N"
         f", rho = {of.density:.4g} kg/m, {_made(each)}",
         f"waves      axial {of.c:.4g} m/s, {_time(of.transit)} along it; {_transverse(of)}"
         + (f"; the run lasts {_time(of.end)}" if of.end else ""),
-        f"sections   vibrate with up to {_frequency(of, sections)}",
+        *([] if each.form == "rigid" else [vibrate]),
         *_payout(each),
-        *(_advised(of, advise(of, p)) for p in ACCURACIES),
     ]
 
 
-def _made(each: ChainDemand) -> str:
+def _made(each: _Figures) -> str:
+    if each.form == "rigid":
+        return "rigid and without mass"
     if each.form == "fixed":
         return "of fixed length"
+    if each.form == "brute":
+        return "run over the rims"
     least, most = each.gained
     if not each.demand.known:
         return f"{each.form} form, Dm/m0 = {_short(least)} at the start"
@@ -132,7 +216,7 @@ def _frequency(of: Demand, sections: int) -> str:
     return f"{found:.3g} Hz, c/(pi H)"
 
 
-def _payout(each: ChainDemand) -> list[str]:
+def _payout(each: _Figures) -> list[str]:
     of = each.demand
     if not of.known:
         rate = f"; it starts with {_short(of.speed)} m/s" if of.speed else ""
@@ -150,15 +234,16 @@ def _payout(each: ChainDemand) -> list[str]:
     ]
 
 
-def _advised(of: Demand, advice: Advice) -> str:
+def _advised(advice: Advice) -> str:
     label = f"for {100 * advice.accuracy:g} %"
     if advice.level == 1:
         model = "level 1, rigid and without mass"
     else:
-        kind = f", {advice.form} form" if advice.form else ", fixed sections"
+        kinds = {"": "fixed sections", "brute": "sections over the rims"}
+        kind = f", {kinds.get(advice.form, f'{advice.form} form')}"
         model = f"level {advice.level}{kind}, {advice.elements} of them"
     error = "" if advice.integrator == "VERLET" else f" ERROR={advice.error:.0E}"
-    cost = f"; about {advice.cost:.1g} s of CPU" if of.end else ""
+    cost = f"; about {advice.cost:.1g} s of CPU" if advice.cost else ""
     return f"{label:<10} {model}; {advice.integrator}{error}{cost}"
 
 

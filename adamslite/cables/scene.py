@@ -7,6 +7,7 @@ from adamslite.cables.brute_force_layout import Overstretched, length, stretches
 from adamslite.cables.catenary import start
 from adamslite.cables.deck_writer import write
 from adamslite.cables.demand import MOST, Demand
+from adamslite.cables.description import Model, comments
 from adamslite.cables.estimate import Laws, Moves, estimate_moves, laws
 from adamslite.cables.geometry import FreeSpan, reaches, spans, turned
 from adamslite.cables.lumps import stored
@@ -37,19 +38,46 @@ FASTER = 0.01
 
 
 @dataclass(frozen=True)
-class Setting:
+class Drawn:
     """A description that is ready to be written by one model or another.
 
-    `given` is it as it was given, `spec` without what no model of it needs.
+    `text` is it as it was given, `given` what it says, `spec` that without what no model of it
+    needs.
     """
 
+    text: str
     given: Spec
     spec: Spec
     pieces: list[FreeSpan]
     moves: Moves
     prescribed: Laws
-    demand: Demand
     faults: Faults
+
+    def asking(self, accuracy: float, end: float, steps: int) -> "Drawn":
+        """The same without a word about the model but its accuracy, and in another run."""
+        free = replace(self.given, level=0, form="auto", elements=0, error=0.0,
+                       accuracy=accuracy, end=end, steps=steps)  # fmt: skip
+        return _drawn(self.text, free, Faults(self.faults.places))
+
+    def pulling(self) -> "Drawn":
+        """With sections that carry nothing where they are slack."""
+        given, spec = (
+            replace(each, cable=replace(each.cable, pulls_only=True))
+            for each in (self.given, self.spec)
+        )
+        return replace(self, given=given, spec=spec)
+
+    def demanding(self, demand: Demand | None = None) -> "Setting":
+        """With its linear model, or the demand that is known already."""
+        of = demand or demand_of(self.spec, self.pieces, self.moves, self.prescribed)
+        return Setting(**{**vars(self), "demand": of})
+
+
+@dataclass(frozen=True)
+class Setting(Drawn):
+    """The same, with its linear model."""
+
+    demand: Demand
 
     def telling(self, code: str, path: Path, **words: object) -> "Setting":
         """With one message more."""
@@ -59,8 +87,7 @@ class Setting:
 
     def only_pulling(self) -> "Setting":
         """With sections that carry nothing where they are slack."""
-        spec = replace(self.spec, cable=replace(self.spec.cable, pulls_only=True))
-        return replace(self, spec=spec, demand=replace(self.demand, slackens=True))
+        return self.pulling().demanding(replace(self.demand, slackens=True))
 
 
 @dataclass(frozen=True)
@@ -92,19 +119,33 @@ def setting(text: str, file: str = "<text>") -> Setting:
     DeckError
         With everything that is wrong with it before a model is chosen.
     """
+    return drawn(text, file).demanding()
+
+
+def drawn(text: str, file: str = "<text>") -> Drawn:
+    """What a description says; raises as :func:`setting`."""
     spec, faults = read(text, file)
     spec = turned(spec)
     check_surroundings(spec, faults)
     _stop(faults, faults.errors and bool(spec.cable.length))
-    spec = _tensioned(spec)
-    pieces = spans(spec, faults)
-    given = spec
-    prescribed = laws(spec, faults)
+    return _drawn(text, _tensioned(spec), faults)
+
+
+def _drawn(text: str, given: Spec, faults: Faults) -> Drawn:
+    pieces = spans(given, faults)
+    prescribed = laws(given, faults)
     _stop(faults, faults.errors)
-    given, spec = spec, _essential(spec, pieces)
+    spec = _essential(given, pieces)
     moves = estimate_moves(spec, pieces, prescribed)
-    of = demand_of(spec, pieces, moves, prescribed)
-    return Setting(given, spec, pieces, moves, prescribed, of, faults)
+    return Drawn(text, given, spec, pieces, moves, prescribed, faults)
+
+
+def chosen(of: Setting, faults: Faults, why: Reasons | None = None) -> CableModel:
+    """The model that is asked for, or what the linear model chooses; `why` that one where runs have
+    shown it."""
+    model = choose_model(of.spec, of.pieces, of.moves, of.demand, faults)
+    told = bending_advice.told(of.given, of.pieces, min(tensions(of.given, of.pieces)))
+    return replace(model, reasons=replace(why or model.reasons, more=tuple(told)))
 
 
 def written(of: Setting, why: Reasons | None = None) -> Written:
@@ -117,20 +158,27 @@ def written(of: Setting, why: Reasons | None = None) -> Written:
         With everything that is wrong with the description, or with that model of it.
     """
     spec, pieces, moves, faults = of.spec, of.pieces, of.moves, of.faults.copy()
-    model = choose_model(spec, pieces, moves, of.demand, faults)
-    told = bending_advice.told(of.given, pieces, min(tensions(of.given, pieces)))
-    model = replace(model, reasons=replace(why or model.reasons, more=tuple(told)))
+    model = chosen(of, faults, why)
     _check_form(spec, pieces, model, faults)
     _check_chain(spec, pieces, faults)
     _check_shape(spec, pieces, model, faults)
     _check(spec, pieces, moves, model, faults)
     _stop(faults, faults.errors)
     try:
-        text = write(spec, pieces, moves, model)
+        text = write(spec, pieces, moves, model, comments(of.text, _shown(spec, model, why)))
     except Overstretched:
         faults.add("overstretched", ("cable", "EA"), stiffness=spec.cable.stiffness)
         raise DeckError(sort_by_place(faults.found)) from None
     return Written(text, sort_by_place(faults.found), model)
+
+
+def _shown(spec: Spec, model: CableModel, why: Reasons | None) -> Model:
+    """What the comments of a deck say about its model."""
+    tried = [*model.reasons.told] if why else []
+    return Model(
+        model.level, model.form, model.elements, model.method, float(f"{model.error:.1E}"),
+        spec.cable.pulls_only, tried,
+    )  # fmt: skip
 
 
 def _tensioned(spec: Spec) -> Spec:

@@ -64,10 +64,12 @@ def rounded(values: Sequence[float]) -> tuple[float, ...]:
     return tuple(x if abs(x) > least else 0.0 for x in values)
 
 
-def head(title: str, notes: str, *lines: str, author: str = "generate.py") -> str:
-    """Title, comments and units."""
+def head(
+    title: str, notes: str, *lines: str, author: str = "generate.py", comments: str = ""
+) -> str:
+    """Title, comments and units; `comments` are lines that stand below the notes as they are."""
     text = "".join(f"! {line}\n" for line in wrap(" ".join(notes.split()), 96))
-    return f"{title}\n{text}! Written by {author}.\n\nUNITS/SYSTEM=MKS\n" + "".join(
+    return f"{title}\n{text}! Written by {author}.\n{comments}\nUNITS/SYSTEM=MKS\n" + "".join(
         f"{line}\n" for line in lines
     )
 

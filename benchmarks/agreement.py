@@ -1,0 +1,130 @@
+"""Whether `check` advises on the decks that `adamslite cable` writes what `cable` itself does.
+
+    python -m benchmarks.agreement --scenes 260 --seed 11 [--p 0.01] [--show 3]
+
+Random descriptions are written as decks and read back, four times: as they are written; with
+another model asked for in the description; with a number of the description changed, its comments
+left as they were; and without comments. Compared are level, form, sections and integrator; a deck
+with another model or number is compared with what `cable` chooses for what it is now.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections import Counter
+from collections.abc import Callable
+
+import numpy as np
+
+import adamslite
+from adamslite.cables.description import BEGIN, END
+from adamslite.cables.report import advice_on
+from adamslite.cables.scene import chosen as choice
+from adamslite.cables.scene import deck, drawn
+from adamslite.language.diagnostics import DeckError
+from benchmarks.rope_scenes import Table, scene, toml
+
+#: Level, form, sections, integrator.
+Said = tuple[int, str, int, str]
+#: What is done to a description: its own text, the deck that is read, and what that one is.
+Case = tuple[str, str]
+#: By which numbers are changed.
+FACTORS = (0.5, 0.8, 1.25, 2.0)
+COMMENT = re.compile(r"(?m)^!.*\n|![^\n]*")
+
+
+def chosen(text: str) -> Said:
+    """The choice of `cable` without a word about the model."""
+    of = drawn(text)
+    asked = of.asking(of.given.accuracy, of.given.end, of.given.steps).demanding()
+    model = choice(asked, asked.faults)
+    return _said(model.level, model.form, model.elements, model.integrator)
+
+
+def advised(text: str, p: float) -> Said | None:
+    """The advice of `check` on a deck."""
+    found = advice_on(adamslite.read(text), p)
+    return _said(found.level, found.form, found.elements, found.integrator) if found else None
+
+
+def _said(level: int, form: str, sections: int, method: str) -> Said:
+    return level, form if level == 3 else "", sections * (level > 1), method.split(",")[0]
+
+
+# ---- what is done to a description ------------------------------------------------------------
+
+
+def as_written(table: Table, rng: np.random.Generator) -> Case:
+    """Nothing."""
+    return toml(table), deck(toml(table))[0]
+
+
+def asked(table: Table, rng: np.random.Generator) -> Case:
+    """Sections, or a level with them, as a user wishes."""
+    wish = {"level": int(rng.integers(2, 4)), "elements": int(rng.choice([1, 2, 5, 17]))}
+    text = toml(table | {"model": table.get("model", {}) | wish})
+    return text, deck(text)[0]
+
+
+def changed(table: Table, rng: np.random.Generator) -> Case:
+    """A number of the description, which its statements have; its comments are not told."""
+    text = toml(table)
+    numbers = [*re.finditer(r"(?<![\w.])\d+\.?\d*(?:e[+-]?\d+)?(?![\w.])", text)]
+    place = numbers[int(rng.integers(len(numbers)))]
+    value = float(place[0]) * float(rng.choice(FACTORS))
+    new = f"{value:.0f}" if place[0].isdigit() else f"{value:.6g}"
+    edited = text[: place.start()] + new + text[place.end() :]
+    head = _block(deck(text)[0])
+    return edited, deck(edited)[0].replace(_block(deck(edited)[0]), head)
+
+
+def stripped(table: Table, rng: np.random.Generator) -> Case:
+    """All comments taken out."""
+    return toml(table), COMMENT.sub("", deck(toml(table))[0])
+
+
+def _block(text: str) -> str:
+    return text[text.index(BEGIN) : text.index(END)]
+
+
+CASES: dict[str, Callable[[Table, np.random.Generator], Case]] = {
+    "as written": as_written, "another model asked": asked, "a number changed": changed,
+    "without comments": stripped,
+}  # fmt: skip
+
+
+def main() -> None:
+    """Count agreements."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--scenes", type=int, default=60)
+    parser.add_argument("--seed", type=int, default=11)
+    parser.add_argument("--p", type=float, default=0.01)
+    parser.add_argument("--show", type=int, default=0, help="differences to print, by kind")
+    parser.add_argument("--only", choices=CASES)
+    args = parser.parse_args()
+    counts = {name: Counter[str]() for name in CASES if args.only in (None, name)}
+    kinds = Counter[tuple[str, str, str]]()
+    for number in range(args.scenes):
+        kind, table = scene(args.seed, number)
+        table["model"] = {"accuracy": args.p}
+        for name, count in counts.items():
+            try:
+                text, written = CASES[name](table, np.random.default_rng([args.seed, number]))
+                ours, theirs = chosen(text), advised(written, args.p)
+            except DeckError:
+                count["no deck"] += 1
+                continue
+            verdict = "silent" if theirs is None else "agree" if ours == theirs else "differ"
+            count[verdict] += 1
+            kinds[name, kind, verdict] += 1
+            if verdict != "agree" and kinds[name, kind, verdict] <= args.show:
+                print(f"{name}: {kind} {number}: cable {ours}, check {theirs}")
+    print("                         agree  differ  silent  no deck")
+    for name, count in counts.items():
+        found = [count[word] for word in ("agree", "differ", "silent", "no deck")]
+        print(f"{name:24}" + "".join(f"{n:7}" for n in found))
+
+
+if __name__ == "__main__":
+    main()
