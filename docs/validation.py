@@ -25,9 +25,10 @@ HEAD = """<!-- Written by docs/validation.py: do not edit. -->
 
 Numbers from handbooks, test sets and the documentation of other programs beside what this program
 computes from a deck. *Exact* is the closed form, or the solution of the differential equation to
-all digits that are printed; where it is missing, the published number is itself the reference. The
-deviation is ours from the exact value (from the published one where there is no other). A value may
-be published with few digits, or be off itself: then ours follows the exact one. Each name leads to
+all digits that are printed; where it is missing, the published number is itself the reference.
+Where *published* is empty, the source prints a formula, which gives the exact value. The deviation
+is ours from the exact value (from the published one where there is no other). A value may be
+published with few digits, or be off itself: then ours follows the exact one. Each name leads to
 the deck with its equations and its source. CPU is that of the second run on one core: what is
 compiled is kept. What programs for moorings and for reeving give on some of these scenes is on
 [another page](background/ropes-beside.md).

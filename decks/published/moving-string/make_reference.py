@@ -1,6 +1,6 @@
 """Write strings that run through two eyes, from which their frequencies are computed.
 
-rho (y_tt + 2 v y_xt + v^2 y_xx) = T y_xx,  omega_n = (n pi c/L) (1 - (v/c)^2),  c^2 = T/rho
+rho (y_tt + 2 v y_xt + v^2 y_xx) = T y_xx,  omega_n = (n pi c/L) |1 - (v/c)^2|,  c^2 = T/rho
 """
 
 import sys
@@ -33,6 +33,6 @@ def deck(speed: float) -> str:
     return text + "\nEND\n"
 
 
-for name, speed in (("resting", 0.0), ("half", 5.0), ("nearly-critical", 9.0)):
+for name, speed in (("resting", 0.0), ("half", 5.0), ("nearly-critical", 9.0), ("beyond", 15.0)):
     (HERE / f"{name}.adm").write_text(deck(speed))
     (HERE / f"{name}.acf").write_text("SIMULATE/STATICS\nLINEAR/EIGENSOL\nSTOP\n")
