@@ -97,6 +97,32 @@ def test_explicit_and_implicit_agree_on_full_matrices(force: str) -> None:
             np.testing.assert_allclose(found[name], known[name], atol=2e-6)
 
 
+@pytest.mark.parametrize("method", ["ABAM", "RADAU"])
+def test_a_point_whose_effective_mass_is_a_full_matrix(method: str) -> None:
+    """(2 - C) a = f for a C without symmetry: x = x0 + v0 t + a t^2/2 along every axis."""
+    coefficients = np.array([[0.5, 0.2, -0.3], [0.4, -0.6, 0.1], [-0.7, 0.9, 0.8]])
+    force = np.array([3.0, -2.0, 5.0])
+    parts = [f"{f}" + "".join(f"{c:+}*ACC{axis}(2)" for c, axis in zip(row, "XYZ", strict=True))
+             for f, row in zip(force, coefficients, strict=True)]  # fmt: skip
+    found = run(POINT + push(*parts) + "END\n", 1.0, 4, integrator=method, error=1e-9)
+    a = np.linalg.solve(2 * np.eye(3) - coefficients, force)
+    t = found.time[:, None]
+    expected = [1, 0, 0] + np.array([0, 1, 0]) * t + a * t**2 / 2
+    places = np.column_stack([found[f"POINT_MASS/2.{axis}"] for axis in "xyz"])
+    np.testing.assert_allclose(places, expected, atol=1e-8)
+
+
+@pytest.mark.parametrize("method", ["ABAM", "GSTIFF", "RADAU"])
+def test_a_mass_that_vanishes_along_a_diagonal_ends_the_run(method: str) -> None:
+    """[2, -2 t; -2 t, 2] of y and z is singular at t = 1; neither of its diagonal elements is."""
+    found = run(
+        POINT + push("0", "2*TIME*ACCZ(2)", "1+2*TIME*ACCY(2)") + "END\n",
+        2.0, 100, integrator=method, error=1e-6,
+    )  # fmt: skip
+    assert found.outcome is Outcome.SINGULAR_ACCELERATION
+    assert found.time[-1] == pytest.approx(1.0, abs=0.03)
+
+
 def test_no_matrix_is_formed_for_a_stage() -> None:
     """One effective mass for each step is compared with that at the start, and none solved for."""
     found = run(POINT + push("-10*DX(2)-TIME*ACCX(2)") + "END\n", 2.0, 8, integrator="ABAM")

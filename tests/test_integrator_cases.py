@@ -168,3 +168,13 @@ def test_hht_renews_a_matrix_before_it_is_too_old():
     assert found.summary["steps"] in (150, 151)
     assert found.summary["newton"] < 3 * 150
     assert found.summary["factorizations"] < 1.2 * 150
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_the_error_of_a_state_alone_shortens_the_steps(method: str) -> None:
+    """s' = 50 (cos t - s): (2500 cos t + 50 sin t)/2501 after a hundredth of the start, 1/2501."""
+    deck = GROUND + "DIFF/1, IC=1, FUNCTION=50*(COS(TIME)-DIF(1))\nEND\n"
+    found = done(deck, 10.0, 10, integrator=method, error=1e-6)
+    t = found.time
+    exact = (2500 * np.cos(t) + 50 * np.sin(t) + np.exp(-50 * t)) / 2501
+    np.testing.assert_allclose(found["DIFF/1"], exact, atol=1e-4)
