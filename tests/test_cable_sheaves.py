@@ -68,6 +68,11 @@ def test_the_ratio_over_every_bar_is_that_of_euler_and_eytelwein(count: int, way
         assert ratio == pytest.approx(exp(-way * 2 * float(half)), rel=2e-6)
 
 
+def test_every_second_bar_of_a_staggered_row_turns_the_other_way() -> None:
+    """As the side on which the rope touches it says, too."""
+    assert deck(bars(4, "-0.01*TIME", "turn = -1"))[0] == deck(bars(4, "-0.01*TIME"))[0]
+
+
 def test_statements_of_a_hundred_stations_have_numbers_of_their_own() -> None:
     text, _ = deck(bars(120, "-0.01*TIME", end=0.01))
     assert not any(each.is_error for each in adamslite.check(adamslite.read(text)))

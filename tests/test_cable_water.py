@@ -1,10 +1,11 @@
 """Cables in water, on a bed and with bending, as `adamslite cable` writes them."""
 
+import re
 from math import pi, sqrt
 
 import numpy as np
 import pytest
-from descriptions import solve
+from descriptions import HOIST, solve
 
 from adamslite.cables.scene import deck
 
@@ -136,15 +137,29 @@ at = [10, 0, 0]
 """
 
 
-@pytest.mark.parametrize(("bending", "size"), [(10, "0.00032"), (1000, "0.032")])
+def head(spec: str) -> str:
+    """The comment at the top of the deck, in one line."""
+    return " ".join(deck(spec)[0].replace("! ", "").split())
+
+
+@pytest.mark.parametrize(("bending", "size"), [(10, "0.00032"), (1000, "0.032"), (1e5, "0.79")])
 def test_bending_is_kept_where_more_than_the_accuracy_is_lost_without_it(
     bending: float, size: str
 ) -> None:
-    """8 EI/(T l^2) of the sag of a span of 5 m: 1e-2 is asked for."""
-    text, _ = deck(TAUT.format(bending=bending))
-    words = " ".join(text.replace("! ", "").split())
+    """8 EI/(T l^2) (1 - 1/cosh(l/(2 b))) of the sag of a span of l = 5 m, b = sqrt(EI/T): 1e-2 is
+    asked for.
+    """
+    words = head(TAUT.format(bending=bending))
     assert f"without it its sag is {size} off" in words
-    assert ("bending kept" in words) == ("VFORCE/bend" in text) == (bending == 1000)
+    assert ("bending kept" in words) == ("VFORCE/bend" in words) == (bending > 10)
+
+
+def test_bending_counts_more_at_a_clamp_and_over_a_wheel() -> None:
+    """4 b/l = 4 sqrt(1e-3)/5 of the sag; EI/(2 T R^2) = 2000/(2 9810 0.5^2) of the tension."""
+    clamped = TAUT.format(bending=10).replace("[0, 0, 0]\n", "[0, 0, 0]\nclamped = [1, 0, 0]\n")
+    assert "without it its sag beside a clamp is 0.025 off" in head(clamped)
+    hoist = HOIST.replace("rho = 4", "rho = 4\nbending = 2000")
+    assert "without it tension over wheels is 0.41 off" in head(hoist)
 
 
 def test_bending_keeps_the_energy_of_a_cantilever() -> None:
@@ -175,3 +190,71 @@ def test_a_weight_bends_a_cantilever_to_the_elastica() -> None:
     run = solve(text.replace("elements = 20", "elements = 40").replace("error = 1e-9\n", ""))
     assert run["POINT_MASS/20.y"][-1] == pytest.approx(-0.30172, rel=2e-3)
     assert 1 - run["POINT_MASS/20.x"][-1] == pytest.approx(0.05643, rel=3e-3)
+
+
+#: A rope of 10 sections that hangs from a hook 2 m above the water or the ground.
+HANGING = """\
+end = 40
+error = 1e-8
+[cable]
+EA = 1e6
+rho = 2
+diameter = 0.04
+damping = 0.5
+{more}
+[[route]]
+kind = "fixed"
+at = [0, 2, 0]
+[[route]]
+kind = "{kind}"
+at = [{end}]
+[model]
+level = 2
+elements = 10
+"""
+
+
+def test_the_surface_crosses_a_section_that_stands_upright() -> None:
+    """The hook carries rho g l less rho_w A g of what is below, l a quarter of a section apart from
+    a node; the step of the share is 0.094 of a section off there.
+    """
+    level = 2 - 5.25
+    more = f"[water]\ndensity = 1000\nlevel = {level}"
+    run = solve(HANGING.format(more=more, kind="free", end="0, -8, 0"))
+    lifted = 1000 * pi / 4 * 0.04**2 * G
+    load = 2 * 10 * G - lifted * (10 - 5.25)
+    assert run["REQUEST/10.F3"][-1] == pytest.approx(-load, abs=0.11 * lifted)
+
+
+def test_the_half_section_at_a_hook_in_the_air_has_its_whole_weight() -> None:
+    more = "[water]\ndensity = 1000\nlevel = -90"
+    run = solve(HANGING.format(more=more, kind="free", end="0, -8, 0"))
+    assert run["REQUEST/10.F3"][-1] == pytest.approx(-2 * 10 * G, rel=1e-3)
+
+
+def test_a_cable_that_is_too_short_starts_with_its_tension() -> None:
+    """EA (10/9.99 - 1) = 1001 N at every point, without weight; its waves are those of it."""
+    text = HANGING.format(more="length = 9.99", kind="fixed", end="10, 2, 0")
+    text = text.replace("end = 40", "end = 0.1\ngravity = [0, 0, 0]")
+    assert "at 1001 N" in head(text)
+    run = solve(text)
+    assert run["REQUEST/1.F2"] == pytest.approx(1e6 * (10 / 9.99 - 1), rel=1e-6)
+
+
+def test_a_cable_that_hangs_through_starts_on_the_ground() -> None:
+    """14 m between points 10 m apart, the ground 3 m below them: no node starts below it."""
+    more = "length = 14\n[bed]\nlevel = -1\nstiffness = 1e4"
+    text, _ = deck(HANGING.format(more=more, kind="fixed", end="10, 2, 0"))
+    heights = [float(y) for y in re.findall(r"POINT_MASS/\d+.*QG=[^,]+,([^,]+),", text)]
+    assert len(heights) == 9
+    assert min(heights) == pytest.approx(-1 + 0.02, abs=1e-9)
+
+
+def test_bending_damps_a_cantilever_at_its_clamp_too() -> None:
+    """x" + w^2 c x' + w^2 x = 0 falls by exp(-w^2 c t/2), with w = 1.8751^2 sqrt(EI/(rho l^4))."""
+    damping, w = 2e-3, 1.8751041**2 * sqrt(10 / 0.5)
+    run = solve(CANTILEVER.format(end=3, gravity=-0.1, damping=damping))
+    y = run["POINT_MASS/20.y"] + 0.5 * 0.1 / 80
+    peaks = np.flatnonzero((y[1:-1] > y[:-2]) & (y[1:-1] > y[2:])) + 1
+    rates = np.diff(np.log(y[peaks])) / np.diff(run.time[peaks])
+    assert np.mean(rates) == pytest.approx(-(w**2) * damping / 2, rel=0.03)

@@ -28,6 +28,20 @@ def test_a_motor_has_the_torque_of_its_characteristic(most: float) -> None:
     assert found["VARIABLE/S_10"] == pytest.approx(a * found.time**2 / 2, rel=1e-5, abs=1e-6)
 
 
+def test_a_motor_loses_torque_with_its_speed() -> None:
+    """Two points of a characteristic, M0 (1 - w/w0), are a straight line: with v = w R
+
+    m v' = M g - M0/R (1 - v/(R w0)),  v = (M g - M0/R)/(m k) (exp(k t) - 1),  k = M0/(m R^2 w0)
+    """
+    full, fastest = 4500.0, 200.0
+    drive = f'torque = "6000"\nmotor = {{ curve = [[0, {full}], [{fastest}, 0]] }}'
+    found = run(RIGID.replace(PAYOUT, drive))
+    m, t = 1000 + 25 / 0.5**2, found.time
+    k = full / (m * 0.5**2 * fastest)
+    v = (1000 * G - full / 0.5) / (m * k) * np.expm1(k * t)
+    assert found["VARIABLE/SD_10"] == pytest.approx(v, rel=1e-5, abs=1e-6)
+
+
 def test_a_brake_holds_without_creeping() -> None:
     """Twice the torque of the load: displaced by half a tenth of a millimetre, and still."""
     drive = f'torque = "0"\nbrake = {{ torque = {2 * 1000 * G * 0.5}, applied = "1" }}'
