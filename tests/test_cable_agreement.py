@@ -147,6 +147,24 @@ def test_an_edited_number_is_one_of_the_description(what: str) -> None:
     assert advice(head + END + below.replace(statement, new)) == own_choice(edited)
 
 
+def test_an_edited_weight_or_rope_starts_out_of_balance() -> None:
+    """The rope is as long as before: half the EA has half the tension, and the weight falls; half
+    the weight leaves the tension, and the weight jumps."""
+    written = deck(HOIST)[0]
+    pull = 900 * 9.81  # at the weight
+    for statement, new, tension, mass in (
+        ("FUNCTION=10000000", "FUNCTION=5.0E+06", pull / 2, 900),
+        ("MASS=902.49774578", "MASS=452.49774578", pull, 450),
+    ):
+        found = by_description(adamslite.read(written.replace(statement, new)))
+        assert found is not None
+        (choice, *_) = found.choices([], 4.0, 200)
+        (at_start, *_) = choice.demand.machines
+        assert at_start.rests.min() == pytest.approx(tension)
+        assert found.drawn.spec.route[1].mass == pytest.approx(mass)
+        assert choice.model.elements > 20  # eight where it starts at rest
+
+
 def test_settings_and_layout_are_no_contradiction() -> None:
     """Another integrator, more results, other comments, upper case and the canonical layout."""
     written, given = deck(HOIST)[0], drawn(HOIST).given

@@ -1,21 +1,24 @@
 """Whether the statements of a deck are those of the description that it carries.
 
 They are written again by the model that stands beside the description and compared, token by token,
-without comments, results and the settings of the run.  Where only numbers differ that also stand in
-the description, these are edited there too: the statements then are those of the edited one, or
-the deck is taken as if it had none.
+without comments, results and the settings of the run.  Where only numbers differ, a number of the
+description is edited, too, such that the statements are those of the edited description: all of
+them, or all but the state at the start, in which the cable is as strained as before.  Else the deck
+is taken as if it had no description.
 """
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from itertools import chain
+from math import isclose
 from typing import NamedTuple
 
 from adamslite.cables.brute_force_layout import Overstretched
 from adamslite.cables.deck_writer import write
 from adamslite.cables.demand import Demand
 from adamslite.cables.description import Carried, Model, below, carried, comments
-from adamslite.cables.model_choice import CableModel, Reasons
+from adamslite.cables.model_choice import CableModel, Reasons, tensions
 from adamslite.cables.scene import Drawn, chosen, drawn
 from adamslite.cables.vocabulary import Spec
 from adamslite.language.diagnostics import DeckError
@@ -30,6 +33,8 @@ PASSIVE = frozenset(
 MOST_EDITS, MOST_TOKENS = 4, 30_000
 # Of a number: what its text in a deck leaves out.
 ROUND_OFF = 1e-9
+# Of lengths, masses and places: what tensions at the start make of them; what is none [m, kg].
+STATE, NOTHING = 0.01, 1e-6
 # Numbers of a description, its comments aside.
 NUMBER = re.compile(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?![\w.])|(#[^\n]*)")
 
@@ -116,19 +121,33 @@ def _token(kind: str, text: str) -> Token:
 
 def _fitted(found: Carried, deck: str, title: str) -> Drawn | None:
     """The description, edited where the deck was."""
-    of, written = _written(found.text, found.model)
-    if written and deck.endswith(below(written)):  # as most are: nobody has edited it
-        return of
-    text, edits, wanted = found.text, 0, tokens(deck, title)
-    differing = _differing(of, written, wanted) if of else None
-    while differing and edits < MOST_EDITS:
-        text, of, differing = _nearer(text, found.model, wanted, differing)
+    first, written = _written(found.text, found.model)
+    if first is None or deck.endswith(below(written)):  # as most are: nobody has edited it
+        return first
+    start, wanted = tokens(written, first.spec.title), tokens(deck, title)
+    if not _alike(start, wanted):
+        return None
+    now: _Edited | None = _Edited(_with_gravity(found.text), first, start)
+    edits = 0
+    while now and (left := _unexplained(start, now.statements, wanted)):
         edits += 1
-    return of if differing == set() else None
+        many = edits > MOST_EDITS or sum(map(len, wanted)) > MOST_TOKENS
+        now = None if many else _nearer(now, found.model, start, wanted, left)
+    if now is None or now.statements == wanted:
+        return now and replace(now.of, text=found.text if now.of is first else now.text)
+    return _started(now.of, first) if _is_near(now.statements, wanted) else None
 
 
-Pairs = set[tuple[float, float]]
-"""Numbers as written, and as they stand in a deck."""
+class _Edited(NamedTuple):
+    """A description, what it says, and its statements."""
+
+    text: str
+    of: Drawn
+    statements: Tokens
+
+
+Pairs = dict[tuple[float, float], None]
+"""Numbers as written and as they stand in a deck, in their order there."""
 
 
 def _written(text: str, model: Model) -> tuple[Drawn | None, str]:
@@ -141,39 +160,69 @@ def _written(text: str, model: Model) -> tuple[Drawn | None, str]:
         return None, ""
 
 
-def _differing(of: Drawn, written: str, wanted: Tokens) -> Pairs | None:
-    """The numbers that differ; None where more does."""
-    own = tokens(written, of.spec.title)
-    if [*map(len, own)] != [*map(len, wanted)]:
-        return None
-    pairs = set()
-    for mine, theirs in zip(own, wanted, strict=True):
-        for a, b in zip(mine, theirs, strict=True):
-            if a != b:
-                if not isinstance(a, float) or not isinstance(b, float):
-                    return None
-                pairs.add((a, b))
-    return pairs
+def _alike(one: Tokens, other: Tokens) -> bool:
+    """Whether two decks differ in numbers alone."""
+    return [*map(len, one)] == [*map(len, other)] and all(
+        a == b or (isinstance(a, float) and isinstance(b, float)) for a, b in _both(one, other)
+    )
+
+
+def _both(one: Tokens, other: Tokens) -> Iterator[tuple[Token, Token]]:
+    return zip(chain.from_iterable(one), chain.from_iterable(other), strict=True)
+
+
+def _unexplained(start: Tokens, now: Tokens, wanted: Tokens) -> Pairs:
+    """Numbers that were edited in the deck otherwise than in the description."""
+    three = zip(*map(chain.from_iterable, (start, now, wanted)), strict=True)
+    return {(b, c): None for a, b, c in three if c not in (a, b)}  # type: ignore[misc]
+
+
+def _is_near(now: Tokens, wanted: Tokens) -> bool:
+    """Whether what has stayed as it was is a matter of the state in which the cable starts."""
+    return all(
+        a == b or isclose(float(a), float(b), rel_tol=STATE, abs_tol=NOTHING)
+        for a, b in _both(now, wanted)
+    )
+
+
+def _started(of: Drawn, first: Drawn) -> Drawn:
+    """A description whose cable starts as strained as that of another one."""
+    pulls = tensions(first.spec, first.pieces)
+    return of.strained([pull / first.spec.cable.stiffness for pull in pulls])
+
+
+def _with_gravity(text: str) -> str:
+    """A description that says what gravity is."""
+    known = re.search(r"(?m)^\s*gravity\s*=", text)
+    return text if known else f"gravity = [0.0, -9.81, 0.0]\n{text}"
 
 
 def _nearer(
-    text: str, model: Model, wanted: Tokens, differing: Pairs
-) -> tuple[str, Drawn | None, Pairs | None]:
-    """The description with one number edited that leaves fewer to differ."""
-    if sum(map(len, wanted)) <= MOST_TOKENS:
-        for edited in _edited(text, differing):
-            of, written = _written(edited, model)
-            left = _differing(of, written, wanted) if of else None
-            if left is not None and len(left) < len(differing):
-                return edited, of, left
-    return text, None, None
+    now: _Edited, model: Model, start: Tokens, wanted: Tokens, left: Pairs
+) -> _Edited | None:
+    """The description with one number edited that explains more of the deck."""
+    for text in _edited(now.text, *next(iter(left))):
+        of, written = _written(text, model)
+        found = tokens(written, of.spec.title) if of else []
+        if of and _alike(found, wanted) and len(_unexplained(start, found, wanted)) < len(left):
+            return _Edited(text, of, found)
+    return None
 
 
-def _edited(text: str, differing: Pairs) -> Iterator[str]:
-    """The description with a number that differs replaced, at each place where it stands."""
-    for place in NUMBER.finditer(text):
-        if place[1] is None:
-            for a, b in differing:
-                if abs(float(place[0]) - a) <= ROUND_OFF * abs(a):
-                    number = f"{b:.0f}" if place[0].isdigit() and b == int(b) else repr(b)
-                    yield text[: place.start()] + number + text[place.end() :]
+def _edited(text: str, written: float, wanted: float) -> Iterator[str]:
+    """The description with another number, at each place: the one that stands in the deck, or one
+    that is as much larger, or by the same factor."""
+    changes: list[Callable[[float], float]] = [
+        lambda x: wanted if isclose(x, written, rel_tol=ROUND_OFF) else x,
+        lambda x: x + wanted - written,
+        lambda x: x * wanted / written if written else x,
+    ]
+    places = [place for place in NUMBER.finditer(text) if place[1] is None]
+    for change in changes:
+        for place in places:
+            before = float(place[0])
+            after = float(f"{change(before):.10g}")
+            if after != before:
+                whole = place[0].isdigit() and after == int(after)
+                number = f"{after:.0f}" if whole else repr(after)
+                yield text[: place.start()] + number + text[place.end() :]

@@ -197,7 +197,7 @@ def _machines(
     spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws
 ) -> tuple[Machine, ...]:
     """The linear model as it starts and, where payout changes its lengths, at their extremes."""
-    rests = tensions(spec, spans)
+    rests = [e * spec.cable.stiffness for e in spec.strains] or tensions(spec, spans)
     shapes = [spans]
     for extreme in ("least", "most"):
         grown = list(spans)

@@ -67,6 +67,11 @@ class Drawn:
         )
         return replace(self, given=given, spec=spec)
 
+    def strained(self, strains: list[float]) -> "Drawn":
+        """With strains of its spans as drawn, which are not those of its tensions at rest."""
+        given, spec = (replace(each, strains=tuple(strains)) for each in (self.given, self.spec))
+        return replace(self, given=given, spec=spec)
+
     def demanding(self, demand: Demand | None = None) -> "Setting":
         """With its linear model, or the demand that is known already."""
         of = demand or demand_of(self.spec, self.pieces, self.moves, self.prescribed)

@@ -127,7 +127,10 @@ class Station:
 
 @dataclass(frozen=True)
 class Spec:
-    """All of it; `elements`, `level` and `error` are 0 for "auto", `form` is "auto" then."""
+    """All of it; `elements`, `level` and `error` are 0 for "auto", `form` is "auto" then.
+
+    `strains` are those of the spans as drawn, where they are not those of the tensions at rest.
+    """
 
     title: str
     gravity: Vector
@@ -147,6 +150,7 @@ class Spec:
     statics: bool = False
     water: Water | None = None
     bed: Bed | None = None
+    strains: tuple[float, ...] = ()
     pairs: tuple[tuple[int, int], ...] = field(init=False)
 
     def __post_init__(self) -> None:
