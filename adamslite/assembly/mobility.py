@@ -16,10 +16,11 @@ import numpy as np
 
 from adamslite.assembly.closing import OPEN, close
 from adamslite.assembly.rank import RANK, unit_rows
-from adamslite.assembly.rows import gradient
+from adamslite.assembly.rows import gradient, values
 from adamslite.assembly.scope import WIDTH, Posture
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
+from adamslite.language.expression import Num
 from adamslite.model.model import POINT, Model
 from adamslite.model.scaling import coordinate_weights, turned
 
@@ -28,7 +29,7 @@ MOST_BODIES = 60
 #: Elements of a motion below this are none.
 STILL = 1e-7
 NEARBY, STEP = 2, 0.2
-LASTING = ("COUPLER", "GEAR", "JOINT", "JPRIM")
+LASTING = ("COUPLER", "GEAR", "JOINT", "JPRIM", "MOTION")
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,7 @@ class Mobility:
     posture: Posture
     motions: np.ndarray
     weights: np.ndarray
+    held: tuple[Constraint, ...] = ()
 
     def mass(self, bodies: Sequence[int]) -> np.ndarray:
         """M of these bodies over all coordinates, (6 n, 6 n), in ground axes."""
@@ -75,7 +77,7 @@ def mobilities(deck: Deck) -> tuple[Mobility, ...]:
     model = Model(deck)
     if not 0 < len(model.bodies) <= MOST_BODIES or any(b.width == POINT for b in model.bodies):
         return ()
-    held = [each for each in model.constraints if each.keyword != "MOTION"]
+    held = [each for each in model.constraints if each.keyword != "MOTION" or _stands(model, each)]
     if any(each.keyword not in LASTING or each.is_rate(model) for each in held):
         return ()
     closing = close(model, held, Posture.start(model), OPEN)
@@ -89,7 +91,8 @@ def _found(model: Model, held: list[Constraint], posture: Posture) -> Iterator[M
     weights = coordinate_weights(model).ravel()
     size = max(1e-30, float(np.ptp(posture.x, axis=0).max(initial=0.0)), float(weights.max()) / 10)
     for _ in range(1 + NEARBY):
-        found = Mobility(model, posture, _motions(model, held, posture, weights), weights)
+        motions = _motions(model, held, posture, weights)
+        found = Mobility(model, posture, motions, weights, tuple(held))
         yield found
         free = found.motions.shape[1]
         if not free:
@@ -116,6 +119,31 @@ def _motions(
     full[: len(rows)] = rows
     _, sizes, motions = np.linalg.svd(full)
     return motions[sizes <= RANK].T / weights[:, None]
+
+
+def _stands(model: Model, motion: Constraint) -> bool:
+    """Whether a MOTION holds a joint where it is drawn."""
+    if motion.is_rate(model) or not isinstance(motion.function, Num):  # type: ignore[attr-defined]
+        return False
+    off = values(model, Posture.start(model), motion)
+    return bool(np.abs(off).max() <= STILL)
+
+
+def motions_without(mobility: Mobility, body: int) -> np.ndarray:
+    """The motions of the other bodies when one is taken away with all that holds it."""
+    from adamslite.model.net_force import ends
+
+    model = mobility.model
+    kept = [
+        each for each in mobility.held
+        if body not in [model.marker(key).body for key in ends(model.deck, each) if key]
+    ]  # fmt: skip
+    motions = _motions(model, kept, mobility.posture, mobility.weights)
+    at = slice(WIDTH * body, WIDTH * body + WIDTH)
+    others = motions.copy()
+    others[at] = 0.0
+    left, sizes, _ = np.linalg.svd(others * mobility.weights[:, None], full_matrices=False)
+    return left[:, sizes > STILL] / mobility.weights[:, None]
 
 
 def is_rigid(drawn: Mobility, inside: Sequence[Constraint], group: Sequence[int]) -> bool:

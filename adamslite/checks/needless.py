@@ -7,46 +7,35 @@ can show is not claimed: whether bodies touch, or how large a force grows.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from adamslite.checks.lints import run_end
+from adamslite.checks.mobile import looked_at, places_of, size_of
 from adamslite.checks.rule import Rule
+from adamslite.checks.stiff import stiff_elements
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_all
-from adamslite.elements.bushing import Bushing
 from adamslite.elements.joint import Joint
 from adamslite.elements.jprim import Jprim
-from adamslite.elements.part import Part
+from adamslite.elements.motion import Motion
 from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.expression import Num
 
 if TYPE_CHECKING:
     from adamslite.assembly.mobility import Mobility
     from adamslite.language.interfaces import Key
 
-# Of the inertia of a motion; vibrations within a run; what gives way, of the size of the model.
-LIGHT, VIBRATIONS, SMALL = 1e-3, 1e3, 1e-3
+# Of the inertia of a motion; of a size.
+LIGHT, NOTHING = 1e-3, 1e-9
+#: Joints at whose markers the parts stay together.
+HINGES = ("CONVEL", "HOOKE", "REVOLUTE", "SPHERICAL", "UNIVERSAL")
+STILL = 1e-7
 PLANES = ("y-z", "x-z", "x-y")
-
-
-def _looked_at(deck: Deck) -> tuple[Mobility, ...]:
-    """What the constraints allow, of decks that run."""
-    if not run_end(deck) or len(deck.of(Part)) < 2 or deck.user.called:
-        return ()
-    if not any(map(deck.of, ("JOINT", "BUSHING"))):
-        return ()
-    import numpy as np
-
-    from adamslite.assembly.mobility import mobilities
-
-    with np.errstate(all="ignore"):
-        found = mobilities(deck)
-    return found if all(np.isfinite(each.motions).all() for each in found) else ()
 
 
 def one_body(deck: Deck) -> Iterator[Diagnostic]:
     """Parts that never move against each other and are not one body in a run anyway."""
-    found = _looked_at(deck)
+    found = looked_at(deck)
     if not found or not deck.of(Joint):
         return
     from adamslite.assembly.mobility import is_rigid
@@ -72,7 +61,7 @@ def one_body(deck: Deck) -> Iterator[Diagnostic]:
         inside = [
             j
             for j in model.constraints
-            if isinstance(j, (Joint, Jprim)) and _joins(deck, j, owners)
+            if isinstance(j, (Joint, Jprim, Motion)) and _joins(deck, j, owners)
         ]
         if not is_rigid(found[0], inside, group):
             continue
@@ -86,8 +75,12 @@ def one_body(deck: Deck) -> Iterator[Diagnostic]:
         )
 
 
-def _joins(deck: Deck, joint: Joint | Jprim, owners: set[tuple[str, Key]]) -> bool:
-    found = [deck.find("MARKER", key).owner for key in (joint.i, joint.j)]
+def _joins(deck: Deck, joint: Joint | Jprim | Motion, owners: set[tuple[str, Key]]) -> bool:
+    from adamslite.model.net_force import ends
+
+    if isinstance(joint, Motion) and not isinstance(joint.function, Num):
+        return False
+    found = [deck.find("MARKER", key or 0).owner for key in ends(deck, joint)]
     ground = [bool(getattr(deck.find(*owner), "ground", False)) for owner in found]
     return all(g or owner in owners for g, owner in zip(ground, found, strict=True))
 
@@ -99,7 +92,7 @@ def _listed(labels: list[str]) -> str:
 
 def planar_motion(deck: Deck) -> Iterator[Diagnostic]:
     """Mechanisms whose joints allow motions in a plane alone."""
-    found = _looked_at(deck)
+    found = looked_at(deck)
     if not found or not found[0].motions.shape[1]:
         return
     import numpy as np
@@ -115,23 +108,51 @@ def planar_motion(deck: Deck) -> Iterator[Diagnostic]:
             parts = [body.statement for body in model.bodies]
             yield diagnose(
                 parts[0], "planar-motion", plane=plane, needless=len(columns),
-                unknowns=6 * len(parts),
+                unknowns=6 * len(parts), lost=_lost_across(found[0], normal),
             )  # fmt: skip
             return
+
+
+def _lost_across(mobility: Mobility, normal: int) -> str:
+    """What joints carry across the plane, in words: weight, and torques of forces that do not act
+    in one plane or turn bodies about other axes than their principal ones.
+    """
+    import numpy as np
+
+    model, posture = mobility.model, mobility.posture
+    mass, size = sum(body.mass for body in model.bodies), size_of(mobility)
+    weight = mass * abs(model.deck.gravity[normal])
+    skew = 0.0
+    for R, body in zip(posture.attitude, model.bodies, strict=True):
+        row = np.delete((R @ body.inertia @ R.T)[normal], normal)
+        skew = max(skew, float(np.abs(row).max()) / (mass * size) if mass * size > 0.0 else 0.0)
+    arm = float(np.ptp(np.array(places_of(mobility))[:, normal])) + skew
+    lost = []
+    if weight > NOTHING * mass * float(np.linalg.norm(model.deck.gravity)):
+        lost.append(f"{weight:.3g} of weight")
+    if arm > NOTHING * size:
+        lost.append(f"torques of about {arm:.2g} times the forces")
+    if not lost:
+        return (
+            "and nothing is lost without them; a run leaves them out where forces act in the "
+            "plane, too"
+        )
+    carried = " and ".join(lost)
+    return f"and the motion stays without them; lost is what joints carry across: {carried}"
 
 
 # ---- light links -------------------------------------------------------------------------------
 
 
 def light_links(deck: Deck) -> Iterator[Diagnostic]:
-    """Parts between two ball joints that have next to no inertia."""
-    found = _looked_at(deck) if len(deck.of(Joint)) > 1 else ()
+    """Parts between two hinges that have next to no inertia, and hold only a distance."""
+    found = looked_at(deck) if len(deck.of(Joint)) > 1 else ()
     for b, body in enumerate(found[0].model.bodies if found else ()):
         ends = _only_ends(deck, body.statement) if body.mass else None
         if ends is None:
             continue
         share = max(_share(each, b) for each in found)
-        if not share <= LIGHT:
+        if not share <= LIGHT or not all(_holds_a_distance(each, b, ends) for each in found):
             continue
         from adamslite.elements.bases.joint_coordinates import pose
 
@@ -144,7 +165,7 @@ def light_links(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def _only_ends(deck: Deck, part: Any) -> tuple[Key, Key] | None:
-    """The markers of the neighbours, where two ball joints are all that refers to a part."""
+    """The markers of the neighbours, where two hinges are all that refers to a part."""
     from adamslite.model.mergeable import referred
 
     own = {m.key for m in deck.of("MARKER") if m.owner == (part.keyword, part.key)}
@@ -154,7 +175,7 @@ def _only_ends(deck: Deck, part: Any) -> tuple[Key, Key] | None:
             continue
         names = set(referred(each))
         if names & {("MARKER", key) for key in own} or (part.keyword, part.key) in names:
-            if not (isinstance(each, Joint) and each.kind == "SPHERICAL" and deck.is_active(each)):
+            if not (isinstance(each, Joint) and each.kind in HINGES and deck.is_active(each)):
                 return None
             joints.append(each)
     asked = {key for each in deck.statements for keyword, key in referred(each)
@@ -163,6 +184,25 @@ def _only_ends(deck: Deck, part: Any) -> tuple[Key, Key] | None:
         return None
     first, second = (j.j if j.i in own else j.i for j in joints)
     return first, second
+
+
+def _holds_a_distance(mobility: Mobility, b: int, ends: tuple[Key, Key]) -> bool:
+    """Whether the other bodies move as they may when only the distance of two markers is kept."""
+    import numpy as np
+
+    from adamslite.assembly.mobility import motions_without
+    from adamslite.elements.bases.joint_coordinates import pose
+
+    model, N = mobility.model, mobility.motions
+    others = [6 * k + c for k in range(len(model.bodies)) for c in range(6) if k != b]
+    now = np.linalg.matrix_rank((N * mobility.weights[:, None])[others], STILL)
+    free = motions_without(mobility, b)
+    alone = replace(mobility, motions=free)
+    (x, _), (y, _) = (pose(model, marker) for marker in ends)
+    at = [model.marker(marker).body for marker in ends]
+    row = (x - y) @ (alone.carried(at[0], x) - alone.carried(at[1], y))[:3]
+    size = float(np.linalg.norm(x - y)) * float(np.abs(free).max(initial=0.0))
+    return bool(free.shape[1] - (np.abs(row).max(initial=0.0) > STILL * size) == now)
 
 
 def _share(mobility: Mobility, b: int) -> float:
@@ -193,67 +233,4 @@ def _share(mobility: Mobility, b: int) -> float:
     return float(np.linalg.eigvalsh(scale[:, None] * own * scale).max())
 
 
-# ---- stiff bushings ----------------------------------------------------------------------------
-
-
-def stiff_bushings(deck: Deck) -> Iterator[Diagnostic]:
-    """Bushings that vibrate very often within the run, and give way by very little."""
-    found = _looked_at(deck) if deck.of(Bushing) else ()
-    for bushing in deck.of(Bushing) if found else ():
-        kind = _kind(bushing)
-        if not kind or not deck.is_active(bushing) or any((*bushing.force, *bushing.torque)):
-            continue
-        frequency = _frequency(found[0], bushing, 3 if kind == "SPHERICAL" else 6)
-        model, count = found[0].model, frequency * run_end(deck)
-        weight = sum(b.mass for b in model.bodies) * sum(g * g for g in deck.gravity) ** 0.5
-        deflection = weight / min(bushing.k)  # some ten times that where it swings
-        size = max(float(abs(found[0].posture.x).max()), 1e-30)
-        small = 0.0 < 10.0 * deflection <= SMALL * size
-        if count >= VIBRATIONS and small and not _measured(deck, bushing):
-            yield diagnose(
-                bushing, "stiff-bushing", frequency=f"{frequency:.3g}", count=f"{count:.2g}",
-                kind=kind, deflection=f"{deflection:.2g}",
-            )  # fmt: skip
-
-
-def _kind(bushing: Bushing) -> str:
-    """The joint that a bushing is nearly."""
-    if not all(value > 0 for value in bushing.k):
-        return ""
-    if not any((*bushing.kt, *bushing.ct)):
-        return "SPHERICAL"
-    return "FIXED" if all(value > 0 for value in bushing.kt) else ""
-
-
-def _measured(deck: Deck, bushing: Bushing) -> bool:
-    from adamslite.model.mergeable import referred
-
-    own = ("BUSHING", bushing.key)
-    return any(own in set(referred(each)) for each in deck.statements)
-
-
-def _frequency(mobility: Mobility, bushing: Bushing, rows: int) -> float:
-    """The lowest of sqrt(eig(K W))/(2 pi) [1/time], W = B (N^T M N)^-1 B^T the mobility of I
-    against J along the axes of J.
-    """
-    import numpy as np
-
-    from adamslite.elements.bases.joint_coordinates import pose
-
-    model, N = mobility.model, mobility.motions
-    ends = [model.marker(key) for key in (bushing.i, bushing.j)]
-    place, axes = pose(model, bushing.j)
-    apart = mobility.carried(ends[0].body, place) - mobility.carried(ends[1].body, place)
-    B = np.concatenate([axes.T @ apart[:3], axes.T @ apart[3:]])[:rows]
-    M = N.T @ mobility.mass(range(len(model.bodies))) @ N
-    K = np.sqrt(np.array((*bushing.k, *bushing.kt))[:rows])
-    try:
-        W = B @ np.linalg.solve(M, B.T)
-    except np.linalg.LinAlgError:
-        return 0.0
-    squares = np.linalg.eigvalsh(K[:, None] * W * K)
-    moving = squares[squares > 1e-9 * squares.max(initial=0.0)]
-    return float(moving.min(initial=np.inf) ** 0.5 / (2 * pi)) if moving.size else 0.0
-
-
-NEEDLESS_RULES: list[Rule] = [one_body, planar_motion, light_links, stiff_bushings]
+NEEDLESS_RULES: list[Rule] = [one_body, planar_motion, light_links, stiff_elements]

@@ -16,6 +16,11 @@ MARKER/4, PART=4
 """
 RUN = "\nSIMULATE/DYNAMICS, END=1, STEPS=10"
 
+STIFF = (
+    "{joint} in its place needs no steps for these; lost is what it gives way: up to "
+    "{deflection}, ten times that under the loads known before the run"
+)
+
 NEEDLESS: dict[str, Message] = {
     "one-body": Message(
         "{listed} never move against each other",
@@ -32,8 +37,7 @@ NEEDLESS: dict[str, Message] = {
     ),
     "planar-motion": Message(
         "the joints let all parts move in the {plane} plane alone",
-        "{needless} of {unknowns} unknowns are not needed, and nothing is lost without them; a run "
-        "leaves them out where forces act in the plane, too",
+        "{needless} of {unknowns} unknowns are not needed, {lost}",
         (
             TWO + "JOINT/1, REVOLUTE, I=2, J=1\nJOINT/2, REVOLUTE, I=4, J=3\nMARKER/5, PART=1\n"
             "REQUEST/1, F1=AZ(4,5)" + RUN,
@@ -41,7 +45,7 @@ NEEDLESS: dict[str, Message] = {
         severity=NOTE,
     ),
     "light-link": Message(
-        "{label} between ball joints has at most {share} of the inertia of any motion",
+        "{label} between two joints has at most {share} of the inertia of any motion",
         "GCON/..., FUNCTION=DM({i},{j})-{length} does the same with one equation instead of six "
         "unknowns and six equations; lost are that share, and its weight ({weight} of all)",
         (
@@ -52,14 +56,24 @@ NEEDLESS: dict[str, Message] = {
         severity=NOTE,
     ),
     "stiff-bushing": Message(
-        "{label} vibrates at {frequency} Hz, {count} times within the run",
-        "JOINT/..., {kind} leaves that vibration out; lost is what it gives way: {deflection} "
-        "under the weight of all parts, ten times that in motion; larger forces are not known "
-        "before the run",
+        "{label} is nearly a joint: {frequency} Hz, {count} periods within the run",
+        STIFF,
         (
-            "title\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1, PART=1, QP=1,0,0\n"
-            "PART/2, MASS=1, CM=2, QG=1,0,0, IP=1,1,1\nMARKER/2, PART=2\n"
-            "BUSHING/1, I=2, J=1, K=1E9,1E9,1E9, KT=1E9,1E9,1E9" + RUN,
+            "title\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nPART/2, MASS=1, CM=2, QG=1,0,0, "
+            "IP=1,1,1\nMARKER/2, PART=2\nMARKER/3, PART=2, "
+            "QP=1,0,0\nMARKER/4, PART=1, QP=2,0,0\nBUSHING/1, I=3, J=4, K=1E9,1E9,1E9, "
+            "KT=1E9,1E9,1E9" + RUN,
+        ),
+        severity=NOTE,
+    ),
+    "stiff-spring": Message(
+        "{label} is nearly a rod: {frequency} Hz, {count} periods within the run",
+        STIFF,
+        (
+            "title\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1, PART=1\nMARKER/4, PART=1, "
+            "QP=1,1,0\nPART/2, MASS=1, CM=2, QG=1,0,0, IP=1,1,1\nMARKER/2, PART=2\nMARKER/3, "
+            "PART=2, QP=-1,0,0\nJOINT/1, SPHERICAL, I=3, J=1\nSPRINGDAMPER/1, I=2, J=4, K=1E9, "
+            "LENGTH=1" + RUN,
         ),
         severity=NOTE,
     ),
