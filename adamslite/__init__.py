@@ -42,6 +42,7 @@ _HOME = {
     "help": "api.tools",
     "html": "notebooks.html",
     "linearize": "api.runs",
+    "names": "api.numbers",
     "plot": "api.figures",
     "read": "reading.read",
     "read_commands": "reading.read",
@@ -49,6 +50,7 @@ _HOME = {
     "simulate": "api.runs",
     "verify": "api.tools",
     "view": "api.figures",
+    "with_values": "api.numbers",
 }
 
 __all__ = ["__version__", *_HOME]

@@ -50,14 +50,24 @@ def add_user_flag(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
+def add_values_flag(parser: argparse.ArgumentParser) -> None:
+    """Declare numbers to put into a deck."""
+    parser.add_argument(
+        "--set", dest="values", action="append", default=[], metavar="NAME=VALUE",
+        help="put another number into the deck: SPRINGDAMPER/1.K=90, or L_0=1.2 for a VARIABLE "
+        "that is one; may be repeated; `adamslite names` lists them",
+    )  # fmt: skip
+
+
 def add_deck(parser: argparse.ArgumentParser) -> None:
-    """Declare a deck, its command file, and what stands in for routines."""
+    """Declare a deck, its command file, what stands in for routines, and other numbers."""
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
     parser.add_argument(
         "commands", metavar="COMMANDS.acf", type=Path, nargs="?",
         help="command file; without it the .acf beside the deck",
     )  # fmt: skip
     add_user_flag(parser)
+    add_values_flag(parser)
 
 
 def add_run_flags(parser: argparse.ArgumentParser) -> None:
@@ -112,5 +122,7 @@ def parse_flags(words: Sequence[str]) -> dict[str, Any]:
     parser = _RaisingParser(add_help=False, allow_abbrev=False)
     add_run_flags(parser)
     add_user_flag(parser)
+    add_values_flag(parser)
     args = parser.parse_args(words)
-    return {**run_options(args), **({"user": tuple(args.user)} if args.user else {})}
+    given = {name: tuple(getattr(args, name)) for name in ("user", "values")}
+    return {**run_options(args), **{name: each for name, each in given.items() if each}}

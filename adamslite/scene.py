@@ -16,6 +16,7 @@ if TYPE_CHECKING:  # numpy is not needed to check a deck
     from adamslite.deck.user_bindings import Given
     from adamslite.results.results import Results
 
+    Values = Mapping[str, float] | Iterable[str]
     User = Mapping[str, Given] | Iterable[str] | None
 
 
@@ -65,11 +66,17 @@ class Scene:
         return str(self.deck_path)
 
 
-def load_scene(deck_path: Path, commands_path: Path | None = None, user: "User" = ()) -> Scene:
+def load_scene(
+    deck_path: Path,
+    commands_path: Path | None = None,
+    user: "User" = (),
+    values: "Values" = (),
+) -> Scene:
     """Read and check a deck and its command file, by default the `.acf` of its name beside it.
 
     What an earlier run has kept of the same files is taken instead. `user` is what is bound to
-    routines that are no part of them, as `read` takes it.
+    routines that are no part of them, `values` are numbers to put into the deck, as `read` takes
+    them.
 
     Raises
     ------
@@ -77,9 +84,9 @@ def load_scene(deck_path: Path, commands_path: Path | None = None, user: "User" 
         With everything that is wrong in the two files.
     """
     chosen = commands_path or command_file_beside(deck_path)
-    origin = None if user else origin_of(deck_path, chosen)
+    origin = None if user or values else origin_of(deck_path, chosen)
     kept = origin and find(origin)
-    read = kept or read_together(deck_path, chosen, user)
+    read = kept or read_together(deck_path, chosen, user, values)
     if origin and not kept:
         keep(origin, read)
     deck, commands, warnings = read
@@ -90,7 +97,10 @@ def load_scene(deck_path: Path, commands_path: Path | None = None, user: "User" 
 
 
 def read_together(
-    deck_source: str | Path, commands_source: str | Path | None, user: "User"
+    deck_source: str | Path,
+    commands_source: str | Path | None,
+    user: "User",
+    values: "Values" = (),
 ) -> tuple["Deck", "Commands", tuple[Diagnostic, ...]]:
     """A deck and its commands, files or texts, and everything to say about them.
 
@@ -106,7 +116,7 @@ def read_together(
 
     found: list[Diagnostic] = []
     try:
-        deck = adamslite.read(deck_source, user)
+        deck = adamslite.read(deck_source, user, values)
         found += adamslite.check(deck)
     except DeckError as fault:
         deck = fault.deck

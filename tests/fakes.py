@@ -111,7 +111,7 @@ def install(monkeypatch: pytest.MonkeyPatch, pipeline: Pipeline) -> None:
         return Commands([Named("SIMULATE")])
 
     fakes = {
-        "read": lambda path, user: FakeDeck(pipeline.statements),
+        "read": lambda path, user, values: FakeDeck(pipeline.statements),
         "check": lambda deck: pipeline.diagnostics,
         "simulate": pipeline.simulate,
         "linearize": pipeline.linearize,

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 import adamslite as al
-from adamslite.kernels import compile as compiling
+from adamslite.kernels import collecting as compiling
 
 DECKS = Path(__file__).parents[1] / "decks"
 SOME = [
@@ -55,14 +55,14 @@ def compiled(deck):
 
 
 def one_by_one(deck, monkeypatch):
-    together = compiling._add
+    together = compiling.add
 
     def each_by_itself(groups, model, face, statements):
         for each in statements:
             together(groups, model, face, [each])
 
     with monkeypatch.context() as change:
-        change.setattr(compiling, "_add", each_by_itself)
+        change.setattr(compiling, "add", each_by_itself)
         return compiled(deck)
 
 

@@ -33,6 +33,7 @@ kernels.code
 kernels
 checks
 reading
+variation
 cables
 integrators.linalg
 integrators

@@ -7,13 +7,21 @@ from collections.abc import Iterable, Sequence
 
 import adamslite
 from adamslite.api.contents import contents, counted
-from adamslite.api.inputs import CommandSource, User, need_subject, read_inputs, with_commands
+from adamslite.api.inputs import (
+    CommandSource,
+    User,
+    Values,
+    need_subject,
+    read_inputs,
+    with_commands,
+)
 from adamslite.checks import rules
 from adamslite.checks.runs import without_run
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.language.diagnostics import DeckError, Diagnostic, render
 from adamslite.language.messages.ignoring import without_ignored
+from adamslite.variation.decks import as_read
 
 
 class Check(list[Diagnostic]):
@@ -72,7 +80,10 @@ class Check(list[Diagnostic]):
 
 
 def check(
-    scene: Deck | str | os.PathLike[str], commands: CommandSource = None, user: User = None
+    scene: Deck | str | os.PathLike[str],
+    commands: CommandSource = None,
+    user: User = None,
+    values: Values = (),
 ) -> Check:
     """Everything to say about a deck: of a file or text errors too, and what it can do without;
     of a Deck warnings and notes.
@@ -83,12 +94,13 @@ def check(
         A file, the text of a deck (more than one line), or a deck that has been read.
     commands : str, Path, or iterable of str or of statements
         As for :func:`adamslite.simulate`; of a Deck nothing unless given.
-    user : mapping or iterable of str
-        As for :func:`adamslite.read`.
+    user, values
+        As for :func:`adamslite.read`, of a file or text.
     """
     if isinstance(scene, str | os.PathLike):
-        return _of_files(scene, commands, user)
+        return _of_files(scene, commands, user, values)
     need_subject(scene)
+    scene = as_read(scene)
     found = rules.check(scene)
     if commands is None:
         return Check(found, scene, (), _title(scene))
@@ -96,11 +108,13 @@ def check(
     return Check([*found, *given.messages], scene, given.commands, _title(scene))
 
 
-def _of_files(scene: str | os.PathLike[str], commands: CommandSource, user: User = None) -> Check:
+def _of_files(
+    scene: str | os.PathLike[str], commands: CommandSource, user: User, values: Values
+) -> Check:
     """Deck and command file as the command line checks them."""
     title = f"{scene}".partition("\n")[0]
     try:
-        read = read_inputs(scene, commands, user)
+        read = read_inputs(scene, commands, user, values)
     except DeckError as fault:
         return Check(fault.diagnostics, fault.deck, (), title)
     deck = read.deck

@@ -23,6 +23,7 @@ if TYPE_CHECKING:  # numpy is not needed to check a deck
 
 CommandSource: TypeAlias = str | os.PathLike[str] | Iterable[str] | Iterable[Command] | None
 """A command file, the text of one, its statements, or None: the file beside the deck."""
+Values: TypeAlias = Mapping[str, float] | Iterable[str]
 User: TypeAlias = Mapping[str, Given] | Iterable[str] | None
 FRAMES = 4
 """From :func:`_warn` up to the line of the caller of a public function."""
@@ -86,7 +87,9 @@ def need_subject(scene: object) -> None:
             raise UsageError(f"a deck is a path, a text, or what adamslite.read returns, no {kind}")
 
 
-def read_inputs(scene: str | os.PathLike[str], commands: CommandSource, user: User) -> ReadInputs:
+def read_inputs(
+    scene: str | os.PathLike[str], commands: CommandSource, user: User, values: Values = ()
+) -> ReadInputs:
     """Deck and commands as they are read, checked and reported by the command line."""
     if not str(scene).strip():
         raise UsageError("a deck is a path or a text, and this is empty")
@@ -95,8 +98,8 @@ def read_inputs(scene: str | os.PathLike[str], commands: CommandSource, user: Us
     if given is None and isinstance(source, Path):
         given = beside = command_file_beside(source)
     if given is None or isinstance(given, str | Path):
-        return ReadInputs(*read_together(source, given, user), beside)
-    deck, _, messages = read_together(source, None, user)
+        return ReadInputs(*read_together(source, given, user, values), beside)
+    deck, _, messages = read_together(source, None, user, values)
     return ReadInputs(deck, given, messages)
 
 

@@ -49,7 +49,7 @@ from adamslite.checks.posture import (
 )
 from adamslite.checks.requests import REQUEST_RULES
 from adamslite.checks.rule import Rule, apply
-from adamslite.checks.runs import RUN_RULES
+from adamslite.checks.runs import RUN_RULES, file_names
 from adamslite.checks.shapes import shapes
 from adamslite.checks.tables import TABLE_RULES
 from adamslite.deck.deck import Deck
@@ -109,6 +109,16 @@ RULES: list[Rule] = [
     changed_requests,
     passed_over,
 ]
+
+
+UNNUMBERED = (
+    a_ground, second_grounds, markers_of_bodies, owners, floating_alone, floating_use,
+    floating_unused, acts_on_flexible, reactions, distinct_ends, torques_on_points,
+    wrenches_on_points, file_names, passed_over,
+)  # fmt: skip
+"""Rules that look at no number."""
+VALUE_RULES = [rule for rule in RULES if rule not in UNNUMBERED]
+"""The others: those that a deck with other numbers may break."""
 
 
 ADVICE: list[Rule] = [

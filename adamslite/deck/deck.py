@@ -8,7 +8,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path, PureWindowsPath
@@ -79,6 +79,10 @@ class Deck:
         """What names all that it was read from, where what is made of it may be kept."""
         self.incomplete: set[str] = set()
         """Keywords of statements with mistakes, which are not among the statements."""
+        self.base: Deck | None = None
+        """The deck as it was read, where this one has other numbers."""
+        self.values: Mapping[str, float] = {}
+        """These numbers, by name."""
         self._of: dict[str, list[Statement]] = {}
         self._by_key: dict[tuple[str, Key], Statement] = {}
         self._enter(statements)
@@ -212,6 +216,23 @@ class Deck:
     def with_more(self, extra: Iterable[Statement]) -> Deck:
         """The deck with further statements."""
         return self._but(own=(*self.own, *extra))
+
+    def with_values(self, values: Mapping[str, float] | Iterable[str]) -> Deck:
+        """The deck with other numbers, ``{"SPRINGDAMPER/1.K": 90}``, as if its text had them.
+
+        Raises
+        ------
+        DeckError
+            With the mistakes that it then has.
+        UsageError
+            When there is no number of a name, or a value is no finite number.
+        """
+        made: Deck = adamslite.with_values(self, values)
+        return made
+
+    def with_statements(self, own: tuple[Statement, ...]) -> Deck:
+        """The deck with other statements in the places of its own."""
+        return self._but(own=own)
 
     def with_one(self, statement: Statement) -> Deck:
         """The deck with another statement of its text, in its place."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from adamslite.language.expression import MODE, TIME, Num
 from adamslite.language.spelling import spelled
+from adamslite.language.traced import WRITTEN, Traced
 
 if TYPE_CHECKING:
     from adamslite.language.expression import Node
@@ -63,8 +64,28 @@ class Names:
         return [*map(str, self.ids.get(kind, ())), *self.views.get(kind, ())]
 
 
+class Marked(str):
+    """The text of a number token that remembers where it is, and whether it was taken as a number
+    and not as an id.
+    """
+
+    __slots__ = ("at", "taken")
+    at: int
+    taken: bool
+
+    @classmethod
+    def of(cls, text: str, at: int) -> Marked:
+        """The text at an offset."""
+        made = cls(text)
+        made.at, made.taken = at, False
+        return made
+
+
 def to_number(text: str) -> float:
     """The value of a number token: exponents with E or D, a bare D at the end means degrees."""
+    if type(text) is Marked:
+        text.taken = True
+        return Traced(to_number(str(text)), (WRITTEN, text.at))
     try:
         return float(text)
     except ValueError:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 # Eliminations that are kept: of all unknowns, without redundant rows, in a plane.
 MOST_PLANS = 8
+# Times of stops that are kept.
+MOST_STOPS = 32
 
 
 class Derived(NamedTuple):
@@ -56,6 +58,7 @@ class Layout:
         self._plans: dict[tuple[int, ...], Planned] = {}
         self._integers: dict[int, np.ndarray] = {}
         self._derived: Derived | None = None
+        self._stops: dict[tuple[Any, ...], np.ndarray] = {}
 
     def derived(self, make: Callable[[], Derived]) -> Derived:
         """Blocks made of others."""
@@ -70,6 +73,16 @@ class Layout:
             found = make()
             if len(self._plans) < MOST_PLANS:
                 self._plans[without] = found
+        return found
+
+    def stops(self, of: tuple[Any, ...], make: Callable[[], np.ndarray]) -> np.ndarray:
+        """Times that expressions of time decide, by all that these are made of."""
+        found = self._stops.get(of)
+        if found is None:
+            found = make()
+            if len(self._stops) >= MOST_STOPS:
+                self._stops.pop(next(iter(self._stops)), None)
+            self._stops[of] = found
         return found
 
     def integers(self, group: int, make: Callable[[], np.ndarray]) -> np.ndarray:

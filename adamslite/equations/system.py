@@ -99,7 +99,7 @@ class System:
         self.kernels, self.model = kernels, kernels.model
         self.numbering = numbering = Numbering(kernels, stabilised)
         layout = kernels.layouts.get(stabilised) or Layout(numbering)
-        self.blocks = layout.blocks
+        self.layout, self.blocks = layout, layout.blocks
         self.instances = Instances(numbering, layout)
         self.elimination = Elimination(numbering, layout, pivoting)
         kernels.layouts[stabilised] = layout

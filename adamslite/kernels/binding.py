@@ -33,6 +33,7 @@ from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.language.function import PRODUCTS, find_function
 from adamslite.language.routines import USER
 from adamslite.language.statement import Statement
+from adamslite.language.traced import Traced, traced, untraced
 from adamslite.model.model import folded
 from adamslite.model.past import past_of
 from adamslite.symbolic.interpolant import Interpolant
@@ -84,6 +85,10 @@ class Binder:
         }  # fmt: skip
         """Ids of variables that are written out, and their numbers; by ``takes_rates``."""
         self.parts: list[Tree] = []
+        self.settled: list[Traced] = []
+        """Traced numbers that have become part of the shape."""
+        self.deriving: list[Statement] = []
+        """Statements of which more is seen than their arguments."""
 
     @property
     def instance(self) -> Binding:
@@ -114,6 +119,7 @@ class Binder:
 
     def number(self, values: Sequence[float]) -> Tree:
         if same([value == 0.0 for value in values]):
+            self.settled += traced(values)
             return ("c", 0.0)
         self.columns.params.append(values)
         return ("p", len(self.columns.params) - 1)
@@ -136,12 +142,13 @@ class Binder:
 
     def _further(self, statements: Sequence[Statement]) -> list[tuple[str, Tree]]:
         """What statements derive."""
+        self.deriving += statements
         found = [statement.derived(self.model) for statement in statements]
         names = same([(*each,) for each in found])
         return [(name, self._derived([each[name] for each in found])) for name in names]
 
     def _derived(self, values: Sequence[Any]) -> Tree:
-        kind = same([*map(type, values)])
+        kind = same([*map(type, untraced(values))])
         if kind is type(None) or issubclass(kind, str):
             return ("c", same(values))
         if issubclass(kind, tuple):
@@ -217,6 +224,7 @@ class Binder:
             found = [folded(op, each) for each in zip(*values, strict=True)]
             return self.number(found), found
         if op == "**" and values[1] is not None:
+            self.settled += traced(values[1])
             if trees[1][0] == "p":
                 params.pop()
             trees = (trees[0], ("c", same(values[1])))
@@ -274,12 +282,14 @@ class Binder:
         if made_of is Ref:
             return self.reference(nodes)
         if made_of is Num and kind == "constant":
+            self.settled += traced([node.value for node in nodes])
             return ("c", same([int(node.value) for node in nodes]))
         return self._exponent(nodes) if kind == "exponent" else self.expression(nodes)
 
     def _exponent(self, nodes: Sequence[Node]) -> Tree:
         """An exponent: part of the shape where it needs no power."""
         tree, values = self._bound(nodes)
+        self.settled += traced(values or ())
         if values is None or not same([value in PRODUCTS for value in values]):
             return tree
         self.columns.params.pop()

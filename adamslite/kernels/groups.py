@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
+import adamslite
 from adamslite.native import compiler
 
 if TYPE_CHECKING:  # kernels that are kept between runs were written earlier
@@ -60,6 +61,12 @@ class Instances(Sequence[tuple["Statement", Binding]]):
         self.statements = statements
         self.columns = Binding(*([*map(compact, found)] for found in columns.fields()))
 
+    def but(self, statements: Sequence[Statement], columns: Binding) -> Instances:
+        """The same instances with other statements and columns, which are compact."""
+        made = Instances.__new__(Instances)
+        made.statements, made.columns = statements, columns
+        return made
+
     def __len__(self) -> int:
         return len(self.statements)
 
@@ -77,7 +84,7 @@ def compact(column: Sequence[Any]) -> Sequence[Any]:
 
 
 class Writer(Protocol):
-    """What writes the kernels of a shape, :class:`adamslite.kernels.compile.FaceWriter`."""
+    """What writes the kernels of a shape, :class:`adamslite.kernels.face_writer.FaceWriter`."""
 
     binder: Any
 
@@ -148,6 +155,21 @@ class Kernels:
     columns: tuple[str, ...] | None = None
     layouts: dict[bool, Any] = field(default_factory=dict, compare=False, repr=False)
     """What equations share that are made of these kernels, by their formulation."""
+    refill: Any = field(default=None, compare=False, repr=False)
+    """What puts other numbers into these kernels, once it has been asked for."""
+
+    def with_values(self, values: Mapping[str, float] | Iterable[str]) -> Kernels:
+        """Kernels of the deck with other numbers, ``{"SPRINGDAMPER/1.K": 90}``.
+
+        Raises
+        ------
+        DeckError
+            With the mistakes that the deck then has.
+        UsageError
+            When there is no number of a name, or a value is no finite number.
+        """
+        made: Kernels = adamslite.with_values(self, values)
+        return made
 
 
 def linked(groups: list[ShapeGroup]) -> dict[str, int]:

@@ -7,11 +7,12 @@ Nodes are immutable, hashable and compare by content.
 
 from __future__ import annotations
 
-import math
 import operator
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
+
+from adamslite.language.traced import power
 
 NEGATE = "neg"
 
@@ -29,7 +30,7 @@ OPERATORS = {
     NEGATE: Operator(1, operator.neg),
     "*": Operator(2, operator.mul),
     "/": Operator(2, operator.truediv),
-    "**": Operator(3, math.pow),
+    "**": Operator(3, power),
 }
 
 
@@ -146,9 +147,10 @@ def rebuild(node: Node, change: Callable[[Node], Node]) -> Node:
 def operate(op: str, values: Sequence[float]) -> float | None:
     """The value of an operation on numbers; None where it has none (1/0, the root of -1)."""
     try:
-        return float(OPERATORS[op].function(*values))
+        value = OPERATORS[op].function(*values)
     except (ArithmeticError, ValueError):
         return None
+    return value if isinstance(value, float) else float(value)
 
 
 def fold(node: Node) -> float | None:

@@ -30,11 +30,17 @@ from adamslite.language.messages.ignoring import judged, without_ignored
 from adamslite.language.statement import Statement
 from adamslite.language.text import decoded, text_of
 from adamslite.reading.half_read import further_mistakes
+from adamslite.reading.numbers import Given as Values
+from adamslite.reading.numbers import edited
 from adamslite.reading.statement_reader import Reading
-from adamslite.reading.user_routines import RoutineBinder
+from adamslite.reading.unjudged import bound, unjudged
 
 
-def read(source: str | Path, user: Mapping[str, Given] | Iterable[str] | None = None) -> Deck:
+def read(
+    source: str | Path,
+    user: Mapping[str, Given] | Iterable[str] | None = None,
+    values: Values = (),
+) -> Deck:
     """Read a deck.
 
     Parameters
@@ -44,6 +50,9 @@ def read(source: str | Path, user: Mapping[str, Given] | Iterable[str] | None = 
     user : mapping or list of str
         What is bound to routines that are no part of the deck: ``{"VARIABLE/1": 0.0}``, or texts
         ``"VARIABLE/1=0"``; see :mod:`adamslite.deck.user_bindings`.
+    values : mapping or list of str
+        Numbers to put into the text: ``{"SPRINGDAMPER/1.K": 90}``, or ``"SPRINGDAMPER/1.K=90"``;
+        see :mod:`adamslite.reading.numbers`.
 
     Returns
     -------
@@ -57,22 +66,21 @@ def read(source: str | Path, user: Mapping[str, Given] | Iterable[str] | None = 
         With every mistake of the deck.
     OSError
         When the file cannot be read.
+    UsageError
+        When there is no number of a name in ``values``.
     """
 
     given = bindings(user)
     text, path = _load(source)
+    if values:
+        text = edited(Source(text, str(path or "<text>")), path, values, given)
     return read_by(Reading(Source(text, str(path or "<text>")), Names(), "deck"), path, given)
 
 
 def read_by(reading: Reading, path: Path | None, given: Bindings) -> Deck:
     """The deck that a reading yields; parameters and errors as for :func:`read`."""
-    title, start = reading.title()
     with without_collection():
-        read = reading.statements(start)
-        read = _bound(read, reading, given)
-        statements = tuple(each for each in read if isinstance(each, Statement))  # all of them
-        deck = Deck(reading.log.source, title, statements, reading.names, path)
-        deck.user = given
+        deck = unjudged(reading, path, given)
         deck.warnings = _judged(deck, reading, RULES, deck)
     return deck
 
@@ -91,7 +99,7 @@ def commands_of(source: Source, deck: Deck, path: Path | None = None) -> Command
     """The commands of a text; see :func:`read_commands`."""
     reading = Reading(source, deck.names, "command", deck)
     read = reading.statements(reading.names_on_top())
-    commands = Commands(_bound(read, reading, deck.user, deck))
+    commands = Commands(bound(read, reading, deck.user, deck))
     plain = tuple(each for each in commands if isinstance(each, Statement))
     run = Deck(reading.log.source, "", plain, deck.names, path)
     reading.log.diagnostics += [
@@ -106,19 +114,6 @@ def commands_of(source: Source, deck: Deck, path: Path | None = None) -> Command
     commands.source = reading.log.source
     commands.prefix = [reading.prefix, *filter(is_file_name, named)][-1]
     commands.warnings = tuple(judged(run.source, found, complete=True))
-    return commands
-
-
-def _bound(
-    commands: tuple[Command, ...], reading: Reading, given: Bindings, deck: Deck | None = None
-) -> tuple[Command, ...]:
-    """The statements with routines of the user bound; reading passes over decks without any."""
-    if not (reading.resolver.calls_user or given.statements):
-        return commands
-    binder = RoutineBinder(reading.resolver, given, deck)
-    commands = binder.commands(commands)
-    for each in binder.diagnostics:
-        reading.log.take(each)
     return commands
 
 

@@ -113,7 +113,7 @@ def solve_quietly(
 ) -> Results:
     """Read, check and simulate a deck; unlike `solve`, an interruption is not a result."""
     given = dict(options)
-    scene = load_scene(deck, user=given.pop("user", ()))
+    scene = load_scene(deck, user=given.pop("user", ()), values=given.pop("values", ()))
     results = run_scene(scene, given, progress)
     if results.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt

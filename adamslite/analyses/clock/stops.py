@@ -20,8 +20,11 @@ from adamslite.integrators.contract import CLOCK
 from adamslite.symbolic.guards import FLOOR, STRICT
 
 if TYPE_CHECKING:
+    from adamslite.analyses.clock.clock import Program
     from adamslite.equations.system import System
     from adamslite.language.statement import Statement
+
+    Programs = dict[Program, Statement]
 
 # Changes nearer to each other, or to an output time, than this share of the run are one; they are
 # located to that of round-off.
@@ -38,8 +41,14 @@ def edges(system: System, clock: Clock, times: np.ndarray) -> tuple[np.ndarray, 
     start, end = float(times[0]), float(times[-1])
     if not system.guarded["clock"] or not end > start:
         return np.array([end]), []
-    grid, overfull = _grid(clock, start, end)
-    return merged(_changes(system, grid), times), overfull
+    guards, floors = clock.programs("guards"), clock.programs("floors")
+    found, overfull = _grid(guards, floors, start, end)
+
+    def stops() -> np.ndarray:
+        return merged(_changes(system, found), times)
+
+    decided_by = (*guards, None, *floors, found.tobytes(), times.tobytes())
+    return system.layout.stops(decided_by, stops), overfull
 
 
 def merged(found: np.ndarray, times: np.ndarray) -> np.ndarray:
@@ -54,13 +63,15 @@ def merged(found: np.ndarray, times: np.ndarray) -> np.ndarray:
     return np.append(inside[np.diff(inside, prepend=-np.inf) > same], end)
 
 
-def _grid(clock: Clock, start: float, end: float) -> tuple[np.ndarray, list[Statement]]:
+def _grid(
+    guards: Programs, floors: Programs, start: float, end: float
+) -> tuple[np.ndarray, list[Statement]]:
     """Times so dense that every guard changes once at most between two of them, and the
     statements of which that could not be reached.
     """
     times, overfull = [np.array([start, end])], []
     for floor in (False, True):
-        for program, statement in clock.programs("floors" if floor else "guards").items():
+        for program, statement in (floors if floor else guards).items():
             found = around_changes(program, start, end, floor)
             times.append(found.times)
             overfull += [] if found.whole else [statement]

@@ -60,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.verification.work_precision import ERRORS, measure
 
     name = args.output or f"{args.deck.stem}-chart"
-    scene = load_scene(args.deck, args.commands, args.user)
+    scene = load_scene(args.deck, args.commands, args.user, args.values)
     for suffix in ("csv", *PICTURES):
         need_writable(f"{name}.{suffix}", scene.read, bool(args.output))
     tried, runs = _runs(args, scene)

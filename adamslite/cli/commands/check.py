@@ -34,7 +34,11 @@ def run(args: argparse.Namespace) -> int:
 
     beside = None if args.commands else kept_scene.command_file_beside(args.deck)
     about = ("check", args.format, str(beside))
-    origin = None if args.user else kept_scene.origin_of(args.deck, args.commands or beside)
+    origin = (
+        None
+        if args.user or args.values
+        else kept_scene.origin_of(args.deck, args.commands or beside)
+    )
     kept = origin and kept_scene.find_text(origin, *about)
     if kept:
         sys.stdout.write(kept)
@@ -42,7 +46,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.api.checks import check
     from adamslite.language.messages.formats import FORMATS
 
-    found = check(args.deck, args.commands, args.user)
+    found = check(args.deck, args.commands, args.user, args.values)
     text = str(found) if args.format == "text" else FORMATS[args.format](found)
     sys.stdout.write(text)
     if origin and found.deck and not found.errors:

@@ -34,7 +34,7 @@ def run(args: argparse.Namespace) -> int:
 
     if args.output:
         need_suffix(args.output)
-    scene = load_scene(args.deck, args.commands, args.user)
+    scene = load_scene(args.deck, args.commands, args.user, args.values)
     if args.output:
         need_writable(args.output, scene.read)
     if scene.beside:

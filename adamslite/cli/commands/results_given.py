@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from adamslite.run_flags import add_run_flags, add_user_flag, run_options
+from adamslite.run_flags import add_run_flags, add_user_flag, add_values_flag, run_options
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -30,6 +30,7 @@ def add_results_arguments(parser: argparse.ArgumentParser) -> None:
         "--commands", metavar="COMMANDS.acf", type=Path, help="commands of RESULT, where a deck"
     )
     add_user_flag(parser)
+    add_values_flag(parser)
     add_run_flags(parser)
 
 
@@ -57,7 +58,7 @@ def _is_deck(args: argparse.Namespace) -> bool:
             format_of(args.result, to_read=True)
         except FormatError as fault:
             raise FormatError(f"{fault}, and a deck ends in {DECK}") from None
-        if args.commands or args.user or run_options(args):
+        if args.commands or args.user or args.values or run_options(args):
             raise UsageError(f"{args.result} holds results: there is nothing to solve")
         return False
     if args.deck:
@@ -68,7 +69,7 @@ def _is_deck(args: argparse.Namespace) -> bool:
 def _solved(args: argparse.Namespace) -> tuple[Results, list[Path]]:
     from adamslite.scene import load_scene
 
-    scene = load_scene(args.result, args.commands, args.user)
+    scene = load_scene(args.result, args.commands, args.user, args.values)
     return run_and_report(scene, args), list(scene.read)
 
 

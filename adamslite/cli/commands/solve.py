@@ -72,7 +72,7 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(
             "'-o -' and '--summary json' both want standard output; give -o a file name"
         )
-    scene = load_scene(args.deck, args.commands, args.user)
+    scene = load_scene(args.deck, args.commands, args.user, args.values)
     output = args.output or f"{scene.stem}.csv"
     files = []
     if output != STDOUT:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
-from adamslite.run_flags import add_run_flags, add_user_flag, run_options
+from adamslite.run_flags import add_run_flags, add_user_flag, add_values_flag, run_options
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -49,6 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--dark", action="store_true", help="pictures on a dark ground")
     parser.add_argument("--no-open", action="store_true", help="write the page only")
     add_user_flag(parser)
+    add_values_flag(parser)
     add_run_flags(parser)
 
 
@@ -128,7 +129,7 @@ def _is_deck(args: argparse.Namespace) -> bool:
         if args.deck:
             raise UsageError("--deck belongs to a result file, and this is a deck itself")
         return True
-    if args.commands or run_options(args):
+    if args.commands or args.values or run_options(args):
         raise UsageError(f"{args.scene} is a result file: there is nothing to solve")
     return False
 
@@ -140,7 +141,7 @@ def _solved(args: argparse.Namespace, output: Path) -> tuple["Deck", "Results", 
     from adamslite.outputs.whole_files import need_writable
     from adamslite.scene import load_scene
 
-    scene = load_scene(args.scene, args.commands, args.user)
+    scene = load_scene(args.scene, args.commands, args.user, args.values)
     need_writable(output, scene.read)
     results = run_and_report(scene, args)
     code = DONE if results.outcome.is_requested else STOPPED_EARLY

@@ -1,0 +1,213 @@
+"""The statements of a model by their faces and shapes, bound but not yet compiled."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Hashable
+from dataclasses import dataclass, field
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+from adamslite.assembly.start_posture import settle_start
+from adamslite.caching.sources import version_of
+from adamslite.deck.counted_turns import counted, counting
+from adamslite.deck.statement_diagnostics import diagnose_inside
+from adamslite.elements.bases.constraint import Constraint
+from adamslite.gc_pause import without_collection
+from adamslite.kernels.binding import Binder, ForceLoop
+from adamslite.kernels.columns import Split, same, transposed
+from adamslite.kernels.face_writer import FaceWriter
+from adamslite.kernels.faces import faces, output_face
+from adamslite.kernels.groups import LEVELS, Binding, Instances, ShapeGroup
+from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.language.interfaces import Key
+from adamslite.language.statement import Statement
+from adamslite.language.traced import Traced
+from adamslite.model.model import Model
+from adamslite.native import compiler
+from adamslite.symbolic.types import Tree
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+
+Numbered = tuple[int, Statement]
+"""A statement with its number in the order of groups and instances."""
+
+
+def bound(model: Model, audited: bool) -> tuple[Groups, list[tuple[Statement, tuple[str, ...]]]]:
+    """All statements of a model, those of one shape together, and the values that they write."""
+    settle_start(model)
+    groups = Groups()
+    outputs = []
+    batches: dict[tuple[type[Statement], str], list[Numbered]] = {}
+    count = itertools.count()
+
+    def enter(statement: Statement, face: str) -> None:
+        batches.setdefault((type(statement), face), []).append((next(count), statement))
+
+    with without_collection():
+        for variable in model.signals:  # the group of each hangs on those of others
+            add(groups, model, "signal", [(next(count), variable)])
+        for statement in model.deck.statements:
+            for face in faces(statement, model):
+                if face != "signal":
+                    enter(statement, face)
+            if audited and hasattr(statement, "stored") and model.acts(statement):
+                enter(statement, "stored")
+            for face in output_face(statement):
+                outputs.append((statement, statement.result_names))
+                enter(statement, face)
+        for each in counting(model.deck.turns, model.deck.statements):
+            enter(each, "counted")
+        for (_, face), found in batches.items():
+            add(groups, model, face, found)
+    return groups, outputs
+
+
+def bound_again(model: Model, group: ShapeGroup, statements: list[Statement]) -> Binding | None:
+    """The columns of a group for other statements of a model; None where the shape is another."""
+    groups = Groups()
+    add(groups, model, group.face, [*enumerate(statements)])
+    found = [*groups.values()]
+    if len(found) != 1 or found[0].name != group.name:
+        return None
+    return found[0].group().instances.columns
+
+
+@dataclass
+class Collected:
+    """A group while statements are bound: their numbers in the order of groups, and their columns,
+    part by part.
+    """
+
+    face: str
+    name: str
+    write: FaceWriter
+    parts: list[tuple[list[Numbered], Binding]]
+    settled: list[Traced] = field(default_factory=list)
+    deriving: list[Statement] = field(default_factory=list)
+    """As in :class:`adamslite.kernels.binding.Binder`."""
+
+    @property
+    def first(self) -> int:
+        """The least number."""
+        return min(part[0][0] for part, _ in self.parts)
+
+    def columns(self) -> tuple[list[Statement], Binding]:
+        """The statements in order, and what fills the slots."""
+        numbered = [each for part, _ in self.parts for each in part]
+        order = sorted(range(len(numbered)), key=lambda k: numbered[k][0])
+        columns = Binding(*(
+            [in_order([*chain(*parts)], order) for parts in zip(*slots, strict=True)]
+            for slots in zip(*(found.fields() for _, found in self.parts), strict=True)
+        ))  # fmt: skip
+        return [numbered[k][1] for k in order], columns
+
+    def group(self) -> ShapeGroup:
+        """The group, its instances in order."""
+        return ShapeGroup(self.face, self.name, self.write, Instances(*self.columns()))
+
+
+def in_order(column: list[Any], order: list[int]) -> list[Any]:
+    """A column with its rows in another order."""
+    return [column[k] for k in order]
+
+
+class Groups(dict[Tree, Collected]):
+    """Groups by their keys; those of signals are evaluated in the order in which they are made."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.order: dict[Tree, int] = {}
+        self.order_of: dict[Key, int] = {}
+        self.loops: dict[int, Diagnostic] = {}
+        """Forces that depend on themselves, by the number of the statement."""
+
+    def key_of_signal(self, key: Tree, variable: Key, reads: list[Key]) -> Tree:
+        """The key of a group of this shape that is not evaluated before what the instance reads;
+        within a group instances are evaluated in turn.
+        """
+        least = max((self.order_of.get(each, 0) for each in reads), default=0)
+        while self.order.setdefault(key, len(self.order)) < least:
+            key = ("again", key)
+        self.order_of[variable] = self.order[key]
+        return key
+
+    def made(self, deck: Deck) -> list[ShapeGroup]:
+        """The groups in the order of their first statements.
+
+        Raises
+        ------
+        DeckError
+            When a force depends on itself.
+        """
+        if self.loops:
+            raise DeckError([self.loops[min(self.loops)]], deck)
+        return [each.group() for each in self.in_order()]
+
+    def in_order(self) -> list[Collected]:
+        """The groups in the order of their first statements."""
+        return sorted(self.values(), key=lambda each: each.first)
+
+
+def add(groups: Groups, model: Model, face: str, statements: list[Numbered]) -> None:
+    """Bind one face of statements of one class, those of one shape together."""
+    pending = [statements]
+    while pending:
+        part = pending.pop()
+        try:
+            _bind(groups, model, face, part)
+        except Split as split:
+            parts: dict[Hashable, list[Numbered]] = {}
+            for label, each in zip(split.labels, part, strict=True):
+                parts.setdefault(label, []).append(each)
+            pending += parts.values()
+        except ForceLoop as loop:
+            number, statement = part[0]
+            groups.loops[number] = _loop(statement, str(loop))
+
+
+def _bind(groups: Groups, model: Model, face: str, numbered: list[Numbered]) -> None:
+    """Enter statements of one shape; raises :class:`Split` where they are not."""
+    statements = [statement for _, statement in numbered]
+    binder, statement = Binder(model, len(statements)), statements[0]
+    fields, own = _faced(binder, statements, face)
+    held = (((each.keyword, each.key) in model.held, each) for each in statements)
+    rate = same([on and isinstance(s, Constraint) and s.is_rate(model) for on, s in held])
+    key = binder.key(face, (statement.keyword, fields, own, rate))
+    name = repr(key)
+    if face == "signal":
+        key = groups.key_of_signal(key, statement.key, binder.instance.signals)
+    found = groups.get(key)
+    if found is None:
+        name = "k" + compiler.digest(name, version_of("kernels.compile"))
+        level = LEVELS.index(face) - 1 if face in LEVELS else 0
+        level -= level > 0 and rate
+        write = FaceWriter(binder, statement.keyword, face, fields, own, level)
+        found = groups[key] = Collected(face, name, write, [])
+    found.parts.append((numbered, binder.columns))
+    found.settled += binder.settled
+    found.deriving += binder.deriving
+    binder.deriving = []
+    binder.columns = binder.columns.row(slice(1))
+
+
+def _faced(binder: Binder, statements: list[Statement], face: str) -> tuple[Tree, int]:
+    """What a face is made of, and the slot of its own unknowns."""
+    if face == "output":
+        found = transposed([binder.model.outputs_of(each) for each in statements])
+        values = tuple([binder.output(nodes, statements) for nodes in found])
+        return values, binder.node_slot([("OUTPUT", each) for each in statements])
+    if face == "counted":
+        found = transposed([counted(each) for each in statements])
+        return tuple([binder.expression(nodes) for nodes in found]), -1
+    fields = binder.statement(statements)
+    if face == "since start":
+        return fields, -1
+    if face in ("signal", "stored", "sensor"):
+        return fields, binder.node_slot([(face.upper(), each.key) for each in statements])
+    return fields, binder.unknowns(statements)
+
+
+def _loop(statement: Statement, other: str) -> Diagnostic:
+    return diagnose_inside(statement, other, "force-loop", other=other)

@@ -1,0 +1,1 @@
+"""Decks and kernels with other numbers, made without reading, binding or compiling again."""
