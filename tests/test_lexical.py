@@ -271,3 +271,18 @@ def test_an_exact_word_wins_over_longer_ones() -> None:
     assert last("REQUEST/1, F1=1\\ F2=2").f2 == function("2")
     deck = deck_with("SPRINGDAMPER/1, I=1, J=2, C=3, K=4\nEND")
     assert (deck.find("SPRINGDAMPER", 1).c, deck.find("SPRINGDAMPER", 1).k) == (3, 4)
+
+
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("MARKER/9, PART=1, QP=0;0;3", "value-count"),
+        ("MARKER/9, PART=1, QP=0; -1;+3, REULER=0,0,0", "value-count"),
+        ("VARIABLE/9, IC=1;2, FUNCTION=1", "not-a-number"),
+        ("VARIABLE/9, FUNCTION=STEP(TIME;0;1;1;2)", "stray-character"),
+    ],
+)
+def test_a_semicolon_in_a_list_is_one_mistake(line: str, code: str) -> None:
+    """No statement begins with a number, so that nothing else is meant by it."""
+    assert codes(f"{line}; MARKER/10, PART=1") == [code]
+    assert not codes("MARKER/9, PART=1; MARKER/10, PART=1")

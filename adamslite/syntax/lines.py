@@ -8,6 +8,8 @@ from typing import NamedTuple
 from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme
 
 _JOINTS = {"LINE_END", "SEMICOLON", "AMPERSAND", "COMMENT", *CLOSES, *CLOSES.values()}
+# No statement begins with a number: a semicolon before one stands in a list, for a comma.
+NUMBERS = ("NUMBER", "PLUS", "MINUS")
 
 
 class Logical(NamedTuple):
@@ -39,11 +41,13 @@ class _Joiner:
             if at < done:
                 continue
             self.current += tokens[done:at]
-            kind, text, _ = tokens[at]
+            kind, text, place = tokens[at]
             done = at + 1
             if kind == "LINE_END" and self.current and self._kind(done) == "COMMA":
                 self._leading_comma(done)
                 done += 1
+            elif kind == "SEMICOLON" and self.current and self._kind(done) in NUMBERS:
+                self.current.append(("OTHER", text, place))
             elif kind == "LINE_END" or kind == "SEMICOLON":
                 yield from self._finish()
                 self.name = view_name(text)

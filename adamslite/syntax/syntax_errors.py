@@ -23,6 +23,7 @@ WRITTEN = {
     "÷": "a division is written /",
     ">": "IF(x: a, b, c) is a below, b at and c above x = 0",
     "<": "IF(x: a, b, c) is a below, b at and c above x = 0",
+    ";": "arguments are separated by commas",
     "{": "brackets are ( ) and [ ]",
     "$": "LaTeX is read from a $ or $$ as far as the next one",
 }

@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 FIRST, PARTS = 64, 4
 # Spans of one expression at a time, at most; what is still open then is taken as it is.
 MOST = 2**16
+# From so many open spans on, bounds of a value are taken from its middle and its rate too, which
+# shrink with the square of the span; values below this share of the largest are round-off of zero.
+MANY, NOISE = 512, 64.0 * np.finfo(float).eps
 # Spans are not divided below this share of the run.
 ROUND_OFF = 5e-14
 # Changes below this share of the range are none, whatever else is known of the range or of its
@@ -58,19 +61,50 @@ class Found:
 
 
 def around_changes(program: Program, start: float, end: float, floor: bool) -> Found:
-    """Times between which a guard changes once at most."""
+    """Times between which a guard changes once at most, but for what is round-off of zero: a guard
+    that touches zero without a slope, as a STEP at the end of another, changes there by chance.
+    """
     low, high = _spans(start, end)
-    kept, whole = [], True
+    size = np.nanmax(np.abs(enclose(program, low, low)[0]), initial=0.0)
+    kept, level, whole = [], [], True
     while low.size:
-        least, most, slow, fast = enclose(program, low, high)
+        least, most, slow, fast = found = enclose(program, low, high)
+        zero = np.zeros(low.shape, dtype=bool)
+        if low.size > MANY and not floor:
+            least, most = _by_rate(program, low, high, found)
+            zero = (least >= -NOISE * size) & (most <= NOISE * size)
         still = (np.floor(least) == np.floor(most)) if floor else (least > 0.0) | (most < 0.0)
         still |= np.isnan(least + most)
         plain = (slow >= 0.0) | (fast <= 0.0) | (high - low <= ROUND_OFF * (end - start))
-        if np.count_nonzero(~still & ~plain) * PARTS > MOST:
+        if np.count_nonzero(~still & ~plain & ~zero) * PARTS > MOST:
             plain, whole = np.ones_like(plain), False
-        kept += [low[plain & ~still], high[plain & ~still]]
-        low, high = _divided(low, high, ~still & ~plain)
+        kept += [low[plain & ~still & ~zero], high[plain & ~still & ~zero]]
+        level.append(np.array([low, high])[:, zero])
+        low, high = _divided(low, high, ~still & ~plain & ~zero)
+    kept += _runs(np.concatenate(level, axis=1))
     return Found(np.unique(np.concatenate(kept)), np.zeros((0, 3)), whole)
+
+
+def _by_rate(
+    program: Program, low: np.ndarray, high: np.ndarray, found: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Bounds of a value from those of its rate, where they are closer than those ``found``."""
+    least, most, slow, fast = found
+    middle = enclose(program, *[low + 0.5 * (high - low)] * 2)[0]
+    with np.errstate(invalid="ignore"):
+        reach = np.maximum(np.abs(slow), np.abs(fast)) * 0.5 * (high - low)
+    return np.fmax(least, middle - reach), np.fmin(most, middle + reach)
+
+
+def _runs(spans: np.ndarray) -> list[np.ndarray]:
+    """Of runs of neighbouring spans (2, n) the ends, and the middle of the widest in each."""
+    low, high = spans[:, np.argsort(spans[0])]
+    first = np.append(True, low[1:] > high[:-1]) if low.size else np.zeros(0, dtype=bool)
+    run = np.cumsum(first) - 1
+    by_width = np.lexsort((high - low, run))
+    widest = by_width[np.append(run[1:] > run[:-1], True)] if low.size else by_width
+    last = np.append(first[1:], True) if low.size else first
+    return [low[first], high[last], 0.5 * (low + high)[widest]]
 
 
 def time_scales(program: Program, start: float, end: float, longest: float) -> Found:

@@ -170,19 +170,32 @@ def _pulses(scales: np.ndarray) -> list[np.ndarray]:
         if high - low <= BRIEF * least:
             groups[k] = np.array([[low, high, least]])
         else:
-            group[:, 2] = _graded(group)
+            groups[k] = _graded(group)
     return groups
 
 
 def _graded(group: np.ndarray) -> np.ndarray:
-    """Time scales that nowhere grow faster than the time passes, (n,)."""
+    """Spans with time scales that nowhere grow faster than the time passes, (n, 3); what is long
+    for the scale of its neighbours is divided, into parts that double.
+    """
     low, high, scale = group.T
-    behind = np.minimum.accumulate(scale - high)[:-1] + low[1:]
-    before = np.minimum.accumulate((scale + low)[::-1])[-2::-1] - high[:-1]
-    graded = scale.copy()
-    graded[1:] = np.minimum(graded[1:], behind)
-    graded[:-1] = np.minimum(graded[:-1], before)
-    return graded
+    behind, before = scale.copy(), scale.copy()
+    behind[1:] = np.minimum(scale[1:], np.minimum.accumulate(scale - high)[:-1] + low[1:])
+    before[:-1] = np.minimum(
+        scale[:-1], np.minimum.accumulate((scale + low)[::-1])[-2::-1] - high[:-1]
+    )
+    least = np.minimum(behind, before)
+    parts: list[np.ndarray] = []
+    for (start, end, size), left, right, some in zip(group, behind, before, least, strict=True):
+        if end - start <= BRIEF * some:
+            parts.append(np.array([[start, end, some]]))
+            continue
+        way = np.exp2(np.arange(1, DOUBLINGS)) - 1.0
+        cuts = np.concatenate([start + left * way, end - right * way])
+        ends = np.unique(np.concatenate([[start, end], cuts[(cuts > start) & (cuts < end)]]))
+        limits = np.minimum(left + ends[:-1] - start, right + end - ends[1:])
+        parts.append(np.stack([ends[:-1], ends[1:], np.minimum(limits, size)], axis=1))
+    return np.concatenate(parts)
 
 
 def _approach(group: np.ndarray, longest: float) -> np.ndarray:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.clock.changes import around_changes
+from adamslite.analyses.clock.changes import NOISE, around_changes
 from adamslite.analyses.clock.clock import Clock
 from adamslite.integrators.contract import CLOCK
 from adamslite.symbolic.guards import FLOOR, STRICT
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 # Changes nearer to each other, or to an output time, than this share of the run are one; they are
 # located to that of round-off.
 SAME, ROUND_OFF = 1e-13, 1e-16
+# Where a guard is sampled between two changes.
+WITHIN = np.array([0.25, 0.5, 0.75])
 
 
 def stops(system: System, times: np.ndarray) -> np.ndarray:
@@ -45,7 +47,7 @@ def edges(system: System, clock: Clock, times: np.ndarray) -> tuple[np.ndarray, 
     found, overfull = _grid(guards, floors, start, end)
 
     def stops() -> np.ndarray:
-        return merged(_changes(system, found), times)
+        return merged(_lasting(system, _changes(system, found), start, end), times)
 
     decided_by = (*guards, None, *floors, found.tobytes(), times.tobytes())
     return system.layout.stops(decided_by, stops), overfull
@@ -97,9 +99,33 @@ def _changes(system: System, grid: np.ndarray) -> np.ndarray:
     return np.unique(np.concatenate(found))
 
 
+def _lasting(system: System, found: np.ndarray, start: float, end: float) -> np.ndarray:
+    """Changes without those to and fro where a guard is round-off of zero: in neighbouring spans of
+    that kind it has the branch of the widest.
+    """
+    if len(found) < 2:
+        return found
+    ends = np.concatenate([[start], found, [end]])
+    width = np.diff(ends)
+    values = sample(system, (ends[:-1, None] + width[:, None] * WITHIN).ravel())
+    values = values.reshape(len(width), len(WITHIN), -1)
+    size = np.abs(values).max(axis=(0, 1))
+    zero = (np.abs(values) <= NOISE * size).all(axis=1)
+    branch = _branch(system, values[:, len(WITHIN) // 2])
+    for guard in np.flatnonzero((zero[1:] & zero[:-1]).any(axis=0)):
+        spans = np.flatnonzero(zero[:, guard])
+        for run in np.split(spans, np.flatnonzero(np.diff(spans) > 1) + 1):
+            branch[run, guard] = branch[run[width[run].argmax()], guard]
+    return found[(branch[1:] != branch[:-1]).any(axis=1)]
+
+
 def _branches(system: System, times: np.ndarray) -> np.ndarray:
     """Branch of every guard of the clock at ``times``, (nt, guards)."""
-    values = sample(system, times)
+    return _branch(system, sample(system, times))
+
+
+def _branch(system: System, values: np.ndarray) -> np.ndarray:
+    """Branch of every guard of the clock by its values, (nt, guards)."""
     kind = system.numbering.kind[: values.shape[1]]
     relation = np.where(kind == STRICT, values > 0.0, values >= 0.0).astype(float)
     return np.where(kind == FLOOR, np.floor(values), relation)
