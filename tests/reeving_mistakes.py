@@ -13,9 +13,74 @@ NAMED = (
     .replace("inertia = 0.04\n[[", 'inertia = 0.04\nname = "p2"\n[[', 1)
     .replace("mass = 3", 'mass = 3\nname = "m2"')
 )
+#: A load on two ropes.
+SHARED = """\
+end = 1
+[[cable]]
+EA = 1e6
+rho = 0.1
+fall = "a1 h1"
+[[cable]]
+EA = 2e6
+rho = 0.1
+fall = "a2 h2"
+[[load]]
+at = [0, -5, 0]
+mass = 50
+[[route]]
+kind = "fixed"
+name = "a1"
+at = [0, 0, 0]
+[[route]]
+kind = "hook"
+name = "h1"
+at = [0, -5, 0]
+[[route]]
+kind = "fixed"
+name = "a2"
+at = [0, 0, 0]
+[[route]]
+kind = "hook"
+name = "h2"
+at = [0, -5, 0]
+"""
+#: The second one goes round a sheave on the load.
+ROUND = SHARED.replace("a2 h2", "a2 s2 b2").replace("mass = 50", "mass = 50\ninertia = 5").replace(
+    'kind = "hook"\nname = "h2"\nat = [0, -5, 0]',
+    'kind = "pulley"\nload = "box"\nname = "s2"\nat = [0.1, -5, 0]\nradius = 0.1\ninertia = 0.1\n'
+    '[[route]]\nkind = "fixed"\nname = "b2"\nat = [0.2, 0, 0]',
+).replace("[[load]]", '[[load]]\nname = "box"')  # fmt: skip
+#: Its load has a name.
+BOXED = SHARED.replace("[[load]]", '[[load]]\nname = "box"').replace(
+    'kind = "hook"', 'kind = "hook"\nload = "box"'
+)
+SECOND = "[[load]]\nat = [0, -5, 0]\nmass = 5"
 MISTAKES = {
-    "no-such-station": (NAMED, '"m1 p1 p2 m2"', '"m1 p1 p2 m2 p3"', (2, 1)),
-    "twice-in-fall": (NAMED, '"m1 p1 p2 m2"', '"m1 p1 p2 p1 m2"', (2, 1)),
+    "in-two-falls": (
+        SHARED.replace('[[route]]\nkind = "fixed"\nname = "a2"\nat = [0, 0, 0]\n', ""),
+        '"a2 h2"', '"a1 h2"', (9, 9),
+    ),
+    "several-closed": (SHARED, "end = 1", "end = 1\nclosed = true", (2, 1)),
+    "several-falls": (SHARED, "end = 1", 'end = 1\nfall = "a1 h1"', (2, 1)),
+    "several-brute": (SHARED, "[[load]]", '[model]\nform = "brute"\n[[load]]', (11, 1)),
+    "no-such-load": (SHARED, 'name = "h1"', 'name = "h1"\nload = "box"', (20, 1)),
+    "which-load": (
+        BOXED.replace('load = "box"\nname = "h2"', 'name = "h2"'),
+        "mass = 50", f"mass = 50\n{SECOND}\ninertia = 3\npivot = {{ at = [0, 0, 0] }}", (32, 1),
+    ),
+    "same-load": (BOXED, "mass = 50", f'mass = 50\n{SECOND}\nname = "box"', (14, 1)),
+    "no-hook": (BOXED, "mass = 50", f"mass = 50\n{SECOND}", (14, 1)),
+    "load-point": (
+        SHARED, 'name = "h1"\nat = [0, -5, 0]', 'name = "h1"\nat = [0, -5, 0.5]', (20, 1)
+    ),
+    "load-alone": (ROUND, "radius = 0.1", "radius = 0.1\nmass = 3", (33, 1)),
+    "not-shared": (SHARED, "[[load]]", "[model]\nlevel = 1\n[[load]]", (11, 1)),
+    "unbalanced": (
+        SHARED, "at = [0, -5, 0]\nmass = 50", "at = [1, -6, 0]\nmass = 50\ninertia = 5", (10, 1)
+    ),
+    "length-too-long": (SHARED, "rho = 0.1", "rho = 0.1\nlength = 8", (5, 1)),
+    "no-such-station": (NAMED, '"m1 p1 p2 m2"', '"m1 p1 p2 m2 p3"', (2, 21)),
+    "twice-in-fall": (NAMED, '"m1 p1 p2 m2"', '"m1 p1 p2 p1 m2"', (2, 18)),
     "not-in-fall": (NAMED, '"m1 p1 p2 m2"', '"m1 p1 m2"', (17, 1)),
     "same-name": (NAMED.replace("m1 p1 p2 m2", "m1 p1 m2"), 'name = "p2"', 'name = "p1"', (22, 1)),
     "no-pitch": (ATWOOD, PULLEY, f"{PULLEY}\ncount = 3", (13, 1)),

@@ -14,10 +14,10 @@ import adamslite
 from adamslite.cables.advice import Advice, advise
 from adamslite.cables.chain_finder import chains, damper
 from adamslite.cables.demand import Demand, elements, level, rigid_fails
+from adamslite.cables.keys import QUANTITIES
 from adamslite.cables.posture import Posture
 from adamslite.cables.report import about_cables, cables
 from adamslite.cables.scene import deck
-from adamslite.cables.vocabulary import QUANTITIES
 from adamslite.cli.main import main
 
 DECKS = Path(__file__).parent.parent / "decks"

@@ -12,7 +12,7 @@ from adamslite.cables.messages import MESSAGES
 from adamslite.cables.scene import deck
 from adamslite.resources import find
 
-FOLDERS = ("described", "sheaves", "water", "winches")
+FOLDERS = ("described", "hoists", "sheaves", "water", "winches")
 DESCRIBED = sorted(
     path
     for folder in FOLDERS

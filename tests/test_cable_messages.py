@@ -189,7 +189,12 @@ def test_everything_wrong_is_told_at_once() -> None:
     [
         ("EA = 1e7", "ea = 1e7", ["missing-key", "unknown-key"]),
         ("[cable]", "[Cable]", ["unknown-key", "missing-key", "missing-key"]),
-        ("[cable]", "[[cable]]", ["wrong-value", "missing-key", "missing-key"]),
+        ("[cable]", "[[cable]]", []),
+        (
+            "[cable]\nEA = 1e7",
+            "cable = [3]\n[kable]\nEA = 1e7",
+            ["wrong-value", "missing-key", "missing-key", "unknown-key"],
+        ),
         ("level = 1", "accuracy = 0", ["not-positive"]),
         ("end = 0.5", 'end = 0.5\ntitle = "two\\nlines"', ["wrong-value"]),
         ("end = 0.5", "\ufeffend = 0.5", ["toml"]),

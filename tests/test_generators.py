@@ -57,6 +57,8 @@ CHEAP = [
 ]
 SHEAVES = runpy.run_path(str(find("decks") / "cables" / "sheaves" / "make_reference.py"))["CASES"]
 WATER = runpy.run_path(str(find("decks") / "cables" / "water" / "make_reference.py"))["CASES"]
+WINCHES = runpy.run_path(str(find("decks") / "cables" / "winches" / "make_reference.py"))["CASES"]
+HOISTS = runpy.run_path(str(find("decks") / "cables" / "hoists" / "make_reference.py"))["CASES"]
 DESCRIBE = runpy.run_path(str(find("decks") / "cables" / "described" / "describe.py"))
 
 
@@ -105,6 +107,18 @@ def test_a_reference_of_sheaves_is_what_its_generator_writes(case: str) -> None:
 def test_a_reference_of_cables_in_water_is_what_its_generator_writes(case: str) -> None:
     kept = find("decks") / "cables" / "water" / f"{case}.reference.csv"
     assert_same_reference(WATER[case](), kept.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("case", ["block-lifts", "block-sinks", "landing", "reeved"])
+def test_a_reference_of_winches_is_what_its_generator_writes(case: str) -> None:
+    kept = find("decks") / "cables" / "winches" / f"{case}.reference.csv"
+    assert_same_reference(WINCHES[case](), kept.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("case", ["equaliser", "beam-on-beam", "late-soft"])
+def test_a_reference_of_hoists_is_what_its_generator_writes(case: str) -> None:
+    kept = find("decks") / "cables" / "hoists" / f"{case}.reference.csv"
+    assert_same_reference(HOISTS[case](), kept.read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("case", every(3, QUICK))

@@ -8,7 +8,8 @@ import numpy as np
 
 from adamslite.analyses import simulation
 from adamslite.cables.readings import Series
-from adamslite.cables.scene import setting
+from adamslite.cables.scene import setting, several
+from adamslite.cables.spec import read_scene
 from adamslite.cables.trial import Found, tried
 from adamslite.cables.trial_runs import Solution, Solver
 from adamslite.errors import RunFailed
@@ -44,6 +45,9 @@ def described(text: str, file: str, allowance: float | None, shown: Progress) ->
     DeckError
         With everything that is wrong with the description.
     """
+    given = read_scene(text, file)
+    if given.is_several:
+        return Found(several(given))
     of = setting(text, file)
     return tried(of, solver(shown), of.spec.trial if allowance is None else allowance)
 

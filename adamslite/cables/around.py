@@ -26,7 +26,7 @@ from adamslite.cables.statements import AXES, number
 from adamslite.cables.surroundings import height
 from adamslite.cables.vectors import Vector, add, unit
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import marker, triple
+from adamslite.cables.wheels import triple
 
 # Speed past the water below which drag is linear [m/s].
 CALM = 1e-6
@@ -237,7 +237,7 @@ def _force(name: str, i: int, forces: dict[str, str]) -> str:
 def write_clamp(spec: Spec, i: int, node: int, length: str) -> str:
     """What turns the cable at the fixed station i: half a section before it there is a node as far
     on the other side of the direction in which it is held."""
-    n, along = marker(i), spec.route[i].clamped
+    n, along = spec.marker(i), spec.route[i].clamped
     at = spec.route[i].at
     calls = [f"D{{x}}({node},{n},{n + 1})", f"V{{x}}({node},{n},{n + 1})"]
     part = calls[0]

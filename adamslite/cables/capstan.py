@@ -24,7 +24,7 @@ from adamslite.cables.pieces import Piece, at_least_nothing, is_between
 from adamslite.cables.statements import number
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheel_spans import at_rest, half, is_heavy, tension_at
-from adamslite.cables.wheels import STICKS, arm, marker, rolled, slipping, travel
+from adamslite.cables.wheels import STICKS, arm, rolled, slipping, travel
 from adamslite.cables.winches import drive
 
 # Sliding speed at which friction is full, or that at rest is no longer greater [m/s].
@@ -37,7 +37,7 @@ def turned(spec: Spec, spans: list[FreeSpan], model: CableModel, found: list[Pie
     radius = arm(i, spec)
     if slipping(i, spec) and before and behind:
         text = _friction(spec, spans, model, (before, behind), i)
-        return text + drive(spec, i, [f"{radius}*F_{marker(i)}"])
+        return text + drive(spec, i, [f"{radius}*F_{spec.marker(i)}"])
     pulls = f"+{tension_at(spec, behind, i)}" if behind else ""
     if before:
         pulls += (
@@ -59,7 +59,7 @@ def at_wheel(spec: Spec, model: CableModel, piece: Piece, i: int) -> str:
     )
     if not mass:
         return tension_at(spec, piece, i)
-    return f"T{piece.number}{'-' if piece.sense > 0 else '+'}{mass}*A_{marker(i)}"
+    return f"T{piece.number}{'-' if piece.sense > 0 else '+'}{mass}*A_{spec.marker(i)}"
 
 
 def _beside(spec: Spec, model: CableModel, piece: Piece, i: int) -> str:
@@ -74,7 +74,7 @@ def _friction(
     spec: Spec, spans: list[FreeSpan], model: CableModel, beside: tuple[Piece, Piece], i: int
 ) -> str:
     """Friction of the cable on the wheel, and the cable's travel over it."""
-    each, n, angle = spec.route[i], marker(i), wrap(spec, spans, i)
+    each, n, angle = spec.route[i], spec.marker(i), wrap(spec, spans, i)
     t1, t2 = (at_rest(spec, piece, i) for piece in beside)
     m1, m2 = (_beside(spec, model, piece, i) for piece in beside)
     rim = number(spec.cable.density * each.radius * angle)
@@ -85,8 +85,8 @@ def _friction(
     most = each.mu * angle
     share, text = _share(spec, i)
     return (
-        f"\n! Friction of the cable on the wheel of station {i + 1}, mu times wrap {most:.4g}: at"
-        f" most a ratio of {exp(min(most, 700)):.4g}.\n"
+        f"\n! Friction of the cable on the wheel of station {spec.station(i)}, mu times wrap"
+        f" {most:.4g}: at most a ratio of {exp(min(most, 700)):.4g}.\n"
         f"VARIABLE/slide_{n}, FUNCTION={_sliding(spec, i)}\n{text}"
         f"VARIABLE/press_{n}, FUNCTION={t1}+{t2}-2*rho*DIF(run_{n})**2\n"
         f"VARIABLE/N_{n}, FUNCTION={at_least_nothing(spec, f'press_{n}')}\n"
@@ -106,7 +106,7 @@ def _sliding(spec: Spec, i: int) -> str:
 
 def _share(spec: Spec, i: int) -> tuple[str, str]:
     """Share of the friction that acts: an expression, and the state that it needs."""
-    each, n = spec.route[i], marker(i)
+    each, n = spec.route[i], spec.marker(i)
     if not each.grip:
         return f"STEP(slide_{n},-{CREEP:g},-1,{CREEP:g},1)", ""
     full = "1"

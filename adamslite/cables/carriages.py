@@ -14,14 +14,13 @@ from adamslite.cables.around import lightness
 from adamslite.cables.capstan import half_section
 from adamslite.cables.model_choice import CableModel
 from adamslite.cables.pieces import Piece, feed
-from adamslite.cables.statements import AXES, number, vforce
+from adamslite.cables.statements import AXES, gravity, number, vforce
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import carrier
 
 
 def along_axle(spec: Spec, wheel: int, i: int, j: int) -> str:
     """e.x_0" of the axle of a wheel whose cable goes from MARKER/i to MARKER/j [m/s^2]."""
-    axle = carrier(spec, wheel)
+    axle = spec.marker(wheel)
     parts = "+".join(f"ACC{a}({axle})*D{a}({j},{i})" for a in AXES)
     return f"({parts})/DM({j},{i})"
 
@@ -40,7 +39,7 @@ def carried_half(spec: Spec, model: CableModel, piece: Piece, j: int, axes: str)
     light = lightness(spec, piece.place)
     share = "" if light == 1.0 else f"{number(light)}*"
     components = [
-        f"-rho*({half}*(ACC{a}({i})-{share}{g})+({flow})*D{a}({j},{i})/DM({j},{i}))"
-        for a, g in sliders.gravity(axes)
+        f"-rho*({half}*(ACC{a}({i})-{share}{gravity(a)})+({flow})*D{a}({j},{i})/DM({j},{i}))"
+        for a in axes
     ]
     return comment + vforce(i, i, axes, components)

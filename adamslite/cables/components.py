@@ -41,6 +41,34 @@ class Cable:
 
 
 @dataclass(frozen=True)
+class Pivot:
+    """A hinge at `at` about `axis`, on the ground or on the load of the name `on`."""
+
+    at: Vector
+    axis: Vector
+    on: str = ""
+
+
+@dataclass(frozen=True)
+class Load:
+    """A body that several cables carry, with `inertia` about its mass centre [kg m^2]; a point
+    without. `part` is its number in the deck."""
+
+    name: str
+    at: Vector
+    mass: float
+    inertia: Vector = (0.0, 0.0, 0.0)
+    velocity: Vector = (0.0, 0.0, 0.0)
+    pivot: Pivot | None = None
+    part: int = 0
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is more than a point."""
+        return any(self.inertia)
+
+
+@dataclass(frozen=True)
 class Reel:
     """A pack of cable, `thickness` [m] from turn to turn, on a core of the radius `core` [m].
 

@@ -15,7 +15,7 @@ from math import isclose
 from typing import Any, NamedTuple
 
 from adamslite.cables.brute_force_layout import Overstretched
-from adamslite.cables.deck_writer import write
+from adamslite.cables.deck_writer import Modelled, write
 from adamslite.cables.demand import Demand
 from adamslite.cables.description import Carried, Model, below, carried, comments
 from adamslite.cables.model_choice import CableModel, Reasons, tensions
@@ -155,7 +155,8 @@ def _written(text: str, model: Model) -> tuple[Drawn | None, str]:
     try:
         of = drawn(text)
         of = of.pulling() if model.pulls_only else of
-        return of, write(of.spec, of.pieces, of.moves, _model(model), comments(text, model))
+        whole = Modelled(of.spec, of.pieces, of.moves, _model(model))
+        return of, write([whole], comments=comments(text, model))
     except DeckError:
         return None, ""
 

@@ -100,7 +100,7 @@ def _model(text: str) -> Model | None:
     import tomllib
 
     from adamslite.cables.demand import MOST
-    from adamslite.cables.vocabulary import FORMS
+    from adamslite.cables.keys import FORMS
 
     try:
         shown: dict[str, Any] = tomllib.loads(text)

@@ -1,14 +1,14 @@
 """The supports of the ends of a cable, and the weights on it."""
 
-from adamslite.cables.statements import AXES, number, point
+from adamslite.cables.statements import AXES, gravity, number, point, vforce
 from adamslite.cables.vectors import add, norm, unit
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import marker, moved, triple
+from adamslite.cables.wheels import moved, triple
 
 
 def end(spec: Spec, i: int, cable: float) -> str:
     """Station i, not a wheel, with the mass of `cable` at it."""
-    each, n = spec.route[i], marker(i)
+    each, n = spec.route[i], spec.marker(i)
     if each.kind in ("mass", "free"):
         return point(n, each.mass + cable, each.at, each.velocity) + _floor(spec, i)
     if each.kind == "body":
@@ -20,15 +20,29 @@ def end(spec: Spec, i: int, cable: float) -> str:
             f"PART/{n}, MASS={number(each.mass + cable)}, CM={n}, IP={inertia}"
             f", QG={triple(each.at)}{speed}\nMARKER/{n}, PART={n}\n"
         ) + _floor(spec, i)
+    if each.kind == "hook":
+        return _hook(spec, i, cable)
     if each.is_moved:
         start = f"MARKER/{n + 3}, PART=1, QP={triple(each.at)}\n"
         return start + point(n, 1.0, each.at) + moved(n, n + 3, each)
     return f"MARKER/{n}, PART=1, QP={triple(each.at)}\n" if each.kind == "fixed" else ""
 
 
+def _hook(spec: Spec, i: int, cable: float) -> str:
+    """The place of a load where a cable ends, and the mass of `cable` there."""
+    each, n = spec.route[i], spec.marker(i)
+    place = add(each.at, each.origin, -1)
+    owner, own = ("PART", f", QP={triple(place)}") if each.inertia else ("POINT_MASS", "")
+    text = f"MARKER/{n}, {owner}={each.on}{own}\n"
+    if not cable:
+        return text
+    carried = [f"-{number(cable)}*(ACC{a}({n})-{gravity(a)})" for a in AXES]
+    return text + vforce(n, n, AXES, carried)
+
+
 def _floor(spec: Spec, i: int) -> str:
     """The floor below a weight: it pushes from z = 0 of MARKER/n+5 on, and never pulls."""
-    each, n, down = spec.route[i], marker(i), unit(spec.gravity)
+    each, n, down = spec.route[i], spec.marker(i), unit(spec.gravity)
     if not each.floor:
         return ""
     own = each.floor

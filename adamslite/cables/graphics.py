@@ -21,7 +21,7 @@ from adamslite.cables.sliders import is_wire
 from adamslite.cables.span_statements import is_kept, is_still
 from adamslite.cables.statements import number
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import marker, triple
+from adamslite.cables.wheels import triple
 
 STEEL = 7850.0
 """Density of the balls that are drawn for weights [kg/m^3]."""
@@ -35,12 +35,12 @@ def solids(spec: Spec) -> str:
     """Wheels and weights."""
     text = "\n! ---- drawing ----\n"
     for i, each in enumerate(spec.route):
-        n = marker(i)
+        n = spec.marker(i)
         if each.is_wheel:
             half, radius = number(WIDTH * each.radius / 2), number(each.radius)
             text += f"GRAPHICS/{n}, CYLINDER, CM={n}, LENGTH={half}, RADIUS={radius}\n"
             text += f"GRAPHICS/{n + 1}, CYLINDER, CM={n}, LENGTH=-{half}, RADIUS={radius}\n"
-        elif each.mass > 0:
+        elif each.mass > 0 and not each.on:
             d = f"{(6 * each.mass / (pi * STEEL)) ** (1 / 3):.3g}"
             text += f"GRAPHICS/{n}, ELLIPSOID, CM={n}, XSCALE={d}, YSCALE={d}, ZSCALE={d}\n"
     return text
@@ -49,16 +49,17 @@ def solids(spec: Spec) -> str:
 def route_line(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
     """The cable of levels 1 to 3, from station to station."""
     found = pieces(spec, spans)
-    markers, tensions = [marker(0)], []
+    markers, tensions = [spec.marker(0)], []
     for piece in found:
-        markers += [*_inner(spec, model, piece), marker(spec.pairs[piece.number - 1][1])]
+        markers += [*_inner(spec, model, piece), spec.marker(piece.ends[1])]
         tensions.append(_tension(spec, model, piece))
     words = [
-        f"wheel {marker(i)} {number(each.turn * each.radius)}"
+        f"wheel {spec.marker(i)} {number(each.turn * each.radius)}"
         for i, each in enumerate(spec.route)
         if each.is_wheel
     ]
-    return _far_ends(spec, found) + line(1, markers, words, tensions)
+    own = found[0].first if spec.numbers.name else 1
+    return _far_ends(spec, found) + line(own, markers, words, tensions)
 
 
 def line(s: int, markers: list[int], words: list[str], tensions: list[str]) -> str:
@@ -97,7 +98,11 @@ def _tension(spec: Spec, model: CableModel, piece: Piece) -> str:
     p, first = piece.number, piece.first
     if model.level == 1:
         if spec.route[piece.root].slides:
-            return "none" if is_wire(spec, piece.root) else f"-GCON/{piece.root}.f"
+            return (
+                "none"
+                if is_wire(spec, piece.root)
+                else f"-GCON/{piece.root + spec.numbers.spans}.f"
+            )
         return f"-GCON/{piece.label}.f" if is_kept(spec, piece) else "none"
     if not _is_chain(spec, piece) or is_still(spec, model, piece):
         return f"VARIABLE/T{p}"
@@ -113,6 +118,6 @@ def _far_ends(spec: Spec, found: list[Piece]) -> str:
         root = spec.route[piece.root]
         if spec.route[piece.tip].kind == "run" and root.is_wheel:
             if not (root.leans or root.mount):
-                n, at = marker(piece.tip), spec.route[piece.tip].at
+                n, at = spec.marker(piece.tip), spec.route[piece.tip].at
                 text += f"MARKER/{n}, PART=1, QP={triple(at)}  ! where the long run goes on\n"
     return text

@@ -14,7 +14,7 @@ guide of some mass, and slides along the axle against a spring and a damper.
 from adamslite.cables.statements import AXES, number, rounded
 from adamslite.cables.vectors import ZERO, Vector, add, cross, dot
 from adamslite.cables.vocabulary import Spec, Station
-from adamslite.cables.wheels import carrier, marker, travel, triple
+from adamslite.cables.wheels import carrier, travel, triple
 
 AXLE = 900
 
@@ -29,14 +29,14 @@ def comes(spec: Spec, i: int, m: int, order: int = 0) -> str:
 
 def leaning(spec: Spec, i: int, m: int, order: int = 0) -> str:
     """Angle of link m about the axle of wheel i, or its time derivative."""
-    a, b = m + AXLE, marker(i) + 1
+    a, b = m + AXLE, spec.marker(i) + 1
     seen = "" if spec.route[i].axis == (0.0, 0.0, 1.0) else f",{b}"
     return (f"AZ({a},{b})", f"WZ({a},{b}{seen})", f"WDTZ({a},{b}{seen})")[order]
 
 
 def link(spec: Spec, i: int, m: int, place: Vector, to: int, spin: float) -> str:
     """Link m of wheel i, which starts at `place` and follows MARKER/to with `spin` [rad/s]."""
-    each, n = spec.route[i], marker(i)
+    each, n = spec.route[i], spec.marker(i)
     out, own = add(place, each.at, -1), _own_axis(each.axis)
     kind = "CYLINDRICAL" if each.wander else "REVOLUTE"
     text = (
@@ -70,7 +70,7 @@ def _start(each: Station, out: Vector, spin: float) -> str:
 
 def _wander(spec: Spec, i: int, m: int) -> str:
     """Way of a guide along the axle, and what pulls it back."""
-    b, own = marker(i) + 1, spec.route[i].wander
+    b, own = spec.marker(i) + 1, spec.route[i].wander
     assert own is not None
     a = m + AXLE
     return (
@@ -103,7 +103,7 @@ def borne(spec: Spec, i: int, m: int, to: int, sense: int, pull: str, more: str 
     )
     if each.leans:
         torque = number(-sense * each.turn * each.radius)
-        a, b = m + AXLE, marker(i) + 1
+        a, b = m + AXLE, spec.marker(i) + 1
         text += f"SFORCE/{a}, ROTATIONAL, I={a}, J={b}, FUNCTION={torque}*({pull}-Q{m})\n"
     return text
 

@@ -32,7 +32,7 @@ from adamslite.cables.model_choice import SUNK, CableModel, demand_on_longest, t
 from adamslite.cables.statements import number, point, section
 from adamslite.cables.vectors import Vector, add, dot, unit
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import marker, mount_request, triple, turning
+from adamslite.cables.wheels import mount_request, triple, turning
 from adamslite.cables.winches import drive
 
 # What a wheel without mu has: the cable creeps on it by a fifth of what mu = 1 would let it.
@@ -65,9 +65,9 @@ class Stretch:
         if k in (0, count):
             i = self.last if k else self.first
             if spec.route[i].is_wheel:
-                return marker(i) + 6
+                return spec.marker(i) + 6
             if spec.route[i].kind != "run":
-                return marker(i)
+                return spec.marker(i)
         return 1000 * self.number + k
 
 
@@ -189,10 +189,10 @@ def _ends(spec: Spec, found: list[Stretch]) -> str:
     for s in found:
         for i, k in ((s.first, 0), (s.last, -1)):
             half[i] += spec.cable.density * s.laid.free / 2
-            each, node = spec.route[i], s.laid.nodes[k]
+            each, n, node = spec.route[i], spec.marker(i), s.laid.nodes[k]
             if each.is_wheel and not s.closed:
                 place = triple(add(node.place, each.at, -1))
-                text += f"MARKER/{marker(i) + 6}, PART={marker(i)}, QP={place}  ! fixed to it\n"
+                text += f"MARKER/{n + 6}, PART={n}, QP={place}  ! fixed to it\n"
             if each.kind == "run":
                 text += _run(spec, s, i, k)
     for i, each in enumerate(spec.route):
@@ -202,7 +202,7 @@ def _ends(spec: Spec, found: list[Stretch]) -> str:
 
 def _run(spec: Spec, s: Stretch, i: int, k: int) -> str:
     """A long straight run of the cable: T0 + rho c times the speed away from it."""
-    n, node = marker(i), s.laid.nodes[k]
+    n, node = spec.marker(i), s.laid.nodes[k]
     node_marker = s.node(len(s.laid.nodes) - 1 if k else 0, spec)
     outwards = add(node.place, node.along, 1 if k else -1)
     return (
@@ -218,7 +218,7 @@ def _contacts(spec: Spec, s: Stretch, moves: Moves, section: float) -> str:
     text, count = "", len(s.laid.nodes) - 1
     reach = MARGIN * moves.way + 3 * section
     for i, (begin, finish) in s.laid.wheels.items():
-        each, n = spec.route[i], marker(i)
+        each, n = spec.route[i], spec.marker(i)
         text += f"\n! ---- the wheel of station {i + 1} carries what lies on it ----\n"
         text += f"MARKER/{n + 4}, PART={n}, FLOATING\n" if each.mu or each.teeth else ""
         gap = _gap(spec, s, i) if each.teeth else 0.0
@@ -232,7 +232,7 @@ def _contacts(spec: Spec, s: Stretch, moves: Moves, section: float) -> str:
 
 def _contact(spec: Spec, i: int, k: int) -> str:
     """Of MARKER/k with wheel i: N outwards, S sliding speed, F friction along the rim."""
-    n, radius, mu = marker(i), spec.route[i].radius, spec.route[i].mu
+    n, radius, mu = spec.marker(i), spec.route[i].radius, spec.route[i].mu
     mu = mu if mu >= 0 else GRIP
     push = f"IMPACT(DM({k},{n}),VR({k},{n}),{number(radius)},KC,1.0,CC,DC)"
     if not mu:
@@ -268,7 +268,7 @@ def _tooth(spec: Spec, i: int, k: int, gap: float) -> str:
 
     and pushes at right angles to itself.
     """
-    each, n = spec.route[i], marker(i)
+    each, n = spec.route[i], spec.marker(i)
     b, z, tooth = n + 1, each.teeth, TOOTH * each.pitch
     x, y = f"DX({k},{n},{b})", f"DY({k},{n},{b})"
     return (
@@ -308,7 +308,7 @@ def _requests(spec: Spec, found: list[Stretch]) -> str:
             )
     for i, each in enumerate(spec.route):
         if each.is_wheel:
-            n, rim = marker(i), number(each.turn * each.radius)
+            n, rim = spec.marker(i), number(each.turn * each.radius)
             pull = f"\\ F6=-GCON({n})" if each.payout else ""
             addition = ", pull of the winch" if pull else ""
             text += (

@@ -27,6 +27,40 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
     "no-such-station": Message(
         "the fall goes to {word}, and no station has that name", "the names are {known}"
     ),
+    "in-two-falls": Message(
+        "the fall of cable {k} goes to {word} too", "a wheel or hook of its own for each cable"
+    ),
+    "several-closed": Message(
+        "of several cables none is closed", "leave closed out, or one [cable] with its route"
+    ),
+    "several-falls": Message(
+        "with several cables each has a fall of its own", "fall = ... in every [[cable]]"
+    ),
+    "several-brute": Message(
+        "several cables are not written in form brute: {why}",
+        "no bends, no teeth, leans = true at wheels that move across their cable",
+    ),
+    "no-such-load": Message("there is no load of the name {word}", "the loads are {known}"),
+    "which-load": Message("{label} is on one of {count} loads", "load = ..., its name"),
+    "same-load": Message("load {i} has the name {name} too", "a name for each load"),
+    "no-hook": Message("no cable and no hinge holds this load", 'kind = "hook" in [[route]]'),
+    "load-point": Message(
+        "{label} is not at the mass centre of its load, which is a point without inertia",
+        "inertia = ... in [[load]], in kg m^2",
+    ),
+    "load-alone": Message(
+        "{label} is on a load, which carries and moves it: no {word}", "leave {word} out"
+    ),
+    "not-shared": Message(
+        "how {cables} cables share a load depends on their stiffness, which level 1 leaves out",
+        "level = 2 or 3, or auto",
+    ),
+    "unbalanced": Message(
+        "the cables do not hold {name} in balance where it is: {force:.4g} N and {torque:.4g} N m"
+        " are left",
+        "other places of its hooks or mass centre; statics = true starts at rest where it hangs",
+        severity=WARNING,
+    ),
     "twice-in-fall": Message(
         "the fall goes to {word} {times} times", "a wheel for each time the cable passes"
     ),
@@ -254,17 +288,31 @@ class Faults:
         self.found: list[Diagnostic] = []
         #: Tables of the stations, where these are not in the order of the file.
         self.tables: list[int] = []
+        #: Number of the table of the cable, where there are several.
+        self.cable: int | None = None
+
+    def of_cable(self, k: int) -> "Faults":
+        """The same diagnostics, for paths of cable k of several."""
+        own = Faults(self.places)
+        own.found, own.cable = self.found, k
+        return own
 
     def add(self, code: str, path: Path, **words: object) -> None:
-        """Say `code` about the key at `path`; ``hint=`` replaces the hint of the table."""
-        message, span = MESSAGES[code], self.places.span(self._written(path))
+        """Say `code` about the key at `path`, or with ``within=`` about a word of its value, given
+        with the number of the time that it stands there; ``hint=`` replaces the hint of the
+        table."""
+        within = words.pop("within", None)
+        at = within if isinstance(within, tuple) else ("", 0)
+        message, span = MESSAGES[code], self.places.span(self._written(path), at)
         hint = str(words.pop("hint", "") or message.hint.format(**words))
         line = self.places.source.line(span.line)
         text = message.sentence.format(**words)
         self.found.append(Diagnostic(code, message.severity, text, span, hint, line))
 
     def _written(self, path: Path) -> Path:
-        """The same key of the table that describes a station."""
+        """The same key of the table that describes a station or the cable."""
+        if self.cable is not None and path[:1] == ("cable",) and len(path) < 3:
+            return "cable", self.cable, *path[1:]
         if len(path) < 2 or path[0] != "route" or not self.tables:
             return path
         i = int(path[1])
@@ -273,7 +321,7 @@ class Faults:
     def copy(self) -> "Faults":
         """The same so far, for messages of its own."""
         other = Faults(self.places)
-        other.found, other.tables = list(self.found), self.tables
+        other.found, other.tables, other.cable = list(self.found), self.tables, self.cable
         return other
 
     @property

@@ -8,7 +8,6 @@ from adamslite.cables.model_choice import tensions
 from adamslite.cables.statements import number
 from adamslite.cables.vectors import ZERO, Vector, add, dot
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import marker
 
 # Strain over which a span becomes slack.
 SOFT = 1e-7
@@ -35,10 +34,15 @@ class Piece:
     sense: int
     tension: float
 
+    @property
+    def ends(self) -> tuple[int, int]:
+        """Its stations in the order of the route."""
+        return (self.root, self.tip) if self.sense > 0 else (self.tip, self.root)
+
 
 def pieces(spec: Spec, spans: list[FreeSpan]) -> list[Piece]:
     """One for every span."""
-    pulls = tensions(spec, spans)
+    pulls = spec.rests or tensions(spec, spans)
     return [_piece(spec, p, span, pulls[p]) for p, span in enumerate(spans)]
 
 
@@ -46,15 +50,17 @@ def _piece(spec: Spec, p: int, span: FreeSpan, tension: float) -> Piece:
     i, j = spec.pairs[p]
     a, b = spec.route[i], spec.route[j]
     backwards = b.feeds and not a.feeds or a.kind == "run"
+    backwards = backwards or a.kind == "hook" and b.kind == "fixed"
     root, tip = (j, i) if backwards else (i, j)
     sense = -1 if backwards else 1
     place = span.finish if backwards else span.start
-    first = 1000 * (p + 1 + spec.thousands)
-    label = first if len(spec.pairs) >= FIRST_STATION else p + 1
+    number = p + 1 + spec.numbers.spans
+    first = 1000 * (number + spec.thousands)
+    label = first if (spec.numbers.all_spans or len(spec.pairs)) >= FIRST_STATION else number
     if a.is_wheel and b.is_wheel:
         tension = _in_the_middle(spec, span, tension)
     along = add(ZERO, span.along, sense)
-    return Piece(p + 1, first, label, span, root, tip, place, along, sense, tension)
+    return Piece(number, first, label, span, root, tip, place, along, sense, tension)
 
 
 def _in_the_middle(spec: Spec, span: FreeSpan, tension: float) -> float:
@@ -79,7 +85,7 @@ def is_between(spec: Spec, piece: Piece) -> bool:
 
 def root_marker(spec: Spec, piece: Piece) -> int:
     """The marker that the piece leaves."""
-    return piece.first if spec.route[piece.root].feeds else marker(piece.root)
+    return piece.first if spec.route[piece.root].feeds else spec.marker(piece.root)
 
 
 def is_moving(spec: Spec, piece: Piece) -> bool:

@@ -16,7 +16,6 @@ from adamslite.cables.pieces import Piece, pieces
 from adamslite.cables.sliders import is_wire
 from adamslite.cables.span_statements import is_kept
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import marker
 
 # Of the time of a wave along the longest span: what a tension is the mean of.
 SEEN = 0.5
@@ -82,7 +81,7 @@ def _weights(spec: Spec) -> list[int]:
 
 def _places(spec: Spec, i: int) -> list[str]:
     word = "PART" if spec.route[i].kind == "body" else "POINT_MASS"
-    return [f"{word}/{marker(i)}.{axis}" for axis in AXES]
+    return [f"{word}/{spec.marker(i)}.{axis}" for axis in AXES]
 
 
 def _tensions(spec: Spec, piece: Piece) -> list[str]:

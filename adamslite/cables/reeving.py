@@ -8,6 +8,7 @@ fall = "d1 s1 anchor"   the names of the stations in the order in which the cabl
 from collections import Counter
 
 from adamslite.cables.messages import Faults
+from adamslite.cables.toml_places import Path
 from adamslite.cables.vectors import add
 from adamslite.cables.vocabulary import Toml
 
@@ -16,10 +17,32 @@ MOST_STATIONS = 20000
 ORDER_KEYS = ("name", "count", "pitch", "stagger")
 
 
+def along_several(
+    faults: list[Faults], tables: list[Toml], falls: list[object]
+) -> list[list[Toml]]:
+    """The stations of several cables, of which every fall names its own."""
+    words = [fall.split() if isinstance(fall, str) else [] for fall in falls]
+    _check_names(faults[0], tables, {word for each in words for word in each})
+    taken: dict[str, int] = {}
+    orders = []
+    for k, (own, fall) in enumerate(zip(faults, falls, strict=True)):
+        path = ("cable", "fall")
+        orders.append([] if fall is None else _named(own, tables, fall, path))
+        for word in dict.fromkeys(words[k]):
+            if taken.setdefault(word, k) < k:
+                own.add("in-two-falls", path, within=(word, 0), k=taken[word] + 1, word=word)
+    return [_laid_out(own, tables, order) for own, order in zip(faults, orders, strict=True)]
+
+
 def along_the_cable(faults: Faults, tables: list[Toml], fall: object) -> list[Toml]:
     """The stations in the order of the cable; `faults` finds the table of each by its number."""
-    order = _order(faults, tables, fall)
-    found, numbers = [], []
+    return _laid_out(faults, tables, _order(faults, tables, fall))
+
+
+def _laid_out(faults: Faults, tables: list[Toml], order: list[int]) -> list[Toml]:
+    """The stations of the tables of these numbers."""
+    found: list[Toml] = []
+    numbers: list[int] = []
     for i in order:
         copies = _copies(faults, tables[i], i)
         found += copies
@@ -33,24 +56,36 @@ def _order(faults: Faults, tables: list[Toml], fall: object) -> list[int]:
     inherited = list(range(len(tables)))
     if not isinstance(fall, str):  # which has no order, and is reported with the other keys
         return inherited
-    if not fall.split():
-        expected = "the names of stations in one text"
-        faults.add("wrong-value", ("fall",), word="fall", expected=expected, text=repr(fall))
-        return inherited
+    if fall.split():
+        _check_names(faults, tables, set(fall.split()))
+    order = _named(faults, tables, fall, ("fall",))
+    return inherited if faults.found else order
+
+
+def _check_names(faults: Faults, tables: list[Toml], words: set[str]) -> None:
+    """Every station has a name of its own, which a fall goes to."""
     names = [each.get("name") or "" for each in tables]
-    words = fall.split()
     for i, name in enumerate(names):
         if name and names.index(name) < i:
             faults.add("same-name", ("route", i, "name"), name=name, i=names.index(name) + 1)
         if name not in words:
             faults.add("not-in-fall", ("route", i), label=f"station {name or i + 1}")
+
+
+def _named(faults: Faults, tables: list[Toml], fall: object, path: Path) -> list[int]:
+    """Numbers of the tables that a fall goes to, without words that name none."""
+    if not isinstance(fall, str) or not fall.split():
+        expected = "the names of stations in one text"
+        faults.add("wrong-value", path, word="fall", expected=expected, text=repr(fall))
+        return []
+    names = [each.get("name") or "" for each in tables]
     known = ", ".join(each for each in names if each) or "missing: name = ... in [[route]]"
-    for word, times in Counter(words).items():
+    for word, times in Counter(fall.split()).items():
         if word not in names:
-            faults.add("no-such-station", ("fall",), word=word, known=known)
+            faults.add("no-such-station", path, within=(word, 0), word=word, known=known)
         elif times > 1:
-            faults.add("twice-in-fall", ("fall",), word=word, times=times)
-    return inherited if faults.found else [names.index(word) for word in words]
+            faults.add("twice-in-fall", path, within=(word, 1), word=word, times=times)
+    return [names.index(word) for word in fall.split() if word in names]
 
 
 def _copies(faults: Faults, table: Toml, i: int) -> list[Toml]:

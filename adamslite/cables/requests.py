@@ -10,7 +10,7 @@ from adamslite.cables.statements import number
 from adamslite.cables.supports import hanging_half, support_request
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheel_spans import is_heavy, tension_at
-from adamslite.cables.wheels import marker, mount_request, slipping, travel
+from adamslite.cables.wheels import mount_request, slipping, travel
 
 # A tension below this strain is none, and no ratio is taken with it.
 SLACK = 1e-12
@@ -45,7 +45,7 @@ def _tensions(spec: Spec, model: CableModel, piece: Piece) -> str:
     if is_heavy(spec, piece):
         parts.append(f"F3={tension_at(spec, piece, piece.tip)}")
     elif not (is_between(spec, piece) or tip.kind == "run"):
-        side = side_of(piece, model)
+        side = side_of(spec, piece, model)
         if not root.feeds and root.kind != "run":
             i, j = root_marker(spec, piece), side.node(1)
             parts[0] += hanging_half(spec, piece.root, half_section(model, piece, spec), (i, j))
@@ -63,8 +63,8 @@ def _tensions(spec: Spec, model: CableModel, piece: Piece) -> str:
 
 
 def _over(spec: Spec, spans: list[FreeSpan], model: CableModel, found: list[Piece], i: int) -> str:
-    each, n = spec.route[i], marker(i)
-    title = f"cable over station {i + 1}"
+    each, n = spec.route[i], spec.marker(i)
+    title = f"cable over station {spec.station(i)}"
     parts = [f"F2={travel(i, spec)}", f"F3={travel(i, spec, 1)}"]
     if each.leans:
         parts.append(f"F4=JOINT({n},0,1,0)")

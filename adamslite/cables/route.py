@@ -6,7 +6,7 @@ from adamslite.cables.messages import Faults
 from adamslite.cables.vocabulary import WHEELS, Toml
 
 INSIDE = ("pulley", "winch", "mass", "body", "bend")
-AT_ENDS = ("fixed", "free", "run", "mass", "body", "winch")
+AT_ENDS = ("fixed", "free", "run", "mass", "body", "hook", "winch")
 POINTS = ("fixed", "free", "mass", "body")
 ON_A_LOOP = ("pulley", "winch", "mass", "bend")
 

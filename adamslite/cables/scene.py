@@ -3,13 +3,16 @@
 from dataclasses import dataclass, replace
 
 from adamslite.cables import bending_advice
-from adamslite.cables.brute_force_layout import Overstretched, length, stretches, way
+from adamslite.cables.brute_force_layout import Overstretched, stretches
 from adamslite.cables.catenary import start
-from adamslite.cables.deck_writer import write
+from adamslite.cables.components import Load
+from adamslite.cables.deck_writer import Modelled, write
 from adamslite.cables.demand import MOST, Demand
 from adamslite.cables.description import Model, comments
 from adamslite.cables.estimate import Laws, Moves, estimate_moves, laws
+from adamslite.cables.form_rules import check_chain, check_form, check_shape
 from adamslite.cables.geometry import FreeSpan, reaches, spans, turned
+from adamslite.cables.loads import Rope, are_determined, as_borne, on_loads, shared
 from adamslite.cables.lumps import stored
 from adamslite.cables.messages import Faults
 from adamslite.cables.model_choice import (
@@ -20,21 +23,16 @@ from adamslite.cables.model_choice import (
     needs_brute,
     tensions,
 )
-from adamslite.cables.sliders import is_straight, is_wire
-from adamslite.cables.spec import read
-from adamslite.cables.surroundings_rules import check_nodes, check_surroundings
+from adamslite.cables.spec import Description, read, read_scene
+from adamslite.cables.surroundings_rules import check_surroundings
 from adamslite.cables.toml_places import Path
 from adamslite.cables.vectors import dot
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import in_plane, slipping
 from adamslite.language.diagnostics import DeckError, Diagnostic, sort_by_place
 
-# Pitches that differ by less than this share are one.
-SAME_PITCH = 1e-4
-# What a loop may lack of a whole number of links, as a share of one on half of a wheel.
-LINK_SHARE = 0.02
 # Shares by which payout may outrun a load before it is reported.
 FASTER = 0.01
+SHARES = ("not level 1: how cables share a load depends on their stiffness",)
 
 
 @dataclass(frozen=True)
@@ -74,7 +72,7 @@ class Drawn:
 
     def demanding(self, demand: Demand | None = None) -> "Setting":
         """With its linear model, or the demand that is known already."""
-        of = demand or demand_of(self.spec, self.pieces, self.moves, self.prescribed)
+        of = demand or demand_of(as_borne(self.spec), self.pieces, self.moves, self.prescribed)
         return Setting(**{**vars(self), "demand": of})
 
 
@@ -112,7 +110,8 @@ def deck(text: str, file: str = "<text>") -> tuple[str, list[Diagnostic]]:
     DeckError
         With everything that is wrong with the description.
     """
-    found = written(setting(text, file))
+    given = read_scene(text, file)
+    found = several(given) if given.is_several else written(setting(text, file))
     return found.text, found.messages
 
 
@@ -130,25 +129,34 @@ def setting(text: str, file: str = "<text>") -> Setting:
 def drawn(text: str, file: str = "<text>") -> Drawn:
     """What a description says; raises as :func:`setting`."""
     spec, faults = read(text, file)
+    return _drawn(text, _settled(spec, faults), faults)
+
+
+def _settled(spec: Spec, faults: Faults) -> Spec:
+    """With the turn of its wheels, and the tension that its length gives it."""
     spec = turned(spec)
     check_surroundings(spec, faults)
     _stop(faults, faults.errors and bool(spec.cable.length))
-    return _drawn(text, _tensioned(spec), faults)
+    return _tensioned(spec)
 
 
 def _drawn(text: str, given: Spec, faults: Faults) -> Drawn:
-    pieces = spans(given, faults)
-    prescribed = laws(given, faults)
+    rope = Rope(given, spans(given, faults), faults, laws(given, faults))
     _stop(faults, faults.errors)
-    spec = _essential(given, pieces)
-    moves = estimate_moves(spec, pieces, prescribed)
-    return Drawn(text, given, spec, pieces, moves, prescribed, faults)
+    return _ready(text, rope)
+
+
+def _ready(text: str, rope: Rope) -> Drawn:
+    """Ready to be written."""
+    spec = _essential(rope.spec, rope.spans)
+    moves = estimate_moves(as_borne(spec), rope.spans, rope.laws)
+    return Drawn(text, rope.spec, spec, rope.spans, moves, rope.laws, rope.faults)
 
 
 def chosen(of: Setting, faults: Faults, why: Reasons | None = None) -> CableModel:
     """The model that is asked for, or what the linear model chooses; `why` that one where runs have
     shown it."""
-    model = choose_model(of.spec, of.pieces, of.moves, of.demand, faults)
+    model = choose_model(as_borne(of.spec), of.pieces, of.moves, of.demand, faults)
     told = bending_advice.told(of.given, of.pieces, min(tensions(of.given, of.pieces)))
     return replace(model, reasons=replace(why or model.reasons, more=tuple(told)))
 
@@ -162,19 +170,88 @@ def written(of: Setting, why: Reasons | None = None) -> Written:
     DeckError
         With everything that is wrong with the description, or with that model of it.
     """
-    spec, pieces, moves, faults = of.spec, of.pieces, of.moves, of.faults.copy()
-    model = chosen(of, faults, why)
-    _check_form(spec, pieces, model, faults)
-    _check_chain(spec, pieces, faults)
-    _check_shape(spec, pieces, model, faults)
-    _check(spec, pieces, moves, model, faults)
+    faults = of.faults.copy()
+    model = _modelled(of, faults, why)
     _stop(faults, faults.errors)
+    shown = comments(of.text, _shown(of.spec, model.model, why))
     try:
-        text = write(spec, pieces, moves, model, comments(of.text, _shown(spec, model, why)))
+        text = write([model], comments=shown)
     except Overstretched:
-        faults.add("overstretched", ("cable", "EA"), stiffness=spec.cable.stiffness)
+        faults.add("overstretched", ("cable", "EA"), stiffness=of.spec.cable.stiffness)
         raise DeckError(sort_by_place(faults.found)) from None
-    return Written(text, sort_by_place(faults.found), model)
+    return Written(text, sort_by_place(faults.found), model.model)
+
+
+def _modelled(of: Setting, faults: Faults, why: Reasons | None = None) -> Modelled:
+    """A cable with its model, and what is wrong with that."""
+    spec, pieces, moves = of.spec, of.pieces, of.moves
+    model = chosen(of, faults, why)
+    check_form(spec, pieces, model, faults)
+    check_chain(spec, pieces, faults)
+    check_shape(spec, pieces, model, faults)
+    _check(spec, pieces, moves, model, faults)
+    return Modelled(spec, pieces, moves, model)
+
+
+def several(given: Description) -> Written:
+    """The deck of several cables, and of loads on them.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong with the description.
+    """
+    faults = given.faults
+    specs, loads = on_loads(given.cables, given.loads, faults)
+    _stop(faults, faults.errors)
+    ropes = []
+    for spec, (_, own) in zip(specs, given.cables, strict=True):
+        spec = _settled(spec, own)
+        ropes.append(Rope(spec, spans(spec, own), own, laws(spec, own)))
+    _stop(faults, faults.errors)
+    if loads:
+        specs = shared(ropes, loads, faults)
+        ropes = [replace(rope, spec=spec) for rope, spec in zip(ropes, specs, strict=True)]
+    _check_forms(ropes)
+    _stop(faults, faults.errors)
+    found = [_sharing(rope, ropes, loads) for rope in ropes]
+    _check_shares(found, ropes, loads)
+    _stop(faults, faults.errors)
+    return Written(write(found, loads), sort_by_place(faults.found), found[0].model)
+
+
+def _sharing(rope: Rope, ropes: list[Rope], loads: tuple[Load, ...]) -> Modelled:
+    """A cable with its model: not a rigid one where cables share a load by their stiffness, and
+    the level is not given."""
+    of = _ready("", rope).demanding()
+    shares = loads and any(each.on for each in rope.spec.route)
+    free = not rope.spec.level and shares and not are_determined(ropes, loads)
+    if not free or chosen(of, of.faults.copy()).level > 1:
+        return _modelled(of, rope.faults)
+    feeds = any(each.feeds for each in rope.spec.route)
+    elastic = replace(rope, spec=replace(rope.spec, level=3 if feeds else 2))
+    found = _modelled(_ready("", elastic).demanding(), rope.faults)
+    reasons = replace(found.model.reasons, level=SHARES)
+    return replace(found, model=replace(found.model, reasons=reasons))
+
+
+def _check_forms(ropes: list[Rope]) -> None:
+    """Whether no cable of several needs sections that run over rims."""
+    if ropes[0].spec.form == "brute":
+        ropes[0].faults.add("several-brute", ("model", "form"), why="as asked")
+        return
+    for rope in ropes:
+        why = needs_brute(rope.spec, rope.spans)
+        why += ["nothing holds its bends"] if rope.spec.bends and not why else []
+        if why:
+            rope.faults.add("several-brute", ("cable",), why="; ".join(why))
+
+
+def _check_shares(found: list[Modelled], ropes: list[Rope], loads: tuple[Load, ...]) -> None:
+    """Whether no cable is rigid whose share of a load depends on its stiffness."""
+    sharing = [each for each in found if any(station.on for station in each.spec.route)]
+    if any(each.model.level == 1 for each in sharing) and not are_determined(ropes, loads):
+        ropes[0].faults.add("not-shared", ("model", "level"), cables=len(sharing))
 
 
 def _shown(spec: Spec, model: CableModel, why: Reasons | None) -> Model:
@@ -188,7 +265,7 @@ def _shown(spec: Spec, model: CableModel, why: Reasons | None) -> Model:
 
 def _tensioned(spec: Spec) -> Spec:
     """With the tension that a cable of given length has, on which the choice of a model rests."""
-    if not spec.cable.length:
+    if not spec.cable.length or any(each.on for each in spec.route):
         return spec
     return replace(spec, cable=replace(spec.cable, pretension=start(spec, 1).tension))
 
@@ -204,86 +281,6 @@ def _essential(spec: Spec, pieces: list[FreeSpan]) -> Spec:
 def _stop(faults: Faults, wrong: bool) -> None:
     if wrong:
         raise DeckError(sort_by_place(faults.found))
-
-
-def _check_form(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: Faults) -> None:
-    """Whether the level and the form can show what the description has."""
-    brute = model.form == "brute"
-    if model.level < 3 and spec.form not in ("auto", "brute"):
-        faults.add("form-has-level", ("model", "form"), form=spec.form)
-    why = needs_brute(spec, pieces)
-    if why and not brute:
-        key = "form" if spec.form != "auto" else "level"
-        faults.add("needs-brute", ("model", key), why="; ".join(why))
-    if brute or spec.bends:
-        _check_brute(spec, faults)
-    shows_sliding = model.level == 1 or model.level == 3 and model.form == "ale"
-    for i, each in enumerate(spec.route):
-        if each.slides and not shows_sliding:
-            faults.add("slider-form", ("route", i, "slides"))
-        if each.floor and not any(spec.gravity):
-            faults.add("floor-where", ("route", i, "floor"))
-    check_nodes(spec, model, faults)
-    if model.level == 1:
-        _check_rigid(spec, faults)
-
-
-def _check_rigid(spec: Spec, faults: Faults) -> None:
-    """Whether a rigid cable without mass can do what the description has."""
-    for i in spec.bends:
-        faults.add("rigid-cannot", ("route", i, "kind"), what="nothing keeps its bends")
-    if not spec.bends and not any(each.is_wheel or each.is_free for each in spec.route):
-        faults.add("rigid-cannot", ("model", "level"), what="nothing moves between fixed ends")
-    for i, each in enumerate(spec.route):
-        if each.kind == "run":
-            faults.add("rigid-cannot", ("route", i, "kind"), what="a long run has waves")
-        if each.slides and is_straight(spec, i) and not is_wire(spec, i):
-            faults.add("rigid-cannot", ("route", i, "slides"), what="its straight length is fixed")
-        if slipping(i, spec):
-            faults.add("rigid-cannot", ("route", i, "mu"), what="its cable cannot slip")
-
-
-def _check_brute(spec: Spec, faults: Faults) -> None:
-    """Whether sections can be laid round the wheels and bends, and run over the rims."""
-    if not any(each.is_round for each in spec.route):
-        faults.add("brute-no-wheel", ("model", "form"))
-    elif not in_plane(spec):
-        faults.add("brute-plane", ("model", "form"))
-    for i, each in enumerate(spec.route):
-        for word in ("reel", "wander", "held", "grip"):
-            if getattr(each, word):
-                faults.add("brute-cannot", ("route", i, word), word=word)
-
-
-def _check_chain(spec: Spec, pieces: list[FreeSpan], faults: Faults) -> None:
-    """Whether all sprockets have one pitch, and a loop a whole number of links."""
-    toothed = [i for i, each in enumerate(spec.route) if each.teeth]
-    for i in toothed[1:]:
-        each = spec.route[i]
-        if abs(each.pitch - spec.pitch) > SAME_PITCH * spec.pitch:
-            faults.add("pitches", ("route", i, "radius"), i=toothed[0] + 1, j=i + 1,
-                       first=spec.pitch, second=each.pitch,
-                       radius=each.radius * spec.pitch / each.pitch)  # fmt: skip
-    if not (toothed and spec.closed) or faults.errors:
-        return
-    parts = way(spec, pieces, list(range(len(pieces))), {})
-    links = length(parts, spec.pitch) / spec.pitch
-    most = max(spec.route[i].teeth for i in toothed)
-    # Spread over all links, less than LINK_SHARE of a link on half of the largest wheel.
-    if abs(links - round(links)) > LINK_SHARE * 2 * links / most:
-        faults.add("loop-of-links", ("route", toothed[-1], "at"), links=links,
-                   off=(round(links) - links) * spec.pitch / 2)  # fmt: skip
-
-
-def _check_shape(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: Faults) -> None:
-    """Whether the sections fit round the bends, and only a loop runs along itself."""
-    section = max(reaches(spec, pieces)) / model.elements
-    for i in spec.bends:
-        radius = spec.route[i].radius
-        if section > 2 * radius:
-            faults.add("bend-too-tight", ("route", i, "radius"), section=section, radius=radius)
-    if spec.speed and not spec.closed:
-        faults.add("speed-on-a-route", ("speed",))
 
 
 def _check(
@@ -350,7 +347,7 @@ def _is_pushed(spec: Spec, pieces: list[FreeSpan], moves: Moves, faults: Faults)
         load, span, sense = (
             (spec.route[last], pieces[-1], 1) if i == 0 else (spec.route[0], pieces[0], -1)
         )
-        if i not in (0, last) or load.kind not in ("mass", "free"):
+        if i not in (0, last) or load.kind not in ("mass", "free", "hook"):
             continue
         fall, own = (sense * dot(way, span.along) for way in (spec.gravity, load.velocity))
         path = ("route", i, "payout")

@@ -39,7 +39,7 @@ from adamslite.cables.statements import (
 from adamslite.cables.vectors import ZERO, Vector, add, dot
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheel_spans import apart, touches, write_link
-from adamslite.cables.wheels import marker, slipping, triple
+from adamslite.cables.wheels import slipping, triple
 
 
 def write_pieces(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
@@ -57,8 +57,10 @@ def write_pieces(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
 
 def _span(spec: Spec, model: CableModel, piece: Piece) -> str:
     """One span in the form of its level."""
-    i, j = spec.pairs[piece.number - 1]
-    text = f"\n! ---- span {piece.number}, from station {i + 1} to {j + 1} ----\n"
+    i, j = piece.ends
+    text = (
+        f"\n! ---- span {piece.number}, from station {spec.station(i)} to {spec.station(j)} ----\n"
+    )
     root = spec.route[piece.root]
     if root.is_wheel and (is_moving(spec, piece) or not is_between(spec, piece)):
         to = _next(spec, model, piece)
@@ -81,7 +83,7 @@ def _next(spec: Spec, model: CableModel, piece: Piece) -> int:
     if is_between(spec, piece):
         return piece.first + 1
     whole = model.level == 1 or spec.route[piece.tip].kind == "run"
-    return marker(piece.tip) if whole else side_of(piece, model).node(1)
+    return spec.marker(piece.tip) if whole else side_of(spec, piece, model).node(1)
 
 
 def is_kept(spec: Spec, piece: Piece) -> bool:
@@ -98,7 +100,7 @@ def _rigid(spec: Spec, piece: Piece) -> str:
     if not is_kept(spec, piece):
         return "! Held at both ends: nothing moves.\n"
     more = f"-({feed(spec, piece)})" if spec.route[piece.root].is_wheel else ""
-    i, j = marker(piece.tip), root_marker(spec, piece)
+    i, j = spec.marker(piece.tip), root_marker(spec, piece)
     return f"GCON/{piece.label}, FUNCTION=DM({i},{j})-{number(piece.span.length)}{more}\n"
 
 
@@ -108,11 +110,11 @@ def _run(spec: Spec, piece: Piece) -> str:
     speed = f"-({feed(spec, piece, 1)})*(1+{number(piece.tension / spec.cable.stiffness)})"
     text = "! A long run goes on from here: it pulls with T0 + rho c times the speed out of it.\n"
     if not root.is_wheel:
-        end = marker(piece.tip)
+        end = spec.marker(piece.tip)
         text += f"MARKER/{end}, PART=1, QP={triple(piece.place)}, ZP="
         text += f"{triple(add(piece.place, piece.along))}\n"
-        speed = f"-VZ({marker(piece.root)},{end},{end})"
-        text += f"SFORCE/{end}, ACTIONONLY, I={marker(piece.root)}, J={end}, FUNCTION=T{p}\n"
+        speed = f"-VZ({spec.marker(piece.root)},{end},{end})"
+        text += f"SFORCE/{end}, ACTIONONLY, I={spec.marker(piece.root)}, J={end}, FUNCTION=T{p}\n"
     elif root.leans or root.mount:
         text += _on_axle(spec, piece)
     return text + f"VARIABLE/T{p}, FUNCTION={number(piece.tension)}+SQRT(EA*rho)*({speed})\n"
@@ -120,7 +122,7 @@ def _run(spec: Spec, piece: Piece) -> str:
 
 def _on_axle(spec: Spec, piece: Piece) -> str:
     """The pull of a long run on the link or mount of the wheel."""
-    i, end, m = piece.root, marker(piece.tip), piece.first
+    i, end, m = piece.root, spec.marker(piece.tip), piece.first
     text = f"MARKER/{end}, PART=1, QP={triple(spec.route[piece.tip].at)}\n"
     text += f"SFORCE/{m}, I={m}, J={end}, FUNCTION=-T{piece.number}\n"
     return text + borne(spec, i, m, end, piece.sense, f"T{piece.number}")
@@ -131,6 +133,10 @@ def _hanging(spec: Spec, model: CableModel, piece: Piece) -> tuple[float, list[V
     if spec.cable.length:
         places = start(spec, model.elements).places
         return spec.cable.length, places[1:]
+    if spec.frees:
+        n, between = model.elements, add(ZERO, piece.along, piece.span.length)
+        places = [add(piece.place, between, k / n) for k in range(1, n + 1)]
+        return spec.frees[piece.number - 1 - spec.numbers.spans], places
     held = spec.route[piece.tip].kind == "fixed"
     spec = replace(spec, gravity=add(ZERO, spec.gravity, lightness(spec, piece.place)))
     return hanging(spec, model.elements, piece.span.length, (piece.place, piece.along),
@@ -148,9 +154,12 @@ def _axes(spec: Spec) -> str:
     return "".join(a for i, a in enumerate(AXES) if laws[i] or any(abs(v[i]) > 0 for v in vectors))
 
 
-def side_of(piece: Piece, model: CableModel) -> Side:
+def side_of(spec: Spec, piece: Piece, model: CableModel) -> Side:
     return Side(
-        str(piece.number), piece.first, marker(piece.root), (model.elements, marker(piece.tip))
+        str(piece.number),
+        piece.first,
+        spec.marker(piece.root),
+        (model.elements, spec.marker(piece.tip)),
     )
 
 
@@ -158,7 +167,7 @@ def _chain(spec: Spec, model: CableModel, piece: Piece) -> str:
     """Nodes and sections."""
     n, p, cable = model.elements, piece.number, spec.cable
     free, places = _hanging(spec, model, piece)
-    side, axes = side_of(piece, model), _axes(spec)
+    side, axes = side_of(spec, piece, model), _axes(spec)
     grows = model.level == 3 and spec.route[piece.root].feeds
     mass = cable.density * free / n
     # Nodes go with a weight that slides; the cable runs the other way through both.
@@ -184,7 +193,7 @@ def _chain(spec: Spec, model: CableModel, piece: Piece) -> str:
 
 def row_of(spec: Spec, model: CableModel, piece: Piece) -> Row:
     """The nodes of a span and what they are held by."""
-    side, ends = side_of(piece, model), [spec.route[i] for i in (piece.root, piece.tip)]
+    side, ends = side_of(spec, piece, model), [spec.route[i] for i in (piece.root, piece.tip)]
     grows = model.level == 3 and ends[0].feeds
     nodes = root_marker(spec, piece), *(side.node(k) for k in range(1, model.elements + 1))
     free = [each.is_free and not each.slides for each in ends]
@@ -228,7 +237,7 @@ def _lengths(spec: Spec, model: CableModel, piece: Piece, free: float) -> str:
 def _pull(spec: Spec, model: CableModel, piece: Piece, grows: bool) -> str:
     """Tension at the root, with the half section that lies there."""
     p = piece.number
-    i, j = root_marker(spec, piece), side_of(piece, model).node(1)
+    i, j = root_marker(spec, piece), side_of(spec, piece, model).node(1)
     pull = spring(spec, p, i, j, f"H{p}" if grows else f"L{p}_0")
     text, root = f"VARIABLE/T{p}, FUNCTION={pull}", spec.route[piece.root]
     if root.leans or root.mount:

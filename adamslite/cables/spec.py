@@ -2,18 +2,17 @@
 
 import tomllib
 from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, TypeGuard
 
 from adamslite.cables import surroundings_rules
-from adamslite.cables.components import Cable
-from adamslite.cables.messages import LARGEST, SMALLEST, Faults
-from adamslite.cables.reeving import along_the_cable
-from adamslite.cables.route import check_route
-from adamslite.cables.toml_places import Path, Places
-from adamslite.cables.vocabulary import (
+from adamslite.cables.components import Cable, Load
+from adamslite.cables.keys import (
     CABLE,
+    LOAD,
     MODEL,
+    OF_SEVERAL,
     PLACE,
     QUANTITIES,
     STATIONS,
@@ -21,17 +20,40 @@ from adamslite.cables.vocabulary import (
     TOP,
     NestedTable,
     Rules,
-    Spec,
-    Station,
     Takes,
-    Toml,
 )
+from adamslite.cables.messages import LARGEST, SMALLEST, Faults
+from adamslite.cables.reeving import along_several, along_the_cable
+from adamslite.cables.route import check_route
+from adamslite.cables.toml_places import Path, Places
+from adamslite.cables.vocabulary import Spec, Station, Toml
 from adamslite.language.diagnostics import DeckError, Source, sort_by_place
 
+# The value of a fall that is not written: the order of the file.
+NO_FALL = ""
 NUMBER = f"a number, 0 or of a size from {SMALLEST:g} to {LARGEST:g}"
 
 
+@dataclass(frozen=True)
+class Description:
+    """Cables, each with its own diagnostics among all of them, and the loads on them."""
+
+    cables: list[tuple[Spec, Faults]]
+    loads: tuple[Load, ...]
+    faults: Faults
+
+    @property
+    def is_several(self) -> bool:
+        """Whether it is more than one cable, or there are loads of their own."""
+        return bool(self.loads) or len(self.cables) > 1
+
+
 def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
+    """The description in `text`, of one cable, and what is wrong with it: :func:`read_scene`."""
+    return read_scene(text, file).cables[0]
+
+
+def read_scene(text: str, file: str = "<text>") -> Description:
     """The description in `text`, and what is wrong with it.
 
     Where the route can be read, mistakes of other tables are left for later: a value that cannot
@@ -49,30 +71,97 @@ def read(text: str, file: str = "<text>") -> tuple[Spec, Faults]:
     except tomllib.TOMLDecodeError as fault:
         faults.add("toml", _line_of(str(fault), places), why=str(fault))
         raise DeckError(faults.found) from None
-    route = along_the_cable(faults, _stations(faults, data.get("route", [])), data.get("fall"))
+    given = data.get("cable")
+    if _is_several(data):
+        return _several(faults, data)
+    if isinstance(given, list) and len(given) == 1:
+        data["cable"] = given[0]
+    stations = _stations(faults, data.get("route", []))
+    route = along_the_cable(faults, stations, data.get("fall"))
     check_route(faults, route, data.get("closed") is True)
     readable = not faults.found
-    top = _table(
-        faults,
-        {k: v for k, v in data.items() if k not in TABLES},
-        TOP | surroundings_rules.TOP,
-        (),
-        TABLES,
-    )
+    common = _common(faults, data)
     cable = _table(
         faults, _part(faults, data, "cable"), CABLE | surroundings_rules.CABLE, ("cable",)
     )
     model = _table(faults, _part(faults, data, "model"), MODEL, ("model",))
+    _stop(faults, readable)
+    return Description([(_spec(common, cable, model, route), faults)], (), faults)
+
+
+def _is_several(data: Toml) -> bool:
+    """Whether several cables are described, or one with loads of their own."""
+    cables = data.get("cable")
+    if isinstance(cables, list):
+        tables = all(isinstance(each, dict) for each in cables)
+        return tables and (len(cables) > 1 or bool(cables and data.get("load")))
+    return isinstance(cables, dict) and bool(data.get("load"))
+
+
+def _several(faults: Faults, data: Toml) -> Description:
+    """Cables with a fall each, and loads."""
+    given, rules = data["cable"], CABLE | surroundings_rules.CABLE | OF_SEVERAL
+    if isinstance(given, dict):
+        tables, own = [given], [faults]
+        paths: list[Path] = [("cable",)]
+    else:
+        tables, own = given, [faults.of_cable(k) for k in range(len(given))]
+        paths = [("cable", k) for k in range(len(given))]
+    if len(tables) == 1:
+        rules |= {"fall": ("text", "", data.get("fall") or NO_FALL)}
+    cables = [_table(faults, each, rules, at) for each, at in zip(tables, paths, strict=True)]
+    stations = _stations(faults, data.get("route", []))
+    falls = [each.get("fall") for each in cables]
+    if falls == [NO_FALL]:
+        routes = [along_the_cable(own[0], stations, None)]
+    else:
+        routes = along_several(own, stations, falls)
+    for mine, route in zip(own, routes, strict=True):
+        check_route(mine, route, closed=False)
+    for word in ("closed", "fall"):
+        if data.get(word) and (word == "closed" or len(tables) > 1):
+            faults.add("several-closed" if word == "closed" else "several-falls", (word,))
+    loads = _loads(faults, data.get("load", []))
+    readable = not faults.found
+    common = _common(faults, data)
+    model = _table(faults, _part(faults, data, "model"), MODEL, ("model",))
+    _stop(faults, readable)
+    found = [
+        _spec(common, {k: v for k, v in cable.items() if k not in OF_SEVERAL}, model, route)
+        for cable, route in zip(cables, routes, strict=True)
+    ]
+    return Description(list(zip(found, own, strict=True)), loads, faults)
+
+
+def _loads(faults: Faults, tables: object) -> tuple[Load, ...]:
+    if not isinstance(tables, list) or not all(isinstance(each, dict) for each in tables):
+        faults.add("wrong-value", ("load",), word="load", expected="tables [[load]]",
+                   text=repr(tables))  # fmt: skip
+        return ()
+    read = [_table(faults, each, LOAD, ("load", k)) for k, each in enumerate(tables)]
+    return tuple(Load(**each) for each in read if len(each) == len(LOAD))
+
+
+def _common(faults: Faults, data: Toml) -> Toml:
+    """The keys of no table."""
+    own = {k: v for k, v in data.items() if k not in TABLES}
+    top = _table(faults, own, TOP | surroundings_rules.TOP, (), TABLES)
+    top.pop("fall")
+    return top
+
+
+def _stop(faults: Faults, readable: bool) -> None:
     if not readable or any(each.code == "missing-key" for each in faults.found):
         raise DeckError(sort_by_place(faults.found))
-    top.pop("fall")
+
+
+def _spec(top: Toml, cable: Toml, model: Toml, route: list[Toml]) -> Spec:
     names = {"EA": "stiffness", "rho": "density", "breaking_load": "breaking"}
     numbers: Toml = {k: 0 if v == "auto" else v for k, v in model.items() if k != "form"}
-    spec = Spec(
+    return Spec(
         **top, cable=Cable(**{names.get(k, k): v for k, v in cable.items()}),
         route=tuple(Station(**each) for each in route), form=model["form"], **numbers,
     )  # fmt: skip
-    return spec, faults
 
 
 def _line_of(message: str, places: Places) -> Path:
@@ -141,8 +230,8 @@ def _table(
 
 def _label(path: Path) -> str:
     """What a table is called."""
-    if len(path) == 2:
-        return f"station {int(path[1]) + 1}"
+    if len(path) == 2 and path[0] in ("route", "cable", "load"):
+        return f"{'station' if path[0] == 'route' else path[0]} {int(path[1]) + 1}"
     return str(path[-1]) if path else "the file"
 
 
@@ -165,7 +254,9 @@ def _value(faults: Faults, value: Any, takes: Takes, rule: str, path: Path) -> A
         return tuple(value)
     if takes == "curve":
         return tuple((float(x), float(y)) for x, y in value)
-    return tuple(map(float, value)) if takes in ("vector", "range") else value
+    if takes == "inertia" and not isinstance(value, list):
+        return (float(value),) * 3
+    return tuple(map(float, value)) if takes in ("vector", "range", "inertia") else value
 
 
 def _grouped(faults: Faults, value: Any, takes: NestedTable, path: Path) -> Any:
@@ -198,6 +289,8 @@ def _fits(value: Any, takes: str | tuple[str | int, ...]) -> tuple[bool, str]:
         "vector": (_is_three(value, _is_number), "three numbers [x, y, z]"),
         "laws": (_is_three(value, lambda x: _is_number(x) or _is_line(x)),
                  "three expressions of TIME [x, y, z]"),
+        "inertia": (_is_positive(value) or _is_three(value, _is_positive),
+                    "a positive number, or three [x, y, z]"),
         "quantities": (_are_quantities(value), f"a list of {', '.join(QUANTITIES)}"),
         "yes or no": (isinstance(value, bool), "true or false"),
         "curve": (_is_curve(value), "pairs [speed, torque] of rising speed, torques of 0 and more"),
@@ -213,6 +306,10 @@ def _are_quantities(value: Any) -> bool:
 
 def _is_number(value: object) -> bool:
     return _is_real(value) and (value == 0 or SMALLEST <= abs(value) <= LARGEST)
+
+
+def _is_positive(value: object) -> bool:
+    return _is_real(value) and _is_number(value) and value > 0
 
 
 def _is_real(value: object) -> TypeGuard[float]:

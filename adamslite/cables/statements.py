@@ -193,11 +193,12 @@ def grown_tip(form: str, s: int, sections: int, axes: str = "XY", side: Side = O
     i, n = side.node(sections), side.name
     lost = f"-rho*SD{n}/{2 * sections}*V{{a}}({i})" if form == "paper" else ""
     return vforce(
-        s, i, axes, [f"-Dm{n}/2*(ACC{a}({i})-{_gravity(a)}){lost.format(a=a)}" for a in axes]
+        s, i, axes, [f"-Dm{n}/2*(ACC{a}({i})-{gravity(a)}){lost.format(a=a)}" for a in axes]
     )
 
 
-def _gravity(axis: str) -> str:
+def gravity(axis: str) -> str:
+    """The name of gravity along an axis."""
     return {"X": "IGRAV", "Y": "JGRAV", "Z": "KGRAV"}[axis]
 
 
@@ -209,7 +210,7 @@ def vforce(s: int, i: int, axes: str, components: list[str]) -> str:
 
 def _grown(form: str, k: int, sections: int, a: str, side: Side) -> str:
     i, after, before, n = side.node(k), side.node(k + 1), side.node(k - 1), side.name
-    gained = f"-Dm{n}*(ACC{a}({i})-{_gravity(a)})"
+    gained = f"-Dm{n}*(ACC{a}({i})-{gravity(a)})"
     if form == "paper":
         return f"{gained}-rho*SD{n}/{sections}*V{a}({i})"
     xi = number(1 - k / sections)

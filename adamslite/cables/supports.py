@@ -9,7 +9,6 @@ from adamslite.cables.span_statements import row_of, spring
 from adamslite.cables.statements import AXES
 from adamslite.cables.surroundings import height
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import marker
 
 
 def hanging_half(spec: Spec, i: int, half: str, pair: tuple[int, int]) -> str:
@@ -28,14 +27,16 @@ def hanging_half(spec: Spec, i: int, half: str, pair: tuple[int, int]) -> str:
 
 def support_request(spec: Spec, model: CableModel, found: list[Piece], i: int) -> str:
     """F2 to F4: load of the cable on the fixed station i along x, y, z; F6: its magnitude."""
-    n = marker(i)
+    n = spec.marker(i)
     loads = dict.fromkeys(AXES, "")
     for p in spec.beside(i):
         if p >= 0:
             for x, load in _load(spec, model, found[p], i).items():
                 loads[x] += load
     names = {x: f"load{x}_{n}" for x in AXES}
-    text = f"! Load of the cable on station {i + 1}: along x, y and z, and its magnitude.\n"
+    text = (
+        f"! Load of the cable on station {spec.station(i)}: along x, y and z, and its magnitude.\n"
+    )
     for x, load in loads.items():
         text += f"VARIABLE/{names[x]}, FUNCTION={load}\n"
     squares = "+".join(f"{name}**2" for name in names.values())
@@ -61,7 +62,7 @@ def _load(spec: Spec, model: CableModel, piece: Piece, i: int) -> dict[str, str]
         if spec.cable.bending:
             load += _bent(spec, row.nodes, k, free, x)
         if any(spec.route[i].clamped):
-            load += f"-VFORCE(clamp_{marker(i)},0,{AXES.index(x) + 2},0)"
+            load += f"-VFORCE(clamp_{spec.marker(i)},0,{AXES.index(x) + 2},0)"
         loads[x] = load
     return loads
 

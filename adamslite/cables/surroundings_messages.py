@@ -19,6 +19,10 @@ SURROUNDINGS = {
     "length-too-short": Message(
         "the cable of {length:.4g} m would be stretched to {spacing:.4g} m", "a greater length"
     ),
+    "length-too-long": Message(
+        "the cable of {length:.4g} m is drawn over {spacing:.4g} m: it hangs slack, off its line",
+        "a smaller length",
+    ),
     "no-nodes": Message(
         "{word} acts on the nodes of a cable, and {where}",
         "level = 2 or 3; wheels beside each other further from the water, or leave {word} out",

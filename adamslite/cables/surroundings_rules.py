@@ -2,12 +2,13 @@
 
 from math import inf
 
+from adamslite.cables.keys import NestedTable, Rules
 from adamslite.cables.messages import Faults
 from adamslite.cables.model_choice import CableModel
 from adamslite.cables.payout_law import parse
 from adamslite.cables.surroundings import Bed, Drag, Water, height
 from adamslite.cables.vectors import ZERO, add, norm
-from adamslite.cables.vocabulary import NestedTable, Rules, Spec
+from adamslite.cables.vocabulary import Spec
 
 # Of its length: how far a cable can be stretched at the start.
 MOST_STRETCHED = 1.5
@@ -86,6 +87,10 @@ def _check_heights(spec: Spec, faults: Faults) -> None:
 def _check_length(spec: Spec, faults: Faults) -> None:
     """A length is given for a cable between two points, without tension."""
     path, cable = ("cable", "length"), spec.cable
+    if any(each.on for each in spec.route):  # it has a tension by its length as drawn
+        if cable.pretension:
+            faults.add("length-and-tension", ("cable", "pretension"))
+        return
     if len(spec.route) != 2 or {each.kind for each in spec.route} != {"fixed"}:
         faults.add("length-of-what", path)
         return

@@ -1,5 +1,7 @@
 """Line and column of the keys of a TOML file, which tomllib does not report."""
 
+import re
+
 from adamslite.language.diagnostics import Source, Span
 
 Path = tuple[str | int, ...]
@@ -42,8 +44,18 @@ class Places:
         """Of everything that has a place."""
         return list(self._ranges)
 
-    def span(self, path: Path) -> Span:
-        """Of a key; of its table where the key does not stand; else of the first line."""
+    def span(self, path: Path, within: tuple[str, int] = ("", 0)) -> Span:
+        """Of a key; of its table where the key does not stand; else of the first line. `within` is
+        a word of the value, and the number of the time that it stands there."""
         while path and path not in self._ranges:
             path = path[:-1]
-        return self.source.span(*self._ranges.get(path, (0, 1)))
+        start, end = self._ranges.get(path, (0, 1))
+        word, time = within
+        if word:
+            value = self.source.text.find("=", start, end)
+            found = re.finditer(rf"(?<![^\s\"']){re.escape(word)}(?![^\s\"'])",
+                                self.source.text[value + 1 : end])  # fmt: skip
+            spans = [each.span() for each in found]
+            if value >= 0 and time < len(spans):
+                start, end = (value + 1 + at for at in spans[time])
+        return self.source.span(start, end)

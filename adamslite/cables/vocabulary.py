@@ -1,12 +1,19 @@
-"""The vocabulary of the description of a cable scene: keys and the kinds of their values."""
+"""What the description of a cable scene says: its stations, and the scene."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import pi, sin
-from typing import Any, TypeAlias
+from typing import Any
 
-from adamslite.cables.components import Brake, Cable, Floor, Motor, Mount, Reel, Wander
+from adamslite.cables.components import (
+    Brake,
+    Cable,
+    Floor,
+    Motor,
+    Mount,
+    Reel,
+    Wander,
+)
 from adamslite.cables.surroundings import Bed, Water
 from adamslite.cables.vectors import ZERO, Vector
 
@@ -21,7 +28,8 @@ class Station:
 
     `mu` is negative where the cable cannot slip, `stored` where it is not written; `mass` is that
     of a weight, or of the carriage of a wheel that is free to move. `grip` is the displacement of
-    the cable on the rim at which friction is full, 0 where a sliding speed builds it up.
+    the cable on the rim at which friction is full, 0 where a sliding speed builds it up. What is
+    on a load has its number in the deck, `on`, and its place, `origin`.
     """
 
     kind: str
@@ -58,6 +66,9 @@ class Station:
     limit: tuple[float, ...] = ()
     floor: Floor | None = None
     block: str = ""
+    load: str = ""
+    on: int = 0
+    origin: Vector = ZERO
 
     @property
     def has_states(self) -> bool:
@@ -87,7 +98,7 @@ class Station:
     @property
     def is_free(self) -> bool:
         """Whether it moves through space with the cable: a weight, or an end without one."""
-        return self.kind in ("mass", "body", "free")
+        return self.kind in ("mass", "body", "free", "hook")
 
     @property
     def is_moved(self) -> bool:
@@ -102,7 +113,7 @@ class Station:
     @property
     def is_mobile(self) -> bool:
         """Whether its bearing is not on the ground itself."""
-        return self.is_moved or self.is_carried or self.mount is not None
+        return self.is_moved or self.is_carried or self.mount is not None or self.on > 0
 
     @property
     def gives_way(self) -> bool:
@@ -126,10 +137,25 @@ class Station:
 
 
 @dataclass(frozen=True)
+class Numbers:
+    """Where the numbers of a cable begin in a scene of several: stations and spans before its own;
+    stations and spans of the scene, 0 for those of the cable; `name` ends the names of its
+    variables."""
+
+    stations: int = 0
+    spans: int = 0
+    all_stations: int = 0
+    all_spans: int = 0
+    name: str = ""
+
+
+@dataclass(frozen=True)
 class Spec:
     """All of it; `elements`, `level` and `error` are 0 for "auto", `form` is "auto" then.
 
     `strains` are those of the spans as drawn, where they are not those of the tensions at rest.
+    On loads with other cables they have the tensions `rests` at the start, and the free lengths
+    `frees` where that of the cable is given.
     """
 
     title: str
@@ -151,6 +177,9 @@ class Spec:
     water: Water | None = None
     bed: Bed | None = None
     strains: tuple[float, ...] = ()
+    numbers: Numbers = Numbers()
+    rests: tuple[float, ...] = ()
+    frees: tuple[float, ...] = ()
     pairs: tuple[tuple[int, int], ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -172,7 +201,15 @@ class Spec:
     def thousands(self) -> int:
         """Thousands that the statements of stations, ten numbers each, take before those of
         spans."""
-        return 10 * len(self.route) // 1000
+        return 10 * (self.numbers.all_stations or len(self.route)) // 1000
+
+    def station(self, i: int) -> int:
+        """Number of station i in the deck."""
+        return i + 1 + self.numbers.stations
+
+    def marker(self, i: int) -> int:
+        """Marker of station i."""
+        return 10 * self.station(i)
 
     def on_block(self, i: int) -> list[int]:
         """Wheels on the block of station i, itself among them."""
@@ -216,155 +253,6 @@ class Spec:
 
 
 WHEELS = ("pulley", "winch")
-KINDS = ("fixed", "free", "run", "mass", "body", "bend", *WHEELS)
-# What the accuracy is asked for.
-QUANTITIES = ("tension", "position", "arrival")
-FORMS = ("auto", "paper", "ale", "brute")
-
+KINDS = ("fixed", "free", "run", "mass", "body", "hook", "bend", *WHEELS)
 Toml = dict[str, Any]
 """A table of a description, as it is read."""
-Takes: TypeAlias = "str | tuple[str | int, ...] | NestedTable"
-"""What a key takes: a word for a kind of value, some words or numbers, or a table."""
-Rules: TypeAlias = "dict[str, tuple[Takes, str, Any]]"
-"""Of each key what it takes, what must hold, and its default: any value that it takes."""
-
-
-@dataclass(frozen=True)
-class NestedTable:
-    """A key that takes a table of keys, which `make` puts together; None without it."""
-
-    make: Callable[..., object]
-    rules: Rules
-
-
-# Key -> (what it takes, rules for its value, the value without the key; None when it is needed).
-TOP: Rules = {
-    "title": ("text", "", "A cable"),
-    "gravity": ("vector", "", (0.0, -9.81, 0.0)),
-    "end": ("number", "not-positive", None),
-    "steps": ("whole", "not-positive", 200),
-    "error": ("number", "not-positive", 0.0),
-    "closed": ("yes or no", "", False),
-    "speed": ("number", "negative", 0.0),
-    "fall": ("text", "", ""),
-}
-CABLE: Rules = {
-    "EA": ("number", "not-positive", None),
-    "rho": ("number", "not-positive", None),
-    "pretension": ("number", "negative", 0.0),
-    "breaking_load": ("number", "not-positive", 0.0),
-    "damping": ("number", "not-a-share", 0.0),
-    "pulls_only": ("yes or no", "", False),
-}
-MODEL: Rules = {
-    "level": ((1, 2, 3, "auto"), "", "auto"),
-    "form": (FORMS, "", "auto"),
-    "elements": ("whole or auto", "not-positive", "auto"),
-    "accuracy": ("number", "not-positive not-a-share", 0.01),
-    "quantities": ("quantities", "", ("tension", "position")),
-    "trial": ("number", "negative", TRIAL),
-}
-
-
-REEL = NestedTable(
-    Reel,
-    {"thickness": ("number", "not-positive", None), "core": ("number", "not-positive", None)},
-)
-MOUNT = NestedTable(
-    Mount,
-    {
-        "foot": ("vector", "", None),
-        "mass": ("number", "not-positive", None),
-        "stiffness": ("number", "not-positive", 0.0),
-        "damping": ("number", "negative", 0.0),
-    },
-)
-WANDER = NestedTable(
-    Wander,
-    {
-        "mass": ("number", "not-positive", None),
-        "stiffness": ("number", "negative", None),
-        "damping": ("number", "negative", 0.0),
-    },
-)
-MOTOR = NestedTable(Motor, {"curve": ("curve", "", None), "gain": ("number", "not-positive", 0.0)})
-BRAKE = NestedTable(
-    Brake, {"torque": ("number", "not-positive", None), "applied": ("text", "", "")}
-)
-FLOOR = NestedTable(
-    Floor,
-    {
-        "depth": ("number", "not-positive", None),
-        "stiffness": ("number", "not-positive", None),
-        "damping": ("number", "negative", 0.0),
-    },
-)
-PLACE: Rules = {
-    "kind": (KINDS, "", None),
-    "at": ("vector", "", None),
-    "name": ("word", "", ""),
-}
-REPEATED: Rules = {
-    "count": ("whole", "not-positive", 1),
-    "pitch": ("vector", "", ZERO),
-    "stagger": ("vector", "", ZERO),
-}
-MOVED: Rules = {"motion": ("laws", "", ("", "", ""))}
-CARRIED: Rules = {
-    "mass": ("number", "not-positive", 0.0),
-    "slide": ("vector", "", ZERO),
-    "pull": ("text", "", ""),
-    "block": ("word", "", ""),
-}
-ROUND: Rules = {
-    "radius": ("number", "not-positive", None),
-    "axis": ("vector", "", (0.0, 0.0, 1.0)),
-    "turn": ((1, -1), "", 0),
-}
-WHEEL: Rules = (
-    REPEATED
-    | MOVED
-    | CARRIED
-    | ROUND
-    | {
-        "inertia": ("number", "not-positive", None),
-        "friction": ("number", "negative", 0.0),
-        "mu": ("number", "negative", -1.0),
-        "grip": ("number", "not-positive", 0.0),
-        "mu_static": ("number", "negative", 0.0),
-        "teeth": ("whole", "not-positive", 0),
-        "leans": ("yes or no", "", False),
-        "mount": (MOUNT, "", None),
-        "wander": (WANDER, "", None),
-    }
-)
-MASS: Rules = {
-    "mass": ("number", "not-positive", None),
-    "velocity": ("vector", "", ZERO),
-    "slides": ("yes or no", "", False),
-    "haul": ("text", "", ""),
-    "floor": (FLOOR, "", None),
-}
-STATIONS: dict[str, Rules] = {
-    "fixed": PLACE | MOVED,
-    "free": PLACE,
-    "run": PLACE,
-    "mass": PLACE | MASS,
-    "body": PLACE | MASS | {"inertia": ("number", "not-positive", None)},
-    "bend": PLACE | ROUND,
-    "pulley": PLACE | WHEEL | {"held": ("yes or no", "", False)},
-    "winch": PLACE
-    | WHEEL
-    | {
-        "payout": ("text", "", ""),
-        "force": ("text", "", ""),
-        "torque": ("text", "", ""),
-        "stored": ("number", "negative", -1.0),
-        "reel": (REEL, "", None),
-        "speed": ("text", "", ""),
-        "motor": (MOTOR, "", None),
-        "brake": (BRAKE, "", None),
-        "limit": ("range", "", ()),
-    },
-}
-TABLES = ("cable", "model", "route")

@@ -11,7 +11,7 @@ from adamslite.cables.pieces import Piece, inflow, is_between, is_moving, pulled
 from adamslite.cables.statements import number
 from adamslite.cables.vectors import ZERO, add, dot
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import carrier, marker, travel, triple
+from adamslite.cables.wheels import carrier, travel, triple
 
 
 def is_heavy(spec: Spec, piece: Piece) -> bool:
@@ -49,11 +49,11 @@ def touches(spec: Spec, piece: Piece, m: int, to: int) -> str:
     if each.leans:
         tip = spec.route[piece.tip]
         # Between nodes the cable is at rest; alone it turns with its end.
-        velocity = tip.velocity if to == marker(piece.tip) else ZERO
+        velocity = tip.velocity if to == spec.marker(piece.tip) else ZERO
         spin = spun(spec, i, piece.along, piece.span.length, velocity)
         return link(spec, i, m, place, to, spin)
     part = carrier(spec, i)
-    place = add(place, each.at, -1) if part > 1 else place
+    place = add(place, each.origin if each.on else each.at, -1) if part > 1 else place
     return f"MARKER/{m}, PART={part}, QP={triple(place)}  ! cable {word}\n"
 
 
@@ -62,6 +62,7 @@ def write_link(spec: Spec, piece: Piece) -> str:
     p = piece.number
     text, spacing = apart(spec, piece)
     free = piece.span.length / (1 + piece.tension / spec.cable.stiffness)
+    free = spec.frees[p - 1 - spec.numbers.spans] if spec.frees else free
     pull = f"EA*({spacing}/LT{p}-1)"
     if spec.cable.damping:
         rate = f"({inflow(spec, piece, 1)})"

@@ -20,11 +20,6 @@ STICKS = 1e-8
 ROUND_OFF = 1e-9
 
 
-def marker(i: int) -> int:
-    """Of station i."""
-    return 10 * (i + 1)
-
-
 def triple(a: Vector) -> str:
     """Three numbers."""
     return ",".join(number(x) for x in rounded(a))
@@ -32,7 +27,7 @@ def triple(a: Vector) -> str:
 
 def travel(i: int, spec: Spec, order: int = 0) -> str:
     """Cable that runs over or through station i along the route [m], or its time derivative."""
-    n = marker(i)
+    n = spec.marker(i)
     if slipping(i, spec) or spec.route[i].slides:
         return (f"DIF(paid_{n})", f"DIF(run_{n})", f"A_{n}")[order]
     return rolled(i, spec, order)
@@ -42,13 +37,13 @@ def arm(i: int, spec: Spec, sense: int = 1) -> str:
     """Radius of wheel i, with the sign of a turn along the route, or against it (`sense` -1)."""
     each = spec.route[i]
     if each.reel:
-        return f"{number(sense * each.turn)}*R_{marker(i)}"
+        return f"{number(sense * each.turn)}*R_{spec.marker(i)}"
     return number(sense * each.turn * each.radius)
 
 
 def rolled(i: int, spec: Spec, order: int = 0, sense: int = 1) -> str:
     """Way of the rim of wheel i along the route [m], or its time derivative."""
-    each, n = spec.route[i], marker(i)
+    each, n = spec.route[i], spec.marker(i)
     text = f"{arm(i, spec, sense)}*{turning(i, spec, order)}"
     if not each.reel or order == 1:
         return text
@@ -67,9 +62,9 @@ def _growth(i: int, spec: Spec) -> float:
 
 def turning(i: int, spec: Spec, order: int = 0) -> str:
     """Angle of wheel i about its axle, or its time derivative."""
-    n = marker(i)
+    n = spec.marker(i)
     # Rates are along the axes of ground unless a third marker is there.
-    seen = "" if spec.route[i].axis == (0.0, 0.0, 1.0) else f",{n + 1}"
+    seen = "" if _is_upright(spec.route[i]) and not spec.route[i].on else f",{n + 1}"
     return (f"AZ({n},{n + 1})", f"WZ({n},{n + 1}{seen})", f"WDTZ({n},{n + 1}{seen})")[order]
 
 
@@ -80,10 +75,10 @@ def slipping(i: int, spec: Spec) -> bool:
 
 def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
     """A wheel whose rim starts with `speed` along the route [m/s]."""
-    each, n = spec.route[i], marker(i)
+    each, n = spec.route[i], spec.marker(i)
     own = "" if _is_upright(each) else f", ZP={triple(each.axis)}"
-    text = f"\n! The {each.kind} of station {i + 1}, R = {number(each.radius)} m.\n"
-    if each.is_mobile:
+    text = f"\n! The {each.kind} of station {spec.station(i)}, R = {number(each.radius)} m.\n"
+    if each.is_mobile and not each.on:
         text += _mount(each, each.mount, n) if each.mount else _carriage(spec, i)
     if each.leans or not each.held:
         text += _on_bearing(each, n, n + 1)
@@ -109,6 +104,10 @@ def _is_upright(each: Station) -> bool:
 
 def _on_bearing(each: Station, n: int, m: int) -> str:
     """MARKER/m on the axle, z along it, on what wheel n sits on."""
+    if each.on:
+        place = add(each.at, each.origin, -1)
+        own = "" if _is_upright(each) else f", ZP={triple(add(place, each.axis))}"
+        return f"MARKER/{m}, PART={each.on}, QP={triple(place)}{own}\n"
     if each.is_mobile:
         own = "" if _is_upright(each) else f", ZP={triple(each.axis)}"
         return f"MARKER/{m}, PART={n + 2}{own}\n"
@@ -121,7 +120,7 @@ def _pack(spec: Spec, i: int) -> str:
 
     There is no term J' w: cable that leaves takes its angular momentum rho r w r^2 along.
     """
-    each, n = spec.route[i], marker(i)
+    each, n = spec.route[i], spec.marker(i)
     assert each.reel is not None
     heavy = spec.cable.density * pi / 2 / each.reel.thickness
     return (
@@ -134,7 +133,8 @@ def _pack(spec: Spec, i: int) -> str:
 
 def carrier(spec: Spec, i: int) -> int:
     """The part the bearing of wheel i sits on."""
-    return marker(i) + 2 if spec.route[i].is_mobile else 1
+    each = spec.route[i]
+    return each.on or (spec.marker(i) + 2 if each.is_mobile else 1)
 
 
 def _mount(each: Station, own: Mount, n: int) -> str:
@@ -157,18 +157,20 @@ def _mount(each: Station, own: Mount, n: int) -> str:
 
 def mount_request(spec: Spec, i: int) -> str:
     """Load and torque on the ground at the foot of a mount."""
-    n = marker(i)
+    n = spec.marker(i)
     if not spec.route[i].mount:
         return ""
     named = {2: "FX", 3: "FY", 4: "FZ", 6: "TX", 7: "TY", 8: "TZ"}
     parts = [f"F{k}={name}({n + 3},{n + 5})" for k, name in named.items()]
-    comment = f"! Load and torque on the ground at the foot of the mount of station {i + 1}.\n"
+    comment = (
+        f"! Load and torque on the ground at the foot of the mount of station {spec.station(i)}.\n"
+    )
     return f"{comment}REQUEST/{n + 1}, " + "\\ ".join(parts) + "\n"
 
 
 def _carriage(spec: Spec, i: int) -> str:
     """What the bearing of a wheel sits on, when that moves."""
-    each, n, first = spec.route[i], marker(i), spec.on_block(i)[0]
+    each, n, first = spec.route[i], spec.marker(i), spec.on_block(i)[0]
     mass = each.mass or 1.0
     inertia = ",".join([number(mass * each.radius**2)] * 3)
     text = (
@@ -184,7 +186,7 @@ def _carriage(spec: Spec, i: int) -> str:
     if first < i:
         place = add(each.at, spec.route[first].at, -1)
         return text + (
-            f"MARKER/{n + 3}, PART={marker(first) + 2}, QP={triple(place)}  ! its block\n"
+            f"MARKER/{n + 3}, PART={spec.marker(first) + 2}, QP={triple(place)}  ! its block\n"
             f"JOINT/{n + 2}, FIXED, I={n + 2}, J={n + 3}\n"
         )
     way = unit(each.slide)

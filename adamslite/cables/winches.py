@@ -10,7 +10,7 @@ switch   a SENSOR, which holds what it has seen: S reached low or high
 
 from adamslite.cables.statements import number
 from adamslite.cables.vocabulary import Spec, Station
-from adamslite.cables.wheels import STICKS, arm, marker, own_names, rolled, turning
+from adamslite.cables.wheels import STICKS, arm, own_names, rolled, turning
 
 # Displacement of a rim at which its brake holds with its torque [m]; time in which it lets go [s].
 BRAKE_GRIP, LETS_GO = 1e-4, 0.01
@@ -23,7 +23,7 @@ FEWEST_POINTS, FAR = 4, 1e3
 def _bearing(spec: Spec, i: int) -> tuple[str, str]:
     """Share of the friction of a bearing that acts, and the state that it needs: the capstan's laws
     for the speed and the displacement of the rim."""
-    each, n, spin = spec.route[i], marker(i), turning(i, spec, 1)
+    each, n, spin = spec.route[i], spec.marker(i), turning(i, spec, 1)
     if not each.grip:
         return "", f"STEP({spin},-0.01,-1,0.01,1)"
     r = number(each.radius)
@@ -34,7 +34,7 @@ def _bearing(spec: Spec, i: int) -> tuple[str, str]:
 
 def drive(spec: Spec, i: int, torques: list[str]) -> str:
     """What turns wheel i: `torques` of the cable, friction, an engine, a payout law."""
-    each, n = spec.route[i], marker(i)
+    each, n = spec.route[i], spec.marker(i)
     if each.held:
         return ""
     torques, text = list(torques), ""
@@ -96,7 +96,7 @@ def _switch(each: Station, n: int) -> str:
 
 def _engine(spec: Spec, i: int) -> str:
     """VARIABLE/engine_n: torque, or pull at the rim, against paying out."""
-    each, n = spec.route[i], marker(i)
+    each, n = spec.route[i], spec.marker(i)
     if not each.has_states or not (each.force or each.torque or each.motor):
         return ""
     text, asked = "", _law(each, n)
@@ -130,7 +130,7 @@ def _spread(curve: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]
 
 def _brake(spec: Spec, i: int) -> str:
     """VARIABLE/brake_n: torque of a brake against paying out."""
-    each, n = spec.route[i], marker(i)
+    each, n = spec.route[i], spec.marker(i)
     if not each.brake:
         return ""
     applied = f"({own_names(each.brake.applied, n)})" if each.brake.applied else "0"
