@@ -246,11 +246,6 @@ def waves(of: Demand, p: float) -> list[str]:
     return found if of.known else [*found, "the payout is not known before the run"]
 
 
-def has_waves(of: Demand, p: float) -> bool:
-    """Whether the time that waves take matters."""
-    return bool(waves(of, p))
-
-
 def paper_fails(of: Demand, p: float) -> list[str]:
     """The estimates that speak against the paper's element."""
     found = [f"{name} = {value:.2g}" for name, value in of.validity.items() if value >= p]

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any
 
 from adamslite.checks.lints import run_end
 from adamslite.checks.mobile import looked_at, size_of
-from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.elements.bushing import Bushing
@@ -192,6 +191,3 @@ def _rests(mobility: Mobility, each: Stiff, deflection: float) -> bool:
         open_ = float(np.abs(twist - np.eye(3)).max()) if each.kt else 0.0
         return apart <= deflection and open_ * size_of(mobility) <= deflection
     return each.length > 0.0 and abs(apart - each.length) <= deflection
-
-
-STIFF_RULES: list[Rule] = [stiff_elements]

@@ -18,7 +18,7 @@ class EnergyBalance(Record):
     squares, quadrature     what explains a gap: errors of the steps, of the panels
     largest                 the largest energy
     created ...             what elastic elements delivered and stored, the least and the most
-    missed, splits          points without accelerations; panels that ended where a guard changed
+    missed                  points without accelerations
     push, turn              squares of what an error of 1 does to both momenta; their sums
     external                the share of loads that does not add up to nothing
     """
@@ -41,7 +41,6 @@ class EnergyBalance(Record):
     most_created: float
     created_at: float
     missed: int
-    splits: int
     drift: float
     spin_drift: float
     push: float

@@ -68,7 +68,6 @@ def work_on_panel(P: Problem, L: Plan, a: float, b: float) -> float:
     if count > 0 and A.budget > 0:
         s = first_change(P, a, b)
         if s > a + SAME_PLACE and s < b - SAME_PLACE:
-            A.splits += 1
             return work_on_panel(P, L, a, s) + work_on_panel(P, L, s, b)
     fine = OUTER * (points[0] + points[4]) + INNER * (points[1] + points[3]) + MIDDLE * points[2]
     rough = ROUGH_OUTER * (points[0] + points[4]) + ROUGH_MIDDLE * points[2]
