@@ -19,13 +19,15 @@ import os
 import resource
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from benchmarks.rope_runs import (
+    CLOCK,
     STILL,
     Model,
     Solved,
@@ -42,6 +44,8 @@ BUDGET = 40.0
 #: In p: what a truth may be off where it still tells whether a model is inside.
 LARGEST_DOUBT = 0.5
 LOOSER = 10.0
+#: Short runs are timed more than twice: so many times at most, so long [s].
+MOST_TIMES, LONG = 6, 0.05
 #: Scenes that are solved again and again, with their truth; how many, of which CPU [s] at most, and
 #: how far inside, in p: other processors round otherwise.
 SAMPLE = Path(__file__).parent / "advice.json"
@@ -128,7 +132,7 @@ def judged(table: Table, found: Verdict, budget: float) -> Iterator[Verdict]:
         one.model += f" {deck.model.error:.1E}"
         same = runs["linear"] if way == "tried" and deck.text == decks["linear"].text else None
         try:
-            runs[way] = same or quickest(table, deck)
+            runs[way] = same or quickest(partial(solved, table, deck.text, deck.model))
         except RuntimeError as fault:
             one.why = " ".join(str(fault).split())[:100]
             continue
@@ -173,13 +177,17 @@ def _deck(of: Any, told: float) -> Deck:
     model = of.model
     form = model.form if model.level == 3 else "auto"
     count = 0 if model.level == 1 else model.elements
-    return Deck(of.text, Model(model.level, form, count, model.error), model.method, told)
+    return Deck(
+        of.text, Model(model.level, form, count, model.error), model.method, max(told, CLOCK)
+    )
 
 
-def quickest(table: Table, deck: Deck) -> Solved:
-    """The run of a deck, with the lesser CPU of two."""
-    runs = [solved(table, deck.text, deck.model) for _ in range(2)]
-    return min(runs, key=lambda run: run.cpu)
+def quickest(run: Callable[[], Solved]) -> Solved:
+    """With the least CPU of two, of more where they are short."""
+    runs = [run(), run()]
+    while len(runs) < MOST_TIMES and sum(each.cpu for each in runs) < LONG:
+        runs.append(run())
+    return min(runs, key=lambda each: each.cpu)
 
 
 def compare_less(table: Table, one: Advised, deck: Deck, truth: Solved, p: float) -> None:
@@ -187,12 +195,11 @@ def compare_less(table: Table, one: Advised, deck: Deck, truth: Solved, p: float
     for name, model in lesser(deck.model).items():
         method = deck.method if model.level != 1 else ""
         try:
-            runs = [solve(table, model, p, method) for _ in range(2)]
+            run = quickest(partial(solve, table, model, p, method))
         except Exception as fault:
             one.why = f"{name}: {' '.join(str(fault).split())[:100]}"
             continue
-        cpu = min(each.cpu for each in runs)
-        one.less[name] = (apart(runs[0], truth, p)[0], one.cpu / cpu)
+        one.less[name] = (apart(run, truth, p)[0], one.cpu / run.cpu)
 
 
 def lesser(used: Model) -> dict[str, Model]:

@@ -1,9 +1,11 @@
 """Runs of cable scenes: by a model, by ever dearer ones, and how far two of them are apart.
 
 Truth is the model with sections doubled and ERROR a third, again and again, until all figures
-stand still to p/10. A figure is the greatest, least or mean tension at either end of a span, as a
-share of the greatest there, and the greatest, least or mean place of a weight, as a share of its
-way. Nothing here is that of :mod:`adamslite.cables.trial`, whose choices it judges.
+stand still to p/10: with d the difference of the last two and f what it is of the one before, at
+least 1/4 and at most 1/2, the last is d f/(1 - f) off. A figure is the greatest, least or mean
+tension at either end of a span, as a share of the greatest there, and the greatest, least or mean
+place of a weight, as a share of its way. Nothing here is that of
+:mod:`adamslite.cables.trial`, whose choices it judges.
 """
 
 from __future__ import annotations
@@ -29,9 +31,11 @@ CLOCK = 1e-3
 #: ERROR of a truth, from one to the next.
 FINER = 3.0
 #: Work of twice the sections and a third of ERROR.
-GROWTH = 6
+GROWTH = 4
 #: Sections of the first truth, of those of the finest run that the advice rests on.
-BEGIN, FEWEST = 0.75, 12
+BEGIN, FEWEST = 0.75, 6
+#: How much smaller a difference is than the one before it: powers 2 and 1 of the sections.
+FASTEST, SLOWEST = 0.25, 0.5
 
 
 @dataclass(frozen=True)
@@ -162,11 +166,12 @@ def truths(
     how far it is from the one before, in p."""
     level = max((each.level for each in above if each.level > 1), default=3)
     finest = max(each.elements for each in above)
-    count = min(max(math.ceil(BEGIN * finest), FEWEST), MOST_SECTIONS // 2)
+    count = min(max(math.ceil(BEGIN * finest), FEWEST), MOST_SECTIONS // 4)
     tightest = min(each.error for each in above if each.error)
     exact = Model(level, "ale" if level == 3 else "auto", count,
                   min(tightest, base_error(table, p, count)) / FINER)  # fmt: skip
     before: Solved | None = None
+    apart_before = 0.0
     begun, cpu = resource.getrusage(resource.RUSAGE_SELF).ru_utime, 0.0
     while True:
         try:
@@ -175,17 +180,26 @@ def truths(
             run = None
         if run is not None:
             cpu = run.cpu
-            if before is not None and exact.elements > finest:
+            if before is not None:
                 doubt = apart(before, run, p)[0]
-                yield run, doubt
-                if doubt <= STILL:
-                    return
+                left = remaining(doubt, apart_before)
+                if exact.elements > finest:
+                    yield run, left
+                    if left <= STILL:
+                        return
+                apart_before = doubt
             before = run
         left = budget + begun - resource.getrusage(resource.RUSAGE_SELF).ru_utime
         if GROWTH * cpu > left or exact.elements >= MOST_SECTIONS:
             return
         exact = replace(exact, elements=min(2 * exact.elements, MOST_SECTIONS),
                         error=exact.error / FINER)  # fmt: skip
+
+
+def remaining(last: float, before: float) -> float:
+    """What a run is off, by the last differences; with the first of them alone, by that one."""
+    falls = min(max(last / before, FASTEST), SLOWEST) if before else SLOWEST
+    return last * falls / (1 - falls)
 
 
 def base_error(table: Table, p: float, sections: int) -> float:

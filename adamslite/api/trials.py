@@ -18,6 +18,8 @@ from adamslite.progress import Progress, RunState
 from adamslite.reading.read import read
 from adamslite.results.outcomes import Outcome
 
+# Iterations of a step.
+USUAL = 2.0
 TOO_LONG = "a run took more steps than the trial may"
 
 
@@ -71,8 +73,10 @@ def solver(shown: Progress) -> Solver:
         found = {name: np.asarray(run[name]) for name in columns if name in names}
         if not all(np.isfinite(each).all() for each in found.values()):
             return _ended("a tension or a place has no value", steps)
-        cpu = float(run.summary["solve_cpu_s"])
-        return Solution(Series(np.asarray(run.time), found), steps, cpu)
+        cpu, iterations = (float(run.summary[name]) for name in ("solve_cpu_s", "newton"))
+        # Corners of forces cost iterations.
+        work = max(steps, iterations / USUAL)
+        return Solution(Series(np.asarray(run.time), found), work, cpu)
 
     return solve
 

@@ -50,6 +50,8 @@ STEP_CPU = {
     "VERLET": ((0.3e-6, 0.005e-6), (0.3e-6, 0.005e-6), (0.3e-6, 0.005e-6)),
 }  # fmt: skip
 RIGID_CPU = 3e-6
+# Explicit sections that pull only, in those that push too.
+CORNERS = 4.0
 # Stages of a step of RADAU.
 THREE = 3
 # Sections of the linear model whose vibrations tell the steps.
@@ -125,6 +127,7 @@ def work(of: Demand, method: str, chosen: int, steps: float, sections: int) -> f
     if method == "RADAU":
         return THREE * work(of, "GSTIFF", chosen, steps, sections)
     base, each = STEP_CPU[method][2 if chosen == 3 else int(of.tied)]
+    each *= CORNERS if of.slackens and method == "VERLET" else 1.0
     return steps * spans * (base + each * max(sections, 1))
 
 

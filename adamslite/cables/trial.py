@@ -19,7 +19,7 @@ from adamslite.cables.trial_runs import Option, Runs, Solver, Tried
 # Of the accuracy: what the model that is taken may be off, with what the finest one is.
 ROOM = 0.95
 # How much cheaper a model has to be that is less accurate.
-WORTH = 1.5
+WORTH = 1.2
 # ERROR of the next cheaper model, in the order 1, 2, 5, 10 ...
 LOOSER = 3
 # Of the accuracy: a rigid cable that the linear model has further off is not tried.
@@ -239,7 +239,9 @@ class _Choice:
         trial, before = self.trial, self.proposed.model
         finest = self.rungs[-1] if self.rungs else None
         used = finest if len(self.rungs) > 1 else None
-        if used and used.option.elements < before.elements:
+        # The linear model knows nothing of a slack cable.
+        pulls_only = trial.of.spec.cable.pulls_only
+        if used and used.option.elements < before.elements and not pulls_only:
             used = None
         trial.of = trial.of.telling(
             "unsettled", ("model", "accuracy"), accuracy=trial.of.spec.accuracy,
@@ -247,8 +249,7 @@ class _Choice:
             more=10 * trial.allowance,
         )  # fmt: skip
         if not used:
-            option = finest.option if finest else None
-            return Found(written(trial.of), spent=trial.spent, finest=option)
+            return self._as_proposed(finest)
         reasons = replace(
             self._chosen_by_trial(used),
             elements=(f"{self._named(used.option)}, the finest that was tried",),
@@ -256,6 +257,14 @@ class _Choice:
         deck = written(trial.set_to(used.option), reasons)
         doubt = self.doubt * trial.of.spec.accuracy
         return Found(deck, inf, doubt, used.cpu, trial.spent, used.option)
+
+    def _as_proposed(self, finest: Tried | None) -> Found:
+        """The model of the linear model; its cost by that of the finest that was solved."""
+        trial, before = self.trial, self.proposed.model
+        if finest is None:
+            return Found(written(trial.of), cpu=trial.expected(before), spent=trial.spent)
+        cpu = finest.cpu * trial.expected(before) / trial.expected(finest.model)
+        return Found(written(trial.of), cpu=cpu, spent=trial.spent, finest=finest.option)
 
     def _reached(self) -> str:
         """What runs have shown where they have not shown enough."""

@@ -40,10 +40,11 @@ NOTHING = 1e-12
 
 @dataclass(frozen=True)
 class Solution:
-    """Columns of a run, or how it ended early; steps, and CPU [s] that this machine took."""
+    """Columns of a run, or how it ended early; steps, with those that are worth some, and CPU [s]
+    that this machine took."""
 
     run: Series
-    steps: int
+    steps: float
     cpu: float
     ended: str = ""
 
@@ -120,6 +121,12 @@ class Runs:
     def _work(self, model: CableModel, steps: float) -> float:
         method = model.method.split(",")[0]
         return advice.work(self.of.demand, method, model.level, steps, model.elements)
+
+    def expected(self, model: CableModel) -> float:
+        """CPU [s] of a run by the linear model."""
+        method = model.method.split(",")[0]
+        of, level = self.of.demand, model.level
+        return advice.expected(of, method, level, model.elements, model.error) * advice.speed()
 
     def climb(self, proposed: CableModel) -> list[Tried]:
         """Models, each finer than the one before, until they stand still."""
