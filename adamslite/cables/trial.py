@@ -205,14 +205,17 @@ class _Choice:
         """What less would have been."""
         told = []
         for option, (off, _) in self.others.items():
-            changes = [
-                f"level {option.level}" * (option.level != chosen.level),
-                self._counted(option.elements) * (option.elements != chosen.elements),
-                f"ERROR={option.error:.0E}" * (option.error != chosen.error),
-                f"form {option.form}" * (option.form != chosen.form),
-            ]
-            words = changes[:1] if changes[0] else [each for each in changes if each]
-            if len(words) == 1:
+            less = {
+                f"level {option.level}": option.level < chosen.level,
+                self._counted(option.elements): option.elements < chosen.elements,
+                f"ERROR={option.error:.0E}": option.error > chosen.error,
+                f"form {option.form}": option.form != chosen.form,
+            }
+            alike = replace(chosen, elements=option.elements) == option
+            alike |= replace(chosen, error=option.error) == option
+            alike |= replace(chosen, form=option.form) == option
+            words = [word for word, is_less in less.items() if is_less]
+            if words and (alike or option.level < chosen.level):
                 cheaper = ", and no cheaper" * (off <= self.limit)
                 told.append(f"{words[0]}: {self._share(off)} off{cheaper}")
         return told

@@ -32,6 +32,8 @@ GROWTH = 3.0
 FIRST = 1 / 30
 # CPU [s] of reading a deck and making it ready, in any case and for each of its letters.
 SETUP, BY_LETTER = 0.03, 2e-6
+# Steps of implicit methods where sections go slack, in those where they push.
+EVENTS = 30.0
 # Runs that may fail before others are not tried.
 FAILURES = 2
 # Keeps quotients finite.
@@ -129,7 +131,7 @@ class Runs:
         return advice.expected(of, method, level, model.elements, model.error) * advice.speed()
 
     def climb(self, proposed: CableModel) -> list[Tried]:
-        """Models, each finer than the one before, until they stand still."""
+        """Models, each finer than the one before, until they stand still, or two go slack."""
         option: Option | None = self._bottom(proposed)
         rungs: list[Tried] = []
         failures = 0
@@ -140,7 +142,7 @@ class Runs:
             if rung:
                 rungs.append(rung)
             failures += rung is None
-            if len(rungs) >= RUNGS and self.doubt(rungs) <= SETTLED:
+            if len(rungs) >= RUNGS and self.doubt(rungs) <= SETTLED or self.slackens(rungs):
                 break
             if GROWTH * taken > self.allowance - self.spent:
                 break
@@ -154,10 +156,11 @@ class Runs:
         level = spec.level or elastic_level(of)
         form = spec.form if spec.form != "auto" else "ale" if level == 3 else "auto"
         method = advice.integrator(of, spec.accuracy, level)[0]
+        stops = EVENTS if spec.cable.pulls_only and method != "VERLET" else 1.0
         count = proposed.elements
         while True:
             error = spec.error or advice.error_bound(of, spec.accuracy, count)
-            taken = advice.expected(of, method, level, count, error)
+            taken = stops * advice.expected(of, method, level, count, error)
             if count == 1 or taken < FIRST * self.allowance:
                 return Option(level, form, count, error)
             count = (count + 1) // 2
@@ -185,6 +188,11 @@ class Runs:
             before, _ = self.off(rungs[-3], rungs[-2])
             falls = min(max(last / max(before, NOTHING), FASTEST), SLOWEST)
         return last * falls / (1 - falls)
+
+    def slackens(self, rungs: list[Tried]) -> bool:
+        """Whether two models agree that a cable which also pushes would be pushed."""
+        pulls_only, last = self.of.spec.cable.pulls_only, rungs[-2:]
+        return not pulls_only and len(last) > 1 and all(self.least([each]) < 0 for each in last)
 
     def least(self, rungs: list[Tried]) -> float:
         """Least tension where the cable goes slack, else 0 [N]."""
