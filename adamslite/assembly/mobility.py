@@ -29,6 +29,8 @@ MOST_BODIES = 60
 #: Elements of a motion below this are none.
 STILL = 1e-7
 NEARBY, STEP = 2, 0.2
+#: So many are looked at by those that ask for more; bodies times postures.
+FARTHER, MOST_WORK = 24, 240
 LASTING = ("COUPLER", "GEAR", "JOINT", "JPRIM", "MOTION")
 
 
@@ -83,14 +85,22 @@ def mobilities(deck: Deck) -> tuple[Mobility, ...]:
     closing = close(model, held, Posture.start(model), OPEN)
     if not closing.closed:
         return ()
-    return tuple(_found(model, held, closing.posture))
+    return tuple(_found(model, held, closing.posture, NEARBY))
 
 
-def _found(model: Model, held: list[Constraint], posture: Posture) -> Iterator[Mobility]:
+def farther(drawn: Mobility) -> tuple[Mobility, ...]:
+    """The same in more postures, one behind the other."""
+    count = min(FARTHER, MOST_WORK // len(drawn.model.bodies))
+    return tuple(_found(drawn.model, list(drawn.held), drawn.posture, count))
+
+
+def _found(
+    model: Model, held: list[Constraint], posture: Posture, count: int
+) -> Iterator[Mobility]:
     rng = np.random.default_rng(0)
     weights = coordinate_weights(model).ravel()
     size = max(1e-30, float(np.ptp(posture.x, axis=0).max(initial=0.0)), float(weights.max()) / 10)
-    for _ in range(1 + NEARBY):
+    for _ in range(1 + count):
         motions = _motions(model, held, posture, weights)
         found = Mobility(model, posture, motions, weights, tuple(held))
         yield found

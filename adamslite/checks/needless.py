@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from adamslite.checks.mobile import looked_at, places_of, size_of
@@ -147,17 +148,21 @@ def _lost_across(mobility: Mobility, normal: int) -> str:
 def light_links(deck: Deck) -> Iterator[Diagnostic]:
     """Parts between two hinges that have next to no inertia, and hold only a distance."""
     found = looked_at(deck) if len(deck.of(Joint)) > 1 else ()
-    for b, body in enumerate(found[0].model.bodies if found else ()):
-        ends = _only_ends(deck, body.statement) if body.mass else None
-        if ends is None:
+    if not found:
+        return
+    from adamslite.assembly.mobility import farther
+    from adamslite.elements.bases.joint_coordinates import pose
+
+    model, more = found[0].model, cache(lambda: farther(found[0]))
+    for b, body in enumerate(model.bodies):
+        ends = _only_ends(deck, body.statement)
+        if ends is None or not all(_share(each, b) <= LIGHT for each in found):
             continue
-        share = max(_share(each, b) for each in found)
+        share = max(_share(each, b) for each in more())
         if not share <= LIGHT or not all(_holds_a_distance(each, b, ends) for each in found):
             continue
-        from adamslite.elements.bases.joint_coordinates import pose
-
-        (x, _), (y, _) = (pose(found[0].model, marker) for marker in ends)
-        total = sum(each.mass for each in found[0].model.bodies)
+        (x, _), (y, _) = (pose(model, marker) for marker in ends)
+        total = sum(each.mass for each in model.bodies)
         yield diagnose(
             body.statement, "light-link", share=f"{share:.2g}", i=ends[0], j=ends[1],
             length=repr(float(((x - y) @ (x - y)) ** 0.5)), weight=f"{body.mass / total:.2g}",
