@@ -12,6 +12,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from adamslite.checks.mobile import looked_at, places_of, size_of
+from adamslite.checks.reach import out_of_reach
 from adamslite.checks.rule import Rule
 from adamslite.checks.stiff import stiff_elements
 from adamslite.deck.deck import Deck
@@ -238,4 +239,4 @@ def _share(mobility: Mobility, b: int) -> float:
     return float(np.linalg.eigvalsh(scale[:, None] * own * scale).max())
 
 
-NEEDLESS_RULES: list[Rule] = [one_body, planar_motion, light_links, stiff_elements]
+NEEDLESS_RULES: list[Rule] = [one_body, planar_motion, light_links, stiff_elements, out_of_reach]

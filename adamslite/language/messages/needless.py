@@ -77,4 +77,15 @@ NEEDLESS: dict[str, Message] = {
         ),
         severity=NOTE,
     ),
+    "out-of-reach": Message(
+        "{what} is never reached: the joints keep its sides at least {gap} apart",
+        "nothing changes without it",
+        (
+            "title\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1, PART=1\nPART/2, MASS=1, CM=2, "
+            "QG=1,0,0, IP=1,1,1\nMARKER/2, PART=2\nMARKER/3, PART=2, QP=-1,0,0\nJOINT/1, "
+            "SPHERICAL, I=3, J=1\nSFORCE/1, ACTIONONLY, I=2, J=1, FUNCTION=IMPACT(DX(2,1),"
+            "VX(2,1),-1.5,1E5,1.5,10,0.01)" + RUN,
+        ),
+        severity=NOTE,
+    ),
 }  # fmt: skip
