@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from adamslite.cables.network import Bar, Network, respond
+from adamslite.cables.scene import setting
 
 EA, RHO, L, M, V = 2e6, 0.5, 12.0, 60.0, 0.7
 HUNG = Bar((), ((0, 1.0),), L, (EA, EA), points=(False, True))
@@ -69,3 +70,35 @@ def test_what_cannot_be_rigid_is_told() -> None:
     network = Network((1.0, 1.0), (bar,), RHO, 1.0, 600, (0.0, 0.0), ways={0: t, 1: 2 * t})
     with pytest.raises(np.linalg.LinAlgError):
         respond(network, 0, rigid=True)
+
+
+#: A load that hangs over a block which a force holds; the rope has all but no weight.
+BLOCK = """\
+end = 1
+[cable]
+EA = 1e7
+rho = 1e-6
+[[route]]
+kind = "fixed"
+at = [-0.4, -3, 0]
+[[route]]
+kind = "pulley"
+at = [0, 0, 0]
+radius = 0.4
+inertia = 6
+mass = 60
+slide = [0, 1, 0]
+pull = "PULL"
+[[route]]
+kind = "mass"
+at = [0.4, -9, 0]
+mass = 40
+"""
+
+
+def test_what_pulls_a_block_takes_part_in_its_balance() -> None:
+    """It carries 2 m g of the rope and (M + J/R^2) g of its own; 100 N more lift it."""
+    held = (2 * 40 + 60 + 6 / 0.4**2) * 9.81
+    of = setting(BLOCK.replace("PULL", f"{held + 100}+0*TIME"))
+    (block,) = [f for f in of.demand.machines[0].network.forces.values() if np.ndim(f)]
+    np.testing.assert_allclose(block, 100, rtol=1e-3)
