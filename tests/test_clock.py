@@ -306,7 +306,7 @@ def test_a_long_chain_of_variables_is_bisected_once(monkeypatch: pytest.MonkeyPa
     before, found = scales(900.0)
     again, same = scales(900.0)
     other, _ = scales(800.0)
-    assert before > 63 and again == 0 and other > 63
+    assert before > 63 and again == 0 and other > 0  # of all but the programs that are the same
     assert any(len(each.spans) for each in found)
     for one, two in zip(found, same, strict=True):
         assert np.array_equal(one.times, two.times) and np.array_equal(one.spans, two.spans)

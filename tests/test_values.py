@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import random
 from pathlib import Path
 from typing import Any
@@ -148,6 +149,43 @@ def test_the_results_are_those_of_the_edited_text() -> None:
         edited = al.simulate(compiled(al.read(DECK, values=values).source.text))
         assert np.array_equal(varied.values, edited.values)
         assert varied.meta == edited.meta
+
+
+WELDED = """a rod of two parts on a hinge
+PART/1, GROUND
+MARKER/1, PART=1
+ACCGRAV/JGRAV=-9.81
+PART/2, MASS=1, CM=2, IP=0.1,0.1,0.1, QG=0.5,0,0
+MARKER/2, PART=2
+MARKER/21, PART=2, QP=-0.5,0,0
+MARKER/22, PART=2, QP=0.5,0,0
+PART/3, MASS=2, CM=3, IP=0.1,0.1,0.1, QG=1,0,0
+MARKER/3, PART=3
+JOINT/1, REVOLUTE, I=21, J=1
+JOINT/2, FIXED, I=22, J=3
+SIMULATE/DYNAMIC, END=0.5, STEPS=5
+END
+"""
+
+
+@pytest.mark.parametrize("text", [DECK, WELDED])
+@pytest.mark.filterwarnings("ignore")
+def test_a_varied_deck_runs_as_its_text(text: str) -> None:
+    deck = al.read(text)
+    for mass in (3.0, 4.0, 5.0, 6.0):
+        varied = deck.with_values({"PART/2.MASS": mass})
+        once, again = al.simulate(varied), al.simulate(al.read(varied.source.text))
+        assert np.array_equal(once.values, again.values)
+        assert once.meta == again.meta
+
+
+def test_a_varied_deck_of_which_much_is_kept_is_pickled_as_a_deck() -> None:
+    deck = al.read(DECK)
+    for length in (1.0, 1.1):
+        al.simulate(deck.with_values({"L_0": length}))
+    back = pickle.loads(pickle.dumps(deck))
+    assert not back.kept
+    assert back.with_values({"L_0": 3}).find("VARIABLE", "L_0").function.value == 3.0
 
 
 def test_the_second_value_reads_and_binds_nothing(monkeypatch) -> None:

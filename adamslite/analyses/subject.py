@@ -9,6 +9,7 @@ from adamslite.deck.counted_turns import brought
 from adamslite.deck.deck import Deck
 from adamslite.kernels.groups import Kernels
 from adamslite.model.model import Model, assemble
+from adamslite.model.reduction import MERGED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -41,6 +42,10 @@ def kernels_of(
         return subject
     if isinstance(subject, Model):
         return _compiled(subject, progress, audited)
+    if subject.base is not None and (base := _varied_before(subject.base, without, audited)):
+        from adamslite.variation.kernels import of_deck
+
+        return of_deck(base, subject, merging=MERGED not in without)
     name = kept_kernels.name_of(subject, without, audited)
     kernels = kept_kernels.find(name, subject)
     if kernels is None:
@@ -48,6 +53,18 @@ def kernels_of(
 
         kernels = _compiled(merged(assemble(subject, without)), progress, audited)
         kept_kernels.keep(name, kernels)
+    return kernels
+
+
+def _varied_before(base: Deck, without: frozenset[str], audited: bool) -> Kernels | None:
+    """The kernels of the deck that others vary, from the second of these on."""
+    asked = (Kernels, without, audited)
+    if asked not in base.kept:
+        base.kept[asked] = None
+        return None
+    if base.kept[asked] is None:
+        base.kept[asked] = kernels_of(base, None, without, audited)
+    kernels: Kernels = base.kept[asked]
     return kernels
 
 

@@ -83,6 +83,8 @@ class Deck:
         """The deck as it was read, where this one has other numbers."""
         self.values: Mapping[str, float] = {}
         """These numbers, by name."""
+        self.kept: dict[Any, Any] = {}
+        """What was made of it, for the next time; no part of it."""
         self._of: dict[str, list[Statement]] = {}
         self._by_key: dict[tuple[str, Key], Statement] = {}
         self._enter(statements)
@@ -103,6 +105,9 @@ class Deck:
         }
         if len(self.statements) > len(statements):
             self._enter(self.statements)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "kept": {}}
 
     def _enter(self, statements: Iterable[Statement]) -> None:
         """Make statements, and no others, known to :meth:`of` and :meth:`find`."""

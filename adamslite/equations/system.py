@@ -171,7 +171,8 @@ class System:
         self.inertia = inertia.ravel()
         start = [self.model.start_of(b) for b in range(len(bodies))]
         self.base = reals([attitude for _, attitude in start]).ravel()
-        self.weight = rotation_weights(self.model)
+        model = self.model
+        self.weight = model.once_of_bodies("rotation weights", lambda: rotation_weights(model))
         if bodies:
             at = self.places
             self.q[at], self.u[at] = [x for x, _ in start], [b.v for b in bodies]

@@ -93,6 +93,8 @@ class Model:
         self.places: dict[Key | MassCentre, Place | None] = {}
         self.folded: dict[Key, float | None] = {}
         self.known: dict[Hashable, Any] = {}
+        self.of_bodies: dict[Hashable, Any] = {}
+        """What bodies, markers and constraints alone decide; models with the same ones share it."""
         self.start: list[tuple[np.ndarray, np.ndarray]] | None = None
         self.body_index: dict[tuple[str, Key], int] = {}
         self.bodies: list[Body] = []
@@ -111,6 +113,12 @@ class Model:
         if what not in self.known:
             self.known[what] = compute()
         return self.known[what]
+
+    def once_of_bodies(self, what: Hashable, compute: Callable[[], T]) -> T:
+        """The same of values that bodies, markers and constraints alone decide."""
+        if what not in self.of_bodies:
+            self.of_bodies[what] = compute()
+        return self.of_bodies[what]
 
     # bodies and markers
 

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
-from weakref import WeakKeyDictionary
 
 from adamslite.checks.rule import apply
 from adamslite.checks.rules import VALUE_RULES
@@ -109,16 +108,13 @@ class Variable:
         return {n: _with(self.deck.own[n], fields) for n, fields in found.items()}
 
 
-_variable: WeakKeyDictionary[Deck, Variable] = WeakKeyDictionary()
-
-
 def variable_of(deck: Deck) -> Variable:
     """A deck as it was read, ready for other numbers."""
-    found = _variable.get(deck)
-    if found is None:
+    if Variable not in deck.kept:
         if any(each.spans.source is not deck.source for each in deck.own if each.spans):
             raise UsageError("numbers are put into a deck as it was read, not as commands left it")
-        found = _variable[deck] = Variable(deck, numbers_of(deck.source, deck.path, deck.user))
+        deck.kept[Variable] = Variable(deck, numbers_of(deck.source, deck.path, deck.user))
+    found: Variable = deck.kept[Variable]
     return found
 
 
@@ -132,11 +128,6 @@ def with_values(deck: Deck, values: Given) -> Deck:
     UsageError
         When there is no number of a name, or a value is no finite number.
     """
-    return varied(deck, values)[0]
-
-
-def varied(deck: Deck, values: Given) -> tuple[Deck, Deck | None]:
-    """The deck with other numbers, and the same made quickly, where that can be done."""
     base = deck.base or deck
     variable = variable_of(base)
     given = {**deck.values, **variable.numbers.given(values)}
@@ -144,14 +135,12 @@ def varied(deck: Deck, values: Given) -> tuple[Deck, Deck | None]:
     quick = _quickly(variable, given, text) if variable.is_quick(given) else None
     fresh = variable.numbers.others(given) - variable.verified
     if quick is not None and not fresh:
-        return quick, quick
+        return quick
     made = _read(base, text)
     made.base, made.values = base, given
-    if quick is not None and _same(quick, made):
-        variable.verified |= fresh
-        return made, quick
-    variable.slow |= fresh if quick is not None else set()
-    return made, None
+    if quick is not None:
+        (variable.verified if _same(quick, made) else variable.slow).update(fresh)
+    return made
 
 
 def _quickly(variable: Variable, given: Mapping[str, float], text: str) -> Deck | None:
@@ -166,6 +155,13 @@ def _quickly(variable: Variable, given: Mapping[str, float], text: str) -> Deck 
     made.source = Source(text, base.source.file)
     made.base, made.values, made.warnings = base, given, ()
     return None if any(each.is_error for each in apply(VALUE_RULES, made)) else made
+
+
+def is_quick(deck: Deck) -> bool:
+    """Whether the statements of a deck with other numbers are known to be what recipes give."""
+    variable = variable_of(deck.base or deck)
+    known = variable.numbers.others(deck.values) <= variable.verified
+    return known and variable.is_quick(deck.values)
 
 
 def as_read(deck: Deck) -> Deck:

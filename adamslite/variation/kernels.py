@@ -20,6 +20,7 @@ from typing import Any
 from adamslite.assembly.start_posture import settle_start
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
+from adamslite.gc_pause import without_collection
 from adamslite.kernels.collecting import bound, bound_again
 from adamslite.kernels.compile import compile_model
 from adamslite.kernels.groups import Binding, Instances, Kernels
@@ -30,12 +31,11 @@ from adamslite.language.traced import Recipe, Traced, again, places
 from adamslite.model.merging import merged
 from adamslite.model.model import Model, assemble
 from adamslite.reading.numbers import Given
-from adamslite.variation.decks import Variable, variable_of, varied
+from adamslite.variation.decks import Variable, is_quick, variable_of
+from adamslite.variation.decks import with_values as varied
 
 #: Statements on which every place and attitude may depend.
 GEOMETRY = ("PART", "POINT_MASS", "MARKER", "UNITS")
-#: What a model knows of its bodies alone.
-LASTING = (("weights", False), ("weights", True))
 Own = tuple[str, Any]
 """Keyword and id of a statement."""
 Column = tuple[int, int]
@@ -62,6 +62,7 @@ class Refill:
 
     kernels: Kernels
     variable: Variable
+    merging: bool = False
     entries: dict[Column, list[tuple[int, Recipe]]] = field(default_factory=dict)
     columns: dict[int, set[Column]] = field(default_factory=dict)
     settled: list[tuple[float, Recipe]] = field(default_factory=list)
@@ -117,6 +118,8 @@ class Refill:
         moved = any(keyword in GEOMETRY for keyword, _ in owns)
         model = Model(deck, old.without) if moved else _in_place(old, deck, changed)
         settle_start(model)
+        if self.merging and merged(model) is not model:
+            return None
         if not _alike(old, model) or (moved and not _placed_alike(old, model)):
             return None
         params = self._params(deck)
@@ -168,18 +171,26 @@ class Refill:
 
 def with_values(kernels: Kernels, values: Given) -> Kernels:
     """Kernels of the deck with other numbers; errors as for a deck."""
-    deck = kernels.model.deck
+    with without_collection():
+        return of_deck(kernels, varied(kernels.model.deck, values))
+
+
+def of_deck(kernels: Kernels, deck: Deck, merging: bool = False) -> Kernels:
+    """Kernels of a deck that has other numbers than that of ``kernels``.
+
+    ``merging``: parts that are held together are made one body, where ``kernels`` have none.
+    """
     if kernels.refill is None:
-        kernels.refill = Refill(kernels, variable_of(deck.base or deck))
+        base = kernels.model.deck.base or kernels.model.deck
+        kernels.refill = Refill(kernels, variable_of(base), merging)
     refill: Refill = kernels.refill
-    made, quick = varied(deck, values)
-    if quick is None or not refill.slow.isdisjoint(made.values):
-        return _compiled(refill, made)
-    filled = refill.filled(quick)
-    fresh = refill.variable.numbers.others(made.values) - refill.verified
+    if not (is_quick(deck) and refill.slow.isdisjoint(deck.values)):
+        return _compiled(refill, deck)
+    filled = refill.filled(deck)
+    fresh = refill.variable.numbers.others(deck.values) - refill.verified
     if filled is not None and not fresh:
         return filled
-    found = _compiled(refill, made)
+    found = _compiled(refill, deck)
     if filled is not None:
         (refill.verified if _same(filled, found) else refill.slow).update(fresh)
     return found
@@ -187,13 +198,12 @@ def with_values(kernels: Kernels, values: Given) -> Kernels:
 
 def _compiled(refill: Refill, deck: Deck) -> Kernels:
     """The kernels of a deck the long way."""
-    model = assemble(deck, refill.kernels.model.without)
-    if refill.kernels.model.merges_parts:
-        model = merged(model)
+    old = refill.kernels.model
+    model = assemble(deck, old.without)
+    model = merged(model) if refill.merging or old.merges_parts else model
     made = compile_model(model, audited=refill.audited)
-    if refill.usable and [each.name for each in made.groups] == [
-        each.name for each in refill.kernels.groups
-    ]:
+    names = ([group.name for group in each.groups] for each in (made, refill.kernels))
+    if refill.usable and next(names) == next(names):
         made.refill = refill
     return made
 
@@ -246,8 +256,7 @@ def _referred(statement: Statement) -> Iterator[Own]:
 def _in_place(old: Model, deck: Deck, changed: Mapping[int, Statement]) -> Model:
     """The model of a deck in which no body and no marker has changed."""
     made = copy(old)
-    made.deck, made.folded, made.start = deck, {}, None
-    made.known = {what: old.known[what] for what in LASTING if what in old.known}
+    made.deck, made.known, made.folded, made.start = deck, {}, {}, None
     found = (changed.get(id(each), each) for each in old.constraints)
     made.constraints = [each for each in found if isinstance(each, Constraint)]
     vars(made).pop("signals", None)

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.analyses.clock.enclosures import enclose
+from adamslite.analyses.clock.kept_answers import kept
 
 if TYPE_CHECKING:
     from adamslite.analyses.clock.clock import Program
@@ -60,6 +61,11 @@ class Found:
     whole: bool
 
 
+def _size(found: Found) -> int:
+    return found.times.size + found.spans.size
+
+
+@kept(_size)
 def around_changes(program: Program, start: float, end: float, floor: bool) -> Found:
     """Times between which a guard changes once at most, but for what is round-off of zero: a guard
     that touches zero without a slope, as a STEP at the end of another, changes there by chance.
@@ -107,6 +113,7 @@ def _runs(spans: np.ndarray) -> list[np.ndarray]:
     return [low[first], high[last], 0.5 * (low + high)[widest]]
 
 
+@kept(_size)
 def time_scales(program: Program, start: float, end: float, longest: float) -> Found:
     """Where a curve changes so fast that steps up to ``longest`` may miss it."""
     if _is_gradual(program, start, end, longest):

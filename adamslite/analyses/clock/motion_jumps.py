@@ -10,12 +10,12 @@ counts as a jump.
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.analyses.clock.enclosures import enclose
+from adamslite.analyses.clock.kept_answers import kept
 from adamslite.equations.broken_motion import Break
 
 if TYPE_CHECKING:
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
 # Distances from a stop, as shares of the run, and what must be left of a jump at the smaller one.
 FAR, NEAR, LEFT = 1e-8, 1e-11, 0.5
-# Programs whose jumps are kept: runs that differ in other numbers ask for the same ones.
-KEPT = 256
 WORDS = {"position": "displacement", "velocity": "velocity"}
 
 
@@ -42,7 +40,11 @@ def first_jump(clock: Clock, stops: np.ndarray, start: float, error: float) -> B
     return min(found, key=lambda each: each.time, default=None)
 
 
-@lru_cache(maxsize=KEPT)
+def _size(found: np.ndarray) -> int:
+    return found.size
+
+
+@kept(_size)
 def _jumps(program: Program, stops: bytes, span: float, error: float) -> np.ndarray:
     """Which stops are jumps of a program, (k,)."""
     times = np.frombuffer(stops)

@@ -35,7 +35,7 @@ def velocity_rows(system: System) -> np.ndarray:
 def weights(system: System, speeds: bool = False) -> np.ndarray:
     """(n,) weights of the coordinates, or of their velocities."""
     model = system.model
-    table = model.once(("weights", speeds), lambda: coordinate_weights(model, speeds))
+    table = model.once_of_bodies(("weights", speeds), lambda: coordinate_weights(model, speeds))
     w = np.ones(system.n)
     for b, body in enumerate(model.bodies):
         w[system.starts[b] : system.starts[b] + body.width] = table[b, : body.width]
