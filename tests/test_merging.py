@@ -29,6 +29,12 @@ JOINT/2, FIXED, I=5, J=4
 SIMULATE/{kind}, END=0.5, STEPS=5
 END
 """
+FLOOR = (
+    "MARKER/9, PART=1, QP=2.5,-0.3,0, REULER=0,-90D,0\nGRAPHICS/1, ELLIPSOID, CM=6"
+    ", XSCALE=0.1, YSCALE=0.1, ZSCALE=0.1\n"
+    "GRAPHICS/2, PLANE, RM=9, XMIN=-1, XMAX=1, YMIN=-1, YMAX=1\n"
+)
+IMPACT = "IMPACT, STIFFNESS=1E4, EXPONENT=1.5, DAMPING=1, DMAX=0.01"
 SPEEDS = {"speeds": ", VY=2, WZ=2", "more": ", VY=5, WZ=2"}
 
 
@@ -129,14 +135,13 @@ def test_every_method_runs(integrator: str) -> None:
         "MARKER/7, PART=3, QP=0.2,0,0\nMARKER/8, PART=2, QP=0.2,0,0\nGCON/1, FUNCTION=DM(7,8)-1",
         "MARKER/7, PART=3, QP=0,1,0\nMARKER/8, PART=2, QP=1,1,0\nJOINT/3, FIXED, I=7, J=8",
         "MARKER/7, PART=3\nMARKER/8, PART=2, QP=1,0,0\nJOINT/3, REVOLUTE, I=7, J=8",
-        "MARKER/9, PART=1, QP=2.5,-0.3,0\nGRAPHICS/1, ELLIPSOID, CM=6"
-        ", XSCALE=0.1, YSCALE=0.1, ZSCALE=0.1\n"
-        "GRAPHICS/2, PLANE, RM=9, XMIN=-1, XMAX=1, YMIN=-1, YMAX=1\n"
-        "CONTACT/1, IGEOM=1, JGEOM=2, IMPACT, STIFFNESS=1E4, EXPONENT=1.5, DAMPING=1, DMAX=0.01",
+        f"{FLOOR}CONTACT/1, IGEOM=1, JGEOM=2, POISSON, PENALTY=1E4, RESTITUTION_COEFFICIENT=0.5",
+        f"{FLOOR}CONTACT/1, IGEOM=1, JGEOM=2, {IMPACT}\nGRAPHICS/3, ELLIPSOID, CM=4"
+        f", XSCALE=0.1, YSCALE=0.1, ZSCALE=0.1\nCONTACT/2, IGEOM=3, JGEOM=2, {IMPACT}",
     ],
 )
 def test_parts_stay_apart_where_the_joint_counts(extra: str) -> None:
-    """Fed back, in a loop, beside another joint; where bodies touch, whose law knows masses."""
+    """Fed back, in a loop, beside another joint; where a law knows masses, or both parts touch."""
     assert not is_merged(deck(extra))
 
 
@@ -241,6 +246,7 @@ EXTRAS = {
     "added mass": "VFORCE/3, I=6, J_PART=1, FX=0\\ FY=-0.5*ACCY(6)\\ FZ=0",
     "a variable of itself": "VARIABLE/1, IC=1, FUNCTION=0.5*VARVAL(1)+ACCY(6)*0.01\n"
     "REQUEST/1, F1=VARVAL(1)",
+    "a contact": f"{FLOOR}CONTACT/1, IGEOM=1, JGEOM=2, {IMPACT}\nREQUEST/1, FORCE, I=5, J=4",
     "friction": "FRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2, PIN_RADIUS=0.1",
     "a coupler": "PART/8, MASS=1, CM=81, IP=1,1,1, QG=0,2,0\nMARKER/81, PART=8\n"
     "MARKER/82, PART=1, QP=0,2,0\nJOINT/5, REVOLUTE, I=81, J=82\n"

@@ -157,10 +157,11 @@ def light_links(deck: Deck) -> Iterator[Diagnostic]:
     model, more = found[0].model, cache(lambda: farther(found[0]))
     for b, body in enumerate(model.bodies):
         ends = _only_ends(deck, body.statement)
-        if ends is None or not all(_share(each, b) <= LIGHT for each in found):
+        light = ends and all(_share(each, b) <= LIGHT for each in found)
+        if not ends or not light or not all(_holds_a_distance(each, b, ends) for each in found):
             continue
         share = max(_share(each, b) for each in more())
-        if not share <= LIGHT or not all(_holds_a_distance(each, b, ends) for each in found):
+        if not share <= LIGHT:
             continue
         (x, _), (y, _) = (pose(model, marker) for marker in ends)
         total = sum(each.mass for each in model.bodies)

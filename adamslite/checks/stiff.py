@@ -51,8 +51,8 @@ def stiff_elements(deck: Deck) -> Iterator[Diagnostic]:
     """Bushings, springs and line forces that are nearly joints."""
     kinds = ("BUSHING", "SFORCE", "SPRINGDAMPER")
     found = looked_at(deck) if any(map(deck.of, kinds)) else ()
-    elastic = [each for each in _elastic(deck) if not _measured(deck, each.element)]
-    if not found or not elastic:
+    elastic = _unmeasured(deck) if found else []
+    if not elastic:
         return
     size, until = size_of(found[0]), run_end(deck)
     near = [each for each in elastic if _frequency(found[0], each) * until >= PERIODS]
@@ -136,11 +136,15 @@ def _at(node: Node, force: Sforce, distance: float, rate: float) -> float | None
     return None
 
 
-def _measured(deck: Deck, element: Statement) -> bool:
+def _unmeasured(deck: Deck) -> list[Stiff]:
+    """Those elastic elements that nothing refers to."""
     from adamslite.model.mergeable import referred
 
-    own = (element.keyword, element.key)
-    return any(own in set(referred(each)) for each in deck.statements if each is not element)
+    found = list(_elastic(deck))
+    named = (
+        {each for statement in deck.statements for each in referred(statement)} if found else set()
+    )
+    return [each for each in found if (each.element.keyword, each.element.key) not in named]
 
 
 def _rows(mobility: Mobility, each: Stiff) -> np.ndarray:

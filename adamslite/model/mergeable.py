@@ -8,7 +8,7 @@ Left apart are parts
                                            One that is only watched (REQUEST, SENSOR) is written out
     of which two have loads that cannot    curves, frictions; where it is one, that part leads
     be measured
-    that touch others                      the law of a CONTACT may know the mass of a part
+    that bounce off others                 a CONTACT with POISSON knows the masses of the parts
     on which very many elements act        their sum is one expression
 """
 
@@ -265,8 +265,8 @@ def _leader(
     for each in others:
         if isinstance(each.element, Constraint) and _holds_inside(each, parts):
             return None
-        if each.element.keyword == "CONTACT" and each.bodies & parts - {GROUND}:
-            return None  # its law may depend on the masses of the parts
+        if getattr(each.element, "law", "") == "POISSON" and each.bodies & parts - {GROUND}:
+            return None  # it depends on the masses of the parts
         leaders |= each.unmeasured & parts
     if len(leaders) > 1:
         return None
