@@ -70,7 +70,11 @@ def test_the_ratio_over_every_bar_is_that_of_euler_and_eytelwein(count: int, way
 
 def test_every_second_bar_of_a_staggered_row_turns_the_other_way() -> None:
     """As the side on which the rope touches it says, too."""
-    assert deck(bars(4, "-0.01*TIME", "turn = -1"))[0] == deck(bars(4, "-0.01*TIME"))[0]
+    given, found = (
+        [line for line in deck(bars(4, "-0.01*TIME", more))[0].splitlines() if line[:1] != "!"]
+        for more in ("turn = -1", "")
+    )
+    assert given == found
 
 
 def test_statements_of_a_hundred_stations_have_numbers_of_their_own() -> None:
