@@ -139,6 +139,8 @@ def judged(table: Table, found: Verdict, budget: float) -> Iterator[Verdict]:
         one.cpu, one.told = runs[way].cpu, deck.told
         yield found
     truth = None
+    if "unsettled" in found.warned:
+        budget /= 3
     above = [*(deck.model for deck in decks.values()), *finest]
     for truth, found.doubt in truths(table, above, p, budget):
         found.truth = [truth.figures, truth.scales]

@@ -119,11 +119,13 @@ def test_level_1_is_taken_where_it_does() -> None:
 
 def test_runs_are_counted_and_what_is_not_shown_is_told() -> None:
     """An error that falls too slowly: the finest model, what it reached, and how to allow more."""
-    found = with_trial(made_up(lambda n, error: 1 / n**0.1))
+    found = with_trial(made_up(lambda n, error: 1 / n**0.1, steps=20000))
     assert codes(found) == ["unsettled"]
     (told,) = found.deck.messages
     assert "the greatest tension of span 1 differs by" in told.message
     assert "--trial 100" in told.hint
+    (told,) = with_trial(made_up(lambda n, error: 1 / n**0.1)).deck.messages
+    assert "a cable may have 900 sections" in told.hint
     slow = with_trial(made_up(lambda n, error: 0.0, steps=10**9), allowance=1.0)
     assert codes(slow) == ["unsettled"]
     assert slow.deck.text == deck(HUNG + '[model]\nquantities = ["tension"]\n')[0]

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from adamslite.cables import advice
+from adamslite.cables.demand import MOST
 from adamslite.cables.model_choice import CableModel, Reasons
 from adamslite.cables.readings import columns
 from adamslite.cables.scene import Setting, Written, written
@@ -249,7 +250,7 @@ class _Choice:
         trial.of = trial.of.telling(
             "unsettled", ("model", "accuracy"), accuracy=trial.of.spec.accuracy,
             reached=self._reached(), model=self._of_model(used.model if used else before),
-            more=10 * trial.allowance,
+            more=10 * trial.allowance, hint=self._at_the_limit(finest),
         )  # fmt: skip
         if not used:
             return self._as_proposed(finest)
@@ -260,6 +261,13 @@ class _Choice:
         deck = written(trial.set_to(used.option), reasons)
         doubt = self.doubt * trial.of.spec.accuracy
         return Found(deck, inf, doubt, used.cpu, trial.spent, used.option)
+
+    @staticmethod
+    def _at_the_limit(finest: Tried | None) -> str:
+        """What helps where no finer model may be; empty where more runs do."""
+        if finest is None or 2 * finest.option.elements <= MOST:
+            return ""
+        return f"a cable may have {MOST} sections: a larger accuracy, or fewer quantities"
 
     def _as_proposed(self, finest: Tried | None) -> Found:
         """The model of the linear model; its cost by that of the finest that was solved."""

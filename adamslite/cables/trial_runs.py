@@ -151,7 +151,7 @@ class Runs:
 
     def _bottom(self, proposed: CableModel) -> Option:
         """The first rung: the elastic model that is proposed, or less where that is expected to
-        take too long."""
+        take too long, or to leave no room for others."""
         spec, of = self.of.spec, self.of.demand
         level = spec.level or elastic_level(of)
         form = spec.form if spec.form != "auto" else "ale" if level == 3 else "auto"
@@ -161,7 +161,7 @@ class Runs:
         while True:
             error = spec.error or advice.error_bound(of, spec.accuracy, count)
             taken = stops * advice.expected(of, method, level, count, error)
-            if count == 1 or taken < FIRST * self.allowance:
+            if count == 1 or taken < FIRST * self.allowance and count <= MOST >> (RUNGS - 1):
                 return Option(level, form, count, error)
             count = (count + 1) // 2
 
