@@ -121,3 +121,50 @@ def test_a_rope_sticks_and_slips_where_friction_is_greater_at_rest() -> None:
     exact = solve_ivp(rates, (0, 0.25), [0, 0, 0], "Radau", found.time, rtol=1e-6, atol=1e-10)
     assert found["REQUEST/20.F2"] == pytest.approx(exact.y[0], abs=2e-5)
     assert found["REQUEST/20.F8"].max() > exp(2 * half) * 1.02  # it sticks above mu
+
+
+@pytest.mark.parametrize(("near", "far"), [(5, 3), (2, 6)])
+def test_a_wheel_that_a_cable_grips_is_its_angle(near: float, far: float) -> None:
+    """Light rope over a heavy wheel, which it slips on: T2/T1 = exp(mu pi), J w' = r (T2 - T1).
+
+    J is far more than the friction can speed up as fast as the rope.
+    """
+    text = f"""\
+end = 0.2
+error = 1e-9
+[cable]
+EA = 1e6
+rho = 1e-4
+damping = 0.5
+pulls_only = true
+[[route]]
+kind = "mass"
+at = [-0.2, -3, 0]
+mass = {near}
+[[route]]
+kind = "pulley"
+at = [0, 0, 0]
+radius = 0.2
+inertia = 9
+mu = 0.1
+grip = 1e-6
+[[route]]
+kind = "mass"
+at = [0.2, -3, 0]
+mass = {far}
+[model]
+level = 3
+elements = 1
+"""
+    written, _ = deck(text)
+    assert "PART/20" not in written
+    found = adamslite.simulate(adamslite.read(written))
+    ratio = exp(0.1 * np.pi * (1 if far > near else -1))
+    # m1 (g + a) and m2 (g - a), a the way over the wheel.
+    a = (far - ratio * near) * G / (far + ratio * near)
+    torque = 0.2 * (far * (G - a) - near * (G + a))
+    late = found.time > 0.1
+    spin = found["REQUEST/20.F6"][late]
+    rate = np.diff(spin) / np.diff(found.time[late])
+    assert np.mean(rate) == pytest.approx(-torque / 9, rel=2e-3)
+    assert np.mean(found["REQUEST/20.F8"][late]) == pytest.approx(ratio, rel=1e-4)

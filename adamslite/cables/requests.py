@@ -10,7 +10,7 @@ from adamslite.cables.statements import number
 from adamslite.cables.supports import hanging_half, support_request
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheel_spans import is_heavy, tension_at
-from adamslite.cables.wheels import mount_request, slipping, travel
+from adamslite.cables.wheels import is_angle, mount_request, slipping, travel, turning
 
 # A tension below this strain is none, and no ratio is taken with it.
 SLACK = 1e-12
@@ -69,6 +69,9 @@ def _over(spec: Spec, spans: list[FreeSpan], model: CableModel, found: list[Piec
     if each.leans:
         parts.append(f"F4=JOINT({n},0,1,0)")
         title += ", load on the axle"
+    if is_angle(i, spec):
+        parts += [f"F4={turning(i, spec)}", f"F6={turning(i, spec, 1)}"]
+        title += ", angle of the wheel and its rate"
     if each.payout:
         parts.append(f"F6=-GCON({n})")
         title += ", pull of the winch"

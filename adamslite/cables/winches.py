@@ -10,7 +10,7 @@ switch   a SENSOR, which holds what it has seen: S reached low or high
 
 from adamslite.cables.statements import number
 from adamslite.cables.vocabulary import Spec, Station
-from adamslite.cables.wheels import STICKS, arm, own_names, rolled, turning
+from adamslite.cables.wheels import STICKS, arm, is_angle, own_names, rolled, turning
 
 # Displacement of a rim at which its brake holds with its torque [m]; time in which it lets go [s].
 BRAKE_GRIP, LETS_GO = 1e-4, 0.01
@@ -62,9 +62,7 @@ def drive(spec: Spec, i: int, torques: list[str]) -> str:
             torques.append(f"-({held})*{_law(each, n)}")
         torques += [f"-({number(sense * each.turn)})*brake_{n}"] if each.brake else []
     if torques:
-        only = "" if each.mount else ", ACTIONONLY"
-        text += f"SFORCE/{n}, ROTATIONAL{only}, I={n}, J={n + 1}\n, FUNCTION="
-        text += "\n, +".join(torques) + "\n"
+        text += _turned(spec, i, "\n, +".join(torques))
     if each.speed and not each.motor:
         speed = rolled(i, spec, 1, sense)
         text += f"VARIABLE/S_{n}, FUNCTION={rolled(i, spec, 0, sense)}\n"
@@ -73,6 +71,19 @@ def drive(spec: Spec, i: int, torques: list[str]) -> str:
     if each.payout:
         text += f"GCON/{n}, FUNCTION={rolled(i, spec, 0, sense)}\n, -({each.payout})\n"
     return text
+
+
+def _turned(spec: Spec, i: int, torque: str) -> str:
+    """What a torque does to wheel i: to a part, or by J w' = torque to its angle."""
+    each, n = spec.route[i], spec.marker(i)
+    if not is_angle(i, spec):
+        only = "" if each.mount else ", ACTIONONLY"
+        return f"SFORCE/{n}, ROTATIONAL{only}, I={n}, J={n + 1}\n, FUNCTION={torque}\n"
+    return (
+        "! Angle and angular velocity of the wheel.\n"
+        f"DIFF/turn_{n}, FUNCTION=DIF(spin_{n})\n"
+        f"DIFF/spin_{n}, FUNCTION=({torque})/{number(each.inertia)}\n"
+    )
 
 
 def _law(each: Station, n: int) -> str:
