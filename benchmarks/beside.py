@@ -35,11 +35,11 @@ MARK = "ANSWER "
 HEAD = """<!-- Written by benchmarks/beside.py: do not edit. -->
 # Ropes beside other programs
 
-Scenes with closed forms, solved by a program for moorings (MoorDyn: lumped masses, explicit steps),
-by one for their equilibria (MoorPy: elastic catenary), by the reeving springs of a multibody
-program (Exudyn: one spring without mass over all sheaves), and by this one;
-`benchmarks/rope_cases.py` has the equations. CPU is that of one core, without imports, the least of
-{repeats} runs.
+Scenes with closed forms, and one with a published curve, solved by a program for moorings (MoorDyn:
+lumped masses, explicit steps), by one for their equilibria (MoorPy: elastic catenary), by the
+reeving springs of a multibody program (Exudyn: one spring without mass over all sheaves), and by
+this one; `benchmarks/rope_cases.py` has the equations. CPU is that of one core, without imports,
+the least of {repeats} runs.
 
 {versions}
 
@@ -48,7 +48,7 @@ this scene, and it is exact where the rope has none. MoorDyn's line with the dam
 recommends loses the payout: its damper acts on the rate of the stretched length, and the weight
 hangs on the dampers; without damping the same line is right. In its own scenes all agree.
 
-| scene | program | setting | value | closed form | error | set-up [s] | solution [s] |
+| scene | program | setting | value | exact | error | set-up [s] | solution [s] |
 |---|---|---|---|---|---|---|---|
 """
 

@@ -11,9 +11,10 @@ from benchmarks.rope_cases import LIGHT, LOWERED, MOORED, RopeRun
 #: What each program leaves of its scene, relative.
 LEFT = {
     ("lowered", "exudyn"): 0.286, ("lowered", "moordyn"): 0.45, ("moored", "moordyn"): 3e-3,
-    ("moored", "moorpy"): 1e-9, ("shaken", "moordyn"): 1e-2,
+    ("moored", "moorpy"): 1e-9, ("shaken", "moordyn"): 1e-2, ("moved", "moordyn"): 1e-2,
+    ("moved", "adamslite"): 2.5e-3,
 }  # fmt: skip
-DEAR = ("10 segments", "76 segments", "25 segments", "50 segments")
+DEAR = ("10 segments", "76 segments", "25 segments", "50 segments", "68 segments")
 
 
 def named(run: RopeRun) -> str:

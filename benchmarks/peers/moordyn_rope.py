@@ -18,7 +18,7 @@ import numpy as np
 
 from benchmarks import rope_cases as cases
 from benchmarks.peers.program import Laps
-from benchmarks.rope_cases import LOWERED, MOORED, SHAKEN, Answer, RopeRun
+from benchmarks.rope_cases import LOWERED, MOORED, MOVED, SHAKEN, Answer, RopeRun
 
 #: Functions of the bindings (2.7) return None without a reference of its own, which Python before
 #: 3.12 counts: this many calls are paid for.
@@ -27,7 +27,7 @@ INPUT = """MoorDyn
 ---------------------- LINE TYPES -----------------------------------
 TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx
 (name) (m) (kg/m) (N) (N-s/-) (N-m^2) (-) (-) (-) (-)
-rope {diameter} {rho} {stiffness} {damping} 0 0 0 0 0
+rope {diameter} {rho} {stiffness} {damping} {bending} {drag} {added} 0 0
 ---------------------- POINTS ---------------------------------------
 ID Attachment X Y Z M V CdA CA
 (#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)
@@ -40,7 +40,7 @@ ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs
 ---------------------- OPTIONS --------------------------------------
 0 writeLog
 {step} dtM
-RK4 tScheme
+{scheme} tScheme
 {gravity} g
 {water} rho
 {depth} WtrDpth
@@ -59,6 +59,7 @@ def line_at_rest(**given: Any) -> Iterator[Any]:
 
     filled = {"diameter": 0.03, "water": 0, "gravity": cases.G, "depth": 1000, "mass": 0, "x": 0}
     filled |= {"kind": "Free", "top": -10.0, "settle": 20, "settle_step": 0.1}
+    filled |= {"bending": 0, "drag": 0, "added": 0, "scheme": "RK4"}
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "line.txt"
         path.write_text(INPUT.format(**filled | given))
@@ -129,6 +130,28 @@ def shaken(segments: int, step: float, every: float = 2e-3) -> Answer:
     return Answer(float(np.abs(way - chain["lower_end"](times)).max() / stroke), setup, solve)
 
 
+def moved(every: float = 5e-3) -> Answer:
+    """Greatest pull at the top [kN]; scheme, steps, segments and damping are those of its tests."""
+    import moordyn
+
+    laps = Laps()
+    with line_at_rest(
+        rho=165, stiffness=5e8, damping=-0.5, bending=120.8e3, drag=1, added=1, diameter=0.396,
+        length=170, segments=68, x=-100, z=-55, top=-5.0, kind="Fixed", water=1000, depth=100,
+        gravity=9.807, scheme="midpoint5", step=1e-3, settle=30, settle_step=1,
+    ) as system:  # fmt: skip
+        line, setup = moordyn.GetLine(system, 1), laps.lap()
+        times = np.arange(round(cases.MOVED_END / every)) * every
+        places = [cases.surge(t) for t in [*times, times[-1] + every]]
+        pulls = []
+        for k, t in enumerate(times):
+            rate = (places[k + 1] - places[k]) / every
+            moordyn.Step(system, [places[k], 0.0, -5.0], [rate, 0.0, 0.0], t, every)
+            if t > cases.MOVED_FROM:
+                pulls.append(np.linalg.norm(moordyn.GetLineNodeForce(line, 68)))
+        return Answer(float(max(pulls)) / 1e3, setup, laps.lap())
+
+
 def runs() -> list[RopeRun]:
     """From cheap to dear."""
     made: list[tuple[str, str, Callable[[], Answer]]] = [
@@ -139,5 +162,6 @@ def runs() -> list[RopeRun]:
         (MOORED, "76 segments", partial(moored, 76, 5e-4)),
         (SHAKEN, "25 segments", partial(shaken, 25, 1e-4)),
         (SHAKEN, "50 segments", partial(shaken, 50, 5e-5)),
+        (MOVED, "68 segments, as its tests", moved),
     ]
     return [RopeRun(scene, "moordyn", setting, solve) for scene, setting, solve in made]

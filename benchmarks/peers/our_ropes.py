@@ -13,7 +13,7 @@ import numpy as np
 
 from benchmarks import rope_cases as cases
 from benchmarks.peers.program import Laps
-from benchmarks.rope_cases import DECKS, LIGHT, LOWERED, MOORED, SHAKEN, Answer, RopeRun
+from benchmarks.rope_cases import DECKS, LIGHT, LOWERED, MOORED, MOVED, SHAKEN, Answer, RopeRun
 
 
 def described(rho: float) -> str:
@@ -69,6 +69,9 @@ def shaken() -> Answer:
 def runs() -> list[RopeRun]:
     """One of each scene."""
     chain = partial(written, str(Path("mooring", "two-hundred")), "last VARIABLE/fairlead")
+    surge = partial(
+        written, str(Path("moved-jumper", "surge")), f"max REQUEST/1.F3 from {cases.MOVED_FROM:g}"
+    )
     return [
         RopeRun(
             LOWERED, "adamslite", "as `cable` advises", partial(solve, partial(lowered, LOWERED))
@@ -78,4 +81,5 @@ def runs() -> list[RopeRun]:
         ),
         RopeRun(MOORED, "adamslite", "76 sections", partial(solve, chain, 1e-3)),
         RopeRun(SHAKEN, "adamslite", "100 links, RADAU", shaken),
+        RopeRun(MOVED, "adamslite", "68 sections", partial(solve, surge, 1e-3)),
     ]
