@@ -78,5 +78,12 @@ def test_a_published_deck_is_what_its_generator_writes(name: str, tmp_path: Path
         written = (copy / reference.name).read_text(encoding="utf-8")
         assert_same_reference(written, reference.read_text(encoding="utf-8"))
     for deck in kept.glob("*.adm"):
-        written = (copy / deck.name).read_text(encoding="utf-8")
-        assert_same_text(written, deck.read_text(encoding="utf-8"))
+        texts = [path.read_text(encoding="utf-8") for path in (copy / deck.name, deck)]
+        if "! Written by adamslite cable." in texts[1]:
+            texts = [without_reasons(text) for text in texts]
+        assert_same_text(*texts)
+
+
+def without_reasons(text: str) -> str:
+    """The statements of a deck: the reasons of the cable command change with its advice."""
+    return "\n".join(line for line in text.splitlines() if not line.startswith("!"))
