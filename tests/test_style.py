@@ -8,6 +8,8 @@ import pytest
 import adamslite
 
 PACKAGE = Path(adamslite.__file__).parent
+#: Methods of a path that read or write a text.
+TEXTS = ("read_text", "write_text")
 FILES = sorted(path for path in PACKAGE.rglob("*.py") if "decks" not in path.parts)
 
 
@@ -40,6 +42,18 @@ def test_only_the_command_line_leaves_and_nothing_is_caught_unnamed(
         if file != "__main__.py":
             names = {node.attr for node in nodes if isinstance(node, ast.Attribute)}
             assert "exit" not in names, file
+
+
+def test_texts_are_read_and_written_in_a_named_code(trees: dict[str, list[ast.AST]]) -> None:
+    """What is left out is the code of the system, another one on every second machine."""
+    for file, nodes in trees.items():
+        for call in (node for node in nodes if isinstance(node, ast.Call)):
+            named = {keyword.arg for keyword in call.keywords}
+            if isinstance(call.func, ast.Attribute) and call.func.attr in TEXTS:
+                assert "encoding" in named, f"{file}:{call.lineno}"
+            elif isinstance(call.func, ast.Name) and call.func.id == "open":
+                binary = len(call.args) > 1 and "b" in ast.unparse(call.args[1])
+                assert binary or "encoding" in named, f"{file}:{call.lineno}"
 
 
 def test_a_file_has_at_most_400_lines() -> None:

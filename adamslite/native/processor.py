@@ -61,7 +61,7 @@ def _told_by_system() -> str:
     """Model and features of the first processor as reported by Linux; empty elsewhere."""
     facts = ("vendor_id", "cpu family", "model", "stepping", "flags")
     try:
-        first, _, _ = CPUINFO.read_text().partition("\n\n")
+        first, _, _ = CPUINFO.read_text(encoding="utf-8", errors="replace").partition("\n\n")
     except OSError:
         return ""
     pairs = (line.partition(":") for line in first.splitlines())
