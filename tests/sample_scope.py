@@ -216,6 +216,9 @@ class SampleScope:
             cls=SimpleNamespace(depth=lambda point, scope: self.symbol(f"depth_{id}", "0.3")),
         )
 
+    def touch(self, relation, in_length=True):
+        return relation
+
     def of_time(self, expr) -> bool:
         return False
 

@@ -154,6 +154,7 @@ LAWS = {
     "STEP5(TIME,0,1,2,4)": lambda t: 1 + 3 * (t / 2) ** 3 * (10 - 15 * t / 2 + 6 * (t / 2) ** 2),
     "HAVSIN(TIME,0,1,2,4)": lambda t: 1 + 3 * (1 - cos(pi * t / 2)) / 2,
     "MAX(1,TIME)-MIN(1,TIME)": lambda t: abs(1 - t),
+    "IMPACT(1-TIME,-1,0.5,20,1,0,0)": lambda t: max(0.0, 20 * (t - 0.5)),
     "2**TIME/(1+TIME)-TANH(TIME)": lambda t: 2**t / (1 + t) - tanh(t),
 }
 

@@ -198,7 +198,7 @@ def test_angles_of_aligned_frames_have_finite_derivatives(name):
 def test_contact_at_the_moment_of_touching(exponent, depth):
     x, v = symbol("x"), symbol("v")
     for x1, k in ((4.0, 10.0), (symbol("x1"), symbol("k"))):
-        expr = FUNCTIONS["IMPACT"].body(None, x, v, x1, k, exponent, 2.0, depth)
+        expr = FUNCTIONS["IMPACT"].body(SampleScope(), x, v, x1, k, exponent, 2.0, depth)
         symbols, values = [x, v], [4.0, -1.0]
         if x1 != 4.0:
             symbols, values = [x, v, x1, k], [4.0, -1.0, 4.0, 10.0]
@@ -208,5 +208,5 @@ def test_contact_at_the_moment_of_touching(exponent, depth):
 
 def test_root_of_a_square_is_differentiable():
     x = symbol("x")
-    expr = FUNCTIONS["SQRT"].body(None, x**2)
+    expr = FUNCTIONS["SQRT"].body(SampleScope(), x**2)
     assert [gradient_at(expr, [x], [v]) for v in (-2.0, 0.0, 3.0)] == [[-1], [1], [1]]

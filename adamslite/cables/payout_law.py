@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 from functools import cache
+from typing import Any
 
 from adamslite.cables.messages import LARGEST, Faults
 from adamslite.cables.toml_places import Path
@@ -18,6 +19,14 @@ class Unknown(Exception):
 
 class NoValue(Unknown):
     """There is none, before the run or in it: a division by zero, the root of a negative number."""
+
+
+class _BeforeRun:
+    """The scope of functions that numbers alone decide."""
+
+    def touch(self, relation: Any, in_length: bool = True) -> Any:
+        """Nothing is remembered."""
+        return relation
 
 
 def _if(x: float, *values: float) -> float:
@@ -101,7 +110,7 @@ def _called(name: str, args: list[float]) -> float | None:
         kinds = (function.parameter(k).kind for k in range(len(args)))
         given = [int(x) if kind == "constant" else x for x, kind in zip(args, kinds, strict=True)]
         with with_numbers():
-            found = function.body(None, *(Dual(x) if type(x) is float else x for x in given))
+            found = function.body(_BeforeRun(), *(Dual(x) if type(x) is float else x for x in given))
         return found.value if isinstance(found, Dual) else float(found)
     except (ArithmeticError, ValueError):
         return None
