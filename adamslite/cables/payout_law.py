@@ -21,7 +21,7 @@ class NoValue(Unknown):
     """There is none, before the run or in it: a division by zero, the root of a negative number."""
 
 
-class _BeforeRun:
+class _NoRun:
     """The scope of functions that numbers alone decide."""
 
     def touch(self, relation: Any, in_length: bool = True) -> Any:
@@ -110,7 +110,8 @@ def _called(name: str, args: list[float]) -> float | None:
         kinds = (function.parameter(k).kind for k in range(len(args)))
         given = [int(x) if kind == "constant" else x for x, kind in zip(args, kinds, strict=True)]
         with with_numbers():
-            found = function.body(_BeforeRun(), *(Dual(x) if type(x) is float else x for x in given))
+            numbers = [Dual(x) if type(x) is float else x for x in given]
+            found = function.body(_NoRun(), *numbers)
         return found.value if isinstance(found, Dual) else float(found)
     except (ArithmeticError, ValueError):
         return None
