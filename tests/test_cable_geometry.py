@@ -6,24 +6,33 @@ import numpy as np
 import pytest
 
 from adamslite.cables.geometry import apart, reaches, spans, turned
+from adamslite.cables.messages import Faults
 from adamslite.cables.spec import read
+from adamslite.cables.vocabulary import Spec
 
 HEAD = "end = 1\n{more}\n[cable]\nEA = 1e6\nrho = 0.1\npretension = 10\n"
 WHEEL = '[[route]]\nkind = "{kind}"\nat = [{x}, {y}, 0]\nradius = {radius}\n{drive}\n'
 DRIVEN = 'inertia = 1\npayout = "TIME"'
 
 
+def loop(
+    places: list[tuple[int, int]], winch: int, other: str, more: str, radius: float
+) -> tuple[Spec, Faults]:
+    """A belt round wheels, the one with the number `winch` driven."""
+    text = HEAD.format(more="closed = true")
+    for i, (x, y) in enumerate(places):
+        kind, drive = ("winch", DRIVEN) if i == winch else (other, more)
+        text += WHEEL.format(kind=kind, x=x, y=y, radius=radius, drive=drive)
+    spec, faults = read(text, "<text>")
+    return turned(spec), faults
+
+
 @pytest.mark.parametrize("sense", [1, -1])
 def test_the_wheels_of_a_loop_turn_as_it_runs_round(sense: int) -> None:
     """A triangle, against the clock and with it: the first and the last wheel too."""
     places = [(0, 0), (2, 0), (1, 2)][::sense]
-    text = HEAD.format(more="closed = true") + "".join(
-        WHEEL.format(kind="winch" if i == 0 else "pulley", x=x, y=y, radius=0.2,
-                     drive=DRIVEN if i == 0 else "inertia = 1")
-        for i, (x, y) in enumerate(places)
-    )  # fmt: skip
-    spec, _ = read(text, "<text>")
-    assert [each.turn for each in turned(spec).route] == [sense] * 3
+    spec, _ = loop(places, 0, "pulley", "inertia = 1", 0.2)
+    assert [each.turn for each in spec.route] == [sense] * 3
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -54,12 +63,6 @@ def test_every_crossing_of_a_route_is_named(seed: int) -> None:
 def test_a_loop_that_begins_with_a_bend_is_one_reach_there() -> None:
     """Three bends and a driven wheel: from the wheel round to itself."""
     places = [(0, 0), (4, 0), (4, 3), (0, 3)]
-    text = HEAD.format(more="closed = true") + "".join(
-        WHEEL.format(kind="winch" if i == 2 else "bend", x=x, y=y, radius=0.5,
-                     drive=DRIVEN if i == 2 else "")
-        for i, (x, y) in enumerate(places)
-    )  # fmt: skip
-    spec, faults = read(text, "<text>")
-    spec = turned(spec)
+    spec, faults = loop(places, 2, "bend", "", 0.5)
     (whole,) = reaches(spec, spans(spec, faults))
     assert whole == pytest.approx(2 * (4 + 3) + 3 * 0.5 * np.pi / 2)
