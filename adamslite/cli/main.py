@@ -100,14 +100,15 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _write_every_letter() -> None:
     """Let standard output be UTF-8, as all files of the program are, where it goes to a file or to
-    another program, unless the user has chosen an encoding; letters that a stream lacks are written
-    as their numbers.
+    another program, unless the user has chosen an encoding.  Letters that a stream lacks are
+    written as their numbers, names of files that are no text byte by byte.
     """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             chosen = stream.isatty() or "PYTHONIOENCODING" in os.environ
             encoding = stream.encoding if chosen else "utf-8"
-            errors = "backslashreplace" if stream.errors == "strict" else stream.errors
+            complete = encoding.lower().replace("_", "-") in ("utf-8", "utf8")
+            errors = "surrogateescape" if complete else "backslashreplace"
             stream.reconfigure(encoding=encoding, errors=errors)
 
 
