@@ -146,3 +146,41 @@ SIMULATE/STATICS
 END
 """
     assert al.simulate(al.read(deck)).outcome is al.Outcome.NO_EQUILIBRIUM
+
+
+def cantilever(count: int, force: float, stretch: float) -> str:
+    """BEAMs with EI = 1 in a straight row of 1 m, of masses of almost no inertia, under a force
+    across the end.
+    """
+    h, mass, inertia = 1 / count, 1 / count, 1e-9 / count
+    lines = ["A cantilever", "UNITS/SYSTEM=MKS", "PART/1, GROUND", "MARKER/1, PART=1"]
+    for i in range(2, count + 2):
+        lines += [
+            f"PART/{i}, MASS={mass}, CM={i}, IP={inertia},{inertia},{inertia}",
+            f", QG={(i - 1) * h},0,0",
+            f"MARKER/{i}, PART={i}",
+            f"BEAM/{i}, I={i}, J={i - 1}, LENGTH={h}, AREA=1, EMODULUS={stretch}",
+            f", IXX={2 / stretch}, GMODULUS={stretch / 2}, IYY={1 / stretch}",
+            f", IZZ={1 / stretch}, ASY=0, ASZ=0",
+        ]
+    lines += ["MARKER/999, PART=1, FLOATING", f"VFORCE/1, I={count + 1}, JFLOAT=999, RM=1, FX=0\\"]
+    return "\n".join([*lines, f", FY={force}\\ FZ=0", "SIMULATE/STATICS", "END\n"])
+
+
+@pytest.mark.parametrize(
+    ("count", "force", "stretch", "along", "across"),
+    [
+        (20, 5.0, 1e6, 0.61230, 0.71379),
+        (40, 20.0, 1e7, 0.3161, 0.8686),
+        (40, 2.0, 1e8, 0.8394, 0.4935),
+    ],
+)
+def test_a_slender_cantilever_bends_far_from_a_straight_start(
+    count: int, force: float, stretch: float, along: float, across: float
+) -> None:
+    """The end of the elastica; a chain of BEAMs is off by some (P L^2/(EI n))^2/50."""
+    results = al.simulate(al.read(cantilever(count, force, stretch)))
+    assert results.outcome is al.Outcome.DONE
+    slack = max((force / count) ** 2 / 50, 1e-3)
+    assert results[f"PART/{count + 1}.x"][-1] == pytest.approx(along, abs=slack)
+    assert results[f"PART/{count + 1}.y"][-1] == pytest.approx(across, abs=slack)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import TYPE_CHECKING
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 # Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
 # pivot.
 PIVOTING = 3000
+# Short increments: of the model, and angles [rad].
+SHORT = 0.01
 # Unknowns up to which a count of unstable motions is confirmed by eigenvalues.
 CONFIRMED = 3000
 # Eigenvalues below this share of the largest are round-off, and an imaginary part of that size.
@@ -51,16 +53,26 @@ def at_rest(
 ) -> tuple[Outcome, int]:
     """Move ``system`` to an equilibrium; with the number of ways in which it is unstable.
 
+    What is slender and bends far is thrown about by increments of ALIMIT: a turn by the angle a
+    stretches a link by a^2/2.  Where the search fails, it is repeated with short ones.
+
     A stiffness alone, other than with the inertia of a time step, need not have regular blocks on
     its diagonal: elimination without pivoting may blow up where the equilibrium is regular.
     ``pivoted``: another system in its state, eliminated with row pivoting.
     """
-    start = [(x, x.copy()) for x in (system.q, system.z, system.base)]
-    outcome = run_static(system, settings)
-    if outcome is Outcome.DONE or system.elimination.pivoting or system.nz > PIVOTING:
+    start = [(x, x.copy()) for x in (system.q, system.z, system.mu, system.base)]
+    tlimit, alimit = SHORT * model_size(system), SHORT
+    short = replace(
+        settings, tlimit=min(settings.tlimit, tlimit), alimit=min(settings.alimit, alimit)
+    )
+    for limits in (settings, short):
+        outcome = run_static(system, limits)
+        if outcome is Outcome.DONE:
+            return outcome, system.report.ways_to_fall
+        for array, before in start:
+            array[:] = before
+    if system.elimination.pivoting or system.nz > PIVOTING:
         return outcome, system.report.ways_to_fall
-    for array, before in start:
-        array[:] = before
     spare = pivoted()
     outcome = run_static(spare, settings)
     system.adopt(spare)
