@@ -18,6 +18,7 @@ from adamslite.analyses.output_times import spread_times
 from adamslite.analyses.run_options import checked
 from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
+from adamslite.analyses.standstill import standing
 from adamslite.analyses.subject import deck_of, prepared_for
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition
@@ -300,6 +301,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         **_notes(session),
         **_beyond(session),
         **session.apart.meta,
+        **_standing(session),
         **session.sensors.meta,
         **({"info": "; ".join(session.printed)} if session.printed else {}),
         **_past(session),
@@ -332,6 +334,15 @@ def _beyond(session: Session) -> dict[str, str]:
         slack = compressed(session.deck, names, time, values) if len(time) else ""
         texts += [slack] if slack else []
     return {"out of its law": "; ".join(texts)} if texts else {}
+
+
+def _standing(session: Session) -> dict[str, str]:
+    """Joints that stood still while others moved."""
+    if not session.counts.steps or not session.history.pieces:
+        return {}
+    _, names, values = session.history.whole
+    note = standing(session.kernels.model, names, values)
+    return {"not moved": note} if note else {}
 
 
 def _notes(session: Session) -> dict[str, str]:

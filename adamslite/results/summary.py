@@ -20,8 +20,8 @@ FIGURES = (
 #: Comments of the results that the summary repeats.
 NOTES = (
     "user",
-    "assembled", "start speeds", "redundant", "not reached", "equilibrium", "order", "accuracy",
-    "energy", "time", "linear", "no number", "sensor", "out of its law", "info",
+    "assembled", "start speeds", "redundant", "not reached", "not moved", "equilibrium", "order",
+    "accuracy", "energy", "time", "linear", "no number", "sensor", "out of its law", "info",
 )  # fmt: skip
 
 

@@ -1,0 +1,116 @@
+"""Joints that stood still in a run, in which others moved: as FIXED they would do the same.
+
+Of the places of I relative to J, along the axes of J, at all output times.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from adamslite.elements.joint import Joint
+from adamslite.elements.marker import Marker
+from adamslite.model.attitude_angles import rotations_313
+
+if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.language.interfaces import Key
+    from adamslite.model.model import Model
+
+#: Of the extent of the motion, and an angle: what moves less stands still.
+STILL = 1e-6
+#: Larger models are not looked at: it would take a noticeable part of the run.
+MOST_JOINTS, MOST_PLACES = 30, 20_000
+#: What names a joint, and does not need it to be of its kind.
+INDIFFERENT = frozenset({"FRICTION", "GRAPHICS", "MREQUEST", "REQUEST", "SENSOR"})
+#: So many are named.
+MOST_NAMED = 5
+
+
+class Frame(NamedTuple):
+    """Places (nt, 3) and axes (nt, 3, 3) of a marker in ground, or (3,) and (3, 3) where fixed."""
+
+    place: np.ndarray
+    axes: np.ndarray
+
+
+def _needed(deck: Deck) -> set[tuple[str, Key]]:
+    """What is named by something that acts, and so needs a joint to be of its kind."""
+    from adamslite.model.mergeable import referred
+
+    acting = (each for each in deck.statements if each.keyword not in INDIFFERENT)
+    return {each for statement in acting for each in referred(statement)}
+
+
+class _Parts:
+    """Frames of markers by the columns of the results."""
+
+    def __init__(self, model: Model, column: dict[str, int], values: np.ndarray) -> None:
+        self.model = model
+        self.column = column
+        self.values = values
+        self.known: dict[str, Frame] = {}
+
+    def extent(self) -> float:
+        """The largest way of a part along an axis."""
+        places = [k for name, k in self.column.items() if name.endswith((".x", ".y", ".z"))]
+        return float(np.ptp(self.values[:, places], axis=0).max(initial=0.0))
+
+    def moved(self, joint: Joint) -> tuple[float, float] | None:
+        """How far I went from where it was to J, and turned; None of what has no columns."""
+        i, j = self.frame(joint.i), self.frame(joint.j)
+        if i is None or j is None:
+            return None
+        across = np.swapaxes(j.axes, -1, -2)
+        place = (across @ (i.place - j.place)[..., None])[..., 0]
+        turned = across @ i.axes
+        way, turn = np.ptp(place, axis=0), np.ptp(turned, axis=0)
+        return float(way.max()), float(turn.max())
+
+    def frame(self, marker: Key) -> Frame | None:
+        """The frame of a marker; None where its part has no columns."""
+        fixed = self.model.marker(marker)
+        if fixed is None or fixed.kind != "part":
+            return Frame(fixed.p[None], fixed.axes[None]) if fixed and fixed.body < 0 else None
+        owner = self.model.deck.get(Marker, marker).owner
+        part = self.model.deck.find(*owner) if owner else None
+        if part is None or f"{part.label}.psi" not in self.column:
+            return None
+        centre, own = self.model.marker_in_body(part.cm)
+        at = self.known.get(part.label) or self._of_part(part.label)
+        origin, axes = self.model.marker_in_body(marker)
+        base = at.axes @ own.T
+        return Frame(at.place + base @ (origin - centre), base @ axes)
+
+    def _of_part(self, label: str) -> Frame:
+        first = self.column[f"{label}.x"]
+        place, angles = self.values[:, first : first + 3], self.values[:, first + 3 : first + 6]
+        found = self.known[label] = Frame(place, rotations_313(angles))
+        return found
+
+
+def standing(model: Model, names: tuple[str, ...], values: np.ndarray) -> str:
+    """The joints that did not move though something did, in a sentence; empty without any."""
+    joints = [j for j in model.deck.of(Joint) if model.acts(j) and j.coordinates]
+    most = min(MOST_JOINTS, MOST_PLACES / max(len(values), 1))
+    if len(values) < 3 or not 1 < len(joints) <= most:
+        return ""
+    column = {name: k for k, name in enumerate(names)}
+    parts = _Parts(model, column, values)
+    moved = {j: found for j in joints if (found := parts.moved(j)) is not None}
+    extent = parts.extent()
+    still = {j: by for j, by in moved.items() if by[0] <= STILL * extent and by[1] <= STILL}
+    if not still or not extent > 0.0:
+        return ""
+    needed = _needed(model.deck)
+    still = {j: by for j, by in still.items() if ("JOINT", j.key) not in needed}
+    if not still:
+        return ""
+    labels = [j.label for j in still]
+    more = f" and {len(still) - MOST_NAMED} more" if len(still) > MOST_NAMED else ""
+    by, turned = (max(each[k] for each in still.values()) for k in (0, 1))
+    return (
+        f"{', '.join(labels[:MOST_NAMED])}{more} moved by at most {by:.2g} and {turned:.2g} rad "
+        "at the output times: FIXED would do the same"
+    )
