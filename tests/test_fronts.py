@@ -274,7 +274,7 @@ def test_a_net_moves_the_same_by_fronts_and_by_blocks(
     assert System(kernels, False).elimination.plan["fronts"].size > 1
     by_fronts = al.simulate(kernels, **run)
     monkeypatch.setattr(elimination_order, "UPDATES", np.inf)
-    kernels.layouts.clear()
+    kernels.shared.clear()
     by_blocks = al.simulate(kernels, **run)
     assert System(kernels, False).elimination.plan["fronts"].size == 0
     assert by_fronts.summary["newton"] == by_blocks.summary["newton"]
@@ -319,7 +319,7 @@ def test_joints_in_a_net_are_the_same_by_fronts_and_by_blocks(
     by_blocks = al.simulate(kernels, **run)
     assert System(kernels, True).elimination.plan["fronts"].size == 0
     monkeypatch.setattr(elimination_order, "UPDATES", -np.inf)
-    kernels.layouts.clear()
+    kernels.shared.clear()
     by_fronts = al.simulate(kernels, **run)
     assert System(kernels, True).elimination.plan["fronts"].size > 1
     assert by_fronts.summary["newton"] == by_blocks.summary["newton"]

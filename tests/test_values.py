@@ -201,7 +201,7 @@ def test_the_second_value_reads_and_binds_nothing(monkeypatch) -> None:
     assert varied.model.bodies[0].mass == 2.1
     assert varied.model.bodies[0].x[1] == -1.5
     assert varied.addresses is kernels.addresses
-    assert varied.layouts is kernels.layouts
+    assert varied.shared is kernels.shared
 
 
 def test_values_add_up_and_the_first_deck_stays_as_it_is() -> None:

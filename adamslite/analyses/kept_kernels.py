@@ -49,7 +49,7 @@ def keep(name: str, kernels: Kernels) -> None:
     """Keep kernels that have just been made, as long as nothing has run with them."""
     if name and is_unchanged():
         groups = [replace(group, write=None, code=b"") for group in kernels.groups]
-        kept = replace(kernels, groups=groups, addresses={}, compiled=0, layouts={}, refill=None)
+        kept = replace(kernels, groups=groups, addresses={}, compiled=0, shared={}, refill=None)
         objects.keep(name, kept, _known(kernels.model.deck))
 
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.analyses.initial.least_change import VELOCITIES
-from adamslite.analyses.initial.sparse_rows import Pattern, evaluated
+from adamslite.analyses.initial.sparse_rows import evaluated, pattern_of
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS
 from adamslite.model.model import PART
@@ -83,7 +83,7 @@ def _is_still(values: np.ndarray, out: list[int]) -> bool:
 
 def _rows_out(system: System, out: list[int]) -> list[int] | None:
     """Constraint rows that act out of the plane and carry nothing; None when a row does both."""
-    gradient = evaluated(system, Pattern(system, True), *VELOCITIES)
+    gradient = evaluated(system, pattern_of(system, True), *VELOCITIES)
     across = np.zeros(system.n, dtype=bool)
     across[out] = True
     beside, within = gradient.largest(across), gradient.largest(~across)

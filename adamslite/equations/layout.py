@@ -7,7 +7,7 @@ and on no number of the deck.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -18,8 +18,11 @@ if TYPE_CHECKING:
 
 # Eliminations that are kept: of all unknowns, without redundant rows, in a plane.
 MOST_PLANS = 8
-# Times of stops that are kept.
-MOST_STOPS = 32
+# Other things that are kept.
+MOST_KEPT = 32
+
+
+Kept = TypeVar("Kept")
 
 
 class Derived(NamedTuple):
@@ -58,7 +61,7 @@ class Layout:
         self._plans: dict[tuple[int, ...], Planned] = {}
         self._integers: dict[int, np.ndarray] = {}
         self._derived: Derived | None = None
-        self._stops: dict[tuple[Any, ...], np.ndarray] = {}
+        self._kept: dict[tuple[Any, ...], Any] = {}
 
     def derived(self, make: Callable[[], Derived]) -> Derived:
         """Blocks made of others."""
@@ -75,14 +78,14 @@ class Layout:
                 self._plans[without] = found
         return found
 
-    def stops(self, of: tuple[Any, ...], make: Callable[[], np.ndarray]) -> np.ndarray:
-        """Times that expressions of time decide, by all that these are made of."""
-        found = self._stops.get(of)
+    def once(self, of: tuple[Any, ...], make: Callable[[], Kept]) -> Kept:
+        """Anything else, by all that decides it beside the layout."""
+        found: Kept | None = self._kept.get(of)
         if found is None:
             found = make()
-            if len(self._stops) >= MOST_STOPS:
-                self._stops.pop(next(iter(self._stops)), None)
-            self._stops[of] = found
+            if len(self._kept) >= MOST_KEPT:
+                self._kept.pop(next(iter(self._kept)), None)
+            self._kept[of] = found
         return found
 
     def integers(self, group: int, make: Callable[[], np.ndarray]) -> np.ndarray:

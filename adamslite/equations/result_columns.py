@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from adamslite.model.merging import MergedModel
     from adamslite.model.model import Body
 
+COLUMNS = "columns"
 # Below this sine of theta the first and third angle of the 3-1-3 sequence are one angle.
 ALIGNED = 1e-10
 
@@ -68,15 +69,16 @@ def columns(system: System, record: np.ndarray) -> tuple[tuple[str, ...], np.nda
 
 def column_names(kernels: Kernels) -> tuple[str, ...]:
     """The names of all columns; found once."""
-    if kernels.columns is None:
+    if COLUMNS not in kernels.shared:
         names: list[str] = []
         for moving in kernels.model.moving:
             label = moving.label
             names += [label + each for each in (OF_PART if _turns(moving) else OF_POINT)]
         for statement, suffixes in kernels.outputs:
             names += [f"{statement.label}.{s}" if s else statement.label for s in suffixes]
-        kernels.columns = tuple(names)
-    return kernels.columns
+        kernels.shared[COLUMNS] = tuple(names)
+    found: tuple[str, ...] = kernels.shared[COLUMNS]
+    return found
 
 
 def _turns(statement: Part | PointMass) -> bool:

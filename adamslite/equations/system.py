@@ -98,11 +98,11 @@ class System:
         """``pivoting``: eliminate the whole matrix with row pivoting, whatever its size."""
         self.kernels, self.model = kernels, kernels.model
         self.numbering = numbering = Numbering(kernels, stabilised)
-        layout = kernels.layouts.get(stabilised) or Layout(numbering)
+        layout = kernels.shared.get(stabilised) or Layout(numbering)
         self.layout, self.blocks = layout, layout.blocks
         self.instances = Instances(numbering, layout)
         self.elimination = Elimination(numbering, layout, pivoting)
-        kernels.layouts[stabilised] = layout
+        kernels.shared[stabilised] = layout
         self.n, self.m, self.nz = numbering.n, numbering.m, numbering.nz
         self.nv, self.ns, self.holonomic = numbering.nv, numbering.ns, numbering.holonomic
         self.nodes, self.node_at = numbering.nodes, numbering.node_at

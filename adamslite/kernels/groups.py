@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
@@ -143,8 +143,7 @@ class ShapeGroup:
 class Kernels:
     """A model with its compiled groups and the values it writes.
 
-    ``outputs``: (statement, result names) in the order of the output rows.  ``columns``: names of
-    the columns of results, once they are known.
+    ``outputs``: (statement, result names) in the order of the output rows.
     """
 
     model: Model
@@ -152,9 +151,8 @@ class Kernels:
     outputs: list[tuple[Statement, tuple[str, ...]]]
     addresses: dict[str, int]
     compiled: int
-    columns: tuple[str, ...] | None = None
-    layouts: dict[bool, Any] = field(default_factory=dict, compare=False, repr=False)
-    """What equations share that are made of these kernels, by their formulation."""
+    shared: dict[Hashable, Any] = field(default_factory=dict, compare=False, repr=False)
+    """What is made of them whatever the numbers are: layouts by formulation, names of columns."""
     refill: Any = field(default=None, compare=False, repr=False)
     """What puts other numbers into these kernels, once it has been asked for."""
 

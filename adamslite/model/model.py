@@ -103,7 +103,7 @@ class Model:
                 isinstance(statement, Part) and not statement.ground
             ):
                 self.body_index[statement.keyword, statement.key] = len(self.bodies)
-                self.bodies.append(self._body(statement))
+                self.bodies.append(self.body_of(statement))
         found = [s for s in deck.statements if isinstance(s, Constraint) and deck.is_active(s)]
         self.constraints = sorted(found, key=lambda s: s.is_rate(self))
         self.held = {(s.keyword, s.key) for s in self.constraints}
@@ -128,7 +128,8 @@ class Model:
             return self.start[body]
         return self.bodies[body].x, self.bodies[body].attitude
 
-    def _body(self, statement: Part | PointMass) -> Body:
+    def body_of(self, statement: Part | PointMass) -> Body:
+        """A body as its statement has it."""
         origin = np.asarray(statement.qg, dtype=float)
         attitude = frame_axes(statement, origin)
         cm = self.marker_in_body(statement.cm)

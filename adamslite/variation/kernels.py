@@ -20,6 +20,8 @@ from typing import Any
 from adamslite.assembly.start_posture import settle_start
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
+from adamslite.elements.part import Part
+from adamslite.elements.point_mass import PointMass
 from adamslite.gc_pause import without_collection
 from adamslite.kernels.collecting import bound, bound_again
 from adamslite.kernels.compile import compile_model
@@ -29,7 +31,7 @@ from adamslite.language.expression import Ref, walk
 from adamslite.language.statement import Statement
 from adamslite.language.traced import Recipe, Traced, again, places
 from adamslite.model.merging import merged
-from adamslite.model.model import Model, assemble
+from adamslite.model.model import PART, Model, assemble
 from adamslite.reading.numbers import Given
 from adamslite.variation.decks import Variable, is_quick, variable_of
 from adamslite.variation.decks import with_values as varied
@@ -116,7 +118,9 @@ class Refill:
         changed = {id(a): b for a, b in pairs if a is not b}
         owns = {(each.keyword, each.key) for each in changed.values()}
         moved = any(keyword in GEOMETRY for keyword, _ in owns)
-        model = Model(deck, old.without) if moved else _in_place(old, deck, changed)
+        model = _in_place(old, deck, changed)
+        if moved and not _moved(model, changed.values()):
+            model = Model(deck, old.without)
         settle_start(model)
         if self.merging and merged(model) is not model:
             return None
@@ -263,6 +267,27 @@ def _in_place(old: Model, deck: Deck, changed: Mapping[int, Statement]) -> Model
     return made
 
 
+def _moved(model: Model, changed: Iterable[Statement]) -> bool:
+    """Give bodies of a model that stands in place their new numbers; False where markers move too,
+    or speeds are given along those of other bodies.
+
+    A marker on a part stands where it did in the axes of the part; on a point mass it turns.
+    """
+    found = [each for each in changed if each.keyword in GEOMETRY]
+    at = [model.body_index.get((each.keyword, each.key), -1) for each in found]
+    along = any(getattr(each.statement, f, None) for each in model.bodies for f in ("vm", "wm"))
+    if along or min(at, default=0) < 0:
+        return False
+    model.bodies, model.of_bodies = [*model.bodies], {}
+    for number, each in zip(at, found, strict=True):
+        assert isinstance(each, Part | PointMass)
+        model.bodies[number] = model.body_of(each)
+    turned = {number for number in at if model.body_width(number) != PART}
+    places = model.places.items()
+    model.places = {key: each for key, each in places if each is None or each.body not in turned}
+    return True
+
+
 def _alike(one: Model, other: Model) -> bool:
     """Whether bodies and constraints are the same ones in the same order."""
     bodies = ([(b.statement.label, b.width) for b in model.bodies] for model in (one, other))
@@ -272,7 +297,8 @@ def _alike(one: Model, other: Model) -> bool:
 
 def _placed_alike(one: Model, other: Model) -> bool:
     """Whether every marker that is used is offset and turned as it was."""
-    return all(_kind(place) == _kind(other.marker(marker)) for marker, place in one.places.items())
+    pairs = ((place, other.marker(marker)) for marker, place in one.places.items())
+    return all(here is there or _kind(here) == _kind(there) for here, there in pairs)
 
 
 def _kind(place: Any) -> Any:

@@ -49,8 +49,8 @@ def edges(system: System, clock: Clock, times: np.ndarray) -> tuple[np.ndarray, 
     def stops() -> np.ndarray:
         return merged(_lasting(system, _changes(system, found), start, end), times)
 
-    decided_by = (*guards, None, *floors, found.tobytes(), times.tobytes())
-    return system.layout.stops(decided_by, stops), overfull
+    decided_by = ("stops", *guards, None, *floors, found.tobytes(), times.tobytes())
+    return system.layout.once(decided_by, stops), overfull
 
 
 def merged(found: np.ndarray, times: np.ndarray) -> np.ndarray:

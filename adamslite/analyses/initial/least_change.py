@@ -14,7 +14,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from adamslite.analyses.initial.rows import SPEEDS, gradient, velocity_rows, weights
-from adamslite.analyses.initial.sparse_rows import LeastChanges, Pattern, evaluated
+from adamslite.analyses.initial.sparse_rows import LeastChanges, evaluated, pattern_of
 from adamslite.equations.system import System
 from adamslite.integrators import contract
 
@@ -79,7 +79,7 @@ class Sparse:
 
     def __init__(self, system: System, level: Level, kept: np.ndarray) -> None:
         self.system, self.kept, self.speeds = system, kept, level is VELOCITIES
-        self.pattern = Pattern(system, self.speeds)
+        self.pattern = pattern_of(system, self.speeds)
         self.rows = evaluated(system, self.pattern, level.phases, level.kind).only(kept)
         self.sums = np.bincount(self.rows.row, self.rows.values, system.m)[kept]
 

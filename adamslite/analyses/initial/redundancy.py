@@ -11,7 +11,7 @@ import numpy as np
 
 from adamslite.analyses.initial.least_change import MOST_DENSE, VELOCITIES
 from adamslite.analyses.initial.rows import constraint_gradient, weights
-from adamslite.analyses.initial.sparse_rows import LeastChanges, Pattern, evaluated
+from adamslite.analyses.initial.sparse_rows import LeastChanges, evaluated, pattern_of
 from adamslite.assembly.rank import dependent_rows, name_of_row, unit_rows
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def badly_chosen(system: System) -> bool:
 
 
 def _factored(system: System, kept: np.ndarray) -> LeastChanges:
-    pattern = Pattern(system, True)
+    pattern = pattern_of(system, True)
     rows = evaluated(system, pattern, *VELOCITIES).only(kept)
     return LeastChanges(system, pattern, rows, weights(system))
 

@@ -36,7 +36,5 @@ def weights(system: System, speeds: bool = False) -> np.ndarray:
     """(n,) weights of the coordinates, or of their velocities."""
     model = system.model
     table = model.once_of_bodies(("weights", speeds), lambda: coordinate_weights(model, speeds))
-    w = np.ones(system.n)
-    for b, body in enumerate(model.bodies):
-        w[system.starts[b] : system.starts[b] + body.width] = table[b, : body.width]
-    return w
+    widths = np.array(system.widths[: len(model.bodies)], dtype=int)
+    return table[np.arange(table.shape[1]) < widths[:, None]]

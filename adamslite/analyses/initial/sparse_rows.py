@@ -102,6 +102,11 @@ class Pattern:
         self.source, self.below, self.above, self.row, self.column = np.hstack(found)
 
 
+def pattern_of(system: System, speeds: bool) -> Pattern:
+    """The pattern of a system, which does not depend on numbers."""
+    return system.layout.once(("pattern", speeds), lambda: Pattern(system, speeds))
+
+
 def _blocks(system: System, speeds: bool) -> Iterator[tuple[int, ...]]:
     """Places of rows, of G and of G^T, first row and column, height and width of each block."""
     offsets, nodes, starts = system.blocks.offsets, system.nodes, system.starts
