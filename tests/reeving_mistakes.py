@@ -64,6 +64,10 @@ MISTAKES = {
     "several-falls": (SHARED, "end = 1", 'end = 1\nfall = "a1 h1"', (2, 1)),
     "several-brute": (SHARED, "[[load]]", '[model]\nform = "brute"\n[[load]]', (11, 1)),
     "no-such-load": (SHARED, 'name = "h1"', 'name = "h1"\nload = "box"', (20, 1)),
+    "no-load": (
+        HOIST, 'kind = "mass"\nat = [0, -20, 0]\nmass = 1000',
+        'kind = "hook"\nat = [0, -20, 0]', (12, 1),
+    ),
     "which-load": (
         BOXED.replace('load = "box"\nname = "h2"', 'name = "h2"'),
         "mass = 50", f"mass = 50\n{SECOND}\ninertia = 3\npivot = {{ at = [0, 0, 0] }}", (32, 1),

@@ -91,6 +91,9 @@ def _on(each: Station, i: int, loads: tuple[Load, ...], faults: Faults) -> Stati
     if each.kind != "hook" and not each.load:
         return each
     names, path, label = [load.name for load in loads], ("route", i), f"station {i + 1}"
+    if not loads:
+        faults.add("no-load", path, label=label)
+        return each
     if not each.load and len(loads) != 1:
         faults.add("which-load", path, label=label, count=len(loads))
         return each
@@ -115,6 +118,8 @@ def shared(ropes: list[Rope], loads: tuple[Load, ...], faults: Faults) -> list[S
     given = [_own_tension(rope) for rope in ropes]
     for rope, tension in zip(ropes, given, strict=True):
         _check_strain(rope, tension)
+    if faults.errors:
+        return [rope.spec for rope in ropes]
     lengths = [bool(rope.spec.cable.length) for rope in ropes]
     loose = [None if has else own for has, own in zip(lengths, given, strict=True)]
     bears, left = _balanced(ropes, loads, loose)

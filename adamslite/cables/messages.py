@@ -41,6 +41,7 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
         "no bends, no teeth, leans = true at wheels that move across their cable",
     ),
     "no-such-load": Message("there is no load of the name {word}", "the loads are {known}"),
+    "no-load": Message("{label} is on a load, and there is none", "[[load]] with its at and mass"),
     "which-load": Message("{label} is on one of {count} loads", "load = ..., its name"),
     "same-load": Message("load {i} has the name {name} too", "a name for each load"),
     "no-hook": Message("no cable and no hinge holds this load", 'kind = "hook" in [[route]]'),

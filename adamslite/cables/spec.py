@@ -79,6 +79,9 @@ def read_scene(text: str, file: str = "<text>") -> Description:
     stations = _stations(faults, data.get("route", []))
     route = along_the_cable(faults, stations, data.get("fall"))
     check_route(faults, route, data.get("closed") is True)
+    for i, each in enumerate(route):
+        if each.get("kind") == "hook" or each.get("load"):
+            faults.add("no-load", ("route", i), label=f"station {i + 1}")
     readable = not faults.found
     common = _common(faults, data)
     cable = _table(
@@ -218,7 +221,8 @@ def _table(
     values: Toml = {}
     for key, (takes, rule, default) in rules.items():
         if key in data:
-            values[key] = _value(faults, data[key], takes, rule, (*path, key))
+            found = _value(faults, data[key], takes, rule, (*path, key))
+            values[key] = _instead(takes, default) if found is None else found
         elif isinstance(takes, NestedTable):
             values[key] = None
         elif default is None:
@@ -235,19 +239,28 @@ def _label(path: Path) -> str:
     return str(path[-1]) if path else "the file"
 
 
+def _instead(takes: Takes, default: Any) -> Any:
+    """What stands for a value that cannot be, so that the rest can be read: a default, or 1."""
+    if default is not None or isinstance(takes, NestedTable):
+        return default
+    return {"text": "1", "vector": (1.0, 1.0, 1.0), "curve": ((0.0, 1.0), (1.0, 1.0))}.get(
+        takes if isinstance(takes, str) else "", 1
+    )
+
+
 def _value(faults: Faults, value: Any, takes: Takes, rule: str, path: Path) -> Any:
-    """The value as the Spec holds it; 1 after saying why it cannot be."""
+    """The value as the Spec holds it; None after saying why it cannot be."""
     word = path[-1]
     if isinstance(takes, NestedTable):
         return _grouped(faults, value, takes, path)
     good, expected = _fits(value, takes)
     if not good:
         faults.add("wrong-value", path, word=word, expected=expected, text=repr(value))
-        return 1
+        return None
     broken = [each for each in rule.split() if not isinstance(value, str) and BROKEN[each](value)]
     if broken:
         faults.add(broken[0], path, word=word, text=repr(value))
-        return 1
+        return None
     if takes == "laws":
         return tuple("" if each in (0, "") else str(each) for each in value)
     if takes == "quantities":
