@@ -259,3 +259,9 @@ def test_numbers_no_product_of_which_is_a_number_are_refused(key: str, value: st
 @pytest.mark.parametrize("law", ["1e60*TIME", "TIME**400", "EXP(999*TIME)"])
 def test_a_payout_beyond_all_numbers_is_refused(law: str) -> None:
     assert [each.code for each in told(HOIST.replace("0.5*TIME**2", law))] == ["law-no-value"]
+
+
+def test_a_cable_that_sags_by_more_than_its_length_is_refused() -> None:
+    """From a drum 1e50 m away."""
+    spec = LOWERS.replace("at = [-0.5, 0, 0]", "at = [0, 1e50, 1e-9]")
+    assert [each.code for each in told(spec)] == ["overstretched"]

@@ -104,3 +104,90 @@ def test_stations_follow_the_fall_and_not_the_file() -> None:
         f"[[route]]\n{table}" for table in reversed(named)
     )
     assert below(deck(turned + model)[0]) == below(deck(RIGID)[0])
+
+
+TACKLE = """\
+end = 1
+fall = "{fall}"
+[cable]
+EA = 1e8
+rho = 1e-3
+[[route]]
+kind = "winch"
+name = "drum"
+at = [-0.6, 4, 0]
+radius = 0.2
+inertia = 3
+turn = -1
+force = "{pull}"
+[[route]]
+kind = "pulley"
+name = "s1"
+at = [-0.2, 0, 0]
+radius = 0.2
+inertia = 0.04
+{block}
+{others}
+[model]
+level = 1
+"""
+BECKET = """\
+[[load]]
+name = "block"
+at = [0, -0.5, 0]
+mass = 300
+inertia = 20
+[[route]]
+kind = "pulley"
+name = "crown"
+at = [0.2, 4, 0]
+radius = 0.2
+inertia = 0.04
+[[route]]
+kind = "hook"
+name = "becket"
+load = "block"
+at = [0.4, 0, 0]
+"""
+
+
+@pytest.mark.parametrize("pull", [600.0, 1500.0])
+def test_three_falls_end_at_a_becket_on_the_block(pull: float) -> None:
+    """The block sinks by s/3; 2/3 of s go over its sheave, 1/3 over the crown sheave. Sheaves have
+    J/R^2 = 1 kg, the drum 75 kg: s" (75 + M/9 + 4/9 + 1/9) = M g/3 - Q."""
+    spec = TACKLE.format(
+        fall="drum s1 crown becket", pull=pull, block='load = "block"', others=BECKET
+    )
+    found = run(spec)
+    a = (301 * G / 3 - pull) / (75 + 301 / 9 + 5 / 9)
+    assert found["REQUEST/10.F2"][-1] == pytest.approx(a / 2, rel=1e-4)
+    assert found["PART/50.y"][-1] == pytest.approx(-0.5 - a / 6, abs=1e-4)
+
+
+SECOND_DRUM = """\
+[[route]]
+kind = "winch"
+name = "second"
+at = [0.2, 3, 0]
+radius = 0.2
+inertia = 6
+turn = -1
+force = "{pull}"
+"""
+
+
+@pytest.mark.parametrize("pulls", [(900.0, 900.0), (700.0, 500.0)])
+def test_a_block_hangs_between_two_drums(pulls: tuple[float, float]) -> None:
+    """By Lagrange's equations for what both pay out: the block sinks by (s1 + s2)/2, and its sheave
+    turns by (s1 - s2)/(2 R)."""
+    block = "mass = 150\nslide = [0, 1, 0]"
+    others = SECOND_DRUM.format(pull=pulls[1])
+    found = run(TACKLE.format(fall="drum s1 second", pull=pulls[0], block=block, others=others))
+    drums, block_mass, sheave = np.diag([75.0, 150.0]), 151.0, 1.0
+    both, aside = np.ones((2, 2)) / 4, np.array([[1, -1], [-1, 1]]) / 4
+    rates = np.linalg.solve(
+        drums + block_mass * both + sheave * aside, block_mass * G / 2 - np.array(pulls)
+    )
+    assert found["REQUEST/10.F2"][-1] == pytest.approx(rates[0] / 2, rel=1e-4)
+    # The route goes to the second drum: what it pays out runs against it.
+    assert -found["REQUEST/30.F2"][-1] == pytest.approx(rates[1] / 2, rel=1e-4)

@@ -210,16 +210,35 @@ def _column(rope: Rope, loads: tuple[Load, ...]) -> list[float]:
     return found
 
 
+def _hung(rope: Rope, load: Load) -> list[tuple[Vector, np.ndarray]]:
+    """Places and weights of the wheels on a load, and of the cable that hangs from it."""
+    spec, found = rope.spec, []
+    gravity = np.array(spec.gravity)
+    for i, each in enumerate(spec.route):
+        if each.on != load.part:
+            continue
+        if each.is_wheel:
+            found.append((each.at, each.inertia / each.radius**2 * gravity))
+        for p in spec.beside(i):
+            if p >= 0:
+                span = rope.spans[p]
+                sense = 1 if spec.pairs[p][0] == i else -1
+                down = max(sense * dot(spec.gravity, span.along), 0.0)
+                pull = spec.cable.density * span.length * down * sense
+                found.append(
+                    (span.start if sense > 0 else span.finish, pull * np.array(span.along))
+                )
+    return found
+
+
 def _weights(ropes: list[Rope], loads: tuple[Load, ...]) -> np.ndarray:
     """Forces and moments of gravity on all loads, with the wheels on them."""
     gravity, found = np.array(ropes[0].spec.gravity), []
     for load in loads:
         force, moment = load.mass * gravity, np.zeros(3)
-        for each in (each for rope in ropes for each in rope.spec.route):
-            if each.on == load.part and each.is_wheel:
-                weight = each.inertia / each.radius**2 * gravity
-                force = force + weight
-                moment = moment + np.cross(np.subtract(each.at, load.at), weight)
+        for place, weight in (each for rope in ropes for each in _hung(rope, load)):
+            force = force + weight
+            moment = moment + np.cross(np.subtract(place, load.at), weight)
         found += [*force, *moment]
     return np.array(found)
 

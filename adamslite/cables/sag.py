@@ -3,6 +3,7 @@
 from itertools import accumulate, pairwise
 from math import sqrt
 
+from adamslite.cables.brute_force_layout import Overstretched
 from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across
 from adamslite.cables.vocabulary import Spec
 
@@ -43,6 +44,8 @@ def hanging(
         pulls = [tension + node * (n - k + 0.5) for k in range(1, n + 1)]
         steps = [free / n * (1 + pull / cable.stiffness) for pull in pulls]
         steps = [sqrt(max(h * h - d * d, 0.0)) for h, d in zip(steps, drops, strict=True)]
+        if not any(steps):  # it sags by more than its length
+            raise Overstretched
         free *= length / sum(steps)
     ways = zip(accumulate(steps), falls, strict=True)
     return free, [add(add(place, along, way), fall) for way, fall in ways]

@@ -1,5 +1,6 @@
 """From the text of a description to the text of a deck."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from adamslite.cables import bending_advice
@@ -174,11 +175,7 @@ def written(of: Setting, why: Reasons | None = None) -> Written:
     model = _modelled(of, faults, why)
     _stop(faults, faults.errors)
     shown = comments(of.text, _shown(of.spec, model.model, why))
-    try:
-        text = write([model], comments=shown)
-    except Overstretched:
-        faults.add("overstretched", ("cable", "EA"), stiffness=of.spec.cable.stiffness)
-        raise DeckError(sort_by_place(faults.found)) from None
+    text = _whole(lambda: write([model], comments=shown), of.spec, faults)
     return Written(text, sort_by_place(faults.found), model.model)
 
 
@@ -217,7 +214,17 @@ def several(given: Description) -> Written:
     found = [_sharing(rope, ropes, loads) for rope in ropes]
     _check_shares(found, ropes, loads)
     _stop(faults, faults.errors)
-    return Written(write(found, loads), sort_by_place(faults.found), found[0].model)
+    text = _whole(lambda: write(found, loads), found[0].spec, faults)
+    return Written(text, sort_by_place(faults.found), found[0].model)
+
+
+def _whole(write_it: Callable[[], str], spec: Spec, faults: Faults) -> str:
+    """A deck whose cables can be as long as they are drawn."""
+    try:
+        return write_it()
+    except Overstretched:
+        faults.add("overstretched", ("cable", "EA"), stiffness=spec.cable.stiffness)
+        raise DeckError(sort_by_place(faults.found)) from None
 
 
 def _sharing(rope: Rope, ropes: list[Rope], loads: tuple[Load, ...]) -> Modelled:
