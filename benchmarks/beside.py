@@ -18,6 +18,7 @@ from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+import adamslite
 from benchmarks.measure import ONE_THREAD
 from benchmarks.peers import exudyn_reeving, moordyn_rope, moorpy_rope, our_ropes
 from benchmarks.rope_cases import SHAKEN, TITLES, Answer, RopeRun, closed_form
@@ -54,7 +55,9 @@ hangs on the dampers; without damping the same line is right. In its own scenes 
 
 
 def installed(run: RopeRun) -> str:
-    """The version of its program, or nothing."""
+    """The version of its program, or nothing; ours is in this checkout."""
+    if run.package == "adamslite":
+        return adamslite.__version__
     try:
         return version(run.package)
     except PackageNotFoundError:

@@ -33,6 +33,8 @@ the deck with its equations and its source. CPU is that of the second run on one
 compiled is kept. What programs for moorings and for reeving give on some of these scenes is on
 [another page](background/ropes-beside.md).
 
+{printed} of {all} quantities have a printed number.
+
 | case | quantity | published | exact | ours | deviation | CPU [s] |
 |---|---|---|---|---|---|---|
 """
@@ -140,7 +142,9 @@ def rows(case: Case) -> list[str]:
 def main() -> None:
     """Write the page."""
     lines = [line for case in cases() for line in rows(case)]
-    PAGE.write_text(HEAD + "\n".join(lines) + "\n", encoding="utf-8")
+    printed = [bool(quantity.published) for case in cases() for quantity in case.quantities]
+    head = HEAD.format(printed=sum(printed), all=len(printed))
+    PAGE.write_text(head + "\n".join(lines) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

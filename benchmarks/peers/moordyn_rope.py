@@ -10,7 +10,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +20,6 @@ from benchmarks import rope_cases as cases
 from benchmarks.peers.program import Laps
 from benchmarks.rope_cases import LOWERED, MOORED, MOVED, SHAKEN, Answer, RopeRun
 
-#: Functions of the bindings (2.7) return None without a reference of its own, which Python before
-#: 3.12 counts: this many calls are paid for.
-NOTHING = [None] * 4_000_000
 INPUT = """MoorDyn
 ---------------------- LINE TYPES -----------------------------------
 TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx
@@ -52,11 +49,20 @@ ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs
 """
 
 
+@cache
+def references_to_none() -> list[None]:
+    """Functions of the bindings (2.7) return None without a reference of its own, which Python
+    before 3.12 counts: this many calls are paid for.
+    """
+    return [None] * 4_000_000
+
+
 @contextmanager
 def line_at_rest(**given: Any) -> Iterator[Any]:
     """The program with this line, which writes a file while it runs. The upper end is at x = 0."""
     import moordyn
 
+    references_to_none()
     filled = {"diameter": 0.03, "water": 0, "gravity": cases.G, "depth": 1000, "mass": 0, "x": 0}
     filled |= {"kind": "Free", "top": -10.0, "settle": 20, "settle_step": 0.1}
     filled |= {"bending": 0, "drag": 0, "added": 0, "scheme": "RK4"}
