@@ -14,7 +14,7 @@ from adamslite.cables.description import below
 from adamslite.cables.readings import Series
 from adamslite.cables.scene import deck, setting
 from adamslite.cables.trial import Found, tried
-from adamslite.cables.trial_runs import Solution
+from adamslite.cables.trial_runs import TOO_LONG, Solution
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.progress import Progress
@@ -50,6 +50,7 @@ kind = "mass"
 at = [0, -20, 0]
 mass = 500
 """
+WINCHES = Path(al.__file__).parent.parent / "decks" / "cables" / "winches"
 Error = Callable[[int, float], float]
 
 
@@ -129,6 +130,29 @@ def test_runs_are_counted_and_what_is_not_shown_is_told() -> None:
     slow = with_trial(made_up(lambda n, error: 0.0, steps=10**9), allowance=1.0)
     assert codes(slow) == ["unsettled"]
     assert slow.deck.text == deck(HUNG + '[model]\nquantities = ["tension"]\n')[0]
+
+
+def test_a_first_run_that_takes_too_long_is_followed_by_a_coarser_one() -> None:
+    """More than five sections take too long; one in a thousand of a section is left."""
+
+    def solve(text: str, columns: tuple[str, ...], most: float) -> Solution:
+        if len(re.findall(r"^SFORCE/", text, re.M)) > 5:
+            return Solution(Series(np.empty(0), {}), most, 1.0, TOO_LONG)
+        return made_up(lambda n, error: 0.001 / n)(text, columns, most)
+
+    assert with_trial(made_up(lambda n, error: 0.0), HUNG, 0.0).deck.model.elements > 5
+    assert codes(with_trial(solve, HUNG, 40.0)) == ["unsettled"]
+    finest = with_trial(solve, HUNG, 40.0).finest
+    assert finest and finest.elements <= 5
+
+
+@pytest.mark.parametrize("name", ["hoist", "reel-hoist"])
+def test_a_winch_with_states_is_tried_too(name: str) -> None:
+    """RADAU integrates it; whatever runs show, there is a deck."""
+    text = (WINCHES / f"{name}.toml").read_text(encoding="utf-8")
+    text = re.sub(r"(?m)^(level|elements|form|error) = .*\n", "", text)
+    found = described(text, name, 0.5, Progress())
+    assert "INTEGRATOR/RADAU" in found.deck.text
 
 
 def test_a_run_that_fails_spoils_only_its_model() -> None:

@@ -11,23 +11,24 @@ from adamslite.cables.readings import Series
 from adamslite.cables.scene import setting, several
 from adamslite.cables.spec import read_scene
 from adamslite.cables.trial import Found, tried
-from adamslite.cables.trial_runs import Solution, Solver
+from adamslite.cables.trial_runs import TOO_LONG, Solution, Solver
 from adamslite.errors import RunFailed
 from adamslite.language.diagnostics import DeckError
 from adamslite.progress import Progress, RunState
 from adamslite.reading.read import read
 from adamslite.results.outcomes import Outcome
 
+# Words that tell what a sentence is about.
+WORDS = 3
 # Iterations of a step.
 USUAL = 2.0
-TOO_LONG = "a run took more steps than the trial may"
 
 
 class _Counted(Progress):
     """Ends a run after so many steps."""
 
-    def __init__(self, most: float, shown: Progress) -> None:
-        self.most, self.shown = most, shown
+    def __init__(self, most: float, shown: Progress, said: set[tuple[str, ...]]) -> None:
+        self.most, self.shown, self.said = most, shown, said
 
     def watch(self, state: RunState) -> None:
         """Look whether it has to end."""
@@ -35,8 +36,11 @@ class _Counted(Progress):
             raise KeyboardInterrupt
 
     def say(self, sentence: str) -> None:
-        """Say that an engine is compiled."""
-        self.shown.say(sentence)
+        """Say what takes long, the same for one run only."""
+        about = tuple(sentence.split()[:WORDS])
+        if about not in self.said:
+            self.said.add(about)
+            self.shown.say(sentence)
 
 
 def described(text: str, file: str, allowance: float | None, shown: Progress) -> Found:
@@ -56,15 +60,17 @@ def described(text: str, file: str, allowance: float | None, shown: Progress) ->
 
 def solver(shown: Progress) -> Solver:
     """Runs decks, and says to `shown` what takes long."""
+    said: set[tuple[str, ...]] = set()
 
     def solve(text: str, columns: tuple[str, ...], most: float) -> Solution:
         try:
-            run = simulation.simulate(read(text), progress=_Counted(most, shown))
+            run = simulation.simulate(read(text), progress=_Counted(most, shown, said))
         except (DeckError, RunFailed) as fault:
             return _ended(" ".join(str(fault).split()))
         steps = int(run.summary["steps"])
         if steps > most:
-            return _ended(TOO_LONG, steps)
+            # Where it was noticed depends on the clock.
+            return _ended(TOO_LONG, most)
         if run.outcome is Outcome.INTERRUPTED:
             raise KeyboardInterrupt
         if run.outcome is not Outcome.DONE:
@@ -81,5 +87,5 @@ def solver(shown: Progress) -> Solver:
     return solve
 
 
-def _ended(why: str, steps: int = 0) -> Solution:
+def _ended(why: str, steps: float = 0) -> Solution:
     return Solution(Series(np.empty(0), {}), steps, inf, why)

@@ -133,6 +133,7 @@ def work(of: Demand, method: str, chosen: int, steps: float, sections: int) -> f
 
 def _steps(of: Demand, method: str, chosen: int, sections: int, error: float) -> float:
     """Steps of a run."""
+    method = "GSTIFF" if method == "RADAU" else method
     results = PER_RESULT[method] * (of.results or RESULTS)
     if chosen == 1:
         return results

@@ -30,6 +30,8 @@ TIGHTER = 2
 GROWTH = 3.0
 # Of the allowance: what the first rung may be expected to take.
 FIRST = 1 / 30
+# Of what is left: what the first rung may take.
+BEGIN = 0.5
 # CPU [s] of reading a deck and making it ready, in any case and for each of its letters.
 SETUP, BY_LETTER = 0.03, 2e-6
 # Steps of implicit methods where sections go slack, in those where they push.
@@ -38,6 +40,8 @@ EVENTS = 30.0
 FAILURES = 2
 # Keeps quotients finite.
 NOTHING = 1e-12
+# Why a run ended that took more steps than it may.
+TOO_LONG = "a run took more steps than the trial may"
 
 
 @dataclass(frozen=True)
@@ -83,7 +87,7 @@ class Runs:
         self.of, self.solve, self.allowance, self.spent = of, solve, allowance, spent
         self.known: dict[Option, Tried | None] = {}
         self.wanted = columns(of.spec, of.pieces)
-        self.ended = ""
+        self.ended, self.was_cut = "", False
 
     def set_to(self, option: Option) -> Setting:
         """The description with a model."""
@@ -94,27 +98,28 @@ class Runs:
                          error=option.error or spec.error),
         )  # fmt: skip
 
-    def run(self, option: Option) -> Tried | None:
-        """A model that is solved; None where it cannot be, or not in time."""
+    def run(self, option: Option, share: float = 1.0) -> Tried | None:
+        """A model that is solved; None where it cannot be, or not in a share of what is left."""
         if option not in self.known:
-            self.known[option] = self._solved(option)
+            self.known[option] = self._solved(option, share)
         return self.known[option]
 
-    def _solved(self, option: Option) -> Tried | None:
+    def _solved(self, option: Option, share: float) -> Tried | None:
+        self.was_cut = False
         try:
             deck = written(self.set_to(option))
         except DeckError:
             return None
         self.spent += SETUP + BY_LETTER * len(deck.text)
         step = self._work(deck.model, 1.0)
-        left = (self.allowance - self.spent) / step
+        left = share * (self.allowance - self.spent) / step
         if left < 1:
             return None
         solution = self.solve(deck.text, self.wanted, left)
         work = self._work(deck.model, solution.steps)
         self.spent += work
         if solution.ended:
-            self.ended = solution.ended
+            self.ended, self.was_cut = solution.ended, solution.ended == TOO_LONG
             return None
         read = read_off(self.of.spec, self.of.pieces, solution.run)
         option = replace(option, error=deck.model.error)
@@ -137,10 +142,13 @@ class Runs:
         failures = 0
         while option and failures < FAILURES:
             before = self.spent
-            rung = self.run(option)
+            rung = self.run(option, 1.0 if rungs else BEGIN)
             taken = self.spent - before
             if rung:
                 rungs.append(rung)
+            elif not rungs and self.was_cut and option.elements > 1:
+                option = self._coarser(option)
+                continue
             failures += rung is None
             if len(rungs) >= RUNGS and self.doubt(rungs) <= SETTLED or self.slackens(rungs):
                 break
@@ -164,6 +172,12 @@ class Runs:
             if count == 1 or taken < FIRST * self.allowance and count <= MOST >> (RUNGS - 1):
                 return Option(level, form, count, error)
             count = (count + 1) // 2
+
+    def _coarser(self, option: Option) -> Option:
+        count = (option.elements + 1) // 2
+        p = self.of.spec.accuracy
+        error = self.of.spec.error or advice.error_bound(self.of.demand, p, count)
+        return replace(option, elements=count, error=error)
 
     def _finer(self, option: Option) -> Option | None:
         if 2 * option.elements > MOST:
