@@ -47,7 +47,7 @@ ROWS = {
     # A front whose head rises through the first half transit.
     "starts along a light rope at 2 m/s": Row(
         rope(0.2, 2000, 1e6, 0.1, FIXED, weight(50, 100, velocity=[0, -2, 0])),
-        128, Model(2, "auto", 600, 1e-7),
+        256, Model(2, "auto", 800, 1e-7),
     ),
     "winch that lifts and stops": Row(
         rope(4, 800, 1e7, 1, winch(0.3, 5, "-STEP5(TIME,0,0,2,4)"), weight(500, 20)),

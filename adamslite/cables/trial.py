@@ -19,6 +19,8 @@ from adamslite.cables.trial_runs import Option, Runs, Solver, Tried
 
 # Of the accuracy: what the model that is taken may be off, with what the finest one is.
 ROOM = 0.95
+# Differences of fronts fall more slowly than the last two of them show.
+SAFETY = 1.5
 # How much cheaper a model has to be that is less accurate.
 WORTH = 1.2
 # ERROR of the next cheaper model, in the order 1, 2, 5, 10 ...
@@ -98,7 +100,7 @@ class _Choice:
     def __init__(self, trial: Runs, proposed: Written, rungs: list[Tried]) -> None:
         self.trial, self.proposed, self.rungs = trial, proposed, rungs
         self.doubt = trial.doubt(rungs)
-        self.limit = ROOM - self.doubt
+        self.limit = ROOM - SAFETY * self.doubt
         self.others: dict[Option, tuple[float, str]] = {}
 
     def found(self) -> Found:
