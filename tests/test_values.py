@@ -96,6 +96,15 @@ def test_a_value_is_put_into_the_text(value: dict[str, float], written: str) -> 
     assert al.read(DECK).with_values(value).source.text == al.read(DECK, values=value).source.text
 
 
+def test_a_routine_that_is_bound_to_a_number_is_no_parameter() -> None:
+    text = DECK.replace("FUNCTION=1.5", "FUNCTION=USER(7)")
+    assert [each.name for each in al.names(text, "VARIABLE/L_0", {"VARIABLE/L_0": 1.5})] == [
+        "VARIABLE/L_0.FUNCTION"
+    ]
+    with pytest.raises(UsageError, match="there is VARIABLE/L_0.FUNCTION"):
+        al.read(text, {"VARIABLE/L_0": 1.5}, values={"L_0": 2})
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [

@@ -30,9 +30,10 @@ from adamslite.elements.variable import Variable
 from adamslite.errors import UsageError
 from adamslite.language.abbreviations import match
 from adamslite.language.diagnostics import DeckError, Diagnostic, Source
-from adamslite.language.expression import Num
+from adamslite.language.expression import Node, Num
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.statement import STATEMENTS, Argument, Statement
+from adamslite.language.traced import Traced
 from adamslite.reading.statement_reader import Reading
 from adamslite.reading.unjudged import unjudged
 from adamslite.syntax.lines import join
@@ -140,7 +141,7 @@ class Numbers:
         return {
             str(each.statement.key): each
             for each in self.named.values()
-            if isinstance(each.statement, Variable) and type(each.statement.function) is Num
+            if isinstance(each.statement, Variable) and _is_number(each.statement.function)
         }
 
     def find(self, word: str) -> Named:
@@ -223,6 +224,11 @@ class Numbers:
         for start, end, new in sorted(edits, reverse=True):
             text = text[:start] + new + text[end:]
         return text
+
+
+def _is_number(function: Node) -> bool:
+    """Whether a FUNCTION is one number of the text: a routine of the user may be bound to one."""
+    return type(function) is Num and type(function.value) is Traced
 
 
 def _pair(text: str) -> tuple[str, str]:
