@@ -235,6 +235,19 @@ def test_a_stiff_bushing_is_as_good_as_a_joint(kind: str, length: float, stiffne
     assert 0.01 * told < difference < told
 
 
+@pytest.mark.parametrize(("force", "told"), [(0.0, True), (5.0, True), (1e7, False)])
+def test_a_load_that_is_zero_at_regular_times_counts(force: float, told: bool) -> None:
+    """A force of a period of a quarter of the run, itself or in a VARIABLE."""
+    wave = f"{force!r}*SIN(8*PI*TIME)"
+    values = {"m": 2, "n": 3, "i": 0.7, "l": 1, "far": 3, "g": -9.81}
+    hold = "BUSHING/1, I=6, J=4, K=1E8,1E8,1E8\n"
+    pushed = f"SFORCE/1, ACTIONONLY, I=5, J=1, FUNCTION={wave}"
+    indirect = f"VARIABLE/1, FUNCTION={wave}\nSFORCE/1, ACTIONONLY, I=5, J=1, FUNCTION=VARVAL(1)"
+    for push in (pushed, indirect):
+        deck = adamslite.read(BUSHED.format(hold=hold + push, **values))
+        assert bool(advice(deck, "stiff-bushing")) == told
+
+
 @pytest.mark.parametrize(("stiffness", "g"), [(1e4, -9.81), (1e9, 0.0)])
 def test_a_bushing_that_gives_way_or_whose_load_is_unknown_is_kept(
     stiffness: float, g: float

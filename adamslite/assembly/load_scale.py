@@ -17,7 +17,7 @@ import numpy as np
 
 from adamslite.assembly.reader import NumberReader
 from adamslite.assembly.scope import Posture, Unmeasured
-from adamslite.language.expression import Call, walk
+from adamslite.language.expression import Call, Ref, Time, walk
 from adamslite.language.statement import expressions
 from adamslite.symbolic.duals import Dual
 from adamslite.symbolic.formulas import with_numbers
@@ -29,8 +29,10 @@ if TYPE_CHECKING:
     from adamslite.language.statement import Statement
     from adamslite.model.model import Model
 
-# So many times at which forces, and motions, are looked at.
-TIMES, MOMENTS = 5, 401
+# So many times at which forces that change, and motions, are looked at; of the forces together.
+TIMES, MOMENTS, MOST = 401, 401, 4000
+# Times are this share of the run apart, around its end: no period has all of them at its zeros.
+GOLDEN = 0.6180339887498949
 #: They push when something is reached, by how much nobody knows.
 BLOWS = frozenset({"BISTOP", "IMPACT"})
 #: They are a share of what joints carry.
@@ -53,8 +55,12 @@ def load_scale(
         if hasattr(each, "loads") and model.acts(each) and each not in without
         and each.keyword not in SHARES
     ]  # fmt: skip
+    changing = [each for each in acting if _changes(model, each)]
+    count = min(TIMES, MOST // max(len(changing), 1) + 1)
+    times = until * ((GOLDEN * np.arange(count)) % 1.0)
     try:
-        forces = [_of_elements(acting, reader, t, size) for t in np.linspace(0.0, until, TIMES)]
+        forces = _of_elements([e for e in acting if e not in changing], reader, 0.0, size)
+        forces += max(_of_elements(changing, reader, float(t), size) for t in times)
         driven = [
             _of_motion(each, reader, until, size) * float(sum(b.mass for b in model.bodies))
             for each in model.deck.of("MOTION")
@@ -62,8 +68,21 @@ def load_scale(
         ]
     except (Unmeasured, ArithmeticError, LookupError):
         return None
-    found = total + max(forces) + sum(driven)
+    found = total + forces + sum(driven)
     return found if np.isfinite(found) else None
+
+
+def _changes(model: Model, statement: Statement) -> bool:
+    """Whether a force may depend on TIME, itself or through VARIABLEs."""
+    pending, seen = list(expressions(statement)), set[Ref]()
+    while pending:
+        for each in walk(pending.pop()):
+            if isinstance(each, Time):
+                return True
+            if isinstance(each, Ref) and each.kind == "VARIABLE" and each not in seen:
+                seen.add(each)
+                pending += expressions(model.element(each.kind, each.id))
+    return False
 
 
 def _strikes(statement: Statement) -> bool:
