@@ -115,7 +115,8 @@ def _of_method(
     if method.damping and rough > OFTEN * steps:
         yield (
             f"accelerations changed by more than half in {rough} of {steps} steps: vibrations "
-            "faster than the steps were damped, not followed; GSTIFF or RADAU follow them"
+            "faster than the steps were damped, not followed; where they matter, GSTIFF or RADAU "
+            "follow them"
         )
     if report.jolts > 0 or report.jolt > JOLT * report.speed > 0.0:
         yield (
@@ -148,7 +149,13 @@ def _added_up(settings: Settings, steps: int, off: float, way: float) -> Iterato
     fixed = settings.hinit and (by_hinit or settings.hinit == settings.hmin)
     remedy = "a shorter step" if fixed else f"a smaller ERROR than {settings.error:g}"
     felt = FELT_BY_BDF if settings.formula.family == "differences" else FELT
-    if off > felt * way > 0.0:
+    if off > way > 0.0:
+        yield (
+            f"the estimated errors of {steps} steps add up to more than the longest way of a body, "
+            "a bound that says nothing where forces damp them, as friction and contacts do: "
+            f"a run with {remedy} shows what they come to"
+        )
+    elif off > felt * way > 0.0:
         yield (
             f"the estimated errors of {steps} steps add up to {off:.1e}, {off / way:.2%} of the "
             f"longest way of a body: {remedy} keeps more digits"
@@ -170,9 +177,15 @@ def _of_small_states(
         return
     found.sort(key=lambda state: -state[0])
     share, off, name = found[0]
-    others = ", ".join(f"{each} {part:.1%}" for part, _, each in found[1:WORST_STATES])
+    others = ", ".join(f"{each} {_share(part)}" for part, _, each in found[1:WORST_STATES])
     worst = f" ({others}, {len(found)} states in all)" if others else ""
+    amount = f"{off:.1e}, {share:.1%} of" if share < 1.0 else "more than"
     yield (
-        f"the estimated errors add up to {off:.1e}, {share:.1%} of the largest {name}{worst}: "
+        f"the estimated errors add up to {amount} the largest {name}{worst}: "
         f"a smaller ERROR than {settings.error:g}, or another unit of the state"
     )
+
+
+def _share(part: float) -> str:
+    """A share of a state; more than all of it is no share."""
+    return f"{part:.1%}" if part < 1.0 else "too"

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from adamslite.model.model import Model
 
 
-# The exponential of more is beyond the range of numbers.
-EXP_LIMIT = 700.0
 ROUND_OFF = 2e-16
 # Share of the way that grown round-off may come to untold.
 FELT = 1e-3
@@ -62,9 +60,14 @@ def buckled(model: Model, names: tuple[str, ...], time: np.ndarray, values: np.n
     worst = struts[int(grown.argmax())].element
     return (
         f"{worst.label} pushed masses apart that nothing keeps in line: their distance from it,"
-        f" even round-off, grew up to {np.exp(min(most, EXP_LIMIT)):.0e} times, so that ERROR does"
+        f" even round-off, grew {_times(most)} times, so that ERROR does"
         " not bound their positions; let a cable only pull (MAX), or give it a bending stiffness"
     )
+
+
+def _times(exponent: float) -> str:
+    """How much something grew; from round-off to the size of the model it is everything."""
+    return f"up to {np.exp(exponent):.0e}" if exponent < -np.log(ROUND_OFF) else "more than 1e+15"
 
 
 def _struts(model: Model, column: dict[str, int]) -> list[_Strut]:
@@ -72,13 +75,18 @@ def _struts(model: Model, column: dict[str, int]) -> list[_Strut]:
     found = []
     for element in (*model.deck.of("SFORCE"), *model.deck.of("SPRINGDAMPER")):
         force = column.get(f"{element.label}.f")
-        if force is None or element.kind == "ROTATIONAL":
+        if force is None or element.kind == "ROTATIONAL" or _is_action(element):
             continue
         i, j = model.marker(element.i), model.marker(element.j)
         bodies = [end.body for end in (i, j) if end.body >= 0]
         if bodies and all(model.bodies[b].width == POINT for b in bodies):
             found.append(_Strut(element, force, i, j))
     return found
+
+
+def _is_action(element: Sforce | Springdamper) -> bool:
+    """Whether a force acts on one body only, along an axis instead of the line between both."""
+    return element.keyword == "SFORCE" and bool(getattr(element, "actiononly", False))
 
 
 def _pushed(struts: list[_Strut], values: np.ndarray) -> list[_Strut]:
