@@ -258,3 +258,40 @@ def test_bending_damps_a_cantilever_at_its_clamp_too() -> None:
     peaks = np.flatnonzero((y[1:-1] > y[:-2]) & (y[1:-1] > y[2:])) + 1
     rates = np.diff(np.log(y[peaks])) / np.diff(run.time[peaks])
     assert np.mean(rates) == pytest.approx(-(w**2) * damping / 2, rel=0.03)
+
+
+#: A rope that hangs from an end which is raised out of the water, 0.3 m/s at most.
+RAISED = """\
+end = 12
+steps = 240
+statics = true
+error = 1e-7
+[cable]
+EA = 1e6
+rho = 2
+diameter = 0.04
+damping = 0.5
+[water]
+density = 1000
+level = 0
+[[route]]
+kind = "fixed"
+at = [0, -1, 0]
+motion = ["0", "3*STEP5(TIME,0,0,10,1)", "0"]
+[[route]]
+kind = "free"
+at = [0, -11, 0]
+[model]
+level = 2
+elements = 10
+"""
+
+
+def test_an_end_that_leaves_the_water_loses_what_the_water_carried_there() -> None:
+    """rho g l less the buoyancy of what is below the surface: all at first, 8 of 10 m at last."""
+    run = solve(RAISED)
+    carried = 1000 * pi / 4 * 0.04**2 * G
+    for name in ("REQUEST/1.F2", "REQUEST/10.F6"):
+        assert run[name][0] == pytest.approx(2 * G * 10 - carried * 10, rel=1e-4)
+        rest = run[name][run.time > 11].mean()
+        assert rest == pytest.approx(2 * G * 10 - carried * 8, rel=3e-3)

@@ -111,7 +111,7 @@ def _up(spec: Spec, call: str, i: int) -> str:
     return "".join(f"{-g:+.11g}*{call}{a}({i})" for a, g in parts if g).replace("+1*", "+")
 
 
-def _wet(spec: Spec, i: int, beside: tuple[int, int], length: str) -> str:
+def wet_share(spec: Spec, i: int, beside: tuple[int, int], length: str) -> str:
     """Share of the cable of a node that is below the surface: over the height of its section."""
     assert spec.water
     a, b = beside
@@ -127,7 +127,7 @@ def _water(spec: Spec, at: tuple[str, int], beside: tuple[int, int], length: str
     assert water
     text, share = "", length
     if water.level < inf:
-        text += f"VARIABLE/wet_{tag}, FUNCTION={_wet(spec, i, beside, length)}\n"
+        text += f"VARIABLE/wet_{tag}, FUNCTION={wet_share(spec, i, beside, length)}\n"
         share = f"wet_{tag}*{length}"
     lifts = {x: -g * water.buoyancy for x, g in zip(AXES, spec.gravity, strict=True)}
     forces = {x: f"+displaced*{number(lifts[x])}" if lifts[x] else "" for x in axes}

@@ -1,8 +1,10 @@
 """What the ends of a cable feel of it: the half section that lies there, and the load on a fixed
 point in water, on a bed, or at which the cable bends."""
 
+from math import inf
+
 from adamslite.cables import sliders
-from adamslite.cables.around import bending_shares, lightness
+from adamslite.cables.around import bending_shares, lightness, wet_share
 from adamslite.cables.model_choice import CableModel
 from adamslite.cables.pieces import Piece
 from adamslite.cables.span_statements import row_of, spring
@@ -18,11 +20,21 @@ def hanging_half(spec: Spec, i: int, half: str, pair: tuple[int, int]) -> str:
     if spec.route[i].kind == "fixed" and _on_bed(spec, i):
         return ""
     text = f"\n, +rho*{half}*{sliders.lean(at, to)}"
-    carried = lightness(spec, spec.route[i].at)
-    if carried == 1.0:
+    carried = _displaced(spec, i, pair, half)
+    if not carried:
         return text
     parts = [f"{g:+.11g}*D{x}({to},{at})" for x, g in zip(AXES, spec.gravity, strict=True) if g]
-    return f"{text}\n, -displaced*{half}*({''.join(parts).lstrip('+')})/DM({to},{at})"
+    return f"{text}\n, -{carried}*{half}*({''.join(parts).lstrip('+')})/DM({to},{at})"
+
+
+def _displaced(spec: Spec, i: int, pair: tuple[int, int], half: str) -> str:
+    """Mass of water, per length, that the half section at station i displaces; "" where none is.
+    A station that moves may leave the water.
+    """
+    water, station = spec.water, spec.route[i]
+    if water and water.buoyancy and water.level < inf and (station.is_moved or station.is_free):
+        return f"displaced*{wet_share(spec, pair[0], pair, half)}"
+    return "displaced" if lightness(spec, station.at) < 1 else ""
 
 
 def support_request(spec: Spec, model: CableModel, found: list[Piece], i: int) -> str:
@@ -53,12 +65,16 @@ def _load(spec: Spec, model: CableModel, piece: Piece, i: int) -> dict[str, str]
     free = row.length
     pull = spring(spec, piece.number, min(at, to, key=row.nodes.index),
                   max(at, to, key=row.nodes.index), free)  # fmt: skip
-    weight = spec.cable.density * lightness(spec, spec.route[i].at) * (not _on_bed(spec, i))
+    carried = _displaced(spec, i, (at, to), f"{free}/2")
+    varies = carried not in ("", "displaced")
+    light = 1.0 if varies else lightness(spec, spec.route[i].at)
+    weight = spec.cable.density * light * (not _on_bed(spec, i))
     loads = {}
     for x, g in zip(AXES, spec.gravity, strict=True):
         load = f"+({pull})*D{x}({to},{at})/DM({to},{at})"
         if g and weight:
             load += f"{weight * g / 2:+.11g}*{free}"
+            load += f"{-g / 2:+.11g}*{carried}*{free}" if varies else ""
         if spec.cable.bending:
             load += _bent(spec, row.nodes, k, free, x)
         if any(spec.route[i].clamped):

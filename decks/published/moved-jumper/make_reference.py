@@ -47,14 +47,14 @@ level = 2
 elements = 68
 """
 LAW = "10*SIN(2*PI*TIME/27)*STEP5(TIME,0,0,27,1)"
-#: Extremes [N] of the pull at the top within windows [s].
+#: Extremes [N] of the pull at the top within windows [s], and a shoulder.
 READ = {
     "surge": (
         ("max", "from 54", 52239.46), ("min", "from 54", 41580.80),
         ("max", "from 66 to 69", 47022.83), ("min", "from 69.5 to 72", 46314.40),
     ),
     "sway": (("max", "from 54", 49115.93), ("min", "from 54", 44382.32)),
-    "heave": (("max", "from 54", 57778.10),),
+    "heave": (("max", "from 54", 57778.10), ("value", "at 34", 43770.49)),
 }  # fmt: skip
 #: Ways of surge, sway and heave.
 AXES = {"surge": "x", "sway": "z", "heave": "y"}
@@ -67,5 +67,6 @@ for name, values in READ.items():
     (HERE / f"{name}.adm").write_text(deck(text)[0])
     lines = ["# Extremes of the pull at the top: see README.md", "# written by make_reference.py"]
     for kind, window, value in values:
-        lines.append(f"# measure: {kind} REQUEST/1.F3 {window} = {value:.2f} tol rel 2.5e-3")
+        near = 4e-3 if kind == "value" else 2.5e-3
+        lines.append(f"# measure: {kind} REQUEST/1.F3 {window} = {value:.2f} tol rel {near:g}")
     (HERE / f"{name}.reference.csv").write_text("\n".join(lines) + "\n")
