@@ -14,6 +14,7 @@ import adamslite
 from adamslite.cables.advice import Advice, advise
 from adamslite.cables.chain_finder import chains, damper
 from adamslite.cables.demand import Demand, elements, level, rigid_fails
+from adamslite.cables.description import below
 from adamslite.cables.keys import QUANTITIES
 from adamslite.cables.posture import Posture
 from adamslite.cables.report import about_cables, cables
@@ -267,6 +268,8 @@ def test_check_advises_the_model_that_cable_wrote(hoist: str) -> None:
 
 
 def told(description: str, elements: int) -> str:
-    """What check says for 1 % about the deck of a description with a number of sections."""
-    text, _ = deck(description + f"[model]\nelements = {elements}\nlevel = 3\n")
+    """What check says for 1 % about the statements of the deck of a description, which is not in
+    it, with a number of sections.
+    """
+    text = below(deck(description + f"[model]\nelements = {elements}\nlevel = 3\n")[0])
     return next(line for line in about_cables(adamslite.read(text)) if "for 1 %" in line)
