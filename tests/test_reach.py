@@ -9,7 +9,9 @@ import pytest
 from tiers import every
 
 import adamslite
+from adamslite.assembly.reach import Reach
 from adamslite.checks.rules import needless
+from adamslite.model.model import Model
 from benchmarks.rigid_scenes import SYSTEMS, Drawn
 
 STOP = "SFORCE/{n}, ACTIONONLY, I=32, J=1, FUNCTION={f}\n"
@@ -103,3 +105,23 @@ def test_a_run_does_not_reach_it_either(seed: int) -> None:
     if found:
         assert missed is not None
         assert float(missed[1]) > 0.99 * found["CONTACT/1"]
+
+
+def test_a_long_chain_is_not_searched_without_end() -> None:
+    """1000 links with a stop each: the ways to ground are 500 links long."""
+    d = Drawn(0)
+    text = d.head("Chain") + "MARKER/2, PART=1\n"
+    for n in range(10, 1010):
+        text += d.part(n, 1.0, (n, 0, 0), 0.3) + f"MARKER/{n}1, PART={n}, QP=-1,0,0\n"
+        text += f"JOINT/{n}, SPHERICAL, I={n}1, J={n - 1}0\n" if n > 10 else ""
+        text += STOP.format(n=n, f=f"IMPACT(DX({n}0,1),VX({n}0,1),-1E9,1E3,1.5,1,0.01)").replace(
+            "I=32", f"I={n}0"
+        )
+    text = text.replace("JOINT/11,", "JOINT/10, SPHERICAL, I=101, J=2\nJOINT/11,", 1)
+    deck = adamslite.read(text + d.run(1.0))
+    model = Model(deck)
+    reach = Reach(model)
+    for n in range(10, 1010):
+        list(reach.anchors(10 * n))
+    assert reach.left == 0
+    assert 0 < sum(each.code == "out-of-reach" for each in needless(deck)) < 1000

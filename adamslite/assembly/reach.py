@@ -25,11 +25,19 @@ if TYPE_CHECKING:
 TOGETHER = frozenset({"ATPOINT", "CONVEL", "FIXED", "HOOKE", "REVOLUTE", "SPHERICAL", "UNIVERSAL"})
 
 
+#: Markers that are passed on all ways together; what is longer than this is told nothing of.
+MOST = 20_000
+
+
 class Reach:
-    """The places at which a model hangs on ground, for any of its markers."""
+    """The places at which a model hangs on ground, for any of its markers.
+
+    The ways of long chains are long: after ``MOST`` markers no more is looked at.
+    """
 
     def __init__(self, model: Model) -> None:
         self.model = model
+        self.left = MOST
         self.partner: dict[Key, list[Key]] = {}
         self.of_body: dict[int, list[Key]] = {}
         joints: list[Joint | Jprim] = [*model.deck.of(Joint), *model.deck.of(Jprim)]
@@ -49,7 +57,8 @@ class Reach:
         done: set[Key] = set()
         pending: list[tuple[float, int, Key]] = [(0.0, 0, marker)]
         count = 0
-        while pending:
+        while pending and self.left > 0:
+            self.left -= 1
             far, _, at = heappop(pending)
             if at in done:
                 continue

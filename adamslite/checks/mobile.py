@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from adamslite.checks.lints import run_end
 from adamslite.deck.deck import Deck
 from adamslite.elements.part import Part
+from adamslite.elements.point_mass import PointMass
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,11 +21,14 @@ def looked_at(deck: Deck) -> tuple[Mobility, ...]:
     """What the constraints allow, of decks that run."""
     if not run_end(deck) or len(deck.of(Part)) < 2 or deck.user.called:
         return ()
-    if not any(map(deck.of, KEYWORDS)):
+    if not any(map(deck.of, KEYWORDS)) or deck.of(PointMass):
         return ()
     import numpy as np
 
-    from adamslite.assembly.mobility import mobilities
+    from adamslite.assembly.mobility import MOST_BODIES, mobilities
+
+    if sum(not part.ground for part in deck.of(Part)) > MOST_BODIES:
+        return ()
 
     with np.errstate(all="ignore"):
         found = mobilities(deck)
