@@ -3,9 +3,9 @@
     python -m benchmarks.agreement --scenes 260 --seed 11 [--p 0.01] [--show 3]
 
 Random descriptions are written as decks and read back, four times: as they are written; with
-another model asked for in the description; with a number of the description changed, its comments
-left as they were; and without comments. Compared are level, form, sections and integrator; a deck
-with another model or number is compared with what `cable` chooses for what it is now.
+another model asked for in the description; with a number of a law, the damping or the time edited
+in the statements alone; and without comments. Compared are level, form, sections and integrator; a
+deck with another model or number is compared with what `cable` chooses for what it is now.
 """
 
 from __future__ import annotations
@@ -13,15 +13,16 @@ from __future__ import annotations
 import argparse
 import re
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
 import adamslite
-from adamslite.cables.description import BEGIN, END
+from adamslite.cables.description import END, below
 from adamslite.cables.report import advice_on
 from adamslite.cables.scene import chosen as choice
 from adamslite.cables.scene import deck, drawn
+from adamslite.cables.statements import number as number_of
 from adamslite.language.diagnostics import DeckError
 from benchmarks.rope_scenes import Table, scene, toml
 
@@ -31,6 +32,7 @@ Said = tuple[int, str, int, str]
 Case = tuple[str, str]
 #: By which numbers are changed.
 FACTORS = (0.5, 0.8, 1.25, 2.0)
+NUMBER = re.compile(r"(?<![\w.])\d+\.?\d*(?:[eE][+-]?\d+)?(?![\w.])")
 COMMENT = re.compile(r"(?m)^!.*\n|![^\n]*")
 
 
@@ -67,16 +69,35 @@ def asked(table: Table, rng: np.random.Generator) -> Case:
     return text, deck(text)[0]
 
 
-def changed(table: Table, rng: np.random.Generator) -> Case:
-    """A number of the description, which its statements have; its comments are not told."""
+def edited(table: Table, rng: np.random.Generator) -> Case:
+    """A number of a law, the damping or the time of the run, edited in the statements."""
     text = toml(table)
-    numbers = [*re.finditer(r"(?<![\w.])\d+\.?\d*(?:e[+-]?\d+)?(?![\w.])", text)]
-    place = numbers[int(rng.integers(len(numbers)))]
-    value = float(place[0]) * float(rng.choice(FACTORS))
-    new = f"{value:.0f}" if place[0].isdigit() else f"{value:.6g}"
-    edited = text[: place.start()] + new + text[place.end() :]
-    head = _block(deck(text)[0])
-    return edited, deck(edited)[0].replace(_block(deck(edited)[0]), head)
+    written = deck(text)[0]
+    head, statements = written[: written.index(END)], below(written)
+    factor = float(rng.choice(FACTORS))
+    changes = [*_changes(text, factor)]
+    for k in rng.permutation(len(changes)):
+        place, new, old_statement, new_statement = changes[k]
+        if old_statement in statements:
+            described = text[: place.start(1)] + new + text[place.end(1) :]
+            return described, head + statements.replace(old_statement, new_statement)
+    raise DeckError([])
+
+
+def _changes(text: str, factor: float) -> Iterator[tuple[re.Match[str], str, str, str]]:
+    """Places in a description, what to write there, and the same in a statement."""
+    for place in re.finditer(r'(?m)= ?\[?[^\n]*?"([^"\n]*TIME[^"\n]*)"', text):
+        for number in NUMBER.finditer(place[1]):
+            if float(number[0]):
+                value = f"{float(number[0]) * factor:.6g}"
+                new = place[1][: number.start()] + value + place[1][number.end() :]
+                yield place, new, place[1], new
+    for place in re.finditer(r"(?m)^damping = (.*)$", text):
+        new = f"{min(float(place[1]) * factor, 0.9):.6g}"
+        yield place, new, f"2*{float(place[1]):g}*SQRT", f"2*{new}*SQRT"
+    for place in re.finditer(r"(?m)^end = (.*)$", text):
+        new = f"{float(place[1]) * factor:.6g}"
+        yield place, new, f"END={number_of(float(place[1]))},", f"END={new},"
 
 
 def stripped(table: Table, rng: np.random.Generator) -> Case:
@@ -84,12 +105,8 @@ def stripped(table: Table, rng: np.random.Generator) -> Case:
     return toml(table), COMMENT.sub("", deck(toml(table))[0])
 
 
-def _block(text: str) -> str:
-    return text[text.index(BEGIN) : text.index(END)]
-
-
 CASES: dict[str, Callable[[Table, np.random.Generator], Case]] = {
-    "as written": as_written, "another model asked": asked, "a number changed": changed,
+    "as written": as_written, "another model asked": asked, "a law or time edited": edited,
     "without comments": stripped,
 }  # fmt: skip
 

@@ -214,10 +214,10 @@ def test_check_prints_a_few_lines_for_a_cable_and_none_without(capsys) -> None:
     assert main(["check", str(DECKS / "cables" / "weight-lowered" / "paper-20.adm")]) == 0
     told = capsys.readouterr().out.splitlines()[3:]
     assert told[0] == "  cable from MARKER/1 to POINT_MASS/21"
-    assert [line[4:14].rstrip() for line in told[1:]] == [
+    assert [line[4:14].rstrip() for line in told[1:] if line[4] != " "] == [
         "cable", "waves", "sections", "payout", "paper form", "for 1 %", "for 0.1 %",
     ]  # fmt: skip
-    assert "axial 2236 m/s, 8.94 ms along it" in told[2]
+    assert "axial 2236 m/s, 8.95 ms along it" in told[2]
     assert "ale form, 32 of them; HHT ERROR=1E-06" in told[6]
     assert main(["check", str(DECKS / "pendulum-revolute" / "pendulum-revolute.adm")]) == 0
     assert "cable" not in capsys.readouterr().out

@@ -11,6 +11,7 @@ from typing import TypeGuard
 import numpy as np
 
 from adamslite.cables.chain_finder import Chain, Link, damper, free_length, law_of
+from adamslite.cables.chain_loads import acting
 from adamslite.cables.demand import SMALL_SLOPE, Demand
 from adamslite.cables.estimate import Travel, from_ways
 from adamslite.cables.network import Bar, Network
@@ -46,13 +47,14 @@ class ChainDemand:
     """A chain, the demand on it, and its construction.
 
     `form` is "fixed" without payout, "paper" or "ale"; `gained` is the range of dm/m0 of an inner
-    node.
+    node; `loaded`: other forces act on its nodes, which the demand leaves out.
     """
 
     chain: Chain
     demand: Demand
     form: str
     gained: tuple[float, float]
+    loaded: bool = False
 
 
 def demand_on(
@@ -85,15 +87,26 @@ def demand_on(
         speed=travel.speed, acceleration=travel.acceleration, known=travel.known, jump=jump,
         across=across, straight=shape.straight, wave=shape.wave(across, free),
         bounces=abs(drawn - hung) > 0.5 * weight + FELT * hung and not chain.is_ring, end=end,
-        tied=_is_tied(deck), results=results,
+        tied=is_tied(deck), results=results,
     )  # fmt: skip
     slight = not across or across < SMALL_SLOPE * demand.struck_wave
-    if linear and travel.known and end > 0 and slight and _is_plain(chain, shape):
+    loaded = linear and _is_loaded(chain, posture)
+    linear = linear and travel.known and end > 0 and slight and not loaded
+    if linear and _is_plain(chain, shape):
         found = _machine(chain, shape, rope, law)
         if rope.tip > 0 and is_usable(found):
-            halves = not _corrects(chain, posture, found)
+            halves = not corrects(chain, posture, found.rests)
             demand = replace(demand, machines=(found,), half_read=halves)
-    return ChainDemand(chain, demand, _form(chain, posture), gained)
+    return ChainDemand(chain, demand, form_of(chain, posture), gained, loaded)
+
+
+def _is_loaded(chain: Chain, posture: Posture) -> bool:
+    """Whether its nodes carry more than its tension, gravity and what payout does to them."""
+    try:
+        acting([chain], posture)
+    except Unknown:
+        return True
+    return False
 
 
 @dataclass(frozen=True)
@@ -159,7 +172,7 @@ def _machine(chain: Chain, shape: _Shape, rope: _Rope, law: np.ndarray | None) -
     return Machine(network, strings, np.array(rests), ((1,),), transit)
 
 
-def _corrects(chain: Chain, posture: Posture, of: Machine) -> bool:
+def corrects(chain: Chain, posture: Posture, rests: np.ndarray) -> bool:
     """Whether a REQUEST gives the tension at an end of the chain, with the half section there, and
     not that of the middle of a section."""
     middles = [link.pull for link in chain.links]
@@ -170,7 +183,7 @@ def _corrects(chain: Chain, posture: Posture, of: Machine) -> bool:
                 value = posture.value(node) if node is not None else inf
             except Unknown:
                 continue
-            near = min(abs(value - rest) for rest in of.rests)
+            near = min(abs(value - rest) for rest in rests)
             if near < ALIKE * min(abs(value - middle) for middle in middles):
                 return True
     return False
@@ -182,7 +195,7 @@ def _tips(chain: Chain) -> list[Body]:
     return [end for end in ends if end[0] != "MARKER"]
 
 
-def _is_tied(deck: Deck) -> bool:
+def is_tied(deck: Deck) -> bool:
     """Whether anything keeps accelerations from following mass by mass."""
     return any(
         isinstance(each, Constraint | Diff | Vforce) or (isinstance(each, Part) and not each.ground)
@@ -202,7 +215,7 @@ def _travel(
         laws.setdefault(law_of(link), []).append(link)
     fed = [(same[0], len(same)) for same in laws.values()]
     fed = [(link, count) for link, count in fed if _is_fed(link, posture)]
-    known = all([posture.follow(call) for link, _ in fed for call in _drivers(link, posture)])
+    known = all([posture.follow(call) for link, _ in fed for call in drivers(link, posture)])
 
     def payout(time: float) -> float:
         posture.at(time)
@@ -231,7 +244,7 @@ def _travel(
         posture.at(0.0)
 
 
-def _drivers(link: Link, posture: Posture) -> set[Call]:
+def drivers(link: Link, posture: Posture) -> set[Call]:
     """What its force depends on besides the distance of its own ends."""
     own = {link.i, link.j}
     return {
@@ -247,7 +260,7 @@ def _is_fed(link: Link, posture: Posture) -> bool:
     if any(posture.depends_on_time(node) for node in link.components):
         return True
     before = free_length(link, posture)
-    for call in _drivers(link, posture):
+    for call in drivers(link, posture):
         posture.given[call] = posture.value(call) + SHORT * link.free
         posture.forget()
         after = free_length(link, posture)
@@ -259,15 +272,21 @@ def _is_fed(link: Link, posture: Posture) -> bool:
 
 
 def _gained(chain: Chain, posture: Posture) -> float:
-    """dm/m0 of the node in the middle: minus the slope of its VFORCE by its acceleration."""
+    """dm/m0 of the node in the middle."""
     node = chain.inner[len(chain.inner) // 2]
+    ucf = posture.deck.ucf
+    return gained_mass(node, posture) * ucf / posture.deck.find(*node).mass
+
+
+def gained_mass(node: Body, posture: Posture) -> float:
+    """dm of a body: minus the slope of its VFORCE by its acceleration."""
     total = 0.0
     for force in _grows(posture, node):
         for component in (force.fx, force.fy, force.fz):
             for call in set(calls(component, "ACCX", "ACCY", "ACCZ")):
                 if _is_marker(call.args[0]) and posture.body(call.args[0].id) == node:
                     total = max(total, _slope(component, call, posture))
-    return total * posture.deck.ucf / posture.deck.find(*node).mass
+    return total
 
 
 def _slope(component: Node, call: Call, posture: Posture) -> float:
@@ -283,9 +302,10 @@ def _grows(posture: Posture, node: Body) -> Iterator[Vforce]:
     return (f for f in posture.deck.of(Vforce) if posture.body(f.i) == node)
 
 
-def _form(chain: Chain, posture: Posture) -> str:
+def form_of(chain: Chain, posture: Posture) -> str:
     """What feeds mass into the nodes: nothing, the paper's term, or the flow through them."""
-    node = chain.inner[len(chain.inner) // 2]
+    nodes = chain.inner or [node for node in chain.nodes if node[0] != "MARKER"]
+    node = nodes[len(nodes) // 2]
     near = {posture.body(k.i) for k in chain.links} | {posture.body(k.j) for k in chain.links}
     forms = set()
     for force in _grows(posture, node):

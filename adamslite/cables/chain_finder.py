@@ -12,12 +12,12 @@ from statistics import median
 
 from adamslite.cables.payout_law import Unknown
 from adamslite.cables.posture import GROUND, STILL, Body, Posture
-from adamslite.cables.vectors import ZERO, add, dot, norm
+from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, unit
 from adamslite.deck.deck import Deck
 from adamslite.elements.sforce import Sforce
 from adamslite.elements.springdamper import Springdamper
 from adamslite.elements.vforce import Vforce
-from adamslite.language.expression import Call, Node, Num, Op, Ref, calls, rebuild
+from adamslite.language.expression import Call, Node, Num, Op, Ref, rebuild
 from adamslite.language.interfaces import Key
 
 Spring = Sforce | Vforce | Springdamper
@@ -69,7 +69,12 @@ class Chain:
 
 def chains(deck: Deck, posture: Posture) -> list[Chain]:
     """All cables of a deck, in the order of their first springs."""
-    return [chain for chain in rows(deck, _links(deck, posture)) if _is_cable(chain)]
+    return [chain for chain in all_rows(deck, posture) if is_cable(chain)]
+
+
+def all_rows(deck: Deck, posture: Posture) -> list[Chain]:
+    """Springs in rows, among them single ones and others too few to be a cable."""
+    return rows(deck, _links(deck, posture))
 
 
 def rows(deck: Deck, links: Iterable[Link], alike: float = ALIKE) -> list[Chain]:
@@ -243,8 +248,7 @@ def _pull(link: Link, posture: Posture, stretch: float) -> float:
         posture.forget()
     if len(values) == 1:
         return -values[0]
-    x, y, z = values
-    return -dot((x, y, z), line) / norm(line)
+    return -dot(_three(values), line) / norm(line)
 
 
 def free_length(link: Link, posture: Posture) -> float:
@@ -256,27 +260,35 @@ def free_length(link: Link, posture: Posture) -> float:
 
 
 def damper(link: Link, posture: Posture) -> float:
-    """Force of a link by the rate of its length [force time/length]; 0 where only components in
-    ground have it.
-    """
+    """Force of a link by the rate of its length [force time/length]."""
     if isinstance(link.statement, Springdamper):
         return link.statement.c
-    if len(link.components) != 1:
-        return 0.0
-    (law,) = link.components
     ends = link.i, link.j
-    rates = {c for c in calls(law, "VR") if len(c.args) > 1 and _joins(c.args[:2], ends)}
+    line = add(posture.place(link.i), posture.place(link.j), -1.0)
+    e = unit(line)
+    rates = {
+        call: 1.0 if call.name == "VR" else e["XYZ".index(call.name[1])] * (1 if own else -1)
+        for node in link.components for call in posture.rates(node)
+        if len(call.args) > 1 and _joins(call.args[:2], ends)
+        for own in [getattr(call.args[0], "id", None) == link.i]
+    }  # fmt: skip
     pulls = []
     try:
         for rate in (0.0, 1.0):
-            posture.given.update(dict.fromkeys(rates, rate))
+            posture.given.update({call: rate * share for call, share in rates.items()})
             posture.forget()
-            pulls.append(-posture.value(law))
+            values = [posture.value(node) for node in link.components]
+            pulls.append(-values[0] if len(values) == 1 else -dot(_three(values), e))
     finally:
         for call in rates:
             del posture.given[call]
         posture.forget()
     return max(pulls[1] - pulls[0], 0.0)
+
+
+def _three(values: list[float]) -> Vector:
+    x, y, z = values
+    return x, y, z
 
 
 def law_of(link: Link) -> tuple[Node, ...] | float:
@@ -317,7 +329,8 @@ def _rows(joined: dict[Body, dict[Body, Link]], inside: Callable[[Body], bool]) 
             yield Chain(tuple(links), tuple(nodes), closed)
 
 
-def _is_cable(chain: Chain) -> bool:
+def is_cable(chain: Chain) -> bool:
+    """Whether springs in a row are many enough, and alike."""
     if len(chain.links) < FEWEST:
         return False
     rigidities = [link.stiffness * link.free for link in chain.links]

@@ -10,7 +10,7 @@ is taken as if it had no description.
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from itertools import chain
+from itertools import chain, islice
 from math import isclose
 from typing import Any, NamedTuple
 
@@ -29,8 +29,8 @@ from adamslite.syntax.tokens import scan
 PASSIVE = frozenset(
     "END EQUILIBRIUM GRAPHICS INTEGRATOR MREQUEST OUTPUT REQUEST RESULTS STOP".split()
 )
-# Numbers that a user has edited, at most, and tokens of a deck in which they are looked for.
-MOST_EDITS, MOST_TOKENS = 4, 30_000
+# Numbers that a user has edited, at most, and tokens that are compared to find one.
+MOST_EDITS, MOST_TOKENS = 4, 3_000_000
 # Of a number: what its text in a deck leaves out.
 ROUND_OFF = 1e-9
 # Of lengths, masses and places: what tensions at the start make of them; what is none [m, kg].
@@ -131,8 +131,9 @@ def _fitted(found: Carried, deck: str, title: str) -> Drawn | None:
     edits = 0
     while now and (left := _unexplained(start, now.statements, wanted)):
         edits += 1
-        many = edits > MOST_EDITS or sum(map(len, wanted)) > MOST_TOKENS
-        now = None if many else _nearer(now, found.model, start, wanted, left)
+        if edits > MOST_EDITS:
+            return None
+        now = _nearer(now, found.model, start, wanted, left)
     if now is None or now.statements == wanted:
         return now and replace(now.of, text=found.text if now.of is first else now.text)
     return _started(now.of, first) if _is_near(now.statements, wanted) else None
@@ -203,7 +204,8 @@ def _nearer(
     now: _Edited, model: Model, start: Tokens, wanted: Tokens, left: Pairs
 ) -> _Edited | None:
     """The description with one number edited that explains more of the deck."""
-    for text in _edited(now.text, *next(iter(left))):
+    most = MOST_TOKENS // sum(map(len, wanted))
+    for text in islice(_edited(now.text, *next(iter(left))), most):
         of, written = _written(text, model)
         found = tokens(written, of.spec.title) if of else []
         if of and _alike(found, wanted) and len(_unexplained(start, found, wanted)) < len(left):

@@ -8,8 +8,11 @@ route, payout where an engine holds it back:
 with d the direction of the route at each free end.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from math import dist, inf
+
+import numpy as np
 
 from adamslite.cables.geometry import FreeSpan
 from adamslite.cables.messages import Faults
@@ -19,6 +22,8 @@ from adamslite.cables.vectors import add, dot
 from adamslite.cables.vocabulary import Spec
 from adamslite.language.expression import Node, Num, Op
 
+#: Ways [m] at instants.
+Ways = Callable[[np.ndarray], np.ndarray]
 INSTANTS = 400
 # Of laws in the order of motions along x, y and z.
 HAUL = 3
@@ -109,14 +114,14 @@ class Moves:
 class Laws:
     """The expressions of a description: travel prescribed by laws, by station, and engines.
 
-    A way is None where it depends on what only the run knows. `nodes` has them as they are read, by
-    station and key, with the axis of a motion.
+    A way is None where it depends on what only the run knows. `nodes` has them as they are read, or
+    as ways at instants, by station and key, with the axis of a motion.
     """
 
     paid: dict[int, Travel | None]
     moved: list[Travel | None]
     engines: list[Node]
-    nodes: dict[tuple[int, str, int], Node] = field(default_factory=dict)
+    nodes: dict[tuple[int, str, int], Node | Ways] = field(default_factory=dict)
 
 
 def laws(spec: Spec, faults: Faults) -> Laws:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from math import pi, sqrt
 
 import numpy as np
 
-from adamslite.cables.estimate import Laws
+from adamslite.cables.estimate import Laws, Ways
 from adamslite.cables.geometry import FreeSpan
 from adamslite.cables.network import Bar, Network, Terms
 from adamslite.cables.payout_law import Unknown, value
@@ -19,8 +18,6 @@ from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across, 
 from adamslite.cables.vocabulary import Spec
 from adamslite.language.expression import Node, Num, Op
 
-#: Ways [m] at instants.
-Ways = Callable[[np.ndarray], np.ndarray]
 # Of the mass beside it: what the cable that comes through a weight has at least.
 THROUGH = 1e-4
 # Stations whose dense matrices take less than a second.
@@ -76,14 +73,14 @@ class Drives:
         self.pulls: dict[int, Ways] = {}
         self.motions: dict[tuple[int, int], Ways] = {}
         for (i, key, axis), law in prescribed.nodes.items():
-            ways = partial(_values, law)
+            ways = law if callable(law) else partial(_values, law)
             if key == "payout":
                 self.payouts[i] = ways
             elif key == "force":
                 self.forces[i] = ways
             elif key == "pull":
                 self.pulls[i] = ways
-            elif key == "torque":
+            elif key == "torque" and not callable(law):
                 self.forces[i] = partial(_values, Op("/", (law, Num(spec.route[i].radius))))
             elif key == "motion":
                 self.motions[i, axis] = ways

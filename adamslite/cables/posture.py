@@ -32,6 +32,7 @@ GROUND: Body = ("PART", "ground")
 AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 STILL = frozenset("VM VX VY VZ VR WM WX WY WZ ACCM ACCX ACCY ACCZ WDTM WDTX WDTY WDTZ DIF1".split())
 PLACES = ("DM", "DX", "DY", "DZ")
+RATES = ("VR", "VX", "VY", "VZ")
 # What gives axes of their own.
 TURNING = frozenset(("reuler", "zp", "xp", "zg", "xg"))
 # Measures that a joint's motion or a GCON may prescribe.
@@ -187,6 +188,10 @@ class Posture:
     def measures(self, node: Node) -> set[Call]:
         """Displacements and states that a value depends on, through variables too."""
         return {n for n in self._all(node) if isinstance(n, Call) and n.name in DRIVEN}
+
+    def rates(self, node: Node) -> set[Call]:
+        """Velocities that a value depends on, through variables too."""
+        return {n for n in self._all(node) if isinstance(n, Call) and n.name in RATES}
 
     def _is_constant(self, node: Node) -> bool:
         return not any(

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from math import pi
 from textwrap import wrap
 from typing import TYPE_CHECKING, NamedTuple
 
 from adamslite.cables.advice import Advice, advise
-from adamslite.cables.chain_demand import ChainDemand, demand_on
-from adamslite.cables.chain_finder import Chain, chains
+from adamslite.cables.chain_demand import ChainDemand, demand_on, drivers, form_of
+from adamslite.cables.chain_finder import Chain, all_rows, chains, is_cable
 from adamslite.cables.demand import Demand
 from adamslite.cables.description import is_described
 from adamslite.cables.payout_law import Unknown
@@ -22,7 +22,9 @@ from adamslite.elements.units import Units
 from adamslite.language import units
 
 if TYPE_CHECKING:
-    from adamslite.cables.described import Choice, Described
+    from adamslite.cables.described import Described
+    from adamslite.cables.model_choice import CableModel
+    from adamslite.cables.recovery import Recovered, Route
 
 # Of a line of reasons.
 WIDTH = 92
@@ -37,7 +39,7 @@ MOST = 6
 def about_cables(deck: Deck, commands: Iterable[Command] = ()) -> list[str]:
     """Lines about every cable; none for a deck without."""
     known = by_description(deck, commands)
-    return _described(known, *_run(deck, commands)) if known else _listed(cables(deck, commands))
+    return _described(known, *_run(deck, commands)) if known else _listed(_found(deck, commands))
 
 
 def advice_on(deck: Deck, p: float, commands: Iterable[Command] = ()) -> Advice | None:
@@ -45,9 +47,10 @@ def advice_on(deck: Deck, p: float, commands: Iterable[Command] = ()) -> Advice 
     known = by_description(deck, commands)
     if known:
         choices = known.choices([p], *_run(deck, commands))
-        return next(_chosen(each) for each in choices if each.accuracy == p)
-    found = cables(deck, commands)
-    return advise(max(found, key=lambda each: each.demand.length).demand, p) if found else None
+        return next(_chosen(*each) for each in choices if each.accuracy == p)
+    found = _found(deck, commands)
+    longest = max(found, key=lambda each: each.figures.demand.length, default=None)
+    return longest.advised(p)[0] if longest else None
 
 
 def by_description(deck: Deck, commands: Iterable[Command] = ()) -> Described | None:
@@ -72,14 +75,83 @@ def cables(deck: Deck, commands: Iterable[Command] = ()) -> list[ChainDemand]:
     posture = Posture(deck)
     rows = chains(deck, posture)
     end, results = _run(deck, commands) if rows else (0.0, 0)
-    found = []
-    for chain in rows:
-        try:
-            each = demand_on(chain, posture, end, results, len(rows) <= MOST)
-        except Unknown:
-            continue
-        found.append(replace(each, demand=_in_si(each.demand, deck)))
-    return found
+    found = (_demand(chain, posture, end, results, len(rows) <= MOST) for chain in rows)
+    return [each for each in found if each]
+
+
+def _demand(
+    chain: Chain, posture: Posture, end: float, results: int, linear: bool
+) -> ChainDemand | None:
+    try:
+        found = demand_on(chain, posture, end, results, linear)
+    except Unknown:
+        return None
+    return replace(found, demand=_in_si(found.demand, posture.deck))
+
+
+def _found(deck: Deck, commands: Iterable[Command]) -> list[_Cable]:
+    """Cables by the description that their statements amount to, or one by one."""
+    posture = Posture(deck)
+    rows = all_rows(deck, posture)
+    some = [row for row in rows if is_cable(row) or (len(rows) <= MOST and _is_fed(row, posture))]
+    if not some:
+        return []
+    if len(some) > MOST:
+        return [_by_itself(each) for each in cables(deck, commands)]
+    from adamslite.cables.recovery import recovered, routes
+
+    end, results = _run(deck, commands)
+    found: list[_Cable | None] = []
+    for route in routes(some, posture):
+        whole = recovered(route, posture, end, results)
+        if whole:
+            found.append(_recovered(route, whole, posture))
+        else:
+            each = (_demand(chain, posture, end, results, linear=True)
+                    for chain, _ in route.chains if is_cable(chain))  # fmt: skip
+            found += [_by_itself(one) for one in each if one]
+    return [each for each in found if each]
+
+
+def _is_fed(row: Chain, posture: Posture) -> bool:
+    """Whether the rotation of a wheel feeds a row, however few its springs are."""
+    return any(call.name == "AZ" for link in row.links for call in drivers(link, posture))
+
+
+def _by_itself(of: ChainDemand) -> _Cable:
+    """A chain, of which only the demand is known."""
+
+    def advised(p: float) -> tuple[Advice, list[str]]:
+        return advise(of.demand, p), []
+
+    figures = _Figures(of.demand, len(of.chain.links), of.form, of.gained, of.loaded)
+    return _Cable(_ends(of.chain), figures, advised)
+
+
+def _recovered(route: Route, of: Recovered, posture: Posture) -> _Cable:
+    """A route with its description."""
+    demand = _in_si(of.demand, posture.deck)
+
+    def advised(p: float) -> tuple[Advice, list[str]]:
+        model = of._replace(demand=demand).chosen(p)
+        choice = p, model, model.reasons.told, demand
+        return _chosen(*choice), _why(model.reasons.told)
+
+    chain = max(route.chains, key=lambda each: sum(link.free for link in each[0].links))[0]
+    gained = (demand.least / demand.length, demand.most / demand.length)
+    form = form_of(chain, posture)
+    figures = _Figures(demand, len(chain.links), form, gained)
+    return _Cable(_stations(route), figures, advised)
+
+
+def _stations(route: Route) -> str:
+    """Where a route begins, goes and ends."""
+    (first, forwards), (last, onwards) = route.chains[0], route.chains[-1]
+    ends = first.nodes[0 if forwards else -1], last.nodes[-1 if onwards else 0]
+    between = [_name(("PART", key) if word == "wheel" else (word, key))
+               for word, key in route.stations[1:-1]]  # fmt: skip
+    by = f" by {', '.join(between)}" if between else ""
+    return f"from {_name(ends[0])}{by} to {_name(ends[1])}"
 
 
 def _run(deck: Deck, commands: Iterable[Command]) -> tuple[float, int]:
@@ -105,7 +177,8 @@ def _in_si(of: Demand, deck: Deck) -> Demand:
         "stiffness": force, "density": mass / length, "length": length, "tension": force,
         "moved": mass, "pull": length / time**2, "least": length, "most": length,
         "speed": length / time, "acceleration": length / time**2, "jump": length / time,
-        "across": length / time, "wave": 1 / length, "end": time,
+        "across": length / time, "along": length / time, "struck": force, "wave": 1 / length,
+        "end": time,
     }  # fmt: skip
     return replace(of, **{name: getattr(of, name) * factor for name, factor in powers.items()})
 
@@ -120,6 +193,15 @@ class _Figures(NamedTuple):
     sections: int
     form: str
     gained: tuple[float, float]
+    loaded: bool = False
+
+
+class _Cable(NamedTuple):
+    """What it is called, what is shown of it, and the advice for an accuracy, with reasons."""
+
+    name: str
+    figures: _Figures
+    advised: Callable[[float], tuple[Advice, list[str]]]
 
 
 def _described(known: Described, end: float, results: int) -> list[str]:
@@ -130,42 +212,41 @@ def _described(known: Described, end: float, results: int) -> list[str]:
     shown = _Figures(of, model.elements, form, (of.least / of.length, of.most / of.length))
     lines = _about(shown)
     for each in choices:
-        lines += [_advised(_chosen(each)), *_why(each)]
+        lines += [_advised(_chosen(*each)), *_why(each.reasons)]
     count = len(known.drawn.pieces)
     name = f"the longest of {count} spans" if count > 1 else "as described"
     return [f"  cable {name}", *(f"    {line}" for line in lines)]
 
 
-def _chosen(of: Choice) -> Advice:
+def _chosen(p: float, model: CableModel, reasons: Sequence[str], demand: Demand) -> Advice:
     """As advice, with the cost where that is known."""
-    p, model = of.accuracy, of.model
     name, sections = model.method.split(",")[0], model.elements * (model.level > 1)
-    same = advise(of.demand, p)
+    same = advise(demand, p)
     told = (same.level, same.elements, same.integrator) == (model.level, sections, name)
     form = model.form if model.level == 3 else ""
     return Advice(p, model.level, form, sections, name, model.error, same.cost if told else 0.0)
 
 
-def _why(of: Choice) -> list[str]:
+def _why(reasons: Sequence[str]) -> list[str]:
     """The reasons of a choice."""
-    text = f"because {'; '.join(of.reasons)}"
+    text = f"because {'; '.join(reasons)}"
     return wrap(text, WIDTH, initial_indent=" " * 11, subsequent_indent=" " * 11)
 
 
-def _listed(found: list[ChainDemand]) -> list[str]:
+def _listed(found: list[_Cable]) -> list[str]:
     """Equal cables share their lines."""
-    groups: dict[tuple[str, ...], list[Chain]] = {}
+    groups: dict[tuple[str, ...], list[str]] = {}
     for each in found:
-        shown = _Figures(each.demand, len(each.chain.links), each.form, each.gained)
-        advice = (_advised(advise(each.demand, p)) for p in ACCURACIES)
-        groups.setdefault((*_about(shown), *advice), []).append(each.chain)
-    lines = []
+        lines = _about(each.figures)
+        for advice, why in map(each.advised, ACCURACIES):
+            lines += [_advised(advice), *why]
+        groups.setdefault(tuple(lines), []).append(each.name)
+    listed = []
     for figures, same in list(groups.items())[:MOST]:
-        ends = ", ".join(_ends(chain) for chain in same[:3])
         more = f" and {len(same) - 3} more" if len(same) > 3 else ""
-        lines += [f"  cable {ends}{more}", *(f"    {line}" for line in figures)]
+        listed += [f"  cable {', '.join(same[:3])}{more}", *(f"    {line}" for line in figures)]
     left = len(groups) - MOST
-    return [*lines, *([f"  {left} more cables"] if left > 0 else [])]
+    return [*listed, *([f"  {left} more cables"] if left > 0 else [])]
 
 
 def _ends(chain: Chain) -> str:
@@ -189,6 +270,7 @@ def _about(each: _Figures) -> list[str]:
         + (f"; the run lasts {_time(of.end)}" if of.end else ""),
         *([] if each.form == "rigid" else [vibrate]),
         *_payout(each),
+        *(["forces     on its nodes, which the advice leaves out"] if each.loaded else []),
     ]
 
 
