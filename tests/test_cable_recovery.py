@@ -7,8 +7,9 @@ import pytest
 
 import adamslite
 from adamslite.cables.chain_finder import all_rows, damper
+from adamslite.cables.chain_routes import routes
 from adamslite.cables.posture import Posture
-from adamslite.cables.recovery import Recovered, recovered, routes
+from adamslite.cables.recovery import Recovered, recovered
 from adamslite.cables.report import about_cables, advice_on
 from adamslite.cables.scene import chosen, deck, setting
 from benchmarks.rope_scenes import KINDS, Draw, toml

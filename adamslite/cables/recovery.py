@@ -11,7 +11,7 @@ engines, branches.  Units are those of the deck.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import isclose, sqrt
@@ -23,6 +23,7 @@ import numpy as np
 from adamslite.cables.chain_demand import BENT, SHORT, corrects, drivers, gained_mass, is_tied
 from adamslite.cables.chain_finder import Chain, damper, free_length
 from adamslite.cables.chain_loads import acting
+from adamslite.cables.chain_routes import WHEEL, Route, wheel_of
 from adamslite.cables.components import Cable
 from adamslite.cables.demand import Demand
 from adamslite.cables.estimate import INSTANTS, Laws, Moves, Travel, estimate_moves, from_ways
@@ -30,7 +31,7 @@ from adamslite.cables.geometry import FreeSpan
 from adamslite.cables.messages import Faults
 from adamslite.cables.model_choice import CableModel, choose_model, demand_of, tensions
 from adamslite.cables.payout_law import Unknown
-from adamslite.cables.posture import GROUND, Body, Posture
+from adamslite.cables.posture import Body, Posture
 from adamslite.cables.toml_places import Places
 from adamslite.cables.vectors import Vector, add, dot, norm, part_across, unit
 from adamslite.cables.vocabulary import Spec, Station
@@ -41,7 +42,7 @@ from adamslite.elements.motion import Motion
 from adamslite.elements.part import Part
 from adamslite.elements.sforce import Sforce
 from adamslite.language.diagnostics import Source
-from adamslite.language.expression import Call, Num, Ref, calls
+from adamslite.language.expression import Call, Num, calls
 from adamslite.language.statement import Statement
 
 # What a free wheel's torque may differ from that of its tensions, as a share; the same of cables
@@ -58,68 +59,6 @@ CREEPING = 0.99
 ROUND_OFF = 1e-9
 # An accuracy, where none is asked for.
 ANY = 0.01
-WHEEL = "wheel"
-
-
-@dataclass(frozen=True)
-class Route:
-    """Chains in a row, each in the sense of the route or against it, and what stands between them:
-    bodies, or (WHEEL, key of its part)."""
-
-    chains: tuple[tuple[Chain, bool], ...]
-    stations: tuple[Body, ...]
-
-
-def routes(found: Sequence[Chain], posture: Posture) -> list[Route]:
-    """Chains by what they meet at; alone where they do not, or where ways branch or close."""
-    ends = [_ends(chain, posture) for chain in found]
-    joined: dict[Body, list[int]] = {}
-    for k, pair in enumerate(ends):
-        for end in pair:
-            joined.setdefault(end, []).append(k)
-    left, made = set(range(len(found))), []
-    for k in range(len(found)):
-        if k in left:
-            way = _way(k, ends, joined)
-            left -= {n for n, _ in way}
-            first = ends[way[0][0]][0 if way[0][1] else 1]
-            stations = [first, *(ends[n][1 if forwards else 0] for n, forwards in way)]
-            made.append(Route(tuple((found[n], f) for n, f in way), tuple(stations)))
-    return made
-
-
-def _way(
-    k: int, ends: list[tuple[Body, Body]], joined: dict[Body, list[int]]
-) -> list[tuple[int, bool]]:
-    """Chains before and behind chain k, with whether they lie in the sense of the route."""
-    way = [(k, True)]
-    for side in (0, 1):
-        while True:
-            n, forwards = way[0] if side == 0 else way[-1]
-            end = ends[n][side if forwards else 1 - side]
-            others = [m for m in joined[end] if m != n]
-            if end[0] == "MARKER" or len(others) != 1 or others[0] in dict(way):
-                break
-            m = others[0]
-            ahead = ends[m][1 - side] == end
-            way = [(m, ahead), *way] if side == 0 else [*way, (m, ahead)]
-    return way
-
-
-def _ends(chain: Chain, posture: Posture) -> tuple[Body, Body]:
-    """The stations of a chain: a wheel for a point in the ground where cable comes in."""
-    first, last = chain.nodes[0], chain.nodes[-1]
-    wheels = {_wheel(call, posture) for link in chain.links for call in drivers(link, posture)}
-    if len(wheels) == 1 and (first[0] == "MARKER") != (last[0] == "MARKER"):
-        wheel = WHEEL, next(iter(wheels))[1]
-        return (wheel, last) if first[0] == "MARKER" else (first, wheel)
-    return first, last
-
-
-def _wheel(call: Call, posture: Posture) -> Body:
-    """The body whose rotation an AZ is."""
-    bodies = {posture.body(arg.id) for arg in call.args if isinstance(arg, Ref)} - {GROUND}
-    return bodies.pop() if call.name == "AZ" and len(bodies) == 1 else GROUND
 
 
 class Recovered(NamedTuple):
@@ -319,7 +258,7 @@ class _Recovery:
         posture, part = self.posture, ("PART", body[1])
         beside = self._beside(i)
         call = _only({c for chain, _ in beside for k in chain.links for c in drivers(k, posture)})
-        if _wheel(call, posture) != part:
+        if wheel_of(call, posture) != part:
             raise Unknown
         known = posture.follow(call)
         posture.at(self.end)

@@ -22,9 +22,10 @@ from adamslite.elements.units import Units
 from adamslite.language import units
 
 if TYPE_CHECKING:
+    from adamslite.cables.chain_routes import Route
     from adamslite.cables.described import Described
     from adamslite.cables.model_choice import CableModel
-    from adamslite.cables.recovery import Recovered, Route
+    from adamslite.cables.recovery import Recovered
 
 # Of a line of reasons.
 WIDTH = 92
@@ -98,7 +99,8 @@ def _found(deck: Deck, commands: Iterable[Command]) -> list[_Cable]:
         return []
     if len(some) > MOST:
         return [_by_itself(each) for each in cables(deck, commands)]
-    from adamslite.cables.recovery import recovered, routes
+    from adamslite.cables.chain_routes import routes
+    from adamslite.cables.recovery import recovered
 
     end, results = _run(deck, commands)
     found: list[_Cable | None] = []
