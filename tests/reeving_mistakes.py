@@ -56,6 +56,10 @@ BOXED = SHARED.replace("[[load]]", '[[load]]\nname = "box"').replace(
 )
 SECOND = "[[load]]\nat = [0, -5, 0]\nmass = 5"
 MISTAKES = {
+    "parts-where": (SHARED, "rho = 0.1", "rho = 0.1\nparts = true", (5, 1)),
+    "parts-form": (
+        ATWOOD, "rho = 0.01", "rho = 0.01\nbreaking_load = 4e3\nparts = true", (6, 1)
+    ),
     "in-two-falls": (
         SHARED.replace('[[route]]\nkind = "fixed"\nname = "a2"\nat = [0, 0, 0]\n', ""),
         '"a2 h2"', '"a1 h2"', (9, 9),

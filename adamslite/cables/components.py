@@ -11,7 +11,8 @@ from adamslite.cables.vectors import Vector
 class Cable:
     """A cable in SI units: stiffness EA [N], density rho [kg/m] of the unstretched cable.
 
-    `pulls_only` says that a slack section carries nothing; else it pushes. `length` is that of the
+    `pulls_only` says that a slack section carries nothing; else it pushes. With `parts` it parts at
+    the tension `breaking`. `length` is that of the
     unstretched cable between two ends, 0 where it follows from the tension [m]. `bending` is EI
     [N m^2], and a rate of the curvature counts for `bending_damping` [s] of it.
     """
@@ -20,6 +21,7 @@ class Cable:
     density: float
     pretension: float = 0.0
     breaking: float = 0.0
+    parts: bool = False
     damping: float = 0.0
     pulls_only: bool = False
     diameter: float = 0.0

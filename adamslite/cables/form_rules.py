@@ -27,6 +27,8 @@ def check_form(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: Fa
     if brute or spec.bends:
         _check_brute(spec, faults)
     shows_sliding = model.level == 1 or model.level == 3 and model.form == "ale"
+    if spec.cable.parts and (model.level == 1 or brute or spec.bends):
+        faults.add("parts-form", ("cable", "parts"))
     for i, each in enumerate(spec.route):
         if each.slides and not shows_sliding:
             faults.add("slider-form", ("route", i, "slides"))

@@ -42,6 +42,7 @@ CABLE: Rules = {
     "rho": ("number", "not-positive", None),
     "pretension": ("number", "negative", 0.0),
     "breaking_load": ("number", "not-positive", 0.0),
+    "parts": ("yes or no", "", False),
     "damping": ("number", "not-a-share", 0.0),
     "pulls_only": ("yes or no", "", False),
 }

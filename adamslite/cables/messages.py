@@ -227,6 +227,12 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
         "level = {level}",
         severity=WARNING,
     ),
+    "parts-form": Message(
+        "a rigid cable, and one of form brute or with bends, does not part", "level = 2 or 3"
+    ),
+    "parts-where": Message(
+        "a cable that parts needs the tension at which it does", "breaking_load = ... in [cable]"
+    ),
     "breaking": Message(
         "the cable carries {tension:.4g} N at the start and breaks at {limit:.4g} N",
         "less load, or a stronger cable",

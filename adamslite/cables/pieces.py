@@ -105,6 +105,27 @@ def pulled(spec: Spec, pull: str) -> str:
     return at_least_nothing(spec, pull) if spec.cable.pulls_only else pull
 
 
+def parts_at(spec: Spec, piece: Piece) -> str:
+    """VARIABLE/broken_p, 1 once a cable that parts has done so at the root of a piece."""
+    p, m = piece.number, piece.first
+    if not spec.cable.parts:
+        return ""
+    most = number(spec.cable.breaking)
+    return (
+        "! The cable parts there, for the rest of the run, where it carries so much.\n"
+        f"SENSOR/{m}, FUNCTION=T{p}\\, VALUE={most}, ERROR=0, GE, EVALUATE=1\n"
+        f"VARIABLE/broken_{p}, FUNCTION=SENVAL({m})\n"
+    )
+
+
+def parting(spec: Spec, piece: Piece, statement: str) -> str:
+    """A force that is none once the piece has parted."""
+    if not spec.cable.parts:
+        return statement
+    head, _, force = statement.partition("FUNCTION=")
+    return f"{head}FUNCTION=(1-broken_{piece.number})*({force.rstrip()})\n"
+
+
 def at_least_nothing(spec: Spec, force: str) -> str:
     """max(0, force): with a corner; beside wheels that grip, whose friction is smooth, as
     (f + sqrt(f^2 + d^2))/2, d a strain of SOFT, for many spans would stop at many corners."""

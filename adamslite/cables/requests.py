@@ -53,7 +53,7 @@ def _tensions(spec: Spec, model: CableModel, piece: Piece) -> str:
             grows = model.level == 3 and root.feeds
             free = f"H{p}" if grows else f"L{p}_0" if n == 1 else f"L{p}"
             i, j = side.node(n), side.node(n - 1) if n > 1 else root_marker(spec, piece)
-            pull = spring(spec, p, i, j, free)
+            pull = spring(spec, piece, i, j, free)
             parts.append(f"F3={pull}{hanging_half(spec, piece.tip, f'{free}/2', (i, j))}")
     words = "tension at its root and tip" if len(parts) > 1 else "tension"
     return (

@@ -21,6 +21,8 @@ from adamslite.cables.pieces import (
     inflow,
     is_between,
     is_moving,
+    parting,
+    parts_at,
     pieces,
     pulled,
     root_marker,
@@ -182,7 +184,8 @@ def _chain(spec: Spec, model: CableModel, piece: Piece) -> str:
         i = root_marker(spec, piece) if k == 1 else side.node(k - 1)
         name = f"H{p}" if grows else f"L{p}_0" if k == 1 else f"L{p}"
         if not is_still(spec, model, piece):
-            text += section(side.first + k, i, side.node(k), name, cable.damping, cable.pulls_only)
+            own = section(side.first + k, i, side.node(k), name, cable.damping, cable.pulls_only)
+            text += parting(spec, piece, own) if k == 1 else own
     text += write_around(spec, row_of(spec, model, piece), axes) + _clamps(spec, model, piece)
     if spec.route[piece.root].slides:
         text += sliders.through(p, side.node(0), side.node(1), axes)
@@ -238,7 +241,7 @@ def _pull(spec: Spec, model: CableModel, piece: Piece, grows: bool) -> str:
     """Tension at the root, with the half section that lies there."""
     p = piece.number
     i, j = root_marker(spec, piece), side_of(spec, piece, model).node(1)
-    pull = spring(spec, p, i, j, f"H{p}" if grows else f"L{p}_0")
+    pull = spring(spec, piece, i, j, f"H{p}" if grows else f"L{p}_0")
     text, root = f"VARIABLE/T{p}, FUNCTION={pull}", spec.route[piece.root]
     if root.leans or root.mount:
         text = f"VARIABLE/P{p}, FUNCTION={pull}\n"
@@ -254,16 +257,19 @@ def _pull(spec: Spec, model: CableModel, piece: Piece, grows: bool) -> str:
             text += f"\n, +rho*{half_section(model, piece, spec)}*({number(weight)}{feeds})"
     elif spec.route[piece.root].slides:
         text += f"\n, +rho*{half_section(model, piece, spec)}*{sliders.lean(i, j)}"
-    return f"! Tension at the {'wheel' if spec.route[piece.root].is_wheel else 'start'}.\n{text}\n"
+    where = "wheel" if spec.route[piece.root].is_wheel else "start"
+    return f"! Tension at the {where}.\n{text}\n{parts_at(spec, piece)}"
 
 
-def spring(spec: Spec, p: int, i: int, j: int, free: str) -> str:
+def spring(spec: Spec, piece: Piece, i: int, j: int, free: str) -> str:
     """Tension of a section between two markers, of the free length H or L of its span."""
-    pull = f"EA*(DM({i},{j})/{free}-1)"
+    p, pull = piece.number, f"EA*(DM({i},{j})/{free}-1)"
     if spec.cable.damping:
         rate = f"-SD{p}*DM({i},{j})/LT{p}" if free[0] == "H" else ""
         pull += f"+damper*(VR({i},{j}){rate})"
-    return pulled(spec, pull)
+    pull = pulled(spec, pull)
+    at_root = root_marker(spec, piece) in (i, j)
+    return f"(1-broken_{p})*({pull})" if spec.cable.parts and at_root else pull
 
 
 def _ends(spec: Spec, model: CableModel, found: list[Piece]) -> str:

@@ -63,7 +63,7 @@ def _load(spec: Spec, model: CableModel, piece: Piece, i: int) -> dict[str, str]
     k = 0 if at_root else len(row.nodes) - 1
     at, to = (row.nodes[0], row.nodes[1]) if at_root else (row.nodes[-1], row.nodes[-2])
     free = row.length
-    pull = spring(spec, piece.number, min(at, to, key=row.nodes.index),
+    pull = spring(spec, piece, min(at, to, key=row.nodes.index),
                   max(at, to, key=row.nodes.index), free)  # fmt: skip
     carried = _displaced(spec, i, (at, to), f"{free}/2")
     varies = carried not in ("", "displaced")

@@ -57,6 +57,8 @@ def check_surroundings(spec: Spec, faults: Faults) -> None:
         if getattr(spec, word) and not spec.cable.diameter:
             faults.add("no-diameter", (word,), word=word)
     _check_heights(spec, faults)
+    if spec.cable.parts and not spec.cable.breaking:
+        faults.add("parts-where", ("cable", "parts"))
     for law in filter(None, spec.water.current if spec.water else ()):
         parse(law, ("water", "current"), faults)
     if not spec.cable.bending:

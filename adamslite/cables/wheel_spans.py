@@ -7,7 +7,7 @@ A span that moves with its wheels, or leaves one of them on a link, has no mass.
 """
 
 from adamslite.cables.links import borne, link, spun
-from adamslite.cables.pieces import Piece, inflow, is_between, is_moving, pulled
+from adamslite.cables.pieces import Piece, inflow, is_between, is_moving, parts_at, pulled
 from adamslite.cables.statements import number
 from adamslite.cables.vectors import ZERO, add, dot
 from adamslite.cables.vocabulary import Spec
@@ -77,10 +77,15 @@ def write_link(spec: Spec, piece: Piece) -> str:
         a, b = piece.first, piece.first + 1
         text += borne(spec, piece.root, a, b, 1, f"T{p}")
         text += borne(spec, piece.tip, b, a, -1, f"T{p}")
-    return text + (
-        "! One spring from wheel to wheel.\n"
-        f"VARIABLE/LT{p}, FUNCTION={number(free)}+{inflow(spec, piece)}\n"
-        f"VARIABLE/T{p}, FUNCTION={pull}\n"
+    pull = f"(1-broken_{p})*({pull})" if spec.cable.parts else pull
+    return (
+        text
+        + (
+            "! One spring from wheel to wheel.\n"
+            f"VARIABLE/LT{p}, FUNCTION={number(free)}+{inflow(spec, piece)}\n"
+            f"VARIABLE/T{p}, FUNCTION={pull}\n"
+        )
+        + parts_at(spec, piece)
     )
 
 

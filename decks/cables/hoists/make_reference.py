@@ -1,7 +1,7 @@
 """Write the decks of this folder from their descriptions, and their references."""
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -129,6 +129,53 @@ def lifted(lift, end, rows, place, bounds):
         "written by make_reference.py",
         f"tolerance: abs {way:g}",
         f"tolerance REQUEST/*.F3: peak {pull:g}",
+    ]
+    return table(["time", *columns], lines, [t, *columns.values()], 1e-9)
+
+
+def parted(mass, stiffness, heights, breaking, paid, rho):
+    """A point on two ropes that just reach it; the first one parts at its root."""
+    soft = np.divide(heights, stiffness)
+    shares = mass * G / soft / sum(1 / soft)
+    lengths = np.divide(heights, 1 + shares / stiffness)
+    ropes = [
+        Rope(ea, rho, length, (0, high - 10), (0, -10), damping=0.2, pulls_only=k > 0)
+        for k, (ea, length, high) in enumerate(zip(stiffness, lengths, heights, strict=True))
+    ]
+    whole = Lift(mass, 0, (0, -10), tuple(ropes), paid)
+    left = replace(whole, ropes=(ropes[1],))
+    t = np.linspace(0, 3, 121)
+
+    def pulls(lift, t, y):
+        return lift.solved(t, y[:3], y[3:])[1]
+
+    def parts(t, y):
+        return pulls(whole, t, y)[0] - breaking
+
+    parts.terminal = True
+    known = {
+        "method": "DOP853",
+        "rtol": 1e-10,
+        "atol": 1e-11,
+        "max_step": 2e-3,
+        "dense_output": True,
+    }
+    first, then = (
+        lambda t, y, lift=lift: [*y[3:], *lift.solved(t, y[:3], y[3:])[0]] for lift in (whole, left)
+    )
+    one = solve_ivp(first, (0, 3), [0, -10, 0, 0, 0, 0], events=parts, **known)
+    at = one.t_events[0][0]
+    two = solve_ivp(then, (at, 3), one.y_events[0][0], **known)
+    y = np.array([(one if x < at else two).sol(x) for x in t])
+    forces = [pulls(whole, x, s) if x < at else [0.0, *pulls(left, x, s)]
+              for x, s in zip(t, y, strict=True)]  # fmt: skip
+    columns = {"POINT_MASS/50.y": y[:, 1]}
+    columns |= {f"REQUEST/{k}.F3": pull for k, pull in enumerate(np.transpose(forces), 1)}
+    lines = [
+        "Place of the load, tensions at its hooks: README.md",
+        "written by make_reference.py",
+        "tolerance: abs 2e-4",
+        "tolerance REQUEST/*.F3: peak 1e-2",
     ]
     return table(["time", *columns], lines, [t, *columns.values()], 1e-9)
 
@@ -261,6 +308,8 @@ CASES = {
     "beam-lowered": lambda: lifted(SHORT, 3, 60, "PART/50", (1e-4, 1e-3)),
     "late": lambda: lifted(DROPPED, 2, 200, "POINT_MASS/50", (1e-4, 1e-2)),
     "late-soft": lambda: lifted(SNATCHED, 2, 200, "POINT_MASS/50", (2e-4, 1e-2)),
+    "parting": lambda: parted(500, (4e6, 1e6), (10, 12), 4700, -1.5, 0.002),
+    "parting-lowered": lambda: parted(220, (6e5, 2e6), (10, 12), 700, 3.0, 0.001),
     "equaliser": equaliser,
     "beam-on-beam": equalising_beam,
 }
