@@ -20,8 +20,6 @@ from adamslite.results.outcomes import Outcome
 
 # Words that tell what a sentence is about.
 WORDS = 3
-# Iterations of a step.
-USUAL = 2.0
 
 
 class _Counted(Progress):
@@ -79,10 +77,8 @@ def solver(shown: Progress) -> Solver:
         found = {name: np.asarray(run[name]) for name in columns if name in names}
         if not all(np.isfinite(each).all() for each in found.values()):
             return _ended("a tension or a place has no value", steps)
-        cpu, iterations = (float(run.summary[name]) for name in ("solve_cpu_s", "newton"))
-        # Corners of forces cost iterations.
-        work = max(steps, iterations / USUAL)
-        return Solution(Series(np.asarray(run.time), found), work, cpu)
+        cpu = float(run.summary["solve_cpu_s"])
+        return Solution(Series(np.asarray(run.time), found), steps, cpu)
 
     return solve
 

@@ -52,6 +52,8 @@ STEP_CPU = {
 RIGID_CPU = 3e-6
 # Explicit sections that pull only, in those that push too.
 CORNERS = 4.0
+# Iterations of a step with sections that become slack, or friction, in those of others.
+ITERATED = 2.2
 # Stages of a step of RADAU.
 THREE = 3
 # Sections of the linear model whose vibrations tell the steps.
@@ -127,7 +129,10 @@ def work(of: Demand, method: str, chosen: int, steps: float, sections: int) -> f
     if method == "RADAU":
         return THREE * work(of, "GSTIFF", chosen, steps, sections)
     base, each = STEP_CPU[method][2 if chosen == 3 else int(of.tied)]
-    each *= CORNERS if of.slackens and method == "VERLET" else 1.0
+    if of.slackens and method == "VERLET":
+        each *= CORNERS
+    elif of.slackens or of.rubs:
+        steps *= ITERATED
     return steps * spans * (base + each * max(sections, 1))
 
 

@@ -5,7 +5,7 @@ greatest, least and mean place of every weight, as shares of its way. Tensions a
 the time of a wave along the cable: a front's overshoot in a chain of masses is none of the cable's.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, sqrt
 
@@ -21,6 +21,11 @@ from adamslite.cables.vocabulary import Spec
 SEEN = 0.5
 # Of the length of the cable: weights that move by less do not.
 STILL = 1e-6
+# How much smaller a difference may be than the one before it: powers 2 and 2/3 of the sections; and
+# safety on what that leaves.
+FASTEST, SLOWEST, SAFETY = 0.25, 0.63, 1.25
+# Keeps quotients finite.
+NOTHING = 1e-12
 WORDS = ("greatest", "least", "mean")
 AXES = "xyz"
 Key = tuple[str, int, int]
@@ -116,19 +121,60 @@ def smoothed(values: np.ndarray, window: int) -> np.ndarray:
     return found
 
 
-def apart(one: Readings, truth: Readings, asked: tuple[str, ...]) -> tuple[float, Key, int]:
-    """The largest difference of an asked figure as a share of its scale, and which it is: inf where
-    one of them has no such figure."""
+Doubts = Mapping[Key, np.ndarray]
+"""How far greatest, least and mean of a figure may be off, as shares of its scale."""
+
+
+def apart(
+    one: Readings, truth: Readings, asked: tuple[str, ...], doubts: Doubts | None = None
+) -> tuple[float, Key, int]:
+    """The largest difference of an asked figure as a share of its scale, with what the truth may
+    be off itself, and which it is: inf where one of them has no such figure."""
     worst: tuple[float, Key, int] = (0.0, ("", 0, 0), 0)
-    for key, (exact, scale) in truth.figures.items():
-        if key[0] not in asked or not scale > 0:
-            continue
+    for key in _asked(truth, asked):
         if key not in one.figures:
             return inf, key, 0
-        off = np.abs(one.figures[key][0] - exact) / scale
+        off = np.abs(_difference(key, one, truth, truth))
+        if doubts is not None:
+            off = off + doubts[key]
         if not off.max() <= worst[0]:
             worst = float(off.max()), key, int(off.argmax())
     return worst
+
+
+def doubts_of(finer: Sequence[Readings], asked: tuple[str, ...]) -> dict[Key, np.ndarray]:
+    """How far the last of some finer and finer models may be off, by figure.
+
+    With d the last difference and f what it is of the one before, it is d f/(1 - f) where
+    differences fall with one sign, with some safety: those of fronts fall more slowly. Where they
+    change their sign the truth lies within what the last three models span; of two models the
+    difference is taken.
+    """
+    truth, found = finer[-1], {}
+    for key in _asked(truth, asked):
+        if any(key not in each.figures for each in finer[-3:]):
+            found[key] = np.full(len(WORDS), inf)
+            continue
+        last = _difference(key, truth, finer[-2], truth)
+        found[key] = np.abs(last)
+        if len(finer) > 2:
+            before = _difference(key, finer[-2], finer[-3], truth)
+            share = last / np.where(before == 0, NOTHING, before)
+            falls = np.clip(share, FASTEST, SLOWEST)
+            span = np.maximum(np.abs(last), np.abs(last + before))
+            rest = SAFETY * np.abs(last) * falls / (1 - falls)
+            found[key] = np.where(share > 0, rest, span)
+    return found
+
+
+def _asked(of: Readings, asked: tuple[str, ...]) -> list[Key]:
+    return [key for key, (_, scale) in of.figures.items() if key[0] in asked and scale > 0]
+
+
+def _difference(key: Key, one: Readings, other: Readings, truth: Readings) -> np.ndarray:
+    """Of a figure, as a share of its scale."""
+    found: np.ndarray = (one.figures[key][0] - other.figures[key][0]) / truth.figures[key][1]
+    return found
 
 
 def named(key: Key, which: int) -> str:

@@ -15,12 +15,8 @@ from adamslite.cables.demand import MOST
 from adamslite.cables.model_choice import CableModel, Reasons
 from adamslite.cables.readings import columns
 from adamslite.cables.scene import Setting, Written, written
-from adamslite.cables.trial_runs import Option, Runs, Solver, Tried
+from adamslite.cables.trial_runs import ROOM, Option, Runs, Solver, Tried
 
-# Of the accuracy: what the model that is taken may be off, with what the finest one is.
-ROOM = 0.95
-# Differences of fronts fall more slowly than the last two of them show.
-SAFETY = 1.5
 # How much cheaper a model has to be that is less accurate.
 WORTH = 1.2
 # ERROR of the next cheaper model, in the order 1, 2, 5, 10 ...
@@ -100,29 +96,23 @@ class _Choice:
     def __init__(self, trial: Runs, proposed: Written, rungs: list[Tried]) -> None:
         self.trial, self.proposed, self.rungs = trial, proposed, rungs
         self.doubt = trial.doubt(rungs)
-        self.limit = ROOM - SAFETY * self.doubt
-        self.others: dict[Option, tuple[float, str]] = {}
+        self.room = ROOM
+        self.doubts = trial.doubts(rungs) if len(rungs) > 1 else None
+        self.others: dict[Option, Tried] = {}
 
     def found(self) -> Found:
         """The deck by what was found."""
-        start = self._good_rung()
+        trial, rungs = self.trial, self.rungs
+        start = trial.good(rungs, self.room, self.doubts) if self.doubts else None
         if start is None:
             return self._unsettled()
         chosen = self._down(start)
-        off, where = self._off(chosen)
-        return self._of(chosen, max(off, self.doubt if chosen is self.rungs[-1] else 0.0), where)
+        off, where = trial.off(chosen, rungs[-1])
+        return self._of(chosen, max(off, self.doubt if chosen is rungs[-1] else 0.0), where)
 
-    def _off(self, one: Tried) -> tuple[float, str]:
-        return self.trial.off(one, self.rungs[-1])
-
-    def _good_rung(self) -> Tried | None:
-        """The first that is good enough, as are those above it."""
-        good = None
-        for rung in reversed(self.rungs):
-            if self._off(rung)[0] > self.limit:
-                break
-            good = rung
-        return good
+    def _does(self, one: Tried) -> bool:
+        """Whether a model is good enough."""
+        return self.trial.off(one, self.rungs[-1], self.doubts)[0] <= self.room
 
     def _down(self, start: Tried) -> Tried:
         """The last on the way to cheaper ones that are good enough."""
@@ -139,11 +129,10 @@ class _Choice:
         one = self.trial.run(option)
         if one is None or one.option == than.option:
             return None
-        off, where = self._off(one)
-        self.others[one.option] = off, where
+        self.others[one.option] = one
         simpler = one.option.level < than.option.level or one.option.form != than.option.form
         worth = 1.0 if simpler else WORTH
-        return one if off <= self.limit and worth * one.work <= than.work else None
+        return one if self._does(one) and worth * one.work <= than.work else None
 
     def _lesser(self, of: Tried) -> Iterator[Option]:
         """A lower level, half the sections, ten times the ERROR, the simpler form."""
@@ -182,7 +171,9 @@ class _Choice:
         """Why this model: what was tried."""
         before, option = self.proposed.model, chosen.option
         told = [f"{self._named(option)} by trial: {self._share(off)} off"]
-        if chosen is self.rungs[-1]:
+        if chosen is self.rungs[-1] and not self.doubts:
+            told = [f"{self._named(option)}, the finest that was tried"]
+        elif chosen is self.rungs[-1]:
             told[0] += " by how differences fall"
         else:
             told[0] += f" in the {where}, against {self._named(self.rungs[-1].option)}"
@@ -207,7 +198,7 @@ class _Choice:
     def _not_taken(self, chosen: Option) -> list[str]:
         """What less would have been."""
         told = []
-        for option, (off, _) in self.others.items():
+        for option, one in self.others.items():
             less = {
                 f"level {option.level}": option.level < chosen.level,
                 self._counted(option.elements): option.elements < chosen.elements,
@@ -219,7 +210,8 @@ class _Choice:
             alike |= replace(chosen, form=option.form) == option
             words = [word for word, is_less in less.items() if is_less]
             if words and (alike or option.level < chosen.level):
-                cheaper = ", and no cheaper" * (off <= self.limit)
+                off, _ = self.trial.off(one, self.rungs[-1])
+                cheaper = ", and no cheaper" * self._does(one)
                 told.append(f"{words[0]}: {self._share(off)} off{cheaper}")
         return told
 
@@ -241,28 +233,36 @@ class _Choice:
         return "level 1" if model.level == 1 else self._counted(model.elements)
 
     def _unsettled(self) -> Found:
-        """The finest model there is, and that it is not known to be good enough."""
-        trial, before = self.trial, self.proposed.model
-        finest = self.rungs[-1] if self.rungs else None
-        used = finest if len(self.rungs) > 1 else None
-        # The linear model knows nothing of a slack cable.
-        pulls_only = trial.of.spec.cable.pulls_only
-        if used and used.option.elements < before.elements and not pulls_only:
-            used = None
-        trial.of = trial.of.telling(
+        """A model that is not known to be good enough: the cheapest of those that are as near to
+        the finest one as the rungs are to one another, and as the one that is proposed."""
+        trial, before, rungs = self.trial, self.proposed.model, self.rungs
+        if len(rungs) < 2 or self._asks_for_more():
+            return self._as_proposed(rungs[-1] if rungs else None)
+        self.doubts, self.room = None, trial.off(rungs[-2], rungs[-1])[0]
+        if rungs[0].option.elements == before.elements:
+            self.room = min(self.room, trial.off(rungs[0], rungs[-1])[0])
+        chosen = self._down(trial.good(rungs, self.room, None) or rungs[-1])
+        off, where = trial.off(chosen, rungs[-1])
+        trial.of = self._told(chosen.model)
+        deck = self._of(chosen, off, where)
+        return replace(deck, off=inf)
+
+    def _asks_for_more(self) -> bool:
+        """Whether the linear model asks for more than was solved, and nothing speaks against it: it
+        knows nothing of a slack cable."""
+        trial, rungs = self.trial, self.rungs
+        if trial.of.spec.cable.pulls_only or trial.off(rungs[-2], rungs[-1])[0] <= 1:
+            return False
+        return rungs[-1].option.elements < self.proposed.model.elements
+
+    def _told(self, model: CableModel) -> Setting:
+        """The description, with the warning that its model is not known to be good enough."""
+        trial = self.trial
+        return trial.of.telling(
             "unsettled", ("model", "accuracy"), accuracy=trial.of.spec.accuracy,
-            reached=self._reached(), model=self._of_model(used.model if used else before),
-            more=10 * trial.allowance, hint=self._at_the_limit(finest),
+            reached=self._reached(), model=self._of_model(model), more=10 * trial.allowance,
+            hint=self._at_the_limit(self.rungs[-1] if self.rungs else None),
         )  # fmt: skip
-        if not used:
-            return self._as_proposed(finest)
-        reasons = replace(
-            self._chosen_by_trial(used),
-            elements=(f"{self._named(used.option)}, the finest that was tried",),
-        )
-        deck = written(trial.set_to(used.option), reasons)
-        doubt = self.doubt * trial.of.spec.accuracy
-        return Found(deck, inf, doubt, used.cpu, trial.spent, used.option)
 
     @staticmethod
     def _at_the_limit(finest: Tried | None) -> str:
@@ -274,6 +274,7 @@ class _Choice:
     def _as_proposed(self, finest: Tried | None) -> Found:
         """The model of the linear model; its cost by that of the finest that was solved."""
         trial, before = self.trial, self.proposed.model
+        trial.of = self._told(before)
         if finest is None:
             return Found(written(trial.of), cpu=trial.expected(before), spent=trial.spent)
         cpu = finest.cpu * trial.expected(before) / trial.expected(finest.model)

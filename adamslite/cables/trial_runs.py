@@ -1,7 +1,7 @@
 """Runs of the models of a description: a ladder of finer and finer ones, and single ones.
 
-Every rung has twice the sections of the one before and a smaller ERROR. With d the difference of
-the last two and f how much smaller it is than the one before, the last is d f/(1 - f) off.
+Every rung has twice the sections of the one before and a smaller ERROR. How far the last is off is
+told by the differences of the last three.
 
 Runs are counted, in steps times what a step of so many sections costs, and not timed: what they
 show is the same on every machine.
@@ -14,16 +14,25 @@ from math import inf
 from adamslite.cables import advice
 from adamslite.cables.demand import MOST, elastic_level
 from adamslite.cables.model_choice import CableModel
-from adamslite.cables.readings import Readings, Series, apart, columns, named, read_off
+from adamslite.cables.readings import (
+    Doubts,
+    Readings,
+    Series,
+    apart,
+    columns,
+    doubts_of,
+    named,
+    read_off,
+)
 from adamslite.cables.scene import Setting, written
 from adamslite.language.diagnostics import DeckError
 
 # Rungs of a ladder that show how fast differences fall, where there is room for them.
 RUNGS = 3
-# How much smaller a difference may be than the one before it.
-FASTEST, SLOWEST = 0.25, 0.75
-# Of the accuracy: what the last rung may be off.
-SETTLED = 0.2
+# Of the accuracy: what the last rung may be off, and what the model that is taken may be, with it.
+SETTLED, ROOM = 0.2, 0.92
+# Of the allowance: what a rung costs that is not needed where one is good enough.
+DEAR = 0.05
 # ERROR from rung to rung, in the order 1, 2, 5, 10 ...
 TIGHTER = 2
 # Work of a rung over that of the one before, at least.
@@ -38,16 +47,13 @@ SETUP, BY_LETTER = 0.03, 2e-6
 EVENTS = 30.0
 # Runs that may fail before others are not tried.
 FAILURES = 2
-# Keeps quotients finite.
-NOTHING = 1e-12
 # Why a run ended that took more steps than it may.
 TOO_LONG = "a run took more steps than the trial may"
 
 
 @dataclass(frozen=True)
 class Solution:
-    """Columns of a run, or how it ended early; steps, with those that are worth some, and CPU [s]
-    that this machine took."""
+    """Columns of a run, or how it ended early; steps, and CPU [s] that this machine took."""
 
     run: Series
     steps: float
@@ -150,7 +156,7 @@ class Runs:
                 option = self._coarser(option)
                 continue
             failures += rung is None
-            if len(rungs) >= RUNGS and self.doubt(rungs) <= SETTLED or self.slackens(rungs):
+            if self.is_enough(rungs, GROWTH * taken):
                 break
             if GROWTH * taken > self.allowance - self.spent:
                 break
@@ -187,21 +193,42 @@ class Runs:
             error = max(advice.notched(error, -TIGHTER), advice.TIGHTEST * self.of.demand.longest)
         return replace(option, elements=2 * option.elements, error=error)
 
-    def off(self, one: Tried, truth: Tried) -> tuple[float, str]:
-        """How far a model is from a finer one, in parts of the accuracy, and where."""
-        off, key, which = apart(one.readings, truth.readings, self.of.spec.quantities)
+    def off(self, one: Tried, truth: Tried, doubts: Doubts | None = None) -> tuple[float, str]:
+        """How far a model is from a finer one, with what that may be off itself, in parts of the
+        accuracy, and where."""
+        asked = self.of.spec.quantities
+        off, key, which = apart(one.readings, truth.readings, asked, doubts)
         return off / self.of.spec.accuracy, named(key, which)
 
+    def doubts(self, rungs: list[Tried]) -> Doubts:
+        """How far the last rung may be off, by figure."""
+        return doubts_of([rung.readings for rung in rungs], self.of.spec.quantities)
+
     def doubt(self, rungs: list[Tried]) -> float:
-        """How far the last rung is from what they tend to, in parts of the accuracy."""
+        """The largest of them, in parts of the accuracy."""
         if len(rungs) < 2:
             return inf
-        last, _ = self.off(rungs[-2], rungs[-1])
-        falls = 0.5
-        if len(rungs) > 2:
-            before, _ = self.off(rungs[-3], rungs[-2])
-            falls = min(max(last / max(before, NOTHING), FASTEST), SLOWEST)
-        return last * falls / (1 - falls)
+        return self.off(rungs[-1], rungs[-1], self.doubts(rungs))[0]
+
+    def good(self, rungs: list[Tried], room: float, doubts: Doubts | None) -> Tried | None:
+        """The first rung that is good enough, as are those above it."""
+        found = None
+        for rung in reversed(rungs):
+            if self.off(rung, rungs[-1], doubts)[0] > room:
+                break
+            found = rung
+        return found
+
+    def is_enough(self, rungs: list[Tried], next_one: float) -> bool:
+        """Whether no finer model is worth what it will cost."""
+        if self.slackens(rungs):
+            return True
+        if len(rungs) < RUNGS:
+            return False
+        if self.doubt(rungs) <= SETTLED:
+            return True
+        good = self.good(rungs, ROOM, self.doubts(rungs))
+        return next_one > DEAR * self.allowance and good not in (None, rungs[-1])
 
     def slackens(self, rungs: list[Tried]) -> bool:
         """Whether two models agree that a cable which also pushes would be pushed."""
